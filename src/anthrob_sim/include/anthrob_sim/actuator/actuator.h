@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "anthrob_sim/core/state.h"
+#include "anthrob_sim/model/config_node.h"
+
+namespace anthrob {
+
+/// What winds the tendon in: turns an input into a tendon length (Figure 4.1). Built for one length
+/// of step.
+class Actuator {
+ public:
+  /// What an ECU can measure of it.
+  struct Readout {
+    double position;  ///< [rad] gear output, winding in positive
+    double velocity;  ///< [rad/s]
+    double current;   ///< [A]
+  };
+
+  virtual ~Actuator() = default;
+
+  virtual std::size_t state_size() const = 0;
+
+  /// At rest at a position; all currents zero.
+  virtual void place(double position, StateView state) const = 0;
+  /// Moves as an outside hand dictates, whatever input and load say.
+  virtual void impose(double position, double velocity, StateView state) const = 0;
+  /// One step.
+  /// @param input volts after the ECU, or excitation of a Hill muscle
+  /// @param load tension of the tendon at the actuator [N]
+  virtual void advance(double input, double load, StateView state) const = 0;
+
+  virtual Readout read(StateView state) const = 0;
+
+  /// l_T [m]
+  virtual double tendon_length(StateView state) const = 0;
+  /// Speed at which the tendon is wound in, -dl_T/dt [m/s].
+  virtual double winding_speed(StateView state) const = 0;
+  /// The position that gives a tendon length, the inverse of tendon_length at rest.
+  virtual double position_for(double tendon_length) const = 0;
+
+  /// Range of useful inputs: [-limit, limit] volts, or [0, limit].
+  virtual double input_low() const = 0;
+  virtual double input_high() const = 0;
+};
+
+/// Builds the actuator of one muscle.
+/// @param kind the kind of actuator, as the model file lists it: `{type: dc_motor, ...}`
+/// @param muscle what differs from muscle to muscle: `spindle_radius`, `rest_tendon_length`
+std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const ConfigNode& muscle,
+                                              double step);
+
+}  // namespace anthrob

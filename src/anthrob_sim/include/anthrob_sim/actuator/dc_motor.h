@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "anthrob_sim/actuator/actuator.h"
+#include "anthrob_sim/actuator/gear_law.h"
+
+namespace anthrob {
+
+/// Brushed DC motor, gear and spindle (4.1)-(4.12); l_T = rest_tendon_length - spindle_radius *
+/// position.
+///
+/// The thesis takes ten Runge-Kutta steps a millisecond. With voltage and load held over the step
+/// the equations are linear, so the step is one precomputed affine map, exact for any step.
+class DcMotor final : public Actuator {
+ public:
+  struct Parameters {
+    double resistance;          ///< R_A + power stage [ohm], > 0
+    double inductance;          ///< L_A [H], > 0
+    double torque_constant;     ///< K_T [Nm/A], > 0
+    double back_emf_constant;   ///< K_E [Vs/rad], > 0
+    double inertia;             ///< J_M + J_G at the motor shaft [kg m^2], > 0
+    double ratio;               ///< N [1], > 0
+    double friction_torque;     ///< dry friction at the motor shaft [Nm], >= 0
+    double spindle_radius;      ///< r_S, tendon included [m], > 0
+    double rest_tendon_length;  ///< l_T0 [m]
+    double voltage_limit;       ///< largest useful input [V]
+  };
+
+  DcMotor(const Parameters& parameters, std::shared_ptr<const GearLaw> gear, double step);
+
+  std::size_t state_size() const override { return state_size_of<State>(); }
+  void place(double position, StateView state) const override;
+  void impose(double position, double velocity, StateView state) const override;
+  void advance(double input, double load, StateView state) const override;
+  Readout read(StateView state) const override;
+  double tendon_length(StateView state) const override;
+  double winding_speed(StateView state) const override;
+  double position_for(double tendon_length) const override;
+  double input_low() const override { return -p_.voltage_limit; }
+  double input_high() const override { return p_.voltage_limit; }
+
+  const Parameters& parameters() const { return p_; }
+  const GearLaw& gear() const { return *gear_; }
+
+  static std::shared_ptr<const Actuator> load(const ConfigNode& kind, const ConfigNode& muscle,
+                                              double step);
+
+ private:
+  struct State {
+    double current;   ///< [A]
+    double velocity;  ///< omega_G [rad/s]
+    double position;  ///< theta_G [rad]
+  };
+  /// Step from (current, velocity) and (voltage, torque) to (current, velocity, position change).
+  using Map = Eigen::Matrix<double, 3, 4>;
+
+  void advance_with_friction(double input, const GearLaw::Load& load, State& s) const;
+  void apply(double input, double torque, State& s) const;
+
+  Parameters p_;
+  std::shared_ptr<const GearLaw> gear_;
+  double step_;
+  Map map_;
+  double stuck_keep_, stuck_gain_;  ///< current over one step with the shaft held
+};
+
+}  // namespace anthrob

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace anthrob {
+
+/// Input that cannot be used; what() is one line: file, line, key, value, what was expected.
+class BadInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The integration produced something that is not a number, or left any sensible range.
+class NumericalFailure : public std::runtime_error {
+ public:
+  /// @param time [s] simulated time at the end of the step that failed
+  /// @param where e.g. "body humerus" or "muscle biceps_brachii"
+  NumericalFailure(double time, const std::string& where, const std::string& what)
+      : std::runtime_error("numerical failure at t = " + std::to_string(time) + " s, " + where +
+                           ": " + what),
+        time_(time) {}
+  double time() const { return time_; }
+
+ private:
+  double time_;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "anthrob_sim/core/state.h"
+#include "anthrob_sim/model/config_node.h"
+
+namespace anthrob {
+
+/// Friction coefficient of a tendon that slides over an eyelet or a surface, for the capstan
+/// equation
+///   f_origin = f_insertion exp(mu alpha)
+/// (4.69)-(4.76) with alpha the angle by which the tendon is deflected. v > 0: the tendon slides
+/// towards its origin, which pulls harder then: mu has the sign of v. Built for one length of step.
+class FrictionLaw {
+ public:
+  struct Value {
+    double mu;     ///< [1]
+    double slope;  ///< d mu / d v [s/m]; may be negative where friction falls with speed
+  };
+
+  virtual ~FrictionLaw() = default;
+
+  virtual std::size_t state_size() const = 0;
+  /// @param v sliding speed at the end of the step [m/s]
+  virtual Value evaluate(double v, StateView state) const = 0;
+  /// The step is taken with sliding speed v.
+  virtual void commit(double v, StateView state) const = 0;
+};
+
+/// `{law: none | smooth_stribeck | sticking, ...}`; null for none.  @param step [s]
+std::shared_ptr<const FrictionLaw> make_friction_law(const ConfigNode& node, double step);
+
+}  // namespace anthrob

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "anthrob_sim/friction/sliding_tendon.h"
+#include "anthrob_sim/skeleton/kinematic_tree.h"
+
+namespace anthrob {
+
+/// Finds, in joint coordinates, the velocity at the end of a step under everything that resists
+/// motion: viscous and dry joint friction (3.6), joint stops, tendons sliding over eyelets (4.75),
+/// (4.76). All are taken at the end of the step, so that steep friction neither rings nor creeps at
+/// a step of 1 ms:
+///   M (u' - u) = h (tau - bias + resistance(u'))
+/// Newton's method on that equation; joints held by dry friction are an active set.
+///
+/// Dry joint friction acts like a joint motor with target speed zero and a bounded torque
+/// (section 3.2). It is solved here and not by Bullet's motors because Bullet's rows cannot see the
+/// tendons, whose friction works on the same joints. The bound is isotropic for ball joints, where
+/// (3.7), (3.8) take a box.
+class ResistanceSolver {
+ public:
+  ResistanceSolver(const SkeletonModel& model, double step);
+
+  /// @param tau generalised forces known beforehand, without bias forces [Nm, N]
+  /// @param tendons get their tensions and sliding speeds filled in
+  /// @param q joint positions
+  void solve(const KinematicTree& tree, const std::vector<double>& q, const Eigen::VectorXd& tau,
+             const std::vector<SlidingTendon*>& tendons);
+
+  /// Velocity at the end of the step.
+  const Eigen::VectorXd& velocity() const { return u_; }
+  /// Generalised forces of joint friction and stops that belong to it.
+  const Eigen::VectorXd& joint_torque() const { return joint_torque_; }
+  /// How many sweeps the last solve took.
+  int iterations() const { return iterations_; }
+
+ private:
+  /// A joint with dry friction: held at rest, or sliding against a known torque.
+  struct DryJoint {
+    int joint;
+    bool held;
+    Vec3 direction;  ///< of motion while sliding, unit; x only for one degree of freedom
+    double level;    ///< friction while sliding [Nm]
+  };
+
+  void start(const KinematicTree& tree, const Eigen::VectorXd& tau);
+  void assemble(const KinematicTree& tree, const std::vector<double>& q,
+                const std::vector<SlidingTendon*>& tendons);
+  void add_stop(const KinematicTree& tree, const JointModel& joint, const double* q);
+  void add_stop_row(const int dof, int count, const double* row, double depth,
+                    const JointStopModel& stop);
+  void add_tendon(SlidingTendon& tendon);
+  void add_dry_friction();
+  void solve_linear();
+  bool revise_dry_friction();
+  void finish(const std::vector<SlidingTendon*>& tendons);
+
+  const SkeletonModel& model_;
+  double step_;
+  std::vector<DryJoint> dry_;
+  std::vector<char> held_;  ///< by generalised velocity
+  Eigen::VectorXd constant_, rhs_, u_, next_, joint_torque_, resistance_;
+  Eigen::MatrixXd system_, factor_;
+  int iterations_ = 0;
+};
+
+}  // namespace anthrob

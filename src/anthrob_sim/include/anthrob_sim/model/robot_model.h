@@ -1,0 +1,68 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "anthrob_ecu/control_law.h"
+#include "anthrob_sim/actuator/actuator.h"
+#include "anthrob_sim/path/muscle_path.h"
+#include "anthrob_sim/sensing/sensor.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
+#include "anthrob_sim/spring/series_elastic_element.h"
+
+namespace anthrob {
+
+/// One muscle: actuator, spring and path, and the ECU channel that drives it.
+struct MuscleModel {
+  std::string name;
+  std::string ecu;  ///< empty for a muscle without ECU
+  std::shared_ptr<const Actuator> actuator;
+  std::shared_ptr<const SeriesElasticElement> spring;
+  std::shared_ptr<const PathModel> path;
+  int spring_segment = 0;  ///< k of Algorithm 4.1
+  int sensor_segment = 0;  ///< j of Algorithm 4.1
+  bool has_controller = false;
+  ecu::ControllerSettings controller;
+  int steps_per_tick = 1;  ///< simulation steps between two ticks of the controller
+};
+
+struct SensorsModel {
+  SensorModel position, velocity, current, force;  ///< of every muscle
+  SensorModel joint_position;                      ///< of hinge and prismatic joints
+  std::uint64_t seed = 1;
+};
+
+/// A robot as its files describe it: immutable, shared by any number of simulations.
+struct RobotModel {
+  std::string name;  ///< of the folder that holds the model file
+  std::string file;
+  std::string urdf_file;
+  double step = 0.001;  ///< [s]
+  Vec3 gravity = Vec3::Zero();
+  bool collisions = false;
+  std::shared_ptr<const SkeletonModel> skeleton;
+  std::vector<MuscleModel> muscles;
+  SensorsModel sensors;
+
+  /// Index in `muscles`, or -1.
+  int find_muscle(const std::string& muscle) const;
+};
+
+struct LoadOptions {
+  double step = 0.001;  ///< length of a simulation step [s]
+  /// Numbers to replace before the model is built, by key path:
+  /// "muscles.biceps_brachii.spindle_radius".
+  std::map<std::string, double> overrides;
+};
+
+/// Reads a model file, what it extends, and the URDF it names.
+/// @throws BadInput with one line: file, line, key, value, what was expected
+std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,
+                                                   const LoadOptions& options = {});
+/// The same for a model file in memory.
+std::shared_ptr<const RobotModel> build_robot_model(const ConfigNode& config,
+                                                    const LoadOptions& options = {});
+
+}  // namespace anthrob

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "anthrob_ecu/control_law.h"
+#include "anthrob_sim/friction/sliding_tendon.h"
+#include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/path/muscle_path.h"
+#include "anthrob_sim/sensing/sensor.h"
+
+namespace anthrob {
+
+/// How a muscle is driven for the next steps.
+enum class Drive {
+  kController,  ///< its ECU follows a reference
+  kImposed,     ///< its actuator is moved from outside, as recorded
+};
+
+/// One muscle of a running simulation: Algorithm 4.1, cut at the seams
+///   controller -> actuator -> spring -> path -> skeleton.
+/// Holds scratch memory only; its state is in the simulation's StateStore.
+class Muscle {
+ public:
+  /// @param model, skeleton must outlive the muscle   @param index among the robot's muscles
+  Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const SensorsModel& sensors,
+         int index, double step, StateStore& store);
+
+  const MuscleModel& model() const { return model_; }
+
+  /// At rest with its actuator at `position`, the spring relaxed, path states evaluated from this
+  /// posture.
+  void place(const std::vector<BodyState>& bodies, double position);
+  /// Follows a posture while the actuator stands still; the spring is relaxed afterwards.
+  void follow(const std::vector<BodyState>& bodies);
+
+  void command(ecu::Mode mode, double reference);
+  /// Whether the ECU follows its reference; if not, its output is zero volts.
+  void set_enabled(bool enabled);
+  /// The actuator arrives at `position` at the end of the next step.
+  void impose(double position, double velocity);
+  void release();
+
+  /// Sensors sample the current state.
+  void sense(std::uint64_t step_index);
+  /// The controller ticks if it is due.
+  void control(std::uint64_t step_index);
+  /// Tensions up to the spring are known; what lies beyond depends on how the joints will move.
+  void prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau);
+  SlidingTendon& sliding() { return sliding_; }
+  /// Takes over the solved tensions.
+  void finish_sliding();
+  /// Moves the actuator.
+  void advance_actuator();
+  /// New posture: path, spring, tensions up to the spring (lines 1-16 of Algorithm 4.1).
+  void update(const std::vector<BodyState>& bodies, const KinematicTree& tree);
+
+  /// Recomputes the path from posture and state, after a snapshot was restored.
+  void refresh_path(const std::vector<BodyState>& bodies) { path_.update(bodies, path_state()); }
+
+  const MusclePath& path() const { return path_; }
+  double length() const { return path_.length(); }
+  double tendon_length() const;
+  /// l_M - l_T - l_0 [m]
+  double expansion() const;
+  Actuator::Readout actuator() const;
+  const ecu::Measurement& measured() const;
+  ecu::Mode mode() const;
+  double reference() const;
+  bool enabled() const;
+  double voltage() const;
+  /// Tension of segment i [N].
+  double tension(std::size_t segment) const;
+  double spring_tension() const { return tension(model_.spring_segment); }
+  /// Tension at the force sensor [N].
+  double force() const { return tension(model_.sensor_segment); }
+
+  /// Elastic energy of the spring [J], and the power it turns into heat [W].
+  double spring_energy() const;
+  double spring_dissipation() const;
+  /// Power that friction took out of the tendon during the last step [W].
+  double friction_power() const;
+
+ private:
+  struct Control {
+    double mode, reference, voltage, enabled;
+    double drive, imposed_position, imposed_velocity;
+    double expansion;       ///< [m]
+    double expansion_rate;  ///< over the last step [m/s]
+    double friction_power;  ///< before the spring, over the last step [W]
+    ecu::ControllerMemory controller;
+    ecu::Measurement measured;
+  };
+
+  StateView spring_state() const { return store_.at(spring_offset_); }
+  StateView actuator_state() const { return store_.at(actuator_offset_); }
+  StateView path_state() const { return store_.at(path_offset_); }
+  StateView contact_state(std::size_t obstacle) const;
+  Control& memory() const { return store_.at(control_offset_).as<Control>(); }
+  double& tension_slot(std::size_t segment) const { return store_.at(tension_offset_)[segment]; }
+  void update_tensions_before_spring(const KinematicTree& tree);
+  /// Rate at which the path from the origin to an obstacle gets longer [m/s].
+  double path_rate(std::size_t obstacle, const KinematicTree& tree) const;
+  void relax();
+
+  const MuscleModel& model_;
+  StateStore& store_;
+  double step_;
+  MusclePath path_;
+  SlidingTendon sliding_;
+  std::vector<Sensor> sensors_;  ///< position, velocity, current, force
+  std::size_t spring_offset_, actuator_offset_, path_offset_, control_offset_, tension_offset_;
+  std::size_t sensor_offsets_[4];
+  std::vector<std::size_t> sliding_obstacles_;  ///< with friction, beyond the spring
+  bool path_before_spring_moves_;
+  mutable std::vector<double> arms_;  ///< scratch, all generalised velocities
+};
+
+}  // namespace anthrob

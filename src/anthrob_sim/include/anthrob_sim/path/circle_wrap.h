@@ -1,0 +1,62 @@
+#pragma once
+
+#include "anthrob_sim/core/state.h"
+#include "anthrob_sim/model/config_node.h"
+
+namespace anthrob {
+
+/// Side on which a tendon lies before the first posture is looked at: chi of (4.23) and (4.28).
+enum class WrapStart { kNotWrapping, kPositive, kNegative };
+
+/// The state machine of a tendon round a circle (Figure 4.8), shared by sphere and cylinder.
+///
+/// The thesis tracks three states, flips of the normal j_1 x j_2 and a revolution counter. All of
+/// that is one continuous number: the angle `theta` from the preceding to the succeeding point
+/// about a fixed normal, unwrapped over time. The tendon turns by alpha = |theta| - acos(r/l_1) -
+/// acos(r/l_2) and lifts off when alpha returns to zero; it touches down when the straight segment
+/// between the points would cut the circle, on the short side.
+class CircleWrap {
+ public:
+  struct State {
+    double theta;  ///< [rad] unwrapped while touching; in (-pi, pi] otherwise
+    double side;   ///< +1, -1: sense of rotation about the normal while touching; 0: off the circle
+  };
+
+  struct Result {
+    bool touching = false;
+    double side = 0.0;
+    double alpha = 0.0;             ///< wrapping angle, >= 0 [rad]
+    double b1 = 0.0, b2 = 0.0;      ///< lengths of the straight parts in the plane [m]
+    double cos1 = 1.0, sin1 = 0.0;  ///< of the angle from the preceding point to its tangent point
+    double cos2 = 1.0, sin2 = 0.0;  ///< of the angle from the succeeding point to its tangent point
+    double penetration = 0.0;       ///< [m]
+    double gain1 = 1.0;  ///< radius over distance of a point inside, at most 2; 1 outside
+    double gain2 = 1.0;
+  };
+
+  /// @param radius [m], > 0
+  /// @param half_turns initial revolution counter Lambda of (4.26), >= 0
+  CircleWrap(double radius, WrapStart start, int half_turns);
+
+  double radius() const { return radius_; }
+
+  /// @param angle from the preceding to the succeeding point about the normal, in (-pi, pi]
+  /// @param l1,l2 their distances from the centre [m]
+  void initialise(double angle, double l1, double l2, State& state) const;
+  Result update(double angle, double l1, double l2, State& state) const;
+
+  /// Whether the straight segment between two points stays clear of the circle: the cheap common
+  /// case.
+  /// @param x1,y1,x2,y2 points in the plane, centre at zero
+  bool segment_is_clear(double x1, double y1, double x2, double y2) const;
+
+ private:
+  double radius_;
+  WrapStart start_;
+  int half_turns_;
+};
+
+/// Reads `radius`, `start` and `half_turns` of a sphere or cylinder.
+CircleWrap read_circle_wrap(const ConfigNode& node);
+
+}  // namespace anthrob

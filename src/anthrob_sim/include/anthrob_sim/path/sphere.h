@@ -1,0 +1,36 @@
+#pragma once
+
+#include "anthrob_sim/path/circle_wrap.h"
+#include "anthrob_sim/path/wrapping_surface.h"
+
+namespace anthrob {
+
+/// Sphere (4.23)-(4.27): a circle wrap in the plane through both points and the centre. The plane's
+/// normal follows the posture without flipping, so the tendon stays on its side beyond half a turn.
+class Sphere final : public WrappingSurface {
+ public:
+  Sphere(const Vec3& center_B, const CircleWrap& circle) : center_(center_B), circle_(circle) {}
+
+  std::string type() const override { return "sphere"; }
+  std::size_t state_size() const override { return state_size_of<State>(); }
+  void initialise(const Vec3& before, const Vec3& after, StateView state) const override;
+  void wrap(const Vec3& before, const Vec3& after, StateView state,
+            WrapContact& contact) const override;
+
+  const Vec3& center() const { return center_; }
+  double radius() const { return circle_.radius(); }
+
+  /// `{center: [m], radius: [m], start:, half_turns:}`
+  static std::shared_ptr<const WrappingSurface> load(const ConfigNode& node, const Pose& X_BL);
+
+ private:
+  struct State {
+    CircleWrap::State circle;
+    double normal[3];  ///< last normal of the plane, unit, body frame
+  };
+
+  Vec3 center_;
+  CircleWrap circle_;
+};
+
+}  // namespace anthrob

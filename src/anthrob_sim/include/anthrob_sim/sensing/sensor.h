@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "anthrob_sim/core/random.h"
+#include "anthrob_sim/core/state.h"
+#include "anthrob_sim/model/config_node.h"
+
+namespace anthrob {
+
+/// What a sensor adds to the truth; all zero: ideal.
+struct SensorModel {
+  double noise = 0.0;    ///< standard deviation of white noise [unit of the quantity]
+  double quantum = 0.0;  ///< size of one count [unit of the quantity]
+  double delay = 0.0;    ///< [s]
+  int average = 1;       ///< samples in the moving average (the ECU's FIR filter); 1: none
+
+  bool ideal() const { return noise == 0.0 && quantum == 0.0 && delay == 0.0 && average == 1; }
+
+  /// `{noise:, quantum:, delay:, average:}`, all optional
+  static SensorModel load(const ConfigNode& node, const std::string& unit);
+};
+
+/// One measured quantity: delay, then noise, then rounding to counts, then moving average.
+class Sensor {
+ public:
+  /// @param stream different for every sensor of a robot   @param step [s]
+  Sensor(const SensorModel& model, std::uint64_t seed, std::uint64_t stream, double step);
+
+  std::size_t state_size() const { return model_.ideal() ? 0 : 4 + delay_steps_ + model_.average; }
+  /// As if the quantity had always had this value.
+  void reset(double value, StateView state) const;
+  /// To be called once every step with the true value; `index` counts the steps.
+  double measure(double value, std::uint64_t index, StateView state) const;
+
+ private:
+  SensorModel model_;
+  CounterRandom random_;
+  std::size_t delay_steps_;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/friction/resistance_solver.h"
+#include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/muscle/muscle.h"
+#include "anthrob_sim/skeleton/skeleton.h"
+
+namespace anthrob {
+
+/// A complete state of a simulation; copy it, keep it, restore it.
+struct Snapshot {
+  std::uint64_t step_index = 0;
+  std::vector<double> state;  ///< of all components
+  std::vector<BodyState> bodies;
+  std::vector<double> q, effort, load;  ///< of joints
+};
+
+/// A robot in motion. Deterministic: same model, same calls, same bits. Does not allocate while
+/// stepping.
+///
+/// One step, from t to t + h:
+///   controllers tick on what the sensors saw at t; friction, stops and tensions are solved for the
+///   motion of this step; actuators move; Bullet moves the bodies; paths, springs and sensors
+///   follow.
+class Simulation {
+ public:
+  /// Starts in the rest posture with all actuators at 0, controllers enabled, no reference: 0 V.
+  explicit Simulation(std::shared_ptr<const RobotModel> model);
+
+  const RobotModel& model() const { return *model_; }
+  double step_length() const { return model_->step; }
+  std::uint64_t step_index() const { return step_index_; }
+  /// [s] since the start, exactly step_index * step_length
+  double time() const { return static_cast<double>(step_index_) * model_->step; }
+
+  /// @throws BadInput for an index out of range, a reference that is not finite, a mode the muscle
+  /// lacks
+  void command(int muscle, ecu::Mode mode, double reference);
+  void set_enabled(int muscle, bool enabled);
+  /// The actuator arrives at `position` [rad] with `velocity` at the end of every step from now on.
+  void impose_position(int muscle, double position, double velocity);
+  void release(int muscle);
+  /// Effort applied to a driven joint from now on [Nm, N].
+  /// @throws BadInput if the joint is not driven
+  void apply_effort(int joint, double effort);
+  /// Outside load on a hinge or prismatic joint from now on [Nm, N].
+  void apply_load(int joint, double load);
+
+  /// Puts the robot at rest into a posture with its actuators at given positions; springs are
+  /// relaxed. Muscles get there from the rest posture in small steps, so that wrapping states are
+  /// those of a continuous motion. Commands, time and noise go on.
+  /// @param q size position_count   @param positions one a muscle
+  void place(const std::vector<double>& q, const std::vector<double>& positions);
+  /// Back to the start, but time goes on.
+  void reset();
+
+  /// @throws NumericalFailure naming time and place; the simulation stays in the failed state
+  void step(int count = 1);
+
+  std::size_t muscle_count() const { return muscles_.size(); }
+  const Muscle& muscle(int i) const { return muscles_[i]; }
+  const std::vector<BodyState>& bodies() const { return skeleton_.bodies(); }
+  const KinematicTree& tree() const { return tree_; }
+  /// Joint positions: 1 number, or w, x, y, z of a ball joint.
+  const std::vector<double>& configuration() const { return q_; }
+  /// What the joint sensors saw: hinge and prismatic joints with noise; ball joints as they are.
+  double measured_joint_position(int joint) const;
+  double joint_effort(int joint) const { return effort_[joint]; }
+  double joint_load(int joint) const { return load_[joint]; }
+  /// Moment arms -dl/dq of a muscle [m]: one a generalised velocity, ball joints in the child's
+  /// axes.
+  std::vector<double> moment_arms(int muscle) const;
+  /// Pose of a link in the world.
+  Pose link_pose(int frame) const;
+
+  /// Kinetic and potential energy of the skeleton [J].
+  double kinetic_energy() const;
+  double potential_energy() const;
+  /// Power that joint friction and stops take out of the last step [W].
+  double joint_dissipation() const { return joint_dissipation_; }
+  int solver_iterations() const { return resistance_.iterations(); }
+
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
+
+ private:
+  void settle_in(const std::vector<BodyState>& bodies);
+  void step_once();
+  void apply_wrenches();
+  void sense();
+  void apply_joint_efforts();
+  void check_finite() const;
+  void check_muscle(int muscle) const;
+
+  std::shared_ptr<const RobotModel> model_;
+  mutable StateStore store_;  ///< components hold views of it
+  Skeleton skeleton_;
+  KinematicTree tree_;
+  ResistanceSolver resistance_;
+  std::vector<Muscle> muscles_;
+  std::vector<SlidingTendon*> sliding_;
+  std::vector<Sensor> joint_sensors_;
+  std::vector<double> q_, effort_, load_;
+  std::size_t measured_offset_;  ///< measured joint positions
+  std::vector<std::size_t> joint_sensor_offsets_;
+  Eigen::VectorXd tau_;
+  double joint_dissipation_ = 0.0;
+  std::uint64_t step_index_ = 0;
+};
+
+}  // namespace anthrob

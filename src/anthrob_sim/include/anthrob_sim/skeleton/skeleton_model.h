@@ -1,0 +1,103 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/core/types.h"
+
+namespace anthrob {
+
+enum class JointType { kBall, kHinge, kPrismatic };
+
+/// Stribeck curve (3.6); torques for rotating joints, forces for prismatic ones.
+struct JointFrictionModel {
+  double static_torque = 0.0;       ///< [Nm] or [N]
+  double kinetic_torque = 0.0;      ///< [Nm] or [N]
+  double viscous = 0.0;             ///< [Nms/rad] or [Ns/m]
+  double stribeck_velocity = 0.05;  ///< [rad/s] or [m/s]
+};
+
+/// A soft stop: one-sided spring and damper beyond the limit.
+struct JointStopModel {
+  bool enabled = false;
+  double lower = 0.0;      ///< [rad] or [m]; unused for a ball joint
+  double upper = 0.0;      ///< [rad] or [m]; for a ball joint the largest rotation from rest
+  double stiffness = 0.0;  ///< [Nm/rad] or [N/m]
+  double damping = 0.0;    ///< [Nms/rad] or [Ns/m]
+};
+
+struct JointModel {
+  std::string name;
+  JointType type = JointType::kHinge;
+  int parent = 0;                ///< index of a body
+  int child = 0;                 ///< index of a body
+  Pose X_PC_rest;                ///< child link frame in parent link frame at rest
+  Vec3 center_C = Vec3::Zero();  ///< rotation centre in the child link frame [m]
+  Vec3 axis_C = Vec3::UnitZ();   ///< unit axis in the child link frame (not for a ball joint)
+  JointFrictionModel friction;
+  JointStopModel stop;
+  bool driven = false;  ///< takes an applied effort from outside
+
+  int position_offset = 0;  ///< in a configuration: 1 number, or w, x, y, z of a ball joint
+  int velocity_offset = 0;  ///< in generalised velocities: 1 number, or 3 of a ball joint
+  int dof() const { return type == JointType::kBall ? 3 : 1; }
+  int position_size() const { return type == JointType::kBall ? 4 : 1; }
+};
+
+enum class ShapeType { kBox, kSphere, kCylinder };
+
+/// Optional collision shape, as URDF's <collision>.
+struct CollisionModel {
+  ShapeType type = ShapeType::kBox;
+  Pose X_LS;                 ///< shape in link frame
+  Vec3 size = Vec3::Zero();  ///< box: edge lengths; sphere: radius; cylinder: radius, length [m]
+};
+
+/// One rigid body: a URDF link with everything that is fixed to it. Body 0 is the world.
+struct BodyModel {
+  std::string name;
+  double mass = 0.0;              ///< [kg]; 0 for the world
+  Vec3 com_L = Vec3::Zero();      ///< centre of mass in the link frame [m]
+  Mat3 inertia_L = Mat3::Zero();  ///< about the centre of mass, link axes [kg m^2]
+  Pose X_LB;                      ///< principal frame: origin at the centre of mass, axes principal
+  Vec3 principal = Vec3::Zero();  ///< principal moments of inertia [kg m^2]
+  std::vector<CollisionModel> collisions;
+};
+
+/// A named link; several may belong to one body.
+struct FrameModel {
+  std::string name;
+  int body = 0;
+  Pose X_LF;  ///< in the link frame of the body
+};
+
+/// A tree of rigid bodies. Joint i moves body i + 1; parents come before children.
+struct SkeletonModel {
+  std::vector<BodyModel> bodies;
+  std::vector<JointModel> joints;
+  std::vector<FrameModel> frames;
+  int position_count = 0;
+  int velocity_count = 0;
+
+  /// Index in `frames`, or -1.
+  int find_frame(const std::string& name) const;
+  /// Index in `joints`, or -1.
+  int find_joint(const std::string& name) const;
+  /// All joints at rest.
+  std::vector<double> rest_configuration() const;
+};
+
+/// Reads the bodies of a URDF. Floating joints become ball joints; their centres, all frictions and
+/// stops come from the model file.
+/// @throws BadInput naming file, link or joint, and what was expected
+SkeletonModel load_urdf(const std::string& file);
+
+/// The joints that connect two bodies, with the sign with which a force on `to` (and its reaction
+/// on `from`) acts on each: +1 if `to` lies beyond the joint, -1 if `from` does.
+struct JointOnPath {
+  int joint;
+  double sign;
+};
+std::vector<JointOnPath> joints_between(const SkeletonModel& model, int from, int to);
+
+}  // namespace anthrob

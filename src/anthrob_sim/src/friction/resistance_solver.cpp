@@ -1,0 +1,238 @@
+#include "anthrob_sim/friction/resistance_solver.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_sim/friction/joint_friction.h"
+
+namespace anthrob {
+
+namespace {
+constexpr int kMaxIterations = 20;
+/// Newton has converged when no velocity changes by more [rad/s, m/s].
+constexpr double kTolerance = 1e-8;
+/// A joint slower than this at the start of a step counts as at rest [rad/s, m/s].
+constexpr double kAtRest = 1e-9;
+}  // namespace
+
+ResistanceSolver::ResistanceSolver(const SkeletonModel& model, double step)
+    : model_(model), step_(step) {
+  const int n = model.velocity_count;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const JointFrictionModel& friction = model.joints[i].friction;
+    if (friction.static_torque > 0.0 || friction.kinetic_torque > 0.0) {
+      dry_.push_back({static_cast<int>(i), true, Vec3::Zero(), 0.0});
+    }
+  }
+  held_.resize(n, 0);
+  for (auto* v : {&constant_, &rhs_, &u_, &next_, &joint_torque_, &resistance_}) v->setZero(n);
+  system_.setZero(n, n);
+  factor_.setZero(n, n);
+}
+
+void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double>& q,
+                             const Eigen::VectorXd& tau,
+                             const std::vector<SlidingTendon*>& tendons) {
+  start(tree, tau);
+  for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
+    assemble(tree, q, tendons);
+    solve_linear();
+    const double change = (next_ - u_).cwiseAbs().maxCoeff();
+    u_ = next_;
+    const bool revised = revise_dry_friction();
+    if (change < kTolerance && !revised) break;
+  }
+  finish(tendons);
+}
+
+void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& tau) {
+  u_ = Eigen::Map<const Eigen::VectorXd>(tree.velocities().data(), u_.size());
+  constant_.noalias() = tree.mass_matrix() * u_;
+  constant_ += step_ * (tau - tree.bias());
+  for (DryJoint& dry : dry_) {
+    const JointModel& joint = model_.joints[dry.joint];
+    const auto speed = u_.segment(joint.velocity_offset, joint.dof());
+    const double norm = speed.norm();
+    dry.held = norm < kAtRest;
+    dry.direction.setZero();
+    if (!dry.held) dry.direction.head(joint.dof()) = speed / norm;
+    dry.level = dry_friction(joint.friction, norm);
+  }
+}
+
+void ResistanceSolver::assemble(const KinematicTree& tree, const std::vector<double>& q,
+                                const std::vector<SlidingTendon*>& tendons) {
+  system_ = tree.mass_matrix();
+  rhs_ = constant_;
+  resistance_.setZero();
+  for (const JointModel& joint : model_.joints) {
+    for (int k = 0; k < joint.dof(); ++k) {
+      const int dof = joint.velocity_offset + k;
+      system_(dof, dof) += step_ * joint.friction.viscous;
+      resistance_[dof] -= joint.friction.viscous * u_[dof];
+    }
+    if (joint.stop.enabled) add_stop(tree, joint, &q[joint.position_offset]);
+  }
+  for (SlidingTendon* tendon : tendons) add_tendon(*tendon);
+  add_dry_friction();
+}
+
+void ResistanceSolver::add_stop(const KinematicTree& tree, const JointModel& joint,
+                                const double* q) {
+  const int dof = joint.velocity_offset;
+  const double forward = 1.0, backward = -1.0;
+  if (joint.type != JointType::kBall) {
+    add_stop_row(dof, 1, &forward, q[0] - joint.stop.upper, joint.stop);
+    add_stop_row(dof, 1, &backward, joint.stop.lower - q[0], joint.stop);
+    return;
+  }
+  // Rotation from rest: its angle grows with the velocity along its axis.
+  const Vec3 axis(q[1], q[2], q[3]);
+  const double sine = axis.norm();
+  if (sine < 1e-9) return;
+  const Vec3 axis_W =
+      tree.joint(static_cast<int>(&joint - model_.joints.data())).R_WC * (axis / sine);
+  add_stop_row(dof, 3, axis_W.data(), 2.0 * std::atan2(sine, q[0]) - joint.stop.upper, joint.stop);
+}
+
+void ResistanceSolver::add_stop_row(int dof, int count, const double* row, double depth,
+                                    const JointStopModel& stop) {
+  double speed = 0.0;
+  for (int i = 0; i < count; ++i) speed += row[i] * u_[dof + i];
+  const double depth_after = depth + step_ * speed;
+  const double push = stop.stiffness * depth_after + stop.damping * speed;
+  if (depth_after <= 0.0 || push <= 0.0) return;
+  const double damping = step_ * (step_ * stop.stiffness + stop.damping);
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) system_(dof + i, dof + j) += damping * row[i] * row[j];
+    rhs_[dof + i] -= step_ * stop.stiffness * depth * row[i];
+    resistance_[dof + i] -= push * row[i];
+  }
+}
+
+void ResistanceSolver::add_tendon(SlidingTendon& tendon) {
+  const std::size_t nd = tendon.dofs.size();
+  double tension = tendon.tension;
+  for (std::size_t j = 0; j < tendon.contacts.size(); ++j) {
+    const SlidingTendon::Contact& contact = tendon.contacts[j];
+    const double* slide = &tendon.slide_arms[j * nd];
+    const double* piece = &tendon.piece_arms[j * nd];
+    double speed = 0.0;
+    for (std::size_t a = 0; a < nd; ++a) speed += slide[a] * u_[tendon.dofs[a]];
+
+    const FrictionLaw::Value friction = contact.law->evaluate(speed, contact.state);
+    const double after = tension * std::exp(-friction.mu * contact.turning);
+    // How steeply tension falls with speed. The tangent, unless the last sweep jumped across rest,
+    // where a tangent would throw it back: then the chord to rest.
+    double steepness = after * contact.turning * std::max(0.0, friction.slope);
+    const bool jumped = iterations_ > 1 && speed * tendon.slide_speed[j] < 0.0;
+    if (jumped) steepness = std::max(steepness, (tension - after) / speed);
+    for (std::size_t a = 0; a < nd; ++a) {
+      rhs_[tendon.dofs[a]] += step_ * (after * piece[a] + steepness * speed * slide[a]);
+      for (std::size_t b = 0; b < nd; ++b) {
+        system_(tendon.dofs[a], tendon.dofs[b]) += step_ * steepness * slide[a] * slide[b];
+      }
+    }
+    if (iterations_ == 1) tendon.start_speed[j] = speed;
+    tendon.slide_speed[j] = speed;
+    tendon.tension_after[j] = after;
+    tension = after;
+  }
+}
+
+void ResistanceSolver::add_dry_friction() {
+  for (const DryJoint& dry : dry_) {
+    const JointModel& joint = model_.joints[dry.joint];
+    for (int k = 0; k < joint.dof(); ++k) {
+      const int dof = joint.velocity_offset + k;
+      held_[dof] = dry.held;
+      if (!dry.held) rhs_[dof] -= step_ * dry.level * dry.direction[k];
+    }
+  }
+}
+
+void ResistanceSolver::solve_linear() {
+  factor_ = system_;
+  next_ = rhs_;
+  if (!dry_.empty()) {
+    for (Eigen::Index i = 0; i < next_.size(); ++i) {
+      if (!held_[i]) continue;
+      factor_.row(i).setZero();
+      factor_.col(i).setZero();
+      factor_(i, i) = 1.0;
+      next_[i] = 0.0;
+    }
+  }
+  Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(factor_);
+  cholesky.solveInPlace(next_);
+}
+
+bool ResistanceSolver::revise_dry_friction() {
+  bool revised = false;
+  for (DryJoint& dry : dry_) {
+    const JointModel& joint = model_.joints[dry.joint];
+    const int dof = joint.velocity_offset, count = joint.dof();
+    if (dry.held) {
+      // Torque that holding takes.
+      Vec3 hold = Vec3::Zero();
+      for (int k = 0; k < count; ++k)
+        hold[k] = (system_.row(dof + k).dot(u_) - rhs_[dof + k]) / step_;
+      const double norm = hold.norm();
+      const double limit = std::max(joint.friction.static_torque, joint.friction.kinetic_torque);
+      if (norm <= limit) continue;
+      dry.held = false;
+      dry.direction = -hold / norm;
+      dry.level = limit;
+      revised = true;
+      continue;
+    }
+    Vec3 speed = Vec3::Zero();
+    speed.head(count) = u_.segment(dof, count);
+    if (speed.dot(dry.direction) <= 0.0) {
+      dry.held = true;
+      revised = true;
+      continue;
+    }
+    const double norm = speed.norm();
+    const Vec3 direction = speed / norm;
+    const double level = dry_friction(joint.friction, norm);
+    if ((direction - dry.direction).norm() > 1e-9 ||
+        std::abs(level - dry.level) > 1e-9 * dry.level) {
+      revised = true;
+    }
+    dry.direction = direction;
+    dry.level = level;
+  }
+  return revised;
+}
+
+void ResistanceSolver::finish(const std::vector<SlidingTendon*>& tendons) {
+  for (SlidingTendon* tendon : tendons) {
+    const std::size_t nd = tendon->dofs.size();
+    double tension = tendon->tension;
+    for (std::size_t j = 0; j < tendon->contacts.size(); ++j) {
+      const SlidingTendon::Contact& contact = tendon->contacts[j];
+      double speed = 0.0;
+      for (std::size_t a = 0; a < nd; ++a) {
+        speed += tendon->slide_arms[j * nd + a] * u_[tendon->dofs[a]];
+      }
+      const double mu = contact.law->evaluate(speed, contact.state).mu;
+      contact.law->commit(speed, contact.state);
+      tension *= std::exp(-mu * contact.turning);
+      tendon->slide_speed[j] = speed;
+      tendon->tension_after[j] = tension;
+    }
+  }
+  joint_torque_ = resistance_;
+  for (const DryJoint& dry : dry_) {
+    const JointModel& joint = model_.joints[dry.joint];
+    for (int k = 0; k < joint.dof(); ++k) {
+      const int dof = joint.velocity_offset + k;
+      joint_torque_[dof] +=
+          dry.held ? (system_.row(dof).dot(u_) - rhs_[dof]) / step_ : -dry.level * dry.direction[k];
+    }
+  }
+}
+
+}  // namespace anthrob

@@ -1,0 +1,377 @@
+#include "anthrob_sim/model/config_node.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+
+namespace {
+enum class Kind { kNull, kScalar, kSequence, kMap };
+
+std::string number_text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+}  // namespace
+
+struct ConfigNode::Data {
+  Kind kind = Kind::kNull;
+  std::string scalar;
+  std::vector<std::shared_ptr<Data>> items;
+  std::vector<std::pair<std::string, std::shared_ptr<Data>>> entries;
+  std::shared_ptr<const std::string> file;
+  int line = 0;
+  bool read = false;
+
+  std::shared_ptr<Data> find(const std::string& key) const {
+    for (const auto& entry : entries) {
+      if (entry.first == key) return entry.second;
+    }
+    return nullptr;
+  }
+};
+
+namespace {
+
+using Data = ConfigNode::Data;
+using DataPtr = std::shared_ptr<Data>;
+
+[[noreturn]] void fail_at(const std::string& file, int line, const std::string& message) {
+  throw BadInput(file + ":" + std::to_string(line) + ": " + message);
+}
+
+DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>& file) {
+  auto data = std::make_shared<Data>();
+  data->file = file;
+  data->line = node.Mark().line + 1;
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      data->kind = Kind::kScalar;
+      data->scalar = node.Scalar();
+      break;
+    case YAML::NodeType::Sequence:
+      data->kind = Kind::kSequence;
+      for (const auto& item : node) data->items.push_back(convert(item, file));
+      break;
+    case YAML::NodeType::Map:
+      data->kind = Kind::kMap;
+      for (const auto& entry : node) {
+        const std::string key = entry.first.Scalar();
+        if (data->find(key)) {
+          fail_at(*file, entry.first.Mark().line + 1, key + ": appears twice in the same map");
+        }
+        data->entries.emplace_back(key, convert(entry.second, file));
+        // An empty value has no mark of its own.
+        data->entries.back().second->line = entry.first.Mark().line + 1;
+      }
+      break;
+    default:
+      break;
+  }
+  return data;
+}
+
+DataPtr merge(const DataPtr& base, const DataPtr& over) {
+  if (base->kind != Kind::kMap || over->kind != Kind::kMap) return over;
+  auto merged = std::make_shared<Data>(*base);
+  merged->file = over->file;
+  merged->line = over->line;
+  for (const auto& [key, value] : over->entries) {
+    auto& entries = merged->entries;
+    const auto entry = std::find_if(entries.begin(), entries.end(),
+                                    [&, name = key](const auto& e) { return e.first == name; });
+    if (value->kind == Kind::kNull) {
+      if (entry != entries.end()) entries.erase(entry);
+    } else if (entry != entries.end()) {
+      entry->second = merge(entry->second, value);
+    } else {
+      entries.emplace_back(key, value);
+    }
+  }
+  return merged;
+}
+
+DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
+  const std::string canonical = std::filesystem::weakly_canonical(path).string();
+  for (const auto& seen : chain) {
+    if (seen == canonical) throw BadInput(path + ": extends: the file extends itself");
+  }
+  chain.push_back(canonical);
+
+  YAML::Node root;
+  try {
+    root = YAML::LoadFile(path);
+  } catch (const YAML::BadFile&) {
+    throw BadInput(path + ": cannot be read; expected a YAML file");
+  } catch (const YAML::Exception& e) {
+    fail_at(path, e.mark.line + 1, "not valid YAML: " + e.msg);
+  }
+  auto file = std::make_shared<const std::string>(path);
+  DataPtr data = convert(root, file);
+  if (data->kind != Kind::kMap) fail_at(path, 1, "expected a map of keys at the top of the file");
+
+  if (const DataPtr extends = data->find("extends")) {
+    if (extends->kind != Kind::kScalar) {
+      fail_at(path, extends->line, "extends: expected the name of a YAML file");
+    }
+    const auto base = std::filesystem::path(path).parent_path() / extends->scalar;
+    if (!std::filesystem::exists(base)) {
+      fail_at(path, extends->line,
+              "extends: " + extends->scalar + ": no such file beside this one");
+    }
+    auto& entries = data->entries;
+    for (auto it = entries.begin(); it != entries.end(); ++it) {
+      if (it->first == "extends") {
+        entries.erase(it);
+        break;
+      }
+    }
+    data = merge(load_file(base.string(), chain), data);
+  }
+  return data;
+}
+
+void mark_read(const DataPtr& data) {
+  data->read = true;
+  for (const auto& item : data->items) mark_read(item);
+  for (const auto& entry : data->entries) mark_read(entry.second);
+}
+
+DataPtr deep_copy(const DataPtr& data) {
+  auto copy = std::make_shared<Data>(*data);
+  for (auto& item : copy->items) item = deep_copy(item);
+  for (auto& entry : copy->entries) entry.second = deep_copy(entry.second);
+  return copy;
+}
+
+void emit(YAML::Emitter& out, const DataPtr& data, bool flow) {
+  switch (data->kind) {
+    case Kind::kNull:
+      out << YAML::Null;
+      break;
+    case Kind::kScalar:
+      out << data->scalar;
+      break;
+    case Kind::kSequence:
+      if (flow || (!data->items.empty() && data->items.front()->kind == Kind::kScalar)) {
+        out << YAML::Flow;
+      }
+      out << YAML::BeginSeq;
+      for (const auto& item : data->items) emit(out, item, true);
+      out << YAML::EndSeq;
+      break;
+    case Kind::kMap:
+      if (flow) out << YAML::Flow;
+      out << YAML::BeginMap;
+      for (const auto& [key, value] : data->entries) {
+        out << YAML::Key << key << YAML::Value;
+        emit(out, value, flow);
+      }
+      out << YAML::EndMap;
+      break;
+  }
+}
+
+std::string join(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+}  // namespace
+
+bool Bounds::contains(double value) const {
+  if (!std::isfinite(value)) return false;
+  return (lo_open ? value > lo : value >= lo) && (hi_open ? value < hi : value <= hi);
+}
+
+std::string Bounds::text() const {
+  const bool has_lo = std::isfinite(lo), has_hi = std::isfinite(hi);
+  if (has_lo && has_hi) {
+    return std::string("a number in ") + (lo_open ? "(" : "[") + number_text(lo) + ", " +
+           number_text(hi) + (hi_open ? ")" : "]");
+  }
+  if (has_lo) return std::string("a number ") + (lo_open ? "> " : ">= ") + number_text(lo);
+  if (has_hi) return std::string("a number ") + (hi_open ? "< " : "<= ") + number_text(hi);
+  return "a finite number";
+}
+
+ConfigNode ConfigNode::load(const std::string& file) {
+  std::vector<std::string> chain;
+  return ConfigNode(load_file(file, chain), "");
+}
+
+ConfigNode ConfigNode::parse(const std::string& text, const std::string& name) {
+  try {
+    return ConfigNode(convert(YAML::Load(text), std::make_shared<const std::string>(name)), "");
+  } catch (const YAML::Exception& e) {
+    fail_at(name, e.mark.line + 1, "not valid YAML: " + e.msg);
+  }
+}
+
+bool ConfigNode::is_map() const {
+  return data_->kind == Kind::kMap;
+}
+bool ConfigNode::is_sequence() const {
+  return data_->kind == Kind::kSequence;
+}
+bool ConfigNode::is_scalar() const {
+  return data_->kind == Kind::kScalar;
+}
+bool ConfigNode::has(const std::string& key) const {
+  return data_->find(key) != nullptr;
+}
+
+const std::string& ConfigNode::file() const {
+  return *data_->file;
+}
+
+void ConfigNode::fail(const std::string& message) const {
+  fail_at(*data_->file, data_->line, (path_.empty() ? "" : path_ + ": ") + message);
+}
+
+void ConfigNode::fail_expected(const std::string& expectation) const {
+  const std::string value = data_->kind == Kind::kScalar     ? data_->scalar
+                            : data_->kind == Kind::kSequence ? "[...]"
+                            : data_->kind == Kind::kMap      ? "{...}"
+                                                             : "(empty)";
+  fail(value + ": expected " + expectation);
+}
+
+ConfigNode ConfigNode::at(const std::string& key) const {
+  if (data_->kind != Kind::kMap) fail_expected("a map with the key '" + key + "'");
+  data_->read = true;
+  const DataPtr child = data_->find(key);
+  if (!child) fail("key '" + key + "' is missing");
+  child->read = true;
+  return ConfigNode(child, join(path_, key));
+}
+
+std::vector<ConfigNode> ConfigNode::items() const {
+  if (data_->kind != Kind::kSequence) fail_expected("a list");
+  data_->read = true;
+  std::vector<ConfigNode> nodes;
+  for (std::size_t i = 0; i < data_->items.size(); ++i) {
+    data_->items[i]->read = true;
+    nodes.push_back(ConfigNode(data_->items[i], join(path_, std::to_string(i))));
+  }
+  return nodes;
+}
+
+std::vector<std::pair<std::string, ConfigNode>> ConfigNode::entries() const {
+  if (data_->kind != Kind::kMap) fail_expected("a map");
+  data_->read = true;
+  std::vector<std::pair<std::string, ConfigNode>> nodes;
+  for (const auto& [key, value] : data_->entries) {
+    value->read = true;
+    nodes.emplace_back(key, ConfigNode(value, join(path_, key)));
+  }
+  return nodes;
+}
+
+double ConfigNode::as_number(const Bounds& bounds, const std::string& unit) const {
+  const std::string expectation = bounds.text() + " [" + unit + "]";
+  if (data_->kind != Kind::kScalar) fail_expected(expectation);
+  data_->read = true;
+  double value = 0.0;
+  if (!YAML::convert<double>::decode(YAML::Node(data_->scalar), value) || !bounds.contains(value)) {
+    fail_expected(expectation);
+  }
+  return value;
+}
+
+int ConfigNode::as_integer(int lo, int hi) const {
+  const std::string expectation =
+      "an integer from " + std::to_string(lo) + " to " + std::to_string(hi);
+  if (data_->kind != Kind::kScalar) fail_expected(expectation);
+  data_->read = true;
+  int value = 0;
+  if (!YAML::convert<int>::decode(YAML::Node(data_->scalar), value) || value < lo || value > hi) {
+    fail_expected(expectation);
+  }
+  return value;
+}
+
+bool ConfigNode::as_bool() const {
+  data_->read = true;
+  bool value = false;
+  if (data_->kind != Kind::kScalar ||
+      !YAML::convert<bool>::decode(YAML::Node(data_->scalar), value)) {
+    fail_expected("true or false");
+  }
+  return value;
+}
+
+std::string ConfigNode::as_text() const {
+  if (data_->kind != Kind::kScalar || data_->scalar.empty()) fail_expected("a word");
+  data_->read = true;
+  return data_->scalar;
+}
+
+Vec3 ConfigNode::as_vector3(const std::string& unit) const {
+  if (data_->kind != Kind::kSequence || data_->items.size() != 3) {
+    fail_expected("three numbers [x, y, z] [" + unit + "]");
+  }
+  const auto nodes = items();
+  return {nodes[0].as_number(Bounds::any(), unit), nodes[1].as_number(Bounds::any(), unit),
+          nodes[2].as_number(Bounds::any(), unit)};
+}
+
+void ConfigNode::refuse_unknown_keys() const {
+  for (const auto& [key, value] : data_->entries) {
+    const ConfigNode child(value, join(path_, key));
+    if (!value->read) child.fail("unknown key");
+    child.refuse_unknown_keys();
+  }
+  for (std::size_t i = 0; i < data_->items.size(); ++i) {
+    ConfigNode(data_->items[i], join(path_, std::to_string(i))).refuse_unknown_keys();
+  }
+}
+
+void ConfigNode::ignore() const {
+  mark_read(data_);
+}
+
+void ConfigNode::set_number(const std::string& path, double value) {
+  DataPtr data = data_;
+  std::istringstream keys(path);
+  std::string key;
+  while (std::getline(keys, key, '.')) {
+    DataPtr child;
+    if (data->kind == Kind::kMap) {
+      child = data->find(key);
+    } else if (data->kind == Kind::kSequence && !key.empty() &&
+               key.find_first_not_of("0123456789") == std::string::npos) {
+      const std::size_t index = std::stoul(key);
+      if (index < data->items.size()) child = data->items[index];
+    }
+    if (!child) fail(path + ": no such number in the model");
+    data = child;
+  }
+  double old = 0.0;
+  if (data->kind != Kind::kScalar ||
+      !YAML::convert<double>::decode(YAML::Node(data->scalar), old)) {
+    fail(path + ": not a number in the model");
+  }
+  std::ostringstream out;
+  out.precision(17);
+  out << value;
+  data->scalar = out.str();
+}
+
+ConfigNode ConfigNode::clone() const {
+  return ConfigNode(deep_copy(data_), path_);
+}
+
+std::string ConfigNode::to_yaml() const {
+  YAML::Emitter out;
+  emit(out, data_, false);
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace anthrob

@@ -1,0 +1,328 @@
+#include "anthrob_sim/model/robot_model.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "anthrob_sim/skeleton/kinematic_tree.h"
+
+namespace anthrob {
+
+namespace {
+
+/// How deep a path point may lie inside the surface next to it: table rounding, not a mistake [m].
+constexpr double kAllowedPenetration = 0.0002;
+
+void require_snake_case(const ConfigNode& node, const std::string& name) {
+  bool good = !name.empty() && name[0] >= 'a' && name[0] <= 'z';
+  for (const char c : name)
+    good = good && ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_');
+  if (!good) node.fail("'" + name + "': expected a name in lower_snake_case");
+}
+
+class Builder {
+ public:
+  Builder(const ConfigNode& config, const LoadOptions& options)
+      : config_(config), options_(options), model_(std::make_shared<RobotModel>()) {}
+
+  std::shared_ptr<const RobotModel> build() {
+    model_->file = config_.file();
+    model_->step = options_.step;
+    const auto folder = std::filesystem::path(config_.file()).parent_path();
+    model_->name =
+        std::filesystem::weakly_canonical(config_.file()).parent_path().filename().string();
+    model_->gravity = config_.at("gravity").as_vector3("m/s^2");
+    model_->collisions = config_.has("collisions") && config_.at("collisions").as_bool();
+
+    const ConfigNode robot = config_.at("robot");
+    const auto urdf = std::filesystem::path(robot.file()).parent_path() / robot.as_text();
+    if (!std::filesystem::exists(urdf)) robot.fail_expected("a URDF file beside this one");
+    model_->urdf_file = urdf.string();
+    skeleton_ = std::make_shared<SkeletonModel>(load_urdf(model_->urdf_file));
+    read_joints();
+    model_->skeleton = skeleton_;
+
+    read_muscles();
+    read_sensors();
+    config_.refuse_unknown_keys();
+    check_rest_posture();
+    return model_;
+  }
+
+ private:
+  void read_joints() {
+    std::vector<bool> seen(skeleton_->joints.size(), false);
+    if (config_.has("joints")) {
+      for (const auto& [name, node] : config_.at("joints").entries()) {
+        const int index = skeleton_->find_joint(name);
+        if (index < 0) node.fail("no movable joint of that name in " + model_->urdf_file);
+        seen[index] = true;
+        read_joint(node, skeleton_->joints[index]);
+      }
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const JointModel& joint = skeleton_->joints[i];
+      if (!seen[i] && joint.type == JointType::kBall) {
+        config_.fail("joints: floating joint '" + joint.name + "' of " + model_->urdf_file +
+                     " needs an entry with type: ball and its center");
+      }
+      if (!seen[i] && joint.stop.enabled) {
+        config_.fail("joints: joint '" + joint.name +
+                     "' has limits in the URDF and needs an entry with its stop");
+      }
+    }
+  }
+
+  void read_joint(const ConfigNode& node, JointModel& joint) {
+    const bool ball = joint.type == JointType::kBall;
+    const std::string torque = joint.type == JointType::kPrismatic ? "N" : "Nm";
+    const std::string speed = joint.type == JointType::kPrismatic ? "m/s" : "rad/s";
+    const std::string position = joint.type == JointType::kPrismatic ? "m" : "rad";
+    if (ball && (!node.has("type") || node.text("type") != "ball")) {
+      node.fail("expected type: ball (the URDF joint is floating)");
+    }
+    if (node.has("type") && !ball)
+      node.at("type").fail("only a floating joint of the URDF takes a type");
+    if (ball) joint.center_C = node.at("center").as_vector3("m");
+    if (node.has("friction")) {
+      const ConfigNode friction = node.at("friction");
+      joint.friction.static_torque = friction.number("static", Bounds::nonnegative(), torque);
+      joint.friction.kinetic_torque = friction.number("kinetic", Bounds::nonnegative(), torque);
+      joint.friction.viscous =
+          friction.number("viscous", Bounds::nonnegative(), torque + "/(" + speed + ")");
+      joint.friction.stribeck_velocity =
+          friction.number("stribeck_velocity", Bounds::positive(), speed);
+    }
+    if (joint.stop.enabled || node.has("stop")) {
+      const ConfigNode stop = node.at("stop");
+      if (ball) {
+        joint.stop.upper = stop.number("angle", Bounds{0.0, 3.0, true, false}, "rad");
+      } else if (!joint.stop.enabled) {
+        stop.fail("the joint has no limits in the URDF");
+      }
+      joint.stop.enabled = true;
+      joint.stop.stiffness = stop.number("stiffness", Bounds::positive(), torque + "/" + position);
+      joint.stop.damping =
+          stop.number("damping", Bounds::nonnegative(), torque + "/(" + speed + ")");
+    }
+    if (node.has("driven")) {
+      joint.driven = node.at("driven").as_bool();
+      if (joint.driven && ball)
+        node.at("driven").fail("only hinge and prismatic joints can be driven");
+    }
+  }
+
+  void read_muscles() {
+    if (!config_.has("muscles")) return;
+    for (const auto& [name, node] : config_.at("muscles").entries()) {
+      require_snake_case(node, name);
+      model_->muscles.push_back(read_muscle(name, node));
+    }
+    for (const char* library : {"springs", "actuators", "controllers"}) {
+      if (!config_.has(library)) continue;
+      for (const auto& [name, node] : config_.at(library).entries()) {
+        if (!used_kinds_.count(std::string(library) + "." + name)) node.ignore();
+      }
+    }
+  }
+
+  /// The entry of a library of kinds that a muscle names.
+  ConfigNode kind(const std::string& library, const ConfigNode& choice) {
+    const std::string name = choice.as_text();
+    if (!config_.has(library) || !config_.at(library).has(name)) {
+      choice.fail_expected("the name of an entry of '" + library + "'");
+    }
+    used_kinds_.insert(library + "." + name);
+    return config_.at(library).at(name);
+  }
+
+  MuscleModel read_muscle(const std::string& name, const ConfigNode& node) {
+    MuscleModel muscle;
+    muscle.name = name;
+    muscle.actuator = make_actuator(kind("actuators", node.at("actuator")), node, options_.step);
+    muscle.path = read_path(node);
+    const int segments = static_cast<int>(muscle.path->segment_count());
+
+    if (!node.has("spring")) {
+      node.fail(
+          "key 'spring' is missing: a muscle needs a spring. Without one the tension would depend "
+          "on the "
+          "masses it moves and could not be computed from the tendon alone (section 4.6); give a "
+          "stiff one");
+    }
+    const ConfigNode spring = node.at("spring");
+    const int quantity = spring.has("quantity") ? spring.at("quantity").as_integer(1, 100) : 1;
+    muscle.spring =
+        make_series_elastic_element(kind("springs", spring.at("kind")), quantity, options_.step);
+    muscle.spring_segment = spring.at("segment").as_integer(0, segments - 1);
+    muscle.sensor_segment = node.at("force_sensor_segment").as_integer(0, segments - 1);
+
+    if (node.has("ecu")) muscle.ecu = node.text("ecu");
+    if (node.has("controller")) {
+      muscle.has_controller = true;
+      read_controller(kind("controllers", node.at("controller")), muscle);
+    }
+    return muscle;
+  }
+
+  void read_controller(const ConfigNode& node, MuscleModel& muscle) {
+    ecu::ControllerSettings& c = muscle.controller;
+    c.period = node.number("period", Bounds::positive(), "s");
+    c.voltage_limit = node.number("voltage_limit", Bounds::positive(), "V");
+    const ConfigNode position = node.at("position"), current = node.at("current"),
+                     force = node.at("force");
+    c.position.proportional = position.number("proportional", Bounds::nonnegative(), "V/rad");
+    c.position.derivative = position.number("derivative", Bounds::nonnegative(), "Vs/rad");
+    c.position.force_feedforward = position.number("force_feedforward", Bounds::any(), "V/N");
+    c.current.proportional = current.number("proportional", Bounds::nonnegative(), "V/A");
+    c.current.integral = current.number("integral", Bounds::nonnegative(), "V/(As)");
+    c.force.proportional = force.number("proportional", Bounds::nonnegative(), "V/N");
+    c.force.integral = force.number("integral", Bounds::nonnegative(), "V/(Ns)");
+    c.force.derivative = force.number("derivative", Bounds::nonnegative(), "Vs/rad");
+    c.force.force_feedforward = force.number("force_feedforward", Bounds::any(), "V/N");
+    const double ratio = c.period / options_.step;
+    muscle.steps_per_tick = static_cast<int>(std::lround(ratio));
+    if (muscle.steps_per_tick < 1 || std::abs(ratio - muscle.steps_per_tick) > 1e-9 * ratio) {
+      char step[32];
+      std::snprintf(step, sizeof(step), "%g", options_.step);
+      node.at("period").fail_expected(std::string("a whole multiple of the simulation step ") +
+                                      step + " s");
+    }
+  }
+
+  std::shared_ptr<const PathModel> read_path(const ConfigNode& muscle) {
+    const ConfigNode path = muscle.at("path");
+    const auto entries = path.items();
+    if (entries.size() < 2) path.fail("expected at least two points: origin and insertion");
+    const auto eyelets = friction_of(muscle, "eyelet_friction");
+    const auto surfaces = friction_of(muscle, "surface_friction");
+    std::vector<PathObstacle> obstacles;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      obstacles.push_back(read_obstacle(entries[i], eyelets, surfaces));
+      const bool end = i == 0 || i + 1 == entries.size();
+      if (obstacles[i].surface && end) {
+        entries[i].fail("a path begins and ends with a point, not with a surface");
+      }
+      if (end) obstacles[i].friction = nullptr;
+      if (i == 0) continue;
+      const PathObstacle& last = obstacles[i - 1];
+      if (obstacles[i].surface && last.surface) {
+        entries[i].fail("two surfaces in a row: put a point between them");
+      }
+      if (!obstacles[i].surface && !last.surface && obstacles[i].body == last.body &&
+          (obstacles[i].point_B - last.point_B).norm() < 1e-6) {
+        entries[i].fail("the same place as the point before");
+      }
+    }
+    return std::make_shared<PathModel>(*skeleton_, std::move(obstacles));
+  }
+
+  /// The muscle's own friction law, else the robot's, else none.
+  std::shared_ptr<const FrictionLaw> friction_of(const ConfigNode& muscle, const std::string& key) {
+    if (muscle.has(key)) return make_friction_law(muscle.at(key), options_.step);
+    if (config_.has(key)) return make_friction_law(config_.at(key), options_.step);
+    return nullptr;
+  }
+
+  PathObstacle read_obstacle(const ConfigNode& entry,
+                             const std::shared_ptr<const FrictionLaw>& eyelets,
+                             const std::shared_ptr<const FrictionLaw>& surfaces) {
+    PathObstacle obstacle;
+    const ConfigNode body = entry.at("body");
+    const int frame = skeleton_->find_frame(body.as_text());
+    if (frame < 0) body.fail_expected("the name of a link in " + model_->urdf_file);
+    obstacle.body = skeleton_->frames[frame].body;
+    const Pose X_BF =
+        skeleton_->bodies[obstacle.body].X_LB.inverse() * skeleton_->frames[frame].X_LF;
+
+    std::string type;
+    for (const auto& item : entry.entries()) {
+      if (item.first == "body" || item.first == "friction") continue;
+      if (!type.empty())
+        entry.fail("expected one obstacle, found '" + type + "' and '" + item.first + "'");
+      type = item.first;
+    }
+    if (type.empty()) entry.fail("expected a point or one of: " + wrapping_surface_types());
+    if (type == "point") {
+      obstacle.point_B = X_BF * entry.at("point").as_vector3("m");
+      obstacle.friction = eyelets;
+    } else {
+      obstacle.surface = make_wrapping_surface(type, entry.at(type), X_BF);
+      obstacle.friction = surfaces;
+    }
+    if (entry.has("friction"))
+      obstacle.friction = make_friction_law(entry.at("friction"), options_.step);
+    return obstacle;
+  }
+
+  void read_sensors() {
+    if (!config_.has("sensors")) return;
+    const ConfigNode node = config_.at("sensors");
+    const auto read = [&](const std::string& key, const std::string& unit, SensorModel& model) {
+      if (node.has(key)) model = SensorModel::load(node.at(key), unit);
+    };
+    read("position", "rad", model_->sensors.position);
+    read("velocity", "rad/s", model_->sensors.velocity);
+    read("current", "A", model_->sensors.current);
+    read("force", "N", model_->sensors.force);
+    read("joint_position", "rad", model_->sensors.joint_position);
+    if (node.has("seed")) model_->sensors.seed = node.at("seed").as_integer(0, 2147483647);
+  }
+
+  /// Points inside surfaces are easiest explained while the file is at hand.
+  void check_rest_posture() {
+    std::vector<BodyState> bodies;
+    KinematicTree(*skeleton_).place(skeleton_->rest_configuration(), {}, bodies);
+    if (!config_.has("muscles")) return;
+    const auto nodes = config_.at("muscles").entries();
+    for (std::size_t m = 0; m < nodes.size(); ++m) {
+      const PathModel& path = *model_->muscles[m].path;
+      std::vector<double> memory(path.state_size() + 1, 0.0);
+      MusclePath posture(path);
+      posture.initialise(bodies, StateView(memory.data()));
+      const auto entries = nodes[m].second.at("path").items();
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        const double depth = posture.obstacles()[i].penetration;
+        if (depth <= kAllowedPenetration) continue;
+        char text[32];
+        std::snprintf(text, sizeof(text), "%.2f", 1e3 * depth);
+        entries[i].fail(std::string("a neighbouring path point lies ") + text +
+                        " mm inside the surface at rest; expected it outside");
+      }
+    }
+  }
+
+  const ConfigNode& config_;
+  const LoadOptions& options_;
+  std::shared_ptr<RobotModel> model_;
+  std::shared_ptr<SkeletonModel> skeleton_;
+  std::set<std::string> used_kinds_;
+};
+
+}  // namespace
+
+int RobotModel::find_muscle(const std::string& muscle) const {
+  for (std::size_t i = 0; i < muscles.size(); ++i) {
+    if (muscles[i].name == muscle) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,
+                                                   const LoadOptions& options) {
+  return build_robot_model(ConfigNode::load(file), options);
+}
+
+std::shared_ptr<const RobotModel> build_robot_model(const ConfigNode& config,
+                                                    const LoadOptions& options) {
+  if (!(options.step > 0.0) || options.step > 0.1) {
+    config.fail("time step " + std::to_string(options.step) +
+                ": expected a number in (0, 0.1] [s]");
+  }
+  ConfigNode own = config.clone();
+  for (const auto& [path, value] : options.overrides) own.set_number(path, value);
+  return Builder(own, options).build();
+}
+
+}  // namespace anthrob

@@ -1,0 +1,126 @@
+#include "anthrob_sim/path/muscle_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anthrob {
+
+namespace {
+
+/// Angle between two unit vectors, accurate for small angles too [rad].
+double angle_between(const Vec3& a, const Vec3& b) {
+  const double cosine = a.dot(b);
+  if (cosine > 0.5) return 2.0 * std::asin(0.5 * (b - a).norm());
+  return std::acos(std::max(-1.0, cosine));
+}
+
+}  // namespace
+
+PathModel::PathModel(const SkeletonModel& skeleton, std::vector<PathObstacle> obstacles)
+    : obstacles_(std::move(obstacles)) {
+  for (const auto& obstacle : obstacles_) {
+    state_offsets_.push_back(state_size_);
+    if (obstacle.surface) state_size_ += obstacle.surface->state_size();
+    if (obstacle.friction) state_size_ += obstacle.friction->state_size();
+  }
+  for (std::size_t i = 0; i + 1 < obstacles_.size(); ++i) {
+    const PathObstacle &a = obstacles_[i], &b = obstacles_[i + 1];
+    joints_.push_back(joints_between(skeleton, a.body, b.body));
+    static_.push_back(!a.surface && !b.surface && a.body == 0 && b.body == 0);
+  }
+}
+
+MusclePath::MusclePath(const PathModel& model)
+    : model_(model), segments_(model.segment_count()), obstacles_(model.obstacles().size()) {}
+
+void MusclePath::initialise(const std::vector<BodyState>& bodies, StateView state) {
+  const auto& list = model_.obstacles();
+  for (std::size_t i = 0; i + 1 < list.size(); ++i) {
+    if (model_.is_static(i)) update_point_segment(bodies, i);
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].surface) continue;
+    const Pose& X_WB = bodies[list[i].body].X_WB;
+    const Vec3 before = X_WB.to_local(bodies[list[i - 1].body].X_WB * list[i - 1].point_B);
+    const Vec3 after = X_WB.to_local(bodies[list[i + 1].body].X_WB * list[i + 1].point_B);
+    list[i].surface->initialise(before, after, state.from(model_.state_offset(i)));
+  }
+  update(bodies, state);
+}
+
+void MusclePath::update(const std::vector<BodyState>& bodies, StateView state) {
+  const auto& list = model_.obstacles();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].surface) {
+      update_surface(bodies, state, i);
+    } else if (i + 1 < list.size() && !list[i + 1].surface && !model_.is_static(i)) {
+      update_point_segment(bodies, i);
+    }
+  }
+  length_ = 0.0;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    length_ += segments_[i].length + obstacles_[i].length_on;
+  }
+  for (std::size_t i = 1; i + 1 < list.size(); ++i) {
+    if (list[i].surface ||
+        (model_.is_static(i - 1) && model_.is_static(i) && obstacles_[i].turning > 0)) {
+      continue;
+    }
+    obstacles_[i].turning = angle_between(segments_[i - 1].direction_W, segments_[i].direction_W);
+  }
+}
+
+void MusclePath::update_point_segment(const std::vector<BodyState>& bodies, std::size_t i) {
+  const PathObstacle &a = model_.obstacles()[i], &b = model_.obstacles()[i + 1];
+  PathSegment& segment = segments_[i];
+  segment.from_W = bodies[a.body].X_WB * a.point_B;
+  segment.to_W = bodies[b.body].X_WB * b.point_B;
+  const Vec3 line = segment.to_W - segment.from_W;
+  segment.length = line.norm();
+  // Coincident points pull nowhere; any direction serves.
+  segment.direction_W = segment.length > 0.0 ? Vec3(line / segment.length) : Vec3(Vec3::UnitX());
+  segment.pull_W = segment.direction_W;
+}
+
+void MusclePath::update_surface(const std::vector<BodyState>& bodies, StateView state,
+                                std::size_t i) {
+  const auto& list = model_.obstacles();
+  const Pose& X_WB = bodies[list[i].body].X_WB;
+  const Vec3 before_W = bodies[list[i - 1].body].X_WB * list[i - 1].point_B;
+  const Vec3 after_W = bodies[list[i + 1].body].X_WB * list[i + 1].point_B;
+  list[i].surface->wrap(X_WB.to_local(before_W), X_WB.to_local(after_W),
+                        state.from(model_.state_offset(i)), contact_);
+  segments_[i - 1] = {before_W, X_WB * contact_.entry, X_WB.R * contact_.direction_in,
+                      X_WB.R * contact_.pull_in, contact_.length_in};
+  segments_[i] = {X_WB * contact_.exit, after_W, X_WB.R * contact_.direction_out,
+                  X_WB.R * contact_.pull_out, contact_.length_out};
+  obstacles_[i] = {contact_.touching,   contact_.length_on,  contact_.turning,
+                   contact_.wrap_angle, contact_.half_turns, contact_.penetration};
+}
+
+void MusclePath::add_moment_arms(std::size_t i, double scale, const KinematicTree& tree,
+                                 double* target) const {
+  const PathSegment& segment = segments_[i];
+  for (const JointOnPath& step : model_.joints_of_segment(i)) {
+    const JointModel& joint = tree.model().joints[step.joint];
+    const KinematicTree::JointView& view = tree.joint(step.joint);
+    const double weight = -scale * step.sign;
+    double* arm = target + joint.velocity_offset;
+    if (joint.type == JointType::kPrismatic) {
+      arm[0] += weight * view.axis_W.dot(segment.pull_W);
+      continue;
+    }
+    // The line of action may be taken at either end; the far end lies beyond the joint.
+    const Vec3& point = step.sign > 0 ? segment.to_W : segment.from_W;
+    const Vec3 moment = (point - view.center_W).cross(segment.pull_W);
+    if (joint.type == JointType::kHinge) {
+      arm[0] += weight * view.axis_W.dot(moment);
+    } else {
+      arm[0] += weight * moment[0];
+      arm[1] += weight * moment[1];
+      arm[2] += weight * moment[2];
+    }
+  }
+}
+
+}  // namespace anthrob

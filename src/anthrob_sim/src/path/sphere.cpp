@@ -1,0 +1,92 @@
+#include "anthrob_sim/path/sphere.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anthrob {
+
+namespace {
+/// Below this sine the two points and the centre are collinear and give no plane.
+constexpr double kCollinear = 1e-9;
+
+struct Arm {
+  Vec3 direction;
+  double distance;
+
+  Arm(const Vec3& point, const Vec3& center)
+      : direction(point - center), distance(direction.norm()) {
+    distance = std::max(distance, 1e-12);
+    direction /= distance;
+  }
+};
+
+/// The part of `v` across `direction`, as a unit vector; any such vector if there is none.
+Vec3 across(const Vec3& v, const Vec3& direction) {
+  const Vec3 rest = v - direction * direction.dot(v);
+  return rest.norm() > kCollinear ? Vec3(rest.normalized()) : Vec3(direction.unitOrthogonal());
+}
+}  // namespace
+
+void Sphere::initialise(const Vec3& before, const Vec3& after, StateView state) const {
+  auto& memory = state.as<State>();
+  const Arm j1(before, center_), j2(after, center_);
+  const Vec3 cross = j1.direction.cross(j2.direction);
+  const double sine = cross.norm();
+  const Vec3 normal = sine > kCollinear ? Vec3(cross / sine) : Vec3(j1.direction.unitOrthogonal());
+  Eigen::Map<Vec3>(memory.normal) = normal;
+  circle_.initialise(std::atan2(sine, j1.direction.dot(j2.direction)), j1.distance, j2.distance,
+                     memory.circle);
+}
+
+void Sphere::wrap(const Vec3& before, const Vec3& after, StateView state,
+                  WrapContact& contact) const {
+  auto& memory = state.as<State>();
+  Eigen::Map<Vec3> last_normal(memory.normal);
+  const Arm j1(before, center_), j2(after, center_);
+  const Vec3 cross = j1.direction.cross(j2.direction);
+  const double sine = cross.norm(), cosine = j1.direction.dot(j2.direction);
+
+  Vec3 normal;
+  if (sine < kCollinear) {
+    normal = across(last_normal, j1.direction);
+  } else {
+    normal = cross / sine;
+    if (memory.circle.side != 0.0 && normal.dot(last_normal) < 0.0) normal = -normal;
+  }
+  last_normal = normal;
+  const double angle = std::atan2(normal.dot(cross), cosine);
+  const CircleWrap::Result w = circle_.update(angle, j1.distance, j2.distance, memory.circle);
+  if (!w.touching) {
+    set_straight(before, after, center_, contact);
+    return;
+  }
+
+  const double r = circle_.radius();
+  const Vec3 forward1 = w.side * normal.cross(j1.direction);
+  const Vec3 forward2 = w.side * normal.cross(j2.direction);
+  const Vec3 a = w.cos1 * j1.direction + w.sin1 * forward1;
+  const Vec3 b = w.cos2 * j2.direction - w.sin2 * forward2;
+  contact.touching = true;
+  contact.entry = center_ + r * a;
+  contact.exit = center_ + r * b;
+  contact.direction_in = w.side * normal.cross(a);
+  contact.direction_out = w.side * normal.cross(b);
+  contact.pull_in = w.gain1 * contact.direction_in;
+  contact.pull_out = w.gain2 * contact.direction_out;
+  // The force acts where the point is, not where it was moved to.
+  if (w.gain1 > 1.0) contact.entry = before;
+  if (w.gain2 > 1.0) contact.exit = after;
+  contact.length_in = w.b1;
+  contact.length_on = r * w.alpha;
+  contact.length_out = w.b2;
+  contact.turning = w.alpha;
+  contact.wrap_angle = w.alpha;
+  contact.half_turns = static_cast<int>(w.alpha / 3.141592653589793);
+  contact.penetration = w.penetration;
+}
+
+std::shared_ptr<const WrappingSurface> Sphere::load(const ConfigNode& node, const Pose& X_BL) {
+  return std::make_shared<Sphere>(X_BL * node.at("center").as_vector3("m"), read_circle_wrap(node));
+}
+
+}  // namespace anthrob

@@ -1,0 +1,328 @@
+#include "anthrob_sim/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anthrob {
+
+namespace {
+
+/// Largest change of a joint between two postures that muscles follow on the way to a placed
+/// posture.
+constexpr double kPlaceStep = 0.03;  // [rad]; a prismatic joint counts 10 rad a metre
+
+/// Streams of random numbers of joint sensors begin here; muscles come before.
+constexpr std::uint64_t kJointStreams = 1u << 20;
+
+double slot_change(const JointModel& joint, const double* a, const double* b) {
+  switch (joint.type) {
+    case JointType::kBall:
+      return angular_distance(Quat(a[0], a[1], a[2], a[3]), Quat(b[0], b[1], b[2], b[3]));
+    case JointType::kHinge:
+      return std::abs(b[0] - a[0]);
+    case JointType::kPrismatic:
+      break;
+  }
+  return 10.0 * std::abs(b[0] - a[0]);
+}
+
+std::vector<double> between(const SkeletonModel& skeleton, const std::vector<double>& a,
+                            const std::vector<double>& b, double share) {
+  std::vector<double> q(a.size());
+  for (const JointModel& joint : skeleton.joints) {
+    const int i = joint.position_offset;
+    if (joint.type == JointType::kBall) {
+      const Quat turn = Quat(a[i], a[i + 1], a[i + 2], a[i + 3])
+                            .slerp(share, Quat(b[i], b[i + 1], b[i + 2], b[i + 3]));
+      q[i] = turn.w(), q[i + 1] = turn.x(), q[i + 2] = turn.y(), q[i + 3] = turn.z();
+    } else {
+      q[i] = a[i] + share * (b[i] - a[i]);
+    }
+  }
+  return q;
+}
+
+}  // namespace
+
+Simulation::Simulation(std::shared_ptr<const RobotModel> model)
+    : model_(std::move(model)),
+      skeleton_(*model_->skeleton, model_->gravity, model_->step, model_->collisions),
+      tree_(*model_->skeleton),
+      resistance_(*model_->skeleton, model_->step),
+      q_(model_->skeleton->rest_configuration()),
+      effort_(model_->skeleton->joints.size(), 0.0),
+      load_(model_->skeleton->joints.size(), 0.0) {
+  const SkeletonModel& skeleton = *model_->skeleton;
+  muscles_.reserve(model_->muscles.size());
+  for (std::size_t i = 0; i < model_->muscles.size(); ++i) {
+    muscles_.emplace_back(model_->muscles[i], skeleton, model_->sensors, static_cast<int>(i),
+                          model_->step, store_);
+  }
+  for (Muscle& muscle : muscles_) {
+    if (!muscle.sliding().contacts.empty()) sliding_.push_back(&muscle.sliding());
+  }
+  measured_offset_ = store_.reserve(skeleton.joints.size());
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    joint_sensors_.emplace_back(model_->sensors.joint_position, model_->sensors.seed,
+                                kJointStreams + i, model_->step);
+    joint_sensor_offsets_.push_back(store_.reserve(joint_sensors_.back().state_size()));
+  }
+  tau_.setZero(skeleton.velocity_count);
+  for (Muscle& muscle : muscles_) muscle.set_enabled(true);
+  place(q_, std::vector<double>(muscles_.size(), 0.0));
+}
+
+void Simulation::check_muscle(int muscle) const {
+  if (muscle < 0 || muscle >= static_cast<int>(muscles_.size())) {
+    throw BadInput("muscle " + std::to_string(muscle) + ": expected an index below " +
+                   std::to_string(muscles_.size()));
+  }
+}
+
+void Simulation::command(int muscle, ecu::Mode mode, double reference) {
+  check_muscle(muscle);
+  muscles_[muscle].command(mode, reference);
+}
+
+void Simulation::set_enabled(int muscle, bool enabled) {
+  check_muscle(muscle);
+  muscles_[muscle].set_enabled(enabled);
+}
+
+void Simulation::impose_position(int muscle, double position, double velocity) {
+  check_muscle(muscle);
+  muscles_[muscle].impose(position, velocity);
+}
+
+void Simulation::release(int muscle) {
+  check_muscle(muscle);
+  muscles_[muscle].release();
+}
+
+void Simulation::apply_effort(int joint, double effort) {
+  if (!model_->skeleton->joints.at(joint).driven) {
+    throw BadInput("joint " + model_->skeleton->joints[joint].name +
+                   ": takes no effort; expected 'driven: true' in " + model_->file);
+  }
+  effort_[joint] = effort;
+}
+
+void Simulation::apply_load(int joint, double load) {
+  if (model_->skeleton->joints.at(joint).type == JointType::kBall) {
+    throw BadInput("joint " + model_->skeleton->joints[joint].name +
+                   ": load: expected a hinge or prismatic joint");
+  }
+  load_[joint] = load;
+}
+
+void Simulation::place(const std::vector<double>& q, const std::vector<double>& positions) {
+  const SkeletonModel& skeleton = *model_->skeleton;
+  if (q.size() != static_cast<std::size_t>(skeleton.position_count) ||
+      positions.size() != muscles_.size()) {
+    throw BadInput("place: expected " + std::to_string(skeleton.position_count) +
+                   " joint numbers and " + std::to_string(muscles_.size()) + " muscle positions");
+  }
+  const std::vector<double> rest = skeleton.rest_configuration();
+  std::vector<BodyState> bodies;
+  tree_.place(rest, {}, bodies);
+  for (std::size_t i = 0; i < muscles_.size(); ++i) muscles_[i].place(bodies, positions[i]);
+
+  double change = 0.0;
+  for (const JointModel& joint : skeleton.joints) {
+    change = std::max(change,
+                      slot_change(joint, &rest[joint.position_offset], &q[joint.position_offset]));
+  }
+  const int count = static_cast<int>(std::ceil(change / kPlaceStep));
+  for (int i = 1; i <= count; ++i) {
+    tree_.place(i == count ? q : between(skeleton, rest, q, static_cast<double>(i) / count), {},
+                bodies);
+    for (Muscle& muscle : muscles_) muscle.follow(bodies);
+  }
+  q_ = q;
+  settle_in(bodies);
+}
+
+void Simulation::settle_in(const std::vector<BodyState>& bodies) {
+  skeleton_.set_bodies(bodies);
+  tree_.update(skeleton_.bodies(), q_);
+  joint_dissipation_ = 0.0;
+  for (const JointModel& joint : model_->skeleton->joints) {
+    const std::size_t i = &joint - model_->skeleton->joints.data();
+    joint_sensors_[i].reset(q_[joint.position_offset], store_.at(joint_sensor_offsets_[i]));
+  }
+  sense();
+}
+
+void Simulation::reset() {
+  for (Muscle& muscle : muscles_) {
+    muscle.release();
+    muscle.command(ecu::Mode::kVoltage, 0.0);
+  }
+  std::fill(effort_.begin(), effort_.end(), 0.0);
+  std::fill(load_.begin(), load_.end(), 0.0);
+  place(model_->skeleton->rest_configuration(), std::vector<double>(muscles_.size(), 0.0));
+}
+
+void Simulation::step(int count) {
+  for (int i = 0; i < count; ++i) step_once();
+}
+
+void Simulation::step_once() {
+  for (Muscle& muscle : muscles_) muscle.control(step_index_);
+
+  tree_.update_dynamics(skeleton_.bodies(), model_->gravity);
+  tau_.setZero();
+  for (const JointModel& joint : model_->skeleton->joints) {
+    const std::size_t i = &joint - model_->skeleton->joints.data();
+    tau_[joint.velocity_offset] += effort_[i] + load_[i];
+  }
+  for (Muscle& muscle : muscles_) muscle.prepare_sliding(tree_, tau_);
+  resistance_.solve(tree_, q_, tau_, sliding_);
+  // Work within the step goes with the mean of the velocities at its ends.
+  const Eigen::Map<const Eigen::VectorXd> start(tree_.velocities().data(), tau_.size());
+  joint_dissipation_ = -0.5 * resistance_.joint_torque().dot(start + resistance_.velocity());
+  for (Muscle& muscle : muscles_) muscle.finish_sliding();
+
+  apply_wrenches();
+  for (Muscle& muscle : muscles_) muscle.advance_actuator();
+  skeleton_.step();
+
+  ++step_index_;
+  tree_.update(skeleton_.bodies(), q_);
+  for (Muscle& muscle : muscles_) muscle.update(skeleton_.bodies(), tree_);
+  check_finite();
+  sense();
+}
+
+void Simulation::apply_wrenches() {
+  skeleton_.clear_wrenches();
+  const auto& bodies = skeleton_.bodies();
+  const auto apply = [&](int body, const Vec3& point_W, const Vec3& force_W) {
+    if (body == 0) return;
+    skeleton_.add_wrench(body, force_W, (point_W - bodies[body].X_WB.p).cross(force_W));
+  };
+  for (const Muscle& muscle : muscles_) {
+    const PathModel& path = *muscle.model().path;
+    for (std::size_t i = 0; i < path.segment_count(); ++i) {
+      if (path.joints_of_segment(i).empty()) continue;
+      const PathSegment& segment = muscle.path().segments()[i];
+      const Vec3 pull = muscle.tension(i) * segment.pull_W;
+      apply(path.obstacles()[i].body, segment.from_W, pull);
+      apply(path.obstacles()[i + 1].body, segment.to_W, -pull);
+    }
+  }
+  apply_joint_efforts();
+}
+
+void Simulation::apply_joint_efforts() {
+  const auto& bodies = skeleton_.bodies();
+  const auto& joints = model_->skeleton->joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const JointModel& joint = joints[i];
+    const KinematicTree::JointView& view = tree_.joint(static_cast<int>(i));
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    if (joint.type == JointType::kBall) {
+      torque = resistance_.joint_torque().segment<3>(joint.velocity_offset);
+    } else {
+      const double effort =
+          resistance_.joint_torque()[joint.velocity_offset] + effort_[i] + load_[i];
+      (joint.type == JointType::kHinge ? torque : force) = effort * view.axis_W;
+    }
+    for (const auto& [body, sign] : {std::pair{joint.child, 1.0}, std::pair{joint.parent, -1.0}}) {
+      if (body == 0) continue;
+      const Vec3 lever = view.center_W - bodies[body].X_WB.p;
+      skeleton_.add_wrench(body, sign * force, sign * (torque + lever.cross(force)));
+    }
+  }
+}
+
+void Simulation::sense() {
+  for (Muscle& muscle : muscles_) muscle.sense(step_index_);
+  const auto& joints = model_->skeleton->joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    store_.at(measured_offset_)[i] = joint_sensors_[i].measure(
+        q_[joints[i].position_offset], step_index_, store_.at(joint_sensor_offsets_[i]));
+  }
+}
+
+void Simulation::check_finite() const {
+  constexpr double kSensible = 1e9;
+  for (std::size_t i = 1; i < bodies().size(); ++i) {
+    const BodyState& body = bodies()[i];
+    const double size =
+        body.v_W.cwiseAbs().sum() + body.w_W.cwiseAbs().sum() + body.X_WB.p.cwiseAbs().sum();
+    if (!(size < kSensible)) {
+      throw NumericalFailure(time(), "body " + model_->skeleton->bodies[i].name,
+                             "its motion is not finite");
+    }
+  }
+  for (const Muscle& muscle : muscles_) {
+    if (!(std::abs(muscle.tension(0)) + std::abs(muscle.spring_tension()) < kSensible)) {
+      throw NumericalFailure(time(), "muscle " + muscle.model().name, "its tension is not finite");
+    }
+  }
+}
+
+double Simulation::measured_joint_position(int joint) const {
+  return store_.at(measured_offset_)[joint];
+}
+
+std::vector<double> Simulation::moment_arms(int index) const {
+  const SkeletonModel& skeleton = *model_->skeleton;
+  const MusclePath& path = muscles_.at(index).path();
+  std::vector<double> arms(skeleton.velocity_count, 0.0);
+  for (std::size_t i = 0; i < path.segments().size(); ++i)
+    path.add_moment_arms(i, 1.0, tree_, arms.data());
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    if (skeleton.joints[j].type != JointType::kBall) continue;
+    Eigen::Map<Vec3> arm(&arms[skeleton.joints[j].velocity_offset]);
+    arm = (tree_.joint(static_cast<int>(j)).R_WC.transpose() * arm).eval();
+  }
+  return arms;
+}
+
+Pose Simulation::link_pose(int frame) const {
+  const FrameModel& model = model_->skeleton->frames.at(frame);
+  const BodyModel& body = model_->skeleton->bodies[model.body];
+  return bodies()[model.body].X_WB * body.X_LB.inverse() * model.X_LF;
+}
+
+double Simulation::kinetic_energy() const {
+  double energy = 0.0;
+  for (std::size_t i = 1; i < bodies().size(); ++i) {
+    const BodyModel& body = model_->skeleton->bodies[i];
+    const Vec3 w_B = bodies()[i].X_WB.R.transpose() * bodies()[i].w_W;
+    energy += 0.5 * body.mass * bodies()[i].v_W.squaredNorm() +
+              0.5 * w_B.dot(body.principal.cwiseProduct(w_B));
+  }
+  return energy;
+}
+
+double Simulation::potential_energy() const {
+  double energy = 0.0;
+  for (std::size_t i = 1; i < bodies().size(); ++i) {
+    energy -= model_->skeleton->bodies[i].mass * model_->gravity.dot(bodies()[i].X_WB.p);
+  }
+  return energy;
+}
+
+Snapshot Simulation::snapshot() const {
+  return {step_index_, store_.data(), skeleton_.bodies(), q_, effort_, load_};
+}
+
+void Simulation::restore(const Snapshot& snapshot) {
+  if (snapshot.state.size() != store_.data().size() || snapshot.bodies.size() != bodies().size()) {
+    throw BadInput("snapshot: it belongs to another model");
+  }
+  step_index_ = snapshot.step_index;
+  store_.assign(snapshot.state);
+  q_ = snapshot.q;
+  effort_ = snapshot.effort;
+  load_ = snapshot.load;
+  skeleton_.set_bodies(snapshot.bodies);
+  tree_.update(skeleton_.bodies(), q_);
+  // Paths are scratch memory: the same posture and states give the same paths.
+  for (Muscle& muscle : muscles_) muscle.refresh_path(skeleton_.bodies());
+}
+
+}  // namespace anthrob

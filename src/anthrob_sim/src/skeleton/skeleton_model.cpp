@@ -1,0 +1,46 @@
+#include "anthrob_sim/skeleton/skeleton_model.h"
+
+#include <algorithm>
+
+namespace anthrob {
+
+namespace {
+template <class T>
+int find_by_name(const std::vector<T>& list, const std::string& name) {
+  const auto it =
+      std::find_if(list.begin(), list.end(), [&](const T& item) { return item.name == name; });
+  return it == list.end() ? -1 : static_cast<int>(it - list.begin());
+}
+}  // namespace
+
+int SkeletonModel::find_frame(const std::string& name) const {
+  return find_by_name(frames, name);
+}
+int SkeletonModel::find_joint(const std::string& name) const {
+  return find_by_name(joints, name);
+}
+
+std::vector<double> SkeletonModel::rest_configuration() const {
+  std::vector<double> q(position_count, 0.0);
+  for (const auto& joint : joints) {
+    if (joint.type == JointType::kBall) q[joint.position_offset] = 1.0;
+  }
+  return q;
+}
+
+std::vector<JointOnPath> joints_between(const SkeletonModel& model, int from, int to) {
+  // Body b hangs on joint b - 1, and parents have smaller indices: climb from the larger one.
+  std::vector<JointOnPath> path;
+  while (from != to) {
+    if (to > from) {
+      path.push_back({to - 1, +1.0});
+      to = model.joints[to - 1].parent;
+    } else {
+      path.push_back({from - 1, -1.0});
+      from = model.joints[from - 1].parent;
+    }
+  }
+  return path;
+}
+
+}  // namespace anthrob

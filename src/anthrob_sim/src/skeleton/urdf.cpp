@@ -1,0 +1,241 @@
+#include <console_bridge/console.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
+
+namespace anthrob {
+
+namespace {
+
+/// Collects what urdfdom would print, so that it can go into one line.
+class MessageCollector : public console_bridge::OutputHandler {
+ public:
+  MessageCollector() { console_bridge::useOutputHandler(this); }
+  ~MessageCollector() override { console_bridge::restorePreviousOutputHandler(); }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    if (!text_.empty()) text_ += "; ";
+    for (const char c : text) text_ += c == '\n' ? ' ' : c;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+Vec3 to_vec(const urdf::Vector3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Pose to_pose(const urdf::Pose& pose) {
+  double x, y, z, w;
+  pose.rotation.getQuaternion(x, y, z, w);
+  return {Quat(w, x, y, z).normalized().toRotationMatrix(), to_vec(pose.position)};
+}
+
+/// Adds a rigid body with centre of mass and inertia given in the same frame as `body`'s.
+void add_mass(BodyModel& body, double mass, const Vec3& com, const Mat3& inertia) {
+  const double total = body.mass + mass;
+  if (total <= 0.0) return;
+  const Vec3 center = (body.mass * body.com_L + mass * com) / total;
+  const auto shifted = [&](const Mat3& I, double m, const Vec3& c) -> Mat3 {
+    const Vec3 d = c - center;
+    return I + m * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+  };
+  body.inertia_L = shifted(body.inertia_L, body.mass, body.com_L) + shifted(inertia, mass, com);
+  body.com_L = center;
+  body.mass = total;
+}
+
+class Builder {
+ public:
+  explicit Builder(const std::string& file) : file_(file) {}
+
+  SkeletonModel build() {
+    std::ifstream in(file_);
+    if (!in) throw BadInput(file_ + ": cannot be read; expected a URDF file");
+    std::stringstream text;
+    text << in.rdbuf();
+    urdf::ModelInterfaceSharedPtr robot;
+    {
+      MessageCollector messages;
+      robot = urdf::parseURDF(text.str());
+      if (!robot) {
+        throw BadInput(file_ + ": not a valid URDF: " +
+                       (messages.text().empty() ? "no XML" : messages.text()));
+      }
+    }
+    model_.bodies.push_back({});
+    model_.bodies[0].name = robot->getRoot()->name;
+    add_link(*robot->getRoot(), 0, Pose());
+    for (auto& body : model_.bodies) {
+      if (&body != &model_.bodies[0]) finish_body(body);
+    }
+    return std::move(model_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw BadInput(file_ + ": " + message);
+  }
+
+  void add_link(const urdf::Link& link, int body, const Pose& X_LF) {
+    model_.frames.push_back({link.name, body, X_LF});
+    if (body > 0 && link.inertial) add_inertial(link, body, X_LF);
+    for (const auto& collision : link.collision_array) {
+      model_.bodies[body].collisions.push_back(
+          shape(link.name, *collision, X_LF * to_pose(collision->origin)));
+    }
+    for (const auto& joint : link.child_joints) {
+      if (joint->type == urdf::Joint::FIXED) {
+        add_child(link, *joint, body, X_LF);
+      }
+    }
+    for (const auto& joint : link.child_joints) {
+      if (joint->type != urdf::Joint::FIXED) {
+        add_child(link, *joint, body, X_LF);
+      }
+    }
+  }
+
+  void add_inertial(const urdf::Link& link, int body, const Pose& X_LF) {
+    const auto& inertial = *link.inertial;
+    if (!(inertial.mass >= 0.0) || !std::isfinite(inertial.mass)) {
+      fail("link " + link.name + ": mass: " + std::to_string(inertial.mass) +
+           ": expected a number >= 0 [kg]");
+    }
+    Mat3 I;
+    I << inertial.ixx, inertial.ixy, inertial.ixz,  //
+        inertial.ixy, inertial.iyy, inertial.iyz,   //
+        inertial.ixz, inertial.iyz, inertial.izz;
+    const Pose X_LI = X_LF * to_pose(inertial.origin);
+    add_mass(model_.bodies[body], inertial.mass, X_LI.p, X_LI.R * I * X_LI.R.transpose());
+  }
+
+  void add_child(const urdf::Link& parent, const urdf::Joint& joint, int body, const Pose& X_LF) {
+    const urdf::Link* child = nullptr;
+    for (const auto& link : parent.child_links) {
+      if (link->name == joint.child_link_name) child = link.get();
+    }
+    const Pose X_LC = X_LF * to_pose(joint.parent_to_joint_origin_transform);
+    if (joint.type == urdf::Joint::FIXED) {
+      add_link(*child, body, X_LC);
+      return;
+    }
+    JointModel model;
+    model.name = joint.name;
+    model.parent = body;
+    model.child = static_cast<int>(model_.bodies.size());
+    model.X_PC_rest = X_LC;
+    switch (joint.type) {
+      case urdf::Joint::FLOATING:
+        model.type = JointType::kBall;
+        break;
+      case urdf::Joint::REVOLUTE:
+      case urdf::Joint::CONTINUOUS:
+        model.type = JointType::kHinge;
+        break;
+      case urdf::Joint::PRISMATIC:
+        model.type = JointType::kPrismatic;
+        break;
+      default:
+        fail("joint " + joint.name +
+             ": type: expected revolute, continuous, prismatic, fixed, or floating (a ball joint)");
+    }
+    if (model.type != JointType::kBall) {
+      model.axis_C = to_vec(joint.axis);
+      const double norm = model.axis_C.norm();
+      if (!(norm > 1e-6))
+        fail("joint " + joint.name + ": axis: expected a vector that is not zero");
+      model.axis_C /= norm;
+    }
+    if (joint.dynamics) {
+      model.friction.viscous = joint.dynamics->damping;
+      model.friction.static_torque = model.friction.kinetic_torque = joint.dynamics->friction;
+    }
+    if (joint.limits &&
+        (joint.type == urdf::Joint::REVOLUTE || model.type == JointType::kPrismatic)) {
+      if (!(joint.limits->lower < joint.limits->upper)) {
+        fail("joint " + joint.name + ": limit: lower " + std::to_string(joint.limits->lower) +
+             ", upper " + std::to_string(joint.limits->upper) + ": expected lower < upper");
+      }
+      model.stop.enabled = true;
+      model.stop.lower = joint.limits->lower;
+      model.stop.upper = joint.limits->upper;
+    }
+    model.position_offset = model_.position_count;
+    model.velocity_offset = model_.velocity_count;
+    model_.position_count += model.position_size();
+    model_.velocity_count += model.dof();
+    model_.joints.push_back(model);
+
+    BodyModel child_body;
+    child_body.name = child->name;
+    model_.bodies.push_back(child_body);
+    add_link(*child, model.child, Pose());
+  }
+
+  void finish_body(BodyModel& body) {
+    if (!(body.mass > 0.0)) {
+      fail("link " + body.name +
+           ": inertial: missing or without mass; a body that moves needs mass > 0 [kg]");
+    }
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(body.inertia_L);
+    Mat3 axes = eigen.eigenvectors();
+    if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
+    body.principal = eigen.eigenvalues();
+    const double slack = 1e-6 * body.principal.sum();
+    if (!(body.principal.minCoeff() > 0.0) ||
+        body.principal[2] > body.principal[0] + body.principal[1] + slack) {
+      std::ostringstream value;
+      value << body.principal.transpose();
+      fail("link " + body.name + ": inertia: principal moments " + value.str() +
+           ": expected three numbers > 0, none larger than the other two together [kg m^2]");
+    }
+    body.X_LB = {axes, body.com_L};
+  }
+
+  CollisionModel shape(const std::string& link, const urdf::Collision& collision,
+                       const Pose& X_LS) {
+    CollisionModel model;
+    model.X_LS = X_LS;
+    switch (collision.geometry->type) {
+      case urdf::Geometry::BOX:
+        model.type = ShapeType::kBox;
+        model.size = to_vec(static_cast<const urdf::Box&>(*collision.geometry).dim);
+        break;
+      case urdf::Geometry::SPHERE:
+        model.type = ShapeType::kSphere;
+        model.size = {static_cast<const urdf::Sphere&>(*collision.geometry).radius, 0, 0};
+        break;
+      case urdf::Geometry::CYLINDER: {
+        const auto& cylinder = static_cast<const urdf::Cylinder&>(*collision.geometry);
+        model.type = ShapeType::kCylinder;
+        model.size = {cylinder.radius, cylinder.length, 0};
+        break;
+      }
+      default:
+        fail("link " + link + ": collision: expected a box, a sphere or a cylinder");
+    }
+    return model;
+  }
+
+  std::string file_;
+  SkeletonModel model_;
+};
+
+}  // namespace
+
+SkeletonModel load_urdf(const std::string& file) {
+  return Builder(file).build();
+}
+
+}  // namespace anthrob
