@@ -1,0 +1,215 @@
+// Malformed robot and model files: each is refused with one line that names file, key, value and expectation.
+#include <gtest/gtest.h>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/simulation.h"
+#include "support.h"
+
+namespace anthrob {
+namespace {
+
+using testing_support::TemporaryRobot;
+
+const char* const kUrdf = R"(<robot name="rig">
+  <link name="base"/>
+  <joint name="shoulder" type="floating">
+    <parent link="base"/><child link="upper"/><origin xyz="0 0 0.3"/>
+  </joint>
+  <link name="upper"><inertial><mass value="0.7"/>
+    <inertia ixx="2e-3" ixy="0" ixz="0" iyy="2e-3" iyz="0" izz="5e-4"/></inertial></link>
+  <joint name="elbow" type="revolute">
+    <parent link="upper"/><child link="lower"/><axis xyz="0 1 0"/>
+    <limit lower="0" upper="2" effort="0" velocity="0"/>
+  </joint>
+  <link name="lower"><inertial><mass value="0.2"/>
+    <inertia ixx="4e-4" ixy="0" ixz="0" iyy="4e-4" iyz="0" izz="2e-5"/></inertial></link>
+</robot>)";
+
+const char* const kModel = R"(robot: robot.urdf
+gravity: [0, 0, -9.81]
+joints:
+  shoulder:
+    type: ball
+    center: [0, 0, 0.1]
+    friction: {static: 0.0, kinetic: 0.0, viscous: 0.1, stribeck_velocity: 0.05}
+  elbow:
+    stop: {stiffness: 500, damping: 1}
+springs:
+  ring: {type: zener, rest_length: 0.015, section_diameter: 0.005, strands: 2, modulus: 8e5, arm_modulus: 1e5, relaxation_time: 1.3}
+actuators:
+  motor:
+    type: dc_motor
+    motor: {resistance: 0.67, inductance: 5.73e-5, torque_constant: 0.0115, back_emf_constant: 0.0115, rotor_inertia: 1.05e-6}
+    gear: {law: current_sign, ratio: 128, efficiency: 0.59, inertia: 4.0e-8, steepness: 10, shift: 3, friction_torque: 0.0}
+    power_stage: {resistance: 0.12}
+    nominal_voltage: 12.0
+controllers:
+  pd:
+    period: 0.001
+    voltage_limit: 12
+    position: {proportional: 5, derivative: 0.5, force_feedforward: 0.005}
+    current: {proportional: 0, integral: 400}
+    force: {proportional: 0.5, integral: 1, derivative: 0.5, force_feedforward: 0.005}
+eyelet_friction: {law: smooth_stribeck, static: 0.195, kinetic: 0.156, stribeck_velocity: 0.001, steepness: 10}
+muscles:
+  biceps:
+    actuator: motor
+    controller: pd
+    ecu: ecu_1
+    spindle_radius: 0.0065
+    rest_tendon_length: 0.35
+    spring: {kind: ring, quantity: 2, segment: 0}
+    force_sensor_segment: 0
+    path:
+      - {point: [0.05, 0, 0.6], body: base}
+      - {point: [0.05, 0, 0.4], body: base}
+      - {cylinder: {origin: [0, 0, 0], axis: [0, 1, 0], radius: 0.02}, body: upper}
+      - {point: [0.03, 0, -0.05], body: lower}
+)";
+
+struct Case {
+  const char* what;
+  bool in_urdf;
+  const char* from;
+  const char* to;
+  std::vector<const char*> expected;  ///< all of these words must be in the message
+};
+
+const Case kCases[] = {
+    {"missing file name", false, "robot: robot.urdf", "robot: nowhere.urdf", {"model.yaml:1", "robot", "nowhere.urdf", "URDF"}},
+    {"missing gravity", false, "gravity: [0, 0, -9.81]\n", "", {"model.yaml", "gravity", "missing"}},
+    {"gravity of two numbers", false, "[0, 0, -9.81]", "[0, -9.81]", {"gravity", "three numbers"}},
+    {"gravity not a number", false, "-9.81", ".nan", {"gravity", ".nan", "finite"}},
+    {"unknown top-level key", false, "gravity:", "gravitation: 1\ngravity:", {"gravitation", "unknown key"}},
+    {"misspelt muscle key", false, "spindle_radius:", "spindel_radius:", {"biceps", "spindle_radius", "missing"}},
+    {"extra muscle key", false, "    ecu: ecu_1", "    ecu: ecu_1\n    colour: red", {"muscles.biceps.colour", "unknown key"}},
+    {"negative spindle radius", false, "0.0065", "-0.0065", {"model.yaml:32", "spindle_radius", "-0.0065", "> 0", "[m]"}},
+    {"spindle radius with unit", false, "0.0065", "6.5 mm", {"spindle_radius", "6.5 mm", "[m]"}},
+    {"efficiency above one", false, "efficiency: 0.59", "efficiency: 1.2", {"gear.efficiency", "1.2", "(0, 1]"}},
+    {"zero inductance", false, "inductance: 5.73e-5", "inductance: 0", {"motor.inductance", "> 0", "[H]"}},
+    {"unknown actuator type", false, "type: dc_motor", "type: steam", {"actuators.motor.type", "steam", "dc_motor"}},
+    {"unknown actuator name", false, "actuator: motor", "actuator: engine", {"biceps.actuator", "engine", "actuators"}},
+    {"unknown gear law", false, "law: current_sign", "law: magic", {"gear.law", "magic", "current_sign"}},
+    {"unknown friction law", false, "law: smooth_stribeck", "law: grease", {"eyelet_friction.law", "grease", "sticking"}},
+    {"negative friction", false, "static: 0.195", "static: -0.195", {"eyelet_friction.static", "-0.195", ">= 0"}},
+    {"no spring at all", false, "    spring: {kind: ring, quantity: 2, segment: 0}\n", "", {"biceps", "spring", "section 4.6"}},
+    {"unknown spring", false, "kind: ring", "kind: rubber", {"spring.kind", "rubber", "springs"}},
+    {"spring in a segment that is not there", false, "segment: 0}", "segment: 7}", {"spring.segment", "7", "0 to 2"}},
+    {"zero rings", false, "quantity: 2", "quantity: 0", {"spring.quantity", "0", "1 to"}},
+    {"zero relaxation time", false, "relaxation_time: 1.3", "relaxation_time: 0", {"relaxation_time", "> 0", "[s]"}},
+    {"body that is not there", false, "body: lower", "body: hand", {"path.3.body", "hand", "link", "robot.urdf"}},
+    {"path of one point", false,
+     "      - {point: [0.05, 0, 0.4], body: base}\n      - {cylinder: {origin: [0, 0, 0], axis: [0, 1, 0], radius: 0.02}, body: upper}\n      - {point: [0.03, 0, -0.05], body: lower}\n",
+     "", {"biceps.path", "two points"}},
+    {"path that ends on a surface", false, "      - {point: [0.03, 0, -0.05], body: lower}\n", "", {"path.2", "ends with a point"}},
+    {"two surfaces in a row", false, "      - {point: [0.03, 0, -0.05]",
+     "      - {sphere: {center: [0, 0, 0], radius: 0.01}, body: upper}\n      - {point: [0.03, 0, -0.05]", {"path.3", "two surfaces"}},
+    {"unknown surface", false, "cylinder:", "torus:", {"path.2.torus", "cylinder, sphere"}},
+    {"axis without direction", false, "axis: [0, 1, 0]", "axis: [0, 0, 0]", {"axis", "not zero"}},
+    {"point inside its cylinder", false, "radius: 0.02", "radius: 0.08", {"path.2", "inside"}},
+    {"unknown wrapping start", false, "radius: 0.02}", "radius: 0.02, start: left}", {"start", "left", "positive"}},
+    {"same point twice", false, "[0.05, 0, 0.4]", "[0.05, 0, 0.6]", {"path.1", "same place"}},
+    {"point of two numbers", false, "[0.05, 0, 0.4]", "[0.05, 0]", {"path.1.point", "three numbers"}},
+    {"controller period that does not fit the step", false, "period: 0.001", "period: 0.0015", {"pd.period", "0.0015", "multiple"}},
+    {"joint that is not there", false, "  elbow:\n    stop", "  knee:\n    stop", {"joints.knee", "no movable joint"}},
+    {"ball joint without entry", false,
+     "  shoulder:\n    type: ball\n    center: [0, 0, 0.1]\n    friction: {static: 0.0, kinetic: 0.0, viscous: 0.1, stribeck_velocity: 0.05}\n",
+     "", {"shoulder", "type: ball"}},
+    {"limited joint without stop", false, "    stop: {stiffness: 500, damping: 1}", "    friction: {static: 0, kinetic: 0, viscous: 0, stribeck_velocity: 1}", {"joints.elbow", "stop", "missing"}},
+    {"muscle name in capitals", false, "  biceps:", "  Biceps:", {"Biceps", "lower_snake_case"}},
+    {"key given twice", false, "    ecu: ecu_1", "    ecu: ecu_1\n    ecu: ecu_2", {"ecu", "twice"}},
+    {"not YAML", false, "springs:", "springs: [", {"model.yaml:", "not valid YAML"}},
+    {"extends nothing", false, "robot: robot.urdf", "extends: other.yaml\nrobot: robot.urdf", {"extends", "other.yaml", "no such file"}},
+    {"extends itself", false, "robot: robot.urdf", "extends: model.yaml\nrobot: robot.urdf", {"model.yaml", "extends itself"}},
+    {"not XML", true, "<robot name=\"rig\">", "<robot name=", {"robot.urdf", "not a valid URDF"}},
+    {"massless link", true, "<mass value=\"0.2\"/>", "<mass value=\"0\"/>", {"robot.urdf", "lower", "mass"}},
+    {"negative mass", true, "<mass value=\"0.2\"/>", "<mass value=\"-0.2\"/>", {"robot.urdf", "lower", "mass", "-0.2"}},
+    {"link without inertial", true, "<link name=\"lower\"><inertial><mass value=\"0.2\"/>\n    <inertia ixx=\"4e-4\" ixy=\"0\" ixz=\"0\" iyy=\"4e-4\" iyz=\"0\" izz=\"2e-5\"/></inertial></link>", "<link name=\"lower\"/>", {"robot.urdf", "lower", "inertial"}},
+    {"inertia against the triangle inequality", true, "izz=\"2e-5\"", "izz=\"2e-3\"", {"robot.urdf", "lower", "principal moments"}},
+    {"joint without axis direction", true, "<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 0\"/>", {"robot.urdf", "elbow", "axis"}},
+    {"limits swapped", true, "lower=\"0\" upper=\"2\"", "lower=\"2\" upper=\"0\"", {"robot.urdf", "elbow", "lower < upper"}},
+    {"joint to a link that is not there", true, "<child link=\"lower\"/>", "<child link=\"hand\"/>", {"robot.urdf", "hand"}},
+    {"planar joint", true, "type=\"revolute\"", "type=\"planar\"", {"robot.urdf", "elbow", "revolute"}},
+};
+
+TEST(BadFiles, TheGoodOnesLoad) {
+  const TemporaryRobot robot(kUrdf, kModel);
+  Simulation sim(robot.load());
+  sim.step(10);
+}
+
+TEST(BadFiles, EachIsRefusedWithOneLine) {
+  static_assert(std::size(kCases) >= 30, "at least thirty kinds");
+  for (const Case& test : kCases) {
+    SCOPED_TRACE(test.what);
+    std::string text = test.in_urdf ? kUrdf : kModel;
+    const auto at = text.find(test.from);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, std::string(test.from).size(), test.to);
+    const TemporaryRobot robot(test.in_urdf ? text : kUrdf, test.in_urdf ? kModel : text);
+    try {
+      robot.load();
+      FAIL() << "was accepted";
+    } catch (const BadInput& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      for (const char* word : test.expected) {
+        EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' is not in: " << message;
+      }
+    }
+  }
+}
+
+TEST(BadFiles, MissingModelFile) {
+  EXPECT_THROW(load_robot_model("/nowhere/model.yaml"), BadInput);
+}
+
+TEST(ConfigNode, ExtendsMergesMapsReplacesListsAndRemovesNulls) {
+  const TemporaryRobot robot(kUrdf, kModel);
+  const_cast<TemporaryRobot&>(robot).write("more.yaml", R"(extends: model.yaml
+eyelet_friction: null
+muscles:
+  biceps:
+    spindle_radius: 0.007
+    path:
+      - {point: [0.05, 0, 0.6], body: base}
+      - {point: [0.05, 0, 0.41], body: base}
+      - {point: [0.03, 0, -0.05], body: lower}
+)");
+  const std::string file = robot.file().substr(0, robot.file().rfind('/')) + "/more.yaml";
+  const auto model = load_robot_model(file);
+  EXPECT_EQ(model->muscles[0].path->obstacles().size(), 3u);
+  EXPECT_EQ(model->muscles[0].path->obstacles()[1].friction, nullptr);
+  EXPECT_NEAR(model->muscles[0].actuator->position_for(0.343), 1.0, 1e-9);
+  EXPECT_TRUE(model->muscles[0].has_controller);
+}
+
+TEST(ConfigNode, ErrorsInExtendingFilesNameTheRightFile) {
+  TemporaryRobot robot(kUrdf, kModel);
+  robot.write("more.yaml", "extends: model.yaml\nmuscles: {biceps: {spindle_radius: 0}}\n");
+  const std::string file = robot.file().substr(0, robot.file().rfind('/')) + "/more.yaml";
+  try {
+    load_robot_model(file);
+    FAIL() << "was accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("more.yaml:2"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ConfigNode, OverridesReachNumbersByPath) {
+  const TemporaryRobot robot(kUrdf, kModel);
+  const auto model = robot.load(1e-3, {{"muscles.biceps.path.1.point.2", 0.45}});
+  EXPECT_NEAR(model->muscles[0].path->obstacles()[1].point_B.z(), 0.45, 1e-12);
+  EXPECT_THROW(robot.load(1e-3, {{"muscles.biceps.path.1.point.5", 0.45}}), BadInput);
+  EXPECT_THROW(robot.load(1e-3, {{"muscles.biceps.actuator", 1.0}}), BadInput);
+}
+
+TEST(BadFiles, ImpossibleTimeStep) {
+  const TemporaryRobot robot(kUrdf, kModel);
+  EXPECT_THROW(robot.load(0.0), BadInput);
+  EXPECT_THROW(robot.load(-1e-3), BadInput);
+  EXPECT_THROW(robot.load(0.002), BadInput);  // longer than a controller's period
+}
+
+}  // namespace
+}  // namespace anthrob

@@ -1,0 +1,88 @@
+// Sensor imperfections and the counter-based random numbers behind them.
+#include "anthrob_sim/sensing/sensor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace anthrob {
+namespace {
+
+class Instrument {
+ public:
+  explicit Instrument(const SensorModel& model, std::uint64_t stream = 0)
+      : sensor_(model, 7, stream, 1e-3), memory_(sensor_.state_size() + 1, 0.0) {
+    sensor_.reset(0.0, StateView(memory_.data()));
+  }
+  double measure(double value) { return sensor_.measure(value, index_++, StateView(memory_.data())); }
+
+ private:
+  Sensor sensor_;
+  std::vector<double> memory_;
+  std::uint64_t index_ = 0;
+};
+
+TEST(Sensor, IdealByDefault) {
+  Instrument sensor{SensorModel()};
+  for (double x : {1.0, -3.25, 1e-9}) EXPECT_EQ(sensor.measure(x), x);
+}
+
+TEST(Sensor, DelayIsInWholeSteps) {
+  SensorModel model;
+  model.delay = 0.005;
+  Instrument sensor(model);
+  for (int i = 1; i <= 20; ++i) EXPECT_EQ(sensor.measure(i), i <= 5 ? 0.0 : i - 5.0);
+}
+
+TEST(Sensor, QuantumRoundsToCounts) {
+  SensorModel model;
+  model.quantum = 0.25;
+  Instrument sensor(model);
+  EXPECT_EQ(sensor.measure(0.30), 0.25);
+  EXPECT_EQ(sensor.measure(-0.40), -0.5);
+}
+
+TEST(Sensor, NoiseIsNormalAndWhite) {
+  SensorModel model;
+  model.noise = 0.1;
+  Instrument sensor(model);
+  const int n = 200000;
+  double sum = 0.0, squares = 0.0, product = 0.0, fourth = 0.0, last = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double e = sensor.measure(0.0) / 0.1;
+    sum += e, squares += e * e, product += e * last, fourth += e * e * e * e;
+    last = e;
+  }
+  EXPECT_NEAR(sum / n, 0.0, 4 / std::sqrt(n));
+  EXPECT_NEAR(squares / n, 1.0, 4 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(product / n, 0.0, 4 / std::sqrt(n));
+  EXPECT_NEAR(fourth / n, 3.0, 4 * std::sqrt(96.0 / n));
+}
+
+TEST(Sensor, StreamsAreIndependentAndRepeatable) {
+  SensorModel model;
+  model.noise = 1.0;
+  Instrument a(model, 1), b(model, 2), again(model, 1);
+  double product = 0.0;
+  for (int i = 0; i < 100000; ++i) {
+    const double x = a.measure(0.0);
+    product += x * b.measure(0.0);
+    ASSERT_EQ(again.measure(0.0), x);
+  }
+  EXPECT_NEAR(product / 100000, 0.0, 4 / std::sqrt(100000.0));
+}
+
+TEST(Sensor, AverageIsAMovingMean) {
+  SensorModel model;
+  model.average = 4;
+  Instrument sensor(model);
+  EXPECT_DOUBLE_EQ(sensor.measure(4.0), 4.0);
+  EXPECT_DOUBLE_EQ(sensor.measure(8.0), 6.0);
+  sensor.measure(0.0);
+  EXPECT_DOUBLE_EQ(sensor.measure(0.0), 3.0);
+  EXPECT_DOUBLE_EQ(sensor.measure(0.0), 2.0);
+}
+
+}  // namespace
+}  // namespace anthrob
