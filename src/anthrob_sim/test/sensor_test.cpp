@@ -15,7 +15,9 @@ class Instrument {
       : sensor_(model, 7, stream, 1e-3), memory_(sensor_.state_size() + 1, 0.0) {
     sensor_.reset(0.0, StateView(memory_.data()));
   }
-  double measure(double value) { return sensor_.measure(value, index_++, StateView(memory_.data())); }
+  double measure(double value) {
+    return sensor_.measure(value, index_++, StateView(memory_.data()));
+  }
 
  private:
   Sensor sensor_;

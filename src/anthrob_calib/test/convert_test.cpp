@@ -1,0 +1,208 @@
+// bag -> dataset folder -> bag keeps every value and stamp of the four topics, bit for bit.
+#include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/SphericalJointStates.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/JointState.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/bag.h"
+
+namespace anthrob {
+namespace {
+
+std::mt19937_64 engine(1);
+
+double any_double() {
+  const int exponent = std::uniform_int_distribution<int>(-300, 300)(engine);
+  return std::ldexp(std::uniform_real_distribution<double>(-1, 1)(engine), exponent);
+}
+
+std::vector<double> any_doubles(std::size_t n) {
+  std::vector<double> list(n);
+  for (double& x : list) x = any_double();
+  return list;
+}
+
+class Folder {
+ public:
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("anthrob_convert_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+const std::vector<std::string> kMuscles = {"lateral_deltoid", "biceps_brachii", "brachialis"};
+
+void write_original(const std::string& file) {
+  rosbag::Bag bag(file, rosbag::bagmode::Write);
+  for (int i = 0; i < 400; ++i) {
+    const ros::Time stamp(1700000000 + i / 200, (i % 200) * 5000000 + 123);
+    const ros::Time arrival = stamp + ros::Duration(0, 777 + i % 13);
+    anthrob_msgs::MuscleStates states;
+    states.header.stamp = stamp;
+    states.header.frame_id = "base";
+    states.name = kMuscles;
+    states.position = any_doubles(3), states.velocity = any_doubles(3),
+    states.current = any_doubles(3);
+    states.voltage = any_doubles(3), states.reference = any_doubles(3);
+    if (i % 2) states.force = any_doubles(3);  // not measured in every message
+    states.mode = {1, 1, static_cast<std::uint8_t>(i % 4)};
+    states.ecu_state = {2, 3, static_cast<std::uint8_t>(i % 5)};
+    if (i == 5) states.position[1] = std::nan("");
+    if (i == 6) states.position[1] = -INFINITY;
+    if (i == 7) states.mode[0] = 200;
+    bag.write("/anthrob/muscle_states", arrival, states);
+
+    sensor_msgs::JointState joints;
+    joints.header.stamp = stamp;
+    joints.name = {"elbow"};
+    joints.position = any_doubles(1), joints.velocity = any_doubles(1);
+    bag.write("/anthrob/joint_states", stamp, joints);
+
+    anthrob_msgs::SphericalJointStates balls;
+    balls.header.stamp = stamp;
+    if (i % 3) {  // sometimes not seen
+      balls.name = {"shoulder"};
+      balls.orientation.resize(1);
+      balls.orientation[0].w = any_double(), balls.orientation[0].x = any_double();
+      balls.orientation[0].y = any_double(), balls.orientation[0].z = any_double();
+      balls.angular_velocity.resize(1);
+      balls.angular_velocity[0].x = any_double(), balls.angular_velocity[0].y = any_double();
+      balls.angular_velocity[0].z = -0.0;
+    }
+    bag.write("/anthrob/spherical_joint_states", arrival, balls);
+
+    if (i % 50 == 0) {
+      anthrob_msgs::MuscleCommand command;
+      if (i % 100 == 0) command.header.stamp = stamp;  // rostopic pub leaves the stamp at zero
+      command.name = {kMuscles[static_cast<std::size_t>(i / 50) % 3]};
+      command.mode = {static_cast<std::uint8_t>(i / 50 % 4)};
+      command.reference = any_doubles(1);
+      bag.write("/anthrob/muscle_command", arrival, command);
+    }
+  }
+}
+
+template <class Message>
+std::vector<std::pair<ros::Time, Message>> messages(const std::string& file,
+                                                    const std::string& topic) {
+  rosbag::Bag bag(file, rosbag::bagmode::Read);
+  std::vector<std::pair<ros::Time, Message>> list;
+  for (const auto& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    list.emplace_back(instance.getTime(), *instance.instantiate<Message>());
+    list.back().second.header.seq = 0;  // counted anew by every publisher
+  }
+  return list;
+}
+
+template <class Message>
+std::string bytes(const Message& message) {
+  std::string buffer(ros::serialization::serializationLength(message), '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&buffer[0]), buffer.size());
+  ros::serialization::serialize(stream, message);
+  return buffer;
+}
+
+template <class Message>
+void expect_same(const std::string& a, const std::string& b, const std::string& topic,
+                 std::size_t count) {
+  const auto one = messages<Message>(a, topic), two = messages<Message>(b, topic);
+  ASSERT_EQ(one.size(), count) << topic;
+  ASSERT_EQ(two.size(), count) << topic;
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_EQ(one[i].first, two[i].first) << topic << " " << i;
+    EXPECT_EQ(bytes(one[i].second), bytes(two[i].second)) << topic << " " << i;
+  }
+}
+
+TEST(Convert, BagToFolderToBagIsBitForBit) {
+  const Folder folder;
+  write_original(folder / "a.bag");
+  const BagContents contents = read_bag(folder / "a.bag");
+  EXPECT_TRUE(contents.not_carried.empty());
+  EXPECT_EQ(contents.dataset.meta.robot, "anthrob");
+  contents.dataset.save(folder / "set");
+  for (const char* name : {"muscles", "commands", "joints", "spherical_joints"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / ("set/" + std::string(name) + ".csv"))) << name;
+  }
+  write_bag(Dataset::load(folder / "set"), folder / "b.bag");
+  expect_same<anthrob_msgs::MuscleStates>(folder / "a.bag", folder / "b.bag",
+                                          "/anthrob/muscle_states", 400);
+  expect_same<sensor_msgs::JointState>(folder / "a.bag", folder / "b.bag", "/anthrob/joint_states",
+                                       400);
+  expect_same<anthrob_msgs::SphericalJointStates>(folder / "a.bag", folder / "b.bag",
+                                                  "/anthrob/spherical_joint_states", 400);
+  expect_same<anthrob_msgs::MuscleCommand>(folder / "a.bag", folder / "b.bag",
+                                           "/anthrob/muscle_command", 8);
+}
+
+TEST(Convert, SaysWhatItDoesNotCarry) {
+  const Folder folder;
+  write_original(folder / "a.bag");
+  {
+    rosbag::Bag bag(folder / "a.bag", rosbag::bagmode::Append);
+    anthrob_msgs::MuscleCommand malformed;
+    malformed.name = {"biceps_brachii"};
+    bag.write("/anthrob/muscle_command", ros::Time(1700000001), malformed);
+    bag.write("/anthrob/touch", ros::Time(1700000001), sensor_msgs::JointState());
+  }
+  const BagContents contents = read_bag(folder / "a.bag");
+  ASSERT_EQ(contents.not_carried.size(), 2u);
+  EXPECT_NE(contents.not_carried[0].find("touch"), std::string::npos);
+  EXPECT_NE(contents.not_carried[1].find("malformed"), std::string::npos);
+}
+
+TEST(Convert, RefusesWhatIsNoRecording) {
+  const Folder folder;
+  std::ofstream(folder / "text.bag") << "hello";
+  EXPECT_THROW(read_bag(folder / "text.bag"), BadInput);
+  EXPECT_THROW(read_bag(folder / "nowhere.bag"), BadInput);
+  {
+    rosbag::Bag bag(folder / "other.bag", rosbag::bagmode::Write);
+    bag.write("/tf", ros::Time(1), sensor_msgs::JointState());
+  }
+  EXPECT_THROW(read_bag(folder / "other.bag"), BadInput);
+  {
+    rosbag::Bag bag(folder / "two.bag", rosbag::bagmode::Write);
+    bag.write("/a/joint_states", ros::Time(1), sensor_msgs::JointState());
+    bag.write("/b/joint_states", ros::Time(1), sensor_msgs::JointState());
+  }
+  EXPECT_THROW(read_bag(folder / "two.bag"), BadInput);
+}
+
+TEST(Convert, FolderToBagKeepsTimeZero) {
+  const Folder folder;
+  Dataset data;
+  data.meta.robot = "rig";
+  Table& table = data.table("joints");
+  table.t = {0, 5000000};
+  table.columns.push_back({"hinge/position", {0.25, 0.5}, {1, 1}});
+  write_bag(data, folder / "zero.bag");
+  const Dataset back = read_bag(folder / "zero.bag").dataset;
+  EXPECT_EQ(back.tables[0].t, table.t);
+  EXPECT_EQ(back.tables[0].find("hinge/position")->values, table.columns[0].values);
+}
+
+TEST(Convert, UnwritableBagLeavesNothing) {
+  Dataset data;
+  data.table("joints").t = {0};
+  EXPECT_THROW(write_bag(data, "/proc/nowhere/x.bag"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace anthrob

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/model/config_node.h"
+
+namespace anthrob {
+
+/// Time stamps are whole nanoseconds, as in ROS, so that they survive files bit for bit.
+using Nanoseconds = std::int64_t;
+inline double seconds(Nanoseconds t) {
+  return 1e-9 * static_cast<double>(t);
+}
+
+/// One column of a table. Words (modes, states) are kept as the numbers they have in messages.
+struct Column {
+  std::string name;            ///< `<muscle>/position`, `<joint>/effort`, `<ball_joint>/w`, ...
+  std::vector<double> values;  ///< one a row; meaningless where not present
+  std::vector<char> present;   ///< whether the cell is there: an empty cell means not measured
+
+  /// "biceps_brachii" of "biceps_brachii/position"
+  std::string owner() const { return name.substr(0, name.find('/')); }
+  /// "position" of "biceps_brachii/position"
+  std::string quantity() const { return name.substr(name.find('/') + 1); }
+};
+
+/// One CSV file of a dataset folder: its own time and one row a sample.
+struct Table {
+  std::string name;  ///< "muscles" for muscles.csv
+  std::vector<Nanoseconds> t;
+  /// Of a bag, where they differ from t, else empty: header stamp and time of arrival of each
+  /// message. Columns `stamp` and `bag_time`.
+  std::vector<Nanoseconds> stamp, bag_time;
+  std::vector<Column> columns;
+
+  const Column* find(const std::string& column) const;
+  /// The column, made with empty cells if it is not there yet.
+  Column& column(const std::string& column);
+};
+
+/// A quantity over time, without the rows in which it was not measured.
+struct Series {
+  std::vector<double> t;  ///< [s] since the start of the recording
+  std::vector<double> values;
+
+  bool empty() const { return t.empty(); }
+  /// Linear between samples, constant beyond the ends.
+  double at(double time) const;
+  /// The last sample not later than `time`, or the first.
+  double held_at(double time) const;
+};
+
+/// meta.yaml of a dataset folder. What is not listed here is kept in `other`.
+struct DatasetMeta {
+  std::string robot;
+  std::string kind = "trajectory";               ///< equilibrium | trajectory | rig
+  double rate = 0.0;                             ///< [Hz], 0: not given
+  std::string start = "first";                   ///< first | zero | given
+  std::map<std::string, double> start_position;  ///< [rad] by muscle, if `given`
+  double settle_s = 5.0;                         ///< [s]
+  std::map<std::string, std::string> other;      ///< sensors, notes and unknown keys, as YAML text
+};
+
+/// A recording as a folder of CSV files and a meta.yaml.
+struct Dataset {
+  std::string folder;  ///< where it came from, for messages
+  DatasetMeta meta;
+  std::vector<Table> tables;
+
+  /// @throws BadInput with one line: file, line or row, value, what was expected
+  static Dataset load(const std::string& folder);
+  /// Every file is written beside its place and moved there when it is complete.
+  /// @throws std::runtime_error naming the file that cannot be written
+  void save(const std::string& folder) const;
+
+  const Table* find_table(const std::string& name) const;
+  Table& table(const std::string& name);
+  /// Time of the first and of the last row of any table.
+  Nanoseconds begin() const;
+  Nanoseconds end() const;
+  /// The samples of a column wherever it stands; commands go before states. Empty if there is none.
+  Series series(const std::string& column) const;
+};
+
+/// Quantities that a column may hold.
+bool is_known_quantity(const std::string& quantity);
+/// Word for a number of a `mode` or `ecu_state` column, and back; -1 for an unknown word.
+std::string word_of(const std::string& quantity, int value);
+int number_of(const std::string& quantity, const std::string& word);
+bool holds_words(const std::string& quantity);
+
+/// Shortest decimal text that reads back as the same double.
+std::string exact_text(double value);
+/// Seconds with up to nine decimals, exact.
+std::string time_text(Nanoseconds t);
+
+}  // namespace anthrob

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// What of a recording drives the simulation.
+enum class ReplayMode {
+  kReference,  ///< commands: the ECU's references
+  kVoltage,    ///< recorded voltages, past the control law
+  kPosition,   ///< recorded actuator positions are imposed
+};
+
+/// Feeds a recording's inputs to a simulation and tells when which of its rows are due.
+/// Inputs hold from their row to the next; imposed positions are interpolated. Efforts and loads of
+/// driven joints are applied in every mode.
+class Replay {
+ public:
+  /// @throws BadInput if the recording names muscles or joints that the robot lacks, or has no
+  /// input
+  Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode);
+
+  /// Puts the simulation where the recording starts: settled at the first reference, at zero, or at
+  /// given positions, as the recording's meta.yaml says. Robots without muscles start at their
+  /// first recorded joint positions. The recording's time 0 is now.
+  void start(Simulation& sim) const;
+
+  /// Sets the inputs of the step from `time` [s] on.
+  void drive(Simulation& sim, double time) const;
+
+  /// [s]
+  double duration() const { return duration_; }
+
+ private:
+  struct MuscleInput {
+    int muscle;
+    Series mode, reference, voltage, position;
+  };
+  struct JointInput {
+    int joint;
+    Series effort, load, position;
+  };
+
+  void check_names(const Dataset& recording) const;
+  static void drive_reference(Simulation& sim, const MuscleInput& input, double time);
+  void impose(Simulation& sim, const MuscleInput& input, double time) const;
+
+  std::shared_ptr<const RobotModel> model_;
+  ReplayMode mode_;
+  DatasetMeta meta_;
+  std::vector<MuscleInput> muscles_;
+  std::vector<JointInput> joints_;
+  double duration_ = 0.0;
+};
+
+/// Runs a whole recording and samples the simulation, with ideal sensors, at the recording's rows:
+/// every file of the recording with its own columns, and what no file has in muscles.csv,
+/// joints.csv and spherical_joints.csv. Between two steps values are interpolated.
+/// @param progress called with the share done in [0, 1]; returns false to stop early (may be empty)
+Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
+               ReplayMode mode, const std::function<bool(double)>& progress = {});
+
+}  // namespace anthrob

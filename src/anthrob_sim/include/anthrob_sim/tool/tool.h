@@ -1,0 +1,50 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "anthrob_sim/model/robot_model.h"
+
+namespace anthrob {
+namespace tool {
+
+/// Exit statuses of every command.
+enum Exit { kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130 };
+
+/// Parses the command line, runs `body`, and turns whatever goes wrong into one line on standard
+/// error and the exit status of its kind.
+int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+/// Whether Ctrl-C was pressed. The first call starts listening.
+bool interrupted();
+
+/// `--robot NAME` or folder, and `--model NAME` ("II" for model_II.yaml): the model file.
+/// Robots are folders under $ANTHROB_CONFIG, else under config/ of the package anthrob_bringup.
+/// @throws BadInput naming what was looked for and where
+std::string find_model_file(const std::string& robot, const std::string& model);
+
+/// "a=1,2,3" into name and numbers.
+/// @throws BadInput
+struct Assignment {
+  std::string name;
+  std::vector<double> values;
+};
+Assignment parse_assignment(const std::string& option, const std::string& text);
+
+/// Progress on standard error, if that is a terminal: share done and time left.
+class Progress {
+ public:
+  explicit Progress(const std::string& what);
+  ~Progress();
+  void update(double share);
+
+ private:
+  std::string what_;
+  double start_, last_ = 0.0;
+  bool visible_;
+};
+
+}  // namespace tool
+}  // namespace anthrob

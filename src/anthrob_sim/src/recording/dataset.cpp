@@ -1,0 +1,420 @@
+#include "anthrob_sim/recording/dataset.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/atomic_file.h"
+
+namespace anthrob {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::array<const char*, 4> kModes = {"VOLTAGE", "POSITION", "CURRENT", "FORCE"};
+const std::array<const char*, 5> kStates = {"BOOT", "IDLE", "ENABLED", "STOPPING", "FAULT"};
+
+/// Splits a line at commas; no quoting: no name or number of a recording contains a comma.
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  for (;;) {
+    const std::size_t comma = line.find(',', begin);
+    cells.push_back(line.substr(begin, comma == std::string::npos ? comma : comma - begin));
+    if (comma == std::string::npos) return cells;
+    begin = comma + 1;
+  }
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Exact for plain decimals with up to nine places; others are rounded to a nanosecond.
+bool parse_time(const std::string& cell, Nanoseconds& t) {
+  const char* end = cell.data() + cell.size();
+  double value = 0.0;
+  const auto number = std::from_chars(cell.data(), end, value);
+  if (number.ec != std::errc() || number.ptr != end || !std::isfinite(value)) return false;
+  if (std::abs(value) > 9e9) return false;
+  const std::size_t point = cell.find('.');
+  const std::string whole = cell.substr(0, point);
+  const std::string decimals = point == std::string::npos ? "" : cell.substr(point + 1);
+  const bool plain = cell.find_first_of("eE") == std::string::npos && decimals.size() <= 9;
+  if (!plain) {
+    t = static_cast<Nanoseconds>(std::llround(value * 1e9));
+    return true;
+  }
+  const std::string digits = whole + decimals + std::string(9 - decimals.size(), '0');
+  const auto exact = std::from_chars(digits.data(), digits.data() + digits.size(), t);
+  return exact.ec == std::errc() && exact.ptr == digits.data() + digits.size();
+}
+
+class TableReader {
+ public:
+  explicit TableReader(const fs::path& file) : file_(file.string()), in_(file) {
+    table_.name = file.stem().string();
+  }
+
+  Table read() {
+    if (!in_) throw BadInput(file_ + ": cannot be read");
+    read_header();
+    std::string line;
+    for (row_ = 2; std::getline(in_, line); ++row_) {
+      if (!trimmed(line).empty()) read_row(split(line));
+    }
+    if (in_.bad()) throw BadInput(file_ + ": reading stopped: input error");
+    return std::move(table_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw BadInput(file_ + ":" + std::to_string(row_) + ": " + message);
+  }
+
+  void read_header() {
+    std::string line;
+    if (!std::getline(in_, line) || trimmed(line).empty()) {
+      throw BadInput(file_ + ": empty; expected a header line 't,<name>/<quantity>,...'");
+    }
+    const auto names = split(line);
+    if (trimmed(names[0]) != "t")
+      fail(trimmed(names[0]) + ": expected the first column to be 't' [s]");
+    std::set<std::string> seen;
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      Column column;
+      column.name = trimmed(names[i]);
+      if (!bookkeeping(column.name) &&
+          (column.name.find('/') == std::string::npos || !is_known_quantity(column.quantity()))) {
+        fail("column '" + column.name +
+             "': expected <muscle>/mode, reference, position, velocity, current, voltage, force or "
+             "ecu_state, <ball_joint>/w, x, y, z, wx, wy or wz, or <joint>/position, velocity, "
+             "effort or load");
+      }
+      if (!seen.insert(column.name).second) fail("column '" + column.name + "' appears twice");
+      header_.push_back(column.name);
+      if (!bookkeeping(column.name)) table_.columns.push_back(column);
+    }
+  }
+
+  void read_row(const std::vector<std::string>& cells) {
+    if (cells.size() != header_.size() + 1) {
+      fail(std::to_string(cells.size()) + " cells: expected " + std::to_string(header_.size() + 1) +
+           ", as many as the header has");
+    }
+    const Nanoseconds t = read_time("t", trimmed(cells[0]));
+    if (!table_.t.empty() && t < table_.t.back()) {
+      fail("t: " + trimmed(cells[0]) + ": earlier than the row before; expected time to grow");
+    }
+    table_.t.push_back(t);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < header_.size(); ++i) {
+      const std::string cell = trimmed(cells[i + 1]);
+      if (header_[i] == "stamp") {
+        table_.stamp.push_back(read_time("stamp", cell));
+      } else if (header_[i] == "bag_time") {
+        table_.bag_time.push_back(read_time("bag_time", cell));
+      } else {
+        read_cell(cell, table_.columns[next++]);
+      }
+    }
+  }
+
+  static bool bookkeeping(const std::string& name) { return name == "stamp" || name == "bag_time"; }
+
+  Nanoseconds read_time(const std::string& name, const std::string& cell) const {
+    Nanoseconds t = 0;
+    if (!parse_time(cell, t)) fail(name + ": '" + cell + "': expected a time [s]");
+    return t;
+  }
+
+  void read_cell(const std::string& cell, Column& column) {
+    double value = 0.0;
+    if (!cell.empty() && holds_words(column.quantity())) {
+      const int number = number_of(column.quantity(), cell);
+      if (number < 0)
+        fail(column.name + ": '" + cell + "': expected one of the words of the contract");
+      value = number;
+    } else if (!cell.empty()) {
+      const char* end = cell.data() + cell.size();
+      const auto result = std::from_chars(cell.data(), end, value);
+      if (result.ec != std::errc() || result.ptr != end) {
+        fail(column.name + ": '" + cell + "': expected a number");
+      }
+    }
+    column.values.push_back(value);
+    column.present.push_back(!cell.empty());
+  }
+
+  std::string file_;
+  std::ifstream in_;
+  Table table_;
+  std::vector<std::string> header_;
+  int row_ = 1;
+};
+
+}  // namespace
+
+bool is_known_quantity(const std::string& quantity) {
+  static const std::set<std::string> kKnown = {
+      "mode",  "reference", "position", "velocity", "current", "voltage",
+      "force", "ecu_state", "effort",   "load",     "w",       "x",
+      "y",     "z",         "wx",       "wy",       "wz"};
+  return kKnown.count(quantity) > 0;
+}
+
+bool holds_words(const std::string& quantity) {
+  return quantity == "mode" || quantity == "ecu_state";
+}
+
+std::string word_of(const std::string& quantity, int value) {
+  const bool mode = quantity == "mode";
+  const int count = static_cast<int>(mode ? kModes.size() : kStates.size());
+  if (value < 0 || value >= count) return std::to_string(value);
+  return mode ? kModes[value] : kStates[value];
+}
+
+int number_of(const std::string& quantity, const std::string& word) {
+  const auto find = [&](const auto& words) {
+    const auto it = std::find(words.begin(), words.end(), word);
+    return it == words.end() ? -1 : static_cast<int>(it - words.begin());
+  };
+  const int index = quantity == "mode" ? find(kModes) : find(kStates);
+  if (index >= 0) return index;
+  int value = -1;
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  return result.ec == std::errc() && result.ptr == word.data() + word.size() && value < 256 ? value
+                                                                                            : -1;
+}
+
+std::string exact_text(double value) {
+  char text[40];
+  const auto result = std::to_chars(text, text + sizeof(text), value);
+  return std::string(text, result.ptr);
+}
+
+std::string time_text(Nanoseconds t) {
+  const bool negative = t < 0;
+  const std::uint64_t size =
+      negative ? 0 - static_cast<std::uint64_t>(t) : static_cast<std::uint64_t>(t);
+  std::string decimals = std::to_string(size % 1000000000u);
+  decimals = std::string(9 - decimals.size(), '0') + decimals;
+  while (decimals.size() > 3 && decimals.back() == '0') decimals.pop_back();
+  return (negative ? "-" : "") + std::to_string(size / 1000000000u) + "." + decimals;
+}
+
+const Column* Table::find(const std::string& column_name) const {
+  for (const Column& c : columns) {
+    if (c.name == column_name) return &c;
+  }
+  return nullptr;
+}
+
+Column& Table::column(const std::string& column_name) {
+  for (Column& c : columns) {
+    if (c.name == column_name) return c;
+  }
+  columns.push_back(
+      {column_name, std::vector<double>(t.size(), 0.0), std::vector<char>(t.size(), 0)});
+  return columns.back();
+}
+
+double Series::at(double time) const {
+  if (time <= t.front()) return values.front();
+  if (time >= t.back()) return values.back();
+  const std::size_t next = std::upper_bound(t.begin(), t.end(), time) - t.begin();
+  const double share = (time - t[next - 1]) / (t[next] - t[next - 1]);
+  return values[next - 1] + share * (values[next] - values[next - 1]);
+}
+
+double Series::held_at(double time) const {
+  const std::size_t next = std::upper_bound(t.begin(), t.end(), time) - t.begin();
+  return values[next == 0 ? 0 : next - 1];
+}
+
+const Table* Dataset::find_table(const std::string& name) const {
+  for (const Table& table : tables) {
+    if (table.name == name) return &table;
+  }
+  return nullptr;
+}
+
+Table& Dataset::table(const std::string& name) {
+  for (Table& candidate : tables) {
+    if (candidate.name == name) return candidate;
+  }
+  tables.emplace_back();
+  tables.back().name = name;
+  return tables.back();
+}
+
+Nanoseconds Dataset::begin() const {
+  Nanoseconds first = 0;
+  bool any = false;
+  for (const Table& table : tables) {
+    if (table.t.empty()) continue;
+    first = any ? std::min(first, table.t.front()) : table.t.front();
+    any = true;
+  }
+  return first;
+}
+
+Nanoseconds Dataset::end() const {
+  Nanoseconds last = 0;
+  bool any = false;
+  for (const Table& table : tables) {
+    if (table.t.empty()) continue;
+    last = any ? std::max(last, table.t.back()) : table.t.back();
+    any = true;
+  }
+  return last;
+}
+
+Series Dataset::series(const std::string& column) const {
+  Series series;
+  const Nanoseconds start = begin();
+  const auto collect = [&](const Table& table) {
+    const Column* found = table.find(column);
+    if (!found || !series.empty()) return;
+    for (std::size_t i = 0; i < table.t.size(); ++i) {
+      if (!found->present[i]) continue;
+      series.t.push_back(seconds(table.t[i] - start));
+      series.values.push_back(found->values[i]);
+    }
+  };
+  if (const Table* commands = find_table("commands")) collect(*commands);
+  for (const Table& table : tables) collect(table);
+  return series;
+}
+
+namespace {
+
+DatasetMeta read_meta(const fs::path& file) {
+  DatasetMeta meta;
+  const ConfigNode node = ConfigNode::load(file.string());
+  for (const auto& [key, value] : node.entries()) {
+    if (key == "robot") {
+      meta.robot = value.as_text();
+    } else if (key == "kind") {
+      meta.kind = value.as_text();
+      if (meta.kind != "equilibrium" && meta.kind != "trajectory" && meta.kind != "rig") {
+        value.fail_expected("equilibrium, trajectory or rig");
+      }
+    } else if (key == "rate") {
+      meta.rate = value.as_number(Bounds::positive(), "Hz");
+    } else if (key == "start") {
+      if (value.has("settle_s"))
+        meta.settle_s = value.number("settle_s", Bounds::nonnegative(), "s");
+      if (!value.has("reference")) continue;
+      const ConfigNode reference = value.at("reference");
+      if (reference.is_map()) {
+        meta.start = "given";
+        for (const auto& [muscle, position] : reference.entries()) {
+          meta.start_position[muscle] = position.as_number(Bounds::any(), "rad");
+        }
+      } else {
+        meta.start = reference.as_text();
+        if (meta.start != "first" && meta.start != "zero") {
+          reference.fail_expected("first, zero or {muscle: rad}");
+        }
+      }
+    } else {
+      meta.other[key] = value.to_yaml();
+    }
+  }
+  return meta;
+}
+
+std::string meta_text(const DatasetMeta& meta) {
+  std::ostringstream out;
+  if (!meta.robot.empty()) out << "robot: " << meta.robot << "\n";
+  out << "kind: " << meta.kind << "\n";
+  if (meta.rate > 0.0) out << "rate: " << exact_text(meta.rate) << "  # [Hz]\n";
+  out << "start:\n  settle_s: " << exact_text(meta.settle_s) << "\n  reference: ";
+  if (meta.start == "given") {
+    out << "{";
+    const char* separator = "";
+    for (const auto& [muscle, position] : meta.start_position) {
+      out << separator << muscle << ": " << exact_text(position);
+      separator = ", ";
+    }
+    out << "}\n";
+  } else {
+    out << meta.start << "\n";
+  }
+  for (const auto& [key, yaml] : meta.other) {
+    std::istringstream lines(yaml);
+    std::string line;
+    out << key << ":";
+    const bool one_line = yaml.find('\n') == yaml.size() - 1;
+    while (std::getline(lines, line)) out << (one_line ? " " : "\n  ") << line;
+    out << "\n";
+  }
+  return out.str();
+}
+
+std::string table_text(const Table& table) {
+  std::string out = "t";
+  if (!table.stamp.empty()) out += ",stamp";
+  if (!table.bag_time.empty()) out += ",bag_time";
+  for (const Column& column : table.columns) out += "," + column.name;
+  out += "\n";
+  for (std::size_t i = 0; i < table.t.size(); ++i) {
+    out += time_text(table.t[i]);
+    if (!table.stamp.empty()) out += "," + time_text(table.stamp[i]);
+    if (!table.bag_time.empty()) out += "," + time_text(table.bag_time[i]);
+    for (const Column& column : table.columns) {
+      out += ",";
+      if (!column.present[i]) continue;
+      if (holds_words(column.quantity())) {
+        out += word_of(column.quantity(), static_cast<int>(column.values[i]));
+      } else {
+        out += exact_text(column.values[i]);
+      }
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+Dataset Dataset::load(const std::string& folder) {
+  Dataset dataset;
+  dataset.folder = folder;
+  if (!fs::is_directory(folder)) throw BadInput(folder + ": expected a dataset folder");
+  const fs::path meta = fs::path(folder) / "meta.yaml";
+  if (!fs::exists(meta))
+    throw BadInput(folder + ": meta.yaml is missing; expected one in a dataset folder");
+  dataset.meta = read_meta(meta);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw BadInput(folder + ": expected at least one .csv file beside meta.yaml");
+  for (const auto& file : files) dataset.tables.push_back(TableReader(file).read());
+  return dataset;
+}
+
+void Dataset::save(const std::string& target) const {
+  std::error_code error;
+  fs::create_directories(target, error);
+  if (!fs::is_directory(target))
+    throw std::runtime_error(target + ": cannot be created as a folder");
+  for (const Table& table : tables) {
+    write_file_atomically((fs::path(target) / (table.name + ".csv")).string(), table_text(table));
+  }
+  write_file_atomically((fs::path(target) / "meta.yaml").string(), meta_text(meta));
+}
+
+}  // namespace anthrob

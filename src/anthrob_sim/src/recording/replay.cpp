@@ -1,0 +1,319 @@
+#include "anthrob_sim/recording/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace anthrob {
+
+namespace {
+
+const std::set<std::string> kMuscleQuantities = {"mode",    "reference", "position", "velocity",
+                                                 "current", "voltage",   "force",    "ecu_state"};
+const std::set<std::string> kBallQuantities = {"w", "x", "y", "z", "wx", "wy", "wz"};
+const std::set<std::string> kJointQuantities = {"position", "velocity", "effort", "load"};
+
+}  // namespace
+
+Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode)
+    : model_(std::move(model)), mode_(mode), meta_(recording.meta) {
+  check_names(recording);
+  duration_ = seconds(recording.end() - recording.begin());
+  bool any = false;
+  for (std::size_t m = 0; m < model_->muscles.size(); ++m) {
+    const std::string& name = model_->muscles[m].name;
+    MuscleInput input{static_cast<int>(m), recording.series(name + "/mode"),
+                      recording.series(name + "/reference"), recording.series(name + "/voltage"),
+                      recording.series(name + "/position")};
+    any = any || !(mode == ReplayMode::kReference ? input.reference
+                   : mode == ReplayMode::kVoltage ? input.voltage
+                                                  : input.position)
+                      .empty();
+    muscles_.push_back(std::move(input));
+  }
+  for (std::size_t j = 0; j < model_->skeleton->joints.size(); ++j) {
+    const JointModel& joint = model_->skeleton->joints[j];
+    if (joint.type == JointType::kBall) continue;
+    JointInput input{static_cast<int>(j), recording.series(joint.name + "/effort"),
+                     recording.series(joint.name + "/load"),
+                     recording.series(joint.name + "/position")};
+    any = any || (joint.driven && !input.effort.empty());
+    joints_.push_back(std::move(input));
+  }
+  if (!any) {
+    const char* needed = mode == ReplayMode::kReference ? "<muscle>/reference"
+                         : mode == ReplayMode::kVoltage ? "<muscle>/voltage"
+                                                        : "<muscle>/position";
+    throw BadInput(recording.folder + ": no input to replay: expected columns " + needed +
+                   " of muscles, or <joint>/effort of a driven joint");
+  }
+}
+
+void Replay::check_names(const Dataset& recording) const {
+  for (const Table& table : recording.tables) {
+    for (const Column& column : table.columns) {
+      const int joint = model_->skeleton->find_joint(column.owner());
+      const bool ball = joint >= 0 && model_->skeleton->joints[joint].type == JointType::kBall;
+      const bool known = (model_->find_muscle(column.owner()) >= 0 &&
+                          kMuscleQuantities.count(column.quantity())) ||
+                         (ball && kBallQuantities.count(column.quantity())) ||
+                         (joint >= 0 && !ball && kJointQuantities.count(column.quantity()));
+      if (!known) {
+        throw BadInput(recording.folder + "/" + table.name + ".csv: column '" + column.name +
+                       "': the robot of " + model_->file + " has no such quantity");
+      }
+    }
+  }
+}
+
+void Replay::start(Simulation& sim) const {
+  std::vector<double> q = model_->skeleton->rest_configuration();
+  if (muscles_.empty()) {
+    for (const JointInput& input : joints_) {
+      if (input.position.empty()) continue;
+      q[model_->skeleton->joints[input.joint].position_offset] = input.position.values.front();
+    }
+  }
+  sim.place(q, std::vector<double>(model_->muscles.size(), 0.0));
+  if (muscles_.empty()) return;
+
+  for (const MuscleInput& input : muscles_) {
+    sim.release(input.muscle);
+    sim.command(input.muscle, ecu::Mode::kVoltage, 0.0);
+    const auto given = meta_.start_position.find(model_->muscles[input.muscle].name);
+    if (meta_.start == "given") {
+      if (given != meta_.start_position.end()) {
+        sim.command(input.muscle, ecu::Mode::kPosition, given->second);
+      }
+    } else if (meta_.start == "zero") {
+      sim.command(input.muscle, ecu::Mode::kPosition, 0.0);
+    } else if (mode_ != ReplayMode::kPosition && !input.reference.empty()) {
+      drive_reference(sim, input, 0.0);
+    } else if (!input.position.empty()) {
+      sim.impose_position(input.muscle, input.position.values.front(), 0.0);
+    }
+  }
+  sim.step(static_cast<int>(std::lround(meta_.settle_s / sim.step_length())));
+  for (const MuscleInput& input : muscles_) sim.release(input.muscle);
+}
+
+void Replay::drive_reference(Simulation& sim, const MuscleInput& input, double time) {
+  const auto mode = input.mode.empty()
+                        ? ecu::Mode::kPosition
+                        : static_cast<ecu::Mode>(static_cast<int>(input.mode.held_at(time)));
+  sim.command(input.muscle, mode, input.reference.held_at(time));
+}
+
+void Replay::drive(Simulation& sim, double time) const {
+  // Rows fall between steps by rounding of decimal times; one nanosecond is nobody's intention.
+  const double now = time + 1e-9;
+  for (const MuscleInput& input : muscles_) {
+    if (mode_ == ReplayMode::kPosition) {
+      impose(sim, input, time);
+    } else if (mode_ == ReplayMode::kVoltage) {
+      if (!input.voltage.empty()) {
+        sim.command(input.muscle, ecu::Mode::kVoltage, input.voltage.held_at(now));
+      }
+    } else if (!input.reference.empty() && now >= input.reference.t.front()) {
+      drive_reference(sim, input, now);
+    }
+  }
+  for (const JointInput& input : joints_) {
+    if (model_->skeleton->joints[input.joint].driven && !input.effort.empty()) {
+      sim.apply_effort(input.joint, input.effort.held_at(now));
+    }
+    if (!input.load.empty()) sim.apply_load(input.joint, input.load.held_at(now));
+  }
+}
+
+void Replay::impose(Simulation& sim, const MuscleInput& input, double time) const {
+  if (input.position.empty()) return;
+  const double h = model_->step;
+  const double next = input.position.at(time + h);
+  sim.impose_position(input.muscle, next, (next - input.position.at(time)) / h);
+}
+
+namespace {
+
+/// Reads one quantity off a running simulation.
+class Probe {
+ public:
+  Probe(const RobotModel& model, const std::string& column) {
+    const std::string owner = column.substr(0, column.find('/'));
+    quantity_ = column.substr(column.find('/') + 1);
+    muscle_ = kMuscleQuantities.count(quantity_) ? model.find_muscle(owner) : -1;
+    joint_ = muscle_ < 0 ? model.skeleton->find_joint(owner) : -1;
+  }
+
+  /// Words jump; angles of orientations and numbers move.
+  bool interpolates() const { return !holds_words(quantity_) && quantity_ != "reference"; }
+
+  double read(const Simulation& sim) const {
+    return muscle_ >= 0 ? read_muscle(sim.muscle(muscle_)) : read_joint(sim);
+  }
+
+ private:
+  double read_muscle(const Muscle& muscle) const {
+    const Actuator::Readout actuator = muscle.actuator();
+    if (quantity_ == "position") return actuator.position;
+    if (quantity_ == "velocity") return actuator.velocity;
+    if (quantity_ == "current") return actuator.current;
+    if (quantity_ == "voltage") return muscle.voltage();
+    if (quantity_ == "force") return muscle.force();
+    if (quantity_ == "reference") return muscle.reference();
+    if (quantity_ == "mode") return static_cast<double>(muscle.mode());
+    return 2.0;  // ecu_state: ENABLED
+  }
+
+  double read_joint(const Simulation& sim) const {
+    const JointModel& joint = sim.model().skeleton->joints[joint_];
+    const double* q = &sim.configuration()[joint.position_offset];
+    if (joint.type == JointType::kBall) {
+      if (quantity_ == "w") return q[0];
+      if (quantity_ == "x") return q[1];
+      if (quantity_ == "y") return q[2];
+      if (quantity_ == "z") return q[3];
+      return sim.tree().ball_velocity(joint_)[quantity_[1] - 'x'];
+    }
+    if (quantity_ == "position") return q[0];
+    if (quantity_ == "velocity") return sim.tree().velocities()[joint.velocity_offset];
+    if (quantity_ == "effort") return sim.joint_effort(joint_);
+    return sim.joint_load(joint_);
+  }
+
+  std::string quantity_;
+  int muscle_, joint_;
+};
+
+/// Fills one table of the output, row after row as time goes by.
+class TableSampler {
+ public:
+  TableSampler(const RobotModel& model, Table table, Nanoseconds start)
+      : table_(std::move(table)), start_(start) {
+    for (Column& column : table_.columns) {
+      column.values.assign(table_.t.size(), 0.0);
+      column.present.assign(table_.t.size(), 1);
+      probes_.emplace_back(model, column.name);
+    }
+    last_.resize(probes_.size(), 0.0);
+    now_.resize(probes_.size(), 0.0);
+  }
+
+  /// The simulation has arrived at `time`; fills the rows up to there.
+  void sample(const Simulation& sim, double time) {
+    std::swap(last_, now_);
+    for (std::size_t c = 0; c < probes_.size(); ++c) now_[c] = probes_[c].read(sim);
+    for (; row_ < table_.t.size(); ++row_) {
+      const double due = seconds(table_.t[row_] - start_);
+      if (due > time + 1e-9) break;
+      const bool exact = first_ || due >= time - 1e-9;
+      const double share = exact ? 1.0 : (due - last_time_) / (time - last_time_);
+      for (std::size_t c = 0; c < probes_.size(); ++c) {
+        const bool blend = !exact && probes_[c].interpolates();
+        const double before = exact ? now_[c] : last_[c];
+        table_.columns[c].values[row_] = blend ? before + share * (now_[c] - before) : before;
+      }
+    }
+    first_ = false;
+    last_time_ = time;
+  }
+
+  Table take() { return std::move(table_); }
+
+ private:
+  Table table_;
+  Nanoseconds start_;
+  std::vector<Probe> probes_;
+  std::vector<double> last_, now_;
+  std::size_t row_ = 0;
+  double last_time_ = 0.0;
+  bool first_ = true;
+};
+
+/// Tables of the output: those of the recording, and what they lack in the standard ones.
+std::vector<Table> output_tables(const RobotModel& model, const Dataset& recording) {
+  std::vector<Table> tables;
+  std::set<std::string> have;
+  const Table* densest = nullptr;
+  for (const Table& table : recording.tables) {
+    Table copy;
+    copy.name = table.name;
+    copy.t = table.t;
+    for (const Column& column : table.columns) {
+      copy.columns.push_back({column.name, {}, {}});
+      have.insert(column.name);
+    }
+    tables.push_back(copy);
+    if (!densest || table.t.size() > densest->t.size()) densest = &table;
+  }
+  const auto add = [&](const std::string& table_name, const std::string& column) {
+    if (have.count(column)) return;
+    auto table = std::find_if(tables.begin(), tables.end(),
+                              [&](const Table& t) { return t.name == table_name; });
+    if (table == tables.end()) {
+      Table fresh;
+      fresh.name = table_name;
+      fresh.t = densest->t;
+      tables.push_back(fresh);
+      table = tables.end() - 1;
+    }
+    table->columns.push_back({column, {}, {}});
+  };
+  for (const MuscleModel& muscle : model.muscles) {
+    for (const char* quantity :
+         {"mode", "reference", "position", "velocity", "current", "voltage", "force"}) {
+      add("muscles", muscle.name + "/" + quantity);
+    }
+  }
+  for (const JointModel& joint : model.skeleton->joints) {
+    if (joint.type == JointType::kBall) {
+      for (const char* quantity : {"w", "x", "y", "z", "wx", "wy", "wz"}) {
+        add("spherical_joints", joint.name + "/" + quantity);
+      }
+    } else {
+      add("joints", joint.name + "/position");
+      add("joints", joint.name + "/velocity");
+    }
+  }
+  return tables;
+}
+
+}  // namespace
+
+Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
+               ReplayMode mode, const std::function<bool(double)>& progress) {
+  const Replay input(model, recording, mode);
+  std::vector<TableSampler> samplers;
+  for (Table& table : output_tables(*model, recording)) {
+    samplers.emplace_back(*model, std::move(table), recording.begin());
+  }
+
+  Simulation sim(model);
+  input.start(sim);
+  const auto steps = static_cast<std::int64_t>(std::ceil(input.duration() / model->step - 1e-6));
+  for (auto& sampler : samplers) sampler.sample(sim, 0.0);
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const double time = static_cast<double>(i) * model->step;
+    input.drive(sim, time);
+    sim.step();
+    for (auto& sampler : samplers) sampler.sample(sim, time + model->step);
+    if (progress && i % 1000 == 0 && !progress(static_cast<double>(i) / static_cast<double>(steps)))
+      break;
+  }
+
+  Dataset out;
+  out.meta = recording.meta;
+  out.meta.other["simulated_by"] = "anthrob_replay\n";
+  for (auto& sampler : samplers) out.tables.push_back(sampler.take());
+  // Commands are what they were, row by row.
+  for (Table& table : out.tables) {
+    const Table* source = recording.find_table(table.name);
+    for (Column& column : table.columns) {
+      if (!source || (column.quantity() != "mode" && column.quantity() != "reference")) continue;
+      if (const Column* original = source->find(column.name)) column = *original;
+    }
+  }
+  return out;
+}
+
+}  // namespace anthrob

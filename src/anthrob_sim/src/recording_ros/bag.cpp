@@ -1,0 +1,446 @@
+#include "anthrob_sim/recording/bag.h"
+
+#include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/SphericalJointStates.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/JointState.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/load_recording.h"
+
+namespace anthrob {
+
+namespace {
+
+using anthrob_msgs::MuscleCommand;
+using anthrob_msgs::MuscleStates;
+using anthrob_msgs::SphericalJointStates;
+using sensor_msgs::JointState;
+
+/// Bags cannot hold time 0; the first representable instant stands for it.
+constexpr Nanoseconds kFirstBagTime = 1;
+
+Nanoseconds to_nanoseconds(const ros::Time& t) {
+  return static_cast<Nanoseconds>(t.sec) * 1000000000 + t.nsec;
+}
+
+ros::Time to_ros(Nanoseconds t) {
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(t));
+  return time;
+}
+
+// ---- what each message puts into a row, and back ------------------------------------------------
+
+/// Cells of one row: column name and value.
+using Cells = std::vector<std::pair<std::string, double>>;
+
+template <class Numbers>
+bool fits(const std::vector<std::string>& names, const Numbers& numbers, bool optional) {
+  return numbers.size() == names.size() || (optional && numbers.empty());
+}
+
+template <class Numbers>
+void put(const std::vector<std::string>& names, const Numbers& numbers, const std::string& quantity,
+         Cells& cells) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    cells.emplace_back(names[i] + "/" + quantity, static_cast<double>(numbers[i]));
+  }
+}
+
+bool to_cells(const MuscleCommand& m, Cells& cells) {
+  if (!fits(m.name, m.mode, false) || !fits(m.name, m.reference, false)) return false;
+  put(m.name, m.mode, "mode", cells);
+  put(m.name, m.reference, "reference", cells);
+  return true;
+}
+
+bool to_cells(const MuscleStates& m, Cells& cells) {
+  const std::pair<const std::vector<double>*, const char*> lists[] = {
+      {&m.position, "position"}, {&m.velocity, "velocity"}, {&m.current, "current"},
+      {&m.voltage, "voltage"},   {&m.force, "force"},       {&m.reference, "reference"}};
+  for (const auto& [list, quantity] : lists) {
+    if (!fits(m.name, *list, true)) return false;
+    put(m.name, *list, quantity, cells);
+  }
+  if (!fits(m.name, m.mode, true) || !fits(m.name, m.ecu_state, true)) return false;
+  put(m.name, m.mode, "mode", cells);
+  put(m.name, m.ecu_state, "ecu_state", cells);
+  return true;
+}
+
+bool to_cells(const JointState& m, Cells& cells) {
+  const std::pair<const std::vector<double>*, const char*> lists[] = {
+      {&m.position, "position"}, {&m.velocity, "velocity"}, {&m.effort, "effort"}};
+  for (const auto& [list, quantity] : lists) {
+    if (!fits(m.name, *list, true)) return false;
+    put(m.name, *list, quantity, cells);
+  }
+  return true;
+}
+
+bool to_cells(const SphericalJointStates& m, Cells& cells) {
+  if (!fits(m.name, m.orientation, true) || !fits(m.name, m.angular_velocity, true)) return false;
+  for (std::size_t i = 0; i < m.orientation.size(); ++i) {
+    const auto& q = m.orientation[i];
+    cells.insert(cells.end(), {{m.name[i] + "/w", q.w},
+                               {m.name[i] + "/x", q.x},
+                               {m.name[i] + "/y", q.y},
+                               {m.name[i] + "/z", q.z}});
+  }
+  for (std::size_t i = 0; i < m.angular_velocity.size(); ++i) {
+    const auto& w = m.angular_velocity[i];
+    cells.insert(cells.end(),
+                 {{m.name[i] + "/wx", w.x}, {m.name[i] + "/wy", w.y}, {m.name[i] + "/wz", w.z}});
+  }
+  return true;
+}
+
+/// One row of a table, seen by owner.
+class RowView {
+ public:
+  RowView(const Table& table, std::size_t row) : table_(table), row_(row) {
+    for (const Column& column : table.columns) {
+      if (!column.present[row]) continue;
+      const std::string owner = column.owner();
+      if (std::find(owners_.begin(), owners_.end(), owner) == owners_.end())
+        owners_.push_back(owner);
+    }
+  }
+  const std::vector<std::string>& owners() const { return owners_; }
+
+  /// All owners' values of a quantity; none if not one owner has it.
+  template <class Numbers>
+  void get(const std::string& quantity, Numbers& numbers) const {
+    numbers.clear();
+    for (const std::string& owner : owners_) {
+      const Column* column = table_.find(owner + "/" + quantity);
+      if (column && column->present[row_]) {
+        numbers.push_back(static_cast<typename Numbers::value_type>(column->values[row_]));
+      }
+    }
+    if (!numbers.empty() && numbers.size() != owners_.size()) {
+      throw BadInput(table_.name + ".csv: row at t = " + time_text(table_.t[row_]) + ": '" +
+                     quantity + "' for some names only; a message needs it for all or none");
+    }
+  }
+
+ private:
+  const Table& table_;
+  std::size_t row_;
+  std::vector<std::string> owners_;
+};
+
+void from_row(const RowView& row, MuscleCommand& m) {
+  m.name = row.owners();
+  row.get("mode", m.mode);
+  row.get("reference", m.reference);
+  if (m.mode.empty()) m.mode.assign(m.name.size(), MuscleCommand::POSITION);
+}
+
+void from_row(const RowView& row, MuscleStates& m) {
+  m.name = row.owners();
+  row.get("position", m.position);
+  row.get("velocity", m.velocity);
+  row.get("current", m.current);
+  row.get("voltage", m.voltage);
+  row.get("force", m.force);
+  row.get("reference", m.reference);
+  row.get("mode", m.mode);
+  row.get("ecu_state", m.ecu_state);
+}
+
+void from_row(const RowView& row, JointState& m) {
+  m.name = row.owners();
+  row.get("position", m.position);
+  row.get("velocity", m.velocity);
+  row.get("effort", m.effort);
+}
+
+void from_row(const RowView& row, SphericalJointStates& m) {
+  m.name = row.owners();
+  std::vector<double> w, x, y, z, wx, wy, wz;
+  row.get("w", w), row.get("x", x), row.get("y", y), row.get("z", z);
+  row.get("wx", wx), row.get("wy", wy), row.get("wz", wz);
+  m.orientation.resize(w.size());
+  m.angular_velocity.resize(wx.size());
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    m.orientation[i].w = w[i], m.orientation[i].x = x[i];
+    m.orientation[i].y = y[i], m.orientation[i].z = z[i];
+  }
+  for (std::size_t i = 0; i < wx.size(); ++i) {
+    m.angular_velocity[i].x = wx[i], m.angular_velocity[i].y = wy[i],
+    m.angular_velocity[i].z = wz[i];
+  }
+}
+
+// ---- bag to dataset -----------------------------------------------------------------------------
+
+/// Collects the messages of one topic into a table.
+class TableBuilder {
+ public:
+  explicit TableBuilder(const std::string& name) { table_.name = name; }
+
+  template <class Message>
+  void add(const Message& message, const ros::Time& arrival) {
+    Cells cells;
+    if (!to_cells(message, cells)) {
+      ++malformed_;
+      return;
+    }
+    Nanoseconds bag_time = to_nanoseconds(arrival);
+    if (bag_time == kFirstBagTime) bag_time = 0;
+    const Nanoseconds stamp = to_nanoseconds(message.header.stamp);
+    const std::size_t row = table_.t.size();
+    table_.t.push_back(stamp != 0 ? stamp : bag_time);
+    table_.stamp.push_back(stamp);
+    table_.bag_time.push_back(bag_time);
+    if (row == 0) frame_ = message.header.frame_id;
+    frames_differ_ = frames_differ_ || message.header.frame_id != frame_;
+    for (const auto& [name, value] : cells) {
+      Column& column = column_of(name);
+      column.values.resize(row, 0.0);
+      column.present.resize(row, 0);
+      column.values.push_back(value);
+      column.present.push_back(1);
+    }
+  }
+
+  /// Puts the finished table into the dataset and says what could not be carried.
+  void finish(const std::string& topic, BagContents& contents) {
+    if (malformed_ > 0) {
+      contents.not_carried.push_back(topic + " (" + std::to_string(malformed_) +
+                                     " malformed messages)");
+    }
+    if (table_.t.empty()) return;
+    if (!std::is_sorted(table_.t.begin(), table_.t.end())) {
+      throw BadInput(topic + ": time goes backwards; expected a recording of one run");
+    }
+    for (Column& column : table_.columns) {
+      column.values.resize(table_.t.size(), 0.0);
+      column.present.resize(table_.t.size(), 0);
+    }
+    if (table_.stamp == table_.t) table_.stamp.clear();
+    if (table_.bag_time == table_.t) table_.bag_time.clear();
+    if (frames_differ_) contents.not_carried.push_back(topic + ": frame_id, which changes");
+    if (!frames_differ_ && !frame_.empty()) {
+      contents.dataset.meta.other["frame_id_" + table_.name] = frame_ + "\n";
+    }
+    contents.dataset.tables.push_back(std::move(table_));
+  }
+
+ private:
+  Column& column_of(const std::string& name) {
+    const auto found = index_.find(name);
+    if (found != index_.end()) return table_.columns[found->second];
+    index_[name] = table_.columns.size();
+    table_.columns.push_back({name, {}, {}});
+    return table_.columns.back();
+  }
+
+  Table table_;
+  std::map<std::string, std::size_t> index_;
+  std::string frame_;
+  bool frames_differ_ = false;
+  int malformed_ = 0;
+};
+
+const std::pair<const char*, const char*> kTopics[] = {
+    {"muscle_command", "commands"},
+    {"muscle_states", "muscles"},
+    {"joint_states", "joints"},
+    {"spherical_joint_states", "spherical_joints"}};
+
+template <class Message>
+void add_all(rosbag::Bag& bag, const std::string& topic, TableBuilder& builder) {
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    const auto message = instance.instantiate<Message>();
+    if (!message) {
+      throw BadInput(bag.getFileName() + ": topic " + topic + " is " + instance.getDataType() +
+                     ": expected " + ros::message_traits::DataType<Message>::value());
+    }
+    builder.add(*message, instance.getTime());
+  }
+}
+
+std::string leaf(const std::string& topic) {
+  return topic.substr(topic.rfind('/') + 1);
+}
+std::string parent(const std::string& topic) {
+  const auto slash = topic.rfind('/');
+  return slash == std::string::npos || slash == 0 ? "" : topic.substr(0, slash);
+}
+
+}  // namespace
+
+BagContents read_bag(const std::string& file) {
+  rosbag::Bag bag;
+  try {
+    bag.open(file, rosbag::bagmode::Read);
+  } catch (const rosbag::BagException& e) {
+    throw BadInput(file + ": cannot be read as a bag: " + e.what());
+  }
+  BagContents contents;
+  contents.dataset.folder = file;
+
+  std::map<std::string, std::uint32_t> counts;
+  rosbag::View everything(bag);
+  for (const rosbag::ConnectionInfo* connection : everything.getConnections())
+    counts[connection->topic];
+  for (const rosbag::MessageInstance& instance : everything) ++counts[instance.getTopic()];
+
+  std::set<std::string> namespaces;
+  std::map<std::string, std::string> chosen;
+  for (const auto& [topic, count] : counts) {
+    const bool ours =
+        std::any_of(std::begin(kTopics), std::end(kTopics),
+                    [&, name = leaf(topic)](const auto& known) { return name == known.first; });
+    if (ours) {
+      namespaces.insert(parent(topic));
+      chosen[leaf(topic)] = topic;
+    } else {
+      contents.not_carried.push_back(topic + " (" + std::to_string(count) + " messages)");
+    }
+  }
+  if (namespaces.empty()) {
+    throw BadInput(
+        file +
+        ": no topic of a recording; expected muscle_command, muscle_states, joint_states or "
+        "spherical_joint_states in the namespace of a robot");
+  }
+  if (namespaces.size() > 1) {
+    throw BadInput(file + ": topics of several robots: " + *namespaces.begin() + " and " +
+                   *std::next(namespaces.begin()) + "; expected one robot a bag");
+  }
+  const std::string robot = *namespaces.begin();
+  contents.dataset.meta.robot = robot.empty() ? "" : robot.substr(1);
+  for (const auto& [topic, table] : kTopics) {
+    if (!chosen.count(topic)) continue;
+    TableBuilder builder(table);
+    const std::string name(topic);
+    if (name == "muscle_command") add_all<MuscleCommand>(bag, chosen[name], builder);
+    if (name == "muscle_states") add_all<MuscleStates>(bag, chosen[name], builder);
+    if (name == "joint_states") add_all<JointState>(bag, chosen[name], builder);
+    if (name == "spherical_joint_states") add_all<SphericalJointStates>(bag, chosen[name], builder);
+    builder.finish(chosen[name], contents);
+  }
+  if (contents.dataset.tables.empty()) throw BadInput(file + ": its topics hold no messages");
+  return contents;
+}
+
+// ---- dataset to bag -----------------------------------------------------------------------------
+
+namespace {
+
+template <class Message>
+void write_rows(const Table& table, const Dataset& dataset, const std::string& topic,
+                rosbag::Bag& bag) {
+  const auto frame = dataset.meta.other.find("frame_id_" + table.name);
+  for (std::size_t row = 0; row < table.t.size(); ++row) {
+    if (table.t[row] < 0) {
+      throw BadInput(table.name + ".csv: t = " + time_text(table.t[row]) +
+                     ": a bag needs times >= 0");
+    }
+    Message message;
+    from_row(RowView(table, row), message);
+    message.header.stamp = to_ros(table.stamp.empty() ? table.t[row] : table.stamp[row]);
+    if (frame != dataset.meta.other.end()) {
+      message.header.frame_id = frame->second.substr(0, frame->second.find('\n'));
+    }
+    const Nanoseconds arrival = table.bag_time.empty() ? table.t[row] : table.bag_time[row];
+    bag.write(topic, to_ros(std::max(arrival, kFirstBagTime)), message);
+  }
+}
+
+/// The topic table a column belongs to, whatever file it stands in.
+std::string table_of(const Column& column, const std::set<std::string>& muscles) {
+  const std::string q = column.quantity();
+  if (q == "w" || q == "x" || q == "y" || q == "z" || q == "wx" || q == "wy" || q == "wz") {
+    return "spherical_joints";
+  }
+  return muscles.count(column.owner()) ? "muscles" : "joints";
+}
+
+/// Tables in the four standard places; a file of another name is dealt out by its columns.
+std::vector<Table> standard_tables(const Dataset& dataset) {
+  std::set<std::string> muscles;
+  for (const Table& table : dataset.tables) {
+    for (const Column& column : table.columns) {
+      const std::string q = column.quantity();
+      if (q != "position" && q != "velocity" && q != "effort" && q != "load")
+        muscles.insert(column.owner());
+    }
+  }
+  std::vector<Table> tables;
+  for (const Table& table : dataset.tables) {
+    const bool standard =
+        std::any_of(std::begin(kTopics), std::end(kTopics),
+                    [&](const auto& known) { return table.name == known.second; });
+    for (const Column& column : table.columns) {
+      if (column.quantity() == "load") {
+        throw BadInput(table.name + ".csv: column '" + column.name +
+                       "': a bag's topics have no load");
+      }
+    }
+    if (standard) {
+      tables.push_back(table);
+      continue;
+    }
+    for (const char* name : {"muscles", "joints", "spherical_joints"}) {
+      Table part;
+      part.name = name;
+      part.t = table.t;
+      for (const Column& column : table.columns) {
+        if (table_of(column, muscles) == name) part.columns.push_back(column);
+      }
+      if (!part.columns.empty()) tables.push_back(part);
+    }
+  }
+  return tables;
+}
+
+}  // namespace
+
+void write_bag(const Dataset& dataset, const std::string& file) {
+  const std::string prefix =
+      "/" + (dataset.meta.robot.empty() ? std::string("robot") : dataset.meta.robot) + "/";
+  const std::string temporary = file + ".part" + std::to_string(getpid());
+  try {
+    rosbag::Bag bag(temporary, rosbag::bagmode::Write);
+    for (const Table& table : standard_tables(dataset)) {
+      if (table.name == "commands")
+        write_rows<MuscleCommand>(table, dataset, prefix + "muscle_command", bag);
+      if (table.name == "muscles")
+        write_rows<MuscleStates>(table, dataset, prefix + "muscle_states", bag);
+      if (table.name == "joints")
+        write_rows<JointState>(table, dataset, prefix + "joint_states", bag);
+      if (table.name == "spherical_joints") {
+        write_rows<SphericalJointStates>(table, dataset, prefix + "spherical_joint_states", bag);
+      }
+    }
+    bag.close();
+    std::filesystem::rename(temporary, file);
+  } catch (const rosbag::BagException& e) {
+    std::filesystem::remove(temporary);
+    throw std::runtime_error(file + ": cannot be written: " + e.what());
+  } catch (...) {
+    std::filesystem::remove(temporary);
+    throw;
+  }
+}
+
+Dataset load_recording(const std::string& path) {
+  if (std::filesystem::is_directory(path)) return Dataset::load(path);
+  if (!std::filesystem::exists(path))
+    throw BadInput(path + ": no such recording; expected a bag or a dataset folder");
+  return read_bag(path).dataset;
+}
+
+}  // namespace anthrob

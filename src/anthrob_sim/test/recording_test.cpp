@@ -1,0 +1,263 @@
+// Dataset folders and replay.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_sim/recording/replay.h"
+#include "support.h"
+
+namespace anthrob {
+namespace {
+
+using testing_support::config;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static int count = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("anthrob_recording_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  std::string path() const { return path_.string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+const char* const kMeta = "robot: anthrob\nkind: trajectory\n";
+
+TEST(Dataset, TimesAreExact) {
+  EXPECT_EQ(time_text(0), "0.000");
+  EXPECT_EQ(time_text(1500000000), "1.500");
+  EXPECT_EQ(time_text(1), "0.000000001");
+  EXPECT_EQ(time_text(-250000001), "-0.250000001");
+  const TemporaryFolder folder;
+  folder.write("meta.yaml", kMeta);
+  folder.write("m.csv", "t,a/position\n1700000000.123456789,1\n1700000000.2,2\n1.7e9,3\n");
+  EXPECT_THROW(Dataset::load(folder.path()), BadInput);  // goes back
+  folder.write("m.csv", "t,a/position\n-1,0\n0.1,1\n1700000000.123456789,2\n");
+  const Dataset data = Dataset::load(folder.path());
+  EXPECT_EQ(data.tables[0].t[0], -1000000000);
+  EXPECT_EQ(data.tables[0].t[1], 100000000);
+  EXPECT_EQ(data.tables[0].t[2], 1700000000123456789);
+}
+
+TEST(Dataset, SaveAndLoadKeepEveryBit) {
+  testing_support::Random random(3);
+  Dataset data;
+  data.meta.robot = "anthrob";
+  data.meta.kind = "equilibrium";
+  data.meta.rate = 200.0;
+  data.meta.start = "given";
+  data.meta.start_position = {{"biceps_brachii", 0.1234567890123}};
+  data.meta.settle_s = 2.5;
+  data.meta.other["notes"] = "drift: 1.5 deg\noperator: me\n";
+  Table& table = data.table("muscles");
+  table.column("a/force");
+  table.column("a/mode");
+  Column &force = table.columns[0], &modes = table.columns[1];
+  for (int i = 0; i < 1000; ++i) {
+    table.t.push_back(1700000000000000000 + Nanoseconds{5000001} * i);
+    force.values.push_back(std::ldexp(random.uniform(-1, 1), random.integer(-300, 300)));
+    force.present.push_back(random.integer(0, 3) > 0);
+  }
+  force.values[0] = std::numeric_limits<double>::infinity();
+  force.values[1] = std::nan("");
+  force.values[2] = -0.0;
+  force.values[3] = std::numeric_limits<double>::denorm_min();
+  for (int i = 0; i < 4; ++i) force.present[i] = 1;
+  modes.values.assign(1000, 1.0);
+  modes.present.assign(1000, 1);
+  modes.values[7] = 77.0;  // not a word of the contract, but a value
+
+  const TemporaryFolder folder;
+  data.save(folder.path() + "/sub");
+  const Dataset back = Dataset::load(folder.path() + "/sub");
+  ASSERT_EQ(back.tables.size(), 1u);
+  EXPECT_EQ(back.tables[0].t, data.tables[0].t);
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_EQ(back.tables[0].find("a/force")->present[i], force.present[i]);
+    if (!force.present[i]) continue;
+    const double x = force.values[i], y = back.tables[0].find("a/force")->values[i];
+    EXPECT_TRUE(std::memcmp(&x, &y, sizeof(x)) == 0) << x << " " << y;
+  }
+  EXPECT_EQ(back.tables[0].find("a/mode")->values, modes.values);
+  EXPECT_EQ(back.meta.robot, "anthrob");
+  EXPECT_EQ(back.meta.kind, "equilibrium");
+  EXPECT_EQ(back.meta.rate, 200.0);
+  EXPECT_EQ(back.meta.start, "given");
+  EXPECT_EQ(back.meta.start_position, data.meta.start_position);
+  EXPECT_EQ(back.meta.settle_s, 2.5);
+  EXPECT_EQ(back.meta.other.at("notes"), data.meta.other.at("notes"));
+}
+
+TEST(Dataset, BadOnesAreRefusedWithOneLine) {
+  const struct {
+    const char* csv;
+    const char* expected;
+  } cases[] = {
+      {"", "m.csv: empty"},
+      {"time,a/position\n0,1\n", "first column to be 't'"},
+      {"t,a\n0,1\n", "column 'a'"},
+      {"t,a/posture\n0,1\n", "a/posture"},
+      {"t,a/position,a/position\n0,1,1\n", "twice"},
+      {"t,a/position\n0,1\n0.1\n", "m.csv:3: 1 cells: expected 2"},
+      {"t,a/position\n0,1,2\n", "m.csv:2: 3 cells"},
+      {"t,a/position\nzero,1\n", "t: 'zero'"},
+      {"t,a/position\n0,one\n", "a/position: 'one'"},
+      {"t,a/mode\n0,PUSH\n", "a/mode: 'PUSH'"},
+      {"t,a/position\n0.2,1\n0.1,1\n", "earlier"},
+  };
+  for (const auto& test : cases) {
+    const TemporaryFolder folder;
+    folder.write("meta.yaml", kMeta);
+    folder.write("m.csv", test.csv);
+    try {
+      Dataset::load(folder.path());
+      FAIL() << test.csv;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(test.expected), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+  const TemporaryFolder folder;
+  EXPECT_THROW(Dataset::load(folder.path()), BadInput);  // no meta.yaml
+  folder.write("meta.yaml", kMeta);
+  EXPECT_THROW(Dataset::load(folder.path()), BadInput);  // no csv
+  folder.write("m.csv", "t,a/position\n0,1\n");
+  folder.write("meta.yaml", "kind: dance\n");
+  EXPECT_THROW(Dataset::load(folder.path()), BadInput);
+  EXPECT_THROW(Dataset::load(folder.path() + "/nowhere"), BadInput);
+}
+
+TEST(Dataset, UnwritableFolderIsReported) {
+  Dataset data;
+  data.table("m").t.push_back(0);
+  EXPECT_THROW(data.save("/proc/nowhere"), std::runtime_error);
+}
+
+TEST(Series, InterpolatesAndHolds) {
+  const Series s{{0.0, 1.0, 2.0}, {5.0, 7.0, 3.0}};
+  EXPECT_EQ(s.at(-1.0), 5.0);
+  EXPECT_EQ(s.at(0.5), 6.0);
+  EXPECT_EQ(s.at(9.0), 3.0);
+  EXPECT_EQ(s.held_at(0.999), 5.0);
+  EXPECT_EQ(s.held_at(1.0), 7.0);
+  EXPECT_EQ(s.held_at(-5.0), 5.0);
+}
+
+std::shared_ptr<const RobotModel> rig(double step = 1e-3) {
+  return load_robot_model(config("two_muscle_rig/model_I.yaml"), {step, {}});
+}
+
+TEST(Replay, ReproducesTheSimulationThatWasRecorded) {
+  // Record a run at its steps, replay its references: the same numbers.
+  Dataset recording;
+  recording.meta.settle_s = 1.0;
+  Table& commands = recording.table("commands");
+  for (const double t : {0.0, 0.4, 1.1}) commands.t.push_back(std::llround(t * 1e9));
+  Column& flexor = commands.column("flexor/reference");
+  flexor.values = {0.5, 3.0, 1.0};
+  flexor.present = {1, 1, 1};
+  Simulation sim(rig());
+  sim.command(0, ecu::Mode::kPosition, 0.5);
+  sim.step(1000);
+  Table& joints = recording.table("joints");
+  std::vector<double> angles, forces;
+  for (int i = 0; i <= 2000; ++i) {
+    joints.t.push_back(Nanoseconds{1000000} * i);
+    angles.push_back(sim.configuration()[0]);
+    if (i == 400) sim.command(0, ecu::Mode::kPosition, 3.0);
+    if (i == 1100) sim.command(0, ecu::Mode::kPosition, 1.0);
+    sim.step();
+  }
+  joints.columns.push_back({"hinge/position", angles, std::vector<char>(angles.size(), 1)});
+
+  const Dataset replayed = replay(rig(), recording, ReplayMode::kReference);
+  EXPECT_EQ(replayed.find_table("joints")->find("hinge/position")->values, angles);
+  // What no file had is added; commands are copied.
+  EXPECT_NE(replayed.find_table("muscles")->find("extensor/force"), nullptr);
+  EXPECT_NE(replayed.find_table("joints")->find("hinge/velocity"), nullptr);
+  EXPECT_EQ(replayed.find_table("commands")->find("flexor/reference")->values, flexor.values);
+  EXPECT_EQ(replayed.find_table("muscles")->t, joints.t);
+}
+
+TEST(Replay, ImposedPositionsAreFollowedExactly) {
+  Dataset recording;
+  Table& muscles = recording.table("muscles");
+  Column flexor{"flexor/position", {}, {}};
+  for (int i = 0; i <= 200; ++i) {
+    muscles.t.push_back(Nanoseconds{5000000} * i);
+    flexor.values.push_back(0.3 * std::sin(0.05 * i));
+    flexor.present.push_back(1);
+  }
+  muscles.columns.push_back(flexor);
+  const Dataset replayed = replay(rig(), recording, ReplayMode::kPosition);
+  const auto& values = replayed.find_table("muscles")->find("flexor/position")->values;
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], flexor.values[i], 1e-12);
+}
+
+TEST(Replay, RowsBetweenStepsAreInterpolated) {
+  Dataset recording;
+  recording.meta.settle_s = 0.1;
+  Table& muscles = recording.table("muscles");
+  Column reference{"flexor/reference", {2.0}, {1}};
+  muscles.t.push_back(0);
+  for (int i = 1; i < 300; ++i) {
+    muscles.t.push_back(Nanoseconds{333333} * i);
+    reference.values.push_back(2.0);
+    reference.present.push_back(1);
+  }
+  muscles.columns.push_back(reference);
+  Column position{"flexor/position", std::vector<double>(300, 0.0), std::vector<char>(300, 0)};
+  muscles.columns.push_back(position);
+  recording.meta.start = "zero";
+  const auto values = replay(rig(), recording, ReplayMode::kReference)
+                          .find_table("muscles")
+                          ->find("flexor/position")
+                          ->values;
+  for (std::size_t i = 2; i < values.size(); ++i) {
+    EXPECT_LT(std::abs(values[i] - 2 * values[i - 1] + values[i - 2]), 2e-4);  // no steps
+  }
+  EXPECT_GT(values.back(), 0.1);
+}
+
+TEST(Replay, RefusesWhatTheRobotLacks) {
+  Dataset recording;
+  Table& table = recording.table("muscles");
+  table.t = {0, 1000000};
+  table.column("biceps_brachii/reference");
+  EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), BadInput);
+  table.columns.clear();
+  table.column("hinge/w");
+  EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), BadInput);
+  table.columns.clear();
+  table.column("flexor/force");
+  EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), BadInput);  // no input
+}
+
+TEST(Replay, StopsWhenToldTo) {
+  Dataset recording;
+  Table& table = recording.table("commands");
+  table.t = {0, 10000000000};
+  Column& column = table.column("flexor/reference");
+  column.values = {1.0, 1.0};
+  column.present = {1, 1};
+  int calls = 0;
+  replay(rig(), recording, ReplayMode::kReference, [&](double) { return ++calls < 3; });
+  EXPECT_EQ(calls, 3);
+}
+
+}  // namespace
+}  // namespace anthrob

@@ -1,0 +1,226 @@
+// Muscles of a robot in one posture: lengths, forces, wrapping, moment arms.
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_sim/simulation.h"
+#include "anthrob_sim/tool/tool.h"
+
+namespace anthrob {
+namespace {
+
+/// One cell of the report: words or a number, or nothing.
+struct Cell {
+  std::string key;
+  std::string text;
+  double number = 0.0;
+  enum Kind { kText, kNumber, kEmpty } kind = kNumber;
+};
+using Row = std::vector<Cell>;
+
+Cell number(const std::string& key, double value) {
+  return {key, "", value, Cell::kNumber};
+}
+Cell text(const std::string& key, const std::string& value) {
+  return {key, value, 0.0, Cell::kText};
+}
+Cell empty(const std::string& key) {
+  return {key, "", 0.0, Cell::kEmpty};
+}
+
+/// Names of the generalised velocities: "elbow", "shoulder_x".
+std::vector<std::string> axis_names(const SkeletonModel& skeleton) {
+  std::vector<std::string> names(skeleton.velocity_count);
+  for (const JointModel& joint : skeleton.joints) {
+    for (int k = 0; k < joint.dof(); ++k) {
+      names[joint.velocity_offset + k] =
+          joint.type == JointType::kBall ? joint.name + "_" + "xyz"[k] : joint.name;
+    }
+  }
+  return names;
+}
+
+std::size_t surface_count(const Muscle& muscle) {
+  std::size_t count = 0;
+  for (const PathObstacle& obstacle : muscle.model().path->obstacles())
+    count += obstacle.surface != nullptr;
+  return count;
+}
+
+void add_surfaces(const Muscle& muscle, std::size_t columns, Row& row) {
+  const auto& obstacles = muscle.model().path->obstacles();
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    if (!obstacles[i].surface) continue;
+    const std::string key = "wrap" + std::to_string(++n) + "_";
+    const ObstacleState& state = muscle.path().obstacles()[i];
+    row.push_back(text(key + "type", obstacles[i].surface->type()));
+    row.push_back(text(key + "state", state.touching ? "wrapping" : "not_wrapping"));
+    row.push_back(number(key + "angle", state.touching ? state.wrap_angle : 0.0));
+    const Vec3& entry = muscle.path().segments()[i - 1].to_W;
+    const Vec3& exit = muscle.path().segments()[i].from_W;
+    for (int k = 0; k < 3; ++k) {
+      row.push_back(state.touching ? number(key + "entry_" + "xyz"[k], entry[k])
+                                   : empty(key + "entry_" + "xyz"[k]));
+    }
+    for (int k = 0; k < 3; ++k) {
+      row.push_back(state.touching ? number(key + "exit_" + "xyz"[k], exit[k])
+                                   : empty(key + "exit_" + "xyz"[k]));
+    }
+  }
+  for (++n; n <= columns; ++n) {
+    const std::string key = "wrap" + std::to_string(n) + "_";
+    for (const char* name : {"type", "state", "angle", "entry_x", "entry_y", "entry_z", "exit_x",
+                             "exit_y", "exit_z"}) {
+      row.push_back(empty(key + name));
+    }
+  }
+}
+
+std::vector<Row> report(const Simulation& sim) {
+  const std::vector<std::string> axes = axis_names(*sim.model().skeleton);
+  std::size_t surfaces = 0;
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+    surfaces = std::max(surfaces, surface_count(sim.muscle(m)));
+  }
+  std::vector<Row> rows;
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+    const Muscle& muscle = sim.muscle(m);
+    Row row{text("muscle", muscle.model().name), number("length", muscle.length()),
+            number("see_expansion", muscle.expansion()), number("force", muscle.spring_tension())};
+    const std::vector<double> arms = sim.moment_arms(static_cast<int>(m));
+    for (std::size_t k = 0; k < arms.size(); ++k) row.push_back(number("arm_" + axes[k], arms[k]));
+    add_surfaces(muscle, surfaces, row);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void print_csv(const std::vector<Row>& rows) {
+  if (rows.empty()) return;
+  for (std::size_t i = 0; i < rows[0].size(); ++i) std::cout << (i ? "," : "") << rows[0][i].key;
+  std::cout << "\n";
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      std::cout << (i ? "," : "");
+      if (row[i].kind == Cell::kText) std::cout << row[i].text;
+      if (row[i].kind == Cell::kNumber) std::cout << exact_text(row[i].number);
+    }
+    std::cout << "\n";
+  }
+}
+
+void print_json(const std::vector<Row>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Row& row : rows) {
+    nlohmann::ordered_json object;
+    for (const Cell& cell : row) {
+      if (cell.kind == Cell::kText) {
+        object[cell.key] = cell.text;
+      } else if (cell.kind == Cell::kNumber) {
+        object[cell.key] = cell.number;
+      } else {
+        object[cell.key] = nullptr;
+      }
+    }
+    list.push_back(object);
+  }
+  std::cout << list.dump(2) << "\n";
+}
+
+/// For people: millimetres.
+void print_table(const Simulation& sim) {
+  const std::vector<std::string> axes = axis_names(*sim.model().skeleton);
+  std::cout << std::left << std::setw(20) << "muscle" << std::right << std::setw(11) << "length mm"
+            << std::setw(10) << "SEE mm" << std::setw(9) << "force N";
+  for (const std::string& axis : axes) std::cout << std::setw(12) << axis;
+  std::cout << "  wrapping (moment arms in mm)\n" << std::fixed;
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+    const Muscle& muscle = sim.muscle(m);
+    std::cout << std::left << std::setw(20) << muscle.model().name << std::right
+              << std::setprecision(2) << std::setw(11) << 1e3 * muscle.length()
+              << std::setprecision(3) << std::setw(10) << 1e3 * muscle.expansion()
+              << std::setprecision(2) << std::setw(9) << muscle.spring_tension();
+    for (const double arm : sim.moment_arms(static_cast<int>(m))) {
+      std::cout << std::setprecision(1) << std::setw(12) << 1e3 * arm;
+    }
+    const auto& obstacles = muscle.model().path->obstacles();
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+      const ObstacleState& state = muscle.path().obstacles()[i];
+      if (!obstacles[i].surface || !state.touching) continue;
+      std::cout << "  " << obstacles[i].surface->type() << " " << std::setprecision(1)
+                << state.wrap_angle * 180.0 / M_PI << " deg";
+    }
+    std::cout << "\n";
+  }
+}
+
+void set_joint(const RobotModel& model, const std::string& option, std::vector<double>& q) {
+  const tool::Assignment a = tool::parse_assignment("--joint", option);
+  const int index = model.skeleton->find_joint(a.name);
+  if (index < 0)
+    throw BadInput("--joint " + option + ": " + model.file + " has no movable joint '" + a.name +
+                   "'");
+  const JointModel& joint = model.skeleton->joints[index];
+  if (a.values.size() != static_cast<std::size_t>(joint.position_size())) {
+    throw BadInput("--joint " + option + ": expected " +
+                   (joint.type == JointType::kBall ? "a quaternion w,x,y,z" : "one number"));
+  }
+  std::copy(a.values.begin(), a.values.end(), q.begin() + joint.position_offset);
+  if (joint.type != JointType::kBall) return;
+  const double norm = std::sqrt(a.values[0] * a.values[0] + a.values[1] * a.values[1] +
+                                a.values[2] * a.values[2] + a.values[3] * a.values[3]);
+  if (std::abs(norm - 1.0) > 1e-3)
+    throw BadInput("--joint " + option + ": expected a unit quaternion");
+  for (int k = 0; k < 4; ++k) q[joint.position_offset + k] /= norm;
+}
+
+void set_position(const RobotModel& model, const std::string& option,
+                  std::vector<double>& positions) {
+  const tool::Assignment a = tool::parse_assignment("--position", option);
+  const int index = model.find_muscle(a.name);
+  if (index < 0)
+    throw BadInput("--position " + option + ": " + model.file + " has no muscle '" + a.name + "'");
+  if (a.values.size() != 1) throw BadInput("--position " + option + ": expected one number [rad]");
+  positions[index] = a.values[0];
+}
+
+}  // namespace
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  using namespace anthrob;
+  CLI::App app(
+      "Lengths, spring expansions, relaxed frictionless forces, wrapping and moment arms (-dl/dq) "
+      "of all "
+      "muscles in one posture.",
+      "anthrob_muscles");
+  std::string robot = "anthrob", model_name = "II";
+  std::vector<std::string> joints, positions;
+  bool csv = false, json = false;
+  app.add_option("--robot", robot, "robot folder under config/, or a path")->capture_default_str();
+  app.add_option("--model", model_name, "II for model_II.yaml")->capture_default_str();
+  app.add_option("--joint", joints, "shoulder=w,x,y,z or elbow=1.57 [rad, m]; others at rest");
+  app.add_option("--position", positions, "actuator position MUSCLE=rad; others at 0");
+  app.add_flag("--csv", csv, "comma separated, SI units");
+  app.add_flag("--json", json, "JSON, SI units")->excludes("--csv");
+  return tool::run(app, argc, argv, [&]() -> int {
+    const auto model = load_robot_model(tool::find_model_file(robot, model_name));
+    std::vector<double> q = model->skeleton->rest_configuration();
+    for (const std::string& option : joints) set_joint(*model, option, q);
+    std::vector<double> actuators(model->muscles.size(), 0.0);
+    for (const std::string& option : positions) set_position(*model, option, actuators);
+    Simulation sim(model);
+    sim.place(q, actuators);
+    if (json) {
+      print_json(report(sim));
+    } else if (csv) {
+      print_csv(report(sim));
+    } else {
+      print_table(sim);
+    }
+    return tool::kDone;
+  });
+}

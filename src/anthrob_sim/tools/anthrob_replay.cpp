@@ -1,0 +1,45 @@
+// Replays a recording's inputs in simulation and writes what the robot would have done.
+#include <filesystem>
+#include <iostream>
+
+#include "anthrob_sim/recording/load_recording.h"
+#include "anthrob_sim/recording/replay.h"
+#include "anthrob_sim/tool/tool.h"
+
+int main(int argc, char** argv) {
+  using namespace anthrob;
+  CLI::App app("Replays a recording's inputs in simulation, with ideal sensors.", "anthrob_replay");
+  std::string model_file, in, out, mode = "reference";
+  double step = 0.001;
+  app.add_option("--model", model_file, "model file, e.g. config/anthrob/model_II.yaml")
+      ->required();
+  app.add_option("--in", in, "recording: a bag or a dataset folder")->required();
+  app.add_option("--out", out, "dataset folder to write")->required();
+  app.add_option("--dt", step, "simulation step [s]")->capture_default_str();
+  app.add_option("--mode", mode, "what drives the simulation")
+      ->check(CLI::IsMember({"reference", "voltage", "position"}))
+      ->capture_default_str();
+  return tool::run(app, argc, argv, [&]() -> int {
+    const auto model = load_robot_model(model_file, {step, {}});
+    const Dataset recording = load_recording(in);
+    const ReplayMode replay_mode = mode == "reference" ? ReplayMode::kReference
+                                   : mode == "voltage" ? ReplayMode::kVoltage
+                                                       : ReplayMode::kPosition;
+    std::error_code error;
+    if (std::filesystem::equivalent(in, out, error)) {
+      throw BadInput("--out " + out + ": expected another folder than the recording");
+    }
+    tool::Progress progress("replay");
+    tool::interrupted();
+    const Dataset result = replay(model, recording, replay_mode, [&](double share) {
+      progress.update(share);
+      return !tool::interrupted();
+    });
+    if (tool::interrupted()) {
+      std::cerr << "anthrob_replay: interrupted; nothing written\n";
+      return tool::kInterrupted;
+    }
+    result.save(out);
+    return tool::kDone;
+  });
+}
