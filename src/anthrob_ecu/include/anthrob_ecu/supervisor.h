@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "anthrob_ecu/control_law.h"
+#include "anthrob_ecu/state_machine.h"
+
+namespace anthrob {
+namespace ecu {
+
+/// What a back end must know of a muscle to accept commands for it.
+struct MuscleChannel {
+  std::string name;
+  std::string ecu;                          ///< muscles of one ECU stop together
+  bool takes_commands = true;               ///< a ligament does not
+  std::array<bool, kModeCount> modes{};     ///< which modes it has
+  std::array<double, kModeCount> lowest{};  ///< smallest reference by mode [V, rad, A, N]
+  std::array<double, kModeCount> highest{};
+};
+
+/// One entry of an accepted command.
+struct MuscleReference {
+  int muscle;
+  Mode mode;
+  double reference;
+};
+
+/// Watches over commands and states of all ECUs of a robot, the same on simulator and hardware: nothing moves
+/// before enable, commands that are malformed are refused whole, a command that is not renewed in time stops
+/// the motors, an emergency stop holds until it is cleared.
+///
+/// Free of clocks: time comes in as an argument and may jump.
+class Supervisor {
+ public:
+  struct Options {
+    double command_timeout = 0.5;  ///< [s]; 0: never (simulator only)
+    /// Simulator only: enabled from the start, and again by the next command after a time-out. Never after an
+    /// emergency stop or a fault.
+    bool auto_enable = false;
+  };
+  /// Outcome of a request, with a reason if it was refused.
+  struct Outcome {
+    bool accepted;
+    std::string reason;
+  };
+
+  Supervisor(std::vector<MuscleChannel> muscles, const Options& options);
+
+  /// Checks a whole command; fills `references` only if all of it is good.
+  Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
+                  const std::vector<double>& references, double time,
+                  std::vector<MuscleReference>& accepted);
+
+  Outcome enable(double time);
+  Outcome disable();
+  Outcome emergency_stop();
+  Outcome clear_faults();
+  Outcome fault(const std::string& ecu);
+
+  /// To be called often: handles the command time-out.
+  /// @return whether motors were stopped by it just now
+  bool update(double time);
+
+  bool follows_references(int muscle) const { return machines_[ecu_of_[muscle]].follows_references(); }
+  State state(int muscle) const { return machines_[ecu_of_[muscle]].state(); }
+  bool stop_latched() const;
+
+  const std::vector<MuscleChannel>& muscles() const { return muscles_; }
+  /// Names of the ECUs, in the order of their first muscle.
+  const std::vector<std::string>& ecus() const { return ecus_; }
+  State ecu_state(std::size_t ecu) const { return machines_[ecu].state(); }
+
+  std::size_t rejected_count() const { return rejected_; }
+  /// Why the last command was refused; empty if none ever was.
+  const std::string& last_rejection() const { return last_rejection_; }
+  /// Age of the last accepted command [s]; negative if there was none.
+  double command_age(double time) const { return commanded_ ? time - last_command_ : -1.0; }
+
+ private:
+  std::string check(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
+                    const std::vector<double>& references, std::vector<MuscleReference>& accepted) const;
+  bool handle_all(Event event);
+
+  std::vector<MuscleChannel> muscles_;
+  Options options_;
+  std::vector<std::string> ecus_;
+  std::vector<std::size_t> ecu_of_;
+  std::vector<StateMachine> machines_;
+  bool commanded_ = false;  ///< since the last enable
+  double last_command_ = 0.0;
+  std::size_t rejected_ = 0;
+  std::string last_rejection_;
+};
+
+}  // namespace ecu
+}  // namespace anthrob

@@ -1,0 +1,160 @@
+#include "anthrob_ecu/supervisor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace anthrob {
+namespace ecu {
+
+namespace {
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), "%g", value);
+  return buffer;
+}
+
+const char* const kModeNames[kModeCount] = {"VOLTAGE", "POSITION", "CURRENT", "FORCE"};
+const char* const kModeUnits[kModeCount] = {"V", "rad", "A", "N"};
+
+}  // namespace
+
+Supervisor::Supervisor(std::vector<MuscleChannel> muscles, const Options& options)
+    : muscles_(std::move(muscles)), options_(options) {
+  for (const MuscleChannel& muscle : muscles_) {
+    // A muscle without ECU stands for itself.
+    const std::string ecu = muscle.ecu.empty() ? muscle.name : muscle.ecu;
+    auto it = std::find(ecus_.begin(), ecus_.end(), ecu);
+    if (it == ecus_.end()) it = ecus_.insert(ecus_.end(), ecu);
+    ecu_of_.push_back(static_cast<std::size_t>(it - ecus_.begin()));
+  }
+  machines_.resize(ecus_.size());
+  handle_all(Event::kSelfTestPassed);
+  if (options_.auto_enable) handle_all(Event::kEnable);
+}
+
+bool Supervisor::handle_all(Event event) {
+  bool all = true;
+  for (StateMachine& machine : machines_) all = machine.handle(event) && all;
+  return all;
+}
+
+bool Supervisor::stop_latched() const {
+  return std::any_of(machines_.begin(), machines_.end(),
+                     [](const StateMachine& machine) { return machine.stop_latched(); });
+}
+
+std::string Supervisor::check(const std::vector<std::string>& names,
+                              const std::vector<std::uint8_t>& modes,
+                              const std::vector<double>& references,
+                              std::vector<MuscleReference>& accepted) const {
+  if (names.empty()) return "no muscle is named";
+  if (modes.size() != names.size() || references.size() != names.size()) {
+    return std::to_string(names.size()) + " names, " + std::to_string(modes.size()) + " modes, " +
+           std::to_string(references.size()) + " references: expected equal numbers";
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto it = std::find_if(muscles_.begin(), muscles_.end(),
+                                 [&](const MuscleChannel& m) { return m.name == names[i]; });
+    if (it == muscles_.end()) return "muscle '" + names[i] + "': no such muscle";
+    const std::string who = "muscle '" + names[i] + "': ";
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i)) {
+      return who + "named twice";
+    }
+    if (!it->takes_commands) return who + "is passive and takes no command";
+    if (modes[i] >= kModeCount) {
+      return who + "mode " + std::to_string(modes[i]) + ": expected VOLTAGE, POSITION, CURRENT or FORCE";
+    }
+    if (!it->modes[modes[i]]) return who + "has no mode " + kModeNames[modes[i]];
+    const double reference = references[i];
+    if (!std::isfinite(reference)) return who + "reference is not a finite number";
+    if (reference < it->lowest[modes[i]] || reference > it->highest[modes[i]]) {
+      return who + kModeNames[modes[i]] + " " + text(reference) + " " + kModeUnits[modes[i]] +
+             ": expected " + text(it->lowest[modes[i]]) + " to " + text(it->highest[modes[i]]);
+    }
+    accepted.push_back({static_cast<int>(it - muscles_.begin()), static_cast<Mode>(modes[i]), reference});
+  }
+  return "";
+}
+
+Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
+                                        const std::vector<std::uint8_t>& modes,
+                                        const std::vector<double>& references, double time,
+                                        std::vector<MuscleReference>& accepted) {
+  accepted.clear();
+  std::vector<MuscleReference> checked;
+  const std::string reason = check(names, modes, references, checked);
+  if (!reason.empty()) {
+    ++rejected_;
+    last_rejection_ = reason;
+    return {false, reason};
+  }
+  if (options_.auto_enable && commanded_) {
+    // After a time-out only: a latched stop or a fault refuses this event.
+    for (StateMachine& machine : machines_) {
+      if (machine.state() == State::kStopping) machine.handle(Event::kEnable);
+    }
+  }
+  commanded_ = true;
+  last_command_ = time;
+  accepted = std::move(checked);
+  return {true, ""};
+}
+
+Supervisor::Outcome Supervisor::enable(double time) {
+  if (stop_latched()) return {false, "emergency stop is latched: call clear_faults first"};
+  for (std::size_t i = 0; i < machines_.size(); ++i) {
+    if (machines_[i].state() == State::kFault) {
+      return {false, ecus_[i] + " is in FAULT: call clear_faults first"};
+    }
+  }
+  handle_all(Event::kEnable);
+  // The watch starts with the first command after enabling.
+  commanded_ = false;
+  last_command_ = time;
+  return {true, ""};
+}
+
+Supervisor::Outcome Supervisor::disable() {
+  handle_all(Event::kDisable);
+  commanded_ = false;
+  return {true, ""};
+}
+
+Supervisor::Outcome Supervisor::emergency_stop() {
+  handle_all(Event::kEmergencyStop);
+  commanded_ = false;
+  return {true, ""};
+}
+
+Supervisor::Outcome Supervisor::clear_faults() {
+  bool enabled = false;
+  for (const StateMachine& machine : machines_) enabled = enabled || machine.follows_references();
+  if (enabled && !stop_latched()) return {true, "nothing to clear"};
+  handle_all(Event::kClear);
+  return {true, ""};
+}
+
+Supervisor::Outcome Supervisor::fault(const std::string& ecu) {
+  for (std::size_t i = 0; i < ecus_.size(); ++i) {
+    if (ecus_[i] != ecu) continue;
+    machines_[i].handle(Event::kFaultDetected);
+    return {true, ""};
+  }
+  return {false, "no ECU of that name"};
+}
+
+bool Supervisor::update(double time) {
+  // Simulated time may be set back; an age cannot be negative.
+  if (time < last_command_) last_command_ = time;
+  if (options_.command_timeout <= 0.0 || !commanded_) return false;
+  if (time - last_command_ <= options_.command_timeout) return false;
+  bool stopped = false;
+  for (StateMachine& machine : machines_) stopped = machine.handle(Event::kCommandTimeout) || stopped;
+  return stopped;
+}
+
+}  // namespace ecu
+}  // namespace anthrob

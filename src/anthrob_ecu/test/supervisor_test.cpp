@@ -1,0 +1,175 @@
+#include "anthrob_ecu/supervisor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace anthrob {
+namespace ecu {
+namespace {
+
+std::vector<MuscleChannel> muscles() {
+  MuscleChannel motor;
+  motor.modes = {true, true, true, true};
+  motor.lowest = {-12.0, -30.0, -8.0, 0.0};
+  motor.highest = {12.0, 30.0, 8.0, 200.0};
+  std::vector<MuscleChannel> list(4, motor);
+  list[0].name = "a", list[0].ecu = "ecu_1";
+  list[1].name = "b", list[1].ecu = "ecu_1";
+  list[2].name = "c", list[2].ecu = "ecu_2";
+  list[3].name = "ligament";
+  list[3].takes_commands = false;
+  return list;
+}
+
+struct Fixture {
+  explicit Fixture(Supervisor::Options options = {}) : supervisor(muscles(), options) {}
+  bool command(double time, double reference = 1.0) {
+    return supervisor.command({"a"}, {1}, {reference}, time, accepted).accepted;
+  }
+  Supervisor supervisor;
+  std::vector<MuscleReference> accepted;
+};
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Supervisor, NothingMovesBeforeEnable) {
+  Fixture f;
+  EXPECT_TRUE(f.command(0.0));
+  EXPECT_FALSE(f.supervisor.follows_references(0));
+  EXPECT_EQ(f.supervisor.state(0), State::kIdle);
+  EXPECT_TRUE(f.supervisor.enable(0.1).accepted);
+  EXPECT_TRUE(f.supervisor.follows_references(0));
+}
+
+TEST(Supervisor, RefusesMalformedCommandsWholeAndSaysWhy) {
+  const struct {
+    std::vector<std::string> names;
+    std::vector<std::uint8_t> modes;
+    std::vector<double> references;
+    const char* reason;
+  } cases[] = {
+      {{}, {}, {}, "no muscle"},
+      {{"a", "x"}, {0, 0}, {0, 0}, "'x': no such muscle"},
+      {{""}, {0}, {0}, "no such muscle"},
+      {{"A"}, {0}, {0}, "no such muscle"},
+      {{"a"}, {}, {1}, "1 names, 0 modes"},
+      {{"a"}, {0}, {}, "0 references"},
+      {{"a"}, {0, 0}, {1}, "2 modes"},
+      {{"a", "b"}, {0, 0}, {1}, "1 references"},
+      {{"a", "a"}, {0, 0}, {1, 1}, "named twice"},
+      {{"a"}, {4}, {0}, "mode 4"},
+      {{"a"}, {255}, {0}, "mode 255"},
+      {{"a"}, {0}, {kNan}, "not a finite"},
+      {{"a"}, {1}, {INFINITY}, "not a finite"},
+      {{"a"}, {2}, {-INFINITY}, "not a finite"},
+      {{"a"}, {0}, {12.5}, "VOLTAGE 12.5 V: expected -12 to 12"},
+      {{"a"}, {1}, {-31}, "POSITION -31 rad"},
+      {{"a"}, {2}, {9}, "CURRENT 9 A"},
+      {{"a"}, {3}, {-1}, "FORCE -1 N: expected 0 to 200"},
+      {{"a", "b"}, {0, 0}, {1, 1e9}, "'b'"},
+      {{"ligament"}, {0}, {0}, "passive"},
+  };
+  Fixture f;
+  f.supervisor.enable(0.0);
+  std::size_t count = 0;
+  for (const auto& test : cases) {
+    const auto outcome = f.supervisor.command(test.names, test.modes, test.references, 0.0, f.accepted);
+    EXPECT_FALSE(outcome.accepted);
+    EXPECT_TRUE(f.accepted.empty());
+    EXPECT_NE(outcome.reason.find(test.reason), std::string::npos) << outcome.reason;
+    EXPECT_EQ(f.supervisor.rejected_count(), ++count);
+  }
+  EXPECT_LT(f.supervisor.command_age(1.0), 0.0);  // none of them counts as a command
+}
+
+TEST(Supervisor, OnlyFreshValidCommandsFeedTheWatch) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  EXPECT_FALSE(f.supervisor.update(100.0));  // the watch starts with the first command
+  f.command(100.0);
+  EXPECT_FALSE(f.supervisor.update(100.4));
+  EXPECT_FALSE(f.command(100.45, kNan));
+  EXPECT_TRUE(f.supervisor.update(100.51));
+  EXPECT_EQ(f.supervisor.state(0), State::kStopping);
+  EXPECT_EQ(f.supervisor.state(2), State::kStopping);
+  EXPECT_FALSE(f.supervisor.update(100.6));  // reported once
+}
+
+TEST(Supervisor, AfterATimeoutHardwareStaysDisabledUntilEnabled) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  f.command(0.0);
+  f.supervisor.update(1.0);
+  EXPECT_TRUE(f.command(1.1));
+  EXPECT_FALSE(f.supervisor.follows_references(0));
+  f.supervisor.enable(1.2);
+  EXPECT_TRUE(f.supervisor.follows_references(0));
+}
+
+TEST(Supervisor, AutoEnableResumesAfterATimeoutButNotAfterAStop) {
+  Fixture f({0.5, true});
+  EXPECT_TRUE(f.supervisor.follows_references(0));
+  f.command(0.0);
+  f.supervisor.update(1.0);
+  EXPECT_FALSE(f.supervisor.follows_references(0));
+  f.command(1.1);
+  EXPECT_TRUE(f.supervisor.follows_references(0));
+
+  f.supervisor.emergency_stop();
+  f.command(1.2);
+  EXPECT_FALSE(f.supervisor.follows_references(0));
+  EXPECT_FALSE(f.supervisor.enable(1.3).accepted);
+  f.supervisor.clear_faults();
+  EXPECT_EQ(f.supervisor.state(0), State::kIdle);
+  f.command(1.4);
+  EXPECT_FALSE(f.supervisor.follows_references(0));
+  EXPECT_TRUE(f.supervisor.enable(1.5).accepted);
+  EXPECT_TRUE(f.supervisor.follows_references(0));
+}
+
+TEST(Supervisor, AutoEnableDoesNotEndADeliberateDisable) {
+  Fixture f({0.5, true});
+  f.command(0.0);
+  f.supervisor.disable();
+  f.command(0.1);
+  EXPECT_FALSE(f.supervisor.follows_references(0));
+}
+
+TEST(Supervisor, ZeroTimeoutNeverStops) {
+  Fixture f({0.0, false});
+  f.supervisor.enable(0.0);
+  f.command(0.0);
+  EXPECT_FALSE(f.supervisor.update(1e6));
+}
+
+TEST(Supervisor, SurvivesTimeJumpingBack) {
+  Fixture f;
+  f.supervisor.enable(100.0);
+  f.command(100.0);
+  EXPECT_FALSE(f.supervisor.update(3.0));
+  EXPECT_FALSE(f.supervisor.update(3.4));
+  EXPECT_TRUE(f.supervisor.update(3.6));
+}
+
+TEST(Supervisor, AFaultStopsItsEcuAndBlocksEnable) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  EXPECT_TRUE(f.supervisor.fault("ecu_2").accepted);
+  EXPECT_FALSE(f.supervisor.fault("ecu_9").accepted);
+  EXPECT_EQ(f.supervisor.state(2), State::kFault);
+  EXPECT_TRUE(f.supervisor.follows_references(0));
+  const auto outcome = f.supervisor.enable(0.1);
+  EXPECT_FALSE(outcome.accepted);
+  EXPECT_NE(outcome.reason.find("ecu_2"), std::string::npos);
+}
+
+TEST(Supervisor, MusclesOfOneEcuShareItsState) {
+  Fixture f;
+  EXPECT_EQ(f.supervisor.ecus(), (std::vector<std::string>{"ecu_1", "ecu_2", "ligament"}));
+}
+
+}  // namespace
+}  // namespace ecu
+}  // namespace anthrob
