@@ -65,7 +65,8 @@ std::string Supervisor::check(const std::vector<std::string>& names,
     }
     if (!it->takes_commands) return who + "is passive and takes no command";
     if (modes[i] >= kModeCount) {
-      return who + "mode " + std::to_string(modes[i]) + ": expected VOLTAGE, POSITION, CURRENT or FORCE";
+      return who + "mode " + std::to_string(modes[i]) +
+             ": expected VOLTAGE, POSITION, CURRENT or FORCE";
     }
     if (!it->modes[modes[i]]) return who + "has no mode " + kModeNames[modes[i]];
     const double reference = references[i];
@@ -74,7 +75,8 @@ std::string Supervisor::check(const std::vector<std::string>& names,
       return who + kModeNames[modes[i]] + " " + text(reference) + " " + kModeUnits[modes[i]] +
              ": expected " + text(it->lowest[modes[i]]) + " to " + text(it->highest[modes[i]]);
     }
-    accepted.push_back({static_cast<int>(it - muscles_.begin()), static_cast<Mode>(modes[i]), reference});
+    accepted.push_back(
+        {static_cast<int>(it - muscles_.begin()), static_cast<Mode>(modes[i]), reference});
   }
   return "";
 }
@@ -152,7 +154,8 @@ bool Supervisor::update(double time) {
   if (options_.command_timeout <= 0.0 || !commanded_) return false;
   if (time - last_command_ <= options_.command_timeout) return false;
   bool stopped = false;
-  for (StateMachine& machine : machines_) stopped = machine.handle(Event::kCommandTimeout) || stopped;
+  for (StateMachine& machine : machines_)
+    stopped = machine.handle(Event::kCommandTimeout) || stopped;
   return stopped;
 }
 

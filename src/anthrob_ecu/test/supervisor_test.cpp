@@ -75,7 +75,8 @@ TEST(Supervisor, RefusesMalformedCommandsWholeAndSaysWhy) {
   f.supervisor.enable(0.0);
   std::size_t count = 0;
   for (const auto& test : cases) {
-    const auto outcome = f.supervisor.command(test.names, test.modes, test.references, 0.0, f.accepted);
+    const auto outcome =
+        f.supervisor.command(test.names, test.modes, test.references, 0.0, f.accepted);
     EXPECT_FALSE(outcome.accepted);
     EXPECT_TRUE(f.accepted.empty());
     EXPECT_NE(outcome.reason.find(test.reason), std::string::npos) << outcome.reason;

@@ -48,6 +48,7 @@ controllers:
   pd:
     period: 0.001
     voltage_limit: 12
+    limits: {position: 30, current: 7, force: 200}
     position: {proportional: 5, derivative: 0.5, force_feedforward: 0.005}
     current: {proportional: 0, integral: 400}
     force: {proportional: 0.5, integral: 1, derivative: 0.5, force_feedforward: 0.005}
@@ -108,7 +109,7 @@ const Case kCases[] = {
      false,
      "0.0065",
      "-0.0065",
-     {"model.yaml:32", "spindle_radius", "-0.0065", "> 0", "[m]"}},
+     {"model.yaml:33", "spindle_radius", "-0.0065", "> 0", "[m]"}},
     {"spindle radius with unit", false, "0.0065", "6.5 mm", {"spindle_radius", "6.5 mm", "[m]"}},
     {"efficiency above one",
      false,

@@ -218,6 +218,29 @@ TEST(Wrapping, DegenerateInputsStayFinite) {
   }
 }
 
+/// The drawn path is the solved path: on the surface, from entry to exit, as long as the arc.
+void expect_drawn_as_solved(const std::shared_ptr<const WrappingSurface>& surface, const Vec3& p1,
+                            const Vec3& p2) {
+  Tendon tendon(surface);
+  const WrapContact& contact = tendon.start(p1, p2);
+  ASSERT_TRUE(contact.touching);
+  std::vector<Vec3> points;
+  surface->trace(contact, points);
+  EXPECT_LT((points.front() - contact.entry).norm(), 1e-12);
+  EXPECT_LT((points.back() - contact.exit).norm(), 1e-12);
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  EXPECT_NEAR(length, contact.length_on, 1e-3 * contact.length_on);
+}
+
+TEST(Wrapping, DrawnPathIsTheSolvedPath) {
+  for (const WrapStart start : {WrapStart::kPositive, WrapStart::kNegative}) {
+    expect_drawn_as_solved(cylinder_z(0.3, start), {1, 0.1, 0.2}, {-1, 0.1, -0.4});
+    expect_drawn_as_solved(cylinder_z(0.3, start), {1, -0.1, 0.2}, {-1, -0.1, -0.4});
+    expect_drawn_as_solved(sphere(0.3, start), {1, 0.1, 0.05}, {-1, 0.1, 0.0});
+  }
+}
+
 TEST(Sphere, ThreeRevolutionsAndBackOnAGreatCircle) {
   const double r = 0.3;
   Tendon tendon(sphere(r));

@@ -27,17 +27,17 @@ struct MuscleReference {
   double reference;
 };
 
-/// Watches over commands and states of all ECUs of a robot, the same on simulator and hardware: nothing moves
-/// before enable, commands that are malformed are refused whole, a command that is not renewed in time stops
-/// the motors, an emergency stop holds until it is cleared.
+/// Watches over commands and states of all ECUs of a robot, the same on simulator and hardware:
+/// nothing moves before enable, commands that are malformed are refused whole, a command that is
+/// not renewed in time stops the motors, an emergency stop holds until it is cleared.
 ///
 /// Free of clocks: time comes in as an argument and may jump.
 class Supervisor {
  public:
   struct Options {
     double command_timeout = 0.5;  ///< [s]; 0: never (simulator only)
-    /// Simulator only: enabled from the start, and again by the next command after a time-out. Never after an
-    /// emergency stop or a fault.
+    /// Simulator only: enabled from the start, and again by the next command after a time-out.
+    /// Never after an emergency stop or a fault.
     bool auto_enable = false;
   };
   /// Outcome of a request, with a reason if it was refused.
@@ -63,7 +63,9 @@ class Supervisor {
   /// @return whether motors were stopped by it just now
   bool update(double time);
 
-  bool follows_references(int muscle) const { return machines_[ecu_of_[muscle]].follows_references(); }
+  bool follows_references(int muscle) const {
+    return machines_[ecu_of_[muscle]].follows_references();
+  }
   State state(int muscle) const { return machines_[ecu_of_[muscle]].state(); }
   bool stop_latched() const;
 
@@ -80,7 +82,8 @@ class Supervisor {
 
  private:
   std::string check(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
-                    const std::vector<double>& references, std::vector<MuscleReference>& accepted) const;
+                    const std::vector<double>& references,
+                    std::vector<MuscleReference>& accepted) const;
   bool handle_all(Event event);
 
   std::vector<MuscleChannel> muscles_;

@@ -50,8 +50,10 @@ void DcMotor::advance(double input, double load, StateView state) const {
 
 void DcMotor::apply(double input, double torque, State& s) const {
   const Eigen::Vector3d next = map_ * Eigen::Vector4d(s.current, s.velocity, input, torque);
-  s.current = next[0];
-  s.velocity = next[1];
+  // Speeds that decay for ever would end as denormal numbers, which are slow.
+  constexpr double kNothing = 1e-200;
+  s.current = std::abs(next[0]) < kNothing ? 0.0 : next[0];
+  s.velocity = std::abs(next[1]) < kNothing ? 0.0 : next[1];
   s.position += next[2];
 }
 
@@ -91,6 +93,11 @@ double DcMotor::winding_speed(StateView state) const {
 
 double DcMotor::position_for(double tendon_length) const {
   return (p_.rest_tendon_length - tendon_length) / p_.spindle_radius;
+}
+
+double DcMotor::holding_input(double, double load) const {
+  const double torque = gear_->load(load * p_.spindle_radius, 0.0, 0.0).torque;
+  return p_.resistance * torque / (p_.ratio * p_.torque_constant);
 }
 
 std::shared_ptr<const Actuator> DcMotor::load(const ConfigNode& kind, const ConfigNode& muscle,

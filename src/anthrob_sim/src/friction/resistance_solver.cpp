@@ -11,7 +11,7 @@ namespace anthrob {
 namespace {
 constexpr int kMaxIterations = 20;
 /// Newton has converged when no velocity changes by more [rad/s, m/s].
-constexpr double kTolerance = 1e-8;
+constexpr double kTolerance = 1e-5;
 /// A joint slower than this at the start of a step counts as at rest [rad/s, m/s].
 constexpr double kAtRest = 1e-9;
 }  // namespace

@@ -181,6 +181,10 @@ class Builder {
     c.force.integral = force.number("integral", Bounds::nonnegative(), "V/(Ns)");
     c.force.derivative = force.number("derivative", Bounds::nonnegative(), "Vs/rad");
     c.force.force_feedforward = force.number("force_feedforward", Bounds::any(), "V/N");
+    const ConfigNode limits = node.at("limits");
+    muscle.limits.position = limits.number("position", Bounds::positive(), "rad");
+    muscle.limits.current = limits.number("current", Bounds::positive(), "A");
+    muscle.limits.force = limits.number("force", Bounds::positive(), "N");
     const double ratio = c.period / options_.step;
     muscle.steps_per_tick = static_cast<int>(std::lround(ratio));
     if (muscle.steps_per_tick < 1 || std::abs(ratio - muscle.steps_per_tick) > 1e-9 * ratio) {

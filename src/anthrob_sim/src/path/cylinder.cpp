@@ -82,6 +82,22 @@ void Cylinder::wrap(const Vec3& before, const Vec3& after, StateView state,
   contact.penetration = w.penetration;
 }
 
+void Cylinder::trace(const WrapContact& contact, std::vector<Vec3>& points) const {
+  const Vec3 entry = X_BC_.to_local(contact.entry), exit = X_BC_.to_local(contact.exit);
+  // About y, from z towards x; the side is that of the tangent at the entry.
+  const Vec3 tangent = X_BC_.R.transpose() * contact.direction_in;
+  const double side = entry.z() * tangent.x() - entry.x() * tangent.z() >= 0.0 ? 1.0 : -1.0;
+  const double start = std::atan2(entry.x(), entry.z());
+  const int pieces = 1 + static_cast<int>(contact.wrap_angle / 0.1);
+  for (int i = 0; i <= pieces; ++i) {
+    const double share = static_cast<double>(i) / pieces;
+    const double angle = start + side * share * contact.wrap_angle;
+    points.push_back(X_BC_ * from_plane(circle_.radius() * std::cos(angle),
+                                        circle_.radius() * std::sin(angle),
+                                        entry.y() + share * (exit.y() - entry.y())));
+  }
+}
+
 std::shared_ptr<const WrappingSurface> Cylinder::load(const ConfigNode& node, const Pose& X_BL) {
   const Vec3 origin = node.at("origin").as_vector3("m");
   const Vec3 axis = node.at("axis").as_vector3("1");

@@ -31,7 +31,10 @@ PathModel::PathModel(const SkeletonModel& skeleton, std::vector<PathObstacle> ob
 }
 
 MusclePath::MusclePath(const PathModel& model)
-    : model_(model), segments_(model.segment_count()), obstacles_(model.obstacles().size()) {}
+    : model_(model),
+      segments_(model.segment_count()),
+      obstacles_(model.obstacles().size()),
+      contacts_(model.obstacles().size()) {}
 
 void MusclePath::initialise(const std::vector<BodyState>& bodies, StateView state) {
   const auto& list = model_.obstacles();
@@ -88,14 +91,15 @@ void MusclePath::update_surface(const std::vector<BodyState>& bodies, StateView 
   const Pose& X_WB = bodies[list[i].body].X_WB;
   const Vec3 before_W = bodies[list[i - 1].body].X_WB * list[i - 1].point_B;
   const Vec3 after_W = bodies[list[i + 1].body].X_WB * list[i + 1].point_B;
+  WrapContact& contact = contacts_[i];
   list[i].surface->wrap(X_WB.to_local(before_W), X_WB.to_local(after_W),
-                        state.from(model_.state_offset(i)), contact_);
-  segments_[i - 1] = {before_W, X_WB * contact_.entry, X_WB.R * contact_.direction_in,
-                      X_WB.R * contact_.pull_in, contact_.length_in};
-  segments_[i] = {X_WB * contact_.exit, after_W, X_WB.R * contact_.direction_out,
-                  X_WB.R * contact_.pull_out, contact_.length_out};
-  obstacles_[i] = {contact_.touching,   contact_.length_on,  contact_.turning,
-                   contact_.wrap_angle, contact_.half_turns, contact_.penetration};
+                        state.from(model_.state_offset(i)), contact);
+  segments_[i - 1] = {before_W, X_WB * contact.entry, X_WB.R * contact.direction_in,
+                      X_WB.R * contact.pull_in, contact.length_in};
+  segments_[i] = {X_WB * contact.exit, after_W, X_WB.R * contact.direction_out,
+                  X_WB.R * contact.pull_out, contact.length_out};
+  obstacles_[i] = {contact.touching,   contact.length_on,  contact.turning,
+                   contact.wrap_angle, contact.half_turns, contact.penetration};
 }
 
 void MusclePath::add_moment_arms(std::size_t i, double scale, const KinematicTree& tree,
@@ -121,6 +125,22 @@ void MusclePath::add_moment_arms(std::size_t i, double scale, const KinematicTre
       arm[2] += weight * moment[2];
     }
   }
+}
+
+std::vector<Vec3> MusclePath::polyline(const std::vector<BodyState>& bodies) const {
+  const auto& list = model_.obstacles();
+  std::vector<Vec3> points, on_surface;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Pose& X_WB = bodies[list[i].body].X_WB;
+    if (!list[i].surface) {
+      points.push_back(X_WB * list[i].point_B);
+    } else if (contacts_[i].touching) {
+      on_surface.clear();
+      list[i].surface->trace(contacts_[i], on_surface);
+      for (const Vec3& point : on_surface) points.push_back(X_WB * point);
+    }
+  }
+  return points;
 }
 
 }  // namespace anthrob

@@ -85,6 +85,17 @@ void Sphere::wrap(const Vec3& before, const Vec3& after, StateView state,
   contact.penetration = w.penetration;
 }
 
+void Sphere::trace(const WrapContact& contact, std::vector<Vec3>& points) const {
+  const Vec3 radial = (contact.entry - center_).normalized();
+  const Vec3 along = across(contact.direction_in, radial);
+  const int pieces = 1 + static_cast<int>(contact.wrap_angle / 0.1);
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = contact.wrap_angle * i / pieces;
+    points.push_back(center_ +
+                     circle_.radius() * (std::cos(angle) * radial + std::sin(angle) * along));
+  }
+}
+
 std::shared_ptr<const WrappingSurface> Sphere::load(const ConfigNode& node, const Pose& X_BL) {
   return std::make_shared<Sphere>(X_BL * node.at("center").as_vector3("m"), read_circle_wrap(node));
 }

@@ -132,6 +132,8 @@ class Builder {
     }
     JointModel model;
     model.name = joint.name;
+    model.parent_link = parent.name;
+    model.child_link = joint.child_link_name;
     model.parent = body;
     model.child = static_cast<int>(model_.bodies.size());
     model.X_PC_rest = X_LC;

@@ -40,6 +40,8 @@ class Actuator {
   virtual double winding_speed(StateView state) const = 0;
   /// The position that gives a tendon length, the inverse of tendon_length at rest.
   virtual double position_for(double tendon_length) const = 0;
+  /// The input that keeps the actuator at rest at a position under a load [N].
+  virtual double holding_input(double position, double load) const = 0;
 
   /// Range of useful inputs: [-limit, limit] volts, or [0, limit].
   virtual double input_low() const = 0;

@@ -38,6 +38,7 @@ class DcMotor final : public Actuator {
   double tendon_length(StateView state) const override;
   double winding_speed(StateView state) const override;
   double position_for(double tendon_length) const override;
+  double holding_input(double position, double load) const override;
   double input_low() const override { return -p_.voltage_limit; }
   double input_high() const override { return p_.voltage_limit; }
 

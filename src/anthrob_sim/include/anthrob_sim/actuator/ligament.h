@@ -17,6 +17,7 @@ class Ligament final : public Actuator {
   double tendon_length(StateView) const override { return length_; }
   double winding_speed(StateView) const override { return 0.0; }
   double position_for(double) const override { return 0.0; }
+  double holding_input(double, double) const override { return 0.0; }
   double input_low() const override { return 0.0; }
   double input_high() const override { return 0.0; }
 

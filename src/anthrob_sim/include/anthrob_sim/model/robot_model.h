@@ -14,6 +14,13 @@
 
 namespace anthrob {
 
+/// Largest references that are accepted for a muscle, by size.
+struct CommandLimits {
+  double position = 30.0;  ///< [rad]
+  double current = 10.0;   ///< [A]
+  double force = 500.0;    ///< [N]
+};
+
 /// One muscle: actuator, spring and path, and the ECU channel that drives it.
 struct MuscleModel {
   std::string name;
@@ -24,6 +31,7 @@ struct MuscleModel {
   int spring_segment = 0;  ///< k of Algorithm 4.1
   int sensor_segment = 0;  ///< j of Algorithm 4.1
   bool has_controller = false;
+  CommandLimits limits;
   ecu::ControllerSettings controller;
   int steps_per_tick = 1;  ///< simulation steps between two ticks of the controller
 };

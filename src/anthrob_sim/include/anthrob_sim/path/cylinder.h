@@ -18,6 +18,8 @@ class Cylinder final : public WrappingSurface {
   void wrap(const Vec3& before, const Vec3& after, StateView state,
             WrapContact& contact) const override;
 
+  void trace(const WrapContact& contact, std::vector<Vec3>& points) const override;
+
   const Pose& pose() const { return X_BC_; }
   double radius() const { return circle_.radius(); }
 

@@ -76,6 +76,8 @@ class MusclePath {
   const std::vector<PathSegment>& segments() const { return segments_; }
   const std::vector<ObstacleState>& obstacles() const { return obstacles_; }
   const PathModel& model() const { return model_; }
+  /// The path for drawing: points and, on surfaces, points along the way, in the world [m].
+  std::vector<Vec3> polyline(const std::vector<BodyState>& bodies) const;
 
   /// Adds `scale` times the moment arms of one segment (-dl/dq, joints beyond world axes) to
   /// `target`.
@@ -89,7 +91,7 @@ class MusclePath {
   const PathModel& model_;
   std::vector<PathSegment> segments_;
   std::vector<ObstacleState> obstacles_;
-  WrapContact contact_;
+  std::vector<WrapContact> contacts_;  ///< of surfaces, in their bodies' frames
   double length_ = 0.0;
 };
 

@@ -17,6 +17,8 @@ class Sphere final : public WrappingSurface {
   void wrap(const Vec3& before, const Vec3& after, StateView state,
             WrapContact& contact) const override;
 
+  void trace(const WrapContact& contact, std::vector<Vec3>& points) const override;
+
   const Vec3& center() const { return center_; }
   double radius() const { return circle_.radius(); }
 

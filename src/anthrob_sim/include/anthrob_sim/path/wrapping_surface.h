@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "anthrob_sim/core/state.h"
 #include "anthrob_sim/core/types.h"
@@ -50,6 +51,9 @@ class WrappingSurface {
   /// Follows the posture. `contact` is complete afterwards.
   virtual void wrap(const Vec3& before, const Vec3& after, StateView state,
                     WrapContact& contact) const = 0;
+
+  /// Appends points of the path on the surface, from entry to exit, for drawing.
+  virtual void trace(const WrapContact& contact, std::vector<Vec3>& points) const = 0;
 };
 
 /// Fills `contact` for a tendon that runs straight from `before` to `after`, meeting at `point`'s

@@ -29,11 +29,12 @@ struct JointStopModel {
 struct JointModel {
   std::string name;
   JointType type = JointType::kHinge;
-  int parent = 0;                ///< index of a body
-  int child = 0;                 ///< index of a body
-  Pose X_PC_rest;                ///< child link frame in parent link frame at rest
-  Vec3 center_C = Vec3::Zero();  ///< rotation centre in the child link frame [m]
-  Vec3 axis_C = Vec3::UnitZ();   ///< unit axis in the child link frame (not for a ball joint)
+  std::string parent_link, child_link;  ///< as in the URDF
+  int parent = 0;                       ///< index of a body
+  int child = 0;                        ///< index of a body
+  Pose X_PC_rest;                       ///< child link frame in parent link frame at rest
+  Vec3 center_C = Vec3::Zero();         ///< rotation centre in the child link frame [m]
+  Vec3 axis_C = Vec3::UnitZ();  ///< unit axis in the child link frame (not for a ball joint)
   JointFrictionModel friction;
   JointStopModel stop;
   bool driven = false;  ///< takes an applied effort from outside

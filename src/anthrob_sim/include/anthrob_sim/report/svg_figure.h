@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace anthrob {
+
+/// A line plot as SVG text: axes with round ticks, one or more panels below each other, a legend.
+/// Enough for the figures of reports; opens in any browser and can stand inside an HTML page.
+class SvgFigure {
+ public:
+  struct Line {
+    std::string label;  ///< empty: not in the legend
+    std::vector<double> x, y;
+    bool dashed = false;
+    int colour = -1;  ///< index into the palette; -1: the next one
+  };
+
+  struct Panel {
+    std::string x_label, y_label;
+    std::vector<Line> lines;
+  };
+
+  explicit SvgFigure(const std::string& title) : title_(title) {}
+
+  Panel& add_panel(const std::string& x_label, const std::string& y_label);
+  std::string render() const;
+
+ private:
+  std::string title_;
+  std::vector<Panel> panels_;
+};
+
+}  // namespace anthrob

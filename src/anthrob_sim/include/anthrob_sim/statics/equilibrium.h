@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// How to hold a posture at rest, derived from the model without friction.
+struct Equilibrium {
+  std::vector<double> tension;   ///< least-effort tension by muscle [N]
+  std::vector<double> position;  ///< actuator position by muscle [rad]
+  /// Reference of the ECU's position controller that leaves the actuator at `position`: its
+  /// proportional control needs a standing error for the voltage that carries the load. For a
+  /// muscle without controller the input that holds it.
+  std::vector<double> reference;
+  Eigen::VectorXd shortfall;  ///< torque that the muscles cannot deliver [Nm, N]
+};
+
+struct EquilibriumOptions {
+  double lowest_tension = 1.0;     ///< keeps tendons from going slack [N]
+  double highest_tension = 120.0;  ///< [N]
+};
+
+/// Moment arms of all muscles in the simulation's posture: one row a generalised velocity (ball
+/// joints in the child's axes), one column a muscle [m].
+Eigen::MatrixXd moment_arm_matrix(const Simulation& sim);
+
+/// Generalised forces that hold the posture against gravity (ball joints in the child's axes) [Nm,
+/// N].
+Eigen::VectorXd gravity_load(const Simulation& sim);
+
+/// @param q posture, size position_count. The simulation is used as scratch: it is placed there.
+Equilibrium find_equilibrium(Simulation& sim, const std::vector<double>& q,
+                             const EquilibriumOptions& options = {});
+
+}  // namespace anthrob

@@ -1,0 +1,190 @@
+#include "conversions.h"
+
+#include <algorithm>
+
+#include "anthrob_sim/path/cylinder.h"
+#include "anthrob_sim/path/sphere.h"
+
+namespace anthrob {
+
+std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model) {
+  std::vector<ecu::MuscleChannel> channels;
+  for (const MuscleModel& muscle : model.muscles) {
+    ecu::MuscleChannel channel;
+    channel.name = muscle.name;
+    channel.ecu = muscle.ecu;
+    channel.takes_commands = muscle.actuator->input_high() > muscle.actuator->input_low();
+    const CommandLimits& limits = muscle.limits;
+    if (muscle.has_controller) {
+      const double volts = muscle.controller.voltage_limit;
+      channel.modes = {true, true, true, true};
+      channel.lowest = {-volts, -limits.position, -limits.current, 0.0};
+      channel.highest = {volts, limits.position, limits.current, limits.force};
+    } else {
+      channel.modes = {channel.takes_commands, false, false, false};
+      channel.lowest[0] = muscle.actuator->input_low();
+      channel.highest[0] = muscle.actuator->input_high();
+    }
+    channels.push_back(channel);
+  }
+  return channels;
+}
+
+anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Supervisor& supervisor,
+                                         const ros::Time& stamp) {
+  anthrob_msgs::MuscleStates states;
+  states.header.stamp = stamp;
+  for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
+    const Muscle& muscle = sim.muscle(static_cast<int>(i));
+    const ecu::Measurement& measured = muscle.measured();
+    states.name.push_back(muscle.model().name);
+    states.position.push_back(measured.position);
+    states.velocity.push_back(measured.velocity);
+    states.current.push_back(measured.current);
+    states.voltage.push_back(muscle.voltage());
+    states.force.push_back(measured.force);
+    states.reference.push_back(muscle.reference());
+    states.mode.push_back(static_cast<std::uint8_t>(muscle.mode()));
+    states.ecu_state.push_back(static_cast<std::uint8_t>(supervisor.state(static_cast<int>(i))));
+  }
+  return states;
+}
+
+sensor_msgs::JointState joint_states(const Simulation& sim, const ros::Time& stamp) {
+  sensor_msgs::JointState states;
+  states.header.stamp = stamp;
+  const auto& joints = sim.model().skeleton->joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].type == JointType::kBall) continue;
+    states.name.push_back(joints[j].name);
+    states.position.push_back(sim.measured_joint_position(static_cast<int>(j)));
+    states.velocity.push_back(sim.tree().velocities()[joints[j].velocity_offset]);
+    states.effort.push_back(sim.joint_effort(static_cast<int>(j)));
+  }
+  return states;
+}
+
+anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
+                                                          const ros::Time& stamp) {
+  anthrob_msgs::SphericalJointStates states;
+  states.header.stamp = stamp;
+  const auto& joints = sim.model().skeleton->joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].type != JointType::kBall) continue;
+    const double* q = &sim.configuration()[joints[j].position_offset];
+    const Vec3 w = sim.tree().ball_velocity(static_cast<int>(j));
+    geometry_msgs::Quaternion orientation;
+    orientation.w = q[0], orientation.x = q[1], orientation.y = q[2], orientation.z = q[3];
+    geometry_msgs::Vector3 velocity;
+    velocity.x = w.x(), velocity.y = w.y(), velocity.z = w.z();
+    states.name.push_back(joints[j].name);
+    states.orientation.push_back(orientation);
+    states.angular_velocity.push_back(velocity);
+  }
+  return states;
+}
+
+std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulation& sim,
+                                                                   const ros::Time& stamp) {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  const SkeletonModel& skeleton = *sim.model().skeleton;
+  for (const JointModel& joint : skeleton.joints) {
+    if (joint.type != JointType::kBall) continue;
+    const int parent = skeleton.find_frame(joint.parent_link);
+    const int child = skeleton.find_frame(joint.child_link);
+    const Pose X_PC = sim.link_pose(parent).inverse() * sim.link_pose(child);
+    const Quat q = canonical(Quat(X_PC.R));
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = stamp;
+    transform.header.frame_id = joint.parent_link;
+    transform.child_frame_id = joint.child_link;
+    transform.transform.translation.x = X_PC.p.x();
+    transform.transform.translation.y = X_PC.p.y();
+    transform.transform.translation.z = X_PC.p.z();
+    transform.transform.rotation.w = q.w(), transform.transform.rotation.x = q.x();
+    transform.transform.rotation.y = q.y(), transform.transform.rotation.z = q.z();
+    transforms.push_back(transform);
+  }
+  return transforms;
+}
+
+namespace {
+
+constexpr double kTendonWidth = 0.0022;    // [m] thicker than real, to be seen
+constexpr double kFullColourForce = 40.0;  // [N] where the scale ends
+
+std_msgs::ColorRGBA colour_of(double force) {
+  const double x = std::min(1.0, std::max(0.0, force / kFullColourForce));
+  std_msgs::ColorRGBA colour;
+  // Blue, green, yellow, red.
+  colour.r = static_cast<float>(std::min(1.0, std::max(0.0, 3.0 * x - 1.0)));
+  colour.g = static_cast<float>(x < 2.0 / 3.0 ? std::min(1.0, 0.25 + 2.25 * x) : 3.0 * (1.0 - x));
+  colour.b = static_cast<float>(std::max(0.0, 1.0 - 3.0 * x));
+  colour.a = 1.0f;
+  return colour;
+}
+
+geometry_msgs::Point to_point(const Vec3& p) {
+  geometry_msgs::Point point;
+  point.x = p.x(), point.y = p.y(), point.z = p.z();
+  return point;
+}
+
+}  // namespace
+
+visualization_msgs::MarkerArray muscle_markers(const Simulation& sim, const ros::Time& stamp) {
+  visualization_msgs::MarkerArray markers;
+  for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
+    const Muscle& muscle = sim.muscle(static_cast<int>(i));
+    visualization_msgs::Marker marker;
+    marker.header.stamp = stamp;
+    marker.header.frame_id = sim.model().skeleton->bodies[0].name;
+    marker.ns = muscle.model().name;
+    marker.type = visualization_msgs::Marker::LINE_STRIP;
+    marker.pose.orientation.w = 1.0;
+    marker.scale.x = kTendonWidth;
+    marker.color = colour_of(muscle.spring_tension());
+    for (const Vec3& point : muscle.path().polyline(sim.bodies()))
+      marker.points.push_back(to_point(point));
+    markers.markers.push_back(marker);
+  }
+  return markers;
+}
+
+visualization_msgs::MarkerArray surface_markers(const RobotModel& model) {
+  visualization_msgs::MarkerArray markers;
+  for (const MuscleModel& muscle : model.muscles) {
+    for (const PathObstacle& obstacle : muscle.path->obstacles()) {
+      if (!obstacle.surface) continue;
+      const BodyModel& body = model.skeleton->bodies[obstacle.body];
+      visualization_msgs::Marker marker;
+      marker.header.frame_id = body.name;
+      marker.frame_locked = true;
+      marker.ns = muscle.name;
+      marker.id = static_cast<int>(markers.markers.size());
+      marker.color.r = 0.3f, marker.color.g = 0.6f, marker.color.b = 0.9f, marker.color.a = 0.08f;
+      Pose X_LS = body.X_LB;
+      if (const auto* cylinder = dynamic_cast<const Cylinder*>(obstacle.surface.get())) {
+        // RViz's cylinders stand on z, ours turn about y. Infinite ones are shown 80 mm long.
+        Mat3 R;
+        R << Vec3::UnitX(), -Vec3::UnitZ(), Vec3::UnitY();
+        X_LS = body.X_LB * cylinder->pose() * Pose{R, Vec3::Zero()};
+        marker.type = visualization_msgs::Marker::CYLINDER;
+        marker.scale.x = marker.scale.y = 2.0 * cylinder->radius();
+        marker.scale.z = 0.08;
+      } else if (const auto* sphere = dynamic_cast<const Sphere*>(obstacle.surface.get())) {
+        X_LS.p = body.X_LB * sphere->center();
+        marker.type = visualization_msgs::Marker::SPHERE;
+        marker.scale.x = marker.scale.y = marker.scale.z = 2.0 * sphere->radius();
+      }
+      const Quat q(X_LS.R);
+      marker.pose.position = to_point(X_LS.p);
+      marker.pose.orientation.w = q.w(), marker.pose.orientation.x = q.x();
+      marker.pose.orientation.y = q.y(), marker.pose.orientation.z = q.z();
+      markers.markers.push_back(marker);
+    }
+  }
+  return markers;
+}
+
+}  // namespace anthrob

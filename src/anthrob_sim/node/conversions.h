@@ -1,0 +1,34 @@
+#pragma once
+
+#include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/SphericalJointStates.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/JointState.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <vector>
+
+#include "anthrob_ecu/supervisor.h"
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// What the supervisor must know of the robot's muscles.
+std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model);
+
+anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Supervisor& supervisor,
+                                         const ros::Time& stamp);
+sensor_msgs::JointState joint_states(const Simulation& sim, const ros::Time& stamp);
+anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
+                                                          const ros::Time& stamp);
+
+/// Ball joints, parent link to child link; the rest of the tree is robot_state_publisher's.
+std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulation& sim,
+                                                                   const ros::Time& stamp);
+
+/// Muscles along their solved paths, blue to red by force; segments on a surface stand out.
+visualization_msgs::MarkerArray muscle_markers(const Simulation& sim, const ros::Time& stamp);
+/// Wrapping surfaces, fixed to their links.
+visualization_msgs::MarkerArray surface_markers(const RobotModel& model);
+
+}  // namespace anthrob

@@ -1,0 +1,389 @@
+#include "simulator_node.h"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/callback_queue.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <cmath>
+#include <thread>
+
+#include "conversions.h"
+
+namespace anthrob {
+
+namespace {
+
+const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
+
+diagnostic_msgs::KeyValue key_value(const std::string& key, const std::string& value) {
+  diagnostic_msgs::KeyValue kv;
+  kv.key = key, kv.value = value;
+  return kv;
+}
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), "%.3f", value);
+  return buffer;
+}
+
+void answer(const ecu::Supervisor::Outcome& outcome, std_srvs::Trigger::Response& response) {
+  response.success = outcome.accepted;
+  response.message = outcome.reason;
+}
+
+}  // namespace
+
+SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Options& options,
+                             ros::NodeHandle nh)
+    : options_(options),
+      sim_(std::move(model)),
+      supervisor_(muscle_channels(sim_.model()), options.supervisor),
+      steps_per_cycle_(std::max(
+          1, static_cast<int>(std::lround(1.0 / (options.state_rate * sim_.step_length()))))),
+      nh_(nh) {
+  clock_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
+  joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
+  spherical_joints_ =
+      nh_.advertise<anthrob_msgs::SphericalJointStates>("spherical_joint_states", 100);
+  muscle_paths_ = nh_.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
+  surfaces_ = nh_.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
+  diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+
+  subscribers_ = {
+      nh_.subscribe("muscle_command", 100, &SimulatorNode::on_command, this, kNoDelay),
+      nh_.subscribe("joint_effort_command", 100, &SimulatorNode::on_effort, this, kNoDelay),
+      nh_.subscribe<std_msgs::Empty>(
+          "emergency_stop", 1,
+          [this](const std_msgs::EmptyConstPtr&) {
+            supervisor_.emergency_stop();
+            apply_supervision();
+          },
+          ros::VoidConstPtr(), kNoDelay),
+  };
+  services_ = {
+      nh_.advertiseService("enable", &SimulatorNode::on_enable, this),
+      nh_.advertiseService("disable", &SimulatorNode::on_disable, this),
+      nh_.advertiseService("emergency_stop", &SimulatorNode::on_emergency_stop, this),
+      nh_.advertiseService("clear_faults", &SimulatorNode::on_clear_faults, this),
+      nh_.advertiseService("sim/pause", &SimulatorNode::on_pause, this),
+      nh_.advertiseService("sim/step", &SimulatorNode::on_step, this),
+      nh_.advertiseService("sim/reset", &SimulatorNode::on_reset, this),
+      nh_.advertiseService("sim/set_state", &SimulatorNode::on_set_state, this),
+  };
+  surfaces_.publish(surface_markers(sim_.model()));
+  apply_supervision();
+}
+
+ros::Time SimulatorNode::stamp() const {
+  ros::Time t;
+  t.fromNSec(static_cast<std::uint64_t>(std::llround(sim_.time() * 1e9)));
+  return t;
+}
+
+// ---- commands
+// ------------------------------------------------------------------------------------
+
+void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
+  const auto outcome =
+      supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_);
+  if (!outcome.accepted) {
+    // Wall time: simulated time may stand still.
+    static ros::WallTime last_warning;
+    const ros::WallTime now = ros::WallTime::now();
+    if ((now - last_warning).toSec() < 1.0) return;
+    last_warning = now;
+    ROS_WARN_STREAM("muscle_command refused: " << outcome.reason);
+    return;
+  }
+  apply_supervision();
+  for (const ecu::MuscleReference& reference : accepted_) {
+    if (supervisor_.follows_references(reference.muscle)) {
+      sim_.command(reference.muscle, reference.mode, reference.reference);
+    }
+  }
+}
+
+void SimulatorNode::on_effort(const sensor_msgs::JointState& command) {
+  try {
+    if (command.effort.size() != command.name.size()) {
+      throw BadInput(std::to_string(command.name.size()) + " names, " +
+                     std::to_string(command.effort.size()) + " efforts: expected equal numbers");
+    }
+    std::vector<int> joints;
+    for (std::size_t i = 0; i < command.name.size(); ++i) {
+      const int joint = sim_.model().skeleton->find_joint(command.name[i]);
+      if (joint < 0 || !sim_.model().skeleton->joints[joint].driven) {
+        throw BadInput("joint '" + command.name[i] + "': no driven joint of that name");
+      }
+      if (!std::isfinite(command.effort[i]))
+        throw BadInput("joint '" + command.name[i] + "': effort is not finite");
+      joints.push_back(joint);
+    }
+    for (std::size_t i = 0; i < joints.size(); ++i) sim_.apply_effort(joints[i], command.effort[i]);
+  } catch (const BadInput& error) {
+    ROS_WARN_STREAM("joint_effort_command refused: " << error.what());
+  }
+}
+
+void SimulatorNode::apply_supervision() {
+  for (std::size_t i = 0; i < sim_.muscle_count(); ++i) {
+    const int muscle = static_cast<int>(i);
+    const bool follows = supervisor_.follows_references(muscle);
+    if (sim_.muscle(muscle).enabled() && !follows) {
+      // A stopped muscle forgets its reference: enabling it again must not make it jump.
+      sim_.command(muscle, ecu::Mode::kVoltage, 0.0);
+    }
+    sim_.set_enabled(muscle, follows);
+  }
+}
+
+// ---- services
+// ------------------------------------------------------------------------------------
+
+bool SimulatorNode::on_enable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  answer(supervisor_.enable(sim_.time()), response);
+  apply_supervision();
+  return true;
+}
+
+bool SimulatorNode::on_disable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  answer(supervisor_.disable(), response);
+  apply_supervision();
+  return true;
+}
+
+bool SimulatorNode::on_emergency_stop(std_srvs::Trigger::Request&,
+                                      std_srvs::Trigger::Response& response) {
+  answer(supervisor_.emergency_stop(), response);
+  apply_supervision();
+  return true;
+}
+
+bool SimulatorNode::on_clear_faults(std_srvs::Trigger::Request&,
+                                    std_srvs::Trigger::Response& response) {
+  answer(supervisor_.clear_faults(), response);
+  apply_supervision();
+  return true;
+}
+
+bool SimulatorNode::on_pause(std_srvs::SetBool::Request& request,
+                             std_srvs::SetBool::Response& response) {
+  response.success = request.data || failure_.empty();
+  response.message =
+      response.success ? (request.data ? "paused" : "running") : failure_ + "; call sim/reset";
+  if (response.success) options_.paused = request.data;
+  return true;
+}
+
+bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
+                            anthrob_msgs::Step::Response& response) {
+  options_.paused = true;
+  if (request.steps == 0) {
+    response.message = "steps: 0: expected a number > 0";
+  } else if (!failure_.empty()) {
+    response.message = failure_ + "; call sim/reset";
+  } else {
+    response.success = advance(static_cast<int>(request.steps));
+    response.message = failure_;
+    publish(true);
+  }
+  response.stamp = stamp();
+  return true;
+}
+
+bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  sim_.reset();
+  failure_.clear();
+  publish(true);
+  response.success = true;
+  response.message = "at rest; simulated time goes on";
+  return true;
+}
+
+bool SimulatorNode::on_set_state(anthrob_msgs::SetState::Request& request,
+                                 anthrob_msgs::SetState::Response& response) {
+  const SkeletonModel& skeleton = *sim_.model().skeleton;
+  std::vector<double> q = sim_.configuration(), positions;
+  for (std::size_t i = 0; i < sim_.muscle_count(); ++i) {
+    positions.push_back(sim_.muscle(static_cast<int>(i)).actuator().position);
+  }
+  try {
+    if (request.joint_name.size() != request.joint_position.size() ||
+        request.ball_joint_name.size() != request.ball_joint_orientation.size() ||
+        request.muscle_name.size() != request.muscle_position.size()) {
+      throw BadInput("names and values differ in number");
+    }
+    for (std::size_t i = 0; i < request.joint_name.size(); ++i) {
+      const int index = skeleton.find_joint(request.joint_name[i]);
+      const double value = request.joint_position[i];
+      if (index < 0 || skeleton.joints[index].type == JointType::kBall) {
+        throw BadInput("joint '" + request.joint_name[i] +
+                       "': no hinge or prismatic joint of that name");
+      }
+      const JointModel& joint = skeleton.joints[index];
+      if (!std::isfinite(value) ||
+          (joint.stop.enabled && (value < joint.stop.lower || value > joint.stop.upper))) {
+        throw BadInput("joint '" + joint.name + "': " + text(value) +
+                       ": expected a position within its limits");
+      }
+      q[joint.position_offset] = value;
+    }
+    for (std::size_t i = 0; i < request.ball_joint_name.size(); ++i) {
+      const int index = skeleton.find_joint(request.ball_joint_name[i]);
+      const auto& o = request.ball_joint_orientation[i];
+      const Quat turn(o.w, o.x, o.y, o.z);
+      if (index < 0 || skeleton.joints[index].type != JointType::kBall) {
+        throw BadInput("ball joint '" + request.ball_joint_name[i] +
+                       "': no ball joint of that name");
+      }
+      if (!(std::abs(turn.norm() - 1.0) < 1e-3)) {
+        throw BadInput("ball joint '" + request.ball_joint_name[i] +
+                       "': expected a unit quaternion");
+      }
+      const Quat unit = canonical(turn.normalized());
+      double* p = &q[skeleton.joints[index].position_offset];
+      p[0] = unit.w(), p[1] = unit.x(), p[2] = unit.y(), p[3] = unit.z();
+    }
+    for (std::size_t i = 0; i < request.muscle_name.size(); ++i) {
+      const int index = sim_.model().find_muscle(request.muscle_name[i]);
+      if (index < 0) throw BadInput("muscle '" + request.muscle_name[i] + "': no such muscle");
+      if (!std::isfinite(request.muscle_position[i])) {
+        throw BadInput("muscle '" + request.muscle_name[i] + "': position is not finite");
+      }
+      positions[index] = request.muscle_position[i];
+    }
+    sim_.place(q, positions);
+    failure_.clear();
+    publish(true);
+    response.success = true;
+  } catch (const BadInput& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+// ---- time
+// ----------------------------------------------------------------------------------------
+
+bool SimulatorNode::advance(int steps) {
+  try {
+    for (int i = 0; i < steps; ++i) {
+      if (supervisor_.update(sim_.time())) {
+        ROS_WARN("no fresh muscle_command for %.3f s: motors stopped",
+                 options_.supervisor.command_timeout);
+        apply_supervision();
+      }
+      sim_.step();
+    }
+    return true;
+  } catch (const NumericalFailure& failure) {
+    failure_ = failure.what();
+    options_.paused = true;
+    ROS_ERROR_STREAM(failure_ << "; simulation paused, sim/reset brings it back");
+    return false;
+  }
+}
+
+void SimulatorNode::cycle() {
+  if (!options_.paused) {
+    advance(steps_per_cycle_);
+    publish(false);
+    ++cycles_;
+  }
+}
+
+void SimulatorNode::publish(bool all) {
+  const ros::Time now = stamp();
+  rosgraph_msgs::Clock clock;
+  clock.clock = now;
+  clock_.publish(clock);
+  muscles_.publish(muscle_states(sim_, supervisor_, now));
+  joints_.publish(joint_states(sim_, now));
+  spherical_joints_.publish(spherical_joint_states(sim_, now));
+  const int cycles_per_tf = std::max(1, static_cast<int>(options_.state_rate / options_.tf_rate));
+  if (all || cycles_ % static_cast<std::uint64_t>(cycles_per_tf) == 0) {
+    transforms_.sendTransform(ball_joint_transforms(sim_, now));
+  }
+  const Clock::time_point wall = Clock::now();
+  if (all ||
+      std::chrono::duration<double>(wall - marker_time_).count() > 1.0 / options_.marker_rate) {
+    marker_time_ = wall;
+    muscle_paths_.publish(muscle_markers(sim_, now));
+  }
+}
+
+void SimulatorNode::publish_diagnostics() {
+  const Clock::time_point wall = Clock::now();
+  const double elapsed = std::chrono::duration<double>(wall - report_time_).count();
+  if (elapsed < 1.0) return;
+  const double factor = (sim_.time() - report_sim_time_) / elapsed;
+
+  diagnostic_msgs::DiagnosticArray array;
+  array.header.stamp = stamp();
+  diagnostic_msgs::DiagnosticStatus simulator;
+  simulator.name = nh_.getNamespace() + ": simulator";
+  simulator.hardware_id = sim_.model().file;
+  simulator.level = !failure_.empty()  ? diagnostic_msgs::DiagnosticStatus::ERROR
+                    : late_cycles_ > 0 ? diagnostic_msgs::DiagnosticStatus::WARN
+                                       : diagnostic_msgs::DiagnosticStatus::OK;
+  simulator.message = !failure_.empty()  ? failure_
+                      : options_.paused  ? "paused"
+                      : late_cycles_ > 0 ? "slower than real time"
+                                         : "running";
+  simulator.values = {key_value("real_time_factor", text(factor)),
+                      key_value("late_cycles", std::to_string(late_cycles_)),
+                      key_value("simulated_time", text(sim_.time())),
+                      key_value("rejected_commands", std::to_string(supervisor_.rejected_count())),
+                      key_value("last_rejection", supervisor_.last_rejection()),
+                      key_value("command_age", text(supervisor_.command_age(sim_.time())))};
+  array.status.push_back(simulator);
+  for (std::size_t e = 0; e < supervisor_.ecus().size(); ++e) {
+    diagnostic_msgs::DiagnosticStatus unit;
+    const ecu::State state = supervisor_.ecu_state(e);
+    unit.name = nh_.getNamespace() + ": " + supervisor_.ecus()[e];
+    unit.hardware_id = supervisor_.ecus()[e];
+    unit.level = state == ecu::State::kFault      ? diagnostic_msgs::DiagnosticStatus::ERROR
+                 : state == ecu::State::kStopping ? diagnostic_msgs::DiagnosticStatus::WARN
+                                                  : diagnostic_msgs::DiagnosticStatus::OK;
+    unit.message = ecu::name(state);
+    unit.values = {key_value("stop_latched", supervisor_.stop_latched() ? "true" : "false")};
+    array.status.push_back(unit);
+  }
+  diagnostics_.publish(array);
+  report_time_ = wall;
+  report_sim_time_ = sim_.time();
+  late_cycles_ = 0;
+}
+
+void SimulatorNode::pace() {
+  if (options_.paused) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    deadline_ = Clock::now();
+    return;
+  }
+  if (options_.rate <= 0.0) return;
+  const double period = steps_per_cycle_ * sim_.step_length() / options_.rate;
+  deadline_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period));
+  const Clock::time_point now = Clock::now();
+  if (now > deadline_ + std::chrono::milliseconds(20)) {
+    // Too late to make up for: go on from here rather than race.
+    ++late_cycles_;
+    deadline_ = now;
+  }
+  std::this_thread::sleep_until(deadline_);
+}
+
+void SimulatorNode::run() {
+  deadline_ = report_time_ = Clock::now();
+  publish(true);
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable();
+    cycle();
+    publish_diagnostics();
+    pace();
+  }
+}
+
+}  // namespace anthrob

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/SetState.h>
+#include <anthrob_msgs/Step.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <std_msgs/Empty.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <chrono>
+
+#include "anthrob_ecu/supervisor.h"
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// The ROS contract around a simulation: topics, services, time. One thread: callbacks are served
+/// between two cycles, so a command takes effect at a cycle's start and a service answers when it
+/// is done.
+class SimulatorNode {
+ public:
+  struct Options {
+    double rate = 1.0;          ///< real-time factor; 0: as fast as possible
+    double state_rate = 500.0;  ///< [Hz of simulated time] states and clock
+    double marker_rate = 25.0;  ///< [Hz of wall time]
+    double tf_rate = 100.0;     ///< [Hz of simulated time]
+    bool paused = false;
+    ecu::Supervisor::Options supervisor;
+  };
+
+  SimulatorNode(std::shared_ptr<const RobotModel> model, const Options& options,
+                ros::NodeHandle nh);
+
+  /// Until ROS shuts down.
+  void run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void on_command(const anthrob_msgs::MuscleCommand& command);
+  void on_effort(const sensor_msgs::JointState& command);
+  bool on_enable(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_disable(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_emergency_stop(std_srvs::Trigger::Request& request,
+                         std_srvs::Trigger::Response& response);
+  bool on_clear_faults(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool on_step(anthrob_msgs::Step::Request& request, anthrob_msgs::Step::Response& response);
+  bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_set_state(anthrob_msgs::SetState::Request& request,
+                    anthrob_msgs::SetState::Response& response);
+
+  /// @return false if the numbers broke down; the simulation is paused then
+  bool advance(int steps);
+  void apply_supervision();
+  void cycle();
+  void publish(bool all);
+  void publish_diagnostics();
+  void pace();
+  ros::Time stamp() const;
+
+  Options options_;
+  Simulation sim_;
+  ecu::Supervisor supervisor_;
+  std::vector<ecu::MuscleReference> accepted_;
+  int steps_per_cycle_;
+  std::uint64_t cycles_ = 0;
+  std::string failure_;  ///< why the simulation stands still; empty if it does not
+
+  ros::NodeHandle nh_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  ros::Publisher clock_, muscles_, joints_, spherical_joints_, efforts_, muscle_paths_, surfaces_,
+      diagnostics_;
+  tf2_ros::TransformBroadcaster transforms_;
+
+  Clock::time_point deadline_, report_time_, marker_time_;
+  double report_sim_time_ = 0.0;
+  int late_cycles_ = 0;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,121 @@
+// Least-effort tensions, and equilibria that the simulation really takes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "anthrob_sim/statics/equilibrium.h"
+#include "anthrob_sim/statics/least_effort.h"
+#include "support.h"
+
+namespace anthrob {
+namespace {
+
+using testing_support::config;
+using testing_support::Random;
+
+TEST(LeastEffort, TwoAntagonistsByHand) {
+  Eigen::MatrixXd A(1, 2);
+  A << 0.05, -0.04;
+  Eigen::VectorXd tau(1);
+  tau << 1.0;
+  const auto result = least_effort(A, tau, Eigen::Vector2d(2, 2), Eigen::Vector2d(100, 100));
+  EXPECT_NEAR(result.tension[1], 2.0, 1e-9);  // the antagonist idles
+  EXPECT_NEAR(result.tension[0], (1.0 + 0.04 * 2.0) / 0.05, 1e-6);
+  EXPECT_NEAR(result.shortfall[0], 0.0, 1e-6);
+}
+
+TEST(LeastEffort, SharesLikeArmsWithoutBounds) {
+  // Least squares: tension in proportion to the moment arm.
+  Eigen::MatrixXd A(1, 3);
+  A << 0.05, 0.03, 0.01;
+  Eigen::VectorXd tau(1);
+  tau << 2.0;
+  const auto result = least_effort(A, tau, Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(500));
+  const Eigen::Vector3d expected = A.transpose() * (2.0 / A.squaredNorm());
+  EXPECT_LT((result.tension - expected).norm(), 1e-6);
+}
+
+TEST(LeastEffort, SaysWhatItCannotDeliver) {
+  Eigen::MatrixXd A(1, 1);
+  A << 0.05;
+  Eigen::VectorXd tau(1);
+  tau << 10.0;
+  const auto result =
+      least_effort(A, tau, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 100.0));
+  EXPECT_NEAR(result.tension[0], 100.0, 0.05);
+  EXPECT_NEAR(result.shortfall[0], 5.0, 0.003);
+  const auto pushing =
+      least_effort(A, -tau, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 100.0));
+  EXPECT_NEAR(pushing.tension[0], 0.0, 1e-6);
+}
+
+TEST(LeastEffort, RandomProblemsSatisfyTheOptimalityConditions) {
+  // Karush-Kuhn-Tucker: f = clamp(A^T lambda) for some lambda.
+  Random random(9);
+  for (int run = 0; run < 200; ++run) {
+    const int n = 4, m = 11;
+    Eigen::MatrixXd A(n, m);
+    for (int i = 0; i < n * m; ++i) A.data()[i] = random.uniform(-0.06, 0.06);
+    Eigen::VectorXd inside(m);
+    for (int i = 0; i < m; ++i) inside[i] = random.uniform(1.0, 80.0);
+    const Eigen::VectorXd tau = A * inside;
+    const Eigen::VectorXd lo = Eigen::VectorXd::Constant(m, 1.0),
+                          hi = Eigen::VectorXd::Constant(m, 80.0);
+    const auto result = least_effort(A, tau, lo, hi);
+    EXPECT_LT(result.shortfall.norm(), 1e-6);
+    // Multipliers from the muscles strictly between their bounds.
+    std::vector<int> free;
+    for (int i = 0; i < m; ++i) {
+      if (result.tension[i] > 1.0 + 1e-6 && result.tension[i] < 80.0 - 1e-6) free.push_back(i);
+    }
+    if (static_cast<int>(free.size()) < n) continue;
+    Eigen::MatrixXd At(free.size(), n);
+    Eigen::VectorXd f(free.size());
+    for (std::size_t i = 0; i < free.size(); ++i)
+      At.row(i) = A.col(free[i]).transpose(), f[i] = result.tension[free[i]];
+    const Eigen::VectorXd lambda = At.colPivHouseholderQr().solve(f);
+    for (int i = 0; i < m; ++i) {
+      const double want = std::min(80.0, std::max(1.0, A.col(i).dot(lambda)));
+      EXPECT_NEAR(result.tension[i], want, 1e-4);
+    }
+  }
+}
+
+TEST(LeastEffort, RefusesWhatDoesNotFit) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Ones(1, 2);
+  EXPECT_THROW(
+      least_effort(A, Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::VectorXd::Ones(2)),
+      std::invalid_argument);
+  EXPECT_THROW(
+      least_effort(A, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(2), Eigen::VectorXd::Zero(2)),
+      std::invalid_argument);
+}
+
+TEST(Equilibrium, TheSimulationTakesIt) {
+  // Without eyelet friction the references lead to the posture they were derived for.
+  for (const char* name : {"I", "II"}) {
+    const auto model = load_robot_model(
+        config(std::string("anthrob/model_") + name + ".yaml"),
+        {1e-3, {{"eyelet_friction.static", 0.0}, {"eyelet_friction.kinetic", 0.0}}});
+    Simulation scratch(model), sim(model);
+    // Abducted 40 degrees (about -x-y of the world at rest), elbow bent by 60.
+    const Mat3 R = scratch.tree().joint(0).R_WC;
+    const Quat lift(Eigen::AngleAxisd(0.7, R.transpose() * Vec3(-1, -1, 0).normalized()));
+    const std::vector<double> q{lift.w(), lift.x(), lift.y(), lift.z(), 1.05};
+    const Equilibrium e = find_equilibrium(scratch, q);
+    EXPECT_LT(e.shortfall.norm(), 1e-6) << name;
+    for (int m = 0; m < 11; ++m) sim.command(m, ecu::Mode::kPosition, e.reference[m]);
+    sim.step(15000);
+    const auto& now = sim.configuration();
+    EXPECT_LT(angular_distance(Quat(now[0], now[1], now[2], now[3]), lift), 0.01) << name;
+    EXPECT_NEAR(now[4], 1.05, 0.01) << name;
+    for (int m = 0; m < 11; ++m) {
+      EXPECT_NEAR(sim.muscle(m).force(), e.tension[m], 0.3)
+          << name << " " << model->muscles[m].name;
+      EXPECT_NEAR(sim.muscle(m).actuator().position, e.position[m], 0.01) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace anthrob
