@@ -1,0 +1,115 @@
+// Figures of a recording: joint angles, actuator positions, muscle forces.
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/atomic_file.h"
+#include "anthrob_sim/recording/load_recording.h"
+#include "anthrob_sim/report/svg_figure.h"
+#include "anthrob_sim/tool/tool.h"
+
+namespace anthrob {
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;
+constexpr std::size_t kMostPoints = 2000;
+
+/// All owners that have a quantity, in the order of their first column.
+std::vector<std::string> owners(const Dataset& data, const std::string& quantity, bool muscles) {
+  std::set<std::string> with_force;
+  for (const Table& table : data.tables) {
+    for (const Column& column : table.columns) {
+      if (column.quantity() == "force") with_force.insert(column.owner());
+    }
+  }
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const Table& table : data.tables) {
+    for (const Column& column : table.columns) {
+      if (column.quantity() != quantity || (with_force.count(column.owner()) > 0) != muscles)
+        continue;
+      if (seen.insert(column.owner()).second) names.push_back(column.owner());
+    }
+  }
+  return names;
+}
+
+SvgFigure::Line line(const std::string& label, const Series& series, double scale) {
+  SvgFigure::Line result;
+  result.label = label;
+  const std::size_t stride = 1 + series.t.size() / kMostPoints;
+  for (std::size_t i = 0; i < series.t.size(); i += stride) {
+    result.x.push_back(series.t[i]);
+    result.y.push_back(scale * series.values[i]);
+  }
+  return result;
+}
+
+void add_ball_joint(const Dataset& data, const std::string& joint, SvgFigure& figure) {
+  const Series w = data.series(joint + "/w"), x = data.series(joint + "/x"),
+               y = data.series(joint + "/y"), z = data.series(joint + "/z");
+  Series axes[3], angle;
+  for (std::size_t i = 0; i < w.t.size(); ++i) {
+    const double v[] = {x.values[i], y.values[i], z.values[i]};
+    const double sine = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const double turned = 2.0 * std::atan2(sine, w.values[i]);
+    for (int k = 0; k < 3; ++k) {
+      axes[k].t.push_back(w.t[i]);
+      axes[k].values.push_back(sine > 0.0 ? turned * v[k] / sine : 0.0);
+    }
+    angle.t.push_back(w.t[i]);
+    angle.values.push_back(turned);
+  }
+  auto& panel = figure.add_panel("time [s]", joint + " from rest [deg]");
+  for (int k = 0; k < 3; ++k) {
+    panel.lines.push_back(line(std::string("about ") + "xyz"[k], axes[k], kDegrees));
+  }
+  panel.lines.push_back(line("whole angle", angle, kDegrees));
+  panel.lines.back().dashed = true;
+  panel.lines.back().colour = 9;
+}
+
+std::string joint_figure(const Dataset& data) {
+  SvgFigure figure("Joint angles");
+  for (const std::string& joint : owners(data, "w", false)) add_ball_joint(data, joint, figure);
+  for (const std::string& joint : owners(data, "position", false)) {
+    auto& panel = figure.add_panel("time [s]", joint + " [deg]");
+    panel.lines.push_back(line(joint, data.series(joint + "/position"), kDegrees));
+  }
+  return figure.render();
+}
+
+std::string muscle_figure(const Dataset& data, const std::string& title,
+                          const std::string& quantity, const std::string& unit) {
+  SvgFigure figure(title);
+  auto& panel = figure.add_panel("time [s]", quantity + " [" + unit + "]");
+  for (const std::string& muscle : owners(data, quantity, true)) {
+    panel.lines.push_back(line(muscle, data.series(muscle + "/" + quantity), 1.0));
+  }
+  return figure.render();
+}
+
+}  // namespace
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  using namespace anthrob;
+  CLI::App app("Draws a recording: joint_angles.svg, actuator_positions.svg, muscle_forces.svg.",
+               "anthrob_plot");
+  std::string in, out;
+  app.add_option("IN", in, "bag or dataset folder")->required();
+  app.add_option("--out", out, "folder for the figures")->required();
+  return tool::run(app, argc, argv, [&]() -> int {
+    const Dataset data = load_recording(in);
+    std::error_code error;
+    std::filesystem::create_directories(out, error);
+    write_file_atomically(out + "/joint_angles.svg", joint_figure(data));
+    write_file_atomically(out + "/actuator_positions.svg",
+                          muscle_figure(data, "Actuator positions", "position", "rad"));
+    write_file_atomically(out + "/muscle_forces.svg",
+                          muscle_figure(data, "Muscle forces", "force", "N"));
+    return tool::kDone;
+  });
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/simulation.h"
+#include "anthrob_sim/statics/equilibrium.h"
+
+namespace anthrob {
+
+/// A posture to visit, and how long to stay.
+struct PostureStep {
+  std::string name;
+  std::vector<double> q;  ///< joint positions, as in a configuration
+  double hold = 3.0;      ///< [s] from the command on
+};
+
+/// A list of postures in a YAML file:
+///   lowest_tension: 1.0
+///   postures:
+///     - {name: raised, hold: 4.0, joints: {shoulder: [w, x, y, z], elbow: 1.0}}
+/// Joints that are not named are at rest.
+struct PostureSequence {
+  EquilibriumOptions options;
+  std::vector<PostureStep> steps;
+
+  /// @throws BadInput with one line
+  static PostureSequence load(const std::string& file, const RobotModel& model);
+
+  /// Actuator references for every step, derived from the model.
+  /// @throws BadInput if the muscles cannot hold a posture
+  std::vector<std::vector<double>> references(const std::shared_ptr<const RobotModel>& model) const;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,71 @@
+// Puts a running simulator into one posture of a posture file, at equilibrium, and commands the
+// references that hold it. For pictures and for trying things out.
+#include <anthrob_msgs/SetState.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+
+#include "anthrob_control/posture_sequence.h"
+#include "muscle_commands.h"
+
+namespace {
+
+anthrob_msgs::SetState state_of(const anthrob::RobotModel& model, const std::vector<double>& q,
+                                const std::vector<double>& positions) {
+  anthrob_msgs::SetState state;
+  for (const anthrob::JointModel& joint : model.skeleton->joints) {
+    const double* p = &q[joint.position_offset];
+    if (joint.type == anthrob::JointType::kBall) {
+      geometry_msgs::Quaternion turn;
+      turn.w = p[0], turn.x = p[1], turn.y = p[2], turn.z = p[3];
+      state.request.ball_joint_name.push_back(joint.name);
+      state.request.ball_joint_orientation.push_back(turn);
+    } else {
+      state.request.joint_name.push_back(joint.name);
+      state.request.joint_position.push_back(p[0]);
+    }
+  }
+  for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+    state.request.muscle_name.push_back(model.muscles[m].name);
+    state.request.muscle_position.push_back(positions[m]);
+  }
+  return state;
+}
+
+void hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  const std::string wanted = settings.param<std::string>("posture", "");
+  const auto model = anthrob::load_robot_model(settings.param<std::string>("model", ""));
+  const auto sequence =
+      anthrob::PostureSequence::load(settings.param<std::string>("postures", ""), *model);
+  const auto step = std::find_if(sequence.steps.begin(), sequence.steps.end(),
+                                 [&](const anthrob::PostureStep& s) { return s.name == wanted; });
+  if (step == sequence.steps.end())
+    throw anthrob::BadInput("parameter ~posture: '" + wanted + "': no such posture");
+  anthrob::Simulation scratch(model);
+  const anthrob::Equilibrium equilibrium =
+      anthrob::find_equilibrium(scratch, step->q, sequence.options);
+
+  ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 1);
+  ros::service::waitForService("sim/set_state", ros::Duration(-1));
+  auto state = state_of(*model, step->q, equilibrium.position);
+  if (!ros::service::call("sim/set_state", state) || !state.response.success) {
+    throw anthrob::BadInput("sim/set_state: " + state.response.message);
+  }
+  while (ros::ok() && commands.getNumSubscribers() == 0) ros::WallDuration(0.05).sleep();
+  commands.publish(anthrob::command_for(*model, equilibrium.reference));
+  ros::WallDuration(0.3).sleep();  // until it has gone out
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "hold_posture", ros::init_options::AnonymousName);
+  ros::NodeHandle nh, settings("~");
+  try {
+    hold(nh, settings);
+  } catch (const anthrob::BadInput& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 2;
+  }
+  return 0;
+}

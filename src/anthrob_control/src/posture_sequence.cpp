@@ -1,0 +1,74 @@
+#include "anthrob_control/posture_sequence.h"
+
+#include <cmath>
+
+namespace anthrob {
+
+namespace {
+
+/// More shortfall than this and the posture cannot be held [Nm].
+constexpr double kHoldable = 0.02;
+
+void read_joint(const ConfigNode& node, const JointModel& joint, std::vector<double>& q) {
+  double* p = &q[joint.position_offset];
+  if (joint.type != JointType::kBall) {
+    const Bounds bounds =
+        joint.stop.enabled ? Bounds::between(joint.stop.lower, joint.stop.upper) : Bounds::any();
+    p[0] = node.as_number(bounds, joint.type == JointType::kPrismatic ? "m" : "rad");
+    return;
+  }
+  if (!node.is_sequence() || node.items().size() != 4)
+    node.fail_expected("a unit quaternion [w, x, y, z]");
+  double norm = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    p[k] = node.items()[k].as_number(Bounds::between(-1.001, 1.001), "1");
+    norm += p[k] * p[k];
+  }
+  norm = std::sqrt(norm);
+  if (std::abs(norm - 1.0) > 1e-3) node.fail_expected("a unit quaternion [w, x, y, z]");
+  for (int k = 0; k < 4; ++k) p[k] /= norm;
+}
+
+}  // namespace
+
+PostureSequence PostureSequence::load(const std::string& file, const RobotModel& model) {
+  const ConfigNode node = ConfigNode::load(file);
+  PostureSequence sequence;
+  sequence.options.lowest_tension =
+      node.number_or("lowest_tension", 1.0, Bounds::nonnegative(), "N");
+  for (const ConfigNode& item : node.at("postures").items()) {
+    PostureStep step;
+    step.name = item.text("name");
+    step.hold = item.number("hold", Bounds::positive(), "s");
+    step.q = model.skeleton->rest_configuration();
+    if (item.has("joints")) {
+      for (const auto& [name, value] : item.at("joints").entries()) {
+        const int joint = model.skeleton->find_joint(name);
+        if (joint < 0) value.fail("no movable joint of that name in " + model.file);
+        read_joint(value, model.skeleton->joints[joint], step.q);
+      }
+    }
+    sequence.steps.push_back(step);
+  }
+  if (sequence.steps.empty()) node.at("postures").fail("expected at least one posture");
+  node.refuse_unknown_keys();
+  return sequence;
+}
+
+std::vector<std::vector<double>> PostureSequence::references(
+    const std::shared_ptr<const RobotModel>& model) const {
+  Simulation scratch(model);
+  std::vector<std::vector<double>> list;
+  for (const PostureStep& step : steps) {
+    const Equilibrium equilibrium = find_equilibrium(scratch, step.q, options);
+    if (equilibrium.shortfall.norm() > kHoldable) {
+      throw BadInput("posture '" + step.name + "': the muscles of " + model->file +
+                     " cannot hold it: " + std::to_string(equilibrium.shortfall.norm()) +
+                     " Nm short");
+    }
+    list.push_back(equilibrium.reference);
+  }
+  return list;
+}
+
+}  // namespace anthrob
