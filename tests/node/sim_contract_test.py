@@ -1,0 +1,321 @@
+#!/usr/bin/env python3
+"""The ROS contract of the simulator node: rates, commands, stops, lock-step, time."""
+import math
+import time
+import unittest
+
+import rospy
+import rostest
+from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
+from anthrob_msgs.srv import SetState, SetStateRequest, Step
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Quaternion
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Empty
+from std_srvs.srv import SetBool, Trigger
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
+
+MUSCLES = ['lateral_deltoid', 'anterior_deltoid', 'posterior_deltoid', 'supraspinatus', 'infraspinatus',
+           'teres_minor', 'teres_major', 'pectoralis_major', 'biceps_brachii', 'triceps_brachii', 'brachialis']
+NAN = float('nan')
+
+
+class Collector:
+    """Keeps every message of a topic."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=10000, tcp_nodelay=True)
+
+    def last(self):
+        return self.messages[-1] if self.messages else None
+
+
+def wait_for(condition, seconds, what):
+    end = time.time() + seconds
+    while time.time() < end:
+        if condition():
+            return
+        time.sleep(0.01)
+    raise AssertionError('waited %.1f s for: %s' % (seconds, what))
+
+
+class SimContract(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.states = Collector('muscle_states', MuscleStates)
+        cls.joints = Collector('joint_states', JointState)
+        cls.balls = Collector('spherical_joint_states', SphericalJointStates)
+        cls.clock = Collector('/clock', Clock)
+        cls.tf = Collector('/tf', TFMessage)
+        cls.diagnostics = Collector('/diagnostics', DiagnosticArray)
+        cls.paths = Collector('muscle_paths', MarkerArray)
+        cls.command = rospy.Publisher('muscle_command', MuscleCommand, queue_size=10, tcp_nodelay=True)
+        cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
+        for name in ['enable', 'disable', 'emergency_stop', 'clear_faults', 'sim/pause', 'sim/step', 'sim/reset',
+                     'sim/set_state']:
+            rospy.wait_for_service(name, 30)
+        cls.enable = rospy.ServiceProxy('enable', Trigger)
+        cls.disable = rospy.ServiceProxy('disable', Trigger)
+        cls.emergency_stop = rospy.ServiceProxy('emergency_stop', Trigger)
+        cls.clear_faults = rospy.ServiceProxy('clear_faults', Trigger)
+        cls.pause = rospy.ServiceProxy('sim/pause', SetBool)
+        cls.step = rospy.ServiceProxy('sim/step', Step)
+        cls.reset = rospy.ServiceProxy('sim/reset', Trigger)
+        cls.set_state = rospy.ServiceProxy('sim/set_state', SetState)
+        wait_for(lambda: cls.states.messages and cls.command.get_num_connections() > 0
+                 and cls.stop_topic.get_num_connections() > 0, 30, 'connections')
+
+    def setUp(self):
+        self.pause(True)
+        self.clear_faults()
+        self.reset()
+        self.enable()
+
+    def send(self, names, modes, references):
+        """Publishes a command and waits until the node, paused, has served it."""
+        self.command.publish(MuscleCommand(name=names, mode=modes, reference=references))
+        time.sleep(0.05)
+
+    def advance(self, steps):
+        """Lock-step; returns the states after it."""
+        answer = self.step(steps)
+        self.assertTrue(answer.success, answer.message)
+        wait_for(lambda: self.states.last().header.stamp >= answer.stamp, 5, 'states after the step')
+        return self.states.last()
+
+    # ---- topics and rates ----
+
+    def test_publishes_states_and_clock_in_real_time(self):
+        self.pause(False)
+        time.sleep(0.5)
+        n0, c0, t0 = len(self.states.messages), len(self.clock.messages), time.time()
+        time.sleep(3.0)
+        elapsed = time.time() - t0
+        # Against the simulated time that passed, so that a busy machine does not matter.
+        passed = (self.clock.messages[-1].clock - self.clock.messages[c0].clock).to_sec()
+        self.assertGreaterEqual((len(self.states.messages) - n0) / passed, 200)
+        self.assertGreaterEqual((len(self.clock.messages) - c0) / passed, 200)
+        self.assertGreater(passed / elapsed, 0.5)
+        self.assertLess(passed / elapsed, 1.1)
+        last = self.states.last()
+        self.assertEqual(last.name, MUSCLES)
+        for array in [last.position, last.velocity, last.current, last.voltage, last.force, last.reference,
+                      last.mode, last.ecu_state]:
+            self.assertEqual(len(array), 11)
+        self.assertEqual(self.joints.last().name, ['elbow'])
+        self.assertEqual(self.balls.last().name, ['shoulder'])
+        self.assertGreaterEqual(self.balls.last().orientation[0].w, 0.0)
+        frames = {(t.header.frame_id, t.child_frame_id) for m in self.tf.messages[-50:] for t in m.transforms}
+        self.assertIn(('base', 'humerus'), frames)
+        self.assertIn(('humerus', 'forearm'), frames)
+        self.assertEqual([m.ns for m in self.paths.last().markers], MUSCLES)
+
+    def test_stamps_are_the_clock_and_grow(self):
+        self.advance(10)
+        self.advance(10)
+        stamps = [m.header.stamp for m in self.states.messages]
+        self.assertTrue(all(a <= b for a, b in zip(stamps, stamps[1:])))
+        wait_for(lambda: self.clock.last().clock == self.states.last().header.stamp, 2, 'the same time')
+
+    def test_diagnostics_name_every_ecu(self):
+        wait_for(lambda: self.diagnostics.last() is not None, 5, 'diagnostics')
+        names = [s.name for s in self.diagnostics.last().status]
+        self.assertIn('/anthrob: simulator', names)
+        for i in range(1, 7):
+            self.assertIn('/anthrob: ecu_%d' % i, names)
+        values = {v.key for v in self.diagnostics.last().status[0].values}
+        self.assertTrue({'real_time_factor', 'late_cycles', 'rejected_commands'} <= values)
+
+    # ---- commands ----
+
+    def test_a_command_moves_the_arm(self):
+        before = self.balls.last().orientation[0].w
+        for _ in range(20):
+            self.send(['lateral_deltoid', 'supraspinatus'], [1, 1], [6.0, 3.0])
+            self.advance(100)
+        wait_for(lambda: self.balls.last().orientation[0].w < before - 1e-3, 2, 'a turned shoulder')
+        state = self.states.last()
+        self.assertGreater(state.position[0], 2.0)
+        self.assertGreater(state.force[0], 3.0)
+        self.assertEqual(state.reference[0], 6.0)
+        self.assertEqual(state.mode[0], MuscleCommand.POSITION)
+        self.assertEqual(state.ecu_state[0], MuscleStates.ENABLED)
+
+    def test_a_subset_leaves_the_others_alone(self):
+        self.send(['biceps_brachii', 'brachialis'], [1, 1], [0.5, 0.7])
+        self.send(['brachialis'], [0], [2.0])
+        state = self.advance(10)
+        self.assertEqual(state.reference[MUSCLES.index('biceps_brachii')], 0.5)
+        self.assertEqual(state.reference[MUSCLES.index('brachialis')], 2.0)
+        self.assertEqual(state.mode[MUSCLES.index('brachialis')], MuscleCommand.VOLTAGE)
+        self.assertEqual(state.voltage[MUSCLES.index('brachialis')], 2.0)
+
+    def test_all_four_modes(self):
+        for mode, reference in [(0, 3.0), (1, 0.4), (2, 0.5), (3, 10.0)]:
+            for _ in range(10):
+                self.send(['lateral_deltoid'], [mode], [reference])
+                state = self.advance(200)
+            self.assertEqual(state.mode[0], mode)
+            if mode == 2:
+                self.assertAlmostEqual(state.current[0], reference, delta=0.05)
+            if mode == 3:
+                self.assertAlmostEqual(state.force[0], reference, delta=0.5)
+
+    def test_malformed_commands_are_refused_whole(self):
+        self.send(['lateral_deltoid'], [1], [0.8])
+        good = self.advance(2)
+        cases = [
+            ([], [], []),
+            (['nobody'], [1], [1.0]),
+            ([''], [1], [1.0]),
+            (['Lateral_Deltoid'], [1], [1.0]),
+            (['lateral_deltoid', 'nobody'], [1, 1], [1.0, 1.0]),
+            (['lateral_deltoid', 'lateral_deltoid'], [1, 1], [1.0, 2.0]),
+            (['lateral_deltoid'], [], [1.0]),
+            (['lateral_deltoid'], [1], []),
+            (['lateral_deltoid'], [1, 1], [1.0]),
+            (['lateral_deltoid'], [1], [1.0, 2.0]),
+            (['lateral_deltoid'], [4], [1.0]),
+            (['lateral_deltoid'], [255], [1.0]),
+            (['lateral_deltoid'], [1], [NAN]),
+            (['lateral_deltoid'], [1], [math.inf]),
+            (['lateral_deltoid'], [0], [12.5]),
+            (['lateral_deltoid'], [1], [-1e3]),
+            (['lateral_deltoid'], [2], [100.0]),
+            (['lateral_deltoid'], [3], [-1.0]),
+        ]
+        self.assertGreaterEqual(len(cases), 15)
+
+        def rejected():
+            values = {v.key: v.value for v in self.diagnostics.last().status[0].values}
+            return int(values['rejected_commands']), values['last_rejection']
+
+        time.sleep(1.2)
+        before = rejected()[0]
+        for names, modes, references in cases:
+            self.send(names, modes, references)
+            state = self.advance(1)
+            self.assertEqual(state.reference, good.reference)
+            self.assertEqual(state.mode, good.mode)
+        wait_for(lambda: rejected()[0] == before + len(cases), 3, 'all rejections in diagnostics')
+        self.assertIn('FORCE -1 N', rejected()[1])
+
+    # ---- stops ----
+
+    def test_timeout_stops_and_a_fresh_command_resumes(self):
+        self.send(['lateral_deltoid'], [0], [4.0])
+        self.assertEqual(self.advance(450).voltage[0], 4.0)
+        state = self.advance(100)
+        self.assertEqual(state.voltage[0], 0.0)
+        self.assertEqual(set(state.ecu_state), {MuscleStates.STOPPING})
+        self.send(['biceps_brachii'], [0], [1.0])
+        state = self.advance(10)
+        self.assertEqual(set(state.ecu_state), {MuscleStates.ENABLED})
+        self.assertEqual(state.voltage[MUSCLES.index('biceps_brachii')], 1.0)
+        self.assertEqual(state.voltage[0], 0.0)  # the old reference is forgotten
+
+    def check_stop_is_latched(self):
+        state = self.advance(2)
+        self.assertEqual(state.voltage[0], 0.0)
+        self.assertEqual(set(state.ecu_state), {MuscleStates.STOPPING})
+        self.send(['lateral_deltoid'], [0], [4.0])
+        self.assertEqual(self.advance(20).voltage[0], 0.0)
+        answer = self.enable()
+        self.assertFalse(answer.success)
+        self.assertIn('clear_faults', answer.message)
+        self.assertTrue(self.clear_faults().success)
+        self.send(['lateral_deltoid'], [0], [4.0])
+        self.assertEqual(self.advance(20).voltage[0], 0.0)
+        self.assertTrue(self.enable().success)
+        self.assertEqual(self.advance(20).voltage[0], 0.0)  # no jump to an old reference
+        self.send(['lateral_deltoid'], [0], [4.0])
+        self.assertEqual(self.advance(20).voltage[0], 4.0)
+
+    def test_emergency_stop_service_is_latched(self):
+        self.send(['lateral_deltoid'], [0], [4.0])
+        self.advance(10)
+        self.assertTrue(self.emergency_stop().success)
+        self.check_stop_is_latched()
+
+    def test_emergency_stop_topic_is_latched(self):
+        self.send(['lateral_deltoid'], [0], [4.0])
+        self.advance(10)
+        self.stop_topic.publish(Empty())
+        time.sleep(0.1)
+        self.check_stop_is_latched()
+
+    def test_disable(self):
+        self.send(['lateral_deltoid'], [0], [4.0])
+        self.advance(10)
+        self.assertTrue(self.disable().success)
+        self.assertEqual(self.advance(2).voltage[0], 0.0)
+        self.send(['lateral_deltoid'], [0], [4.0])
+        self.assertEqual(self.advance(2).voltage[0], 0.0)
+
+    # ---- time ----
+
+    def test_lock_step_advances_exactly(self):
+        start = self.step(1).stamp
+        for n in [1, 7, 1000]:
+            stamp = self.step(n).stamp
+            self.assertEqual((stamp - start).to_nsec(), n * 1000000)
+            start = stamp
+        answer = self.step(0)
+        self.assertFalse(answer.success)
+        self.assertIn('expected a number > 0', answer.message)
+
+    def test_paused_time_stands_still(self):
+        stamp = self.step(1).stamp
+        time.sleep(0.3)
+        self.assertEqual(self.step(1).stamp - stamp, rospy.Duration(0, 1000000))
+
+    def test_reset_keeps_time_going(self):
+        for _ in range(5):
+            self.send(['lateral_deltoid'], [1], [6.0])
+            self.advance(300)
+        before = self.step(1).stamp
+        self.assertTrue(self.reset().success)
+        after = self.step(1).stamp
+        self.assertGreater(after, before)
+        wait_for(lambda: self.states.last().header.stamp == after, 2, 'states after reset')
+        self.assertAlmostEqual(self.states.last().position[0], 0.0, delta=1e-3)
+        wait_for(lambda: self.balls.last().orientation[0].w > 1 - 1e-6, 2, 'the shoulder at rest')
+
+    def test_set_state(self):
+        request = SetStateRequest()
+        request.joint_name = ['elbow']
+        request.joint_position = [1.0]
+        request.ball_joint_name = ['shoulder']
+        request.ball_joint_orientation = [Quaternion(w=math.cos(0.2), x=math.sin(0.2), y=0, z=0)]
+        request.muscle_name = ['biceps_brachii']
+        request.muscle_position = [2.0]
+        answer = self.set_state(request)
+        self.assertTrue(answer.success, answer.message)
+        wait_for(lambda: abs(self.joints.last().position[0] - 1.0) < 1e-9, 2, 'the elbow')
+        wait_for(lambda: abs(self.balls.last().orientation[0].w - math.cos(0.2)) < 1e-9, 2, 'the shoulder')
+        wait_for(lambda: self.states.last().position[MUSCLES.index('biceps_brachii')] == 2.0, 2, 'the biceps')
+
+    def test_set_state_refuses_nonsense(self):
+        cases = [
+            (dict(joint_name=['knee'], joint_position=[0.0]), 'knee'),
+            (dict(joint_name=['elbow'], joint_position=[9.0]), 'limits'),
+            (dict(joint_name=['elbow'], joint_position=[NAN]), 'limits'),
+            (dict(joint_name=['elbow'], joint_position=[]), 'differ'),
+            (dict(joint_name=['shoulder'], joint_position=[0.0]), 'shoulder'),
+            (dict(ball_joint_name=['shoulder'], ball_joint_orientation=[Quaternion()]), 'unit quaternion'),
+            (dict(muscle_name=['nobody'], muscle_position=[0.0]), 'nobody'),
+            (dict(muscle_name=['brachialis'], muscle_position=[NAN]), 'finite'),
+        ]
+        for fields, word in cases:
+            answer = self.set_state(SetStateRequest(**fields))
+            self.assertFalse(answer.success)
+            self.assertIn(word, answer.message)
+
+
+if __name__ == '__main__':
+    rospy.init_node('sim_contract_test')
+    rostest.rosrun('anthrob_tests', 'sim_contract', SimContract)
