@@ -1,0 +1,189 @@
+#!/usr/bin/env bash
+# Everything one does with this workspace, each command installing and building what it needs first.
+set -u -o pipefail
+
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+cd "$here" || exit 1
+
+# What the packages need from Debian 12 (bookworm), where ROS 1 is part of the distribution.
+debian_packages=(
+  build-essential cmake catkin ros-core-dev rosbash
+  python3-roslaunch python3-rostopic python3-rosservice python3-rosnode python3-rosbag python3-rosparam
+  python3-rospy python3-rostest python3-rosunit librostest-dev
+  python3-diagnostic-msgs python3-geometry-msgs python3-sensor-msgs python3-std-msgs python3-std-srvs
+  python3-tf2-msgs python3-visualization-msgs python3-rosgraph-msgs
+  librosbag-dev librosbag-storage-dev libroscpp-dev libroslib-dev libtf2-ros-dev
+  libdiagnostic-msgs-dev libgeometry-msgs-dev libros-rosgraph-msgs-dev libsensor-msgs-dev libstd-msgs-dev
+  libstd-srvs-dev libvisualization-msgs-dev
+  ros-robot-state-publisher rviz
+  libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
+  nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libmujoco-dev
+  xvfb imagemagick libgl1-mesa-dri
+)
+# The same on Ubuntu with /opt/ros/noetic, as far as the names differ.
+noetic_packages=(
+  build-essential cmake ros-noetic-desktop libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev
+  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libgtest-dev libgmock-dev
+  libbenchmark-dev xvfb imagemagick libgl1-mesa-dri
+)
+
+say() { printf '\033[1m%s\033[0m\n' "$*"; }
+
+# One line: what failed, and what to do.
+die() {
+  printf 'catkin_ws.sh: %s\n' "$*" >&2
+  exit 1
+}
+
+help() {
+  cat <<'TEXT'
+usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
+
+  deps              install what is needed (as root or through sudo); nothing if all is there
+  build             compile the workspace
+  sim [ARG:=VALUE]  simulate Anthrob, with RViz if there is a display; arguments as of sim.launch:
+                    robot:=anthrob model:=II rviz:=false rate:=1 (0: as fast as possible)
+  demo              the arm raises, bends and returns; records demo.bag, converts it and draws build/demo/
+  test              all tests; the last line counts them
+  bench             benchmarks beside MuJoCo; writes build/bench.json
+  shell             a shell in which rosrun, roslaunch and rostopic know the workspace
+  clean             remove what was built, but not build/study
+  help              this text
+TEXT
+}
+
+# A python from pyenv or conda in front of the system's breaks ROS: the system's comes first here.
+clean_environment() {
+  export PATH="/usr/local/sbin:/usr/sbin:/usr/bin:/sbin:/bin:/usr/local/bin"
+  unset PYTHONHOME PYTHONPATH CONDA_PREFIX CONDA_DEFAULT_ENV VIRTUAL_ENV
+  export ROS_PYTHON_VERSION=3
+  export LANG="${LANG:-C.UTF-8}"
+}
+
+source_file() {
+  # Setup files of ROS use unset variables.
+  set +u
+  # shellcheck disable=SC1090
+  source "$1"
+  set -u
+}
+
+ros_environment() {
+  if [ -f devel/setup.bash ]; then
+    source_file devel/setup.bash
+  elif [ -f /opt/ros/noetic/setup.bash ]; then
+    source_file /opt/ros/noetic/setup.bash
+  fi
+}
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    die "installing packages needs root: run ./catkin_ws.sh deps as root, or install sudo"
+  fi
+}
+
+deps() {
+  command -v dpkg-query >/dev/null || die "this is no Debian: install the packages listed in catkin_ws.sh by hand"
+  local wanted=("${debian_packages[@]}")
+  [ -f /opt/ros/noetic/setup.bash ] && wanted=("${noetic_packages[@]}")
+  local missing=() package
+  for package in "${wanted[@]}"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+  done
+  [ "${#missing[@]}" -eq 0 ] && return 0
+  say "installing ${#missing[@]} packages"
+  as_root apt-get update -q || die "apt-get update failed: check the network and /etc/apt/sources.list"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" ||
+    die "apt-get install failed: see above; on other systems than Debian 12 the package names may differ"
+}
+
+build() {
+  deps
+  ros_environment
+  mkdir -p build
+  say "building (log: build/build.log)"
+  catkin_make -DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+    -DPython3_EXECUTABLE=/usr/bin/python3 -j"$(nproc)" "$@" >build/build.log 2>&1 ||
+    { grep -m5 -E 'error|Error' build/build.log >&2; die "the build failed: see build/build.log"; }
+  source_file devel/setup.bash
+}
+
+have_display() { [ -n "${DISPLAY:-}" ]; }
+
+sim() {
+  build
+  local rviz=false
+  have_display && rviz=true
+  exec roslaunch anthrob_bringup sim.launch rviz:=$rviz "$@"
+}
+
+demo() {
+  build
+  local out="$here/build/demo" rviz=false
+  have_display && rviz=true
+  rm -rf "$out" && mkdir -p "$out" || die "cannot write $out"
+  say "simulating and recording about 30 s"
+  roslaunch anthrob_bringup demo.launch "bag:=$out/demo.bag" rviz:=$rviz >"$out/demo.log" 2>&1 ||
+    die "the demo did not finish: see build/demo/demo.log"
+  [ -f "$out/demo.bag" ] || die "nothing was recorded: see build/demo/demo.log"
+  rosrun anthrob_calib anthrob_convert "$out/demo.bag" "$out/recording" >>"$out/demo.log" ||
+    die "converting the bag failed: see above"
+  rosrun anthrob_calib anthrob_plot "$out/recording" --out "$out" || die "drawing failed: see above"
+  say "taking pictures of the arm in three postures"  # On a screen of its own, so that nothing else gets into the picture.
+  xvfb-run -a -s "-screen 0 1280x960x24" scripts/picture_postures.sh "$out/postures.png" rest abducted flexed >>"$out/demo.log" 2>&1 ||
+    die "the picture failed: see build/demo/demo.log"
+  say "done: build/demo/ holds"
+  (cd "$out" && ls -1 -- *.bag *.svg *.png && echo "recording/")
+}
+
+tests() {
+  build
+  say "building the tests (log: build/build.log)"
+  catkin_make -j"$(nproc)" tests >>build/build.log 2>&1 ||
+    { grep -m5 -E 'error|Error' build/build.log >&2; die "the tests do not build: see build/build.log"; }
+  say "running the tests (log: build/test.log)"
+  rm -rf build/test_results
+  # One after the other: several roscores would share a port.
+  catkin_make -j1 run_tests >build/test.log 2>&1
+  /usr/bin/python3 scripts/count_tests.py build/test_results
+}
+
+bench() {
+  build
+  say "building the benchmarks"
+  catkin_make -j"$(nproc)" step_benchmark >>build/build.log 2>&1 ||
+    die "the benchmarks do not build: see build/build.log"
+  say "measuring"
+  devel/lib/anthrob_sim/step_benchmark --benchmark_out=build/bench.json --benchmark_out_format=json \
+    --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_display_aggregates_only=true \
+    --benchmark_enable_random_interleaving=true "$@" >build/bench.log 2>&1 ||
+    die "the benchmark failed: see build/bench.log"
+  /usr/bin/python3 scripts/bench_table.py build/bench.json
+}
+
+shell() {
+  build
+  say "a shell with the workspace; exit leaves it"
+  bash --rcfile <(echo "[ -f ~/.bashrc ] && . ~/.bashrc; export PATH='$PATH'; . '$here/devel/setup.bash'") -i
+}
+
+clean() {
+  rm -rf devel install .catkin_workspace src/CMakeLists.txt
+  [ -d build ] && find build -mindepth 1 -maxdepth 1 ! -name study -exec rm -rf {} +
+  return 0
+}
+
+command="${1:-help}"
+[ $# -gt 0 ] && shift
+clean_environment
+case "$command" in
+  deps | build | sim | demo | bench | shell | clean | help) "$command" "$@" ;;
+  test) tests "$@" ;;
+  -h | --help) help ;;
+  *) die "unknown command '$command': ./catkin_ws.sh help lists them" ;;
+esac
