@@ -6,7 +6,7 @@ import unittest
 
 import rospy
 import rostest
-from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
+from anthrob_msgs.msg import MuscleCommand, MusclePaths, MuscleStates, SphericalJointStates
 from anthrob_msgs.srv import SetState, SetStateRequest, Step
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Quaternion
@@ -53,6 +53,7 @@ class SimContract(unittest.TestCase):
         cls.tf = Collector('/tf', TFMessage)
         cls.diagnostics = Collector('/diagnostics', DiagnosticArray)
         cls.paths = Collector('muscle_paths', MarkerArray)
+        cls.solved = Collector('solved_paths', MusclePaths)
         cls.command = rospy.Publisher('muscle_command', MuscleCommand, queue_size=10, tcp_nodelay=True)
         cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
         for name in ['enable', 'disable', 'emergency_stop', 'clear_faults', 'sim/pause', 'sim/step', 'sim/reset',
@@ -112,6 +113,23 @@ class SimContract(unittest.TestCase):
         self.assertIn(('base', 'humerus'), frames)
         self.assertIn(('humerus', 'forearm'), frames)
         self.assertEqual([m.ns for m in self.paths.last().markers], MUSCLES)
+
+    def test_solved_paths_are_what_is_drawn(self):
+        self.advance(1)
+        wait_for(lambda: self.solved.last() is not None and self.paths.last() is not None, 5, 'solved paths')
+        self.assertEqual([m.name for m in self.solved.last().muscles], MUSCLES)
+        drawn = {m.ns: m.points for m in self.paths.last().markers}
+        contacts = 0
+        for muscle in self.solved.last().muscles:
+            points = drawn[muscle.name]
+            length = sum(math.dist((a.x, a.y, a.z), (b.x, b.y, b.z)) for a, b in zip(points, points[1:]))
+            self.assertAlmostEqual(length, muscle.length, delta=1e-3)
+            for contact in muscle.contacts:
+                contacts += contact.touching
+                for end in (contact.entry, contact.exit):
+                    if contact.touching:
+                        self.assertLess(min(math.dist((p.x, p.y, p.z), (end.x, end.y, end.z)) for p in points), 1e-4)
+        self.assertGreater(contacts, 0)
 
     def test_stamps_are_the_clock_and_grow(self):
         self.advance(10)

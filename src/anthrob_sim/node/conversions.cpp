@@ -4,6 +4,7 @@
 
 #include "anthrob_sim/path/cylinder.h"
 #include "anthrob_sim/path/sphere.h"
+#include "anthrob_sim/report/solved_path.h"
 
 namespace anthrob {
 
@@ -131,6 +132,37 @@ geometry_msgs::Point to_point(const Vec3& p) {
 }
 
 }  // namespace
+
+anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& stamp) {
+  anthrob_msgs::MusclePaths paths;
+  paths.header.stamp = stamp;
+  paths.header.frame_id = sim.model().skeleton->bodies[0].name;
+  for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
+    const SolvedPath solved = solved_path(sim, static_cast<int>(i));
+    anthrob_msgs::MusclePath path;
+    path.name = solved.muscle;
+    path.length = solved.length;
+    path.velocity = solved.velocity;
+    path.spring_expansion = solved.spring_expansion;
+    path.slack = solved.slack;
+    for (const SolvedContact& contact : solved.contacts) {
+      anthrob_msgs::PathContact message;
+      message.obstacle = static_cast<std::uint32_t>(contact.obstacle);
+      message.surface = contact.surface;
+      message.body = contact.body;
+      message.touching = contact.touching;
+      message.entry = to_point(contact.entry_W);
+      message.exit = to_point(contact.exit_W);
+      message.wrap_angle = contact.wrap_angle;
+      message.length = contact.length;
+      message.tension_in = contact.tension_in;
+      message.tension_out = contact.tension_out;
+      path.contacts.push_back(message);
+    }
+    paths.muscles.push_back(path);
+  }
+  return paths;
+}
 
 visualization_msgs::MarkerArray muscle_markers(const Simulation& sim, const ros::Time& stamp) {
   visualization_msgs::MarkerArray markers;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <anthrob_msgs/MusclePaths.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SphericalJointStates.h>
 #include <geometry_msgs/TransformStamped.h>
@@ -26,6 +27,8 @@ anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
 std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulation& sim,
                                                                    const ros::Time& stamp);
 
+/// What the muscles' paths are: contacts, tensions on both sides.
+anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& stamp);
 /// Muscles along their solved paths, blue to red by force; segments on a surface stand out.
 visualization_msgs::MarkerArray muscle_markers(const Simulation& sim, const ros::Time& stamp);
 /// Wrapping surfaces, fixed to their links.

@@ -48,6 +48,7 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
   spherical_joints_ =
       nh_.advertise<anthrob_msgs::SphericalJointStates>("spherical_joint_states", 100);
   muscle_paths_ = nh_.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
+  solved_paths_ = nh_.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
   surfaces_ = nh_.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
 
@@ -83,7 +84,6 @@ ros::Time SimulatorNode::stamp() const {
 }
 
 // ---- commands
-// ------------------------------------------------------------------------------------
 
 void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   const auto outcome =
@@ -140,7 +140,6 @@ void SimulatorNode::apply_supervision() {
 }
 
 // ---- services
-// ------------------------------------------------------------------------------------
 
 bool SimulatorNode::on_enable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   answer(supervisor_.enable(sim_.time()), response);
@@ -265,7 +264,6 @@ bool SimulatorNode::on_set_state(anthrob_msgs::SetState::Request& request,
 }
 
 // ---- time
-// ----------------------------------------------------------------------------------------
 
 bool SimulatorNode::advance(int steps) {
   try {
@@ -305,6 +303,7 @@ void SimulatorNode::publish(bool all) {
   const int cycles_per_tf = std::max(1, static_cast<int>(options_.state_rate / options_.tf_rate));
   if (all || cycles_ % static_cast<std::uint64_t>(cycles_per_tf) == 0) {
     transforms_.sendTransform(ball_joint_transforms(sim_, now));
+    if (solved_paths_.getNumSubscribers() > 0) solved_paths_.publish(solved_paths(sim_, now));
   }
   const Clock::time_point wall = Clock::now();
   if (all ||

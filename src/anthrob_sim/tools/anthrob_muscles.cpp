@@ -1,10 +1,14 @@
 // Muscles of a robot in one posture: lengths, forces, wrapping, moment arms.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "anthrob_sim/recording/atomic_file.h"
 #include "anthrob_sim/recording/dataset.h"
+#include "anthrob_sim/report/muscle_sweep.h"
 #include "anthrob_sim/simulation.h"
 #include "anthrob_sim/tool/tool.h"
 
@@ -32,13 +36,8 @@ Cell empty(const std::string& key) {
 
 /// Names of the generalised velocities: "elbow", "shoulder_x".
 std::vector<std::string> axis_names(const SkeletonModel& skeleton) {
-  std::vector<std::string> names(skeleton.velocity_count);
-  for (const JointModel& joint : skeleton.joints) {
-    for (int k = 0; k < joint.dof(); ++k) {
-      names[joint.velocity_offset + k] =
-          joint.type == JointType::kBall ? joint.name + "_" + "xyz"[k] : joint.name;
-    }
-  }
+  std::vector<std::string> names;
+  for (const SweepAxis& axis : sweep_axes(skeleton)) names.push_back(axis.name);
   return names;
 }
 
@@ -187,6 +186,53 @@ void set_position(const RobotModel& model, const std::string& option,
   positions[index] = a.values[0];
 }
 
+/// elbow=0:2:50 or shoulder_x=-1:1:50
+MuscleSweep run_sweep(const std::shared_ptr<const RobotModel>& model, const std::string& option,
+                      const std::vector<double>& q, const std::vector<double>& actuators) {
+  const auto equals = option.find('=');
+  double from = 0.0, to = 0.0;
+  int count = 0;
+  char rest = 0;
+  if (equals == std::string::npos ||
+      std::sscanf(option.c_str() + equals + 1, "%lf:%lf:%d%c", &from, &to, &count, &rest) != 3) {
+    throw BadInput("--sweep " + option + ": expected AXIS=FROM:TO:POINTS, e.g. elbow=0:2:50");
+  }
+  const std::string name = option.substr(0, equals);
+  std::string known;
+  for (const SweepAxis& axis : sweep_axes(*model->skeleton)) {
+    if (axis.name == name) return sweep_muscles(model, q, actuators, axis, from, to, count);
+    known += (known.empty() ? "" : ", ") + axis.name;
+  }
+  throw BadInput("--sweep " + option + ": no axis '" + name + "'; " + model->file +
+                 " has: " + known);
+}
+
+bool wanted(const std::string& muscle, const std::vector<std::string>& only) {
+  return only.empty() || std::find(only.begin(), only.end(), muscle) != only.end();
+}
+
+std::vector<Row> report(const MuscleSweep& sweep, const std::vector<std::string>& only) {
+  std::vector<Row> rows;
+  for (const MuscleCurve& curve : sweep.muscles) {
+    if (!wanted(curve.muscle, only)) continue;
+    for (std::size_t i = 0; i < sweep.position.size(); ++i) {
+      rows.push_back({text("muscle", curve.muscle), number("length", curve.length[i]),
+                      number("see_expansion", curve.expansion[i]), number("force", curve.force[i]),
+                      number(sweep.axis.name, sweep.position[i]),
+                      number("arm_" + sweep.axis.name, curve.moment_arm[i])});
+    }
+  }
+  return rows;
+}
+
+void check_muscles(const RobotModel& model, const std::vector<std::string>& only) {
+  for (const std::string& name : only) {
+    if (model.find_muscle(name) < 0) {
+      throw BadInput("--muscle " + name + ": " + model.file + " has no muscle '" + name + "'");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace anthrob
 
@@ -198,12 +244,16 @@ int main(int argc, char** argv) {
       "muscles in one posture.",
       "anthrob_muscles");
   std::string robot = "anthrob", model_name = "II";
-  std::vector<std::string> joints, positions;
+  std::string sweep, plot;
+  std::vector<std::string> joints, positions, only;
   bool csv = false, json = false;
   app.add_option("--robot", robot, "robot folder under config/, or a path")->capture_default_str();
   app.add_option("--model", model_name, "II for model_II.yaml")->capture_default_str();
   app.add_option("--joint", joints, "shoulder=w,x,y,z or elbow=1.57 [rad, m]; others at rest");
   app.add_option("--position", positions, "actuator position MUSCLE=rad; others at 0");
+  app.add_option("--sweep", sweep, "AXIS=FROM:TO:POINTS, e.g. elbow=0:2:50 or shoulder_x=-1:1:50");
+  app.add_option("--muscle", only, "of a sweep, only this muscle; may be repeated");
+  app.add_option("--plot", plot, "of a sweep, a figure: FILE.svg")->needs("--sweep");
   app.add_flag("--csv", csv, "comma separated, SI units");
   app.add_flag("--json", json, "JSON, SI units")->excludes("--csv");
   return tool::run(app, argc, argv, [&]() -> int {
@@ -212,6 +262,17 @@ int main(int argc, char** argv) {
     for (const std::string& option : joints) set_joint(*model, option, q);
     std::vector<double> actuators(model->muscles.size(), 0.0);
     for (const std::string& option : positions) set_position(*model, option, actuators);
+    check_muscles(*model, only);
+    if (!sweep.empty()) {
+      const MuscleSweep result = run_sweep(model, sweep, q, actuators);
+      if (!plot.empty()) write_file_atomically(plot, draw_sweep(result, only).render());
+      if (json) {
+        print_json(report(result, only));
+      } else if (csv || plot.empty()) {
+        print_csv(report(result, only));
+      }
+      return tool::kDone;
+    }
     Simulation sim(model);
     sim.place(q, actuators);
     if (json) {

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/report/svg_figure.h"
+
+namespace anthrob {
+
+/// One joint axis moved through a range while everything else stands still.
+/// A hinge or prismatic joint takes the values as its positions; a ball joint is turned by them
+/// about one of the child's axes, from the orientation it had.
+struct SweepAxis {
+  int joint = 0;
+  int component = 0;  ///< 0, 1, 2: x, y, z of a ball joint
+  std::string name;   ///< "elbow", "shoulder_x"
+};
+
+/// Axes that a robot's joints have, in the order of its generalised velocities.
+std::vector<SweepAxis> sweep_axes(const SkeletonModel& skeleton);
+
+/// What a muscle does along a sweep; relaxed springs, no friction, actuators still.
+struct MuscleCurve {
+  std::string muscle;
+  std::vector<double> length;      ///< l_M [m]
+  std::vector<double> expansion;   ///< of the spring [m]
+  std::vector<double> force;       ///< relaxed (E_0) [N]
+  std::vector<double> moment_arm;  ///< -dl/dq about the swept axis [m]
+};
+
+struct MuscleSweep {
+  SweepAxis axis;
+  std::vector<double> position;  ///< [rad] or [m]
+  std::vector<MuscleCurve> muscles;
+};
+
+/// @param q where the other joints stand   @param actuators positions, one a muscle [rad]
+/// @param from, to, count positions of the swept axis, evenly spaced, count >= 2
+/// @throws BadInput if the range leaves a joint's limits
+MuscleSweep sweep_muscles(const std::shared_ptr<const RobotModel>& model,
+                          const std::vector<double>& q, const std::vector<double>& actuators,
+                          const SweepAxis& axis, double from, double to, int count);
+
+/// Length, moment arm and force over the axis, of all muscles or those named.
+SvgFigure draw_sweep(const MuscleSweep& sweep, const std::vector<std::string>& only);
+
+}  // namespace anthrob

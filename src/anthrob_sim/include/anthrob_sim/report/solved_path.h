@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// A wrapping surface on a solved path. Tensions up to the spring are those of this instant, those
+/// beyond it acted during the last step.
+struct SolvedContact {
+  std::size_t obstacle = 0;  ///< place in the path, origin 0
+  std::string surface;       ///< type
+  std::string body;
+  bool touching = false;
+  Vec3 entry_W = Vec3::Zero();  ///< [m]; off the surface, entry and exit coincide
+  Vec3 exit_W = Vec3::Zero();   ///< [m]
+  double wrap_angle = 0.0;      ///< [rad]
+  double length = 0.0;          ///< along the surface [m]
+  double tension_in = 0.0;      ///< on the origin's side [N]
+  double tension_out = 0.0;     ///< on the insertion's side [N]
+};
+
+struct SolvedPath {
+  std::string muscle;
+  double length = 0.0;            ///< l_M [m]
+  double velocity = 0.0;          ///< dl_M/dt [m/s]
+  double spring_expansion = 0.0;  ///< [m]
+  bool slack = false;             ///< no tension in the spring
+  std::vector<SolvedContact> contacts;
+};
+
+/// How a muscle runs in the simulation's present state.
+SolvedPath solved_path(const Simulation& sim, int muscle);
+
+}  // namespace anthrob

@@ -1,0 +1,41 @@
+#include "anthrob_sim/report/solved_path.h"
+
+namespace anthrob {
+
+namespace {
+
+double lengthening_speed(const MusclePath& path, const KinematicTree& tree) {
+  std::vector<double> arms(tree.velocities().size(), 0.0);
+  for (std::size_t i = 0; i < path.segments().size(); ++i) {
+    path.add_moment_arms(i, 1.0, tree, arms.data());
+  }
+  double speed = 0.0;
+  for (std::size_t k = 0; k < arms.size(); ++k) speed -= arms[k] * tree.velocities()[k];
+  return speed;
+}
+
+}  // namespace
+
+SolvedPath solved_path(const Simulation& sim, int index) {
+  const Muscle& muscle = sim.muscle(index);
+  const MusclePath& path = muscle.path();
+  SolvedPath solved;
+  solved.muscle = muscle.model().name;
+  solved.length = muscle.length();
+  solved.spring_expansion = muscle.expansion();
+  solved.slack = !(muscle.spring_tension() > 0.0);
+  solved.velocity = lengthening_speed(path, sim.tree());
+  const auto& obstacles = path.model().obstacles();
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    if (!obstacles[i].surface) continue;
+    const ObstacleState& state = path.obstacles()[i];
+    solved.contacts.push_back({i, obstacles[i].surface->type(),
+                               sim.model().skeleton->bodies[obstacles[i].body].name, state.touching,
+                               path.segments()[i - 1].to_W, path.segments()[i].from_W,
+                               state.touching ? state.wrap_angle : 0.0, state.length_on,
+                               muscle.tension(i - 1), muscle.tension(i)});
+  }
+  return solved;
+}
+
+}  // namespace anthrob

@@ -1,0 +1,104 @@
+// Sweeps and solved paths against the definitions of what they report.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "anthrob_sim/report/muscle_sweep.h"
+#include "anthrob_sim/report/solved_path.h"
+#include "support.h"
+
+namespace anthrob {
+namespace {
+
+using testing_support::config;
+
+SweepAxis axis_named(const RobotModel& model, const std::string& name) {
+  for (const SweepAxis& axis : sweep_axes(*model.skeleton)) {
+    if (axis.name == name) return axis;
+  }
+  throw std::runtime_error("no axis " + name);
+}
+
+TEST(MuscleSweep, MomentArmIsTheSlopeOfTheLength) {
+  const auto model = load_robot_model(config("anthrob/model_II.yaml"));
+  const std::vector<double> q = model->skeleton->rest_configuration();
+  const std::vector<double> actuators(model->muscles.size(), 0.0);
+  for (const std::string name : {"elbow", "shoulder_x", "shoulder_y", "shoulder_z"}) {
+    const bool elbow = name == "elbow";
+    const double from = elbow ? 0.1 : -0.3, to = elbow ? 2.0 : 0.5;
+    const int count = 1601;
+    const MuscleSweep sweep =
+        sweep_muscles(model, q, actuators, axis_named(*model, name), from, to, count);
+    ASSERT_EQ(sweep.muscles.size(), 11u);
+    const double h = (to - from) / (count - 1);
+    for (const MuscleCurve& curve : sweep.muscles) {
+      // The mean of two neighbouring arms is the slope between them up to the arm's second
+      // derivative, but for the kink at a touch-down: O(h) there.
+      for (int i = 0; i + 1 < count; ++i) {
+        const double slope = (curve.length[i + 1] - curve.length[i]) / h;
+        EXPECT_NEAR(0.5 * (curve.moment_arm[i] + curve.moment_arm[i + 1]), -slope, 1e-4)
+            << curve.muscle << " " << name << " " << sweep.position[i];
+      }
+    }
+  }
+}
+
+TEST(MuscleSweep, KeepsTheOtherJointsWhereTheyAre) {
+  const auto model = load_robot_model(config("anthrob/model_I.yaml"));
+  std::vector<double> q = model->skeleton->rest_configuration();
+  const std::vector<double> actuators(model->muscles.size(), 0.0);
+  q.back() = 1.0;
+  const MuscleSweep sweep =
+      sweep_muscles(model, q, actuators, axis_named(*model, "shoulder_z"), -0.2, 0.2, 3);
+  Simulation sim(model);
+  sim.place(q, actuators);
+  for (std::size_t m = 0; m < model->muscles.size(); ++m) {
+    EXPECT_NEAR(sweep.muscles[m].length[1], sim.muscle(static_cast<int>(m)).length(), 1e-12);
+  }
+}
+
+TEST(MuscleSweep, RefusesWhatCannotBeSwept) {
+  const auto model = load_robot_model(config("anthrob/model_I.yaml"));
+  const std::vector<double> q = model->skeleton->rest_configuration();
+  const std::vector<double> actuators(model->muscles.size(), 0.0);
+  const SweepAxis elbow = axis_named(*model, "elbow");
+  EXPECT_THROW(sweep_muscles(model, q, actuators, elbow, 0.0, 9.0, 10), BadInput);
+  EXPECT_THROW(sweep_muscles(model, q, actuators, elbow, 1.0, 0.5, 10), BadInput);
+  EXPECT_THROW(sweep_muscles(model, q, actuators, elbow, 0.1, 0.5, 1), BadInput);
+  EXPECT_THROW(sweep_muscles(model, q, actuators, elbow, 0.1, NAN, 5), BadInput);
+}
+
+TEST(SolvedPath, AgreesWithTheMotion) {
+  const auto model = load_robot_model(config("anthrob/model_II.yaml"));
+  Simulation sim(model);
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+    sim.command(static_cast<int>(m), ecu::Mode::kPosition, 1.5);
+  }
+  std::size_t touching = 0;
+  for (int i = 0; i < 500; ++i) {
+    std::vector<double> before;
+    for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+      before.push_back(solved_path(sim, static_cast<int>(m)).length);
+    }
+    sim.step();
+    for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+      const SolvedPath path = solved_path(sim, static_cast<int>(m));
+      EXPECT_NEAR(path.velocity, (path.length - before[m]) / sim.step_length(), 2e-3);
+      EXPECT_EQ(path.slack, sim.muscle(static_cast<int>(m)).spring_tension() <= 0.0);
+      for (const SolvedContact& contact : path.contacts) {
+        if (!contact.touching) {
+          EXPECT_EQ(contact.length, 0.0);
+          continue;
+        }
+        ++touching;
+        EXPECT_GE(contact.length + 1e-12, (contact.exit_W - contact.entry_W).norm());
+        // Frictionless; within how the tension changed over the step.
+        EXPECT_NEAR(contact.tension_in, contact.tension_out, 0.5);
+      }
+    }
+  }
+  EXPECT_GT(touching, 500u);
+}
+
+}  // namespace
+}  // namespace anthrob
