@@ -19,13 +19,13 @@ debian_packages=(
   libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev
   libgtest-dev libgmock-dev libbenchmark-dev libmujoco-dev
-  xvfb imagemagick libgl1-mesa-dri
+  xvfb xauth imagemagick libgl1-mesa-dri
 )
 # The same on Ubuntu with /opt/ros/noetic, as far as the names differ.
 noetic_packages=(
   build-essential cmake ros-noetic-desktop libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev
   libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libgtest-dev libgmock-dev
-  libbenchmark-dev xvfb imagemagick libgl1-mesa-dri
+  libbenchmark-dev xvfb xauth imagemagick libgl1-mesa-dri
 )
 
 say() { printf '\033[1m%s\033[0m\n' "$*"; }
