@@ -153,17 +153,33 @@ tests() {
   /usr/bin/python3 scripts/count_tests.py build/test_results
 }
 
+# Google Benchmark's JSON into build/, medians of several repetitions in random order.
+measure() {
+  local name="$1"
+  shift
+  devel/lib/anthrob_sim/"${name}_benchmark" --benchmark_out="build/$name.json" --benchmark_out_format=json \
+    --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_display_aggregates_only=true \
+    --benchmark_enable_random_interleaving=true "$@" >"build/$name.log" 2>&1 ||
+    die "the benchmark failed: see build/$name.log"
+}
+
 bench() {
   build
   say "building the benchmarks"
-  catkin_make -j"$(nproc)" step_benchmark >>build/build.log 2>&1 ||
+  catkin_make -j"$(nproc)" step_benchmark scaling_benchmark >>build/build.log 2>&1 ||
     die "the benchmarks do not build: see build/build.log"
+  export ANTHROB_BENCH_ROBOTS="$here/build/bench_robots"
+  local n
+  for n in 0 10 20 50 100 200; do
+    scripts/make_torso.py --muscles "$n" --out "$ANTHROB_BENCH_ROBOTS/muscles_$n" || die "cannot write the robots"
+  done
+  for n in 1 5 10 20 40; do
+    scripts/make_torso.py --joints "$n" --muscles 40 --out "$ANTHROB_BENCH_ROBOTS/joints_$n" || die "cannot write the robots"
+  done
   say "measuring"
-  devel/lib/anthrob_sim/step_benchmark --benchmark_out=build/bench.json --benchmark_out_format=json \
-    --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_display_aggregates_only=true \
-    --benchmark_enable_random_interleaving=true "$@" >build/bench.log 2>&1 ||
-    die "the benchmark failed: see build/bench.log"
-  /usr/bin/python3 scripts/bench_table.py build/bench.json
+  measure step "$@"
+  measure scaling "$@"
+  /usr/bin/python3 scripts/bench_table.py build/bench.json build/step.json build/scaling.json
 }
 
 shell() {
