@@ -39,7 +39,7 @@ class Builder {
     const auto urdf = std::filesystem::path(robot.file()).parent_path() / robot.as_text();
     if (!std::filesystem::exists(urdf)) robot.fail_expected("a URDF file beside this one");
     model_->urdf_file = urdf.string();
-    skeleton_ = std::make_shared<SkeletonModel>(load_urdf(model_->urdf_file));
+    skeleton_ = std::make_shared<SkeletonModel>(load_urdf(model_->urdf_file, model_->collisions));
     read_joints();
     model_->skeleton = skeleton_;
 

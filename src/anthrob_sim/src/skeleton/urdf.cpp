@@ -57,7 +57,7 @@ void add_mass(BodyModel& body, double mass, const Vec3& com, const Mat3& inertia
 
 class Builder {
  public:
-  explicit Builder(const std::string& file) : file_(file) {}
+  Builder(const std::string& file, bool collisions) : file_(file), collisions_(collisions) {}
 
   SkeletonModel build() {
     std::ifstream in(file_);
@@ -87,13 +87,17 @@ class Builder {
     throw BadInput(file_ + ": " + message);
   }
 
-  void add_link(const urdf::Link& link, int body, const Pose& X_LF) {
-    model_.frames.push_back({link.name, body, X_LF});
-    if (body > 0 && link.inertial) add_inertial(link, body, X_LF);
+  void add_collisions(const urdf::Link& link, int body, const Pose& X_LF) {
     for (const auto& collision : link.collision_array) {
       model_.bodies[body].collisions.push_back(
           shape(link.name, *collision, X_LF * to_pose(collision->origin)));
     }
+  }
+
+  void add_link(const urdf::Link& link, int body, const Pose& X_LF) {
+    model_.frames.push_back({link.name, body, X_LF});
+    if (body > 0 && link.inertial) add_inertial(link, body, X_LF);
+    if (collisions_) add_collisions(link, body, X_LF);
     for (const auto& joint : link.child_joints) {
       if (joint->type == urdf::Joint::FIXED) {
         add_child(link, *joint, body, X_LF);
@@ -231,13 +235,14 @@ class Builder {
   }
 
   std::string file_;
+  bool collisions_;
   SkeletonModel model_;
 };
 
 }  // namespace
 
-SkeletonModel load_urdf(const std::string& file) {
-  return Builder(file).build();
+SkeletonModel load_urdf(const std::string& file, bool collisions) {
+  return Builder(file, collisions).build();
 }
 
 }  // namespace anthrob

@@ -90,8 +90,9 @@ struct SkeletonModel {
 
 /// Reads the bodies of a URDF. Floating joints become ball joints; their centres, all frictions and
 /// stops come from the model file.
+/// @param collisions whether <collision> shapes are wanted; if not, they may be anything
 /// @throws BadInput naming file, link or joint, and what was expected
-SkeletonModel load_urdf(const std::string& file);
+SkeletonModel load_urdf(const std::string& file, bool collisions = false);
 
 /// The joints that connect two bodies, with the sign with which a force on `to` (and its reaction
 /// on `from`) acts on each: +1 if `to` lies beyond the joint, -1 if `from` does.
