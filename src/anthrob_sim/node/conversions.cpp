@@ -85,6 +85,16 @@ anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
   return states;
 }
 
+anthrob_msgs::TouchStates touch_states(const Simulation& sim, const ros::Time& stamp) {
+  anthrob_msgs::TouchStates states;
+  states.header.stamp = stamp;
+  for (const TouchPadModel& pad : sim.model().touch_pads) {
+    states.name.push_back(pad.name);
+    states.force.push_back(pad_force(pad, sim.tree(), sim.configuration()));
+  }
+  return states;
+}
+
 std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulation& sim,
                                                                    const ros::Time& stamp) {
   std::vector<geometry_msgs::TransformStamped> transforms;

@@ -3,6 +3,7 @@
 #include <anthrob_msgs/MusclePaths.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SphericalJointStates.h>
+#include <anthrob_msgs/TouchStates.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/JointState.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -22,6 +23,7 @@ anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Super
 sensor_msgs::JointState joint_states(const Simulation& sim, const ros::Time& stamp);
 anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
                                                           const ros::Time& stamp);
+anthrob_msgs::TouchStates touch_states(const Simulation& sim, const ros::Time& stamp);
 
 /// Ball joints, parent link to child link; the rest of the tree is robot_state_publisher's.
 std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulation& sim,

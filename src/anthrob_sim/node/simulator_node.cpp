@@ -48,6 +48,9 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
   spherical_joints_ =
       nh_.advertise<anthrob_msgs::SphericalJointStates>("spherical_joint_states", 100);
   muscle_paths_ = nh_.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
+  if (!sim_.model().touch_pads.empty()) {
+    touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);
+  }
   solved_paths_ = nh_.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
   surfaces_ = nh_.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
@@ -300,6 +303,7 @@ void SimulatorNode::publish(bool all) {
   muscles_.publish(muscle_states(sim_, supervisor_, now));
   joints_.publish(joint_states(sim_, now));
   spherical_joints_.publish(spherical_joint_states(sim_, now));
+  if (touch_) touch_.publish(touch_states(sim_, now));
   const int cycles_per_tf = std::max(1, static_cast<int>(options_.state_rate / options_.tf_rate));
   if (all || cycles_ % static_cast<std::uint64_t>(cycles_per_tf) == 0) {
     transforms_.sendTransform(ball_joint_transforms(sim_, now));

@@ -73,7 +73,7 @@ class SimulatorNode {
   ros::NodeHandle nh_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
-  ros::Publisher clock_, muscles_, joints_, spherical_joints_, efforts_, muscle_paths_,
+  ros::Publisher clock_, muscles_, joints_, spherical_joints_, efforts_, muscle_paths_, touch_,
       solved_paths_, surfaces_, diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
 

@@ -98,6 +98,18 @@ DataPtr merge(const DataPtr& base, const DataPtr& over) {
   return merged;
 }
 
+/// The file that an entry of `extends` names, beside the file that says so.
+std::string base_file(const std::string& path, const Data& name) {
+  if (name.kind != Kind::kScalar) {
+    fail_at(path, name.line, "extends: expected the name of a YAML file, or a list");
+  }
+  const auto base = std::filesystem::path(path).parent_path() / name.scalar;
+  if (!std::filesystem::exists(base)) {
+    fail_at(path, name.line, "extends: " + name.scalar + ": no such file beside this one");
+  }
+  return base.string();
+}
+
 DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
   const std::string canonical = std::filesystem::weakly_canonical(path).string();
   for (const auto& seen : chain) {
@@ -118,23 +130,19 @@ DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
   if (data->kind != Kind::kMap) fail_at(path, 1, "expected a map of keys at the top of the file");
 
   if (const DataPtr extends = data->find("extends")) {
-    if (extends->kind != Kind::kScalar) {
-      fail_at(path, extends->line, "extends: expected the name of a YAML file");
-    }
-    const auto base = std::filesystem::path(path).parent_path() / extends->scalar;
-    if (!std::filesystem::exists(base)) {
-      fail_at(path, extends->line,
-              "extends: " + extends->scalar + ": no such file beside this one");
-    }
     auto& entries = data->entries;
-    for (auto it = entries.begin(); it != entries.end(); ++it) {
-      if (it->first == "extends") {
-        entries.erase(it);
-        break;
-      }
+    entries.erase(std::find_if(entries.begin(), entries.end(),
+                               [](const auto& entry) { return entry.first == "extends"; }));
+    const bool one = extends->kind == Kind::kScalar;
+    DataPtr base;
+    for (const DataPtr& name : one ? std::vector<DataPtr>{extends} : extends->items) {
+      const DataPtr next = load_file(base_file(path, *name), chain);
+      base = base ? merge(base, next) : next;
     }
-    data = merge(load_file(base.string(), chain), data);
+    if (!base) fail_at(path, extends->line, "extends: expected the name of a YAML file, or a list");
+    data = merge(base, data);
   }
+  chain.pop_back();
   return data;
 }
 

@@ -45,6 +45,7 @@ class Builder {
 
     read_muscles();
     read_sensors();
+    read_touch_pads();
     config_.refuse_unknown_keys();
     check_rest_posture();
     return model_;
@@ -272,6 +273,22 @@ class Builder {
     read("force", "N", model_->sensors.force);
     read("joint_position", "rad", model_->sensors.joint_position);
     if (node.has("seed")) model_->sensors.seed = node.at("seed").as_integer(0, 2147483647);
+  }
+
+  void read_touch_pads() {
+    if (!config_.has("touch_pads")) return;
+    for (const auto& [name, node] : config_.at("touch_pads").entries()) {
+      TouchPadModel pad;
+      pad.name = name;
+      pad.joint = skeleton_->find_joint(node.text("joint"));
+      if (pad.joint < 0 || skeleton_->joints[pad.joint].type != JointType::kHinge ||
+          !skeleton_->joints[pad.joint].stop.enabled) {
+        node.at("joint").fail_expected("a hinge with limits in " + model_->urdf_file);
+      }
+      pad.lever = node.number("lever", Bounds::positive(), "m");
+      pad.share = node.number("share", Bounds{0.0, 1.0, true, true}, "1");
+      model_->touch_pads.push_back(pad);
+    }
   }
 
   /// Points inside surfaces are easiest explained while the file is at hand.

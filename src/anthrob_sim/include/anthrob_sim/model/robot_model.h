@@ -9,6 +9,7 @@
 #include "anthrob_sim/actuator/actuator.h"
 #include "anthrob_sim/path/muscle_path.h"
 #include "anthrob_sim/sensing/sensor.h"
+#include "anthrob_sim/sensing/touch_pad.h"
 #include "anthrob_sim/skeleton/skeleton_model.h"
 #include "anthrob_sim/spring/series_elastic_element.h"
 
@@ -53,6 +54,7 @@ struct RobotModel {
   std::shared_ptr<const SkeletonModel> skeleton;
   std::vector<MuscleModel> muscles;
   SensorsModel sensors;
+  std::vector<TouchPadModel> touch_pads;
 
   /// Index in `muscles`, or -1.
   int find_muscle(const std::string& muscle) const;
