@@ -5,9 +5,9 @@ set -u -o pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 cd "$here" || exit 1
 
-# What the packages need from Debian 12 (bookworm), where ROS 1 is part of the distribution.
-debian_packages=(
-  build-essential cmake catkin ros-core-dev rosbash
+# Where ROS 1 is part of the distribution: Debian 12 (bookworm).
+debian_ros_packages=(
+  catkin ros-core-dev rosbash
   python3-roslaunch python3-rostopic python3-rosservice python3-rosnode python3-rosbag python3-rosparam
   python3-rospy python3-rostest python3-rosunit librostest-dev
   python3-diagnostic-msgs python3-geometry-msgs python3-sensor-msgs python3-std-msgs python3-std-srvs
@@ -16,18 +16,18 @@ debian_packages=(
   libdiagnostic-msgs-dev libgeometry-msgs-dev libros-rosgraph-msgs-dev libsensor-msgs-dev libstd-msgs-dev
   libstd-srvs-dev libvisualization-msgs-dev
   ros-robot-state-publisher rviz
+  libmujoco-dev  # a peer in benchmarks
+)
+# Ubuntu with /opt/ros/noetic.
+noetic_packages=(ros-noetic-desktop)
+# Everything else, named alike on both.
+common_packages=(
+  build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
-  nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev
-  libgtest-dev libgmock-dev libbenchmark-dev libmujoco-dev
+  nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
   xvfb xauth imagemagick libgl1-mesa-dri
 )
-# The same on Ubuntu with /opt/ros/noetic, as far as the names differ.
-noetic_packages=(
-  build-essential cmake ros-noetic-desktop libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev
-  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libgtest-dev libgmock-dev
-  libbenchmark-dev xvfb xauth imagemagick libgl1-mesa-dri
-)
-
 say() { printf '\033[1m%s\033[0m\n' "$*"; }
 
 # One line: what failed, and what to do.
@@ -89,8 +89,12 @@ as_root() {
 
 deps() {
   command -v dpkg-query >/dev/null || die "this is no Debian: install the packages listed in catkin_ws.sh by hand"
-  local wanted=("${debian_packages[@]}")
-  [ -f /opt/ros/noetic/setup.bash ] && wanted=("${noetic_packages[@]}")
+  local wanted=("${common_packages[@]}")
+  if [ -f /opt/ros/noetic/setup.bash ]; then
+    wanted+=("${noetic_packages[@]}")
+  else
+    wanted+=("${debian_ros_packages[@]}")
+  fi
   local missing=() package
   for package in "${wanted[@]}"; do
     dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "anthrob_sim/path/cylinder.h"
+#include "anthrob_sim/path/mesh_surface.h"
 #include "anthrob_sim/path/sphere.h"
 
 namespace anthrob {
@@ -15,6 +16,7 @@ using Factory = std::shared_ptr<const WrappingSurface> (*)(const ConfigNode&, co
 const std::map<std::string, Factory>& factories() {
   static const std::map<std::string, Factory> kFactories = {
       {"cylinder", &Cylinder::load},
+      {"mesh", &MeshSurface::load},
       {"sphere", &Sphere::load},
   };
   return kFactories;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "anthrob_sim/path/strip_search.h"
+
+namespace anthrob {
+
+/// Shortest way between two points round a convex hull, the segment between which cuts it.
+///
+/// A strip of facets that was the shortest a moment ago is fitted to the new points, pulled taut,
+/// and StripSearch is asked for anything shorter. The answer does not depend on the guess; the time
+/// does. Scratch memory: one object a thread serves any number of hulls.
+class HullGeodesic {
+ public:
+  enum class Outcome {
+    kConfirmed,  ///< the guess was the shortest
+    kImproved,   ///< the search found a shorter one
+    kCold        ///< there was no guess, or it did not fit any more
+  };
+
+  /// Memory for a hull of this size; later calls do not allocate.
+  void reserve(const ConvexHull& hull);
+
+  /// @param facet one that the source lies above
+  /// @param strip guess or empty on entry; the shortest on return
+  Outcome solve(const GeodesicQuery& query, int facet, std::vector<int>& strip);
+
+  /// Of the last solution [m].
+  double length() const { return length_; }
+  const std::vector<TautString::Crossing>& crossings() const { return string_.crossings(); }
+  int windows() const { return search_.windows(); }
+
+ private:
+  void find_rim(const GeodesicQuery& query, int facet);
+  bool fit(const GeodesicQuery& query, std::vector<int>& strip);
+  bool cut(const GeodesicQuery& query, std::vector<int>& strip);
+  bool walk(const GeodesicQuery& query, const Vec3& through, bool to_source, int from);
+
+  TautString string_;
+  StripSearch search_;
+  std::vector<int> rim_, queue_, walked_;
+  std::vector<std::uint64_t> seen_;
+  std::uint64_t round_ = 0;
+  double length_ = 0.0;
+};
+
+}  // namespace anthrob

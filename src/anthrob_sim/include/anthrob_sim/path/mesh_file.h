@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/core/types.h"
+#include "anthrob_sim/model/config_node.h"
+
+namespace anthrob {
+
+/// Triangles of a mesh; corners at the same place are one vertex.
+struct TriangleMesh {
+  std::vector<Vec3> vertices;  ///< [m]
+  std::vector<std::array<int, 3>> facets;
+};
+
+/// Reads STL, OBJ, COLLADA and what else assimp knows, with the file's own transforms.
+/// @throws std::runtime_error with a reason if the file cannot be read or holds no triangles, or
+/// numbers that are not finite
+TriangleMesh read_mesh(const std::string& file);
+
+/// What is odd about a mesh but does not matter to its convex hull: holes, edges of more than two
+/// facets, facets that face inwards or have no area. One phrase each; empty if it is sound.
+std::vector<std::string> mesh_oddities(const TriangleMesh& mesh);
+
+/// The points that a wrapping surface described by `{file: , scale: , offset: , part: }` is the
+/// hull of, in the link's frame [m]. `part` keeps what lies on one side of a plane.
+/// @throws BadInput where the mesh cannot be meant: flat, of a size that no bone has, cut away
+std::vector<Vec3> load_mesh_points(const ConfigNode& node);
+
+}  // namespace anthrob

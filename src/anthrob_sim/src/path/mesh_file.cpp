@@ -1,0 +1,170 @@
+#include "anthrob_sim/path/mesh_file.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+
+namespace anthrob {
+
+namespace {
+
+/// No bone is smaller or larger [m]: a mesh that is was drawn in other units.
+constexpr double kSmallest = 0.002, kLargest = 3.0;
+constexpr std::size_t kMostFacets = 2000000;
+
+std::string count_of(std::size_t n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+/// Vertices by place, so that facets that touch share them.
+class Welder {
+ public:
+  explicit Welder(TriangleMesh& mesh) : mesh_(mesh) {}
+  int index_of(const aiVector3D& p) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw std::runtime_error("holds a coordinate that is not a finite number");
+    }
+    const auto [it, is_new] =
+        known_.emplace(std::make_tuple(p.x, p.y, p.z), static_cast<int>(mesh_.vertices.size()));
+    if (is_new) mesh_.vertices.emplace_back(p.x, p.y, p.z);
+    return it->second;
+  }
+
+ private:
+  TriangleMesh& mesh_;
+  std::map<std::tuple<ai_real, ai_real, ai_real>, int> known_;
+};
+
+/// Points on one side of a plane, and where edges cross it.
+std::vector<Vec3> cut(const TriangleMesh& mesh, const Vec3& point, const Vec3& normal) {
+  std::vector<Vec3> kept;
+  const auto height = [&](int v) { return normal.dot(mesh.vertices[v] - point); };
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (height(static_cast<int>(v)) >= 0.0) kept.push_back(mesh.vertices[v]);
+  }
+  for (const auto& facet : mesh.facets) {
+    for (int i = 0; i < 3; ++i) {
+      const int a = facet[i], b = facet[(i + 1) % 3];
+      const double ha = height(a), hb = height(b);
+      if ((ha < 0.0) == (hb < 0.0)) continue;
+      kept.push_back(mesh.vertices[a] + ha / (ha - hb) * (mesh.vertices[b] - mesh.vertices[a]));
+    }
+  }
+  return kept;
+}
+
+void check_size(const ConfigNode& node, const std::vector<Vec3>& points) {
+  Vec3 lo = points.front(), hi = lo;
+  for (const Vec3& p : points) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+  const double size = (hi - lo).norm();
+  if (size >= kSmallest && size <= kLargest) return;
+  char text[160];
+  std::snprintf(
+      text, sizeof(text), "mesh is %g m across; expected %g to %g m%s", size, kSmallest, kLargest,
+      size > kLargest && size < 1e3 * kLargest ? " (drawn in millimetres? scale: 0.001)" : "");
+  node.at("file").fail(text);
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::string& file) {
+  if (!std::filesystem::exists(file)) throw std::runtime_error("no such file");
+  if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("not a file");
+  if (std::filesystem::file_size(file) == 0) throw std::runtime_error("the file is empty");
+  Assimp::Importer importer;
+  const aiScene* scene =
+      importer.ReadFile(file, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (scene == nullptr) {
+    std::string reason = importer.GetErrorString();
+    for (char& c : reason) c = c == '\n' ? ' ' : c;
+    throw std::runtime_error("not a mesh that can be read: " + reason);
+  }
+  TriangleMesh mesh;
+  Welder welder(mesh);
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& part = *scene->mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // points and lines
+      std::array<int, 3> corners{};
+      for (int i = 0; i < 3; ++i) corners[i] = welder.index_of(part.mVertices[face.mIndices[i]]);
+      mesh.facets.push_back(corners);
+    }
+  }
+  if (mesh.facets.empty()) throw std::runtime_error("holds no triangles");
+  if (mesh.facets.size() > kMostFacets) {
+    throw std::runtime_error("holds " + count_of(mesh.facets.size(), "facet") +
+                             "; expected at most " + std::to_string(kMostFacets));
+  }
+  return mesh;
+}
+
+std::vector<std::string> mesh_oddities(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, int> sides;  // directed
+  std::size_t empty = 0;
+  double volume = 0.0;
+  for (const auto& f : mesh.facets) {
+    const Vec3 &a = mesh.vertices[f[0]], &b = mesh.vertices[f[1]], &c = mesh.vertices[f[2]];
+    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0] || (b - a).cross(c - a).norm() == 0.0) {
+      ++empty;
+      continue;
+    }
+    volume += a.dot(b.cross(c)) / 6.0;
+    for (int i = 0; i < 3; ++i) ++sides[{f[i], f[(i + 1) % 3]}];
+  }
+  std::size_t open = 0, crowded = 0, flipped = 0;
+  for (const auto& [ends, count] : sides) {
+    const auto other = sides.find({ends.second, ends.first});
+    const int back = other == sides.end() ? 0 : other->second;
+    if (count + back > 2) {
+      crowded += ends.first < ends.second || back == 0;
+    } else if (count == 2) {
+      ++flipped;
+    } else if (back == 0) {
+      ++open;
+    }
+  }
+  std::vector<std::string> list;
+  if (empty > 0) list.push_back(count_of(empty, "facet") + " without area");
+  if (open > 0) list.push_back(count_of(open, "open edge"));
+  if (crowded > 0) list.push_back(count_of(crowded, "edge") + " of more than two facets");
+  if (flipped > 0)
+    list.push_back(count_of(flipped, "edge") + " between facets that face opposite ways");
+  if (open == 0 && crowded == 0 && flipped == 0 && volume < 0.0)
+    list.push_back("facets face inwards");
+  return list;
+}
+
+std::vector<Vec3> load_mesh_points(const ConfigNode& node) {
+  const ConfigNode file = node.at("file");
+  const std::string path =
+      (std::filesystem::path(file.file()).parent_path() / file.as_text()).string();
+  TriangleMesh mesh;
+  try {
+    mesh = read_mesh(path);
+  } catch (const std::runtime_error& error) {
+    file.fail(file.as_text() + ": " + error.what());
+  }
+  const double scale = node.number_or("scale", 1.0, Bounds::positive(), "1");
+  const Vec3 offset = node.has("offset") ? node.at("offset").as_vector3("m") : Vec3(Vec3::Zero());
+  for (Vec3& p : mesh.vertices) p *= scale;
+  check_size(node, mesh.vertices);
+  std::vector<Vec3> points = mesh.vertices;
+  if (node.has("part")) {
+    const ConfigNode part = node.at("part");
+    points = cut(mesh, part.at("point").as_vector3("m"), part.at("normal").as_vector3("1"));
+    if (points.size() < 4) part.fail("nothing of the mesh lies on that side of the plane");
+  }
+  for (Vec3& p : points) p += offset;
+  return points;
+}
+
+}  // namespace anthrob

@@ -1,0 +1,280 @@
+// Meshes as wrapping surfaces: against CGAL's exact geodesics, closed forms, and virtual work.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "anthrob_sim/path/mesh_surface.h"
+#include "mesh_reference.h"
+#include "mesh_shapes.h"
+#include "support.h"
+#include "tendon.h"
+
+namespace anthrob {
+namespace {
+
+using testing_support::Random;
+using testing_support::random_body;
+using testing_support::random_outside;
+using testing_support::reference_way;
+using testing_support::ReferenceWay;
+using testing_support::Tendon;
+
+/// `ANTHROB_CAMPAIGN=20000` runs the long form.
+int campaign(int usual) {
+  const char* text = std::getenv("ANTHROB_CAMPAIGN");
+  return text == nullptr ? usual : std::atoi(text);
+}
+
+constexpr double kSameLength = 1e-7;                  // [m]
+constexpr double kSameDirection = 0.05 * M_PI / 180;  // [rad]
+
+/// Comparisons with the reference, and what became of them.
+struct Tally {
+  int wrapped = 0, leaning = 0, ties = 0;
+  double worst_length = 0.0, worst_direction = 0.0;
+
+  void compare(Tendon& tendon, const Vec3& p, const ReferenceWay& way, const std::string& what) {
+    const WrapContact& contact = tendon.contact();
+    EXPECT_EQ(contact.touching, way.wraps) << what;
+    const double length = std::abs(tendon.length() - way.length);
+    EXPECT_LT(length, kSameLength) << what;
+    worst_length = std::max(worst_length, length);
+    if (!contact.touching) return;
+    ++wrapped;
+    leaning += contact.entry == p;
+    const double direction = std::max((contact.direction_in - way.direction_in).norm(),
+                                      (contact.direction_out - way.direction_out).norm());
+    if (direction < kSameDirection) {
+      worst_direction = std::max(worst_direction, direction);
+    } else {
+      ++ties;  // two ways of the same length, as both were found to have
+    }
+  }
+
+  void report(int cases) const {
+    ::testing::Test::RecordProperty("cases", cases);
+    ::testing::Test::RecordProperty("wrapped", wrapped);
+    ::testing::Test::RecordProperty("leaning_on_the_border", leaning);
+    ::testing::Test::RecordProperty("ties", ties);
+    ::testing::Test::RecordProperty("worst_length_m", std::to_string(1e9 * worst_length) + "e-9");
+    ::testing::Test::RecordProperty("worst_direction_deg",
+                                    std::to_string(worst_direction * 180 / M_PI));
+    EXPECT_GT(wrapped, cases / 3);
+    EXPECT_LE(ties, 1 + cases / 200);
+  }
+};
+
+TEST(MeshSurface, RandomBodiesAgreeWithCgal) {
+  Random random(1);
+  Tally cold, warm;
+  const int cases = campaign(300);
+  for (int i = 0; i < cases; ++i) {
+    const std::vector<Vec3> points = random_body(random);
+    const Vec3 chi = random.integer(0, 3) == 0 ? Vec3(Vec3::Zero()) : random.direction();
+    const auto surface = std::make_shared<MeshSurface>(points, chi);
+    Tendon tendon(surface);
+    Vec3 p = random_outside(random, *surface), q = random_outside(random, *surface);
+    tendon.start(p, q);
+    cold.compare(tendon, p, reference_way(points, p, q, chi), "cold " + std::to_string(i));
+    // A way off, so that rims and strips change.
+    const double stride = std::pow(10.0, random.uniform(-5.0, -2.0));
+    for (int step = 0; step < 5; ++step) {
+      const Vec3 np = p + random.vector(stride), nq = q + random.vector(stride);
+      if (HullLocator(surface->hull()).locate(np, 0).moved) continue;
+      if (HullLocator(surface->hull()).locate(nq, 0).moved) continue;
+      p = np, q = nq;
+      tendon.move(p, q);
+    }
+    warm.compare(tendon, p, reference_way(points, p, q, chi), "warm " + std::to_string(i));
+  }
+  cold.report(cases);
+  warm.report(cases);
+  EXPECT_GT(cold.leaning, cases / 20);
+}
+
+/// Order in which the error of the length falls with the size of the facets.
+template <class Body>
+void expect_second_order(const Body& body, const Vec3& p, const Vec3& q, double exact) {
+  std::vector<double> errors;
+  for (int round = 1; round <= 4; ++round) {
+    Tendon tendon(std::make_shared<MeshSurface>(body(round), Vec3::UnitX()));
+    tendon.start(p, q);
+    ASSERT_TRUE(tendon.contact().touching);
+    const double error = exact - tendon.length();
+    EXPECT_GT(error, 0.0) << "an inscribed body is smaller";
+    errors.push_back(error);
+  }
+  // Single steps scatter with where edges happen to lie; over two steps the order shows.
+  EXPECT_LT(errors[3], errors[1] / 8.0);
+  EXPECT_LT(errors[2], errors[0] / 8.0);
+  EXPECT_LT(errors[3], 1e-3 * exact);
+}
+
+TEST(MeshSurface, ConvergesToASphere) {
+  const Vec3 p(0.3, 0.1, 2.0), q(0.5, -0.2, -1.7);
+  const double angle = std::acos(p.normalized().dot(q.normalized()));
+  const double exact = std::sqrt(p.squaredNorm() - 1) + std::sqrt(q.squaredNorm() - 1) + angle -
+                       std::acos(1 / p.norm()) - std::acos(1 / q.norm());
+  expect_second_order([](int n) { return testing_support::icosphere(n + 1); }, p, q, exact);
+}
+
+TEST(MeshSurface, ConvergesToACylinder) {
+  const Vec3 p(0.3, 0.5, 2.0), q(0.2, -0.4, -1.7);
+  const double l1 = std::hypot(0.3, 2.0), l2 = std::hypot(0.2, 1.7);
+  const double turn = std::acos((0.3 * 0.2 - 2.0 * 1.7) / (l1 * l2));
+  const double plane = std::sqrt(l1 * l1 - 1) + std::sqrt(l2 * l2 - 1) + turn - std::acos(1 / l1) -
+                       std::acos(1 / l2);
+  expect_second_order([](int n) { return testing_support::prism(8 << n, 1.0, 5.0); }, p, q,
+                      std::hypot(plane, 0.9));
+}
+
+/// The pulls are the gradient of the length, whatever the tendon does: wrap, lean on the border of
+/// its side, end inside the bone.
+TEST(MeshSurface, DoesNoWorkOfItsOwn) {
+  Random random(3);
+  int wrapped = 0, leaning = 0, moved = 0, kinks = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto surface = std::make_shared<MeshSurface>(random_body(random), random.direction());
+    Vec3 ends[2] = {random_outside(random, *surface), random_outside(random, *surface)};
+    if (i % 4 == 0) {
+      const HullPoint found = HullLocator(surface->hull()).locate(0.9 * ends[1], 0);
+      const Vec3 on_surface =
+          found.moved ? found.p
+                      : HullLocator(surface->hull()).locate(1e-3 * ends[1].normalized(), 0).p;
+      ends[1] = on_surface - random.uniform(1e-5, 3e-4) * on_surface.normalized();
+    }
+    Tendon tendon(surface);
+    const WrapContact contact = tendon.start(ends[0], ends[1]);
+    if (!contact.touching) continue;
+    const double length = tendon.length();
+    const auto length_at = [&](const Vec3& p, const Vec3& q) {
+      Tendon other(surface);
+      other.start(p, q);
+      return other.length();
+    };
+    const double h = 1e-7;
+    const Vec3 dp = random.direction(), dq = random.direction();
+    const double ahead = (length_at(ends[0] + h * dp, ends[1] + h * dq) - length) / h;
+    const double back = (length - length_at(ends[0] - h * dp, ends[1] - h * dq)) / h;
+    const double expected = -contact.pull_in.dot(dp) + contact.pull_out.dot(dq);
+    if (std::abs(ahead - back) > 2e-3) {
+      ++kinks;  // at a tie, or where a border of facets is crossed
+      EXPECT_GE(expected, std::min(ahead, back) - 1e-2) << i;
+      EXPECT_LE(expected, std::max(ahead, back) + 1e-2) << i;
+      continue;
+    }
+    EXPECT_NEAR(0.5 * (ahead + back), expected, 2e-3) << i;
+    ++wrapped;
+    moved += contact.penetration > 0.0;
+    leaning += contact.entry == ends[0];
+  }
+  RecordProperty("kinks", kinks);
+  EXPECT_GT(wrapped, 500);
+  EXPECT_GT(leaning, 50);
+  EXPECT_GT(moved, 100);
+  EXPECT_LT(kinks, wrapped / 10);
+}
+
+/// Over random sweeps the length changes by no more than the ends move, through touch-down,
+/// lift-off and change of sides.
+TEST(MeshSurface, LengthIsContinuous) {
+  Random random(4);
+  int touched = 0, lifted = 0;
+  for (int sweep = 0; sweep < 300; ++sweep) {
+    const auto surface = std::make_shared<MeshSurface>(random_body(random), Vec3::Zero());
+    Tendon tendon(surface);
+    Vec3 p = random_outside(random, *surface);
+    const Vec3 q = random_outside(random, *surface);
+    tendon.start(p, q);
+    const Vec3 velocity = -p.normalized().cross(random.direction());
+    for (int i = 0; i < 400; ++i) {
+      const Vec3 next = p + 2e-4 * (velocity - 0.3 * p.normalized() * std::sin(0.05 * i));
+      if (HullLocator(surface->hull()).locate(next, 0).moved) break;
+      const bool was = tendon.contact().touching;
+      const double before = tendon.length();
+      tendon.move(next, q);
+      ASSERT_LE(std::abs(tendon.length() - before), (next - p).norm() + 2e-9) << sweep << " " << i;
+      touched += !was && tendon.contact().touching;
+      lifted += was && !tendon.contact().touching;
+      p = next;
+    }
+  }
+  EXPECT_GT(touched, 10);
+  EXPECT_GT(lifted, 10);
+}
+
+/// The answer does not remember how it was reached, and a copied state gives the same bits.
+TEST(MeshSurface, WarmEqualsColdAndCopiesRepeat) {
+  Random random(5);
+  const auto surface =
+      std::make_shared<MeshSurface>(testing_support::icosphere(3), Vec3(1, 0.2, 0));
+  Tendon warm(surface), copy(surface);
+  warm.start({0.4, 0.2, 1.5}, {0.3, 0.1, -1.4});
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 p(0.4 + 0.2 * std::sin(0.03 * i), 0.3 * std::cos(0.02 * i), 1.5);
+    const Vec3 q(0.3, 0.1 * std::sin(0.05 * i), -1.4);
+    std::copy(warm.state().data(), warm.state().data() + surface->state_size(),
+              copy.state().data());
+    warm.move(p, q);
+    copy.move(p, q);
+    EXPECT_EQ(warm.length(), copy.length());
+    EXPECT_EQ(warm.contact().direction_in, copy.contact().direction_in);
+    Tendon cold(surface);
+    cold.start(p, q);
+    EXPECT_NEAR(warm.length(), cold.length(), 5e-9);
+  }
+  const MeshSurface::Counts counts = MeshSurface::counts(warm.state());
+  EXPECT_EQ(counts.solved, 501);
+  EXPECT_EQ(counts.cold, 1);
+}
+
+TEST(MeshSurface, DrawnPathIsTheSolvedPath) {
+  const auto surface = std::make_shared<MeshSurface>(testing_support::icosphere(2), Vec3::UnitX());
+  for (const double x : {0.3, -0.3}) {  // free, and leaning on the border
+    Tendon tendon(surface);
+    const WrapContact& contact = tendon.start({x, 0.1, 1.5}, {x, 0.0, -1.5});
+    ASSERT_TRUE(contact.touching);
+    std::vector<Vec3> points;
+    surface->trace(contact, points);
+    EXPECT_EQ(points.front(), contact.entry);
+    EXPECT_EQ(points.back(), contact.exit);
+    double length = 0.0;
+    for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+    EXPECT_NEAR(length, contact.length_on, 1e-9);
+  }
+}
+
+TEST(MeshSurface, AwkwardPlacesStayFinite) {
+  // A cube: facets in one plane, points on corners, edges, faces, in the middle, in line with
+  // edges.
+  std::vector<Vec3> cube;
+  for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  const auto surface = std::make_shared<MeshSurface>(cube, Vec3(1, 0, 0));
+  const Vec3 places[] = {{0, 0, 0}, {1, 1, 1},  {-1, 1, -1}, {1, 1, 0},
+                         {1, 0, 0}, {0, 0, 3},  {0, 0, -3},  {1, 1, 3},
+                         {3, 0, 0}, {-3, 0, 0}, {1, 0, 3},   {0.5, 0.5, 0.5}};
+  for (const Vec3& p : places) {
+    for (const Vec3& q : places) {
+      Tendon tendon(surface);
+      const WrapContact& contact = tendon.start(p, q);
+      EXPECT_TRUE(std::isfinite(tendon.length())) << p.transpose() << " to " << q.transpose();
+      EXPECT_LT(tendon.length(), 20.0);
+      EXPECT_TRUE(contact.pull_in.allFinite() && contact.pull_out.allFinite());
+      EXPECT_NEAR(contact.direction_in.norm(), 1.0, 1e-9);
+      EXPECT_NEAR(contact.direction_out.norm(), 1.0, 1e-9);
+    }
+  }
+}
+
+TEST(MeshSurface, RefusesFlatBodies) {
+  EXPECT_THROW(MeshSurface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Vec3::UnitX()),
+               std::invalid_argument);
+  EXPECT_THROW(MeshSurface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, Vec3::UnitX()),
+               std::invalid_argument);
+  EXPECT_THROW(MeshSurface(std::vector<Vec3>(10, Vec3(1, 2, 3)), Vec3::UnitX()),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace anthrob
