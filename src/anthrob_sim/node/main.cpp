@@ -25,7 +25,9 @@ int main(int argc, char** argv) {
     if (!(options.supervisor.command_timeout >= 0.0)) {
       throw anthrob::BadInput("parameter ~command_timeout: expected a number >= 0 [s]");
     }
-    anthrob::SimulatorNode(anthrob::load_robot_model(file, load), options, nh).run();
+    const auto model = anthrob::load_robot_model(file, load);
+    for (const std::string& remark : model->remarks) ROS_WARN_STREAM(remark);
+    anthrob::SimulatorNode(model, options, nh).run();
   } catch (const anthrob::BadInput& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;

@@ -185,7 +185,7 @@ const Case kCases[] = {
      "      - {sphere: {center: [0, 0, 0], radius: 0.01}, body: upper}\n      - {point: [0.03, 0, "
      "-0.05]",
      {"path.3", "two surfaces"}},
-    {"unknown surface", false, "cylinder:", "torus:", {"path.2.torus", "cylinder, sphere"}},
+    {"unknown surface", false, "cylinder:", "torus:", {"path.2.torus", "cylinder, mesh, sphere"}},
     {"axis without direction", false, "axis: [0, 1, 0]", "axis: [0, 0, 0]", {"axis", "not zero"}},
     {"point inside its cylinder", false, "radius: 0.02", "radius: 0.08", {"path.2", "inside"}},
     {"unknown wrapping start",

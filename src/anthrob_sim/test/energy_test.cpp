@@ -93,7 +93,7 @@ Account audit(const std::string& model_name, double step) {
 }
 
 TEST(Energy, AuditOfTheWholeChainCloses) {
-  for (const char* model : {"I", "II"}) {
+  for (const char* model : {"I", "II", "III"}) {
     const Account coarse = audit(model, 1e-3), fine = audit(model, 1e-4);
     const double coarse_share = std::abs(coarse.missing()) / coarse.turned_over;
     const double fine_share = std::abs(fine.missing()) / fine.turned_over;

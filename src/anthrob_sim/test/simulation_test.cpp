@@ -109,7 +109,7 @@ TEST(Anthrob, ElbowMomentArmsOfTheStraightModelReproduceItsKnownFault) {
 }
 
 TEST(Anthrob, ArmLeftAloneStaysAtRest) {
-  for (const char* model : {"I", "II"}) {
+  for (const char* model : {"I", "II", "III"}) {
     Simulation sim(anthrob_model(model));
     sim.step(10000);
     const auto& q = sim.configuration();
@@ -170,6 +170,7 @@ void expect_virtual_work(const std::shared_ptr<const RobotModel>& model, unsigne
 TEST(Anthrob, ForceTimesMomentArmIsVirtualWork) {
   expect_virtual_work(anthrob_model("I"), 1, 100);
   expect_virtual_work(anthrob_model("II"), 2, 100);
+  expect_virtual_work(anthrob_model("III"), 3, 100);
 }
 
 TEST(Simulation, SameInputsSameBits) {
@@ -236,7 +237,7 @@ TEST(Simulation, SnapshotOfAnotherModelIsRefused) {
 }
 
 TEST(Simulation, DoesNotAllocateWhileStepping) {
-  for (const char* model : {"I", "II"}) {
+  for (const char* model : {"I", "II", "III"}) {
     Simulation sim(anthrob_model(model));
     excite(sim);
     sim.step(10);

@@ -93,7 +93,7 @@ TEST(LeastEffort, RefusesWhatDoesNotFit) {
 
 TEST(Equilibrium, TheSimulationTakesIt) {
   // Without eyelet friction the references lead to the posture they were derived for.
-  for (const char* name : {"I", "II"}) {
+  for (const char* name : {"I", "II", "III"}) {
     const auto model = load_robot_model(
         config(std::string("anthrob/model_") + name + ".yaml"),
         {1e-3, {{"eyelet_friction.static", 0.0}, {"eyelet_friction.kinetic", 0.0}}});

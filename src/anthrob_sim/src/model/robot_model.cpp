@@ -254,6 +254,9 @@ class Builder {
       obstacle.friction = eyelets;
     } else {
       obstacle.surface = make_wrapping_surface(type, entry.at(type), X_BF);
+      for (const std::string& remark : obstacle.surface->remarks()) {
+        model_->remarks.push_back(remark);
+      }
       obstacle.friction = surfaces;
     }
     if (entry.has("friction"))

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -43,22 +42,38 @@ class Welder {
   std::map<std::tuple<ai_real, ai_real, ai_real>, int> known_;
 };
 
-/// Points on one side of a plane, and where edges cross it.
-std::vector<Vec3> cut(const TriangleMesh& mesh, const Vec3& point, const Vec3& normal) {
-  std::vector<Vec3> kept;
-  const auto height = [&](int v) { return normal.dot(mesh.vertices[v] - point); };
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (height(static_cast<int>(v)) >= 0.0) kept.push_back(mesh.vertices[v]);
-  }
-  for (const auto& facet : mesh.facets) {
-    for (int i = 0; i < 3; ++i) {
-      const int a = facet[i], b = facet[(i + 1) % 3];
-      const double ha = height(a), hb = height(b);
-      if ((ha < 0.0) == (hb < 0.0)) continue;
-      kept.push_back(mesh.vertices[a] + ha / (ha - hb) * (mesh.vertices[b] - mesh.vertices[a]));
-    }
+using Polygon = std::vector<Vec3>;
+
+/// What of a convex polygon lies on one side of a plane.
+Polygon cut(const Polygon& polygon, const Vec3& point, const Vec3& normal) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double ha = normal.dot(a - point), hb = normal.dot(b - point);
+    if (ha >= 0.0) kept.push_back(a);
+    if ((ha < 0.0) != (hb < 0.0)) kept.push_back(a + ha / (ha - hb) * (b - a));
   }
   return kept;
+}
+
+/// Corners of what the planes of `part` leave of the facets.
+std::vector<Vec3> cut(const TriangleMesh& mesh, const ConfigNode& part) {
+  std::vector<std::pair<Vec3, Vec3>> planes;
+  for (const ConfigNode& plane : part.items()) {
+    planes.emplace_back(plane.at("point").as_vector3("m"), plane.at("normal").as_vector3("1"));
+    if (!(planes.back().second.norm() > 1e-9)) {
+      plane.at("normal").fail_expected("a vector that is not zero");
+    }
+  }
+  std::vector<Vec3> points;
+  for (const auto& facet : mesh.facets) {
+    Polygon polygon;
+    for (const int v : facet) polygon.push_back(mesh.vertices[v]);
+    for (const auto& [point, normal] : planes) polygon = cut(polygon, point, normal);
+    points.insert(points.end(), polygon.begin(), polygon.end());
+  }
+  if (points.size() < 4) part.fail("nothing of the mesh lies on that side of the planes");
+  return points;
 }
 
 void check_size(const ConfigNode& node, const std::vector<Vec3>& points) {
@@ -143,7 +158,7 @@ std::vector<std::string> mesh_oddities(const TriangleMesh& mesh) {
   return list;
 }
 
-std::vector<Vec3> load_mesh_points(const ConfigNode& node) {
+MeshPoints load_mesh_points(const ConfigNode& node) {
   const ConfigNode file = node.at("file");
   const std::string path =
       (std::filesystem::path(file.file()).parent_path() / file.as_text()).string();
@@ -154,17 +169,17 @@ std::vector<Vec3> load_mesh_points(const ConfigNode& node) {
     file.fail(file.as_text() + ": " + error.what());
   }
   const double scale = node.number_or("scale", 1.0, Bounds::positive(), "1");
-  const Vec3 offset = node.has("offset") ? node.at("offset").as_vector3("m") : Vec3(Vec3::Zero());
   for (Vec3& p : mesh.vertices) p *= scale;
   check_size(node, mesh.vertices);
-  std::vector<Vec3> points = mesh.vertices;
-  if (node.has("part")) {
-    const ConfigNode part = node.at("part");
-    points = cut(mesh, part.at("point").as_vector3("m"), part.at("normal").as_vector3("1"));
-    if (points.size() < 4) part.fail("nothing of the mesh lies on that side of the plane");
+  MeshPoints result;
+  result.points = node.has("part") ? cut(mesh, node.at("part")) : mesh.vertices;
+  const Vec3 offset = node.has("offset") ? node.at("offset").as_vector3("m") : Vec3(Vec3::Zero());
+  for (Vec3& p : result.points) p += offset;
+  for (const std::string& oddity : mesh_oddities(mesh)) {
+    result.remarks.push_back(file.file() + ": " + file.path() + ": " + file.as_text() + ": " +
+                             oddity + "; its convex hull is used all the same");
   }
-  for (Vec3& p : points) p += offset;
-  return points;
+  return result;
 }
 
 }  // namespace anthrob

@@ -55,8 +55,12 @@ struct BorderGradient {
 
 }  // namespace
 
-MeshSurface::MeshSurface(std::vector<Vec3> points_B, const Vec3& chi_B)
-    : hull_(std::move(points_B)), locator_(hull_), chi_(unit_or_zero(chi_B)) {
+MeshSurface::MeshSurface(std::vector<Vec3> points_B, const Vec3& chi_B,
+                         std::vector<std::string> remarks)
+    : hull_(std::move(points_B)),
+      locator_(hull_),
+      chi_(unit_or_zero(chi_B)),
+      remarks_(std::move(remarks)) {
   // Ways cross a few times as many edges as the hull is facets wide; longer strips start cold.
   capacity_ = 16 + static_cast<std::size_t>(6.0 * std::sqrt(hull_.facet_count()));
 }
@@ -216,10 +220,10 @@ void MeshSurface::trace(const WrapContact& contact, std::vector<Vec3>& points) c
 std::shared_ptr<const WrappingSurface> MeshSurface::load(const ConfigNode& node, const Pose& X_BL) {
   const Vec3 chi = node.at("chi").as_vector3("1");
   if (!(chi.norm() > 1e-9)) node.at("chi").fail_expected("a vector that is not zero");
-  std::vector<Vec3> points = load_mesh_points(node);
-  for (Vec3& p : points) p = X_BL * p;
+  MeshPoints mesh = load_mesh_points(node);
+  for (Vec3& p : mesh.points) p = X_BL * p;
   try {
-    return std::make_shared<MeshSurface>(std::move(points), X_BL.R * chi);
+    return std::make_shared<MeshSurface>(mesh.points, X_BL.R * chi, mesh.remarks);
   } catch (const std::invalid_argument& error) {
     node.at("file").fail(error.what());
   }

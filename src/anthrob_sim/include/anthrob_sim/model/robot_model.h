@@ -55,6 +55,8 @@ struct RobotModel {
   std::vector<MuscleModel> muscles;
   SensorsModel sensors;
   std::vector<TouchPadModel> touch_pads;
+  std::vector<std::string>
+      remarks;  ///< on what is odd in the files but was put right, one line each
 
   /// Index in `muscles`, or -1.
   int find_muscle(const std::string& muscle) const;

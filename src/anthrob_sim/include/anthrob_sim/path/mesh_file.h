@@ -24,9 +24,15 @@ TriangleMesh read_mesh(const std::string& file);
 /// facets, facets that face inwards or have no area. One phrase each; empty if it is sound.
 std::vector<std::string> mesh_oddities(const TriangleMesh& mesh);
 
+struct MeshPoints {
+  std::vector<Vec3> points;          ///< in the link's frame [m]
+  std::vector<std::string> remarks;  ///< one line for each oddity of the file
+};
+
 /// The points that a wrapping surface described by `{file: , scale: , offset: , part: }` is the
-/// hull of, in the link's frame [m]. `part` keeps what lies on one side of a plane.
-/// @throws BadInput where the mesh cannot be meant: flat, of a size that no bone has, cut away
-std::vector<Vec3> load_mesh_points(const ConfigNode& node);
+/// hull of. `part` keeps what lies on one side of each of its planes.
+/// @throws BadInput where the mesh cannot be meant: unreadable, of a size that no bone has, cut
+/// away
+MeshPoints load_mesh_points(const ConfigNode& node);
 
 }  // namespace anthrob

@@ -27,7 +27,7 @@ namespace anthrob {
 class MeshSurface final : public WrappingSurface {
  public:
   /// @param chi any length; zero: no side is preferred
-  MeshSurface(std::vector<Vec3> points_B, const Vec3& chi_B);
+  MeshSurface(std::vector<Vec3> points_B, const Vec3& chi_B, std::vector<std::string> remarks = {});
 
   std::string type() const override { return "mesh"; }
   std::size_t state_size() const override { return kHeader + capacity_; }
@@ -35,6 +35,7 @@ class MeshSurface final : public WrappingSurface {
   void wrap(const Vec3& before, const Vec3& after, StateView state,
             WrapContact& contact) const override;
   void trace(const WrapContact& contact, std::vector<Vec3>& points) const override;
+  std::vector<std::string> remarks() const override { return remarks_; }
 
   /// What the search for the way did since initialise().
   struct Counts {
@@ -43,8 +44,9 @@ class MeshSurface final : public WrappingSurface {
   static Counts counts(StateView state);
 
   const ConvexHull& hull() const { return hull_; }
+  const Vec3& chi() const { return chi_; }  ///< unit or zero, in the body's frame
 
-  /// `{file: , scale: , offset: [m], chi: [1], part: {point: [m], normal: [1]}}`
+  /// `{file: , scale: , offset: [m], chi: [1], part: [{point: [m], normal: [1]}]}`
   static std::shared_ptr<const WrappingSurface> load(const ConfigNode& node, const Pose& X_BL);
 
  private:
@@ -72,6 +74,7 @@ class MeshSurface final : public WrappingSurface {
   ConvexHull hull_;
   HullLocator locator_;
   Vec3 chi_;
+  std::vector<std::string> remarks_;
   std::size_t capacity_;
 };
 

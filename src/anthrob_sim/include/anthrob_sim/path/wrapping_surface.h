@@ -54,6 +54,9 @@ class WrappingSurface {
 
   /// Appends points of the path on the surface, from entry to exit, for drawing.
   virtual void trace(const WrapContact& contact, std::vector<Vec3>& points) const = 0;
+
+  /// What its user should know about the files it came from, one line each.
+  virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 /// Fills `contact` for a tendon that runs straight from `before` to `after`, meeting at `point`'s
