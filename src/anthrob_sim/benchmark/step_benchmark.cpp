@@ -106,6 +106,8 @@ void register_all() {
     add(std::string("whole_arm/") + model, whole_arm(model));
     add_peer(std::string("mujoco_arm/") + model, whole_arm(model));
   }
+  add("one_muscle/mesh", arm_with("III", {"anterior_deltoid"}));
+  add("whole_arm/III", whole_arm("III"));  // MuJoCo has no meshes to wrap on
 }
 
 }  // namespace
