@@ -30,8 +30,18 @@ TEST(Hand, AddsToTheArmAndChangesNothingElse) {
               1e-12);
 }
 
+TEST(Hand, IsTheArmsFileAndMore) {
+  const auto content = [](const std::string& file) {
+    std::ifstream in(config("anthrob/" + file));
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string arm = content("robot.urdf"), both = content("robot_hand.urdf");
+  const std::size_t shared = arm.rfind("</robot>");
+  EXPECT_EQ(both.substr(0, shared), arm.substr(0, shared));
+}
+
 TEST(Hand, ClosesPressesAndOpens) {
-  const auto model = load_robot_model(config("anthrob/model_II_hand.yaml"));
+  const auto model = load_robot_model(config("anthrob/model_III_hand.yaml"));
   Simulation sim(model);
   const int fingers = model->skeleton->find_joint("fingers");
   const auto angle = [&] {
