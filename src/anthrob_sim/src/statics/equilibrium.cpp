@@ -4,6 +4,23 @@
 
 namespace anthrob {
 
+namespace {
+
+/// Where the actuator stands when the relaxed spring carries the tension.
+double holding_position(const MuscleModel& muscle, double length, double tension) {
+  const double stretched = muscle.spring->rest_length() + muscle.spring->relaxed_expansion(tension);
+  return muscle.actuator->position_for(length - stretched);
+}
+
+}  // namespace
+
+double position_reference(const MuscleModel& muscle, double length, double tension) {
+  const double position = holding_position(muscle, length, tension);
+  const ecu::PositionGains& gains = muscle.controller.position;
+  const double input = muscle.actuator->holding_input(position, tension);
+  return position + (input - gains.force_feedforward * tension) / gains.proportional;
+}
+
 Eigen::MatrixXd moment_arm_matrix(const Simulation& sim) {
   Eigen::MatrixXd A(sim.model().skeleton->velocity_count,
                     static_cast<Eigen::Index>(sim.muscle_count()));
@@ -43,21 +60,14 @@ Equilibrium find_equilibrium(Simulation& sim, const std::vector<double>& q,
   Equilibrium result;
   result.shortfall = split.shortfall;
   for (Eigen::Index m = 0; m < count; ++m) {
-    const Muscle& muscle = sim.muscle(static_cast<int>(m));
-    const MuscleModel& model = muscle.model();
-    const double tension = split.tension[m];
-    const double stretched = model.spring->rest_length() + model.spring->relaxed_expansion(tension);
-    const double position = model.actuator->position_for(muscle.length() - stretched);
-    const double input = model.actuator->holding_input(position, tension);
+    const MuscleModel& model = sim.model().muscles[m];
+    const double length = sim.muscle(static_cast<int>(m)).length();
+    const double tension = split.tension[m], position = holding_position(model, length, tension);
     result.tension.push_back(tension);
     result.position.push_back(position);
-    if (!model.has_controller) {
-      result.reference.push_back(input);
-      continue;
-    }
-    const ecu::PositionGains& gains = model.controller.position;
-    result.reference.push_back(position +
-                               (input - gains.force_feedforward * tension) / gains.proportional);
+    result.reference.push_back(model.has_controller
+                                   ? position_reference(model, length, tension)
+                                   : model.actuator->holding_input(position, tension));
   }
   return result;
 }

@@ -31,6 +31,10 @@ Eigen::MatrixXd moment_arm_matrix(const Simulation& sim);
 /// N].
 Eigen::VectorXd gravity_load(const Simulation& sim);
 
+/// Reference of a muscle's position controller that holds a tension at a muscle length, see
+/// Equilibrium::reference. @param length [m]   @param tension [N], > 0
+double position_reference(const MuscleModel& muscle, double length, double tension);
+
 /// @param q posture, size position_count. The simulation is used as scratch: it is placed there.
 Equilibrium find_equilibrium(Simulation& sim, const std::vector<double>& q,
                              const EquilibriumOptions& options = {});

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "anthrob_sim/skeleton/skeleton_model.h"
+
+namespace anthrob {
+
+/// From one posture to another on the shortest way, with least jerk: at rest at both ends.
+class PostureMotion {
+ public:
+  explicit PostureMotion(const SkeletonModel& skeleton);
+
+  /// Stands at a posture.
+  void stand(const std::vector<double>& q);
+  /// @param duration [s], > 0
+  void start(const std::vector<double>& from, const std::vector<double>& to, double duration);
+  void advance(double dt);
+
+  bool arrived() const { return time_ >= duration_; }
+  const std::vector<double>& configuration() const { return q_; }
+  /// Ball joints in the child's axes.
+  const Eigen::VectorXd& velocity() const { return u_; }
+  const Eigen::VectorXd& acceleration() const { return a_; }
+
+ private:
+  const SkeletonModel& skeleton_;
+  std::vector<double> from_, to_, q_;
+  Eigen::VectorXd way_, u_, a_;
+  double duration_ = 0.0, time_ = 0.0;
+};
+
+}  // namespace anthrob

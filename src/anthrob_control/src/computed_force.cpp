@@ -1,0 +1,134 @@
+#include "anthrob_control/computed_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "anthrob_sim/statics/equilibrium.h"
+
+namespace anthrob {
+
+namespace {
+
+/// Muscles without a controller (ligaments) are left alone: their bounds are zero.
+Eigen::VectorXd bounds(const RobotModel& model, double tension) {
+  Eigen::VectorXd bound = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.muscles.size()));
+  for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+    if (!model.muscles[m].has_controller) continue;
+    bound[static_cast<Eigen::Index>(m)] = std::min(tension, model.muscles[m].limits.force);
+  }
+  return bound;
+}
+
+}  // namespace
+
+ComputedForce::ComputedForce(std::shared_ptr<const RobotModel> model,
+                             const ControlSettings& settings)
+    : settings_(settings),
+      posture_(model),
+      target_posture_(model),
+      filter_(*model->skeleton, settings.position_cutoff, settings.velocity_cutoff),
+      servo_(*model->skeleton, settings.joints),
+      motion_(*model->skeleton),
+      split_(model->skeleton->velocity_count, bounds(*model, settings.lowest_tension),
+             bounds(*model, settings.highest_tension)),
+      voltage_memory_(model->muscles.size()),
+      held_(model->skeleton->rest_configuration()) {
+  zero_ = command_.torque = command_.shortfall =
+      Eigen::VectorXd::Zero(model->skeleton->velocity_count);
+  command_.tension = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model->muscles.size()));
+  command_.reference.assign(model->muscles.size(), 0.0);
+}
+
+void ComputedForce::reset() {
+  fresh_ = true;
+  moving_ = false;
+}
+
+void ComputedForce::zero_gravity() {
+  if (!moving_) return;
+  moving_ = false;
+  held_ = filter_.configuration();
+}
+
+void ComputedForce::go_to(const std::vector<double>& q, double duration) {
+  if (q.size() != held_.size())
+    throw std::invalid_argument("go_to: posture does not fit the robot");
+  for (const double value : q) {
+    if (!std::isfinite(value)) throw std::invalid_argument("go_to: posture is not finite");
+  }
+  if (!moving_) servo_.reset();
+  motion_.start(target(), q, duration);
+  moving_ = true;
+}
+
+const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, double dt) {
+  if (!(dt >= 0.0) || measured.muscles.size() != command_.reference.size()) {
+    throw std::invalid_argument("ComputedForce: time step or number of muscles");
+  }
+  if (fresh_) filter_.reset();
+  filter_.step(measured.q, measured.u, dt);
+  posture_.update(filter_.configuration(), filter_.velocity());
+  if (fresh_) {
+    fresh_ = false;
+    held_ = filter_.configuration();
+    std::fill(voltage_memory_.begin(), voltage_memory_.end(), ecu::ControllerMemory{});
+  }
+  compute_torque(dt);
+  split();
+  command_.mode = moving_ ? settings_.move_output : settings_.hold_output;
+  if (command_.mode == ecu::Mode::kPosition) target_posture_.update(target(), zero_);
+  for (std::size_t m = 0; m < command_.reference.size(); ++m)
+    command_.reference[m] = reference_for(m, measured.muscles[m], dt);
+  return command_;
+}
+
+void ComputedForce::compute_torque(double dt) {
+  const std::vector<double>& q = filter_.configuration();
+  const Eigen::VectorXd& u = filter_.velocity();
+  command_.torque = posture_.load();
+  if (!moving_) {
+    command_.torque += servo_.hold(held_, q, u);
+    return;
+  }
+  motion_.advance(dt);
+  command_.torque += servo_.track(motion_.configuration(), motion_.velocity(), q, u, dt);
+  command_.torque.noalias() += posture_.mass_matrix() * motion_.acceleration();
+  for (const JointModel& joint : model().skeleton->joints) {
+    for (int k = joint.velocity_offset; k < joint.velocity_offset + joint.dof(); ++k)
+      command_.torque[k] += joint.friction.viscous * motion_.velocity()[k];
+  }
+}
+
+void ComputedForce::split() {
+  const TensionSplit::Result& result = split_.solve(posture_.moment_arms(), command_.torque);
+  command_.tension = result.tension;
+  command_.shortfall = result.shortfall;
+  command_.converged = result.converged;
+}
+
+double ComputedForce::reference_for(std::size_t muscle, const ecu::Measurement& measured,
+                                    double dt) {
+  const MuscleModel& m = model().muscles[muscle];
+  if (!m.has_controller) return 0.0;
+  const double tension = command_.tension[static_cast<Eigen::Index>(muscle)];
+  switch (command_.mode) {
+    case ecu::Mode::kPosition: {
+      const double reference =
+          position_reference(m, target_posture_.muscle_length(muscle), tension);
+      return std::min(m.limits.position, std::max(-m.limits.position, reference));
+    }
+    case ecu::Mode::kVoltage: {
+      // The ECU's own force law, run here.
+      ecu::ControllerSettings law = m.controller;
+      law.period = dt;
+      return ecu::control(ecu::Mode::kForce, tension, measured, law, voltage_memory_[muscle]);
+    }
+    case ecu::Mode::kForce:
+    case ecu::Mode::kCurrent:
+      break;
+  }
+  return tension;
+}
+
+}  // namespace anthrob
