@@ -29,6 +29,24 @@ void read_joint(const ConfigNode& node, const JointModel& joint, std::vector<dou
   for (int k = 0; k < 4; ++k) p[k] /= norm;
 }
 
+std::vector<double> read_references(const ConfigNode& node, const RobotModel& model) {
+  std::vector<double> references(model.muscles.size(), NAN);
+  for (const auto& [name, value] : node.entries()) {
+    const int muscle = model.find_muscle(name);
+    if (muscle < 0) value.fail("no muscle of that name in " + model.file);
+    const double limit = model.muscles[muscle].limits.position;
+    references[muscle] = value.as_number(Bounds::between(-limit, limit), "rad");
+  }
+  for (std::size_t m = 0; m < references.size(); ++m) {
+    if (!model.muscles[m].has_controller) {
+      references[m] = 0.0;
+    } else if (std::isnan(references[m])) {
+      node.fail("muscle '" + model.muscles[m].name + "' is missing; expected all muscles");
+    }
+  }
+  return references;
+}
+
 }  // namespace
 
 PostureSequence PostureSequence::load(const std::string& file, const RobotModel& model) {
@@ -39,7 +57,7 @@ PostureSequence PostureSequence::load(const std::string& file, const RobotModel&
   for (const ConfigNode& item : node.at("postures").items()) {
     PostureStep step;
     step.name = item.text("name");
-    step.hold = item.number("hold", Bounds::positive(), "s");
+    step.hold = item.number_or("hold", step.hold, Bounds::positive(), "s");
     step.q = model.skeleton->rest_configuration();
     if (item.has("joints")) {
       for (const auto& [name, value] : item.at("joints").entries()) {
@@ -48,6 +66,7 @@ PostureSequence PostureSequence::load(const std::string& file, const RobotModel&
         read_joint(value, model.skeleton->joints[joint], step.q);
       }
     }
+    if (item.has("references")) step.reference = read_references(item.at("references"), model);
     sequence.steps.push_back(step);
   }
   if (sequence.steps.empty()) node.at("postures").fail("expected at least one posture");
@@ -60,6 +79,10 @@ std::vector<std::vector<double>> PostureSequence::references(
   Simulation scratch(model);
   std::vector<std::vector<double>> list;
   for (const PostureStep& step : steps) {
+    if (!step.reference.empty()) {
+      list.push_back(step.reference);
+      continue;
+    }
     const Equilibrium equilibrium = find_equilibrium(scratch, step.q, options);
     if (equilibrium.shortfall.norm() > kHoldable) {
       throw BadInput("posture '" + step.name + "': the muscles of " + model->file +

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
+
+#include "anthrob_control/posture.h"
 
 namespace anthrob {
 namespace {
@@ -47,6 +50,9 @@ TEST(PostureSequence, RefusesWhatItCannotUse) {
       {"postures: [{name: a, hold: 1, joints: {elbow: 3}}]\n", "elbow"},
       {"postures: [{name: a, hold: 1, joints: {shoulder: [1, 1, 0, 0]}}]\n", "unit quaternion"},
       {"postures: [{name: a, hold: 1, speed: 3}]\n", "unknown key"},
+      {"postures: [{name: a, references: {nobody: 1}}]\n", "nobody"},
+      {"postures: [{name: a, references: {brachialis: 99}}]\n", "brachialis"},
+      {"postures: [{name: a, references: {brachialis: 1}}]\n", "'lateral_deltoid' is missing"},
   };
   for (const auto& test : cases) {
     const File file(test.text);
@@ -59,12 +65,46 @@ TEST(PostureSequence, RefusesWhatItCannotUse) {
   }
 }
 
+TEST(PostureSequence, ThesisEquilibriaCanBeHeldByTheirModels) {
+  for (const std::string name : {"I", "II"}) {
+    const auto one = load_robot_model(kConfig + "/anthrob/model_" + name + "_tier1.yaml");
+    EXPECT_EQ(one->muscles.size(), 8u);
+    EXPECT_EQ(one->skeleton->joints.size(), 1u);
+    const auto tier1 = PostureSequence::load(kConfig + "/anthrob/equilibria_tier1.yaml", *one);
+    EXPECT_EQ(tier1.references(one).size(), 17u);
+    const auto two = load_robot_model(kConfig + "/anthrob/model_" + name + ".yaml");
+    const auto tier2 = PostureSequence::load(kConfig + "/anthrob/equilibria_tier2.yaml", *two);
+    EXPECT_EQ(tier2.references(two).size(), 6u);
+  }
+}
+
+TEST(PostureSequence, ThesisEquilibriaHaveTheDistancesOfTheTables) {
+  const auto model = load_robot_model(kConfig + "/anthrob/model_I_tier1.yaml");
+  const auto steps =
+      PostureSequence::load(kConfig + "/anthrob/equilibria_tier1.yaml", *model).steps;
+  const auto distance = [&](int a, int b) {
+    return joint_distance(model->skeleton->joints[0], steps[a].q, steps[b].q) * 180.0 / M_PI;
+  };
+  // Table C.10.
+  EXPECT_NEAR(distance(0, 1), 10.35, 0.01);
+  EXPECT_NEAR(distance(0, 11), 48.57, 0.01);
+  EXPECT_NEAR(distance(3, 16), 49.76, 0.01);
+  EXPECT_NEAR(distance(11, 16), 3.42, 0.01);
+}
+
+TEST(PostureSequence, TakesReferencesAsTheyWereRecorded) {
+  const auto model = load_robot_model(kConfig + "/two_muscle_rig/model_I.yaml");
+  const File file("postures: [{name: a, references: {flexor: 1.5, extensor: -0.5}}]\n");
+  const auto sequence = PostureSequence::load(file.path(), *model);
+  EXPECT_EQ(sequence.references(model)[0], (std::vector<double>{1.5, -0.5}));
+}
+
 TEST(PostureSequence, SaysWhenAPostureCannotBeHeld) {
   const auto model =
       load_robot_model(kConfig + "/two_muscle_rig/model_I.yaml", {1e-3, {{"gravity.2", -9.81}}});
   PostureSequence sequence;
   sequence.options.highest_tension = 2.0;
-  sequence.steps.push_back({"horizontal", {1.5}, 1.0});
+  sequence.steps.push_back({"horizontal", {1.5}, 1.0, {}});
   EXPECT_THROW(sequence.references(model), BadInput);
 }
 

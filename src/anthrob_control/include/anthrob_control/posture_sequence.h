@@ -13,12 +13,15 @@ struct PostureStep {
   std::string name;
   std::vector<double> q;  ///< joint positions, as in a configuration
   double hold = 3.0;      ///< [s] from the command on
+  /// Actuator references if the file gives them, one a muscle [rad]; else derived from the posture.
+  std::vector<double> reference;
 };
 
 /// A list of postures in a YAML file:
 ///   lowest_tension: 1.0
 ///   postures:
 ///     - {name: raised, hold: 4.0, joints: {shoulder: [w, x, y, z], elbow: 1.0}}
+///     - {name: E1, references: {lateral_deltoid: 3.1, ...}}   # as recorded, all muscles
 /// Joints that are not named are at rest.
 struct PostureSequence {
   EquilibriumOptions options;
@@ -27,7 +30,7 @@ struct PostureSequence {
   /// @throws BadInput with one line
   static PostureSequence load(const std::string& file, const RobotModel& model);
 
-  /// Actuator references for every step, derived from the model.
+  /// Actuator references for every step, given or derived from the model.
   /// @throws BadInput if the muscles cannot hold a posture
   std::vector<std::vector<double>> references(const std::shared_ptr<const RobotModel>& model) const;
 };
