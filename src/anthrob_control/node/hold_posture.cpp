@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "anthrob_control/posture_sequence.h"
-#include "muscle_commands.h"
+#include "anthrob_control/ros/robot_link.h"
 
 namespace {
 
@@ -52,7 +52,8 @@ void hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
     throw anthrob::BadInput("sim/set_state: " + state.response.message);
   }
   while (ros::ok() && commands.getNumSubscribers() == 0) ros::WallDuration(0.05).sleep();
-  commands.publish(anthrob::command_for(*model, equilibrium.reference));
+  commands.publish(
+      anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, equilibrium.reference));
   ros::WallDuration(0.3).sleep();  // until it has gone out
 }
 

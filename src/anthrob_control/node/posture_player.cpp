@@ -3,7 +3,7 @@
 #include <ros/ros.h>
 
 #include "anthrob_control/posture_sequence.h"
-#include "muscle_commands.h"
+#include "anthrob_control/ros/robot_link.h"
 
 namespace {
 
@@ -28,7 +28,7 @@ void play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   for (std::size_t i = 0; i < sequence.steps.size(); ++i) {
     ROS_INFO_STREAM("posture " << i + 1 << " of " << sequence.steps.size() << ": "
                                << sequence.steps[i].name);
-    auto command = anthrob::command_for(*model, references[i]);
+    auto command = anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, references[i]);
     const ros::Time end = ros::Time::now() + ros::Duration(sequence.steps[i].hold);
     while (ros::ok() && ros::Time::now() < end) {
       command.header.stamp = ros::Time::now();

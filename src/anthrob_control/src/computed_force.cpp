@@ -46,7 +46,6 @@ void ComputedForce::reset() {
 }
 
 void ComputedForce::zero_gravity() {
-  if (!moving_) return;
   moving_ = false;
   held_ = filter_.configuration();
 }

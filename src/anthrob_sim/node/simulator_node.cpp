@@ -1,7 +1,6 @@
 #include "simulator_node.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 
 #include <cmath>
@@ -55,8 +54,10 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
   surfaces_ = nh_.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
 
+  ros::NodeHandle commands(nh_);
+  commands.setCallbackQueue(&command_queue_);
   subscribers_ = {
-      nh_.subscribe("muscle_command", 100, &SimulatorNode::on_command, this, kNoDelay),
+      commands.subscribe("muscle_command", 100, &SimulatorNode::on_command, this, kNoDelay),
       nh_.subscribe("joint_effort_command", 100, &SimulatorNode::on_effort, this, kNoDelay),
       nh_.subscribe<std_msgs::Empty>(
           "emergency_stop", 1,
@@ -89,6 +90,7 @@ ros::Time SimulatorNode::stamp() const {
 // ---- commands
 
 void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
+  last_command_stamp_ = std::max(last_command_stamp_, command.header.stamp);
   const auto outcome =
       supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_);
   if (!outcome.accepted) {
@@ -182,8 +184,11 @@ bool SimulatorNode::on_pause(std_srvs::SetBool::Request& request,
 bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
                             anthrob_msgs::Step::Response& response) {
   options_.paused = true;
+  command_queue_.callAvailable();  // what was sent before this call counts from this step on
   if (request.steps == 0) {
     response.message = "steps: 0: expected a number > 0";
+  } else if (!wait_for_command(request.command_stamp)) {
+    response.message = "no muscle_command with the stamp asked for came within 1 s";
   } else if (!failure_.empty()) {
     response.message = failure_ + "; call sim/reset";
   } else {
@@ -267,6 +272,15 @@ bool SimulatorNode::on_set_state(anthrob_msgs::SetState::Request& request,
 }
 
 // ---- time
+
+bool SimulatorNode::wait_for_command(const ros::Time& stamp) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(1.0);
+  while (last_command_stamp_ < stamp) {
+    if (!ros::ok() || ros::WallTime::now() > end) return false;
+    command_queue_.callOne(ros::WallDuration(0.01));
+  }
+  return true;
+}
 
 bool SimulatorNode::advance(int steps) {
   try {
@@ -362,7 +376,8 @@ void SimulatorNode::publish_diagnostics() {
 
 void SimulatorNode::pace() {
   if (options_.paused) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    // Wakes at once for a call of sim/step: lock-step must not wait for a timer.
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.002));
     deadline_ = Clock::now();
     return;
   }
@@ -382,6 +397,7 @@ void SimulatorNode::run() {
   deadline_ = report_time_ = Clock::now();
   publish(true);
   while (ros::ok()) {
+    command_queue_.callAvailable();
     ros::getGlobalCallbackQueue()->callAvailable();
     cycle();
     publish_diagnostics();

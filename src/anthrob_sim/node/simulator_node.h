@@ -3,6 +3,7 @@
 #include <anthrob_msgs/MuscleCommand.h>
 #include <anthrob_msgs/SetState.h>
 #include <anthrob_msgs/Step.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Empty.h>
@@ -53,6 +54,8 @@ class SimulatorNode {
   bool on_set_state(anthrob_msgs::SetState::Request& request,
                     anthrob_msgs::SetState::Response& response);
 
+  /// Serves commands until one stamped `stamp` or later has been in; false if none comes.
+  bool wait_for_command(const ros::Time& stamp);
   /// @return false if the numbers broke down; the simulation is paused then
   bool advance(int steps);
   void apply_supervision();
@@ -71,6 +74,8 @@ class SimulatorNode {
   std::string failure_;  ///< why the simulation stands still; empty if it does not
 
   ros::NodeHandle nh_;
+  ros::CallbackQueue command_queue_;  ///< of its own, so that sim/step can wait for a command
+  ros::Time last_command_stamp_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher clock_, muscles_, joints_, spherical_joints_, efforts_, muscle_paths_, touch_,

@@ -43,7 +43,7 @@ class ComputedForce {
 
   /// Begins anew: the next update holds the posture it finds.
   void reset();
-  /// Holds, from now on, where the arm is.
+  /// Holds, from now on, the posture the arm is in.
   void zero_gravity();
   /// @param q posture, size position_count   @param duration [s], > 0
   /// @throws std::invalid_argument

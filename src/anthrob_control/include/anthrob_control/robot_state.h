@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_control/computed_force.h"
+
+namespace anthrob {
+
+/// The last measurement of every muscle and joint of a robot, from sources that come and go.
+/// Free of clocks and of ROS: stamps come in as arguments [s].
+class RobotState {
+ public:
+  explicit RobotState(std::shared_ptr<const RobotModel> model);
+
+  void see_muscle(const std::string& name, const ecu::Measurement& measured, bool enabled,
+                  double stamp);
+  /// Unknown names are passed over: a robot may carry more than the model.
+  void see_joint(const std::string& name, double position, double velocity, double stamp);
+  void see_ball_joint(const std::string& name, const Quat& orientation, const Vec3& velocity,
+                      double stamp);
+
+  /// Why one cannot control with what is known at `now`; empty if one can. Values that are not
+  /// finite, or no rotation, count as not measured.
+  std::string complaint(double now, double stale_after) const;
+  /// Whether everything was measured at `stamp` or later.
+  bool complete_since(double stamp) const;
+  /// The first muscle whose ECU does not follow references, or empty.
+  std::string disabled_muscle() const;
+  /// Forgets all, as when time jumps back.
+  void clear();
+
+  const RobotMeasurement& measurement() const { return measured_; }
+  const RobotModel& model() const { return *model_; }
+
+ private:
+  std::shared_ptr<const RobotModel> model_;
+  RobotMeasurement measured_;
+  std::vector<double> muscle_stamps_, joint_stamps_;
+  std::vector<char> enabled_;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/SphericalJointStates.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include <functional>
+
+#include "anthrob_control/robot_state.h"
+
+namespace anthrob {
+
+/// A controller's connection to a robot, simulated or real: its topics, and its time. Example of a
+/// software-in-the-loop controller:
+///
+///   RobotLink link(nh, model, options);
+///   while (link.wait()) link.send(my_controller(link.state().measurement(), link.dt()));
+///
+/// In real time `wait` returns once a period of ROS time. In lock-step it lets the simulator take
+/// its steps, with the command that was sent last, and returns when their outcome is in: the same
+/// run gives the same bits, at whatever speed.
+class RobotLink {
+ public:
+  struct Options {
+    double period = 0.005;   ///< [s] of ROS time
+    bool lock_step = false;  ///< drives sim/step; simulator only
+    int steps = 5;           ///< simulation steps a period, in lock-step
+  };
+
+  RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model, const Options& options);
+
+  /// Serves callbacks until the next period. @return false when ROS shuts down
+  /// @throws std::runtime_error if the simulator does not step
+  bool wait();
+  /// Stamps and publishes. @return the stamp
+  ros::Time send(anthrob_msgs::MuscleCommand command);
+
+  const RobotState& state() const { return state_; }
+  ros::Time now() const { return now_; }
+  /// Time since the last return of wait [s]; 0 the first time and when time jumped back.
+  double dt() const { return dt_; }
+  /// Whether time jumped back during the last wait; the state was forgotten then.
+  bool time_jumped() const { return jumped_; }
+
+  /// Called with every message, before wait returns; may be empty.
+  std::function<void(const anthrob_msgs::MuscleStates&)> on_muscles;
+  std::function<void(const sensor_msgs::JointState&)> on_joints;
+  std::function<void(const anthrob_msgs::SphericalJointStates&)> on_ball_joints;
+
+ private:
+  void see_muscles(const anthrob_msgs::MuscleStates& message);
+  void see_joints(const sensor_msgs::JointState& message);
+  void see_ball_joints(const anthrob_msgs::SphericalJointStates& message);
+  bool wait_for_period();
+  bool step_simulator();
+  void advance_to(const ros::Time& time);
+
+  ros::NodeHandle nh_;
+  Options options_;
+  RobotState state_;
+  ros::Publisher commands_;
+  ros::ServiceClient step_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Time now_, next_, unstepped_command_;
+  double dt_ = 0.0;
+  bool jumped_ = false;
+};
+
+/// References for all muscles with a controller, in one mode.
+anthrob_msgs::MuscleCommand make_command(const RobotModel& model, ecu::Mode mode,
+                                         const std::vector<double>& references);
+
+}  // namespace anthrob

@@ -1,0 +1,184 @@
+// Computed-force control of a robot, simulated or real: zero gravity, and going to postures.
+#include <anthrob_msgs/GoTo.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <std_srvs/Trigger.h>
+
+#include "anthrob_control/ros/robot_link.h"
+#include "anthrob_sim/core/errors.h"
+
+namespace {
+
+using anthrob::BadInput;
+using anthrob::Quat;
+
+/// @throws BadInput
+std::vector<double> posture_of(const anthrob_msgs::GoTo::Request& request,
+                               const anthrob::SkeletonModel& skeleton, std::vector<double> q) {
+  if (request.joint_name.size() != request.joint_position.size() ||
+      request.ball_joint_name.size() != request.ball_joint_orientation.size()) {
+    throw BadInput("names and values differ in number");
+  }
+  for (std::size_t i = 0; i < request.joint_name.size(); ++i) {
+    const int index = skeleton.find_joint(request.joint_name[i]);
+    if (index < 0 || skeleton.joints[index].type == anthrob::JointType::kBall) {
+      throw BadInput("joint '" + request.joint_name[i] +
+                     "': no hinge or prismatic joint of that name");
+    }
+    const anthrob::JointModel& joint = skeleton.joints[index];
+    const double value = request.joint_position[i];
+    if (!std::isfinite(value) ||
+        (joint.stop.enabled && (value < joint.stop.lower || value > joint.stop.upper))) {
+      throw BadInput("joint '" + joint.name + "': expected a position within its limits");
+    }
+    q[joint.position_offset] = value;
+  }
+  for (std::size_t i = 0; i < request.ball_joint_name.size(); ++i) {
+    const int index = skeleton.find_joint(request.ball_joint_name[i]);
+    if (index < 0 || skeleton.joints[index].type != anthrob::JointType::kBall)
+      throw BadInput("ball joint '" + request.ball_joint_name[i] + "': no ball joint of that name");
+    const auto& o = request.ball_joint_orientation[i];
+    const Quat turn(o.w, o.x, o.y, o.z);
+    if (!(std::abs(turn.norm() - 1.0) < 1e-3))
+      throw BadInput("ball joint '" + request.ball_joint_name[i] + "': expected a unit quaternion");
+    const Quat unit = anthrob::canonical(turn.normalized());
+    double* p = &q[skeleton.joints[index].position_offset];
+    p[0] = unit.w(), p[1] = unit.x(), p[2] = unit.y(), p[3] = unit.z();
+  }
+  if (!(request.duration > 0.0) || !std::isfinite(request.duration))
+    throw BadInput("duration: expected a number > 0 [s]");
+  return q;
+}
+
+class ComputedForceNode {
+ public:
+  ComputedForceNode(ros::NodeHandle nh, std::shared_ptr<const anthrob::RobotModel> model,
+                    const anthrob::ControlSettings& settings,
+                    const anthrob::RobotLink::Options& options)
+      : name_(nh.getNamespace() + ": computed_force"),
+        settings_(settings),
+        controller_(model, settings),
+        link_(nh, model, options),
+        diagnostics_(nh.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
+    services_ = {nh.advertiseService("controller/zero_gravity", &ComputedForceNode::on_zero, this),
+                 nh.advertiseService("controller/go_to", &ComputedForceNode::on_go_to, this)};
+  }
+
+  void run() {
+    while (link_.wait()) {
+      if (link_.time_jumped()) controller_.reset();
+      trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
+      if (!trouble_.empty()) {
+        // Nothing is sent on stale measurements: the ECUs' watchdog stops the motors.
+        controller_.reset();
+      } else {
+        control();
+      }
+      report();
+    }
+  }
+
+ private:
+  void control() {
+    idle_ = link_.state().disabled_muscle();
+    // Whatever posture the arm is in when the motors are enabled is the one that is held.
+    if (!idle_.empty()) controller_.reset();
+    const anthrob::ForceCommand& wanted =
+        controller_.update(link_.state().measurement(), link_.dt());
+    shortfall_ = wanted.shortfall.norm();
+    converged_ = wanted.converged;
+    link_.send(anthrob::make_command(controller_.model(), wanted.mode, wanted.reference));
+  }
+
+  bool ready(std::string& why) const {
+    why = !trouble_.empty() ? trouble_
+          : !idle_.empty()  ? "the motor of " + idle_ + " is not enabled"
+                            : "";
+    return why.empty();
+  }
+
+  bool on_zero(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    response.success = ready(response.message);
+    if (response.success) controller_.zero_gravity();
+    return true;
+  }
+
+  bool on_go_to(anthrob_msgs::GoTo::Request& request, anthrob_msgs::GoTo::Response& response) {
+    if (!ready(response.message)) return true;
+    try {
+      controller_.go_to(posture_of(request, *controller_.model().skeleton, controller_.target()),
+                        request.duration);
+      response.success = true;
+    } catch (const BadInput& error) {
+      response.message = error.what();
+    }
+    return true;
+  }
+
+  void report() {
+    const ros::WallTime now = ros::WallTime::now();
+    const bool changed = trouble_.empty() != reported_trouble_.empty();
+    if (!changed && (now - reported_).toSec() < 1.0) return;
+    if (changed && !trouble_.empty()) ROS_WARN_STREAM("no commands: " << trouble_);
+    reported_ = now;
+    reported_trouble_ = trouble_;
+    using diagnostic_msgs::DiagnosticStatus;
+    DiagnosticStatus status;
+    status.name = name_;
+    status.hardware_id = controller_.model().file;
+    const bool short_of = shortfall_ > 0.01 || !converged_;
+    status.level = !trouble_.empty()            ? DiagnosticStatus::ERROR
+                   : !idle_.empty() || short_of ? DiagnosticStatus::WARN
+                                                : DiagnosticStatus::OK;
+    status.message = !trouble_.empty()       ? "no commands: " + trouble_
+                     : !idle_.empty()        ? "the motor of " + idle_ + " is not enabled"
+                     : short_of              ? "the muscles cannot deliver the torque"
+                     : controller_.holds()   ? "zero gravity"
+                     : controller_.arrived() ? "holding a posture"
+                                             : "on the way to a posture";
+    status.values.resize(1);
+    status.values[0].key = "shortfall [Nm]";
+    status.values[0].value = std::to_string(shortfall_);
+    diagnostic_msgs::DiagnosticArray array;
+    array.header.stamp = link_.now();
+    array.status.push_back(status);
+    diagnostics_.publish(array);
+  }
+
+  std::string name_;
+  anthrob::ControlSettings settings_;
+  anthrob::ComputedForce controller_;
+  anthrob::RobotLink link_;
+  ros::Publisher diagnostics_;
+  std::vector<ros::ServiceServer> services_;
+  std::string trouble_ = "nothing measured yet", reported_trouble_, idle_;
+  double shortfall_ = 0.0;
+  bool converged_ = true;
+  ros::WallTime reported_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "computed_force");
+  ros::NodeHandle nh, settings("~");
+  try {
+    std::string model_file, settings_file;
+    if (!settings.getParam("model", model_file) || !settings.getParam("settings", settings_file))
+      throw BadInput("parameters ~model and ~settings: expected a model file and a settings file");
+    const auto model = anthrob::load_robot_model(model_file);
+    const auto control = anthrob::ControlSettings::load(settings_file, *model);
+    anthrob::RobotLink::Options options;
+    options.period = 1.0 / control.rate;
+    settings.param("lock_step", options.lock_step, false);
+    settings.param("steps", options.steps, options.steps);
+    if (options.steps < 1) throw BadInput("parameter ~steps: expected a number >= 1");
+    ComputedForceNode(nh, model, control, options).run();
+  } catch (const BadInput& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM("computed_force: " << error.what());
+    return 1;
+  }
+  return 0;
+}

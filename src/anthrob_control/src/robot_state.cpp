@@ -1,0 +1,100 @@
+#include "anthrob_control/robot_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace anthrob {
+
+namespace {
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+std::string check_age(const std::string& who, double stamp, double now, double stale_after) {
+  if (stamp == kNever) return who + ": not measured yet";
+  const double age = now - stamp;
+  if (age <= stale_after) return "";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3f", age);
+  return who + ": the last measurement is " + text + " s old";
+}
+
+}  // namespace
+
+RobotState::RobotState(std::shared_ptr<const RobotModel> model) : model_(std::move(model)) {
+  clear();
+}
+
+void RobotState::clear() {
+  measured_.q = model_->skeleton->rest_configuration();
+  measured_.u = Eigen::VectorXd::Zero(model_->skeleton->velocity_count);
+  measured_.muscles.assign(model_->muscles.size(), {});
+  muscle_stamps_.assign(model_->muscles.size(), kNever);
+  joint_stamps_.assign(model_->skeleton->joints.size(), kNever);
+  enabled_.assign(model_->muscles.size(), 0);
+}
+
+void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, bool enabled,
+                            double stamp) {
+  const int index = model_->find_muscle(name);
+  if (index < 0) return;
+  if (!std::isfinite(m.position + m.velocity + m.current + m.force)) return;
+  measured_.muscles[index] = m;
+  enabled_[index] = enabled;
+  muscle_stamps_[index] = stamp;
+}
+
+void RobotState::see_joint(const std::string& name, double position, double velocity,
+                           double stamp) {
+  const int index = model_->skeleton->find_joint(name);
+  if (index < 0 || !std::isfinite(position + velocity)) return;
+  const JointModel& joint = model_->skeleton->joints[index];
+  if (joint.type == JointType::kBall) return;
+  measured_.q[joint.position_offset] = position;
+  measured_.u[joint.velocity_offset] = velocity;
+  joint_stamps_[index] = stamp;
+}
+
+void RobotState::see_ball_joint(const std::string& name, const Quat& orientation,
+                                const Vec3& velocity, double stamp) {
+  const int index = model_->skeleton->find_joint(name);
+  if (index < 0) return;
+  const JointModel& joint = model_->skeleton->joints[index];
+  if (joint.type != JointType::kBall) return;
+  if (!velocity.allFinite() || !(std::abs(orientation.norm() - 1.0) < 1e-3)) return;
+  const Quat unit = canonical(orientation.normalized());
+  double* q = &measured_.q[joint.position_offset];
+  q[0] = unit.w(), q[1] = unit.x(), q[2] = unit.y(), q[3] = unit.z();
+  measured_.u.segment<3>(joint.velocity_offset) = velocity;
+  joint_stamps_[index] = stamp;
+}
+
+std::string RobotState::complaint(double now, double stale_after) const {
+  for (std::size_t j = 0; j < joint_stamps_.size(); ++j) {
+    const std::string why =
+        check_age("joint " + model_->skeleton->joints[j].name, joint_stamps_[j], now, stale_after);
+    if (!why.empty()) return why;
+  }
+  for (std::size_t m = 0; m < muscle_stamps_.size(); ++m) {
+    const std::string why =
+        check_age("muscle " + model_->muscles[m].name, muscle_stamps_[m], now, stale_after);
+    if (!why.empty()) return why;
+  }
+  return "";
+}
+
+bool RobotState::complete_since(double stamp) const {
+  const auto since = [stamp](double seen) { return seen >= stamp; };
+  return std::all_of(muscle_stamps_.begin(), muscle_stamps_.end(), since) &&
+         std::all_of(joint_stamps_.begin(), joint_stamps_.end(), since);
+}
+
+std::string RobotState::disabled_muscle() const {
+  for (std::size_t m = 0; m < enabled_.size(); ++m) {
+    if (model_->muscles[m].has_controller && !enabled_[m]) return model_->muscles[m].name;
+  }
+  return "";
+}
+
+}  // namespace anthrob

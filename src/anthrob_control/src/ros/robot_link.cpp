@@ -1,0 +1,146 @@
+#include "anthrob_control/ros/robot_link.h"
+
+#include <anthrob_msgs/Step.h>
+#include <ros/callback_queue.h>
+
+#include <stdexcept>
+
+namespace anthrob {
+
+namespace {
+
+/// How long a simulator may take to answer, of wall time [s].
+constexpr double kStepPatience = 10.0;
+
+bool fits(std::size_t names, std::size_t values) {
+  return values == names;
+}
+
+}  // namespace
+
+RobotLink::RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model,
+                     const Options& options)
+    : nh_(nh), options_(options), state_(std::move(model)) {
+  const auto no_delay = ros::TransportHints().tcpNoDelay();
+  commands_ = nh_.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 10);
+  subscribers_ = {
+      nh_.subscribe("muscle_states", 2000, &RobotLink::see_muscles, this, no_delay),
+      nh_.subscribe("joint_states", 2000, &RobotLink::see_joints, this, no_delay),
+      nh_.subscribe("spherical_joint_states", 2000, &RobotLink::see_ball_joints, this, no_delay),
+  };
+}
+
+void RobotLink::see_muscles(const anthrob_msgs::MuscleStates& m) {
+  const std::size_t n = m.name.size();
+  if (fits(n, m.position.size()) && fits(n, m.velocity.size()) && fits(n, m.current.size()) &&
+      fits(n, m.force.size()) && fits(n, m.ecu_state.size())) {
+    for (std::size_t i = 0; i < n; ++i) {
+      state_.see_muscle(m.name[i], {m.position[i], m.velocity[i], m.current[i], m.force[i]},
+                        m.ecu_state[i] == anthrob_msgs::MuscleStates::ENABLED,
+                        m.header.stamp.toSec());
+    }
+  }
+  if (on_muscles) on_muscles(m);
+}
+
+void RobotLink::see_joints(const sensor_msgs::JointState& m) {
+  if (fits(m.name.size(), m.position.size()) && fits(m.name.size(), m.velocity.size())) {
+    for (std::size_t i = 0; i < m.name.size(); ++i)
+      state_.see_joint(m.name[i], m.position[i], m.velocity[i], m.header.stamp.toSec());
+  }
+  if (on_joints) on_joints(m);
+}
+
+void RobotLink::see_ball_joints(const anthrob_msgs::SphericalJointStates& m) {
+  if (fits(m.name.size(), m.orientation.size()) && fits(m.name.size(), m.angular_velocity.size())) {
+    for (std::size_t i = 0; i < m.name.size(); ++i) {
+      const auto& o = m.orientation[i];
+      const auto& w = m.angular_velocity[i];
+      state_.see_ball_joint(m.name[i], Quat(o.w, o.x, o.y, o.z), Vec3(w.x, w.y, w.z),
+                            m.header.stamp.toSec());
+    }
+  }
+  if (on_ball_joints) on_ball_joints(m);
+}
+
+void RobotLink::advance_to(const ros::Time& time) {
+  jumped_ = time < now_;
+  dt_ = jumped_ || now_.isZero() ? 0.0 : (time - now_).toSec();
+  if (jumped_) {
+    // A bag loops, a simulator was started anew: nothing of the old time counts.
+    state_.clear();
+    next_ = time;
+  }
+  now_ = time;
+}
+
+bool RobotLink::wait() {
+  return options_.lock_step ? step_simulator() : wait_for_period();
+}
+
+bool RobotLink::wait_for_period() {
+  ros::CallbackQueue& queue = *ros::getGlobalCallbackQueue();
+  while (ros::ok()) {
+    queue.callAvailable(ros::WallDuration(0.001));
+    const ros::Time time = ros::Time::now();
+    if (time.isZero()) continue;
+    if (time >= now_ && time < next_) continue;
+    advance_to(time);
+    // Late periods are left out rather than made up for.
+    next_ += ros::Duration(options_.period);
+    if (next_ <= time) next_ = time + ros::Duration(options_.period);
+    return true;
+  }
+  return false;
+}
+
+bool RobotLink::step_simulator() {
+  if (!step_.isValid()) {
+    while (ros::ok() && !ros::service::waitForService("sim/step", ros::Duration(0.5))) {
+    }
+    while (ros::ok() && commands_.getNumSubscribers() == 0) ros::WallDuration(0.01).sleep();
+    if (!ros::ok()) return false;
+    step_ = nh_.serviceClient<anthrob_msgs::Step>("sim/step", true);
+  }
+  anthrob_msgs::Step call;
+  call.request.steps = static_cast<std::uint32_t>(options_.steps);
+  call.request.command_stamp = unstepped_command_;
+  unstepped_command_ = ros::Time();
+  if (!step_.call(call)) {
+    if (!ros::ok()) return false;
+    throw std::runtime_error("sim/step: the simulator does not answer");
+  }
+  if (!call.response.success) throw std::runtime_error("sim/step: " + call.response.message);
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kStepPatience);
+  const double stamp = call.response.stamp.toSec();
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.001));
+    if (state_.complete_since(stamp)) break;
+    if (ros::WallTime::now() > end)
+      throw std::runtime_error("sim/step: no states of the last step: " +
+                               state_.complaint(stamp, 0.0));
+  }
+  advance_to(call.response.stamp);
+  return ros::ok();
+}
+
+ros::Time RobotLink::send(anthrob_msgs::MuscleCommand command) {
+  command.header.stamp = now_;
+  commands_.publish(command);
+  unstepped_command_ = now_;
+  return now_;
+}
+
+anthrob_msgs::MuscleCommand make_command(const RobotModel& model, ecu::Mode mode,
+                                         const std::vector<double>& references) {
+  anthrob_msgs::MuscleCommand command;
+  for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+    if (!model.muscles[m].has_controller) continue;
+    command.name.push_back(model.muscles[m].name);
+    command.mode.push_back(static_cast<std::uint8_t>(mode));
+    command.reference.push_back(references[m]);
+  }
+  return command;
+}
+
+}  // namespace anthrob

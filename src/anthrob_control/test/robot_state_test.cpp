@@ -1,0 +1,56 @@
+#include "anthrob_control/robot_state.h"
+
+#include <gtest/gtest.h>
+
+namespace anthrob {
+namespace {
+
+class RobotStateTest : public ::testing::Test {
+ protected:
+  void see_all(double stamp) {
+    for (const MuscleModel& muscle : model->muscles)
+      state.see_muscle(muscle.name, {0.1, 0.0, 0.0, 5.0}, true, stamp);
+    state.see_joint("elbow", 0.5, 0.0, stamp);
+    state.see_ball_joint("shoulder", Quat(1, 0, 0, 0), Vec3::Zero(), stamp);
+  }
+
+  std::shared_ptr<const RobotModel> model =
+      load_robot_model(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml");
+  RobotState state{model};
+};
+
+TEST_F(RobotStateTest, NamesWhatIsMissingOrOld) {
+  EXPECT_EQ(state.complaint(0.0, 0.1), "joint shoulder: not measured yet");
+  see_all(1.0);
+  EXPECT_EQ(state.complaint(1.05, 0.1), "");
+  EXPECT_EQ(state.complaint(1.2, 0.1), "joint shoulder: the last measurement is 0.200 s old");
+  state.see_ball_joint("shoulder", Quat(1, 0, 0, 0), Vec3::Zero(), 1.2);
+  EXPECT_EQ(state.complaint(1.2, 0.1), "joint elbow: the last measurement is 0.200 s old");
+  EXPECT_FALSE(state.complete_since(1.2));
+  see_all(1.2);
+  EXPECT_TRUE(state.complete_since(1.2));
+  state.clear();
+  EXPECT_FALSE(state.complaint(1.2, 0.1).empty());
+}
+
+TEST_F(RobotStateTest, WhatIsNoMeasurementDoesNotCount) {
+  see_all(1.0);
+  state.see_joint("elbow", NAN, 0.0, 2.0);
+  state.see_ball_joint("shoulder", Quat(0, 0, 0, 0), Vec3::Zero(), 2.0);
+  state.see_ball_joint("elbow", Quat(1, 0, 0, 0), Vec3::Zero(), 2.0);
+  state.see_joint("shoulder", 1.0, 0.0, 2.0);
+  state.see_joint("wrist", 1.0, 0.0, 2.0);
+  state.see_muscle("brachialis", {0.0, INFINITY, 0.0, 0.0}, true, 2.0);
+  EXPECT_FALSE(state.complete_since(1.5));
+  EXPECT_EQ(state.measurement().q, (std::vector<double>{1, 0, 0, 0, 0.5}));
+}
+
+TEST_F(RobotStateTest, KnowsWhetherMotorsFollow) {
+  see_all(1.0);
+  EXPECT_EQ(state.disabled_muscle(), "");
+  state.see_muscle("teres_major", {}, false, 1.0);
+  EXPECT_EQ(state.disabled_muscle(), "teres_major");
+}
+
+}  // namespace
+}  // namespace anthrob

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""The computed-force node drives the simulator in lock-step: goes to postures, holds them in zero gravity."""
+import math
+import time
+import unittest
+
+import rospy
+import rostest
+from anthrob_msgs.msg import MuscleStates, SphericalJointStates
+from anthrob_msgs.srv import GoTo, GoToRequest
+from geometry_msgs.msg import Quaternion
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+NAN = float('nan')
+# Of the demo: abducted, flexed.
+POSTURES = [([0.939693, 0.220336, 0.0, -0.261591], 1.0472), ([0.953717, -0.229992, 0.0, -0.193720], 1.5708)]
+
+
+def angle(a, b):
+    return 2.0 * math.degrees(math.acos(min(1.0, abs(sum(x * y for x, y in zip(a, b))))))
+
+
+class ComputedForce(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shoulder, cls.elbow, cls.muscles = [], [], []
+        rospy.Subscriber('spherical_joint_states', SphericalJointStates, cls.see_shoulder, queue_size=1000)
+        rospy.Subscriber('joint_states', JointState, lambda m: cls.elbow.append(m.position[0]), queue_size=1000)
+        rospy.Subscriber('muscle_states', MuscleStates, cls.muscles.append, queue_size=1000)
+        rospy.wait_for_service('controller/go_to', 30)
+        cls.go_to = rospy.ServiceProxy('controller/go_to', GoTo)
+        cls.zero_gravity = rospy.ServiceProxy('controller/zero_gravity', Trigger)
+        end = time.time() + 30
+        while not (cls.shoulder and cls.elbow and cls.muscles) and time.time() < end:
+            time.sleep(0.05)
+
+    @classmethod
+    def see_shoulder(cls, message):
+        q = message.orientation[0]
+        cls.shoulder.append((message.header.stamp.to_sec(), [q.w, q.x, q.y, q.z]))
+
+    def simulate(self, seconds):
+        """Waits until so much time was simulated; returns the shoulder's way."""
+        first = len(self.shoulder)
+        start = self.shoulder[-1][0]
+        limit = time.time() + 60
+        while self.shoulder[-1][0] < start + seconds:
+            self.assertLess(time.time(), limit, 'simulated time stands still')
+            time.sleep(0.01)
+        return [q for _, q in self.shoulder[first:]]
+
+    def test_holds_postures_in_zero_gravity(self):
+        for quaternion, elbow in POSTURES:
+            w, x, y, z = quaternion
+            answer = self.go_to(GoToRequest(joint_name=['elbow'], joint_position=[elbow],
+                                            ball_joint_name=['shoulder'],
+                                            ball_joint_orientation=[Quaternion(x, y, z, w)], duration=2.0))
+            self.assertTrue(answer.success, answer.message)
+            self.simulate(7.0)
+            self.assertLess(angle(self.shoulder[-1][1], quaternion), 3.0)
+            self.assertLess(abs(math.degrees(sum(self.elbow[-20:]) / 20 - elbow)), 3.0)
+            self.assertEqual(set(self.muscles[-1].mode), {1})
+            self.assertTrue(self.zero_gravity().success)
+            self.simulate(0.5)
+            start, elbow_start = self.shoulder[-1][1], sum(self.elbow[-20:]) / 20
+            way = self.simulate(10.0)
+            self.assertEqual(set(self.muscles[-1].mode), {3})
+            drift = max(angle(start, q) for q in way)
+            print('drift in 10 s: shoulder %.2f deg, elbow %.2f deg' %
+                  (drift, abs(math.degrees(sum(self.elbow[-20:]) / 20 - elbow_start))))
+            self.assertLess(drift, 2.0)
+            self.assertLess(abs(math.degrees(sum(self.elbow[-20:]) / 20 - elbow_start)), 2.0)
+
+    def test_refuses_nonsense(self):
+        cases = [
+            (dict(joint_name=['knee'], joint_position=[0.0], duration=1.0), 'knee'),
+            (dict(joint_name=['elbow'], joint_position=[NAN], duration=1.0), 'limits'),
+            (dict(joint_name=['elbow'], joint_position=[3.0], duration=1.0), 'limits'),
+            (dict(joint_name=['elbow'], joint_position=[], duration=1.0), 'differ'),
+            (dict(ball_joint_name=['shoulder'], ball_joint_orientation=[Quaternion()], duration=1.0), 'quaternion'),
+            (dict(duration=0.0), 'duration'),
+        ]
+        for fields, word in cases:
+            answer = self.go_to(GoToRequest(**fields))
+            self.assertFalse(answer.success)
+            self.assertIn(word, answer.message)
+
+
+if __name__ == '__main__':
+    rospy.init_node('computed_force_test')
+    rostest.rosrun('anthrob_tests', 'computed_force', ComputedForce)

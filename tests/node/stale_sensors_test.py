@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""A controller whose sensors fall silent stops sending, and says which sensor it misses."""
+import time
+import unittest
+
+import rospy
+import rostest
+from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Quaternion, Vector3
+
+MUSCLES = ['lateral_deltoid', 'anterior_deltoid', 'posterior_deltoid', 'supraspinatus', 'infraspinatus',
+           'teres_minor', 'teres_major', 'pectoralis_major']
+
+
+class StaleSensors(unittest.TestCase):
+
+    def setUp(self):
+        self.commands, self.reports = [], []
+        rospy.Subscriber('muscle_command', MuscleCommand, self.commands.append)
+        rospy.Subscriber('/diagnostics', DiagnosticArray, lambda m: self.reports.append(m.status[0].message))
+        self.muscles = rospy.Publisher('muscle_states', MuscleStates, queue_size=1)
+        self.shoulder = rospy.Publisher('spherical_joint_states', SphericalJointStates, queue_size=1)
+        end = time.time() + 20
+        while not (self.muscles.get_num_connections() and self.shoulder.get_num_connections()):
+            self.assertLess(time.time(), end)
+            time.sleep(0.05)
+
+    def publish(self, seconds, shoulder=True, state=MuscleStates.ENABLED):
+        n = len(MUSCLES)
+        zeros = [0.0] * n
+        end = time.time() + seconds
+        while time.time() < end:
+            m = MuscleStates(name=MUSCLES, position=zeros, velocity=zeros, current=zeros, voltage=zeros,
+                             force=[5.0] * n, reference=zeros, mode=[3] * n, ecu_state=[state] * n)
+            m.header.stamp = rospy.Time.now()
+            self.muscles.publish(m)
+            if shoulder:
+                s = SphericalJointStates(name=['shoulder'], orientation=[Quaternion(w=1)],
+                                         angular_velocity=[Vector3()])
+                s.header.stamp = rospy.Time.now()
+                self.shoulder.publish(s)
+            time.sleep(0.005)
+
+    def test_silence_and_return(self):
+        self.publish(1.5)
+        self.assertGreater(len(self.commands), 20)
+        self.assertEqual(self.commands[-1].name, MUSCLES)
+        self.assertIn('zero gravity', self.reports[-1])
+        self.publish(0.5, shoulder=False)  # motion capture has lost the arm
+        count = len(self.commands)
+        self.publish(1.5, shoulder=False)
+        self.assertEqual(len(self.commands), count)
+        self.assertIn('joint shoulder', self.reports[-1])
+        self.publish(1.5)
+        self.assertGreater(len(self.commands), count)
+        self.publish(1.5, state=MuscleStates.IDLE)
+        self.assertIn('not enabled', self.reports[-1])
+
+
+if __name__ == '__main__':
+    rospy.init_node('stale_sensors_test')
+    rostest.rosrun('anthrob_tests', 'stale_sensors', StaleSensors)
