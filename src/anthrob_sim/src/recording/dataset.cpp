@@ -296,11 +296,9 @@ Series Dataset::series(const std::string& column) const {
   return series;
 }
 
-namespace {
-
-DatasetMeta read_meta(const fs::path& file) {
+DatasetMeta load_meta(const std::string& file) {
   DatasetMeta meta;
-  const ConfigNode node = ConfigNode::load(file.string());
+  const ConfigNode node = ConfigNode::load(file);
   for (const auto& [key, value] : node.entries()) {
     if (key == "robot") {
       meta.robot = value.as_text();
@@ -362,6 +360,8 @@ std::string meta_text(const DatasetMeta& meta) {
   return out.str();
 }
 
+namespace {
+
 std::string table_text(const Table& table) {
   std::string out = "t";
   if (!table.stamp.empty()) out += ",stamp";
@@ -395,7 +395,7 @@ Dataset Dataset::load(const std::string& folder) {
   const fs::path meta = fs::path(folder) / "meta.yaml";
   if (!fs::exists(meta))
     throw BadInput(folder + ": meta.yaml is missing; expected one in a dataset folder");
-  dataset.meta = read_meta(meta);
+  dataset.meta = load_meta(meta.string());
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".csv") files.push_back(entry.path());

@@ -320,6 +320,8 @@ BagContents read_bag(const std::string& file) {
                    *std::next(namespaces.begin()) + "; expected one robot a bag");
   }
   const std::string robot = *namespaces.begin();
+  const std::string beside = std::filesystem::path(file).replace_extension(".yaml").string();
+  if (std::filesystem::exists(beside)) contents.dataset.meta = load_meta(beside);
   contents.dataset.meta.robot = robot.empty() ? "" : robot.substr(1);
   for (const auto& [topic, table] : kTopics) {
     if (!chosen.count(topic)) continue;

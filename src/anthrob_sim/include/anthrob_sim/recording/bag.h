@@ -15,7 +15,8 @@ struct BagContents {
 
 /// Reads the topics muscle_command, muscle_states, joint_states and spherical_joint_states, in
 /// whatever namespace they were recorded (one robot a bag), into the tables commands, muscles,
-/// joints and spherical_joints. Every value and stamp is kept bit for bit.
+/// joints and spherical_joints. Every value and stamp is kept bit for bit. NAME.yaml beside NAME.bag
+/// is its meta.yaml.
 /// @throws BadInput if the file is no bag, holds none of the topics, or topics of several robots
 BagContents read_bag(const std::string& file);
 

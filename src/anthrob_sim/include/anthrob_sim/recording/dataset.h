@@ -64,6 +64,10 @@ struct DatasetMeta {
   std::map<std::string, std::string> other;      ///< sensors, notes and unknown keys, as YAML text
 };
 
+/// meta.yaml of a dataset folder, or NAME.yaml beside NAME.bag. @throws BadInput
+DatasetMeta load_meta(const std::string& file);
+std::string meta_text(const DatasetMeta& meta);
+
 /// A recording as a folder of CSV files and a meta.yaml.
 struct Dataset {
   std::string folder;  ///< where it came from, for messages

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "anthrob_control/robot_state.h"
+
+namespace anthrob {
+
+struct SettleOptions {
+  double actuator_velocity = 0.02;  ///< [rad/s]
+  double joint_velocity = 0.01;     ///< [rad/s]
+  double window = 0.5;              ///< over which velocities are taken [s]
+  double timeout = 20.0;            ///< [s]
+};
+
+/// Tells when a robot has come to rest: nothing has moved further from where it was than the
+/// velocities allow within the window. Positions, not measured velocities: those are noisy.
+class SettleDetector {
+ public:
+  SettleDetector(std::shared_ptr<const RobotModel> model, const SettleOptions& options);
+
+  /// Begins anew at `time` [s].
+  void start(double time);
+  /// @return whether the robot has settled
+  bool step(const RobotMeasurement& measured, double time);
+
+ private:
+  bool moved(const RobotMeasurement& measured) const;
+
+  std::shared_ptr<const RobotModel> model_;
+  SettleOptions options_;
+  RobotMeasurement anchor_;
+  double anchor_time_ = 0.0;
+  bool anchored_ = false;
+};
+
+}  // namespace anthrob

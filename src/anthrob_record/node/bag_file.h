@@ -1,0 +1,35 @@
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <string>
+
+namespace anthrob {
+
+/// A bag while it is written: messages at their own stamps, so that the same run gives the same
+/// bag.
+class BagFile {
+ public:
+  /// @param prefix of the topics, "/anthrob/"
+  /// @throws std::runtime_error if the file cannot be made
+  BagFile(const std::string& file, const std::string& prefix);
+
+  template <class Message>
+  void write(const std::string& topic, const Message& message) {
+    // Time 0 cannot be held by a bag.
+    const ros::Time stamp = std::max(message.header.stamp, ros::TIME_MIN);
+    bag_.write(prefix_ + topic, stamp, message);
+  }
+  /// For the topic that tells whether anything was lost: the largest time between two messages [s].
+  void note_arrival(const ros::Time& stamp);
+  double largest_gap() const { return largest_gap_; }
+  void close() { bag_.close(); }
+
+ private:
+  rosbag::Bag bag_;
+  std::string prefix_;
+  ros::Time last_;
+  double largest_gap_ = 0.0;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,238 @@
+#include "recorder.h"
+
+#include <anthrob_msgs/GoTo.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace anthrob {
+
+namespace {
+
+/// Commands are renewed faster than they time out [s].
+constexpr double kCommandPeriod = 0.02;
+/// Silence after which a measurement counts as old and the robot as gone, and gap after which a
+/// recording counts as broken [s].
+constexpr double kSilence = 1.0, kLargestGap = 0.05;
+/// How long a robot may take to appear, of wall time [s].
+constexpr double kPatience = 30.0;
+constexpr double kDegree = 0.017453292519943295;
+
+}  // namespace
+
+Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<const RobotModel> model,
+                   const Protocol& protocol, const std::string& folder,
+                   const RobotLink::Options& options)
+    : nh_(nh),
+      model_(model),
+      protocol_(protocol),
+      store_(folder, model, protocol),
+      link_(nh, model, options) {
+  const auto record = [this](const char* topic) {
+    return [this, topic](const auto& message) {
+      if (recording_ > 0) bags_[static_cast<std::size_t>(recording_ - 1)]->write(topic, message);
+    };
+  };
+  link_.on_joints = record("joint_states");
+  link_.on_ball_joints = record("spherical_joint_states");
+  link_.on_muscles = [this, write = record("muscle_states")](const anthrob_msgs::MuscleStates& m) {
+    write(m);
+    if (recording_ > 0)
+      bags_[static_cast<std::size_t>(recording_ - 1)]->note_arrival(m.header.stamp);
+  };
+  if (protocol_.kind != Protocol::Kind::kZeroGravity) return;
+  // The controller commands; what it says belongs to the recording.
+  subscribers_ = {nh_.subscribe<anthrob_msgs::MuscleCommand>(
+      "muscle_command", 2000,
+      [write = record("muscle_command")](const anthrob_msgs::MuscleCommandConstPtr& m) {
+        write(*m);
+      },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())};
+  if (protocol_.by_hand) sample_ = own.advertiseService("sample", &Recorder::on_sample, this);
+}
+
+bool Recorder::on_sample(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  response.success = visit_ != nullptr;
+  response.message = visit_ ? "the posture is recorded when the arm is at rest" : "nothing to do";
+  if (visit_) visit_->trigger();
+  return true;
+}
+
+bool Recorder::run() {
+  for (int repeat = 1; repeat <= protocol_.repeats; ++repeat) {
+    for (const Protocol::Target& target : protocol_.targets) {
+      ++done_;
+      names_ = store_.names(target, repeat);
+      bool complete = true;
+      for (const std::string& name : names_) complete = complete && store_.complete(name);
+      if (complete) continue;
+      Result result = Result::kAgain;
+      for (int attempt = 0; result == Result::kAgain && attempt <= protocol_.redo; ++attempt)
+        result = record(target, repeat);
+      if (result == Result::kShutdown) return false;
+      if (result == Result::kAgain) {
+        throw std::runtime_error(names_.front() +
+                                 ": given up; what is complete stays, the same command goes on");
+      }
+    }
+  }
+  store_.summarise();
+  ROS_INFO("all recorded");
+  return true;
+}
+
+Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
+  Visit visit(model_, protocol_, store_.baseline());
+  visit_ = &visit;
+  aimed_ = false;
+  bags_.resize(names_.size());
+  if (protocol_.by_hand) ROS_INFO_STREAM(target.name << ": set the posture, then call ~sample");
+  bool running = true;
+  try {
+    while (running && visit.outcome() == Visit::Outcome::kRunning) running = advance(visit, target);
+  } catch (...) {
+    drop();
+    throw;
+  }
+  recording_ = 0;
+  visit_ = nullptr;
+  if (!running) {
+    drop();
+    return Result::kShutdown;
+  }
+  std::string trouble = visit.reason();
+  for (const auto& bag : bags_) {
+    if (trouble.empty() && bag && bag->largest_gap() > kLargestGap)
+      trouble = "states were missing for " + std::to_string(bag->largest_gap()) + " s";
+  }
+  if (trouble.empty()) {
+    store(visit, target, repeat);
+    return Result::kDone;
+  }
+  ROS_WARN_STREAM(names_.front() << ": " << trouble);
+  drop();
+  return Result::kAgain;
+}
+
+bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
+  if (!link_.wait()) return false;
+  if (link_.time_jumped()) throw std::runtime_error("time jumped back");
+  const std::string silence = link_.state().complaint(link_.now().toSec(), kSilence);
+  if (!silence.empty()) {
+    // By the wall's clock: simulated time may outrun the messages. Nothing is sent meanwhile, so
+    // that the watchdog stops the motors.
+    if ((ros::WallTime::now() - heard_).toSec() > (visit.begun() ? kSilence : kPatience))
+      throw std::runtime_error("the robot is silent: " + silence);
+    return true;
+  }
+  heard_ = ros::WallTime::now();
+  const Visit::Order order = visit.step(link_.state().measurement(), link_.now().toSec());
+  if (visit.outcome() != Visit::Outcome::kRunning) return true;
+  switch_recording(order.recording, target);
+  follow(order, target);
+  return true;
+}
+
+void Recorder::follow(const Visit::Order& order, const Protocol::Target& target) {
+  const bool changed = !aimed_ || order.aim != aim_;
+  aimed_ = true;
+  aim_ = order.aim;
+  if (protocol_.kind == Protocol::Kind::kZeroGravity) {
+    if (changed) call_controller(order.aim, target);
+    return;
+  }
+  if (!changed && (link_.now() - sent_).toSec() < kCommandPeriod - 1e-6) return;
+  send_references(order.aim == Visit::Aim::kRest ? protocol_.rest.reference : target.reference);
+}
+
+void Recorder::send_references(const std::vector<double>& references) {
+  anthrob_msgs::MuscleCommand command = make_command(*model_, ecu::Mode::kPosition, references);
+  command.header.stamp = sent_ = link_.send(command);
+  if (recording_ > 0)
+    bags_[static_cast<std::size_t>(recording_ - 1)]->write("muscle_command", command);
+}
+
+void Recorder::call_controller(Visit::Aim aim, const Protocol::Target& target) {
+  if (aim == Visit::Aim::kRelease) {
+    std_srvs::Trigger call;
+    if (!ros::service::call(nh_.resolveName("controller/zero_gravity"), call))
+      throw std::runtime_error("controller/zero_gravity: no controller answers");
+    if (!call.response.success)
+      throw std::runtime_error("controller/zero_gravity: " + call.response.message);
+    return;
+  }
+  anthrob_msgs::GoTo call;
+  call.request.duration = protocol_.go_duration;
+  const std::vector<double>& q = aim == Visit::Aim::kRest ? protocol_.rest.q : target.q;
+  for (const JointModel& joint : model_->skeleton->joints) {
+    const double* p = &q[joint.position_offset];
+    if (joint.type == JointType::kBall) {
+      geometry_msgs::Quaternion turn;
+      turn.w = p[0], turn.x = p[1], turn.y = p[2], turn.z = p[3];
+      call.request.ball_joint_name.push_back(joint.name);
+      call.request.ball_joint_orientation.push_back(turn);
+    } else {
+      call.request.joint_name.push_back(joint.name);
+      call.request.joint_position.push_back(p[0]);
+    }
+  }
+  if (!ros::service::call(nh_.resolveName("controller/go_to"), call))
+    throw std::runtime_error("controller/go_to: no controller answers");
+  if (!call.response.success)
+    throw std::runtime_error("controller/go_to: " + call.response.message);
+}
+
+void Recorder::switch_recording(int recording, const Protocol::Target&) {
+  if (recording == recording_) return;
+  recording_ = recording;
+  if (recording == 0) return;
+  const std::size_t i = static_cast<std::size_t>(recording - 1);
+  bags_[i] = std::make_unique<BagFile>(store_.partial_bag(names_[i]), nh_.getNamespace() + "/");
+}
+
+void Recorder::drop() {
+  recording_ = 0;
+  visit_ = nullptr;
+  for (auto& bag : bags_) bag.reset();
+  for (const std::string& name : names_) store_.discard(name);
+}
+
+DatasetMeta Recorder::describe(const Visit& visit, const Protocol::Target& target, int repeat,
+                               int recording) const {
+  DatasetMeta meta;
+  meta.kind = protocol_.kind == Protocol::Kind::kTrajectories ? "trajectory" : "equilibrium";
+  const std::string& rest = protocol_.rest.name;
+  meta.other["posture"] = recording == 1 ? target.name + "\n" : rest + "\n";
+  meta.other["from"] = recording == 1 ? rest + "\n" : target.name + "\n";
+  meta.other["protocol"] = std::string(word(protocol_.kind)) + "\n";
+  meta.other["run"] = std::to_string(repeat) + "\n";
+  meta.other["hold"] = exact_text(protocol_.hold) + "\n";
+  const BagFile& bag = *bags_[static_cast<std::size_t>(recording - 1)];
+  meta.other["largest_gap"] = exact_text(bag.largest_gap()) + "\n";
+  if (protocol_.by_hand) return meta;
+  meta.other["rest_drift"] = exact_text(visit.drift()) + "\n";
+  meta.other["rest"] = sample_yaml(*model_, visit.rest_before()) + "\n";
+  return meta;
+}
+
+void Recorder::store(const Visit& visit, const Protocol::Target& target, int repeat) {
+  if (!store_.baseline() && !protocol_.by_hand) store_.set_baseline(visit.rest_before());
+  for (auto& bag : bags_) bag->close();
+  for (int i = 0; i < static_cast<int>(names_.size()); ++i) {
+    store_.finish(names_[static_cast<std::size_t>(i)], describe(visit, target, repeat, i + 1),
+                  i == 0 ? visit.target() : visit.rest_after());
+  }
+  for (auto& bag : bags_) bag.reset();
+  store_.summarise();
+  ++recorded_;
+  report(names_.front(), visit);
+}
+
+void Recorder::report(const std::string& name, const Visit& visit) {
+  const int all = protocol_.repeats * static_cast<int>(protocol_.targets.size());
+  const double each = (ros::WallTime::now() - start_).toSec() / recorded_;
+  ROS_INFO("[%d/%d] %s: settled after %.1f s, rest posture within %.2f degrees; %.0f s left", done_,
+           all, name.c_str(), visit.settling_time(), visit.drift() / kDegree, each * (all - done_));
+}
+
+}  // namespace anthrob

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <memory>
+
+#include "anthrob_control/ros/robot_link.h"
+#include "anthrob_record/recording_store.h"
+#include "anthrob_record/visit.h"
+#include "bag_file.h"
+
+namespace anthrob {
+
+/// Carries out a protocol on a robot, simulated or real: topics and services of the contract only.
+class Recorder {
+ public:
+  Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<const RobotModel> model,
+           const Protocol& protocol, const std::string& folder, const RobotLink::Options& options);
+
+  /// @return whether everything was recorded; false if ROS shut down first
+  /// @throws std::runtime_error if a posture cannot be recorded
+  bool run();
+
+ private:
+  enum class Result { kDone, kAgain, kShutdown };
+
+  Result record(const Protocol::Target& target, int repeat);
+  /// One instant of a visit. @return false if ROS shut down
+  bool advance(Visit& visit, const Protocol::Target& target);
+  void follow(const Visit::Order& order, const Protocol::Target& target);
+  void send_references(const std::vector<double>& references);
+  void call_controller(Visit::Aim aim, const Protocol::Target& target);
+  void switch_recording(int recording, const Protocol::Target& target);
+  void store(const Visit& visit, const Protocol::Target& target, int repeat);
+  void drop();
+  DatasetMeta describe(const Visit& visit, const Protocol::Target& target, int repeat,
+                       int recording) const;
+  void report(const std::string& name, const Visit& visit);
+  bool on_sample(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+
+  ros::NodeHandle nh_;
+  std::shared_ptr<const RobotModel> model_;
+  Protocol protocol_;
+  RecordingStore store_;
+  RobotLink link_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::ServiceServer sample_;
+  std::vector<std::unique_ptr<BagFile>> bags_;  ///< of the visit, by recording
+  std::vector<std::string> names_;
+  int recording_ = 0;
+  Visit* visit_ = nullptr;
+  bool aimed_ = false;
+  Visit::Aim aim_ = Visit::Aim::kRest;
+  ros::Time sent_;
+  int done_ = 0, recorded_ = 0;
+  ros::WallTime start_ = ros::WallTime::now(), heard_ = start_;
+};
+
+}  // namespace anthrob

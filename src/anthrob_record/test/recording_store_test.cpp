@@ -1,0 +1,109 @@
+#include "anthrob_record/recording_store.h"
+
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+namespace anthrob {
+namespace {
+
+using testing_support::anthrob_folder;
+using testing_support::content;
+using testing_support::Folder;
+using testing_support::tier1;
+
+class RecordingStoreTest : public ::testing::Test {
+ protected:
+  RecordingStoreTest() {
+    protocol = Protocol::load(anthrob_folder() + "record_tier1_trajectories.yaml", model);
+    protocol.repeats = 2;
+  }
+
+  Sample sample(double angle) const {
+    Sample s{1.0, std::vector<double>(8, 0.25), std::vector<double>(8, 3.0), {}};
+    s.q = {std::cos(angle / 2), std::sin(angle / 2), 0.0, 0.0};
+    return s;
+  }
+
+  void record(RecordingStore& store, const std::string& name, double angle) const {
+    std::ofstream(store.partial_bag(name)) << "a bag";
+    store.finish(name, {}, sample(angle));
+  }
+
+  std::shared_ptr<const RobotModel> model = tier1();
+  Protocol protocol;
+  Folder parent;
+  std::string folder = parent.file("session");
+};
+
+TEST_F(RecordingStoreTest, ARecordingIsThereWhenItIsComplete) {
+  RecordingStore store(folder, model, protocol);
+  const auto names = store.names(protocol.targets[2], 1);
+  EXPECT_EQ(names, (std::vector<std::string>{"E0_to_E3_run1", "E3_to_E0_run1"}));
+  EXPECT_FALSE(store.complete(names[0]));
+  record(store, names[0], 0.1);
+  EXPECT_TRUE(store.complete(names[0]));
+  const DatasetMeta meta = load_meta(folder + "/E0_to_E3_run1.yaml");
+  EXPECT_EQ(meta.robot, "anthrob");
+  EXPECT_NE(meta.other.at("sample").find("lateral_deltoid: 0.25"), std::string::npos);
+}
+
+TEST_F(RecordingStoreTest, GoesOnWhereItWasInterrupted) {
+  {
+    RecordingStore store(folder, model, protocol);
+    EXPECT_EQ(store.baseline(), nullptr);
+    store.set_baseline(sample(0.05));
+    record(store, "E0_to_E3_run1", 0.1);
+    std::ofstream(store.partial_bag("E3_to_E0_run1")) << "half a b";
+    std::ofstream(folder + "/E0_to_E4_run1.bag") << "killed before its description was written";
+  }
+  RecordingStore store(folder, model, protocol);
+  EXPECT_TRUE(store.complete("E0_to_E3_run1"));
+  EXPECT_FALSE(store.complete("E3_to_E0_run1"));
+  EXPECT_FALSE(store.complete("E0_to_E4_run1"));
+  EXPECT_FALSE(std::filesystem::exists(store.partial_bag("E3_to_E0_run1")));
+  ASSERT_NE(store.baseline(), nullptr);
+  EXPECT_EQ(store.baseline()->q, sample(0.05).q);  // bit for bit
+}
+
+TEST_F(RecordingStoreTest, AFolderBelongsToOneSession) {
+  RecordingStore(folder, model, protocol);
+  Protocol other = protocol;
+  other.text += "hold: 1.0\n";
+  EXPECT_THROW(RecordingStore(folder, model, other), BadInput);
+  const auto model_II = load_robot_model(anthrob_folder() + "model_II_tier1.yaml");
+  EXPECT_THROW(RecordingStore(folder, model_II, protocol), BadInput);
+  EXPECT_NO_THROW(RecordingStore(folder, model, protocol));
+}
+
+TEST_F(RecordingStoreTest, SaysWhatIsWrongWithAFolder) {
+  parent.write("file", "no folder");
+  EXPECT_THROW(RecordingStore(parent.file("file/session"), model, protocol), std::runtime_error);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/precious.txt") << "of somebody else";
+  EXPECT_THROW(RecordingStore(folder, model, protocol), BadInput);
+  std::filesystem::remove(folder + "/precious.txt");
+  std::ofstream(folder + "/session.yaml") << "protocol: [\n";
+  EXPECT_THROW(RecordingStore(folder, model, protocol), BadInput);
+  std::ofstream(folder + "/session.yaml") << "";
+  EXPECT_THROW(RecordingStore(folder, model, protocol), BadInput);
+}
+
+TEST_F(RecordingStoreTest, TellsHowFarRepeatedRunsAreApart) {
+  RecordingStore store(folder, model, protocol);
+  record(store, "E0_to_E3_run1", 0.10);
+  record(store, "E0_to_E3_run2", 0.14);
+  record(store, "E0_to_E4_run1", 0.30);
+  store.summarise();
+  std::istringstream rows(content(folder + "/repeatability.csv"));
+  std::string header, row, more;
+  std::getline(rows, header), std::getline(rows, row);
+  EXPECT_EQ(row.substr(0, 16), "E3,shoulder,1,0.") << row;
+  EXPECT_NEAR(std::stod(row.substr(14)), 0.04, 1e-9);
+  EXPECT_FALSE(std::getline(rows, more));
+  const std::string samples = content(folder + "/samples.csv");
+  EXPECT_EQ(std::count(samples.begin(), samples.end(), '\n'), 4);
+}
+
+}  // namespace
+}  // namespace anthrob

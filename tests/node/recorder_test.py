@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Recording by protocol in lock-step: complete, interrupted and gone on with, refused."""
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import rosbag
+import rostest
+import yaml
+
+PORT = '11611'
+PROTOCOL = '''
+protocol: %(protocol)s
+postures: %(postures)s
+rest: E0
+visit: [E1, E7]
+settle: {actuator_velocity: 0.1, joint_velocity: 0.05, window: 0.3, timeout: 20.0}
+hold: 0.5
+average: 0.1
+drift: {limit: %(limit)s, redo: 0}
+'''
+
+
+class Recorder(unittest.TestCase):
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        package = subprocess.check_output(['rospack', 'find', 'anthrob_bringup'], text=True).strip()
+        self.values = {'protocol': 'equilibria', 'limit': 0.0524,
+                       'postures': os.path.join(package, 'config/anthrob/equilibria_tier1.yaml')}
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def start(self, out, launch='record.launch', **values):
+        """roslaunch with a roscore of its own."""
+        with open(self.path('protocol.yaml'), 'w') as file:
+            file.write(PROTOCOL % dict(self.values, **values))
+        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT)
+        return subprocess.Popen(
+            ['roslaunch', '-p', PORT, 'anthrob_bringup', launch, 'protocol:=tier1', 'out:=' + out,
+             'protocol_file:=' + self.path('protocol.yaml')],
+            env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def record(self, out, **values):
+        process = self.start(out, **values)
+        try:
+            return process.communicate(timeout=90)[0]
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGINT)
+            self.fail(process.communicate()[0])
+
+    @staticmethod
+    def messages(bag):
+        """Everything in a bag, without the sequence numbers of publishers."""
+        list_ = []
+        for topic, message, stamp in rosbag.Bag(bag).read_messages():
+            message.header.seq = 0
+            list_.append((topic, stamp.to_nsec(), str(message)))
+        return list_
+
+    def test_interrupted_and_gone_on_with(self):
+        whole, parts = self.path('whole'), self.path('parts')
+        output = self.record(whole)
+        self.assertIn('all recorded', output)
+        complete = sorted(os.listdir(whole))
+        self.assertEqual(complete, ['E1_run1.bag', 'E1_run1.yaml', 'E7_run1.bag', 'E7_run1.yaml', 'samples.csv',
+                                    'session.yaml'])
+        topics = {topic for topic, _, _ in self.messages(os.path.join(whole, 'E1_run1.bag'))}
+        self.assertEqual(topics, {'/anthrob/' + name for name in (
+            'muscle_command', 'muscle_states', 'joint_states', 'spherical_joint_states')})
+        with open(os.path.join(whole, 'E7_run1.yaml')) as file:
+            meta = yaml.safe_load(file)
+        self.assertEqual((meta['kind'], meta['posture'], meta['from']), ('equilibrium', 'E7', 'E0'))
+        self.assertEqual(len(meta['sample']['position']), 8)
+
+        process = self.start(parts)
+        end = time.time() + 60
+        while not os.path.exists(os.path.join(parts, 'E1_run1.yaml')):
+            self.assertLess(time.time(), end)
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertFalse([name for name in os.listdir(parts) if name.endswith('.part')])
+        first = os.path.join(parts, 'E1_run1.bag')
+        written = os.stat(first).st_mtime_ns
+        # Half a recording, as a power cut leaves it.
+        with open(os.path.join(parts, 'E7_run1.bag.part'), 'w') as file:
+            file.write('#ROSBAG V2.0')
+        self.assertIn('all recorded', self.record(parts))
+        self.assertEqual(sorted(os.listdir(parts)), complete)
+        self.assertEqual(os.stat(first).st_mtime_ns, written)
+        # In lock-step the same run gives the same bits.
+        self.assertEqual(self.messages(first), self.messages(os.path.join(whole, 'E1_run1.bag')))
+        # Another protocol does not go into the same folder.
+        self.assertIn('belongs to another protocol', self.record(parts, limit=0.06))
+
+    def test_a_drifted_rest_posture_ends_the_session(self):
+        out = self.path('drift')
+        output = self.record(out, limit=1e-6)
+        self.assertIn('the rest posture has drifted', output)
+        self.assertFalse([name for name in os.listdir(out) if name.endswith(('.part', '.bag'))])
+
+    def test_bad_input_is_one_line(self):
+        for out, values, expected in [
+                (self.path('a'), dict(protocol='dance'), 'expected equilibria, trajectories or zero_gravity'),
+                (self.path('a'), dict(postures='nothing.yaml'), 'nothing.yaml'),
+                ('/proc/nowhere/out', {}, 'cannot be made')]:
+            lines = [line for line in self.record(out, **values).splitlines() if 'FATAL' in line]
+            self.assertEqual(len(lines), 1, lines)
+            self.assertIn(expected, lines[0])
+
+
+if __name__ == '__main__':
+    rostest.rosrun('anthrob_tests', 'recorder', Recorder)
