@@ -11,6 +11,7 @@ namespace {
 
 /// How long a simulator may take to answer, of wall time [s].
 constexpr double kStepPatience = 10.0;
+constexpr int kFirstAttempts = 10;
 
 bool fits(std::size_t names, std::size_t values) {
   return values == names;
@@ -94,34 +95,59 @@ bool RobotLink::wait_for_period() {
   return false;
 }
 
-bool RobotLink::step_simulator() {
-  if (!step_.isValid()) {
-    while (ros::ok() && !ros::service::waitForService("sim/step", ros::Duration(0.5))) {
-    }
-    while (ros::ok() && commands_.getNumSubscribers() == 0) ros::WallDuration(0.01).sleep();
-    if (!ros::ok()) return false;
-    step_ = nh_.serviceClient<anthrob_msgs::Step>("sim/step", true);
+bool RobotLink::connected() const {
+  for (const ros::Subscriber& subscriber : subscribers_) {
+    if (subscriber.getNumPublishers() == 0) return false;
   }
+  return commands_.getNumSubscribers() > 0;
+}
+
+bool RobotLink::wait_for_simulator() {
+  while (ros::ok() && !ros::service::waitForService("sim/step", ros::Duration(0.5))) {
+  }
+  while (ros::ok() && !connected()) ros::WallDuration(0.01).sleep();
+  step_ = nh_.serviceClient<anthrob_msgs::Step>("sim/step", true);
+  return ros::ok();
+}
+
+bool RobotLink::step_simulator() {
+  if (!step_.isValid() && !wait_for_simulator()) return false;
+  // A connection counts a moment before it carries anything: the very first states may be lost.
+  const bool first = now_.isZero();
+  for (int attempt = 1;; ++attempt) {
+    const ros::Time stamp = call_step();
+    if (states_arrive(stamp, first ? 1.0 : kStepPatience)) {
+      advance_to(stamp);
+      return true;
+    }
+    if (!ros::ok()) return false;
+    if (!first || attempt == kFirstAttempts) {
+      throw std::runtime_error("sim/step: no states of the last step: " +
+                               state_.complaint(stamp.toSec(), 0.0));
+    }
+  }
+}
+
+ros::Time RobotLink::call_step() {
   anthrob_msgs::Step call;
   call.request.steps = static_cast<std::uint32_t>(options_.steps);
   call.request.command_stamp = unstepped_command_;
   unstepped_command_ = ros::Time();
   if (!step_.call(call)) {
-    if (!ros::ok()) return false;
+    if (!ros::ok()) return now_;
     throw std::runtime_error("sim/step: the simulator does not answer");
   }
   if (!call.response.success) throw std::runtime_error("sim/step: " + call.response.message);
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kStepPatience);
-  const double stamp = call.response.stamp.toSec();
-  while (ros::ok()) {
+  return call.response.stamp;
+}
+
+bool RobotLink::states_arrive(const ros::Time& stamp, double patience) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(patience);
+  while (ros::ok() && ros::WallTime::now() < end) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.001));
-    if (state_.complete_since(stamp)) break;
-    if (ros::WallTime::now() > end)
-      throw std::runtime_error("sim/step: no states of the last step: " +
-                               state_.complaint(stamp, 0.0));
+    if (state_.complete_since(stamp.toSec())) return true;
   }
-  advance_to(call.response.stamp);
-  return ros::ok();
+  return false;
 }
 
 ros::Time RobotLink::send(anthrob_msgs::MuscleCommand command) {

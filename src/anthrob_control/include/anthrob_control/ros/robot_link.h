@@ -54,7 +54,11 @@ class RobotLink {
   void see_joints(const sensor_msgs::JointState& message);
   void see_ball_joints(const anthrob_msgs::SphericalJointStates& message);
   bool wait_for_period();
+  bool connected() const;
+  bool wait_for_simulator();
   bool step_simulator();
+  ros::Time call_step();
+  bool states_arrive(const ros::Time& stamp, double patience);
   void advance_to(const ros::Time& time);
 
   ros::NodeHandle nh_;
