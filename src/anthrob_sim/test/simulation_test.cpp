@@ -309,6 +309,17 @@ TEST(Simulation, ExplodingModelIsReportedNotContinued) {
   }
 }
 
+TEST(Simulation, RobotWithoutJointsRuns) {
+  // A motor pulls a rubber ring at a wall; 3 N at rest, some 20 N a radian.
+  Simulation sim(load_robot_model(config("rig_oring_stretcher/model_I.yaml"), {0.002, {}}));
+  const double rest = sim.muscle(0).force();
+  sim.command(0, ecu::Mode::kPosition, 0.5);
+  sim.step(1000);
+  EXPECT_NEAR(rest, 3.0, 0.1);
+  EXPECT_NEAR(sim.muscle(0).actuator().position, 0.5, 0.02);
+  EXPECT_GT(sim.muscle(0).force(), 15.0);
+}
+
 TEST(Simulation, ElbowStopHoldsTheArm) {
   Simulation sim(anthrob_model("II"));
   const int triceps = sim.model().find_muscle("triceps_brachii");

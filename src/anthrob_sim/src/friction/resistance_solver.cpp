@@ -38,7 +38,8 @@ void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double
   for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
     assemble(tree, q, tendons);
     solve_linear();
-    const double change = (next_ - u_).cwiseAbs().maxCoeff();
+    // Zero for a robot without joints, which maxCoeff() does not allow.
+    const double change = (next_ - u_).lpNorm<Eigen::Infinity>();
     u_ = next_;
     const bool revised = revise_dry_friction();
     if (change < kTolerance && !revised) break;
