@@ -125,6 +125,44 @@ std::string polyline(const Frame& frame, const SvgFigure::Line& line, const std:
          (line.dashed ? " stroke-dasharray=\"5 3\"" : "") + " d=\"" + path + "\"/>\n";
 }
 
+std::string mark(double x, double y, const SvgFigure::Line& line, const std::string& colour) {
+  return "<circle cx=\"" + coordinate(x) + "\" cy=\"" + coordinate(y) + "\" r=\"3.5\" stroke=\"" +
+         colour + "\" fill=\"" + (line.marks == SvgFigure::Line::kOpen ? "white" : colour) +
+         "\"/>\n";
+}
+
+std::string points(const Frame& frame, const SvgFigure::Line& line, const std::string& colour) {
+  std::string out;
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    if (!std::isfinite(line.x[i]) || !std::isfinite(line.y[i])) continue;
+    const double x = frame.px(line.x[i]);
+    if (i < line.error.size() && std::isfinite(line.error[i])) {
+      out += "<path class=\"line\" stroke=\"" + colour + "\" d=\"M" + coordinate(x) + " " +
+             coordinate(frame.py(line.y[i] - line.error[i])) + "V" +
+             coordinate(frame.py(line.y[i] + line.error[i])) + "\"/>\n";
+    }
+    out += mark(x, frame.py(line.y[i]), line, colour);
+  }
+  return out;
+}
+
+/// A line's sign in the legend.
+std::string sample(double x, double y, const SvgFigure::Line& line, const std::string& colour) {
+  if (line.marks != SvgFigure::Line::kNone) return mark(x + 11, y, line, colour);
+  return "<path class=\"line\" stroke=\"" + colour + "\"" +
+         (line.dashed ? " stroke-dasharray=\"5 3\"" : "") + " d=\"M" + coordinate(x) + " " +
+         coordinate(y) + "h22\"/>\n";
+}
+
+void include(const SvgFigure::Line& line, Frame& frame) {
+  for (const double x : line.x) frame.x.include(x);
+  for (std::size_t i = 0; i < line.y.size(); ++i) {
+    const double error = i < line.error.size() ? line.error[i] : 0.0;
+    frame.y.include(line.y[i] - error);
+    frame.y.include(line.y[i] + error);
+  }
+}
+
 }  // namespace
 
 SvgFigure::Panel& SvgFigure::add_panel(const std::string& x_label, const std::string& y_label) {
@@ -146,11 +184,10 @@ std::string SvgFigure::render() const {
   for (const Panel& panel : panels_) {
     Frame frame;
     frame.top = top;
-    for (const Line& line : panel.lines) {
-      for (const double x : line.x) frame.x.include(x);
-      for (const double y : line.y) frame.y.include(y);
-    }
-    frame.x.finish(0.0);
+    for (const Line& line : panel.lines) include(line, frame);
+    // Points on the frame would be half outside.
+    const bool points_only = !panel.lines.empty() && panel.lines.front().marks != Line::kNone;
+    frame.x.finish(points_only ? 0.03 : 0.0);
     frame.y.finish(0.05);
     out += axes(frame, panel);
     double legend = top + 12;
@@ -158,12 +195,11 @@ std::string SvgFigure::render() const {
     for (const Line& line : panel.lines) {
       const int index = line.colour >= 0 ? line.colour : next++;
       const std::string colour = kPalette[index % kColours];
-      out += polyline(frame, line, colour);
+      out +=
+          line.marks == Line::kNone ? polyline(frame, line, colour) : points(frame, line, colour);
       if (line.label.empty()) continue;
       const double x = kWidth - kRight + 10;
-      out += "<path class=\"line\" stroke=\"" + colour + "\"" +
-             (line.dashed ? " stroke-dasharray=\"5 3\"" : "") + " d=\"M" + coordinate(x) + " " +
-             coordinate(legend - 4) + "h22\"/>\n" + text_at(x + 28, legend, line.label);
+      out += sample(x, legend - 4, line, colour) + text_at(x + 28, legend, line.label);
       legend += 17;
     }
     top += kPanelHeight + kGap;

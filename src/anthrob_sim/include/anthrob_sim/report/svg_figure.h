@@ -14,6 +14,8 @@ class SvgFigure {
     std::vector<double> x, y;
     bool dashed = false;
     int colour = -1;  ///< index into the palette; -1: the next one
+    enum Marks { kNone, kFilled, kOpen } marks = kNone;  ///< points instead of a line
+    std::vector<double> error = {};  ///< half lengths of the points' error bars; empty: none
   };
 
   struct Panel {
