@@ -24,7 +24,7 @@ noetic_packages=(ros-noetic-desktop)
 common_packages=(
   build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
-  nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev
+  nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   xvfb xauth imagemagick libgl1-mesa-dri
 )

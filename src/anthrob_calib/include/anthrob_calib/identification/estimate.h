@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace anthrob {
+namespace identification {
+
+/// A number with what is known of its error.
+struct Estimate {
+  double value = 0.0;
+  double sigma = 0.0;         ///< standard error
+  double lo = 0.0, hi = 0.0;  ///< 95 % confidence interval
+};
+
+/// @param freedom degrees of freedom of `sigma`, >= 1: the interval is Student's
+Estimate make_estimate(double value, double sigma, double freedom);
+
+/// Adds an independent error of known size [unit of the value]: that of a scale, a gauge, a radius.
+Estimate widened(const Estimate& estimate, double sigma);
+
+/// Mean and standard deviation of a list.
+struct Spread {
+  double mean = 0.0, deviation = 0.0;
+};
+Spread spread(const std::vector<double>& values);
+
+/// Mean of a correlated series. The error is that of the means of blocks, which are long against
+/// the correlation.
+/// @param block samples in a block, >= 1; @throws std::invalid_argument for less than two blocks
+Estimate mean_of_series(const std::vector<double>& series, std::size_t block);
+
+}  // namespace identification
+}  // namespace anthrob
