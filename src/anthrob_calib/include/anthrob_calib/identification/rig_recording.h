@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/model/config_node.h"
+#include "anthrob_sim/recording/dataset.h"
+
+namespace anthrob {
+namespace identification {
+
+/// Columns of one table of a recording, all measured in every row and finite.
+struct RigColumns {
+  std::vector<double> t;                    ///< [s] since the start, growing
+  std::vector<std::vector<double>> values;  ///< one list a column asked for
+
+  /// Median time between rows [s].
+  double period() const;
+};
+
+/// @param rig what kind of recording is expected, for messages
+/// @throws BadInput with one line: file, line, column, value, what was expected
+RigColumns read_columns(const Dataset& recording, const std::string& rig,
+                        const std::vector<std::string>& names);
+
+/// meta.yaml of a recording, where a rig's recording says what was on the rig.
+ConfigNode rig_meta(const Dataset& recording);
+
+/// Name of a recording in messages and reports.
+std::string recording_name(const Dataset& recording);
+
+}  // namespace identification
+}  // namespace anthrob

@@ -1,0 +1,40 @@
+#include "anthrob_calib/identification/output_files.h"
+
+#include <filesystem>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/atomic_file.h"
+
+namespace anthrob {
+namespace identification {
+
+namespace fs = std::filesystem;
+
+void require_writable(const std::string& folder) {
+  std::error_code error;
+  const bool made = fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw BadInput("--out " + folder + ": cannot be made: " +
+                   (error ? error.message() : "it is a file") + "; expected a folder");
+  }
+  const std::string probe = (fs::path(folder) / ".writable").string();
+  try {
+    write_file_atomically(probe, "");
+  } catch (const std::runtime_error& reason) {
+    throw BadInput("--out " + folder + ": " + reason.what());
+  }
+  fs::remove(probe, error);
+  // What is refused later shall leave nothing behind.
+  if (made) fs::remove(folder, error);
+}
+
+void write_files(const std::string& folder, const OutputFiles& files) {
+  std::error_code error;  // write_file_atomically() says what is wrong
+  fs::create_directories(folder, error);
+  for (const auto& [name, content] : files) {
+    write_file_atomically((fs::path(folder) / name).string(), content);
+  }
+}
+
+}  // namespace identification
+}  // namespace anthrob

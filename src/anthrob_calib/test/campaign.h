@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "anthrob_calib/identification/estimate.h"
+
+namespace anthrob {
+
+/// Seeds of a recovery test: a few as a rule, as many as ANTHROB_SEEDS says in a campaign.
+inline int seed_count(int usual) {
+  const char* text = std::getenv("ANTHROB_SEEDS");
+  return text ? std::atoi(text) : usual;
+}
+
+/// What became of one parameter over many seeds, against the known value.
+struct Recovery {
+  std::string name;
+  double truth = 0.0, allowed = 0.0;
+  int count = 0, covered = 0;
+  double squares = 0.0, worst = 0.0;
+
+  void add(const identification::Estimate& estimate) {
+    const double error = estimate.value - truth;
+    ++count;
+    covered += estimate.lo <= truth && truth <= estimate.hi ? 1 : 0;
+    squares += error * error;
+    worst = std::max(worst, std::abs(error));
+  }
+  double rms() const { return std::sqrt(squares / count); }
+  /// A row of the table in docs/identification.md.
+  void print() const {
+    std::printf("| %s | %.6g | %.3g | %.2g | %.2g | %d/%d |\n", name.c_str(), truth, allowed, rms(),
+                worst, covered, count);
+  }
+};
+
+}  // namespace anthrob

@@ -1,0 +1,73 @@
+// Parameters of components from recordings of the rigs.
+#include <iostream>
+
+#include "anthrob_calib/identification/ecu_report.h"
+#include "anthrob_calib/identification/eyelet_report.h"
+#include "anthrob_calib/identification/ring_report.h"
+#include "anthrob_sim/recording/load_recording.h"
+#include "anthrob_sim/tool/tool.h"
+
+namespace anthrob {
+namespace {
+
+using namespace identification;
+
+struct Arguments {
+  std::vector<std::string> recordings;
+  std::string out;
+};
+
+template <class Recording>
+std::vector<Recording> read_all(const std::vector<std::string>& paths) {
+  std::vector<Recording> list;
+  for (const std::string& path : paths) list.push_back(Recording::read(load_recording(path)));
+  return list;
+}
+
+/// All input is read, and the output tried, before anything is computed or written.
+template <class Recording, class Identify, class Report, class Summary>
+int identify(const Arguments& arguments, Identify fit, Report report, Summary summary) {
+  auto recordings = read_all<Recording>(arguments.recordings);
+  require_writable(arguments.out);
+  const auto result = fit(std::move(recordings));
+  write_files(arguments.out, report(result));
+  std::cout << summary(result);
+  return tool::kDone;
+}
+
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
+                      Arguments& arguments) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_option("REC", arguments.recordings, "dataset folders")->required();
+  command->add_option("--out", arguments.out, "folder for parameters, report and figures")
+      ->required();
+  return command;
+}
+
+}  // namespace
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  using namespace anthrob;
+  CLI::App app(
+      "Identifies components from recordings of the rigs (docs/identification.md): parameters to "
+      "paste into a model file, report.json and figures.",
+      "anthrob_identify");
+  app.require_subcommand(1);
+  Arguments arguments;
+  const CLI::App* see = add_command(
+      app, "see", "rubber rings on the stretcher: Zener and Wiechert models", arguments);
+  const CLI::App* eyelet = add_command(
+      app, "eyelet", "line, eyelet and weight: kinetic friction, pulling and relaxing", arguments);
+  add_command(app, "ecu", "power stage with load resistors: series resistance", arguments);
+  return tool::run(app, argc, argv, [&]() -> int {
+    if (see->parsed()) {
+      return identify<RingRecording>(arguments, identify_rings, report_rings, summary_of_rings);
+    }
+    if (eyelet->parsed()) {
+      return identify<EyeletRecording>(arguments, identify_eyelet, report_eyelet,
+                                       summary_of_eyelet);
+    }
+    return identify<LoadRecording>(arguments, identify_ecu, report_ecu, summary_of_ecu);
+  });
+}
