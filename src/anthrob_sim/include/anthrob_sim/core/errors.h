@@ -3,13 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace anthrob {
+#include "anthrob_config/errors.h"
 
-/// Input that cannot be used; what() is one line: file, line, key, value, what was expected.
-class BadInput : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace anthrob {
 
 /// The integration produced something that is not a number, or left any sensible range.
 class NumericalFailure : public std::runtime_error {

@@ -1,4 +1,4 @@
-#include "anthrob_sim/model/config_node.h"
+#include "anthrob_config/config_node.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 
@@ -321,7 +321,7 @@ std::string ConfigNode::as_text() const {
   return data_->scalar;
 }
 
-Vec3 ConfigNode::as_vector3(const std::string& unit) const {
+Eigen::Vector3d ConfigNode::as_vector3(const std::string& unit) const {
   if (data_->kind != Kind::kSequence || data_->items.size() != 3) {
     fail_expected("three numbers [x, y, z] [" + unit + "]");
   }
