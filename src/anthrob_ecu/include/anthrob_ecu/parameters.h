@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "anthrob_ecu/control_law.h"
+
+namespace anthrob {
+namespace ecu {
+
+/// What the host sets up in an ECU, for each muscle; numbers as on the wire.
+enum class Parameter : std::uint8_t {
+  kPositionProportional,
+  kPositionDerivative,
+  kPositionForceFeedforward,
+  kCurrentProportional,
+  kCurrentIntegral,
+  kForceProportional,
+  kForceIntegral,
+  kForceDerivative,
+  kForceForceFeedforward,
+  kVoltageLimit,
+  kPositionLow,
+  kPositionHigh,
+  kCurrentLimit,
+  kForceLimit,
+  kSpeedLimit,
+  kTemperatureLimit,
+  kPositionRate,
+  kForceRate,
+  kEncoderScale,
+  kCurrentGain,
+  kCurrentOffset,
+  kForceGain,
+  kForceOffset,
+  kFilterOrder,
+};
+constexpr int kParameterCount = 24;
+/// Written, it becomes the present position; read, it is the present position. Not part of the
+/// configuration.
+constexpr std::uint8_t kPresentPosition = 64;
+
+struct ParameterInfo {
+  Parameter parameter;
+  const char* name;
+  const char* unit;
+  float initial;  ///< after power-up: useless on purpose, so that nothing moves unconfigured
+  float lowest, highest;
+  bool live;  ///< may be written while enabled
+  const char* meaning;
+};
+
+/// One row a parameter, in the order of their numbers.
+extern const ParameterInfo kParameters[kParameterCount];
+
+constexpr int kMaxFilterOrder = 60;
+
+/// The parameters of one muscle.
+class ParameterSet {
+ public:
+  ParameterSet();
+
+  double get(Parameter parameter) const { return values_[static_cast<std::size_t>(parameter)]; }
+  float raw(int index) const { return values_[static_cast<std::size_t>(index)]; }
+  /// @return false if there is no such parameter or the value is outside its range
+  bool set(int index, float value);
+  bool set(Parameter parameter, double value) {
+    return set(static_cast<int>(parameter), static_cast<float>(value));
+  }
+
+  bool has_force_sensor() const { return get(Parameter::kForceGain) > 0.0; }
+  ControllerSettings controller() const;
+
+ private:
+  std::array<float, kParameterCount> values_;
+};
+
+/// CRC-16/CCITT over all parameters of the muscles in order: how host and ECU agree that they
+/// speak of the same configuration.
+std::uint16_t configuration_checksum(const ParameterSet* muscles, int count);
+
+}  // namespace ecu
+}  // namespace anthrob
