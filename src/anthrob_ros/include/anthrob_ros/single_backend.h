@@ -1,0 +1,15 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+
+namespace anthrob {
+
+/// Simulator and driver must not both speak for one robot. To be called after `muscle_states` was
+/// advertised, so that of two that start together both notice.
+/// @return name of another living node that publishes this topic; empty if there is none. A node
+///   that died without saying so does not count.
+std::string other_publisher(const ros::Publisher& own);
+
+}  // namespace anthrob
