@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "anthrob_driver/bus/bus.h"
+
+namespace anthrob {
+namespace driver {
+
+/// A Linux CAN interface through PF_CAN raw sockets: kernel time stamps, error frames, echoes of
+/// our own frames, many frames a system call. STOP has a socket of its own with the highest
+/// priority, so that it overtakes what waits in the interface's queue.
+class SocketCanBus final : public Bus {
+ public:
+  /// @param interface such as "can0"; may be down or missing: recover() waits for it
+  /// @throws std::runtime_error if this kernel has no CAN sockets
+  explicit SocketCanBus(const std::string& interface);
+  ~SocketCanBus() override;
+  SocketCanBus(const SocketCanBus&) = delete;
+  SocketCanBus& operator=(const SocketCanBus&) = delete;
+
+  SendResult send(const ecu::Frame& frame) override;
+  SendResult flush() override;
+  bool receive(BusEvent& event) override;
+  void recover() override;
+
+  /// To wait on; negative while the interface is missing. Changes with recover().
+  int descriptor() const { return socket_; }
+  const std::string& interface() const { return interface_; }
+
+ private:
+  static constexpr std::size_t kBatch = 64;  ///< frames in one system call
+  struct Batch;
+
+  SendResult give_up_or_wait();
+  bool fetch();
+  bool open_sockets();
+  void close_sockets();
+  void lose();
+  bool interface_is_up() const;
+
+  std::string interface_;
+  int socket_ = -1, stop_socket_ = -1;
+  bool up_ = false, reported_up_ = true;
+  std::unique_ptr<Batch> out_, in_;
+};
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace anthrob {
+namespace driver {
+
+/// A sensor whose value is gain * (count - offset): potentiometers, strain gauges.
+struct LinearSensor {
+  double gain = 1.0;    ///< [unit/count], not 0
+  double offset = 0.0;  ///< [counts] at value 0
+
+  double value(double count) const { return gain * (count - offset); }
+  /// The 12-bit count a converter gives for a value.
+  int count(double value) const {
+    return static_cast<int>(std::lround(std::clamp(offset + value / gain, 0.0, 4095.0)));
+  }
+};
+
+/// A force-sensitive resistor at the top of a voltage divider. Its conductance grows linearly with
+/// the force, so force = gain * u / (1 - u) with u = count / 4096.
+struct ForceSensitiveResistor {
+  double gain = 1.0;        ///< [N] force at half the supply voltage, > 0
+  double threshold = 20.0;  ///< [counts] below this the pad is not touched
+
+  double force(double count) const {
+    if (count < threshold) return 0.0;
+    const double u = std::min(count, 4095.0) / 4096.0;
+    return gain * u / (1.0 - u);
+  }
+  int count(double force) const {
+    return static_cast<int>(std::lround(4096.0 * force / (gain + std::max(force, 0.0))));
+  }
+};
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "anthrob_driver/bus/socketcan_bus.h"
+#include "anthrob_driver/robot_driver.h"
+
+namespace anthrob {
+namespace driver {
+
+/// [s] of the clock that never jumps.
+double monotonic_now();
+
+/// Runs a RobotDriver on a CAN interface in a thread of its own: an epoll loop over frames, the
+/// cycle's timer and requests of other threads. Only this thread touches the driver.
+class DriverThread {
+ public:
+  struct Options {
+    RobotDriver::Options driver;
+    /// SCHED_FIFO and locked memory; needs rights, goes on without and says so in note().
+    bool realtime = false;
+  };
+
+  /// @throws std::runtime_error if this kernel has no CAN; BadInput for bad options
+  DriverThread(Hardware hardware, const Options& options, const std::string& interface);
+  /// Disables first.
+  ~DriverThread();
+
+  /// Runs `work` between two events of the loop and waits until it is done.
+  void call(const std::function<void(RobotDriver&, double now)>& work);
+
+  /// Waits for measurements, at most `seconds`. @return all that came since the last call
+  struct Batch {
+    std::deque<Sample> samples;
+    std::deque<AnalogSample> analogs;
+  };
+  Batch wait(double seconds);
+
+  const std::string& note() const { return note_; }
+
+ private:
+  void loop();
+  void serve_requests();
+  void collect();
+  void watch_socket();
+
+  SocketCanBus bus_;
+  RobotDriver driver_;
+  Options options_;
+  std::string note_;
+  int epoll_, timer_, wakeup_, watched_ = -1;
+
+  std::mutex mutex_;
+  std::condition_variable done_, arrived_;
+  struct Work {
+    const std::function<void(RobotDriver&, double)>* run;
+    bool* done;
+  };
+  std::deque<Work> work_;
+  Batch batch_;
+  std::atomic<bool> quit_{false};
+  std::thread thread_;
+};
+
+}  // namespace driver
+}  // namespace anthrob

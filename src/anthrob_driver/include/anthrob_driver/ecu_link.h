@@ -1,0 +1,89 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "anthrob_driver/findings.h"
+#include "anthrob_driver/hardware.h"
+#include "anthrob_ecu/protocol.h"
+
+namespace anthrob {
+namespace driver {
+
+/// One ECU as the driver sees it: what it last said, how old that is, whether it holds the
+/// configuration that it should.
+class EcuLink {
+ public:
+  /// Older than this, an answer counts as lost [s]. The ECU's own watchdog is faster.
+  static constexpr double kLost = 0.025;
+
+  /// @param hardware, findings must outlive the link   @param index of this ECU, for findings
+  EcuLink(const Hardware& hardware, int index, Findings& findings);
+
+  /// A SYNC with this counter goes out now: answers to older ones no longer count.
+  void start_cycle(std::uint8_t counter, double now);
+  /// A good frame of this node.
+  void receive(const ecu::Frame& frame, double now);
+  /// @return the next parameter frame to send, if there is one to send now
+  bool next_parameter(double now, ecu::Frame& frame);
+
+  bool heard() const { return heard_; }
+  /// Whether it answers.
+  bool alive(double now) const { return sampled_ && now - sample_time_ <= kLost; }
+  bool configured() const { return heard_ && report_.configuration == own().configuration; }
+  /// All frames of the current SYNC are in.
+  bool complete() const { return got_ == wanted_; }
+  /// Session differs from the first report's: it restarted. True once.
+  bool take_restart();
+
+  /// Of the last complete answer.
+  const ecu::Motion& motion(int channel) const { return sample_.motion[channel]; }
+  const ecu::Effort& effort() const { return sample_.effort; }
+  const ecu::Analog& analog() const { return analog_; }
+  /// Whether analog() is of the current SYNC; true once.
+  bool take_analog();
+  const ecu::StateReport& report() const { return report_; }
+  const ecu::Health& health() const { return health_; }
+  double sample_time() const { return sample_time_; }
+  ecu::State state() const { return state_; }
+  bool stop_latched() const { return latched_; }
+
+  const EcuHardware& own() const { return hardware_.ecus[static_cast<std::size_t>(index_)]; }
+
+ private:
+  struct Sample {
+    ecu::Motion motion[ecu::kMusclesPerEcu];
+    ecu::Effort effort;
+  };
+
+  void on_status(const ecu::Frame& frame, unsigned part, std::uint8_t counter, double now);
+  void on_report(const ecu::StateReport& report, double now);
+  void on_reply(const ecu::ParameterMessage& reply, double now);
+  float wanted_value() const;
+
+  const Hardware& hardware_;
+  int index_;
+  Findings& findings_;
+  unsigned wanted_;  ///< bits of the frames that make an answer
+  unsigned got_ = 0;
+  std::uint8_t counter_ = 0;  ///< low four bits of the SYNC's
+  bool started_ = false;
+  Sample incoming_, sample_;
+  ecu::Analog analog_;
+  bool analog_new_ = false;
+  ecu::StateReport report_;
+  ecu::Health health_;
+  ecu::State state_ = ecu::State::kBoot;
+  bool latched_ = false;
+  bool heard_ = false, sampled_ = false, restarted_ = false;
+  double sample_time_ = 0.0;
+
+  // Upload of the configuration: one parameter at a time, each read back.
+  int next_ = 0;
+  std::uint8_t sequence_ = 0;
+  bool waiting_ = false;
+  double sent_ = 0.0, resume_ = 0.0;
+};
+
+}  // namespace driver
+}  // namespace anthrob

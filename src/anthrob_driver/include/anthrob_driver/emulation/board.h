@@ -1,0 +1,53 @@
+#pragma once
+
+#include "anthrob_driver/emulation/plant.h"
+#include "anthrob_driver/hardware.h"
+#include "anthrob_ecu/firmware/firmware.h"
+
+namespace anthrob {
+namespace driver {
+
+/// An emulated circuit board: processor with firmware, converters that make counts of the plant's
+/// truth, power stages, and the watchdog in hardware that drops them when ticks stop.
+class Board {
+ public:
+  /// [ticks] the hardware watchdog waits
+  static constexpr int kHardwareWatchdog = 5;
+
+  /// @param hardware must outlive the board   @param ecu index in Hardware::ecus
+  Board(const Hardware& hardware, int ecu);
+
+  /// A frame on the bus.
+  void receive(const ecu::Frame& frame);
+  /// One millisecond; drives the plant, does not advance it.
+  void tick(Plant& plant);
+  bool next_frame(ecu::Frame& frame);
+
+  /// The processor stops in the middle of everything: no ticks, no frames.
+  void freeze(bool frozen) { frozen_ = frozen; }
+  /// Off: as if unplugged. On: boots anew, with another session, all forgotten.
+  void set_power(bool on);
+  bool powered() const { return powered_; }
+
+  const ecu::Firmware& firmware() const { return firmware_; }
+  /// What the board's peripherals read besides the plant; tests break things here.
+  struct Peripherals {
+    double supply = 12.0;
+    int temperature = 30;
+    bool force_sensor_cut = false;
+    bool bus_off = false;
+  } peripherals;
+
+ private:
+  ecu::Readings read(const Plant& plant) const;
+
+  const Hardware& hardware_;
+  int ecu_;
+  ecu::Wiring wiring_;
+  ecu::Firmware firmware_;
+  bool powered_ = true, frozen_ = false;
+  int unfed_ = 0;
+};
+
+}  // namespace driver
+}  // namespace anthrob

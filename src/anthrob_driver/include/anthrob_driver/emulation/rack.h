@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "anthrob_driver/bus/bus.h"
+#include "anthrob_driver/emulation/board.h"
+
+namespace anthrob {
+namespace driver {
+
+/// All ECUs of a robot in software, on one plant and one bus.
+class Rack {
+ public:
+  /// @param hardware, plant, bus must outlive the rack
+  Rack(const Hardware& hardware, Plant& plant, Bus& bus);
+
+  /// Hands out what came in from the bus.
+  void receive();
+  /// One millisecond: boards tick, the plant moves, what is to be sent is sent.
+  void tick();
+
+  Board& board(std::size_t ecu) { return boards_[ecu]; }
+  std::size_t size() const { return boards_.size(); }
+  /// Frames the bus would not take.
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  Plant& plant_;
+  Bus& bus_;
+  std::vector<Board> boards_;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace driver
+}  // namespace anthrob

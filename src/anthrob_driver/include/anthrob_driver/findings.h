@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace anthrob {
+namespace driver {
+
+/// What the driver can find wrong with host, bus or ECUs.
+enum class Finding : std::uint8_t {
+  kInterfaceDown,
+  kBusOff,
+  kErrorPassive,
+  kErrorWarning,
+  kNoAcknowledge,
+  kQueueFull,
+  kReceiveOverrun,
+  kBusFlooded,
+  kForeignFrame,
+  kCorruptFrame,
+  kWrongLength,
+  kRepeatedFrame,
+  kLostFrame,
+  kEcuSilent,
+  kEcuLost,
+  kEcuRestarted,
+  kEcuFault,
+  kEcuStopped,
+  kStopLatched,
+  kWrongVersion,
+  kConfigurationRefused,
+  kEnableRefused,
+  kLateCycle,
+  kCommandTimeout,
+  kHomeFailed,
+};
+constexpr int kFindingCount = 25;
+
+struct FindingInfo {
+  Finding finding;
+  const char* name;
+  bool stops;  ///< motors are stopped and stay disabled until the user enables them again
+  const char* meaning;
+  const char* remedy;  ///< what the user should do
+};
+
+/// One row a finding, in their order.
+extern const FindingInfo kFindings[kFindingCount];
+const FindingInfo& info(Finding finding);
+
+/// What was found, when and how often.
+class Findings {
+ public:
+  struct Entry {
+    Finding finding;
+    int ecu;  ///< index; -1: not of one ECU
+    std::string detail;
+    double first = 0.0, last = 0.0;  ///< [s]
+    std::uint64_t count = 0;
+  };
+
+  void add(Finding finding, int ecu, double time, const std::string& detail = "");
+  /// All that ever was found since the last clear.
+  const std::vector<Entry>& entries() const { return entries_; }
+  /// Seen during the last `seconds`.
+  bool recent(const Entry& entry, double time, double seconds = 3.0) const {
+    return time - entry.last <= seconds;
+  }
+  std::uint64_t count(Finding finding) const;
+  void clear() { entries_.clear(); }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+}  // namespace driver
+}  // namespace anthrob

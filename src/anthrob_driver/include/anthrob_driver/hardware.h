@@ -1,0 +1,78 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_driver/calibration.h"
+#include "anthrob_ecu/parameters.h"
+#include "anthrob_ecu/protocol.h"
+#include "anthrob_ecu/supervisor.h"
+
+namespace anthrob {
+namespace driver {
+
+/// One muscle as it is wired.
+struct MuscleHardware {
+  std::string name;
+  int ecu = 0;      ///< index in Hardware::ecus
+  int channel = 0;  ///< 0 or 1 on that ECU
+  ecu::ParameterSet parameters;
+  ecu::MuscleChannel limits;  ///< of commands
+  LinearSensor force, current;
+  double encoder_scale = 0.0;  ///< [rad/count]
+  double home_position = 0.0;  ///< [rad] what home makes of the pretensioned posture
+};
+
+struct EcuHardware {
+  std::string name;
+  int node = 0;
+  std::vector<int> muscles;  ///< indices in Hardware::muscles, by channel
+  int analogs = 0;           ///< analogue inputs in use
+
+  std::uint16_t configuration = 0;  ///< checksum of all parameters
+};
+
+/// An analogue input.
+struct JointSensor {
+  std::string joint;
+  int ecu = 0, input = 0;
+  LinearSensor sensor;  ///< [rad/count]
+};
+struct TouchSensor {
+  std::string name;
+  int ecu = 0, input = 0;
+  ForceSensitiveResistor sensor;
+};
+
+/// How `home` brings all tendons to a common tension and recognises a broken or slipped one.
+struct HomeRoutine {
+  double pretension = 5.0;    ///< [N]
+  double tolerance = 1.0;     ///< [N] for "reached"
+  double force_limit = 20.0;  ///< [N] more than this on any tendon aborts
+  double travel_limit = 6.0;  ///< [rad] wound in without reaching it: broken or slack
+  double slip_drop = 0.5;     ///< [1] share of the tension lost at once: slipped
+  double settle_time = 1.0;   ///< [s] all within tolerance
+  double time_limit = 15.0;   ///< [s]
+};
+
+/// A robot as it is wired: hardware.yaml beside its model files.
+struct Hardware {
+  std::string file;
+  std::vector<MuscleHardware> muscles;  ///< in the order of the model file, hand last
+  std::vector<EcuHardware> ecus;
+  std::vector<int> idle_nodes;  ///< of ECUs that may be on the bus but are not used
+  std::vector<JointSensor> joints;
+  std::vector<TouchSensor> touch;
+  HomeRoutine home;
+
+  std::vector<ecu::MuscleChannel> channels() const;
+};
+
+/// Muscles, gains and command limits come from the model file that hardware.yaml names, the rest
+/// from hardware.yaml and the calibration file it names.
+/// @param hand with the hand's muscles and touch sensors
+/// @throws BadInput with one line: file, line, key, value, what was expected
+Hardware load_hardware(const std::string& file, bool hand);
+
+}  // namespace driver
+}  // namespace anthrob

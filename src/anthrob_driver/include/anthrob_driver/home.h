@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_driver/hardware.h"
+
+namespace anthrob {
+namespace driver {
+
+/// Brings all tendons to a common tension by force control, watches for those that are broken,
+/// slack or slip, and then declares this posture the zero. Muscles without force sensor are left
+/// alone.
+class Home {
+ public:
+  struct Reading {
+    double position, force;  ///< force NaN: no sensor
+  };
+  enum class State { kIdle, kRunning, kReached, kFailed };
+
+  explicit Home(const Hardware& hardware) : hardware_(hardware) {}
+
+  void start(double now);
+  /// One cycle. @param readings one a muscle
+  void step(const std::vector<Reading>& readings, double now);
+  void abort(const std::string& reason);
+  /// The zero was taken over.
+  void finish() { state_ = State::kIdle; }
+
+  State state() const { return state_; }
+  bool running() const { return state_ == State::kRunning || state_ == State::kReached; }
+  /// Empty after success.
+  const std::string& failure() const { return failure_; }
+  double reference() const { return hardware_.home.pretension; }
+
+ private:
+  struct Tendon {
+    double start = 0.0, highest = 0.0;
+  };
+  std::string check(const Reading& reading, Tendon& tendon) const;
+
+  const Hardware& hardware_;
+  State state_ = State::kIdle;
+  std::string failure_;
+  std::vector<Tendon> tendons_;
+  bool begun_ = false;
+  double started_ = 0.0, settled_ = 0.0;
+};
+
+}  // namespace driver
+}  // namespace anthrob

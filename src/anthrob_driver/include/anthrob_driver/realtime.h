@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace anthrob {
+namespace driver {
+
+/// Gives the calling thread SCHED_FIFO with `priority` and locks the process's memory.
+/// @return empty, or what the system refused
+std::string become_realtime(int priority);
+
+}  // namespace driver
+}  // namespace anthrob

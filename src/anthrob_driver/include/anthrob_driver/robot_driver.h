@@ -1,0 +1,136 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "anthrob_driver/bus/bus.h"
+#include "anthrob_driver/bus_watch.h"
+#include "anthrob_driver/ecu_link.h"
+#include "anthrob_driver/home.h"
+#include "anthrob_ecu/supervisor.h"
+
+namespace anthrob {
+namespace driver {
+
+/// One muscle at one SYNC.
+struct MuscleSample {
+  bool measured = false;  ///< its ECU answered this SYNC; else the numbers mean nothing
+  double position = 0.0, velocity = 0.0, current = 0.0, voltage = 0.0, force = 0.0;
+  double reference = 0.0;
+  ecu::Mode mode = ecu::Mode::kVoltage;
+  ecu::State state = ecu::State::kBoot;
+};
+
+/// All muscles at one SYNC.
+struct Sample {
+  std::int64_t stamp_ns = 0;  ///< wall clock of the kernel when the SYNC was on the wire
+  double time = 0.0;          ///< [s] of the driver's clock when the SYNC was sent
+  double round_trip = 0.0;    ///< [s] from SYNC and references to the last answer
+  std::vector<MuscleSample> muscles;
+};
+
+/// What an analogue sensor said to one SYNC.
+struct AnalogSample {
+  enum class Kind { kJoint, kTouch };
+  std::int64_t stamp_ns = 0;
+  Kind kind = Kind::kJoint;
+  std::size_t sensor = 0;  ///< index in Hardware::joints or touch
+  double value = 0.0;      ///< [rad] or [N]
+};
+
+/// The robot behind a bus: sends SYNC and references, collects answers, decides who may move.
+/// No ROS, no clock, no thread: somebody calls cycle() at the rate and receive() for what comes in.
+///
+/// The rules: nothing moves before enable succeeded on every ECU. Whatever goes wrong stops all
+/// motors, and they stay disabled until the user enables again. An emergency stop wins over
+/// everything and holds until cleared.
+class RobotDriver {
+ public:
+  struct Options {
+    double rate = 200.0;  ///< [Hz] of cycle()
+    double command_timeout = 0.5;
+  };
+  using Outcome = ecu::Supervisor::Outcome;
+  enum class Phase { kDisabled, kEnabling, kEnabled };
+
+  /// @param bus must outlive the driver   @throws BadInput for options out of range
+  RobotDriver(Hardware hardware, const Options& options, Bus& bus);
+
+  /// Once every period. @param now [s] of a clock that never jumps
+  void cycle(double now);
+  void receive(const BusEvent& event, double now);
+  /// @return false if there is no new one
+  bool take_sample(Sample& sample);
+  bool take_analog(AnalogSample& sample);
+
+  Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
+                  const std::vector<double>& references, double now);
+  /// Begins; phase() and last_outcome() tell how it went, within kEnableTimeout.
+  Outcome start_enable(double now);
+  /// Begins; home().running() and its outcome tell how it went.
+  Outcome start_home(double now);
+  Outcome disable();
+  Outcome emergency_stop();
+  Outcome clear_faults(double now);
+
+  Phase phase() const { return phase_; }
+  const Outcome& last_outcome() const { return last_outcome_; }
+  const Home& home() const { return home_; }
+  const Hardware& hardware() const { return hardware_; }
+  const ecu::Supervisor& supervisor() const { return supervisor_; }
+  const EcuLink& link(std::size_t ecu) const { return links_[ecu]; }
+  const Findings& findings() const { return findings_; }
+  const BusWatch& bus_watch() const { return watch_; }
+  std::uint64_t cycles() const { return cycles_; }
+
+  static constexpr double kEnableTimeout = 0.25;  ///< [s]
+
+ private:
+  void send(const ecu::Frame& frame);
+  void request(ecu::Operation operation, int node, std::uint16_t configuration = 0,
+               std::uint8_t session = 0);
+  void on_frame(const ecu::Frame& frame, double now);
+  void check_bus(double now);
+  void check_ecus(double now);
+  void continue_enable(double now);
+  void continue_home(double now);
+  void finish_enable(bool success, const std::string& reason);
+  void stop(Finding finding, int ecu);
+  void send_cycle(double now);
+  void close_sample(double now);
+  void keep_analog(EcuLink& link, int ecu);
+  bool all_complete() const;
+  std::string why_not_enable(double now) const;
+
+  Hardware hardware_;
+  Options options_;
+  Bus& bus_;
+  Findings findings_;
+  BusWatch watch_;
+  ecu::Supervisor supervisor_;
+  std::vector<EcuLink> links_;
+  std::vector<int> link_of_node_;
+  Home home_;
+
+  Phase phase_ = Phase::kDisabled;
+  Outcome last_outcome_{true, ""};
+  std::vector<ecu::MuscleReference> references_;  ///< one a muscle
+  std::vector<ecu::MuscleReference> accepted_;
+  struct Enabling {
+    double deadline = 0.0, retry = 0.0;
+    std::vector<std::uint8_t> sequence;  ///< of the request, by ECU
+  } enabling_;
+
+  std::uint64_t cycles_ = 0;
+  std::uint8_t counter_ = 0, sequence_ = 0;
+  double last_cycle_ = 0.0, started_ = 0.0, cleared_ = -1.0;
+  int disable_repeats_ = 0, clear_repeats_ = 0;
+  Sample sample_, finished_;
+  bool sample_open_ = false, sample_ready_ = false;
+  std::int64_t sync_stamp_ = 0;  ///< of the last SYNC; 0: not known yet
+  std::deque<AnalogSample> analogs_;
+};
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,112 @@
+#include "driver_diagnostics.h"
+
+#include <algorithm>
+
+#include "anthrob_ros/diagnostics.h"
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using Level = DiagnosticStatus::_level_type;
+
+void raise(DiagnosticStatus& status, Level level) {
+  status.level = std::max(status.level, level);
+}
+
+/// All that was found since the last clear; what is recent also shows in level and message.
+void add_findings(DiagnosticStatus& status, const Findings& findings, int ecu, double now) {
+  for (const Findings::Entry& entry : findings.entries()) {
+    if (entry.ecu != ecu) continue;
+    const FindingInfo& what = info(entry.finding);
+    const std::string detail = entry.detail.empty() ? "" : ": " + entry.detail;
+    status.values.push_back(key_value(what.name, std::to_string(entry.count) + "x" + detail));
+    if (!findings.recent(entry, now)) continue;
+    raise(status, what.stops ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN);
+    status.message += std::string("; ") + what.name + ": " + what.meaning;
+  }
+}
+
+const MuscleHardware& muscle_of(const RobotDriver& driver, const EcuLink& link, int channel) {
+  const auto& muscles = link.own().muscles;
+  const int last = static_cast<int>(muscles.size()) - 1;
+  const int muscle = muscles[static_cast<std::size_t>(std::min(channel, last))];
+  return driver.hardware().muscles[static_cast<std::size_t>(muscle)];
+}
+
+}  // namespace
+
+DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std::string& robot) {
+  DiagnosticStatus status;
+  status.name = robot + ": driver";
+  status.level = DiagnosticStatus::OK;
+  const bool enabled = driver.phase() == RobotDriver::Phase::kEnabled;
+  status.message = driver.supervisor().stop_latched() ? "emergency stop"
+                   : driver.home().running()          ? "homing"
+                   : enabled                          ? "enabled"
+                                                      : "disabled";
+  const std::string trouble = driver.bus_watch().trouble();
+  if (!trouble.empty()) {
+    status.message += ": " + trouble;
+    status.level = DiagnosticStatus::ERROR;
+  }
+  const ecu::Supervisor& supervisor = driver.supervisor();
+  const auto late = driver.findings().count(Finding::kLateCycle);
+  status.values = {
+      key_value("rejected_commands", std::to_string(supervisor.rejected_count())),
+      key_value("last_rejection", supervisor.last_rejection()),
+      key_value("command_age", text(supervisor.command_age(now))),
+      key_value("last_outcome", driver.last_outcome().reason),
+      key_value("frames_received", std::to_string(driver.bus_watch().frames())),
+      key_value("late_cycles", std::to_string(late)),
+  };
+  add_findings(status, driver.findings(), -1, now);
+  return status;
+}
+
+DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double now,
+                            const std::string& robot) {
+  const EcuLink& link = driver.link(ecu);
+  const ecu::StateReport& report = link.report();
+  const ecu::Health& health = link.health();
+  DiagnosticStatus status;
+  status.name = robot + ": " + link.own().name;
+  status.hardware_id = link.own().name;
+  const ecu::State state = link.state();
+  status.level = DiagnosticStatus::OK;
+  if (state == ecu::State::kFault) raise(status, DiagnosticStatus::ERROR);
+  if (state == ecu::State::kStopping) raise(status, DiagnosticStatus::WARN);
+  status.message = ecu::name(state);
+  if (!link.heard() || !link.alive(now)) {
+    raise(status, DiagnosticStatus::ERROR);
+    status.message = link.heard() ? "lost" : "never heard";
+  } else if (!link.configured()) {
+    raise(status, DiagnosticStatus::WARN);
+    status.message += ", not configured";
+  }
+  if (report.fault != ecu::Fault::kNone) {
+    status.message += std::string("; ") + ecu::name(report.fault) + " (" +
+                      muscle_of(driver, link, report.muscle).name + ")";
+  }
+  status.values = {
+      key_value("stop_latched", driver.supervisor().stop_latched() ? "true" : "false"),
+      key_value("fault", ecu::name(report.fault)),
+      key_value("session", std::to_string(report.session)),
+      key_value("configured", link.configured() ? "true" : "false"),
+      key_value("supply", text(health.supply)),
+      key_value("refused_frames", std::to_string(health.refused_frames)),
+      key_value("transmit_errors", std::to_string(health.transmit_errors)),
+      key_value("receive_errors", std::to_string(health.receive_errors)),
+  };
+  for (int c = 0; c < static_cast<int>(link.own().muscles.size()); ++c) {
+    status.values.push_back(key_value(muscle_of(driver, link, c).name + " temperature",
+                                      std::to_string(health.temperature[c])));
+  }
+  add_findings(status, driver.findings(), static_cast<int>(ecu), now);
+  return status;
+}
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,229 @@
+#include "driver_node.h"
+
+#include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/TouchStates.h>
+#include <sensor_msgs/JointState.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "anthrob_ros/diagnostics.h"
+#include "anthrob_ros/single_backend.h"
+#include "driver_diagnostics.h"
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+
+const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
+
+void answer(const RobotDriver::Outcome& outcome, std_srvs::Trigger::Response& response) {
+  response.success = outcome.accepted;
+  response.message = outcome.reason;
+}
+
+std::int64_t wall_clock_ns() {
+  timespec t;
+  clock_gettime(CLOCK_REALTIME, &t);
+  return static_cast<std::int64_t>(t.tv_sec) * 1000000000 + t.tv_nsec;
+}
+
+}  // namespace
+
+DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
+                       const std::string& interface, ros::NodeHandle nh)
+    : thread_(hardware, options, interface),
+      hardware_(std::move(hardware)),
+      interface_(interface),
+      nh_(nh),
+      stop_nh_(nh) {
+  stop_nh_.setCallbackQueue(&stop_queue_);
+  muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
+  joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
+  if (!hardware_.touch.empty()) touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);
+  diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+  if (!thread_.note().empty()) ROS_WARN_STREAM(thread_.note());
+}
+
+std::string DriverNode::other_backend() const {
+  return other_publisher(muscles_);
+}
+
+// ---- commands and services
+// -----------------------------------------------------------------------
+
+void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
+  RobotDriver::Outcome outcome;
+  double time = 0.0;
+  thread_.call([&](RobotDriver& driver, double now) {
+    outcome = driver.command(command.name, command.mode, command.reference, now);
+    time = now;
+  });
+  if (outcome.accepted || time - warning_time_ < 1.0) return;
+  warning_time_ = time;
+  ROS_WARN_STREAM("muscle_command refused: " << outcome.reason);
+}
+
+bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
+  RobotDriver::Outcome outcome;
+  bool waiting = false;
+  thread_.call([&](RobotDriver& driver, double now) {
+    outcome = driver.start_enable(now);
+    waiting = driver.phase() == RobotDriver::Phase::kEnabling;
+  });
+  while (waiting && ros::ok()) {
+    publish_measurements(0.002);
+    thread_.call([&](RobotDriver& driver, double) {
+      waiting = driver.phase() == RobotDriver::Phase::kEnabling;
+      outcome = driver.last_outcome();
+    });
+  }
+  answer(outcome, response);
+  return true;
+}
+
+bool DriverNode::on_home(Trigger::Request&, Trigger::Response& response) {
+  RobotDriver::Outcome outcome;
+  thread_.call([&](RobotDriver& driver, double now) { outcome = driver.start_home(now); });
+  bool waiting = outcome.accepted;
+  while (waiting && ros::ok()) {
+    publish_measurements(0.002);
+    publish_diagnostics();
+    thread_.call([&](RobotDriver& driver, double) {
+      waiting = driver.home().running();
+      outcome = {driver.home().failure().empty(), driver.home().failure()};
+    });
+  }
+  answer(outcome, response);
+  return true;
+}
+
+bool DriverNode::on_disable(Trigger::Request&, Trigger::Response& response) {
+  thread_.call([&](RobotDriver& driver, double) { answer(driver.disable(), response); });
+  return true;
+}
+
+bool DriverNode::on_emergency_stop(Trigger::Request&, Trigger::Response& response) {
+  thread_.call([&](RobotDriver& driver, double) { answer(driver.emergency_stop(), response); });
+  return true;
+}
+
+bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response) {
+  thread_.call(
+      [&](RobotDriver& driver, double now) { answer(driver.clear_faults(now), response); });
+  // Until the ECUs have had the time to clear: enable may follow at once.
+  for (int i = 0; i < 25; ++i) publish_measurements(0.004);
+  return true;
+}
+
+// ---- measurements
+// --------------------------------------------------------------------------------
+
+ros::Time DriverNode::stamp(std::int64_t kernel_ns) const {
+  // The kernel stamps with the wall clock, ROS time may be another: what carries over is the age.
+  // A clock that was set in between gives a senseless age; then the measurement is just now.
+  constexpr std::int64_t kOldest = 500000000;
+  std::int64_t age = kernel_ns == 0 ? 0 : wall_clock_ns() - kernel_ns;
+  if (age < 0 || age > kOldest) age = 0;
+  const ros::Time now = ros::Time::now();
+  const ros::Duration back = ros::Duration().fromNSec(age);
+  return now.toNSec() > static_cast<std::uint64_t>(age) ? now - back : now;
+}
+
+void DriverNode::publish_measurements(double wait) {
+  const DriverThread::Batch batch = thread_.wait(wait);
+  for (const Sample& sample : batch.samples) publish(sample);
+  for (const AnalogSample& sample : batch.analogs) publish(sample);
+}
+
+void DriverNode::publish(const Sample& sample) {
+  ++samples_;
+  longest_round_trip_ = std::max(longest_round_trip_, sample.round_trip);
+  anthrob_msgs::MuscleStates states;
+  states.header.stamp = stamp(sample.stamp_ns);
+  for (std::size_t m = 0; m < sample.muscles.size(); ++m) {
+    const MuscleSample& muscle = sample.muscles[m];
+    states.name.push_back(hardware_.muscles[m].name);
+    states.position.push_back(muscle.position);
+    states.velocity.push_back(muscle.velocity);
+    states.current.push_back(muscle.current);
+    states.voltage.push_back(muscle.voltage);
+    states.force.push_back(muscle.force);
+    states.reference.push_back(muscle.reference);
+    states.mode.push_back(static_cast<std::uint8_t>(muscle.mode));
+    states.ecu_state.push_back(static_cast<std::uint8_t>(muscle.state));
+  }
+  muscles_.publish(states);
+}
+
+void DriverNode::publish(const AnalogSample& sample) {
+  if (sample.kind == AnalogSample::Kind::kJoint) {
+    sensor_msgs::JointState state;
+    state.header.stamp = stamp(sample.stamp_ns);
+    state.name.push_back(hardware_.joints[sample.sensor].joint);
+    state.position.push_back(sample.value);
+    joints_.publish(state);
+    return;
+  }
+  anthrob_msgs::TouchStates state;
+  state.header.stamp = stamp(sample.stamp_ns);
+  state.name.push_back(hardware_.touch[sample.sensor].name);
+  state.force.push_back(sample.value);
+  touch_.publish(state);
+}
+
+// ---- diagnostics
+// ---------------------------------------------------------------------------------
+
+void DriverNode::publish_diagnostics() {
+  const double time = monotonic_now();
+  if (time - report_time_ < 1.0) return;
+  diagnostic_msgs::DiagnosticArray array;
+  array.header.stamp = ros::Time::now();
+  thread_.call([&](RobotDriver& driver, double now) {
+    array.status.push_back(driver_status(driver, now, nh_.getNamespace()));
+    auto& own = array.status.front();
+    own.hardware_id = interface_;
+    const auto published = static_cast<double>(samples_ - reported_samples_);
+    own.values.push_back(key_value("state_rate", text(published / (time - report_time_))));
+    own.values.push_back(key_value("longest_round_trip_ms", text(1e3 * longest_round_trip_)));
+    for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
+      array.status.push_back(ecu_status(driver, e, now, nh_.getNamespace()));
+    }
+  });
+  diagnostics_.publish(array);
+  report_time_ = time;
+  reported_samples_ = samples_;
+  longest_round_trip_ = 0.0;
+}
+
+void DriverNode::run() {
+  subscribers_ = {
+      nh_.subscribe("muscle_command", 100, &DriverNode::on_command, this, kNoDelay),
+      stop_nh_.subscribe<std_msgs::Empty>(
+          "emergency_stop", 1,
+          [this](const std_msgs::EmptyConstPtr&) {
+            thread_.call([](RobotDriver& driver, double) { driver.emergency_stop(); });
+          },
+          ros::VoidConstPtr(), kNoDelay),
+  };
+  services_ = {
+      nh_.advertiseService("enable", &DriverNode::on_enable, this),
+      nh_.advertiseService("home", &DriverNode::on_home, this),
+      nh_.advertiseService("clear_faults", &DriverNode::on_clear_faults, this),
+      stop_nh_.advertiseService("disable", &DriverNode::on_disable, this),
+      stop_nh_.advertiseService("emergency_stop", &DriverNode::on_emergency_stop, this),
+  };
+  ros::AsyncSpinner stops(1, &stop_queue_);
+  stops.start();
+  report_time_ = monotonic_now();
+  while (ros::ok()) {
+    publish_measurements(0.002);
+    ros::getGlobalCallbackQueue()->callAvailable();
+    publish_diagnostics();
+  }
+}
+
+}  // namespace driver
+}  // namespace anthrob

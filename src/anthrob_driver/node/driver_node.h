@@ -1,0 +1,61 @@
+#pragma once
+
+#include <anthrob_msgs/MuscleCommand.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <std_msgs/Empty.h>
+#include <std_srvs/Trigger.h>
+
+#include <vector>
+
+#include "anthrob_driver/driver_thread.h"
+
+namespace anthrob {
+namespace driver {
+
+/// The ROS contract around the driver: topics, services, diagnostics; the same as the simulator's.
+///
+/// Three threads: the bus has its own, stops have their own so that nothing can hold them up, all
+/// the rest is in run().
+class DriverNode {
+ public:
+  DriverNode(Hardware hardware, const DriverThread::Options& options, const std::string& interface,
+             ros::NodeHandle nh);
+
+  /// Until ROS shuts down.
+  void run();
+  /// Name of another back end in this namespace; empty if there is none.
+  std::string other_backend() const;
+
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  void on_command(const anthrob_msgs::MuscleCommand& command);
+  bool on_enable(Trigger::Request& request, Trigger::Response& response);
+  bool on_home(Trigger::Request& request, Trigger::Response& response);
+  bool on_disable(Trigger::Request& request, Trigger::Response& response);
+  bool on_emergency_stop(Trigger::Request& request, Trigger::Response& response);
+  bool on_clear_faults(Trigger::Request& request, Trigger::Response& response);
+
+  void publish_measurements(double wait);
+  ros::Time stamp(std::int64_t kernel_ns) const;
+  void publish(const Sample& sample);
+  void publish(const AnalogSample& sample);
+  void publish_diagnostics();
+
+  DriverThread thread_;
+  Hardware hardware_;
+  std::string interface_;
+  ros::NodeHandle nh_, stop_nh_;
+  ros::CallbackQueue stop_queue_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  ros::Publisher muscles_, joints_, touch_, diagnostics_;
+  double report_time_ = 0.0, warning_time_ = -1e9;
+  std::uint64_t samples_ = 0, reported_samples_ = 0;
+  double longest_round_trip_ = 0.0;
+};
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,230 @@
+#include "anthrob_driver/bus/socketcan_bus.h"
+
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+
+int open_socket(unsigned index) {
+  const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
+  if (fd < 0) return -1;
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = static_cast<int>(index);
+  if (::bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof(address)) != 0) {
+    ::close(fd);
+    return -1;
+  }
+  return fd;
+}
+
+template <class T>
+void option(int fd, int level, int name, const T& value) {
+  ::setsockopt(fd, level, name, &value, sizeof(value));
+}
+
+/// What an error frame says; the worst first.
+BusEvent::Kind kind_of_error(const can_frame& frame) {
+  using Kind = BusEvent::Kind;
+  if (frame.can_id & CAN_ERR_BUSOFF) return Kind::kBusOff;
+  if (frame.can_id & CAN_ERR_CRTL) {
+    const auto flags = frame.data[1];
+    if (flags & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) return Kind::kErrorPassive;
+    if (flags & (CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) return Kind::kErrorWarning;
+    if (flags & CAN_ERR_CRTL_RX_OVERFLOW) return Kind::kReceiveOverrun;
+    if (flags & CAN_ERR_CRTL_ACTIVE) return Kind::kErrorActive;
+  }
+  if (frame.can_id & CAN_ERR_ACK) return Kind::kNoAcknowledge;
+  if (frame.can_id & CAN_ERR_RESTARTED) return Kind::kErrorActive;
+  return Kind::kErrorWarning;
+}
+
+std::int64_t stamp_of(msghdr& message) {
+  for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
+    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec time;
+    std::memcpy(&time, CMSG_DATA(c), sizeof(time));
+    return static_cast<std::int64_t>(time.tv_sec) * 1000000000 + time.tv_nsec;
+  }
+  return 0;
+}
+
+}  // namespace
+
+/// Frames that go to or come from the kernel together.
+struct SocketCanBus::Batch {
+  can_frame frames[kBatch]{};
+  iovec vectors[kBatch]{};
+  mmsghdr messages[kBatch]{};
+  alignas(cmsghdr) char controls[kBatch][CMSG_SPACE(sizeof(timespec)) + 64]{};
+  std::size_t count = 0, next = 0;
+
+  Batch() {
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      vectors[i] = {&frames[i], sizeof(can_frame)};
+      messages[i].msg_hdr.msg_iov = &vectors[i];
+      messages[i].msg_hdr.msg_iovlen = 1;
+    }
+  }
+  /// The kernel overwrites lengths.
+  void rearm() {
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      messages[i].msg_hdr.msg_control = controls[i];
+      messages[i].msg_hdr.msg_controllen = sizeof(controls[i]);
+    }
+  }
+};
+
+SocketCanBus::SocketCanBus(const std::string& interface)
+    : interface_(interface), out_(std::make_unique<Batch>()), in_(std::make_unique<Batch>()) {
+  if (interface.empty() || interface.size() >= IFNAMSIZ) {
+    throw std::runtime_error("CAN interface '" + interface + "': expected a name such as can0");
+  }
+  const int probe = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
+  if (probe < 0) {
+    throw std::runtime_error("CAN sockets: " + std::string(std::strerror(errno)) +
+                             "; this kernel lacks can_raw (modprobe can_raw)");
+  }
+  ::close(probe);
+  recover();
+}
+
+SocketCanBus::~SocketCanBus() {
+  close_sockets();
+}
+
+bool SocketCanBus::interface_is_up() const {
+  const int probe = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
+  ifreq request{};
+  std::strncpy(request.ifr_name, interface_.c_str(), IFNAMSIZ - 1);
+  const bool up = ::ioctl(probe, SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
+  ::close(probe);
+  return up;
+}
+
+bool SocketCanBus::open_sockets() {
+  const unsigned index = ::if_nametoindex(interface_.c_str());
+  if (index == 0) return false;
+  socket_ = open_socket(index);
+  stop_socket_ = open_socket(index);
+  if (socket_ < 0 || stop_socket_ < 0) {
+    close_sockets();
+    return false;
+  }
+  option(socket_, SOL_SOCKET, SO_TIMESTAMPNS, int{1});
+  option(socket_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, int{1});
+  option(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});
+  // Bursts of a whole cycle must fit, whatever the scheduler does.
+  option(socket_, SOL_SOCKET, SO_RCVBUF, int{1 << 20});
+  option(socket_, SOL_SOCKET, SO_PRIORITY, int{6});
+  option(stop_socket_, SOL_SOCKET, SO_PRIORITY, int{7});
+  // The stop socket only sends.
+  ::setsockopt(stop_socket_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);
+  return true;
+}
+
+void SocketCanBus::close_sockets() {
+  if (socket_ >= 0) ::close(socket_);
+  if (stop_socket_ >= 0) ::close(stop_socket_);
+  socket_ = stop_socket_ = -1;
+}
+
+void SocketCanBus::lose() {
+  close_sockets();
+  up_ = false;
+}
+
+void SocketCanBus::recover() {
+  if (up_) return;
+  // A socket bound to an interface that was removed stays dead; only a new one helps.
+  close_sockets();
+  up_ = interface_is_up() && open_sockets();
+}
+
+SendResult SocketCanBus::give_up_or_wait() {
+  if (errno == ENOBUFS || errno == EAGAIN || errno == EINTR) return SendResult::kQueueFull;
+  lose();
+  return SendResult::kDown;
+}
+
+SendResult SocketCanBus::send(const ecu::Frame& frame) {
+  if (!up_) return SendResult::kDown;
+  can_frame raw{};
+  raw.can_id = frame.id;
+  raw.can_dlc = frame.length;
+  std::memcpy(raw.data, frame.data.data(), 8);
+  if (frame.id == 0) {
+    return ::write(stop_socket_, &raw, sizeof(raw)) == sizeof(raw) ? SendResult::kSent
+                                                                   : give_up_or_wait();
+  }
+  out_->frames[out_->count++] = raw;
+  return out_->count == kBatch ? flush() : SendResult::kSent;
+}
+
+SendResult SocketCanBus::flush() {
+  const unsigned count = static_cast<unsigned>(out_->count);
+  out_->count = 0;
+  if (!up_) return SendResult::kDown;
+  for (unsigned done = 0; done < count;) {
+    const int sent = ::sendmmsg(socket_, out_->messages + done, count - done, 0);
+    // What did not fit is dropped: by the time there is room it would be old.
+    if (sent <= 0) return give_up_or_wait();
+    done += static_cast<unsigned>(sent);
+  }
+  return SendResult::kSent;
+}
+
+bool SocketCanBus::fetch() {
+  in_->next = in_->count = 0;
+  in_->rearm();
+  const int got = ::recvmmsg(socket_, in_->messages, kBatch, 0, nullptr);
+  if (got < 0) {
+    if (errno != EAGAIN && errno != EINTR) lose();
+    return false;
+  }
+  in_->count = static_cast<std::size_t>(got);
+  return got > 0;
+}
+
+bool SocketCanBus::receive(BusEvent& event) {
+  using Kind = BusEvent::Kind;
+  if (in_->next == in_->count && up_) fetch();
+  if (in_->next == in_->count) {
+    if (up_ == reported_up_) return false;
+    reported_up_ = up_;
+    event = {up_ ? Kind::kUp : Kind::kDown, {}, 0};
+    return true;
+  }
+  const can_frame& raw = in_->frames[in_->next];
+  mmsghdr& message = in_->messages[in_->next];
+  ++in_->next;
+  event = {Kind::kFrame, {}, stamp_of(message.msg_hdr)};
+  if (raw.can_id & CAN_ERR_FLAG) {
+    event.kind = kind_of_error(raw);
+  } else if (message.msg_len != sizeof(raw) || (raw.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) ||
+             raw.can_dlc > 8) {
+    event.kind = Kind::kForeign;
+  } else {
+    event.frame.id = static_cast<std::uint16_t>(raw.can_id & CAN_SFF_MASK);
+    event.frame.length = raw.can_dlc;
+    std::memcpy(event.frame.data.data(), raw.data, raw.can_dlc);
+    if (message.msg_hdr.msg_flags & MSG_CONFIRM) event.kind = Kind::kEcho;
+  }
+  return true;
+}
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,116 @@
+#include "anthrob_driver/bus_watch.h"
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+constexpr double kEchoTimeout = 0.02;  // [s] without an echo of anything we sent
+constexpr int kFullCycles = 3;
+}  // namespace
+
+void BusWatch::found(Finding finding, double now) {
+  findings_.add(finding, -1, now);
+  if (!info(finding).stops) return;
+  stop_ = true;
+  stop_finding_ = finding;
+}
+
+void BusWatch::receive(const BusEvent& event, double now) {
+  using Kind = BusEvent::Kind;
+  switch (event.kind) {
+    case Kind::kFrame:
+      ++frames_;
+      ++frames_this_cycle_;
+      // Who hears others is no longer off the bus.
+      if (condition_ == Condition::kOff) condition_ = Condition::kGood;
+      break;
+    case Kind::kEcho:
+      if (condition_ == Condition::kOff) condition_ = Condition::kGood;
+      echoes_ = true;
+      unheard_ = false;
+      last_echo_ = now;
+      break;
+    case Kind::kForeign:
+      ++frames_this_cycle_;
+      found(Finding::kForeignFrame, now);
+      break;
+    case Kind::kErrorActive:
+      condition_ = Condition::kGood;
+      break;
+    case Kind::kErrorWarning:
+      if (condition_ == Condition::kGood) condition_ = Condition::kWarning;
+      found(Finding::kErrorWarning, now);
+      break;
+    case Kind::kErrorPassive:
+      condition_ = Condition::kPassive;
+      found(Finding::kErrorPassive, now);
+      break;
+    case Kind::kBusOff:
+      condition_ = Condition::kOff;
+      found(Finding::kBusOff, now);
+      break;
+    case Kind::kNoAcknowledge:
+      unheard_ = true;
+      found(Finding::kNoAcknowledge, now);
+      break;
+    case Kind::kReceiveOverrun:
+      found(Finding::kReceiveOverrun, now);
+      break;
+    case Kind::kDown:
+      condition_ = Condition::kDown;
+      found(Finding::kInterfaceDown, now);
+      break;
+    case Kind::kUp:
+      condition_ = Condition::kGood;
+      last_echo_ = now;
+      break;
+  }
+}
+
+void BusWatch::sent(SendResult result, double now) {
+  if (result == SendResult::kQueueFull) queue_full_ = true;
+  if (result == SendResult::kDown && condition_ != Condition::kDown) {
+    condition_ = Condition::kDown;
+    found(Finding::kInterfaceDown, now);
+  }
+}
+
+void BusWatch::cycle(double now) {
+  full_cycles_ = queue_full_ ? full_cycles_ + 1 : 0;
+  queue_full_ = false;
+  if (full_cycles_ >= kFullCycles) found(Finding::kQueueFull, now);
+  if (frames_this_cycle_ > kFlood) found(Finding::kBusFlooded, now);
+  frames_this_cycle_ = 0;
+  if (condition_ == Condition::kDown) {
+    last_echo_ = now;
+  } else if (echoes_ && now - last_echo_ > kEchoTimeout + 2.0 / rate_) {
+    unheard_ = true;
+    found(Finding::kNoAcknowledge, now);
+  }
+}
+
+std::string BusWatch::trouble() const {
+  switch (condition_) {
+    case Condition::kDown:
+      return "the CAN interface is down";
+    case Condition::kOff:
+      return "the CAN controller is bus-off";
+    case Condition::kPassive:
+      return "the CAN controller is error-passive";
+    default:
+      break;
+  }
+  if (unheard_) return "nobody acknowledges our frames";
+  if (full_cycles_ >= kFullCycles) return "the CAN interface takes no frames";
+  return "";
+}
+
+bool BusWatch::take_stop(Finding& finding) {
+  const bool was = stop_;
+  stop_ = false;
+  finding = stop_finding_;
+  return was;
+}
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,148 @@
+#include "anthrob_driver/driver_thread.h"
+
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "anthrob_driver/realtime.h"
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+
+constexpr int kPriority = 60;
+constexpr std::size_t kMostSamples = 400;  ///< two seconds; whoever reads slower loses the oldest
+
+void watch(int epoll, int fd) {
+  epoll_event event{};
+  event.events = EPOLLIN;
+  event.data.fd = fd;
+  epoll_ctl(epoll, EPOLL_CTL_ADD, fd, &event);
+}
+
+/// Reads the count of a timer or an event; 0 if there is none.
+std::uint64_t take_count(int fd) {
+  std::uint64_t count = 0;
+  return ::read(fd, &count, sizeof(count)) == sizeof(count) ? count : 0;
+}
+
+void start_timer(int timer, double rate) {
+  itimerspec period{};
+  period.it_interval.tv_nsec = std::lround(1e9 / rate);
+  period.it_value.tv_nsec = 1;
+  timerfd_settime(timer, 0, &period, nullptr);
+}
+
+}  // namespace
+
+double monotonic_now() {
+  timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+DriverThread::DriverThread(Hardware hardware, const Options& options, const std::string& interface)
+    : bus_(interface),
+      driver_(std::move(hardware), options.driver, bus_),
+      options_(options),
+      epoll_(epoll_create1(EPOLL_CLOEXEC)),
+      timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
+      wakeup_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+  watch(epoll_, timer_);
+  watch(epoll_, wakeup_);
+  bool started = false;
+  const std::function<void(RobotDriver&, double)> nothing = [](RobotDriver&, double) {};
+  work_.push_back({&nothing, &started});
+  thread_ = std::thread([this] {
+    if (options_.realtime) note_ = become_realtime(kPriority);
+    start_timer(timer_, options_.driver.rate);
+    serve_requests();
+    loop();
+  });
+  std::unique_lock<std::mutex> lock(mutex_);
+  done_.wait(lock, [&] { return started; });
+}
+
+DriverThread::~DriverThread() {
+  call([](RobotDriver& driver, double) { driver.disable(); });
+  quit_ = true;
+  const std::uint64_t one = 1;
+  (void)!::write(wakeup_, &one, sizeof(one));
+  thread_.join();
+  ::close(epoll_);
+  ::close(timer_);
+  ::close(wakeup_);
+}
+
+void DriverThread::call(const std::function<void(RobotDriver&, double now)>& work) {
+  bool done = false;
+  std::unique_lock<std::mutex> lock(mutex_);
+  work_.push_back({&work, &done});
+  const std::uint64_t one = 1;
+  (void)!::write(wakeup_, &one, sizeof(one));
+  done_.wait(lock, [&] { return done; });
+}
+
+DriverThread::Batch DriverThread::wait(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  arrived_.wait_for(lock, std::chrono::duration<double>(seconds),
+                    [this] { return !batch_.samples.empty() || !batch_.analogs.empty(); });
+  Batch batch;
+  std::swap(batch, batch_);
+  return batch;
+}
+
+void DriverThread::serve_requests() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!work_.empty()) {
+    const Work next = work_.front();
+    work_.pop_front();
+    lock.unlock();
+    (*next.run)(driver_, monotonic_now());
+    lock.lock();
+    *next.done = true;
+    done_.notify_all();
+  }
+}
+
+void DriverThread::collect() {
+  Sample sample;
+  AnalogSample analog;
+  std::unique_lock<std::mutex> lock(mutex_);
+  bool any = false;
+  for (; driver_.take_sample(sample); any = true) batch_.samples.push_back(sample);
+  for (; driver_.take_analog(analog); any = true) batch_.analogs.push_back(analog);
+  while (batch_.samples.size() > kMostSamples) batch_.samples.pop_front();
+  while (batch_.analogs.size() > kMostSamples) batch_.analogs.pop_front();
+  if (any) arrived_.notify_one();
+}
+
+void DriverThread::watch_socket() {
+  // A recovered interface has a new descriptor; closing the old one took it out of the set.
+  if (bus_.descriptor() == watched_) return;
+  watched_ = bus_.descriptor();
+  if (watched_ >= 0) watch(epoll_, watched_);
+}
+
+void DriverThread::loop() {
+  while (!quit_) {
+    watch_socket();
+    epoll_event events[4];
+    const int count = epoll_wait(epoll_, events, 4, 100);
+    (void)count;
+    BusEvent event;
+    while (bus_.receive(event)) driver_.receive(event, monotonic_now());
+    if (take_count(wakeup_) > 0) serve_requests();
+    if (take_count(timer_) > 0) driver_.cycle(monotonic_now());
+    collect();
+  }
+}
+
+}  // namespace driver
+}  // namespace anthrob

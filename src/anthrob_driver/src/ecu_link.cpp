@@ -1,0 +1,154 @@
+#include "anthrob_driver/ecu_link.h"
+
+#include <cstdio>
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+using ecu::Function;
+constexpr unsigned kMotionPart[] = {1, 2}, kEffortPart = 4;
+constexpr double kReplyTimeout = 0.05;  // [s]
+constexpr double kRetryPause = 1.0;     // [s] after a refusal
+}  // namespace
+
+EcuLink::EcuLink(const Hardware& hardware, int index, Findings& findings)
+    : hardware_(hardware), index_(index), findings_(findings) {
+  wanted_ = kMotionPart[0] | kEffortPart | (own().muscles.size() > 1 ? kMotionPart[1] : 0);
+}
+
+void EcuLink::start_cycle(std::uint8_t counter, double now) {
+  if (started_ && sampled_ && !complete()) findings_.add(Finding::kLostFrame, index_, now);
+  started_ = true;
+  counter_ = static_cast<std::uint8_t>(counter & 0xF);
+  got_ = 0;
+}
+
+void EcuLink::receive(const ecu::Frame& frame, double now) {
+  switch (static_cast<Function>(ecu::function_of(frame))) {
+    case Function::kMotionA:
+    case Function::kMotionB: {
+      const int channel = ecu::function_of(frame) == static_cast<int>(Function::kMotionB);
+      const ecu::Motion motion = ecu::decode_motion(frame);
+      incoming_.motion[channel] = motion;
+      on_status(frame, kMotionPart[channel], motion.counter, now);
+      break;
+    }
+    case Function::kEffort:
+      incoming_.effort = ecu::decode_effort(frame);
+      on_status(frame, kEffortPart, incoming_.effort.counter, now);
+      break;
+    case Function::kAnalog: {
+      const ecu::Analog analog = ecu::decode_analog(frame);
+      analog_new_ = analog.counter == counter_;
+      if (analog_new_) analog_ = analog;
+      break;
+    }
+    case Function::kState:
+      on_report(ecu::decode_state(frame), now);
+      break;
+    case Function::kParameterReply:
+      on_reply(ecu::decode_parameter(frame), now);
+      break;
+    case Function::kHealth:
+      health_ = ecu::decode_health(frame);
+      break;
+    default:
+      // A frame that only the host may send.
+      findings_.add(Finding::kForeignFrame, index_, now);
+  }
+}
+
+void EcuLink::on_status(const ecu::Frame&, unsigned part, std::uint8_t counter, double now) {
+  // An answer to another SYNC is old, or comes a second time: it must not pass for new.
+  if (!started_ || counter != counter_ || (got_ & part) != 0 || (wanted_ & part) == 0) {
+    findings_.add(Finding::kRepeatedFrame, index_, now);
+    return;
+  }
+  got_ |= part;
+  if (!complete()) return;
+  sample_ = incoming_;
+  sampled_ = true;
+  sample_time_ = now;
+  state_ = sample_.motion[0].state;
+  latched_ = sample_.motion[0].stop_latched;
+}
+
+void EcuLink::on_report(const ecu::StateReport& report, double now) {
+  if (report.version != ecu::kProtocolVersion) {
+    findings_.add(Finding::kWrongVersion, index_, now,
+                  "version " + std::to_string(report.version) + ", expected " +
+                      std::to_string(ecu::kProtocolVersion));
+    return;
+  }
+  if (heard_ && report.session != report_.session) {
+    restarted_ = true;
+    next_ = 0;
+    waiting_ = false;
+    findings_.add(Finding::kEcuRestarted, index_, now);
+  }
+  heard_ = true;
+  report_ = report;
+  state_ = report.state;
+  latched_ = report.stop_latched;
+}
+
+bool EcuLink::take_restart() {
+  const bool was = restarted_;
+  restarted_ = false;
+  return was;
+}
+
+bool EcuLink::take_analog() {
+  const bool was = analog_new_;
+  analog_new_ = false;
+  return was;
+}
+
+float EcuLink::wanted_value() const {
+  const int muscle = own().muscles[static_cast<std::size_t>(next_ / ecu::kParameterCount)];
+  return hardware_.muscles[static_cast<std::size_t>(muscle)].parameters.raw(next_ %
+                                                                            ecu::kParameterCount);
+}
+
+bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
+  const int count = static_cast<int>(own().muscles.size()) * ecu::kParameterCount;
+  if (!heard_ || configured() || now < resume_) return false;
+  if (waiting_ && now - sent_ < kReplyTimeout) return false;
+  if (next_ >= count) {
+    // All was read back, yet the checksum differs: once more, not too fast.
+    next_ = 0;
+    resume_ = now + kRetryPause;
+    return false;
+  }
+  ecu::ParameterMessage message;
+  message.write = true;
+  message.muscle = static_cast<std::uint8_t>(next_ / ecu::kParameterCount);
+  message.index = static_cast<std::uint8_t>(next_ % ecu::kParameterCount);
+  message.sequence = ++sequence_;
+  message.value = wanted_value();
+  frame = ecu::encode_parameter_request(message, own().node);
+  waiting_ = true;
+  sent_ = now;
+  return true;
+}
+
+void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
+  if (!waiting_ || reply.sequence != sequence_) return;
+  waiting_ = false;
+  const int index = next_ % ecu::kParameterCount;
+  if (reply.result == ecu::ParameterResult::kOk && reply.index == index &&
+      reply.value == wanted_value()) {
+    ++next_;
+    return;
+  }
+  char text[128];
+  std::snprintf(text, sizeof(text), "%s: wrote %g, reads %g: %s", ecu::kParameters[index].name,
+                static_cast<double>(wanted_value()), static_cast<double>(reply.value),
+                ecu::name(reply.result));
+  findings_.add(Finding::kConfigurationRefused, index_, now, text);
+  resume_ = now + kRetryPause;
+}
+
+}  // namespace driver
+}  // namespace anthrob

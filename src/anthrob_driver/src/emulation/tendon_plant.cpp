@@ -1,0 +1,44 @@
+#include "anthrob_driver/emulation/tendon_plant.h"
+
+#include <algorithm>
+
+namespace anthrob {
+namespace driver {
+
+TendonPlant::TendonPlant(std::size_t muscles, std::size_t joints, std::size_t pads,
+                         const Parameters& parameters)
+    : p_(parameters), tendons_(muscles), joints_(joints, 0.0), pads_(pads, 0.0) {
+  for (Tendon& tendon : tendons_) tendon.slack = p_.slack;
+}
+
+double TendonPlant::force(const Tendon& tendon) const {
+  if (tendon.cut) return 0.0;
+  return std::max(0.0, p_.stiffness * p_.radius * (tendon.position - tendon.slack));
+}
+
+Plant::Muscle TendonPlant::muscle(std::size_t muscle) const {
+  const Tendon& tendon = tendons_[muscle];
+  return {tendon.position, tendon.current, force(tendon)};
+}
+
+void TendonPlant::advance() {
+  // The electrical time constant is 0.07 ms: current is taken as settled within each sub-step.
+  constexpr int kSteps = 10;
+  constexpr double kStep = 0.001 / kSteps;
+  const double kn = p_.constant * p_.ratio;
+  const double inertia = p_.inertia * p_.ratio * p_.ratio;
+  for (Tendon& t : tendons_) {
+    for (int i = 0; i < kSteps; ++i) {
+      t.current = (t.voltage - kn * t.velocity) / p_.resistance;
+      // Implicit in speed, so that back EMF and damping cannot make it unstable.
+      const double drag = p_.damping * p_.ratio * p_.ratio + kn * kn / p_.resistance;
+      const double drive = kn * t.voltage / p_.resistance - p_.radius * force(t);
+      t.velocity = (inertia * t.velocity + kStep * drive) / (inertia + kStep * drag);
+      if (t.jammed) t.velocity = 0.0;
+      t.position += kStep * t.velocity;
+    }
+  }
+}
+
+}  // namespace driver
+}  // namespace anthrob

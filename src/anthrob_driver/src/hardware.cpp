@@ -1,0 +1,286 @@
+#include "anthrob_driver/hardware.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "anthrob_config/config_node.h"
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+
+using ecu::Parameter;
+
+std::string beside(const std::string& file, const std::string& name) {
+  return (std::filesystem::path(file).parent_path() / name).string();
+}
+
+void set(MuscleHardware& muscle, Parameter parameter, double value, const ConfigNode& where) {
+  const ecu::ParameterInfo& info = ecu::kParameters[static_cast<int>(parameter)];
+  if (!muscle.parameters.set(parameter, value)) {
+    where.fail_expected(std::string(info.name) + " within what the ECU takes, " +
+                        std::to_string(info.lowest) + " to " + std::to_string(info.highest) + " " +
+                        info.unit);
+  }
+}
+
+/// Gains and command limits, as the simulator has them: one entry of `controllers`.
+void load_controller(const ConfigNode& node, MuscleHardware& muscle) {
+  const auto gain = [&](const ConfigNode& from, const char* key, Parameter parameter,
+                        const char* unit) {
+    const ConfigNode value = from.at(key);
+    set(muscle, parameter, value.as_number(Bounds::nonnegative(), unit), value);
+  };
+  gain(node, "voltage_limit", Parameter::kVoltageLimit, "V");
+  const ConfigNode position = node.at("position"), current = node.at("current"),
+                   force = node.at("force"), limits = node.at("limits");
+  gain(position, "proportional", Parameter::kPositionProportional, "V/rad");
+  gain(position, "derivative", Parameter::kPositionDerivative, "Vs/rad");
+  gain(position, "force_feedforward", Parameter::kPositionForceFeedforward, "V/N");
+  gain(current, "proportional", Parameter::kCurrentProportional, "V/A");
+  gain(current, "integral", Parameter::kCurrentIntegral, "V/(As)");
+  gain(force, "proportional", Parameter::kForceProportional, "V/N");
+  gain(force, "integral", Parameter::kForceIntegral, "V/(Ns)");
+  gain(force, "derivative", Parameter::kForceDerivative, "Vs/rad");
+  gain(force, "force_feedforward", Parameter::kForceForceFeedforward, "V/N");
+  const double volts = muscle.parameters.get(Parameter::kVoltageLimit);
+  const double radians = limits.number("position", Bounds::positive(), "rad");
+  const double amperes = limits.number("current", Bounds::positive(), "A");
+  const double newtons = limits.number("force", Bounds::nonnegative(), "N");
+  muscle.limits.lowest = {-volts, -radians, -amperes, 0.0};
+  muscle.limits.highest = {volts, radians, amperes, newtons};
+}
+
+LinearSensor load_linear(const ConfigNode& node, const std::string& unit) {
+  LinearSensor sensor;
+  sensor.gain = node.number("gain", Bounds::any(), unit + "/count");
+  if (sensor.gain == 0.0) node.at("gain").fail_expected("a number other than 0");
+  sensor.offset = node.number("offset", Bounds::between(0.0, 4095.0), "count");
+  return sensor;
+}
+
+/// Limits that the ECU watches, and its sensors: one entry of `units`.
+void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
+  const auto limit = [&](const char* key, Parameter parameter, const char* unit) {
+    const ConfigNode value = node.at(key);
+    set(muscle, parameter, value.as_number(Bounds::positive(), unit), value);
+  };
+  limit("current_limit", Parameter::kCurrentLimit, "A");
+  limit("force_limit", Parameter::kForceLimit, "N");
+  limit("speed_limit", Parameter::kSpeedLimit, "rad/s");
+  limit("temperature_limit", Parameter::kTemperatureLimit, "deg C");
+  limit("position_rate", Parameter::kPositionRate, "rad/s");
+  limit("force_rate", Parameter::kForceRate, "N/s");
+  limit("encoder_scale", Parameter::kEncoderScale, "rad/count");
+  muscle.encoder_scale = muscle.parameters.get(Parameter::kEncoderScale);
+  const ConfigNode range = node.at("position_range");
+  const auto ends = range.items();
+  if (ends.size() != 2) range.fail_expected("two numbers [lowest, highest] [rad]");
+  set(muscle, Parameter::kPositionLow, ends[0].as_number(Bounds::any(), "rad"), ends[0]);
+  set(muscle, Parameter::kPositionHigh, ends[1].as_number(Bounds::any(), "rad"), ends[1]);
+  const int order = node.at("filter_order").as_integer(0, ecu::kMaxFilterOrder);
+  set(muscle, Parameter::kFilterOrder, order, node.at("filter_order"));
+}
+
+/// Sensors of one muscle: one entry of the calibration file's `muscles`.
+void load_sensors(const ConfigNode& node, MuscleHardware& muscle) {
+  muscle.current = load_linear(node.at("current"), "A");
+  set(muscle, Parameter::kCurrentGain, muscle.current.gain, node.at("current"));
+  set(muscle, Parameter::kCurrentOffset, muscle.current.offset, node.at("current"));
+  const bool has_force = node.has("force");
+  if (has_force) {
+    muscle.force = load_linear(node.at("force"), "N");
+    if (muscle.force.gain < 0.0) node.at("force").at("gain").fail_expected("a number > 0");
+    set(muscle, Parameter::kForceGain, muscle.force.gain, node.at("force"));
+    set(muscle, Parameter::kForceOffset, muscle.force.offset, node.at("force"));
+  }
+  muscle.limits.modes = {true, true, true, has_force};
+}
+
+class Loader {
+ public:
+  Loader(const std::string& file, bool hand)
+      : config_(ConfigNode::load(file)),
+        model_(ConfigNode::load(beside(file, config_.text("model")))),
+        calibration_(ConfigNode::load(beside(file, config_.text("calibration")))),
+        hand_(hand) {
+    hardware_.file = file;
+  }
+
+  Hardware load() {
+    load_ecus();
+    for (const auto& [name, node] : model_.at("muscles").entries()) {
+      if (!node.has("controller") || !node.has("ecu")) continue;
+      // A model with the hand may be used without it.
+      if (!hand_ && name.rfind("hand_", 0) == 0) continue;
+      const std::string kind = node.text("controller");
+      const bool of_hand = name.rfind("hand_", 0) == 0;
+      add_muscle(name, node.text("ecu"), kind, model_.at("controllers").at(kind),
+                 of_hand ? calibration_.at("hand").at("muscles") : calibration_.at("muscles"),
+                 node);
+    }
+    load_hand();
+    load_joints();
+    load_home();
+    finish();
+    config_.refuse_unknown_keys();
+    calibration_.refuse_unknown_keys();
+    return hardware_;
+  }
+
+ private:
+  void load_ecus() {
+    std::set<int> nodes;
+    for (const auto& [name, node] : config_.at("ecus").entries()) {
+      EcuHardware ecu;
+      ecu.name = name;
+      ecu.node = node.at("node").as_integer(1, ecu::kMaxNode);
+      if (!nodes.insert(ecu.node).second) node.at("node").fail("another ECU has this node");
+      hardware_.ecus.push_back(ecu);
+    }
+  }
+
+  int find_ecu(const std::string& name, const ConfigNode& where) const {
+    for (std::size_t i = 0; i < hardware_.ecus.size(); ++i) {
+      if (hardware_.ecus[i].name == name) return static_cast<int>(i);
+    }
+    where.fail("ecu " + name + ": not listed under ecus in " + config_.file());
+  }
+
+  void add_muscle(const std::string& name, const std::string& ecu_name, const std::string& kind,
+                  const ConfigNode& controller, const ConfigNode& sensors,
+                  const ConfigNode& where) {
+    MuscleHardware muscle;
+    muscle.name = muscle.limits.name = name;
+    muscle.limits.ecu = ecu_name;
+    muscle.ecu = find_ecu(ecu_name, where);
+    EcuHardware& ecu = hardware_.ecus[static_cast<std::size_t>(muscle.ecu)];
+    muscle.channel = static_cast<int>(ecu.muscles.size());
+    if (muscle.channel >= ecu::kMusclesPerEcu) {
+      where.fail(ecu_name + " already has " + std::to_string(ecu::kMusclesPerEcu) + " muscles");
+    }
+    ecu.muscles.push_back(static_cast<int>(hardware_.muscles.size()));
+    load_controller(controller, muscle);
+    load_unit(config_.at("units").at(kind), muscle);
+    load_sensors(sensors.at(name), muscle);
+    muscle.home_position = home_position(name);
+    hardware_.muscles.push_back(muscle);
+  }
+
+  double home_position(const std::string& name) {
+    const ConfigNode home = config_.at("home");
+    if (!home.has("positions")) return 0.0;
+    return home.at("positions").number_or(name, 0.0, Bounds::between(-50.0, 50.0), "rad");
+  }
+
+  void load_hand() {
+    if (!hand_) {
+      for (const ConfigNode& part : {config_, calibration_}) {
+        if (part.has("hand")) part.at("hand").ignore();
+      }
+      if (config_.at("units").has("hand")) config_.at("units").at("hand").ignore();
+      return;
+    }
+    if (!config_.has("hand")) config_.fail("hand: missing; this robot has none");
+    const ConfigNode hand = config_.at("hand"), sensors = calibration_.at("hand");
+    for (const auto& [name, node] : hand.at("muscles").entries()) {
+      const bool in_model = std::any_of(hardware_.muscles.begin(), hardware_.muscles.end(),
+                                        [&n = name](const auto& m) { return m.name == n; });
+      const std::string ecu_name = node.text("ecu");
+      if (!in_model) {
+        add_muscle(name, ecu_name, "hand", hand.at("controller"), sensors.at("muscles"), node);
+      }
+    }
+    hand.at("controller").ignore();
+    for (const auto& [name, node] : hand.at("touch").entries()) {
+      TouchSensor touch;
+      touch.name = name;
+      touch.ecu = find_ecu(node.text("ecu"), node);
+      touch.input = input(node, touch.ecu);
+      const ConfigNode sensor = sensors.at("touch").at(name);
+      touch.sensor.gain = sensor.number("gain", Bounds::positive(), "N");
+      touch.sensor.threshold = sensor.number("threshold", Bounds::between(0.0, 4095.0), "count");
+      hardware_.touch.push_back(touch);
+    }
+  }
+
+  int input(const ConfigNode& node, int ecu_index) {
+    const int input = node.at("input").as_integer(0, ecu::kAnalogInputs - 1);
+    EcuHardware& ecu = hardware_.ecus[static_cast<std::size_t>(ecu_index)];
+    ecu.analogs = std::max(ecu.analogs, input + 1);
+    return input;
+  }
+
+  void load_joints() {
+    if (!config_.has("joints")) return;
+    for (const auto& [name, node] : config_.at("joints").entries()) {
+      JointSensor joint;
+      joint.joint = name;
+      joint.ecu = find_ecu(node.text("ecu"), node);
+      joint.input = input(node, joint.ecu);
+      joint.sensor = load_linear(calibration_.at("joints").at(name), "rad");
+      hardware_.joints.push_back(joint);
+    }
+  }
+
+  void load_home() {
+    const ConfigNode node = config_.at("home");
+    HomeRoutine& home = hardware_.home;
+    home.pretension = node.number("pretension", Bounds::positive(), "N");
+    home.tolerance = node.number("tolerance", Bounds::positive(), "N");
+    home.force_limit = node.number("force_limit", Bounds::positive(), "N");
+    home.travel_limit = node.number("travel_limit", Bounds::positive(), "rad");
+    home.slip_drop = node.number("slip_drop", Bounds::fraction(), "1");
+    home.settle_time = node.number("settle_time", Bounds::positive(), "s");
+    home.time_limit = node.number("time_limit", Bounds::positive(), "s");
+    if (home.force_limit <= home.pretension) {
+      node.at("force_limit").fail_expected("more than pretension");
+    }
+  }
+
+  /// Units without muscles, such as the hand's when it is off, are not waited for.
+  void finish() {
+    std::vector<EcuHardware> used;
+    std::vector<int> new_index(hardware_.ecus.size(), -1);
+    for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
+      if (hardware_.ecus[e].muscles.empty()) {
+        hardware_.idle_nodes.push_back(hardware_.ecus[e].node);
+        continue;
+      }
+      new_index[e] = static_cast<int>(used.size());
+      used.push_back(hardware_.ecus[e]);
+    }
+    hardware_.ecus = used;
+    for (auto& m : hardware_.muscles) m.ecu = new_index[static_cast<std::size_t>(m.ecu)];
+    for (auto& j : hardware_.joints) j.ecu = new_index[static_cast<std::size_t>(j.ecu)];
+    for (auto& t : hardware_.touch) t.ecu = new_index[static_cast<std::size_t>(t.ecu)];
+    for (EcuHardware& ecu : hardware_.ecus) {
+      std::vector<ecu::ParameterSet> sets;
+      for (const int m : ecu.muscles) {
+        sets.push_back(hardware_.muscles[static_cast<std::size_t>(m)].parameters);
+      }
+      ecu.configuration = ecu::configuration_checksum(sets.data(), static_cast<int>(sets.size()));
+    }
+  }
+
+  ConfigNode config_, model_, calibration_;
+  bool hand_;
+  Hardware hardware_;
+};
+
+}  // namespace
+
+std::vector<ecu::MuscleChannel> Hardware::channels() const {
+  std::vector<ecu::MuscleChannel> channels;
+  for (const MuscleHardware& muscle : muscles) channels.push_back(muscle.limits);
+  return channels;
+}
+
+Hardware load_hardware(const std::string& file, bool hand) {
+  return Loader(file, hand).load();
+}
+
+}  // namespace driver
+}  // namespace anthrob

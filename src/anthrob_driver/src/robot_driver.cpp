@@ -1,0 +1,461 @@
+#include "anthrob_driver/robot_driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "anthrob_config/errors.h"
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+
+using ecu::Function;
+using ecu::Operation;
+
+constexpr double kRetry = 0.05;       // [s] between two enable requests to one ECU
+constexpr double kSilence = 1.0;      // [s] before an unheard ECU is reported
+constexpr double kClearGrace = 0.15;  // [s] until ECUs have cleared their latches
+constexpr int kIdleNode = -2;         // on the bus, but not used
+constexpr int kRepeats = 3;           // cycles in which disable and clear are sent
+
+ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options) {
+  if (!(options.rate >= 100.0 && options.rate <= 1000.0)) {
+    throw BadInput("rate: " + std::to_string(options.rate) +
+                   ": expected 100 to 1000 Hz; ECUs stop after 15 ms without SYNC");
+  }
+  if (!(options.command_timeout > 0.0 && options.command_timeout <= 10.0)) {
+    throw BadInput("command_timeout: " + std::to_string(options.command_timeout) +
+                   ": expected a number above 0, up to 10 s");
+  }
+  ecu::Supervisor::Options result;
+  result.command_timeout = options.command_timeout;
+  result.auto_enable = false;  // hardware never enables itself
+  return result;
+}
+
+}  // namespace
+
+RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
+    : hardware_(std::move(hardware)),
+      options_(options),
+      bus_(bus),
+      watch_(findings_, options.rate),
+      supervisor_(hardware_.channels(), supervisor_options(options)),
+      link_of_node_(ecu::kMaxNode + 1, -1),
+      home_(hardware_) {
+  for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
+    links_.emplace_back(hardware_, static_cast<int>(e), findings_);
+    link_of_node_[static_cast<std::size_t>(hardware_.ecus[e].node)] = static_cast<int>(e);
+  }
+  for (const int node : hardware_.idle_nodes) {
+    link_of_node_[static_cast<std::size_t>(node)] = kIdleNode;
+  }
+  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+    references_.push_back({static_cast<int>(m), ecu::Mode::kVoltage, 0.0});
+  }
+  enabling_.sequence.resize(links_.size());
+  sample_.muscles.resize(hardware_.muscles.size());
+}
+
+// ---- in
+// ------------------------------------------------------------------------------------------
+
+void RobotDriver::receive(const BusEvent& event, double now) {
+  watch_.receive(event, now);
+  if (event.kind == BusEvent::Kind::kEcho) {
+    // The echo says when SYNC was on the wire: that is when the ECUs measured.
+    const bool ours = ecu::function_of(event.frame) == static_cast<int>(Function::kSync) &&
+                      event.frame.data[0] == counter_;
+    if (ours) sync_stamp_ = event.stamp_ns;
+  } else if (event.kind == BusEvent::Kind::kFrame) {
+    if (sync_stamp_ == 0) sync_stamp_ = event.stamp_ns;
+    on_frame(event.frame, now);
+    if (sample_open_ && all_complete()) close_sample(now);
+  }
+}
+
+void RobotDriver::on_frame(const ecu::Frame& frame, double now) {
+  const int index = link_of_node_[static_cast<std::size_t>(ecu::node_of(frame))];
+  const int who = index < 0 ? -1 : index;
+  switch (ecu::inspect(frame)) {
+    case ecu::Reading::kForeign:
+      return findings_.add(Finding::kForeignFrame, who, now);
+    case ecu::Reading::kWrongLength:
+      return findings_.add(Finding::kWrongLength, who, now);
+    case ecu::Reading::kCorrupt:
+      return findings_.add(Finding::kCorruptFrame, who, now);
+    case ecu::Reading::kGood:
+      break;
+  }
+  if (ecu::function_of(frame) == static_cast<int>(Function::kStop)) {
+    // Somebody else on the bus pressed stop.
+    findings_.add(Finding::kStopLatched, -1, now);
+    emergency_stop();
+    return;
+  }
+  if (index == kIdleNode) return;
+  if (index < 0) return findings_.add(Finding::kForeignFrame, -1, now);
+  EcuLink& link = links_[static_cast<std::size_t>(index)];
+  link.receive(frame, now);
+  if (link.take_analog()) keep_analog(link, index);
+}
+
+void RobotDriver::keep_analog(EcuLink& link, int ecu) {
+  const auto& count = link.analog().count;
+  for (std::size_t j = 0; j < hardware_.joints.size(); ++j) {
+    const JointSensor& joint = hardware_.joints[j];
+    if (joint.ecu != ecu) continue;
+    analogs_.push_back(
+        {sync_stamp_, AnalogSample::Kind::kJoint, j, joint.sensor.value(count[joint.input])});
+  }
+  for (std::size_t t = 0; t < hardware_.touch.size(); ++t) {
+    const TouchSensor& touch = hardware_.touch[t];
+    if (touch.ecu != ecu) continue;
+    analogs_.push_back(
+        {sync_stamp_, AnalogSample::Kind::kTouch, t, touch.sensor.force(count[touch.input])});
+  }
+  // Nobody takes them: the newest are worth most.
+  while (analogs_.size() > 64) analogs_.pop_front();
+}
+
+bool RobotDriver::take_sample(Sample& sample) {
+  if (!sample_ready_) return false;
+  sample_ready_ = false;
+  sample = finished_;
+  return true;
+}
+
+bool RobotDriver::take_analog(AnalogSample& sample) {
+  if (analogs_.empty()) return false;
+  sample = analogs_.front();
+  analogs_.pop_front();
+  return true;
+}
+
+// ---- requests
+// ------------------------------------------------------------------------------------
+
+RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
+                                          const std::vector<std::uint8_t>& modes,
+                                          const std::vector<double>& references, double now) {
+  const Outcome outcome = supervisor_.command(names, modes, references, now, accepted_);
+  if (!outcome.accepted) return outcome;
+  if (phase_ != Phase::kEnabled) return {false, "not enabled"};
+  if (home_.running()) return {false, "home is running"};
+  for (const ecu::MuscleReference& reference : accepted_) {
+    references_[static_cast<std::size_t>(reference.muscle)] = reference;
+  }
+  return outcome;
+}
+
+std::string RobotDriver::why_not_enable(double now) const {
+  if (supervisor_.stop_latched()) return "emergency stop is latched: call clear_faults first";
+  if (!watch_.trouble().empty()) return watch_.trouble();
+  for (std::size_t e = 0; e < links_.size(); ++e) {
+    const EcuLink& link = links_[e];
+    const std::string who = link.own().name + ": ";
+    if (supervisor_.ecu_state(e) == ecu::State::kFault) {
+      return who + "is in FAULT: call clear_faults first";
+    }
+    if (!link.heard()) return who + "was never heard; is it switched on?";
+    if (!link.alive(now)) return who + "does not answer";
+    if (!link.configured()) return who + "is being configured; try again in a second";
+    if (link.state() == ecu::State::kFault) {
+      return who + "fault " + ecu::name(link.report().fault) + ": call clear_faults first";
+    }
+    if (link.stop_latched()) return who + "holds an emergency stop: call clear_faults first";
+  }
+  return "";
+}
+
+RobotDriver::Outcome RobotDriver::start_enable(double now) {
+  if (phase_ == Phase::kEnabled) return last_outcome_ = {true, "already enabled"};
+  if (phase_ == Phase::kEnabling) return {true, "enabling"};
+  const std::string reason = why_not_enable(now);
+  if (!reason.empty()) {
+    findings_.add(Finding::kEnableRefused, -1, now, reason);
+    return last_outcome_ = {false, reason};
+  }
+  phase_ = Phase::kEnabling;
+  disable_repeats_ = clear_repeats_ = 0;
+  enabling_.deadline = now + kEnableTimeout;
+  enabling_.retry = now;
+  std::fill(enabling_.sequence.begin(), enabling_.sequence.end(), std::uint8_t{0});
+  for (ecu::MuscleReference& reference : references_) {
+    reference.mode = ecu::Mode::kVoltage;
+    reference.reference = 0.0;
+  }
+  return {true, "enabling"};
+}
+
+void RobotDriver::continue_enable(double now) {
+  const bool retry = now >= enabling_.retry;
+  if (retry) enabling_.retry = now + kRetry;
+  bool all = true;
+  for (std::size_t e = 0; e < links_.size(); ++e) {
+    const EcuLink& link = links_[e];
+    const ecu::StateReport& report = link.report();
+    const bool answered = enabling_.sequence[e] != 0 && report.sequence == enabling_.sequence[e];
+    if (answered && report.refusal != ecu::Refusal::kAccepted) {
+      return finish_enable(false, link.own().name + " refuses: " + ecu::name(report.refusal));
+    }
+    if (answered && report.state == ecu::State::kEnabled) continue;
+    all = false;
+    if (retry) {
+      request(Operation::kEnable, link.own().node, link.own().configuration, report.session);
+      enabling_.sequence[e] = sequence_;
+    }
+    if (now >= enabling_.deadline) {
+      return finish_enable(false, link.own().name + " does not confirm enable");
+    }
+  }
+  if (!all) return;
+  const Outcome outcome = supervisor_.enable(now);
+  finish_enable(outcome.accepted, outcome.reason);
+}
+
+void RobotDriver::finish_enable(bool success, const std::string& reason) {
+  last_outcome_ = {success, reason};
+  if (success) {
+    phase_ = Phase::kEnabled;
+    return;
+  }
+  findings_.add(Finding::kEnableRefused, -1, last_cycle_, reason);
+  disable();
+}
+
+RobotDriver::Outcome RobotDriver::start_home(double now) {
+  if (phase_ != Phase::kEnabled) return {false, "not enabled: call enable first"};
+  if (home_.running()) return {false, "home is running already"};
+  home_.start(now);
+  return {true, "homing"};
+}
+
+RobotDriver::Outcome RobotDriver::disable() {
+  home_.abort("disabled");
+  phase_ = Phase::kDisabled;
+  disable_repeats_ = kRepeats;
+  for (ecu::MuscleReference& reference : references_) {
+    reference.mode = ecu::Mode::kVoltage;
+    reference.reference = 0.0;
+  }
+  request(Operation::kDisable, 0);
+  watch_.sent(bus_.flush(), last_cycle_);
+  return supervisor_.disable();
+}
+
+RobotDriver::Outcome RobotDriver::emergency_stop() {
+  if (phase_ == Phase::kEnabling) last_outcome_ = {false, "emergency stop"};
+  ecu::Frame stop;
+  send(stop);
+  clear_repeats_ = 0;
+  disable();
+  return supervisor_.emergency_stop();
+}
+
+RobotDriver::Outcome RobotDriver::clear_faults(double now) {
+  const Outcome outcome = supervisor_.clear_faults();
+  if (phase_ != Phase::kDisabled) return outcome;
+  findings_.clear();
+  cleared_ = now;
+  disable_repeats_ = 0;
+  clear_repeats_ = kRepeats;
+  return outcome;
+}
+
+// ---- watching
+// ------------------------------------------------------------------------------------
+
+void RobotDriver::stop(Finding finding, int ecu) {
+  if (phase_ == Phase::kDisabled) return;
+  const FindingInfo& what = info(finding);
+  const std::string who = ecu < 0 ? "" : links_[static_cast<std::size_t>(ecu)].own().name + ": ";
+  home_.abort(who + what.meaning);
+  if (phase_ == Phase::kEnabling) finish_enable(false, who + what.meaning);
+  disable();
+  // The unit that failed must be cleared by the user; the others are only disabled.
+  if (ecu >= 0 && finding != Finding::kEcuStopped)
+    supervisor_.fault(links_[static_cast<std::size_t>(ecu)].own().name);
+  last_outcome_ = {false, who + what.meaning};
+}
+
+void RobotDriver::check_bus(double now) {
+  if (cycles_ > 0 && now - last_cycle_ > 2.0 / options_.rate) {
+    findings_.add(Finding::kLateCycle, -1, now);
+  }
+  watch_.cycle(now);
+  Finding finding;
+  if (watch_.take_stop(finding)) stop(finding, -1);
+}
+
+void RobotDriver::check_ecus(double now) {
+  for (std::size_t e = 0; e < links_.size(); ++e) {
+    EcuLink& link = links_[e];
+    const int index = static_cast<int>(e);
+    if (link.take_restart()) stop(Finding::kEcuRestarted, index);
+    if (!link.heard()) {
+      if (now - started_ > kSilence) findings_.add(Finding::kEcuSilent, index, now);
+      continue;
+    }
+    if (link.sample_time() > 0.0 && !link.alive(now)) {
+      findings_.add(Finding::kEcuLost, index, now);
+      stop(Finding::kEcuLost, index);
+      continue;
+    }
+    if (link.state() == ecu::State::kFault) {
+      findings_.add(Finding::kEcuFault, index, now, ecu::name(link.report().fault));
+      stop(Finding::kEcuFault, index);
+    }
+    if (link.stop_latched() && !supervisor_.stop_latched() && now - cleared_ > kClearGrace) {
+      findings_.add(Finding::kStopLatched, index, now);
+      emergency_stop();
+    }
+    if (phase_ == Phase::kEnabled && link.state() != ecu::State::kEnabled) {
+      findings_.add(Finding::kEcuStopped, index, now, ecu::name(link.report().fault));
+      stop(Finding::kEcuStopped, index);
+    }
+    // A late enable from a queue, or from somebody else: nothing may be enabled now.
+    if (phase_ == Phase::kDisabled && link.state() == ecu::State::kEnabled) disable_repeats_ = 1;
+  }
+}
+
+void RobotDriver::continue_home(double now) {
+  if (home_.state() != Home::State::kRunning) return;
+  std::vector<Home::Reading> readings;
+  for (const MuscleSample& muscle : finished_.muscles) {
+    readings.push_back({muscle.position, muscle.force});
+  }
+  home_.step(readings, now);
+  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+    if (!hardware_.muscles[m].parameters.has_force_sensor()) continue;
+    references_[m] = {static_cast<int>(m), ecu::Mode::kForce, home_.reference()};
+  }
+  if (home_.state() == Home::State::kFailed) {
+    findings_.add(Finding::kHomeFailed, -1, now, home_.failure());
+    disable();
+  } else if (home_.state() == Home::State::kReached) {
+    for (const MuscleHardware& muscle : hardware_.muscles) {
+      ecu::ParameterMessage zero;
+      zero.write = true;
+      zero.muscle = static_cast<std::uint8_t>(muscle.channel);
+      zero.index = ecu::kPresentPosition;
+      zero.value = static_cast<float>(muscle.home_position);
+      const EcuHardware& ecu = hardware_.ecus[static_cast<std::size_t>(muscle.ecu)];
+      send(ecu::encode_parameter_request(zero, ecu.node));
+    }
+    home_.finish();
+  }
+}
+
+// ---- out
+// -----------------------------------------------------------------------------------------
+
+void RobotDriver::send(const ecu::Frame& frame) {
+  watch_.sent(bus_.send(frame), last_cycle_);
+}
+
+void RobotDriver::request(Operation operation, int node, std::uint16_t configuration,
+                          std::uint8_t session) {
+  // 0 is what an ECU reports before any request.
+  sequence_ = sequence_ == 255 ? std::uint8_t{1} : static_cast<std::uint8_t>(sequence_ + 1);
+  ecu::Request message;
+  message.operation = operation;
+  message.sequence = sequence_;
+  message.session = session;
+  message.configuration = configuration;
+  send(ecu::encode(message, node));
+}
+
+void RobotDriver::cycle(double now) {
+  if (cycles_ == 0) started_ = now;
+  check_bus(now);
+  last_cycle_ = now;
+  if (watch_.condition() == BusWatch::Condition::kDown) bus_.recover();
+  check_ecus(now);
+  if (supervisor_.update(now)) {
+    findings_.add(Finding::kCommandTimeout, -1, now);
+    // Disabled here; STOPPING is what the ECUs report then, as on the simulator.
+    if (phase_ == Phase::kEnabled) disable();
+  }
+  if (phase_ == Phase::kEnabled) continue_home(now);
+  close_sample(now);
+  ++cycles_;
+  send_cycle(now);
+  if (phase_ == Phase::kEnabling) continue_enable(now);
+  watch_.sent(bus_.flush(), now);
+}
+
+void RobotDriver::send_cycle(double now) {
+  if (supervisor_.stop_latched()) send(ecu::Frame{});
+  ++counter_;
+  for (EcuLink& link : links_) link.start_cycle(counter_, now);
+  sample_open_ = true;
+  sync_stamp_ = 0;
+  sample_.time = now;
+  send(ecu::encode(ecu::Sync{counter_, ecu::kProtocolVersion, phase_ == Phase::kEnabled}));
+  for (EcuLink& link : links_) {
+    if (phase_ == Phase::kDisabled) break;
+    ecu::Reference reference;
+    reference.counter = static_cast<std::uint8_t>(counter_ & 0xF);
+    for (std::size_t c = 0; c < link.own().muscles.size(); ++c) {
+      const auto& wanted = references_[static_cast<std::size_t>(link.own().muscles[c])];
+      reference.mode[c] = wanted.mode;
+      reference.reference[c] = wanted.reference;
+    }
+    send(ecu::encode(reference, link.own().node));
+  }
+  if (disable_repeats_ > 0 && phase_ == Phase::kDisabled) {
+    --disable_repeats_;
+    request(Operation::kDisable, 0);
+  }
+  if (clear_repeats_ > 0) {
+    --clear_repeats_;
+    request(Operation::kClear, 0);
+  }
+  if (phase_ != Phase::kDisabled) return;
+  for (EcuLink& link : links_) {
+    ecu::Frame frame;
+    if (link.next_parameter(now, frame)) send(frame);
+  }
+}
+
+bool RobotDriver::all_complete() const {
+  return std::all_of(links_.begin(), links_.end(),
+                     [](const EcuLink& link) { return link.complete(); });
+}
+
+void RobotDriver::close_sample(double now) {
+  if (!sample_open_) return;
+  sample_open_ = false;
+  bool anything = false;
+  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+    const MuscleHardware& wired = hardware_.muscles[m];
+    const EcuLink& link = links_[static_cast<std::size_t>(wired.ecu)];
+    MuscleSample& muscle = sample_.muscles[m];
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    muscle = {false, nan, nan, nan, nan, nan, 0.0, ecu::Mode::kVoltage, ecu::State::kFault};
+    if (!link.complete()) continue;
+    anything = muscle.measured = true;
+    const ecu::Motion& motion = link.motion(wired.channel);
+    muscle.position = motion.position;
+    muscle.velocity = motion.velocity;
+    muscle.current = motion.current;
+    muscle.voltage = link.effort().voltage[wired.channel];
+    muscle.force = link.effort().force[wired.channel];
+    muscle.mode = references_[m].mode;
+    muscle.reference = references_[m].reference;
+    const bool failed =
+        supervisor_.ecu_state(static_cast<std::size_t>(wired.ecu)) == ecu::State::kFault;
+    muscle.state = failed ? ecu::State::kFault : motion.state;
+  }
+  if (!anything) return;
+  sample_.stamp_ns = sync_stamp_;
+  sample_.round_trip = now - sample_.time;
+  finished_ = sample_;
+  sample_ready_ = true;
+}
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "anthrob_driver/bus/memory_bus.h"
+#include "anthrob_driver/emulation/rack.h"
+#include "anthrob_driver/emulation/tendon_plant.h"
+#include "anthrob_driver/robot_driver.h"
+
+namespace anthrob {
+namespace driver {
+
+/// A driver and seven emulated ECUs on a bus in memory, in simulated time: one call of step() is
+/// one millisecond, the same every time.
+class Rig {
+ public:
+  explicit Rig(bool hand = true, RobotDriver::Options options = RobotDriver::Options{})
+      : hardware(load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", hand)),
+        host(bus.attach()),
+        ecus(bus.attach()),
+        stranger(bus.attach()),
+        plant(hardware.muscles.size(), hardware.joints.size(), hardware.touch.size()),
+        rack(hardware, plant, ecus),
+        driver(hardware, options, host),
+        period_ms(static_cast<int>(std::lround(1000.0 / options.rate))) {}
+
+  double now() const { return 0.001 * ms; }
+  std::int64_t stamp() const { return (1000000 + ms) * std::int64_t{1000000}; }
+
+  /// One millisecond of everybody.
+  void step() {
+    if (driver_runs) listen();
+    if (driver_runs && ms % period_ms == 0) driver.cycle(now());
+    if (commander_runs && ms % 20 == 0) command();
+    bus.deliver(stamp());
+    rack.receive();
+    rack.tick();
+    bus.deliver(stamp());
+    if (driver_runs) listen();
+    ++ms;
+  }
+  void run(int milliseconds) {
+    for (int i = 0; i < milliseconds; ++i) step();
+  }
+  void listen() {
+    BusEvent event;
+    while (host.receive(event)) driver.receive(event, now());
+    Sample sample;
+    while (driver.take_sample(sample)) samples.push_back(sample);
+    AnalogSample analog;
+    while (driver.take_analog(analog)) analogs.push_back(analog);
+  }
+  /// Volts in turn on every muscle, as a controller would send them.
+  void command() {
+    std::vector<std::string> names;
+    for (const MuscleHardware& muscle : hardware.muscles) names.push_back(muscle.name);
+    driver.command(names, std::vector<std::uint8_t>(names.size(), 0),
+                   std::vector<double>(names.size(), volts), now());
+  }
+  /// Until the driver is configured and enabled.
+  bool enable() {
+    driver.start_enable(now());
+    for (int i = 0; i < 300 && driver.phase() == RobotDriver::Phase::kEnabling; ++i) step();
+    return driver.phase() == RobotDriver::Phase::kEnabled;
+  }
+  /// Configured, enabled, all muscles pulling.
+  bool start() {
+    run(1000);
+    if (!enable()) return false;
+    commander_runs = true;
+    run(200);
+    return moving() == static_cast<int>(hardware.muscles.size());
+  }
+  /// Muscles with volts.
+  int moving() const {
+    int count = 0;
+    for (std::size_t m = 0; m < hardware.muscles.size(); ++m) count += plant.voltage(m) != 0.0;
+    return count;
+  }
+
+  Hardware hardware;
+  MemoryBus bus;
+  MemoryBus::Port &host, &ecus, &stranger;
+  TendonPlant plant;
+  Rack rack;
+  RobotDriver driver;
+  int period_ms;
+  std::int64_t ms = 0;
+  bool driver_runs = true, commander_runs = false;
+  double volts = 0.5;  ///< stalls at 143 N
+  std::vector<Sample> samples;
+  std::vector<AnalogSample> analogs;
+};
+
+}  // namespace driver
+}  // namespace anthrob
