@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "anthrob_driver/emulation/plant.h"
+#include "anthrob_driver/hardware.h"
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// The simulator's physics behind emulated ECUs: the boards' volts drive its motors, the boards'
+/// sensors see its true state. Muscles that the model lacks (a hand) stand still.
+class SimulatorPlant final : public driver::Plant {
+ public:
+  /// @throws BadInput if the model's step does not divide a millisecond
+  SimulatorPlant(std::shared_ptr<const RobotModel> model, const driver::Hardware& hardware);
+
+  Muscle muscle(std::size_t muscle) const override;
+  double joint(std::size_t joint) const override;
+  double touch(std::size_t) const override { return 0.0; }
+  void drive(std::size_t muscle, double voltage) override;
+  void advance() override;
+
+  const Simulation& simulation() const { return simulation_; }
+  Simulation& simulation() { return simulation_; }
+
+ private:
+  Simulation simulation_;
+  int steps_;                 ///< of the simulation in a millisecond
+  std::vector<int> muscles_;  ///< of the model, by hardware muscle; -1: none
+  std::vector<int> joints_;
+};
+
+}  // namespace anthrob

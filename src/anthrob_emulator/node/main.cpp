@@ -1,0 +1,122 @@
+// All ECUs of a robot in software on a CAN interface: what `backend:=emulated` starts, and a bench
+// to try adapters and drivers with no robot and no ROS master.
+#include <anthrob_msgs/SphericalJointStates.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "anthrob_driver/emulation/tendon_plant.h"
+#include "anthrob_driver/realtime.h"
+#include "anthrob_emulator/emulator.h"
+#include "anthrob_emulator/simulator_plant.h"
+#include "anthrob_sim/tool/tool.h"
+
+namespace anthrob {
+namespace {
+
+struct Arguments {
+  std::string hardware, model, can = "can0";
+  bool hand = false, realtime = false, ros = false;
+  double rate = 100.0;
+};
+
+/// Stands in for motion capture: ball joints of the simulated robot, as the simulator has them.
+class BallJoints {
+ public:
+  explicit BallJoints(const Simulation& simulation) : simulation_(simulation) {
+    publisher_ = ros::NodeHandle().advertise<anthrob_msgs::SphericalJointStates>(
+        "spherical_joint_states", 10);
+  }
+
+  void publish() {
+    anthrob_msgs::SphericalJointStates states;
+    states.header.stamp = ros::Time::now();
+    const auto& joints = simulation_.model().skeleton->joints;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].type != JointType::kBall) continue;
+      const double* q = &simulation_.configuration()[joints[j].position_offset];
+      const Vec3 w = simulation_.tree().ball_velocity(static_cast<int>(j));
+      geometry_msgs::Quaternion orientation;
+      orientation.w = q[0], orientation.x = q[1], orientation.y = q[2], orientation.z = q[3];
+      geometry_msgs::Vector3 velocity;
+      velocity.x = w.x(), velocity.y = w.y(), velocity.z = w.z();
+      states.name.push_back(joints[j].name);
+      states.orientation.push_back(orientation);
+      states.angular_velocity.push_back(velocity);
+      transforms_.sendTransform(transform(joints[j], states.header.stamp));
+    }
+    publisher_.publish(states);
+  }
+
+ private:
+  geometry_msgs::TransformStamped transform(const JointModel& joint, const ros::Time& stamp) const {
+    const SkeletonModel& skeleton = *simulation_.model().skeleton;
+    const Pose X_PC = simulation_.link_pose(skeleton.find_frame(joint.parent_link)).inverse() *
+                      simulation_.link_pose(skeleton.find_frame(joint.child_link));
+    const Quat q = canonical(Quat(X_PC.R));
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = stamp;
+    transform.header.frame_id = joint.parent_link;
+    transform.child_frame_id = joint.child_link;
+    auto& t = transform.transform;
+    t.translation.x = X_PC.p.x(), t.translation.y = X_PC.p.y(), t.translation.z = X_PC.p.z();
+    t.rotation.w = q.w(), t.rotation.x = q.x(), t.rotation.y = q.y(), t.rotation.z = q.z();
+    return transform;
+  }
+
+  const Simulation& simulation_;
+  ros::Publisher publisher_;
+  tf2_ros::TransformBroadcaster transforms_;
+};
+
+int run(const Arguments& arguments) {
+  const driver::Hardware hardware = driver::load_hardware(arguments.hardware, arguments.hand);
+  std::unique_ptr<driver::Plant> plant;
+  std::unique_ptr<BallJoints> balls;
+  if (arguments.model.empty()) {
+    plant = std::make_unique<driver::TendonPlant>(hardware.muscles.size(), hardware.joints.size(),
+                                                  hardware.touch.size());
+  } else {
+    auto simulated = std::make_unique<SimulatorPlant>(load_robot_model(arguments.model), hardware);
+    if (arguments.ros) balls = std::make_unique<BallJoints>(simulated->simulation());
+    plant = std::move(simulated);
+  }
+  driver::SocketCanBus bus(arguments.can);
+  driver::Rack rack(hardware, *plant, bus);
+  if (arguments.realtime) {
+    const std::string refused = driver::become_realtime(50);
+    if (!refused.empty()) std::cerr << "anthrob_emulator: " << refused << "\n";
+  }
+  const int ticks_per_message = std::max(1, static_cast<int>(1000.0 / arguments.rate));
+  int tick = 0;
+  const auto each_tick = [&] {
+    if (balls && ++tick % ticks_per_message == 0) balls->publish();
+  };
+  const auto quit = [&] { return tool::interrupted() || (arguments.ros && !ros::ok()); };
+  Emulator(rack, bus).run(quit, each_tick);
+  return tool::kDone;
+}
+
+}  // namespace
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "emulated_ecus", ros::init_options::NoSigintHandler);
+  anthrob::Arguments arguments;
+  CLI::App app("Emulated ECUs of a robot on a CAN interface", "anthrob_emulator");
+  app.add_option("--hardware", arguments.hardware, "hardware.yaml of the robot")->required();
+  app.add_option("--model", arguments.model,
+                 "model file: the simulator's physics; without, a bench of motors and springs");
+  app.add_option("--can", arguments.can, "CAN interface")->capture_default_str();
+  app.add_option("--rate", arguments.rate, "[Hz] of spherical_joint_states")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1000.0));
+  app.add_flag("--hand", arguments.hand, "with the hand's muscles");
+  app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
+  app.add_flag("--ros", arguments.ros, "publish the ball joints, as motion capture would");
+  return anthrob::tool::run(app, argc, argv, [&] { return anthrob::run(arguments); });
+}
