@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# usage: scripts/with_vcan.sh COMMAND [ARGUMENT...]
+# Runs a command where the virtual CAN interface vcan0 exists, and exits with its status.
+#
+# On the host if its kernel has vcan and we may set it up (or vcan0 is up already). Otherwise in user-mode Linux
+# (Debian package user-mode-linux): a kernel that runs as a process, sees this machine's files read-only except the
+# folder named by ANTHROB_VCAN_OUT (default: a new one under /tmp), and has no network but its own loopback.
+set -u
+[ $# -gt 0 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
+
+host_has_vcan() {
+  ip link show vcan0 2>/dev/null | grep -q 'UP' && return 0
+  [ "$(id -u)" -eq 0 ] || return 1
+  modprobe vcan 2>/dev/null
+  ip link add dev vcan0 type vcan 2>/dev/null && ip link set vcan0 up 2>/dev/null
+}
+
+if [ "${ANTHROB_VCAN:-auto}" != uml ] && host_has_vcan; then
+  export ANTHROB_VCAN_ON="native vcan, Linux $(uname -r)"
+  exec "$@"
+fi
+command -v linux.uml >/dev/null ||
+  { echo "with_vcan.sh: this kernel has no vcan and linux.uml is missing: apt-get install user-mode-linux" >&2; exit 1; }
+
+out="${ANTHROB_VCAN_OUT:-$(mktemp -d /tmp/vcan.XXXXXX)}"
+mkdir -p "$out" || exit 1
+script="$(mktemp /tmp/vcan_init.XXXXXX)"
+status="$out/.status"
+rm -f "$status"
+
+# What the little kernel runs as its init: set up, then the command in our environment and folder.
+{
+  cat <<'INIT'
+#!/bin/bash
+export PATH=/usr/local/sbin:/usr/sbin:/usr/bin:/sbin:/bin
+mount -t proc proc /proc
+mount -t sysfs sys /sys
+mount -t tmpfs -o size=64m tmpfs /run
+mount -t tmpfs -o size=64m tmpfs /dev/shm 2>/dev/null
+modules=/usr/lib/uml/modules/$(uname -r)/kernel
+for module in net/can/can net/can/can-raw drivers/net/can/dev/can-dev drivers/net/can/vcan; do
+  [ -f "$modules/$module.ko" ] && insmod "$modules/$module.ko"
+done
+ip link set lo up
+ip link add dev vcan0 type vcan && ip link set vcan0 txqueuelen 1000 up || echo "with_vcan.sh: no vcan0 in user-mode Linux" >&2
+INIT
+  export -p
+  echo "export HOME=$(printf %q "$out") ROS_LOG_DIR=$(printf %q "$out/ros_log") ROS_MASTER_URI=http://localhost:11311"
+  echo 'unset ROS_IP; export ROS_HOSTNAME=localhost ANTHROB_VCAN_ON="vcan in user-mode Linux $(uname -r), one processor"'
+  printf 'cd %q\n' "$PWD"
+  printf '%q ' "$@"
+  printf '\necho $? > %q\nsync\nhalt -f\n' "$status"
+} >"$script"
+chmod +x "$script"
+
+# In a process group of its own and in the background, so that a signal gets through and ends all of it.
+exec 3> >(tr -d '\r' | sed -u '/^Halting\.$/d; /reboot: System halted$/d')
+TMPDIR=/tmp setsid linux.uml mem="${ANTHROB_VCAN_MEMORY:-768M}" rootfstype=hostfs rootflags=/ rw "init=$script" \
+  con=null con0=null,fd:1 quiet loglevel=0 </dev/null 2>"$out/.kernel" >&3 &
+uml=$!
+trap 'kill -KILL -- -$uml 2>/dev/null; rm -f "$script"' EXIT
+trap 'exit 143' TERM INT
+wait "$uml"
+exec 3>&-
+if [ -f "$status" ]; then
+  exit "$(cat "$status")"
+fi
+echo "with_vcan.sh: the command did not end; messages of the kernel: $out/.kernel" >&2
+exit 1
