@@ -3,8 +3,9 @@
 # Runs a command where the virtual CAN interface vcan0 exists, and exits with its status.
 #
 # On the host if its kernel has vcan and we may set it up (or vcan0 is up already). Otherwise in user-mode Linux
-# (Debian package user-mode-linux): a kernel that runs as a process, sees this machine's files read-only except the
-# folder named by ANTHROB_VCAN_OUT (default: a new one under /tmp), and has no network but its own loopback.
+# (Debian package user-mode-linux): a kernel that runs as a process, sees and writes this machine's files and has no
+# network but its own loopback. ANTHROB_VCAN=uml: there in any case. ANTHROB_VCAN_OUT: folder for HOME and logs there
+# (default: a new one under /tmp).
 set -u
 [ $# -gt 0 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 

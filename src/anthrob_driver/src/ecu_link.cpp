@@ -54,8 +54,7 @@ void EcuLink::receive(const ecu::Frame& frame, double now) {
       health_ = ecu::decode_health(frame);
       break;
     default:
-      // A frame that only the host may send.
-      findings_.add(Finding::kForeignFrame, index_, now);
+      break;  // only a host sends those
   }
 }
 

@@ -231,6 +231,7 @@ class Loader {
     home.pretension = node.number("pretension", Bounds::positive(), "N");
     home.tolerance = node.number("tolerance", Bounds::positive(), "N");
     home.force_limit = node.number("force_limit", Bounds::positive(), "N");
+    home.wind_speed = node.number("wind_speed", Bounds::positive(), "rad/s");
     home.travel_limit = node.number("travel_limit", Bounds::positive(), "rad");
     home.slip_drop = node.number("slip_drop", Bounds::fraction(), "1");
     home.settle_time = node.number("settle_time", Bounds::positive(), "s");

@@ -1,6 +1,5 @@
 #include "anthrob_driver/home.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -32,23 +31,33 @@ void Home::abort(const std::string& reason) {
 
 std::string Home::check(const Reading& reading, Tendon& tendon) const {
   const HomeRoutine& limits = hardware_.home;
-  tendon.highest = std::max(tendon.highest, reading.force);
+  const double pretension = limits.pretension;
   if (reading.force > limits.force_limit) {
     return text("%.1f N, more than %.1f N: unwind it by hand", reading.force, limits.force_limit);
   }
   const double wound = reading.position - tendon.start;
-  const bool tight = reading.force > 0.5 * limits.pretension;
-  if (wound > limits.travel_limit && !tight) {
+  const bool grips = reading.force > 0.5 * pretension;
+  if (wound > limits.travel_limit && !grips) {
     return text("wound in by %.2f rad and only %.1f N: the tendon is broken or off its pulley",
                 wound, reading.force);
   }
-  // It held once and then let go.
-  const bool held = tendon.highest > 0.8 * limits.pretension;
-  if (held && reading.force < (1.0 - limits.slip_drop) * tendon.highest - limits.tolerance) {
-    return text("held %.1f N, now %.1f N: the tendon slips or broke", tendon.highest,
-                reading.force);
+  tendon.gripped = tendon.gripped || grips;
+  tendon.held = tendon.held || reading.force > 0.8 * pretension;
+  if (tendon.held && reading.force < (1.0 - limits.slip_drop) * pretension) {
+    return text("held %.1f N, now %.1f N: the tendon slips or broke", pretension, reading.force);
   }
   return "";
+}
+
+ecu::MuscleReference Home::command(std::size_t muscle, double now) const {
+  const int index = static_cast<int>(muscle);
+  if (!begun_ || !hardware_.muscles[muscle].parameters.has_force_sensor()) {
+    return {index, ecu::Mode::kVoltage, 0.0};
+  }
+  // Force control from slack on would race through the slack and overshoot.
+  const Tendon& tendon = tendons_[muscle];
+  if (tendon.gripped) return {index, ecu::Mode::kForce, hardware_.home.pretension};
+  return {index, ecu::Mode::kPosition, tendon.start + hardware_.home.wind_speed * (now - started_)};
 }
 
 void Home::step(const std::vector<Reading>& readings, double now) {

@@ -95,6 +95,11 @@ void RobotDriver::on_frame(const ecu::Frame& frame, double now) {
     emergency_stop();
     return;
   }
+  if (ecu::function_of(frame) <= static_cast<int>(Function::kReference) ||
+      ecu::function_of(frame) == static_cast<int>(Function::kParameterRequest)) {
+    findings_.add(Finding::kSecondHost, -1, now);
+    return stop(Finding::kSecondHost, -1);
+  }
   if (index == kIdleNode) return;
   if (index < 0) return findings_.add(Finding::kForeignFrame, -1, now);
   EcuLink& link = links_[static_cast<std::size_t>(index)];
@@ -329,8 +334,7 @@ void RobotDriver::continue_home(double now) {
   }
   home_.step(readings, now);
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
-    if (!hardware_.muscles[m].parameters.has_force_sensor()) continue;
-    references_[m] = {static_cast<int>(m), ecu::Mode::kForce, home_.reference()};
+    references_[m] = home_.command(m, now);
   }
   if (home_.state() == Home::State::kFailed) {
     findings_.add(Finding::kHomeFailed, -1, now, home_.failure());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,23 +17,34 @@ namespace driver {
 /// one millisecond, the same every time.
 class Rig {
  public:
-  explicit Rig(bool hand = true, RobotDriver::Options options = RobotDriver::Options{})
+  explicit Rig(bool hand = true, const RobotDriver::Options& options = RobotDriver::Options{})
       : hardware(load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", hand)),
         host(bus.attach()),
         ecus(bus.attach()),
         stranger(bus.attach()),
         plant(hardware.muscles.size(), hardware.joints.size(), hardware.touch.size()),
         rack(hardware, plant, ecus),
-        driver(hardware, options, host),
-        period_ms(static_cast<int>(std::lround(1000.0 / options.rate))) {}
+        driver_options(options),
+        period_ms(static_cast<int>(std::lround(1000.0 / options.rate))),
+        volts(hardware.muscles.size(), 0.5),
+        driver_(std::make_unique<RobotDriver>(hardware, options, host)) {}
 
   double now() const { return 0.001 * ms; }
-  std::int64_t stamp() const { return (1000000 + ms) * std::int64_t{1000000}; }
+  std::int64_t stamp() const {
+    return (1000000 + ms + 1000 * clock_offset_s) * std::int64_t{1000000};
+  }
+
+  RobotDriver& driver() { return *driver_; }
+  /// As after kill -9 and a new start.
+  void restart_driver() {
+    driver_ = std::make_unique<RobotDriver>(hardware, driver_options, host);
+    driver_runs = true;
+  }
 
   /// One millisecond of everybody.
   void step() {
     if (driver_runs) listen();
-    if (driver_runs && ms % period_ms == 0) driver.cycle(now());
+    if (driver_runs && ms % period_ms == 0) driver().cycle(now());
     if (commander_runs && ms % 20 == 0) command();
     bus.deliver(stamp());
     rack.receive();
@@ -46,24 +58,23 @@ class Rig {
   }
   void listen() {
     BusEvent event;
-    while (host.receive(event)) driver.receive(event, now());
+    while (host.receive(event)) driver().receive(event, now());
     Sample sample;
-    while (driver.take_sample(sample)) samples.push_back(sample);
+    while (driver().take_sample(sample)) samples.push_back(sample);
     AnalogSample analog;
-    while (driver.take_analog(analog)) analogs.push_back(analog);
+    while (driver().take_analog(analog)) analogs.push_back(analog);
   }
   /// Volts in turn on every muscle, as a controller would send them.
   void command() {
     std::vector<std::string> names;
     for (const MuscleHardware& muscle : hardware.muscles) names.push_back(muscle.name);
-    driver.command(names, std::vector<std::uint8_t>(names.size(), 0),
-                   std::vector<double>(names.size(), volts), now());
+    driver().command(names, std::vector<std::uint8_t>(names.size(), 0), volts, now());
   }
   /// Until the driver is configured and enabled.
   bool enable() {
-    driver.start_enable(now());
-    for (int i = 0; i < 300 && driver.phase() == RobotDriver::Phase::kEnabling; ++i) step();
-    return driver.phase() == RobotDriver::Phase::kEnabled;
+    driver().start_enable(now());
+    for (int i = 0; i < 300 && driver().phase() == RobotDriver::Phase::kEnabling; ++i) step();
+    return driver().phase() == RobotDriver::Phase::kEnabled;
   }
   /// Configured, enabled, all muscles pulling.
   bool start() {
@@ -85,13 +96,17 @@ class Rig {
   MemoryBus::Port &host, &ecus, &stranger;
   TendonPlant plant;
   Rack rack;
-  RobotDriver driver;
+  RobotDriver::Options driver_options;
   int period_ms;
   std::int64_t ms = 0;
   bool driver_runs = true, commander_runs = false;
-  double volts = 0.5;  ///< stalls at 143 N
+  std::vector<double> volts;        ///< by muscle; 0.5 V stall at 143 N
+  std::int64_t clock_offset_s = 0;  ///< somebody set the wall clock
   std::vector<Sample> samples;
   std::vector<AnalogSample> analogs;
+
+ private:
+  std::unique_ptr<RobotDriver> driver_;
 };
 
 }  // namespace driver

@@ -17,7 +17,7 @@ TEST(RobotDriver, ConfiguresEveryEcuAndReadsItBack) {
   rig.run(1000);
   ASSERT_EQ(rig.rack.size(), 7u);
   for (std::size_t e = 0; e < 7; ++e) {
-    EXPECT_TRUE(rig.driver.link(e).configured()) << e;
+    EXPECT_TRUE(rig.driver().link(e).configured()) << e;
     for (std::size_t c = 0; c < rig.hardware.ecus[e].muscles.size(); ++c) {
       const auto muscle = static_cast<std::size_t>(rig.hardware.ecus[e].muscles[c]);
       const auto& held = rig.rack.board(e).firmware().channel(static_cast<int>(c)).parameters;
@@ -40,7 +40,7 @@ TEST(RobotDriver, NothingMovesBeforeEnable) {
 
 TEST(RobotDriver, EnablesAndMovesAllMuscles) {
   Rig rig;
-  ASSERT_TRUE(rig.start()) << rig.driver.last_outcome().reason;
+  ASSERT_TRUE(rig.start()) << rig.driver().last_outcome().reason;
   rig.run(3000);
   const Sample& sample = rig.samples.back();
   ASSERT_EQ(sample.muscles.size(), 13u);

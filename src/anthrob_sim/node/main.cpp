@@ -27,7 +27,13 @@ int main(int argc, char** argv) {
     }
     const auto model = anthrob::load_robot_model(file, load);
     for (const std::string& remark : model->remarks) ROS_WARN_STREAM(remark);
-    anthrob::SimulatorNode(model, options, nh).run();
+    anthrob::SimulatorNode node(model, options, nh);
+    const std::string other = node.other_backend();
+    if (!other.empty()) {
+      throw anthrob::BadInput(nh.resolveName("muscle_states") + ": " + other +
+                              " publishes it already; stop that back end first");
+    }
+    node.run();
   } catch (const anthrob::BadInput& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <thread>
 
+#include "anthrob_ros/diagnostics.h"
+#include "anthrob_ros/single_backend.h"
 #include "conversions.h"
 
 namespace anthrob {
@@ -13,18 +15,6 @@ namespace anthrob {
 namespace {
 
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
-
-diagnostic_msgs::KeyValue key_value(const std::string& key, const std::string& value) {
-  diagnostic_msgs::KeyValue kv;
-  kv.key = key, kv.value = value;
-  return kv;
-}
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof(buffer), "%.3f", value);
-  return buffer;
-}
 
 void answer(const ecu::Supervisor::Outcome& outcome, std_srvs::Trigger::Response& response) {
   response.success = outcome.accepted;
@@ -391,6 +381,10 @@ void SimulatorNode::pace() {
     deadline_ = now;
   }
   std::this_thread::sleep_until(deadline_);
+}
+
+std::string SimulatorNode::other_backend() const {
+  return other_publisher(muscles_);
 }
 
 void SimulatorNode::run() {

@@ -17,6 +17,7 @@ enum class Finding : std::uint8_t {
   kQueueFull,
   kReceiveOverrun,
   kBusFlooded,
+  kSecondHost,
   kForeignFrame,
   kCorruptFrame,
   kWrongLength,
@@ -35,7 +36,7 @@ enum class Finding : std::uint8_t {
   kCommandTimeout,
   kHomeFailed,
 };
-constexpr int kFindingCount = 25;
+constexpr int kFindingCount = 26;
 
 struct FindingInfo {
   Finding finding;

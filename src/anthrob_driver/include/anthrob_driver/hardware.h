@@ -49,8 +49,9 @@ struct HomeRoutine {
   double pretension = 5.0;    ///< [N]
   double tolerance = 1.0;     ///< [N] for "reached"
   double force_limit = 20.0;  ///< [N] more than this on any tendon aborts
+  double wind_speed = 1.0;    ///< [rad/s] until a tendon grips
   double travel_limit = 6.0;  ///< [rad] wound in without reaching it: broken or slack
-  double slip_drop = 0.5;     ///< [1] share of the tension lost at once: slipped
+  double slip_drop = 0.5;     ///< [1] share of the pretension lost after it was held: slipped
   double settle_time = 1.0;   ///< [s] all within tolerance
   double time_limit = 15.0;   ///< [s]
 };

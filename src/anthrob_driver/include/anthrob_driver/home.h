@@ -8,9 +8,9 @@
 namespace anthrob {
 namespace driver {
 
-/// Brings all tendons to a common tension by force control, watches for those that are broken,
-/// slack or slip, and then declares this posture the zero. Muscles without force sensor are left
-/// alone.
+/// Winds all tendons in slowly until they grip, brings them to a common tension by force control,
+/// watches for those that are broken, slack or slip, and then declares this posture the zero.
+/// Muscles without force sensor are left alone.
 class Home {
  public:
   struct Reading {
@@ -31,11 +31,14 @@ class Home {
   bool running() const { return state_ == State::kRunning || state_ == State::kReached; }
   /// Empty after success.
   const std::string& failure() const { return failure_; }
-  double reference() const { return hardware_.home.pretension; }
+  /// What a muscle is to do in this cycle.
+  ecu::MuscleReference command(std::size_t muscle, double now) const;
 
  private:
   struct Tendon {
-    double start = 0.0, highest = 0.0;
+    double start = 0.0;    ///< [rad]
+    bool gripped = false;  ///< was seen at half the pretension
+    bool held = false;     ///< was seen near the pretension
   };
   std::string check(const Reading& reading, Tendon& tendon) const;
 

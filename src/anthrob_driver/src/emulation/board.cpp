@@ -32,13 +32,23 @@ bool Board::next_frame(ecu::Frame& frame) {
   return powered_ && !frozen_ && !peripherals.bus_off && firmware_.next_frame(frame);
 }
 
+void Board::boot() {
+  ++wiring_.session;
+  firmware_ = ecu::Firmware(wiring_);
+}
+
 void Board::set_power(bool on) {
   if (on && !powered_) {
-    ++wiring_.session;
-    firmware_ = ecu::Firmware(wiring_);
+    boot();
     frozen_ = false;
   }
   powered_ = on;
+}
+
+void Board::freeze(bool frozen) {
+  // A processor that did not feed its watchdog was reset by it.
+  if (frozen_ && !frozen && unfed_ >= kHardwareWatchdog) boot();
+  frozen_ = frozen;
 }
 
 ecu::Readings Board::read(const Plant& plant) const {

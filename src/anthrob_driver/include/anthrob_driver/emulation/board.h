@@ -8,7 +8,8 @@ namespace anthrob {
 namespace driver {
 
 /// An emulated circuit board: processor with firmware, converters that make counts of the plant's
-/// truth, power stages, and the watchdog in hardware that drops them when ticks stop.
+/// truth, power stages, and the watchdog in hardware that drops them and resets the processor when
+/// ticks stop.
 class Board {
  public:
   /// [ticks] the hardware watchdog waits
@@ -24,7 +25,7 @@ class Board {
   bool next_frame(ecu::Frame& frame);
 
   /// The processor stops in the middle of everything: no ticks, no frames.
-  void freeze(bool frozen) { frozen_ = frozen; }
+  void freeze(bool frozen);
   /// Off: as if unplugged. On: boots anew, with another session, all forgotten.
   void set_power(bool on);
   bool powered() const { return powered_; }
@@ -40,6 +41,7 @@ class Board {
 
  private:
   ecu::Readings read(const Plant& plant) const;
+  void boot();
 
   const Hardware& hardware_;
   int ecu_;

@@ -1,0 +1,114 @@
+#include "anthrob_driver/hardware.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "anthrob_config/errors.h"
+
+namespace anthrob {
+namespace driver {
+namespace {
+
+namespace fs = std::filesystem;
+using ecu::Parameter;
+
+const fs::path kConfig = ANTHROB_CONFIG_DIR "/anthrob";
+
+TEST(Hardware, AnthrobWithAndWithoutHand) {
+  const Hardware arm = load_hardware(kConfig / "hardware.yaml", false);
+  EXPECT_EQ(arm.muscles.size(), 11u);
+  EXPECT_EQ(arm.ecus.size(), 6u);
+  EXPECT_EQ(arm.idle_nodes, std::vector<int>{7});
+  EXPECT_TRUE(arm.touch.empty());
+  const Hardware all = load_hardware(kConfig / "hardware.yaml", true);
+  EXPECT_EQ(all.muscles.size(), 13u);
+  EXPECT_EQ(all.ecus.size(), 7u);
+  EXPECT_EQ(all.touch.size(), 4u);
+  EXPECT_EQ(all.muscles[12].name, "hand_antagonist");
+  EXPECT_FALSE(all.muscles[12].parameters.has_force_sensor());
+  EXPECT_FALSE(all.muscles[12].limits.modes[3]);
+}
+
+TEST(Hardware, GainsAndLimitsAreTheModels) {
+  const Hardware arm = load_hardware(kConfig / "hardware.yaml", false);
+  const MuscleHardware& triceps = arm.muscles[9];
+  EXPECT_EQ(triceps.name, "triceps_brachii");
+  EXPECT_FLOAT_EQ(static_cast<float>(triceps.parameters.get(Parameter::kPositionProportional)),
+                  1.4323945f);
+  EXPECT_EQ(triceps.limits.highest[3], 100.0);
+  EXPECT_EQ(arm.ecus[static_cast<std::size_t>(triceps.ecu)].name, "ecu_5");
+  EXPECT_EQ(triceps.channel, 1);
+}
+
+/// Anthrob's files with one text replaced.
+std::string error_of(const std::string& file, const std::string& from, const std::string& to) {
+  const fs::path folder = fs::temp_directory_path() / "anthrob_hardware_test";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  for (const char* name : {"hardware.yaml", "sensors.yaml", "model_I.yaml", "model_II.yaml"}) {
+    std::ifstream in(kConfig / name);
+    std::stringstream text;
+    text << in.rdbuf();
+    std::string content = text.str();
+    if (name == file) {
+      const auto at = content.find(from);
+      EXPECT_NE(at, std::string::npos) << from;
+      content.replace(at, from.size(), to);
+    }
+    std::ofstream(folder / name) << content;
+  }
+  try {
+    load_hardware(folder / "hardware.yaml", true);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
+  struct Case {
+    const char *file, *from, *to, *expected;
+  };
+  const Case cases[] = {
+      {"hardware.yaml", "ecu_1: {node: 1}", "ecu_1: {node: 0}", "ecus.ecu_1.node"},
+      {"hardware.yaml", "ecu_2: {node: 2}", "ecu_2: {node: 1}", "another ECU has this node"},
+      {"hardware.yaml", "current_limit: 16.0", "current_limit: 160.0",
+       "units.type_1.current_limit"},
+      {"hardware.yaml", "current_limit: 16.0", "curent_limit: 16.0", "current_limit"},
+      {"hardware.yaml", "filter_order: 60", "filter_order: 61", "filter_order"},
+      {"hardware.yaml", "force_limit: 20.0", "force_limit: 2.0", "home.force_limit"},
+      {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_9}", "ecu_9"},
+      {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_1}",
+       "already has 2"},
+      {"hardware.yaml", "pretension: 5.0", "pretension: -5.0", "home.pretension"},
+      {"sensors.yaml", "gain: 0.06", "gain: -0.06", "lateral_deltoid.force.gain"},
+      {"sensors.yaml", "offset: 400", "offset: 5000", "offset"},
+      {"sensors.yaml", "threshold: 20", "threshold: nan", "threshold"},
+      {"sensors.yaml", "elbow:", "knee:", "elbow"},
+  };
+  for (const Case& c : cases) {
+    const std::string error = error_of(c.file, c.from, c.to);
+    EXPECT_NE(error.find(c.expected), std::string::npos) << c.to << " gave: " << error;
+    EXPECT_NE(error.find(".yaml:"), std::string::npos) << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  }
+}
+
+TEST(Calibration, CountsAndValuesAreInverse) {
+  const LinearSensor gauge{0.06, 400.0};
+  for (const double force : {0.0, 5.0, 123.4, 221.0}) {
+    EXPECT_NEAR(gauge.value(gauge.count(force)), force, 0.031);
+  }
+  const ForceSensitiveResistor pad{5.0, 20.0};
+  for (const double force : {0.0, 0.5, 5.0, 50.0}) {
+    EXPECT_NEAR(pad.force(pad.count(force)), force, 0.01 * force + 0.01);
+  }
+  EXPECT_EQ(pad.force(19), 0.0);
+}
+
+}  // namespace
+}  // namespace driver
+}  // namespace anthrob

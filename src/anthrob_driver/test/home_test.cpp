@@ -1,0 +1,98 @@
+#include "anthrob_driver/home.h"
+
+#include <gtest/gtest.h>
+
+#include "rig.h"
+
+namespace anthrob {
+namespace driver {
+namespace {
+
+/// An enabled robot whose tendons get tight a little after the start.
+class HomeTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (std::size_t m = 0; m < rig.hardware.muscles.size(); ++m) rig.plant.slacken(m, 1.0);
+    rig.run(1000);
+    ASSERT_TRUE(rig.enable());
+  }
+  void home() {
+    ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+    for (int ms = 0; ms < 30000 && rig.driver().home().running(); ++ms) {
+      rig.step();
+      for (std::size_t m = 0; m < 11; ++m) {
+        highest = std::max(highest, rig.plant.muscle(m).force);
+      }
+      if (ms == 8000 && sabotage) sabotage();
+    }
+  }
+  std::string failure() { return rig.driver().home().failure(); }
+
+  Rig rig;
+  double highest = 0.0;
+  std::function<void()> sabotage;
+};
+
+TEST_F(HomeTest, TensionsAllAndSetsZero) {
+  home();
+  EXPECT_EQ(failure(), "");
+  rig.run(50);
+  for (std::size_t m = 0; m < 11; ++m) {
+    EXPECT_NEAR(rig.plant.muscle(m).force, 5.0, 1.1);
+    EXPECT_GT(rig.plant.muscle(m).position, 1.0);
+    EXPECT_NEAR(rig.samples.back().muscles[m].position, 0.0, 0.05);
+  }
+  EXPECT_LT(highest, 20.0);
+  // The hand has no force sensors and stays as it is.
+  EXPECT_EQ(rig.plant.voltage(12), 0.0);
+}
+
+TEST_F(HomeTest, NamesABrokenTendonAndStops) {
+  rig.plant.cut(3);
+  home();
+  EXPECT_NE(failure().find("supraspinatus"), std::string::npos) << failure();
+  EXPECT_NE(failure().find("broken"), std::string::npos) << failure();
+  rig.run(20);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
+}
+
+TEST_F(HomeTest, NamesATendonThatSlips) {
+  for (std::size_t m = 0; m < 11; ++m) rig.plant.slacken(m, 0.3);
+  rig.plant.slacken(9, 3.0);  // keeps the others waiting
+  sabotage = [this] { rig.plant.slacken(7, 9.0); };
+  const_cast<HomeRoutine&>(rig.driver().hardware().home).settle_time = 15.0;
+  home();
+  EXPECT_NE(failure().find("pectoralis_major"), std::string::npos) << failure();
+  EXPECT_NE(failure().find("slips"), std::string::npos) << failure();
+}
+
+TEST_F(HomeTest, AJammedMotorIsAFaultOfItsEcu) {
+  rig.plant.jam(5);
+  home();
+  // Its encoder stands still under volts: the ECU finds that first.
+  EXPECT_NE(failure().find("ecu_3"), std::string::npos) << failure();
+}
+
+TEST_F(HomeTest, AnEmergencyStopEndsIt) {
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  rig.run(500);
+  EXPECT_GT(rig.moving(), 0);
+  rig.driver().emergency_stop();
+  rig.run(3);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_FALSE(rig.driver().home().running());
+  rig.run(1000);
+  EXPECT_EQ(rig.moving(), 0);
+}
+
+TEST_F(HomeTest, CommandsAreRefusedMeanwhile) {
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  const auto outcome = rig.driver().command({"brachialis"}, {0}, {1.0}, rig.now());
+  EXPECT_FALSE(outcome.accepted);
+  EXPECT_EQ(outcome.reason, "home is running");
+}
+
+}  // namespace
+}  // namespace driver
+}  // namespace anthrob

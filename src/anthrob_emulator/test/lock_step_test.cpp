@@ -1,0 +1,128 @@
+// The same commands to the simulator and to driver + bus + seven emulated ECUs on the same physics,
+// in lock-step: the equilibria must agree within one count of each sensor.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "anthrob_driver/bus/memory_bus.h"
+#include "anthrob_driver/emulation/rack.h"
+#include "anthrob_driver/robot_driver.h"
+#include "anthrob_emulator/simulator_plant.h"
+
+namespace anthrob {
+namespace {
+
+const char* const kModel = ANTHROB_CONFIG_DIR "/anthrob/model_II.yaml";
+const char* const kHardware = ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml";
+
+using References = std::map<std::string, double>;  // [rad]
+
+const References kReach = {
+    {"lateral_deltoid", 6.0},  {"anterior_deltoid", 3.0}, {"posterior_deltoid", 1.0},
+    {"supraspinatus", 3.0},    {"infraspinatus", 0.5},    {"teres_minor", -0.5},
+    {"teres_major", -1.0},     {"pectoralis_major", 0.0}, {"biceps_brachii", 4.0},
+    {"triceps_brachii", -2.0}, {"brachialis", 3.0},
+};
+
+/// What both ends say at the end.
+struct Outcome {
+  std::vector<double> position, force, volts;
+  std::vector<double> q;
+};
+
+Outcome simulate(const References& references, int milliseconds) {
+  Simulation sim(load_robot_model(kModel));
+  for (const auto& [name, value] : references) {
+    sim.command(sim.model().find_muscle(name), ecu::Mode::kPosition, value);
+  }
+  sim.step(milliseconds);
+  Outcome outcome;
+  for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
+    const ecu::Measurement& measured = sim.muscle(static_cast<int>(i)).measured();
+    outcome.position.push_back(measured.position);
+    outcome.force.push_back(measured.force);
+    outcome.volts.push_back(sim.muscle(static_cast<int>(i)).voltage());
+  }
+  outcome.q = sim.configuration();
+  return outcome;
+}
+
+/// Driver, bus and ECUs around the simulator's physics, a millisecond at a time.
+Outcome emulate(const References& references, int milliseconds) {
+  const driver::Hardware hardware = driver::load_hardware(kHardware, false);
+  SimulatorPlant plant(load_robot_model(kModel), hardware);
+  driver::MemoryBus bus;
+  driver::MemoryBus::Port &host = bus.attach(), &ecus = bus.attach();
+  driver::Rack rack(hardware, plant, ecus);
+  driver::RobotDriver robot(hardware, {}, host);
+  driver::Sample last;
+  int ms = 0;
+  const auto step = [&] {
+    if (ms % 5 == 0) robot.cycle(0.001 * ms);
+    bus.deliver(1 + ms);
+    rack.receive();
+    rack.tick();
+    bus.deliver(1 + ms);
+    driver::BusEvent event;
+    while (host.receive(event)) robot.receive(event, 0.001 * ms);
+    driver::Sample sample;
+    while (robot.take_sample(sample)) last = sample;
+    ++ms;
+  };
+  // Configuring and enabling take a second in which the arm hangs still.
+  while (ms < 1000) step();
+  robot.start_enable(0.001 * ms);
+  while (robot.phase() == driver::RobotDriver::Phase::kEnabling) step();
+  EXPECT_EQ(robot.phase(), driver::RobotDriver::Phase::kEnabled) << robot.last_outcome().reason;
+  std::vector<std::string> names;
+  std::vector<double> values;
+  for (const auto& [name, value] : references) names.push_back(name), values.push_back(value);
+  const std::vector<std::uint8_t> modes(names.size(), 1);
+  for (const int start = ms; ms - start < milliseconds;) {
+    if ((ms - start) % 100 == 0) robot.command(names, modes, values, 0.001 * ms);
+    step();
+  }
+  Outcome outcome;
+  for (const driver::MuscleSample& muscle : last.muscles) {
+    EXPECT_EQ(muscle.state, ecu::State::kEnabled);
+    outcome.position.push_back(muscle.position);
+    outcome.force.push_back(muscle.force);
+    outcome.volts.push_back(muscle.voltage);
+  }
+  outcome.q = plant.simulation().configuration();
+  return outcome;
+}
+
+TEST(LockStep, EquilibriaAgreeWithinOneCount) {
+  constexpr int kSettle = 60000;  // [ms] tendons creep through their eyelets for that long
+  const Outcome sim = simulate(kReach, kSettle), robot = emulate(kReach, kSettle);
+  ASSERT_EQ(sim.position.size(), 11u);
+  ASSERT_EQ(robot.position.size(), 11u);
+  constexpr double kEncoderCount = 9.587379924285257e-5, kForceCount = 0.06;
+  double worst_position = 0.0, worst_force = 0.0;
+  for (std::size_t m = 0; m < 11; ++m) {
+    worst_position = std::max(worst_position, std::abs(robot.position[m] - sim.position[m]));
+    EXPECT_LE(std::abs(std::lround(robot.position[m] / kEncoderCount) -
+                       std::lround(sim.position[m] / kEncoderCount)),
+              1)
+        << m;
+    worst_force = std::max(worst_force, std::abs(robot.force[m] - sim.force[m]));
+  }
+  const Quat a(sim.q[0], sim.q[1], sim.q[2], sim.q[3]),
+      b(robot.q[0], robot.q[1], robot.q[2], robot.q[3]);
+  RecordProperty("worst_position_urad", static_cast<int>(1e6 * worst_position));
+  RecordProperty("worst_force_mN", static_cast<int>(1e3 * worst_force));
+  std::printf(
+      "positions differ by %.1e rad, forces by %.4f N, shoulder by %.1e rad, elbow by %.1e rad\n",
+      worst_position, worst_force, angular_distance(a, b), std::abs(sim.q[4] - robot.q[4]));
+  EXPECT_LE(worst_force, kForceCount);
+  EXPECT_LE(angular_distance(a, b), 1e-3);
+  EXPECT_LE(std::abs(sim.q[4] - robot.q[4]), 1.28e-3);  // one count of the potentiometer
+  // The arm did move.
+  EXPECT_LT(std::abs(a.w()), 0.999);
+}
+
+}  // namespace
+}  // namespace anthrob

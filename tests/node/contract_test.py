@@ -1,0 +1,302 @@
+#!/usr/bin/env python3
+"""The ROS contract, the same for every back end: topics, commands, stops. Runs unchanged on the simulator and on the
+driver with emulated ECUs. Everything is in real time; nothing here depends on how fast the machine is."""
+import math
+import statistics
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Empty
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
+
+MUSCLES = ['lateral_deltoid', 'anterior_deltoid', 'posterior_deltoid', 'supraspinatus', 'infraspinatus',
+           'teres_minor', 'teres_major', 'pectoralis_major', 'biceps_brachii', 'triceps_brachii', 'brachialis']
+NAN = float('nan')
+VOLTAGE, POSITION, CURRENT, FORCE = 0, 1, 2, 3
+# A stop takes effect within milliseconds; the rest is for a machine that is busy with other things.
+PATIENCE = 10.0
+
+
+class Latest:
+    """The last messages of a topic."""
+
+    def __init__(self, topic, kind, keep=2000):
+        self.messages, self.keep = [], keep
+        self.subscriber = rospy.Subscriber(topic, kind, self.receive, queue_size=1000, tcp_nodelay=True)
+
+    def receive(self, message):
+        self.messages.append(message)
+        if len(self.messages) > self.keep:
+            del self.messages[:self.keep // 2]
+
+    def last(self):
+        return self.messages[-1] if self.messages else None
+
+
+class Commander(threading.Thread):
+    """Keeps a command fresh, as a controller does."""
+
+    def __init__(self, publisher):
+        super().__init__(daemon=True)
+        self.publisher, self.message = publisher, None
+
+    def run(self):
+        while not rospy.is_shutdown():
+            message = self.message
+            if message:
+                message.header.stamp = rospy.Time.now()
+                self.publisher.publish(message)
+            time.sleep(0.05)
+
+
+def wait_for(condition, what, seconds=PATIENCE):
+    end = time.time() + seconds
+    while time.time() < end:
+        if condition():
+            return
+        time.sleep(0.01)
+    raise AssertionError('waited %.1f s for: %s' % (seconds, what))
+
+
+class Contract(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.states = Latest('muscle_states', MuscleStates)
+        cls.joints = Latest('joint_states', JointState)
+        cls.balls = Latest('spherical_joint_states', SphericalJointStates)
+        cls.tf = Latest('/tf', TFMessage)
+        cls.diagnostics = Latest('/diagnostics', DiagnosticArray)
+        cls.publisher = rospy.Publisher('muscle_command', MuscleCommand, queue_size=10, tcp_nodelay=True)
+        cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
+        cls.services = {}
+        for name in ['enable', 'disable', 'emergency_stop', 'clear_faults']:
+            rospy.wait_for_service(name, 60)
+            cls.services[name] = rospy.ServiceProxy(name, Trigger)
+        wait_for(lambda: cls.states.messages and cls.publisher.get_num_connections() > 0
+                 and cls.stop_topic.get_num_connections() > 0, 'connections', 60)
+        cls.commander = Commander(cls.publisher)
+        cls.commander.start()
+        # Hardware is configured first.
+        wait_for(lambda: cls.call('enable').success, 'the first enable', 30)
+
+    @classmethod
+    def call(cls, name):
+        return cls.services[name]()
+
+    def setUp(self):
+        self.commander.message = None
+        self.call('disable')
+        self.call('clear_faults')
+        answer = self.call('enable')
+        self.assertTrue(answer.success, answer.message)
+        self.await_state(MuscleStates.ENABLED)
+
+    def tearDown(self):
+        self.commander.message = None
+
+    def send(self, names, modes, references):
+        """From now on, again and again."""
+        self.commander.message = MuscleCommand(name=names, mode=modes, reference=references)
+
+    def send_once(self, names, modes, references):
+        self.commander.message = None
+        self.publisher.publish(MuscleCommand(name=names, mode=modes, reference=references))
+
+    def await_state(self, state):
+        wait_for(lambda: set(self.states.last().ecu_state) == {state}, 'ECU state %d everywhere' % state)
+
+    def await_value(self, field, muscle, value, delta=0.011):
+        index = MUSCLES.index(muscle)
+        wait_for(lambda: abs(getattr(self.states.last(), field)[index] - value) <= delta,
+                 '%s of %s to be %g' % (field, muscle, value))
+
+    def stays_still(self, seconds=0.3):
+        end = time.time() + seconds
+        while time.time() < end:
+            self.assertEqual(set(self.states.last().voltage), {0.0})
+            time.sleep(0.005)
+
+    # ---- topics ----
+
+    def test_states_of_all_muscles_at_200_hz(self):
+        time.sleep(2.0)
+        messages = self.states.messages[-300:]
+        stamps = [m.header.stamp.to_sec() for m in messages]
+        steps = [b - a for a, b in zip(stamps, stamps[1:])]
+        self.assertTrue(all(step > 0.0 for step in steps), 'stamps grow, none comes twice')
+        self.assertLess(statistics.median(steps), 0.0055)
+        last = messages[-1]
+        self.assertEqual(last.name, MUSCLES)
+        for array in [last.position, last.velocity, last.current, last.voltage, last.force, last.reference,
+                      last.mode, last.ecu_state]:
+            self.assertEqual(len(array), len(MUSCLES))
+        self.assertTrue(all(force >= 0.0 for force in last.force))
+
+    def test_stamps_are_of_now(self):
+        message = self.states.last()
+        self.assertLess(abs((rospy.Time.now() - message.header.stamp).to_sec()), 1.0)
+
+    def test_joints_and_frames(self):
+        wait_for(lambda: self.joints.last() and self.balls.last(), 'joints')
+        self.assertEqual(self.joints.last().name, ['elbow'])
+        self.assertEqual(self.balls.last().name, ['shoulder'])
+        q = self.balls.last().orientation[0]
+        self.assertGreaterEqual(q.w, 0.0)
+        self.assertAlmostEqual(q.w**2 + q.x**2 + q.y**2 + q.z**2, 1.0, delta=1e-6)
+        frames = lambda: {(t.header.frame_id, t.child_frame_id) for m in self.tf.messages for t in m.transforms}
+        wait_for(lambda: {('base', 'humerus'), ('humerus', 'forearm')} <= frames(), 'frames of the arm')
+
+    def test_diagnostics_name_every_ecu(self):
+        wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
+        names = [s.name for s in self.diagnostics.last().status]
+        self.assertTrue(names[0] in ('/anthrob: simulator', '/anthrob: driver'))
+        for i in range(1, 7):
+            self.assertIn('/anthrob: ecu_%d' % i, names)
+        keys = {v.key for v in self.diagnostics.last().status[0].values}
+        self.assertTrue({'rejected_commands', 'last_rejection', 'command_age'} <= keys)
+
+    # ---- commands ----
+
+    def test_nothing_moves_before_enable(self):
+        self.call('disable')
+        self.await_state(MuscleStates.STOPPING)
+        self.send(MUSCLES, [VOLTAGE] * 11, [4.0] * 11)
+        time.sleep(0.2)
+        self.stays_still(1.0)
+
+    def test_a_command_moves_the_arm(self):
+        before = self.balls.last().orientation[0].w
+        self.send(['lateral_deltoid', 'supraspinatus'], [POSITION, POSITION], [6.0, 3.0])
+        wait_for(lambda: abs(self.balls.last().orientation[0].w - before) > 1e-3, 'a turned shoulder', 30)
+        wait_for(lambda: self.states.last().position[0] > 2.0 and self.states.last().force[0] > 3.0, 'a pull', 30)
+        state = self.states.last()
+        self.assertEqual(state.reference[0], 6.0)
+        self.assertEqual(state.mode[0], POSITION)
+        self.assertEqual(state.ecu_state[0], MuscleStates.ENABLED)
+        self.send(['lateral_deltoid', 'supraspinatus'], [POSITION, POSITION], [0.0, 0.0])
+        wait_for(lambda: abs(self.states.last().position[0]) < 0.5, 'the way back', 30)
+
+    def test_a_subset_leaves_the_others_alone(self):
+        self.send(['biceps_brachii', 'brachialis'], [POSITION, POSITION], [0.5, 0.7])
+        self.await_value('reference', 'brachialis', 0.7)
+        self.send(['brachialis'], [VOLTAGE], [0.5])
+        self.await_value('voltage', 'brachialis', 0.5)
+        self.assertEqual(self.states.last().reference[MUSCLES.index('biceps_brachii')], 0.5)
+        self.assertEqual(self.states.last().mode[MUSCLES.index('biceps_brachii')], POSITION)
+        self.assertEqual(self.states.last().mode[MUSCLES.index('brachialis')], VOLTAGE)
+
+    def test_all_four_modes(self):
+        for mode, reference, field, delta in [(VOLTAGE, 1.0, 'voltage', 0.011), (POSITION, 1.0, 'position', 0.2),
+                                              (CURRENT, 0.2, 'current', 0.1), (FORCE, 8.0, 'force', 1.0)]:
+            self.send(['lateral_deltoid'], [mode], [reference])
+            self.await_value('mode', 'lateral_deltoid', mode, 0)
+            wait_for(lambda: abs(getattr(self.states.last(), field)[0] - reference) <= delta,
+                     '%s of %g' % (field, reference), 30)
+
+    def test_malformed_commands_are_refused_whole(self):
+        self.send(['lateral_deltoid'], [POSITION], [0.8])
+        self.await_value('reference', 'lateral_deltoid', 0.8)
+        cases = [
+            ([], [], []),
+            (['nobody'], [1], [1.0]),
+            ([''], [1], [1.0]),
+            (['Lateral_Deltoid'], [1], [1.0]),
+            (['lateral_deltoid', 'nobody'], [1, 1], [1.0, 1.0]),
+            (['lateral_deltoid', 'lateral_deltoid'], [1, 1], [1.0, 2.0]),
+            (['lateral_deltoid'], [], [1.0]),
+            (['lateral_deltoid'], [1], []),
+            (['lateral_deltoid'], [1, 1], [1.0]),
+            (['lateral_deltoid'], [1], [1.0, 2.0]),
+            (['lateral_deltoid'], [4], [1.0]),
+            (['lateral_deltoid'], [255], [1.0]),
+            (['lateral_deltoid'], [1], [NAN]),
+            (['lateral_deltoid'], [1], [math.inf]),
+            (['lateral_deltoid'], [0], [12.5]),
+            (['lateral_deltoid'], [1], [-1e3]),
+            (['lateral_deltoid'], [2], [100.0]),
+            (['lateral_deltoid'], [3], [-1.0]),
+        ]
+
+        def rejected():
+            values = {v.key: v.value for v in self.diagnostics.last().status[0].values}
+            return int(values['rejected_commands']), values['last_rejection']
+
+        wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
+        time.sleep(1.5)
+        before = rejected()[0]
+        # Good commands go on: the bad ones must neither take effect nor keep the good ones from it.
+        for names, modes, references in cases:
+            self.publisher.publish(MuscleCommand(name=names, mode=modes, reference=references))
+            time.sleep(0.02)
+            self.assertEqual(self.states.last().reference[0], 0.8)
+            self.assertEqual(self.states.last().mode[0], POSITION)
+        wait_for(lambda: rejected()[0] == before + len(cases), 'all rejections in diagnostics')
+        self.assertIn('FORCE -1 N', rejected()[1])
+
+    # ---- stops ----
+
+    def test_timeout_stops_until_enabled_again(self):
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.await_value('voltage', 'lateral_deltoid', 1.0)
+        self.commander.message = None
+        self.await_state(MuscleStates.STOPPING)
+        self.await_value('voltage', 'lateral_deltoid', 0.0, 0)
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.stays_still(0.5)
+        self.commander.message = None
+        time.sleep(0.2)
+        self.assertTrue(self.call('enable').success)
+        self.await_state(MuscleStates.ENABLED)
+        self.stays_still()  # the old reference is forgotten
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.await_value('voltage', 'lateral_deltoid', 1.0)
+
+    def check_stop_is_latched(self):
+        self.await_state(MuscleStates.STOPPING)
+        self.stays_still()
+        answer = self.call('enable')
+        self.assertFalse(answer.success)
+        self.assertIn('clear_faults', answer.message)
+        self.stays_still()
+        self.commander.message = None
+        time.sleep(0.2)
+        self.assertTrue(self.call('clear_faults').success)
+        self.await_state(MuscleStates.IDLE)
+        self.stays_still()
+        self.assertTrue(self.call('enable').success)
+        self.await_state(MuscleStates.ENABLED)
+        self.stays_still()  # no jump to an old reference
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.await_value('voltage', 'lateral_deltoid', 1.0)
+
+    def test_emergency_stop_service_is_latched(self):
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.await_value('voltage', 'lateral_deltoid', 1.0)
+        self.assertTrue(self.call('emergency_stop').success)
+        self.check_stop_is_latched()
+
+    def test_emergency_stop_topic_is_latched(self):
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.await_value('voltage', 'lateral_deltoid', 1.0)
+        self.stop_topic.publish(Empty())
+        self.check_stop_is_latched()
+
+    def test_disable(self):
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.await_value('voltage', 'lateral_deltoid', 1.0)
+        self.assertTrue(self.call('disable').success)
+        self.await_state(MuscleStates.STOPPING)
+        self.stays_still()
+
+
+if __name__ == '__main__':
+    rospy.init_node('contract_test')
+    rostest.rosrun('anthrob_tests', 'contract', Contract)
