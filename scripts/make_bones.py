@@ -13,7 +13,7 @@ import os
 import struct
 import sys
 
-SIDES = 50  # corners of a ring
+SIDES = 36  # corners of a ring
 
 # Humerus frame: origin in the elbow, +y up to the shoulder at 220, x the elbow's axis, +z the flexor side. [mm]
 # y: centre x, centre z, half-axis along x, half-axis along z
@@ -89,12 +89,11 @@ class Curve:
                 t * t * (3 - 2 * t) * self.ys[i + 1] - t * t * (1 - t) * h * self.ms[i + 1])
 
 
-def places(knots, count):
-    """Where rings go: on every knot, the rest evenly between."""
-    total = knots[-1] - knots[0]
+def places(knots, spacing):
+    """Where rings go: on every knot, the rest evenly between, about `spacing(y)` apart."""
     rings = [knots[0]]
     for a, b in zip(knots, knots[1:]):
-        pieces = max(1, round(count * (b - a) / total))
+        pieces = max(1, round((b - a) / spacing(a)))
         rings += [a + (b - a) * (i + 1) / pieces for i in range(pieces)]
     return rings
 
@@ -139,7 +138,7 @@ def humerus(knots=None):
     knots = knots or HUMERUS
     follow = curves(knots + [(HEAD_FROM, 0.0, 0.0) + 2 * (head_radius(HEAD_FROM),)])
     rings = [ring(y, *(f(y) for f in follow), HUMERUS_DENTS)
-             for y in places([k[0] for k in knots] + [HEAD_FROM], 48)]
+             for y in places([k[0] for k in knots] + [HEAD_FROM], lambda y: 2.7 if y < 147.0 else 4.6)]
     top = HEAD_CENTER + HEAD_RADIUS
     start = math.asin((HEAD_FROM - HEAD_CENTER) / HEAD_RADIUS)
     for i in range(1, 12):
@@ -157,7 +156,7 @@ def scapula(knots=None):
     knots = [(-k[0],) + k[1:] for k in reversed(knots)]
     follow = curves(knots)
     rings = [ring(y, *(f(y) for f in follow), SCAPULA_DENTS)
-             for y in places([k[0] for k in knots], 58)]
+             for y in places([k[0] for k in knots], lambda y: 2.0)]
     return loft(rings, (knots[0][1], knots[0][0] + 2.5, knots[0][2]),  # the glenoid is hollow
                 (knots[-1][1], knots[-1][0] + 2.0, knots[-1][2]))
 

@@ -9,18 +9,15 @@ namespace {
 /// Ways shorter by less than this share of the hull's size are the same.
 constexpr double kSame = 1e-9;
 
-struct Bounce {
-  double x, length;
-};
-
-/// The shortest way from (sx, sy <= 0) over [a, b] of the x axis to a point `up` away from the
-/// axis.
-Bounce over_edge(double sx, double sy, double tx, double up, double a, double b) {
-  const double rise = up - sy;
-  const double cross = rise > 0.0 ? sx - (tx - sx) * sy / rise : 0.5 * (a + b);
-  if (cross >= a && cross <= b) return {cross, std::sqrt((tx - sx) * (tx - sx) + rise * rise)};
-  const double x = cross < a ? a : b;
-  return {x, std::sqrt((x - sx) * (x - sx) + sy * sy) + std::sqrt((tx - x) * (tx - x) + up * up)};
+/// Length of the shortest way from (sx, sy <= 0) over [a, b] of the x axis to a point `up` away
+/// from the axis.
+double over_edge(double sx, double sy, double tx, double up, double a, double b) {
+  const double rise = up - sy, run = tx - sx;
+  // Where the straight line crosses, times rise: the division waits until it is needed.
+  const double cross = sx * up - tx * sy;
+  if (cross >= a * rise && cross <= b * rise) return std::sqrt(run * run + rise * rise);
+  const double x = cross < a * rise ? a : b;
+  return std::sqrt((x - sx) * (x - sx) + sy * sy) + std::sqrt((tx - x) * (tx - x) + up * up);
 }
 }  // namespace
 
@@ -72,21 +69,23 @@ double StripSearch::run(const GeodesicQuery& query, const std::vector<int>& rim,
 }
 
 /// Cuts a window to the limit and keeps it if it may lead to a shorter way.
-void StripSearch::consider(const GeodesicQuery& query, Window w) {
-  if (w.clear0 <= 0.0 && w.clear1 <= 0.0) return;
+void StripSearch::consider(const GeodesicQuery& query, Window& w) {
   ++windows_;
   const ConvexHull::HalfEdge& e = query.hull.edge(w.edge);
+  const bool low = w.clear0 < 0.0, high = w.clear1 < 0.0;
   double limit = -1.0;
-  if (w.clear0 < 0.0 || w.clear1 < 0.0) {
+  if (low || high) {
+    if (w.clear0 <= 0.0 && w.clear1 <= 0.0) return;
     limit = e.length * w.clear0 / (w.clear0 - w.clear1);
     const bool inside = limit >= w.a && limit <= w.b;
-    (w.clear0 < 0.0 ? w.a : w.b) = w.clear0 < 0.0 ? std::max(w.a, limit) : std::min(w.b, limit);
+    if (low) w.a = std::max(w.a, limit);
+    if (high) w.b = std::min(w.b, limit);
     if (w.a > w.b) return;
     if (!inside) limit = -1.0;
   }
   const double tx = 0.5 * ((w.far0 - w.far1) * e.inverse_length + e.length);
   const double up = std::sqrt(std::max(0.0, w.far0 - tx * tx));
-  w.least = w.before + over_edge(w.sx, w.sy, tx, up, w.a, w.b).length;
+  w.least = w.before + over_edge(w.sx, w.sy, tx, up, w.a, w.b);
   if (w.least >= worthwhile_) return;
   if (query.sees_target(ConvexHull::facet_of(w.edge))) {
     keep_if_better(w, w.least);

@@ -42,7 +42,7 @@ class StripSearch {
     bool point;             ///< the source is the point a = b of the edge
   };
 
-  void consider(const GeodesicQuery& query, Window window);
+  void consider(const GeodesicQuery& query, Window& window);
   void open_point(const Window& window, double x, double remaining);
   void carry_on(const GeodesicQuery& query, const Window& window);
   void keep_if_better(const Window& window, double length);
