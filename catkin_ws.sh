@@ -170,7 +170,7 @@ measure() {
 bench() {
   build
   say "building the benchmarks"
-  catkin_make -j"$(nproc)" step_benchmark scaling_benchmark >>build/build.log 2>&1 ||
+  catkin_make -j"$(nproc)" step_benchmark scaling_benchmark mesh_benchmark >>build/build.log 2>&1 ||
     die "the benchmarks do not build: see build/build.log"
   export ANTHROB_BENCH_ROBOTS="$here/build/bench_robots"
   local n
@@ -183,7 +183,8 @@ bench() {
   say "measuring"
   measure step "$@"
   measure scaling "$@"
-  /usr/bin/python3 scripts/bench_table.py build/bench.json build/step.json build/scaling.json
+  measure mesh "$@"
+  /usr/bin/python3 scripts/bench_table.py build/bench.json build/step.json build/scaling.json build/mesh.json
 }
 
 shell() {

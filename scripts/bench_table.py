@@ -13,6 +13,8 @@ ROWS = [
     ('+ one cylinder-wrapped muscle', 'one_muscle/cylinder', 'mujoco_one_muscle/cylinder'),
     ('whole arm, 11 muscles, model I', 'whole_arm/I', 'mujoco_arm/I'),
     ('whole arm, 11 muscles, model II', 'whole_arm/II', 'mujoco_arm/II'),
+    ('+ one mesh-wrapped muscle', 'one_muscle/mesh', None),
+    ('whole arm, 11 muscles, model III', 'whole_arm/III', None),
 ]
 
 
@@ -64,6 +66,16 @@ def print_scaling(medians):
             print('%9d %12.1f' % (count, time))
 
 
+def print_meshes(benchmarks):
+    rows = [b for b in benchmarks if b.get('aggregate_name') == 'median' and 'worst_us' in b]
+    if not rows:
+        return
+    print('\n%-36s %9s %9s %9s %9s' % ('wrapping surface over 10 s [us]', 'median', 'worst', 'replaced', 'cold'))
+    for b in rows:
+        rates = ['%8.2f%%' % (100 * b[key]) if key in b else '%9s' % '-' for key in ('improved', 'cold')]
+        print('%-36s %9.2f %9.2f %s %s' % ('/'.join(b['run_name'].split('/')[:2]), b['median_us'], b['worst_us'], *rates))
+
+
 def print_parallel(benchmarks):
     for b in benchmarks:
         if b.get('aggregate_name') == 'median' and b['run_name'].startswith('parallel_arms'):
@@ -78,6 +90,7 @@ def main():
     print('%d CPUs at %d MHz; medians of one run' % (context['num_cpus'], context['mhz_per_cpu']))
     print_peers(medians)
     print_scaling(medians)
+    print_meshes(results['benchmarks'])
     print()
     print_parallel(results['benchmarks'])
 

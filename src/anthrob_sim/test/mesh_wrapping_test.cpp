@@ -163,6 +163,56 @@ TEST(MeshSurface, PosturesOfModelThreeAgreeWithCgal) {
   warm_tally.report(compared);
 }
 
+/// Model III through its work space for 60 s: the length moves no more than the ends do, and
+/// where directions turn fast, a solution from nothing turns as fast.
+TEST(MeshSurface, SixtySecondsOfModelThreeAreContinuous) {
+  const auto model = load_robot_model(testing_support::config("anthrob/model_III.yaml"));
+  const std::vector<MeshOnPath> meshes = meshes_of(*model);
+  std::vector<Tendon> tendons;
+  for (const MeshOnPath& mesh : meshes) tendons.emplace_back(mesh.surface);
+  std::vector<std::pair<Vec3, Vec3>> last(meshes.size());
+  KinematicTree tree(*model->skeleton);
+  std::vector<BodyState> bodies;
+  int turns = 0, wrapped = 0;
+  const int steps = 30000;
+  for (int i = 0; i < steps; ++i) {
+    const double t = 1e-3 * i;
+    const Vec3 tilt(0.6 * std::sin(0.7 * t), 0.5 * std::sin(0.45 * t + 1),
+                    0.8 * std::sin(0.31 * t));
+    const Quat q(Eigen::AngleAxisd(tilt.norm() + 1e-9, (tilt + Vec3(1e-9, 0, 0)).normalized()));
+    tree.place({q.w(), q.x(), q.y(), q.z(), 1.1 + std::sin(0.9 * t)}, {}, bodies);
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      const auto [p, e] = meshes[m].ends(bodies);
+      if (i == 0) tendons[m].start(p, e);
+      const WrapContact before = tendons[m].contact();
+      const double length = tendons[m].length();
+      const WrapContact& now = tendons[m].move(p, e);
+      const auto [lp, le] = last[m];
+      last[m] = {p, e};
+      if (i == 0) continue;
+      wrapped += now.touching;
+      // Steeper than the ends move where a point lies inside the bone or the tendon leans.
+      const double steepest = std::max({1.0, before.pull_in.norm(), before.pull_out.norm(),
+                                        now.pull_in.norm(), now.pull_out.norm()});
+      const double moved = 1.05 * steepest * ((p - lp).norm() + (e - le).norm()) + 2e-9;
+      ASSERT_LE(std::abs(tendons[m].length() - length), moved) << meshes[m].muscle << " " << t;
+      if ((now.direction_in - before.direction_in).norm() < 0.01 &&
+          (now.direction_out - before.direction_out).norm() < 0.01) {
+        continue;
+      }
+      ++turns;
+      Tendon cold(meshes[m].surface);
+      const WrapContact first = cold.start(lp, le);
+      const WrapContact second = cold.start(p, e);
+      EXPECT_LT((second.direction_out - now.direction_out).norm(), 1e-6) << meshes[m].muscle;
+      EXPECT_LT((first.direction_out - before.direction_out).norm(), 1e-6) << meshes[m].muscle;
+    }
+  }
+  RecordProperty("fast_turns", turns);
+  EXPECT_GT(wrapped, steps);
+  EXPECT_LT(turns, steps / 50);
+}
+
 /// Order in which the error of the length falls with the size of the facets.
 template <class Body>
 void expect_second_order(const Body& body, const Vec3& p, const Vec3& q, double exact) {
