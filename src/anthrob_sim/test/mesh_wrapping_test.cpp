@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 #include "anthrob_sim/model/robot_model.h"
@@ -54,14 +55,18 @@ struct Tally {
     }
   }
 
-  void report(int cases) const {
-    ::testing::Test::RecordProperty("cases", cases);
-    ::testing::Test::RecordProperty("wrapped", wrapped);
-    ::testing::Test::RecordProperty("leaning_on_the_border", leaning);
-    ::testing::Test::RecordProperty("ties", ties);
-    ::testing::Test::RecordProperty("worst_length_m", std::to_string(1e9 * worst_length) + "e-9");
-    ::testing::Test::RecordProperty("worst_direction_deg",
-                                    std::to_string(worst_direction * 180 / M_PI));
+  void report(const std::string& start, int cases) const {
+    const auto record = [&](const std::string& what, double value) {
+      char text[32];
+      std::snprintf(text, sizeof(text), "%.2g", value);
+      ::testing::Test::RecordProperty(start + "_" + what, text);
+    };
+    ::testing::Test::RecordProperty(start + "_cases", cases);
+    ::testing::Test::RecordProperty(start + "_wrapped", wrapped);
+    ::testing::Test::RecordProperty(start + "_leaning", leaning);
+    ::testing::Test::RecordProperty(start + "_ties", ties);
+    record("worst_length_m", worst_length);
+    record("worst_direction_deg", worst_direction * 180 / M_PI);
     EXPECT_GT(wrapped, cases / 5);
     EXPECT_LE(ties, 1 + cases / 200);
   }
@@ -90,8 +95,8 @@ TEST(MeshSurface, RandomBodiesAgreeWithCgal) {
     }
     warm.compare(tendon, p, reference_way(points, p, q, chi), "warm " + std::to_string(i));
   }
-  cold.report(cases);
-  warm.report(cases);
+  cold.report("cold", cases);
+  warm.report("warm", cases);
   EXPECT_GT(cold.leaning, cases / 20);
 }
 
@@ -159,8 +164,8 @@ TEST(MeshSurface, PosturesOfModelThreeAgreeWithCgal) {
       warm_tally.compare(warm[m], p, way, "warm " + what);
     }
   }
-  cold_tally.report(compared);
-  warm_tally.report(compared);
+  cold_tally.report("cold", compared);
+  warm_tally.report("warm", compared);
 }
 
 /// Model III through its work space for 60 s: the length moves no more than the ends do, and
