@@ -47,7 +47,8 @@ ip link add dev vcan0 type vcan && ip link set vcan0 txqueuelen 1000 up || echo 
 INIT
   export -p
   echo "export HOME=$(printf %q "$out") ROS_LOG_DIR=$(printf %q "$out/ros_log") ROS_MASTER_URI=http://localhost:11311"
-  echo 'unset ROS_IP; export ROS_HOSTNAME=localhost ANTHROB_VCAN_ON="vcan in user-mode Linux $(uname -r), one processor"'
+  echo 'unset ROS_IP; export ROS_HOSTNAME=localhost ANTHROB_PACE="${ANTHROB_PACE:-0.25}"'
+  echo 'export ANTHROB_VCAN_ON="vcan in user-mode Linux $(uname -r), one processor"'
   printf 'cd %q\n' "$PWD"
   printf '%q ' "$@"
   printf '\necho $? > %q\nsync\nhalt -f\n' "$status"

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The ROS contract, the same for every back end: topics, commands, stops. Runs unchanged on the simulator and on the
-driver with emulated ECUs. Everything is in real time; nothing here depends on how fast the machine is."""
+driver with emulated ECUs. Everything is in real time, or in a slower pace that ~pace tells; nothing here depends on how
+fast the machine is."""
 import math
 import statistics
 import threading
@@ -20,6 +21,7 @@ MUSCLES = ['lateral_deltoid', 'anterior_deltoid', 'posterior_deltoid', 'supraspi
            'teres_minor', 'teres_major', 'pectoralis_major', 'biceps_brachii', 'triceps_brachii', 'brachialis']
 NAN = float('nan')
 VOLTAGE, POSITION, CURRENT, FORCE = 0, 1, 2, 3
+PACE = 1.0  # seconds of the robot in a second of the wall clock
 # A stop takes effect within milliseconds; the rest is for a machine that is busy with other things.
 PATIENCE = 10.0
 
@@ -57,7 +59,7 @@ class Commander(threading.Thread):
 
 
 def wait_for(condition, what, seconds=PATIENCE):
-    end = time.time() + seconds
+    end = time.time() + seconds / PACE
     while time.time() < end:
         if condition():
             return
@@ -119,7 +121,7 @@ class Contract(unittest.TestCase):
                  '%s of %s to be %g' % (field, muscle, value))
 
     def stays_still(self, seconds=0.3):
-        end = time.time() + seconds
+        end = time.time() + seconds / PACE
         while time.time() < end:
             self.assertEqual(set(self.states.last().voltage), {0.0})
             time.sleep(0.005)
@@ -127,12 +129,12 @@ class Contract(unittest.TestCase):
     # ---- topics ----
 
     def test_states_of_all_muscles_at_200_hz(self):
-        time.sleep(2.0)
+        time.sleep(2.0 / PACE)
         messages = self.states.messages[-300:]
         stamps = [m.header.stamp.to_sec() for m in messages]
         steps = [b - a for a, b in zip(stamps, stamps[1:])]
         self.assertTrue(all(step > 0.0 for step in steps), 'stamps grow, none comes twice')
-        self.assertLess(statistics.median(steps), 0.0055)
+        self.assertLess(statistics.median(steps), 0.0055 / PACE)
         last = messages[-1]
         self.assertEqual(last.name, MUSCLES)
         for array in [last.position, last.velocity, last.current, last.voltage, last.force, last.reference,
@@ -169,7 +171,7 @@ class Contract(unittest.TestCase):
         self.call('disable')
         self.await_state(MuscleStates.STOPPING)
         self.send(MUSCLES, [VOLTAGE] * 11, [4.0] * 11)
-        time.sleep(0.2)
+        time.sleep(0.2 / PACE)
         self.stays_still(1.0)
 
     def test_a_command_moves_the_arm(self):
@@ -230,7 +232,7 @@ class Contract(unittest.TestCase):
             return int(values['rejected_commands']), values['last_rejection']
 
         wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
-        time.sleep(1.5)
+        time.sleep(1.5 / PACE)
         before = rejected()[0]
         # Good commands go on: the bad ones must neither take effect nor keep the good ones from it.
         for names, modes, references in cases:
@@ -252,7 +254,7 @@ class Contract(unittest.TestCase):
         self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
         self.stays_still(0.5)
         self.commander.message = None
-        time.sleep(0.2)
+        time.sleep(0.2 / PACE)
         self.assertTrue(self.call('enable').success)
         self.await_state(MuscleStates.ENABLED)
         self.stays_still()  # the old reference is forgotten
@@ -267,7 +269,7 @@ class Contract(unittest.TestCase):
         self.assertIn('clear_faults', answer.message)
         self.stays_still()
         self.commander.message = None
-        time.sleep(0.2)
+        time.sleep(0.2 / PACE)
         self.assertTrue(self.call('clear_faults').success)
         self.await_state(MuscleStates.IDLE)
         self.stays_still()
@@ -299,4 +301,5 @@ class Contract(unittest.TestCase):
 
 if __name__ == '__main__':
     rospy.init_node('contract_test')
+    PACE = rospy.get_param('~pace', 1.0)
     rostest.rosrun('anthrob_tests', 'contract', Contract)

@@ -19,6 +19,11 @@ int main(int argc, char** argv) {
     settings.param("command_timeout", options.driver.command_timeout,
                    options.driver.command_timeout);
     settings.param("realtime", options.realtime, options.realtime);
+    settings.param("pace", options.pace, options.pace);
+    const bool in_memory = can.rfind("vcan", 0) == 0;
+    if (!(options.pace > 0.0 && options.pace <= 1.0) || (options.pace < 1.0 && !in_memory)) {
+      throw anthrob::BadInput("parameter ~pace: expected 1, or a number in (0, 1] on a vcan");
+    }
     anthrob::driver::DriverNode node(anthrob::driver::load_hardware(file, hand), options, can, nh);
     const std::string other = node.other_backend();
     if (!other.empty()) {

@@ -61,7 +61,7 @@ DriverThread::DriverThread(Hardware hardware, const Options& options, const std:
   work_.push_back({&nothing, &started});
   thread_ = std::thread([this] {
     if (options_.realtime) note_ = become_realtime(kPriority);
-    start_timer(timer_, options_.driver.rate);
+    start_timer(timer_, options_.driver.rate * options_.pace);
     serve_requests();
     loop();
   });
@@ -104,7 +104,7 @@ void DriverThread::serve_requests() {
     const Work next = work_.front();
     work_.pop_front();
     lock.unlock();
-    (*next.run)(driver_, monotonic_now());
+    (*next.run)(driver_, now());
     lock.lock();
     *next.done = true;
     done_.notify_all();
@@ -137,9 +137,9 @@ void DriverThread::loop() {
     const int count = epoll_wait(epoll_, events, 4, 100);
     (void)count;
     BusEvent event;
-    while (bus_.receive(event)) driver_.receive(event, monotonic_now());
+    while (bus_.receive(event)) driver_.receive(event, now());
     if (take_count(wakeup_) > 0) serve_requests();
-    if (take_count(timer_) > 0) driver_.cycle(monotonic_now());
+    if (take_count(timer_) > 0) driver_.cycle(now());
     collect();
   }
 }

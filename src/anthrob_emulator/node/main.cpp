@@ -9,9 +9,9 @@
 #include <iostream>
 #include <memory>
 
+#include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
-#include "anthrob_emulator/emulator.h"
 #include "anthrob_emulator/simulator_plant.h"
 #include "anthrob_sim/tool/tool.h"
 
@@ -21,7 +21,7 @@ namespace {
 struct Arguments {
   std::string hardware, model, can = "can0";
   bool hand = false, realtime = false, ros = false;
-  double rate = 100.0;
+  double rate = 100.0, pace = 1.0;
 };
 
 /// Stands in for motion capture: ball joints of the simulated robot, as the simulator has them.
@@ -97,7 +97,7 @@ int run(const Arguments& arguments) {
     if (balls && ++tick % ticks_per_message == 0) balls->publish();
   };
   const auto quit = [&] { return tool::interrupted() || (arguments.ros && !ros::ok()); };
-  Emulator(rack, bus).run(quit, each_tick);
+  driver::Emulator(rack, bus, arguments.pace).run(quit, each_tick);
   return tool::kDone;
 }
 
@@ -115,6 +115,9 @@ int main(int argc, char** argv) {
   app.add_option("--rate", arguments.rate, "[Hz] of spherical_joint_states")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 1000.0));
+  app.add_option("--pace", arguments.pace, "below 1: time runs slower, as the driver's ~pace")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1.0));
   app.add_flag("--hand", arguments.hand, "with the hand's muscles");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
   app.add_flag("--ros", arguments.ros, "publish the ball joints, as motion capture would");

@@ -24,6 +24,9 @@ class DriverThread {
     RobotDriver::Options driver;
     /// SCHED_FIFO and locked memory; needs rights, goes on without and says so in note().
     bool realtime = false;
+    /// Below 1 all of the driver's time runs slower, watchdogs too: for emulated ECUs of the same pace
+    /// on machines that are too slow for real time. Never with a robot.
+    double pace = 1.0;
   };
 
   /// @throws std::runtime_error if this kernel has no CAN; BadInput for bad options
@@ -44,6 +47,7 @@ class DriverThread {
   const std::string& note() const { return note_; }
 
  private:
+  double now() const { return options_.pace * monotonic_now(); }
   void loop();
   void serve_requests();
   void collect();

@@ -1,18 +1,20 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
 
 #include "anthrob_driver/bus/socketcan_bus.h"
 #include "anthrob_driver/emulation/rack.h"
 
 namespace anthrob {
+namespace driver {
 
 /// Runs a rack of emulated ECUs on a CAN interface in real time. When the machine is too slow,
 /// its milliseconds get longer rather than fewer: the ECUs' watchdogs count their own ticks.
 class Emulator {
  public:
-  Emulator(driver::Rack& rack, driver::SocketCanBus& bus) : rack_(rack), bus_(bus) {}
+  /// @param pace below 1: time runs slower, as DriverThread's
+  Emulator(Rack& rack, SocketCanBus& bus, double pace = 1.0)
+      : rack_(rack), bus_(bus), period_(0.001 / pace) {}
 
   /// @param quit ends the loop   @param each_tick called after every millisecond
   void run(const std::function<bool()>& quit, const std::function<void()>& each_tick);
@@ -22,9 +24,11 @@ class Emulator {
  private:
   void wait_for_frames(double until);
 
-  driver::Rack& rack_;
-  driver::SocketCanBus& bus_;
+  Rack& rack_;
+  SocketCanBus& bus_;
+  double period_;  ///< [s] of a tick
   std::uint64_t late_ = 0;
 };
 
+}  // namespace driver
 }  // namespace anthrob

@@ -1,4 +1,4 @@
-#include "anthrob_emulator/emulator.h"
+#include "anthrob_driver/emulation/emulator.h"
 
 #include <poll.h>
 
@@ -7,10 +7,10 @@
 #include "anthrob_driver/driver_thread.h"
 
 namespace anthrob {
+namespace driver {
 
 void Emulator::wait_for_frames(double until) {
-  for (double left = until - driver::monotonic_now(); left > 0.0;
-       left = until - driver::monotonic_now()) {
+  for (double left = until - monotonic_now(); left > 0.0; left = until - monotonic_now()) {
     timespec timeout{0, static_cast<long>(1e9 * left)};
     pollfd socket{bus_.descriptor(), POLLIN, 0};
     if (ppoll(&socket, 1, &timeout, nullptr) > 0) rack_.receive();
@@ -18,13 +18,13 @@ void Emulator::wait_for_frames(double until) {
 }
 
 void Emulator::run(const std::function<bool()>& quit, const std::function<void()>& each_tick) {
-  constexpr double kPeriod = 0.001, kTooLate = 0.005;
-  double deadline = driver::monotonic_now();
+  const double too_late = 5.0 * period_;
+  double deadline = monotonic_now();
   for (std::uint64_t ticks = 0; !quit(); ++ticks) {
-    deadline += kPeriod;
+    deadline += period_;
     wait_for_frames(deadline);
-    const double now = driver::monotonic_now();
-    if (now - deadline > kTooLate) {
+    const double now = monotonic_now();
+    if (now - deadline > too_late) {
       deadline = now;
       ++late_;
     }
@@ -36,4 +36,5 @@ void Emulator::run(const std::function<bool()>& quit, const std::function<void()
   }
 }
 
+}  // namespace driver
 }  // namespace anthrob

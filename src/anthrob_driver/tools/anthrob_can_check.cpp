@@ -1,0 +1,245 @@
+// Checks a CAN bus: how fast commands and answers go round, what is lost, how loaded the bus is.
+// With
+// --emulate the ECUs run in software in this process, so that an adapter, a vcan or a driver can be
+// tried without a robot. Nothing is enabled on a real robot.
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "anthrob_config/errors.h"
+#include "anthrob_driver/bus/bit_count.h"
+#include "anthrob_driver/driver_thread.h"
+#include "anthrob_driver/emulation/emulator.h"
+#include "anthrob_driver/emulation/tendon_plant.h"
+#include "anthrob_driver/realtime.h"
+
+namespace anthrob {
+namespace driver {
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+struct Arguments {
+  std::string can = "can0", hardware;
+  double seconds = 10.0, rate = 200.0;
+  bool emulate = false, hand = true, realtime = false;
+};
+
+/// Bits a second on the wire in a steady, enabled robot.
+struct Load {
+  double plain = 0.0, worst = 0.0;
+};
+
+Load calculated_load(const Hardware& hardware, double rate) {
+  Load load;
+  const auto add = [&load](const ecu::Frame& frame, double times) {
+    const BitCount bits = count_bits(frame);
+    load.plain += bits.plain * times;
+    load.worst += bits.worst * times;
+  };
+  add(ecu::encode(ecu::Sync{}), rate);
+  for (const EcuHardware& ecu : hardware.ecus) {
+    add(ecu::encode(ecu::Reference{}, ecu.node), rate);
+    add(ecu::encode(ecu::Motion{}, ecu.node, 0), rate * static_cast<double>(ecu.muscles.size()));
+    add(ecu::encode(ecu::Effort{}, ecu.node), rate);
+    if (ecu.analogs > 0) add(ecu::encode(ecu::Analog{}, ecu.node), 0.5 * rate);
+    add(ecu::encode(ecu::StateReport{}, ecu.node), 10.0);
+    add(ecu::encode(ecu::Health{}, ecu.node), 2.0);
+  }
+  return load;
+}
+
+/// Listens to everything on the bus and counts its bits, stuff bits included.
+class Listener {
+ public:
+  explicit Listener(const std::string& can) : bus_(can) {}
+  void listen(double seconds) {
+    BusEvent event;
+    for (const double end = monotonic_now() + seconds; monotonic_now() < end;) {
+      if (!bus_.receive(event)) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      } else if (event.kind == BusEvent::Kind::kFrame) {
+        bits_ += count_bits(event.frame).exact;
+        ++frames_;
+      }
+    }
+  }
+  double bits() const { return bits_; }
+  double frames() const { return frames_; }
+
+ private:
+  SocketCanBus bus_;
+  double bits_ = 0.0, frames_ = 0.0;
+};
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+double processor_time() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+bool enable(DriverThread& thread) {
+  RobotDriver::Outcome outcome;
+  for (int attempt = 0; attempt < 100 && !interrupted; ++attempt) {
+    bool waiting = true;
+    thread.call([](RobotDriver& driver, double now) { driver.start_enable(now); });
+    while (waiting) {
+      thread.wait(0.01);
+      thread.call([&](RobotDriver& driver, double) {
+        waiting = driver.phase() == RobotDriver::Phase::kEnabling;
+        outcome = driver.last_outcome();
+      });
+    }
+    if (outcome.accepted) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  std::cerr << "anthrob_can_check: " << outcome.reason << "\n";
+  return false;
+}
+
+/// Volts for all muscles, a tenth of a newton's worth.
+void command(DriverThread& thread, const Hardware& hardware) {
+  std::vector<std::string> names;
+  for (const MuscleHardware& muscle : hardware.muscles) names.push_back(muscle.name);
+  const std::vector<std::uint8_t> modes(names.size(), 0);
+  const std::vector<double> volts(names.size(), 0.05);
+  thread.call([&](RobotDriver& driver, double now) { driver.command(names, modes, volts, now); });
+}
+
+int measure(const Arguments& arguments, const Hardware& hardware) {
+  DriverThread::Options options;
+  options.driver.rate = arguments.rate;
+  options.realtime = arguments.realtime;
+  DriverThread thread(hardware, options, arguments.can);
+  if (!thread.note().empty()) std::cerr << "anthrob_can_check: " << thread.note() << "\n";
+  if (arguments.emulate && !enable(thread)) return 1;
+  thread.call([](RobotDriver& driver, double now) { driver.clear_faults(now); });
+  thread.wait(0.0);
+
+  Listener listener(arguments.can);
+  std::vector<double> round_trips;
+  std::uint64_t incomplete = 0, cycles = 0, frames = 0;
+  const auto count = [&](std::uint64_t& all_cycles, std::uint64_t& all_frames) {
+    thread.call([&](RobotDriver& driver, double) {
+      all_cycles = driver.cycles();
+      all_frames = driver.bus_watch().frames();
+    });
+  };
+  count(cycles, frames);
+  const double start = monotonic_now(), processor = processor_time();
+  while (monotonic_now() - start < arguments.seconds && !interrupted) {
+    if (arguments.emulate) command(thread, hardware);
+    for (const double end = monotonic_now() + 0.1; monotonic_now() < end;) {
+      for (const Sample& sample : thread.wait(0.02).samples) {
+        bool all = true;
+        for (const MuscleSample& muscle : sample.muscles) all = all && muscle.measured;
+        if (all) round_trips.push_back(sample.round_trip);
+        incomplete += !all;
+      }
+    }
+  }
+  const double elapsed = monotonic_now() - start, busy = processor_time() - processor;
+  std::uint64_t last_cycles = 0, last_frames = 0;
+  count(last_cycles, last_frames);
+  bool stopped = false;
+  std::string findings;
+  thread.call([&](RobotDriver& driver, double) {
+    stopped = arguments.emulate && driver.phase() != RobotDriver::Phase::kEnabled;
+    for (const Findings::Entry& entry : driver.findings().entries()) {
+      findings +=
+          "  " + std::string(info(entry.finding).name) + " " + std::to_string(entry.count) + "x\n";
+    }
+  });
+  listener.listen(2.0);
+
+  const Load load = calculated_load(hardware, arguments.rate);
+  const auto answered = static_cast<double>(round_trips.size());
+  const double wanted = static_cast<double>(last_cycles - cycles);
+  std::printf("%zu ECUs, %zu muscles, %.0f s at %.0f Hz: %.1f cycles/s, %.0f frames/s received\n",
+              hardware.ecus.size(), hardware.muscles.size(), elapsed, arguments.rate,
+              wanted / elapsed, static_cast<double>(last_frames - frames) / elapsed);
+  std::printf("SYNC and references to last answer: median %.2f ms, 99 %% %.2f ms, worst %.2f ms\n",
+              1e3 * quantile(round_trips, 0.5), 1e3 * quantile(round_trips, 0.99),
+              1e3 * quantile(round_trips, 1.0));
+  std::printf("cycles answered by all: %.0f of %.0f; incomplete: %llu\n", answered, wanted,
+              static_cast<unsigned long long>(incomplete));
+  std::printf(
+      "bus load at 1 Mbit/s: calculated %.1f %% without stuff bits, %.1f %% at most;"
+      " counted %.1f %% (%.0f frames/s)\n",
+      load.plain / 1e4, load.worst / 1e4, listener.bits() / 2.0 / 1e4, listener.frames() / 2.0);
+  std::printf("processor: %.1f %% of one%s\n", 100.0 * busy / elapsed,
+              arguments.emulate ? ", emulated ECUs included" : "");
+  std::printf("%s",
+              findings.empty() ? "nothing was found wrong\n" : ("found:\n" + findings).c_str());
+  return stopped || incomplete > 0 ? 1 : 0;
+}
+
+int run(const Arguments& arguments) {
+  const Hardware hardware = load_hardware(arguments.hardware, arguments.hand);
+  if (!arguments.emulate) return measure(arguments, hardware);
+  TendonPlant plant(hardware.muscles.size(), hardware.joints.size(), hardware.touch.size());
+  SocketCanBus bus(arguments.can);
+  Rack rack(hardware, plant, bus);
+  Emulator emulator(rack, bus);
+  std::atomic<bool> quit{false};
+  std::thread ecus([&] {
+    if (arguments.realtime) become_realtime(50);
+    emulator.run([&] { return quit.load(); }, [] {});
+  });
+  const int status = measure(arguments, hardware);
+  quit = true;
+  ecus.join();
+  std::printf("emulated milliseconds that took more than 6: %llu\n",
+              static_cast<unsigned long long>(emulator.late()));
+  return status;
+}
+
+}  // namespace
+}  // namespace driver
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  using namespace anthrob;
+  driver::Arguments arguments;
+  CLI::App app("Checks a CAN bus with a robot or with emulated ECUs", "anthrob_can_check");
+  app.add_option("--hardware", arguments.hardware, "hardware.yaml of the robot")->required();
+  app.add_option("--can", arguments.can, "CAN interface")->capture_default_str();
+  app.add_option("--seconds", arguments.seconds, "how long")->capture_default_str();
+  app.add_option("--rate", arguments.rate, "[Hz] of SYNC")->capture_default_str();
+  app.add_flag("--emulate", arguments.emulate, "run the ECUs in software");
+  app.add_flag("--hand,!--no-hand", arguments.hand, "with the hand's ECU (default)");
+  app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
+  std::signal(SIGINT, [](int) { driver::interrupted = true; });
+  try {
+    app.parse(argc, argv);
+    return driver::run(arguments);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::cerr << "anthrob_can_check: " << e.what() << " (--help explains)\n";
+    return 2;
+  } catch (const BadInput& e) {
+    std::cerr << "anthrob_can_check: " << e.what() << "\n";
+    return 2;
+  } catch (const std::exception& e) {
+    std::cerr << "anthrob_can_check: " << e.what() << "\n";
+    return 1;
+  }
+}
