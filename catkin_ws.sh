@@ -27,6 +27,7 @@ common_packages=(
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   xvfb xauth imagemagick libgl1-mesa-dri
+  user-mode-linux kmod iproute2  # CAN for the tests, where the kernel has none
 )
 say() { printf '\033[1m%s\033[0m\n' "$*"; }
 

@@ -198,6 +198,20 @@ void DriverNode::publish_diagnostics() {
   longest_round_trip_ = 0.0;
 }
 
+void DriverNode::log_stops() {
+  const double time = monotonic_now();
+  if (time - look_time_ < 0.05) return;
+  look_time_ = time;
+  std::uint64_t stops = 0;
+  std::string reason;
+  thread_.call([&](RobotDriver& driver, double) {
+    stops = driver.stops();
+    reason = driver.last_stop();
+  });
+  if (stops != logged_stops_) ROS_ERROR_STREAM("motors stopped: " << reason);
+  logged_stops_ = stops;
+}
+
 void DriverNode::run() {
   subscribers_ = {
       nh_.subscribe("muscle_command", 100, &DriverNode::on_command, this, kNoDelay),
@@ -222,6 +236,7 @@ void DriverNode::run() {
     publish_measurements(0.002);
     ros::getGlobalCallbackQueue()->callAvailable();
     publish_diagnostics();
+    log_stops();
   }
 }
 

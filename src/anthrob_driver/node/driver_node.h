@@ -43,6 +43,7 @@ class DriverNode {
   void publish(const Sample& sample);
   void publish(const AnalogSample& sample);
   void publish_diagnostics();
+  void log_stops();
 
   DriverThread thread_;
   Hardware hardware_;
@@ -52,8 +53,9 @@ class DriverNode {
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher muscles_, joints_, touch_, diagnostics_;
-  double report_time_ = 0.0, warning_time_ = -1e9;
+  double report_time_ = 0.0, look_time_ = 0.0, warning_time_ = -1e9;
   std::uint64_t samples_ = 0, reported_samples_ = 0;
+  std::uint64_t logged_stops_ = 0;
   double longest_round_trip_ = 0.0;
 };
 

@@ -284,6 +284,8 @@ void RobotDriver::stop(Finding finding, int ecu) {
   if (ecu >= 0 && finding != Finding::kEcuStopped)
     supervisor_.fault(links_[static_cast<std::size_t>(ecu)].own().name);
   last_outcome_ = {false, who + what.meaning};
+  ++stops_;
+  last_stop_ = std::string(what.name) + ": " + who + what.meaning + "; " + what.remedy;
 }
 
 void RobotDriver::check_bus(double now) {
@@ -380,8 +382,8 @@ void RobotDriver::cycle(double now) {
   check_ecus(now);
   if (supervisor_.update(now)) {
     findings_.add(Finding::kCommandTimeout, -1, now);
-    // Disabled here; STOPPING is what the ECUs report then, as on the simulator.
-    if (phase_ == Phase::kEnabled) disable();
+    // STOPPING is what the ECUs report then, as on the simulator.
+    stop(Finding::kCommandTimeout, -1);
   }
   if (phase_ == Phase::kEnabled) continue_home(now);
   close_sample(now);

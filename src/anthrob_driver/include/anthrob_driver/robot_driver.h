@@ -83,6 +83,9 @@ class RobotDriver {
   const Findings& findings() const { return findings_; }
   const BusWatch& bus_watch() const { return watch_; }
   std::uint64_t cycles() const { return cycles_; }
+  /// How often motors were stopped for a reason, and the last one.
+  std::uint64_t stops() const { return stops_; }
+  const std::string& last_stop() const { return last_stop_; }
 
   static constexpr double kEnableTimeout = 0.25;  ///< [s]
 
@@ -122,7 +125,8 @@ class RobotDriver {
     std::vector<std::uint8_t> sequence;  ///< of the request, by ECU
   } enabling_;
 
-  std::uint64_t cycles_ = 0;
+  std::uint64_t cycles_ = 0, stops_ = 0;
+  std::string last_stop_;
   std::uint8_t counter_ = 0, sequence_ = 0;
   double last_cycle_ = 0.0, started_ = 0.0, cleared_ = -1.0;
   int disable_repeats_ = 0, clear_repeats_ = 0;

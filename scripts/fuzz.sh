@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# usage: scripts/fuzz.sh [FRAMES]
+# Builds driver core, firmware and emulated ECUs with the address and undefined-behaviour sanitizers and sends them that
+# many random and mutated frames (default 1000000), see src/anthrob_driver/test/fuzz_test.cpp.
+set -eu
+cd "$(dirname "$0")/.."
+out=build/fuzz
+mkdir -p "$out"
+sources=(src/anthrob_config/src/*.cpp src/anthrob_ecu/src/*.cpp src/anthrob_ecu/src/firmware/*.cpp
+  src/anthrob_driver/src/*.cpp src/anthrob_driver/src/bus/*.cpp src/anthrob_driver/src/emulation/*.cpp
+  src/anthrob_driver/test/fuzz_test.cpp)
+includes=(-Isrc/anthrob_config/include -Isrc/anthrob_ecu/include -Isrc/anthrob_driver/include -isystem /usr/include/eigen3)
+objects=()
+for source in "${sources[@]}"; do
+  object="$out/$(echo "$source" | tr / _).o"
+  objects+=("$object")
+  if [ "$source" -nt "$object" ]; then echo "$source $object"; fi
+done | xargs -r -P "$(nproc)" -L 1 bash -c \
+  'g++ -std=c++17 -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all \
+     -DANTHROB_CONFIG_DIR="\"'"$PWD"'/config\"" '"${includes[*]}"' -c "$1" -o "$2"' compile
+for source in "${sources[@]}"; do objects+=("$out/$(echo "$source" | tr / _).o"); done
+g++ -fsanitize=address,undefined "${objects[@]}" -o "$out/fuzz_test" -lgtest_main -lgtest -lyaml-cpp -lpthread
+FUZZ_FRAMES="${1:-1000000}" "$out/fuzz_test"
