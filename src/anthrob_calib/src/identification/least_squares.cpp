@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
@@ -64,6 +65,29 @@ void minimise(const LeastSquares& problem, std::vector<double>& scaled) {
   }
 }
 
+/// Sum of squares of the blocks' gradients, each as if the fit had not seen that block (the
+/// jackknife, in its closed form for linear models). Without that, blocks that decide a parameter,
+/// as the first second of a relaxation does, hide their own errors.
+Eigen::MatrixXd scatter_of_blocks(const std::vector<int>& block, int pieces,
+                                  const Eigen::VectorXd& residuals, const RowMajor& jacobian,
+                                  const Eigen::MatrixXd& inverse) {
+  const Eigen::Index n = jacobian.cols(), rows = jacobian.rows();
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index begin = 0, end = 0; begin < rows; begin = end) {
+    while (end < rows &&
+           block[static_cast<std::size_t>(end)] == block[static_cast<std::size_t>(begin)]) {
+      ++end;
+    }
+    const auto own = jacobian.middleRows(begin, end - begin);
+    const Eigen::VectorXd gradient = own.transpose() * residuals.segment(begin, end - begin);
+    const Eigen::MatrixXd others =
+        Eigen::MatrixXd::Identity(n, n) - own.transpose() * own * inverse;
+    const Eigen::VectorXd unseen = others.fullPivLu().solve(gradient);
+    scatter += unseen * unseen.transpose();
+  }
+  return (pieces - 1.0) / pieces * scatter;
+}
+
 /// Covariance of the scaled parameters.
 Eigen::MatrixXd covariance_of(const LeastSquares& problem, const Eigen::VectorXd& residuals,
                               const RowMajor& jacobian, int pieces, int freedom) {
@@ -76,14 +100,7 @@ Eigen::MatrixXd covariance_of(const LeastSquares& problem, const Eigen::VectorXd
                                   eigen.eigenvalues().cwiseInverse().asDiagonal() *
                                   eigen.eigenvectors().transpose();
   if (problem.block.empty()) return residuals.squaredNorm() / freedom * inverse;
-  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(pieces, jacobian.cols());
-  for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
-    scores.row(problem.block[static_cast<std::size_t>(row)]) += residuals[row] * jacobian.row(row);
-  }
-  // The fitted parameters follow the blocks they are judged by; as with any variance, dividing by
-  // the degrees of freedom makes up for it.
-  const double correction = static_cast<double>(pieces) / freedom;
-  return correction * inverse * (scores.transpose() * scores) * inverse;
+  return inverse * scatter_of_blocks(problem.block, pieces, residuals, jacobian, inverse) * inverse;
 }
 
 }  // namespace

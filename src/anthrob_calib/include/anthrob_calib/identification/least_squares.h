@@ -32,7 +32,7 @@ struct LeastSquares {
 struct Fit {
   std::vector<double> values;
   /// Of the parameters. With blocks from the scatter of their gradients (the "sandwich" of robust
-  /// statistics), so that it stays right for correlated residuals of unequal size.
+  /// statistics, jackknifed), so that it stays right for correlated residuals of unequal size.
   Eigen::MatrixXd covariance;
   int freedom = 0;         ///< blocks (or residuals, without) minus parameters
   double deviation = 0.0;  ///< root mean square of the residuals
