@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace anthrob {
+namespace mocap {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Quat = Eigen::Quaterniond;
+
+/// Which camera of the pair; also an index.
+enum Side { kLeft = 0, kRight = 1 };
+inline const char* name(Side side) {
+  return side == kLeft ? "left" : "right";
+}
+
+/// X_AB: p_A = R p_B + p.
+struct Pose {
+  Mat3 R = Mat3::Identity();
+  Vec3 p = Vec3::Zero();
+
+  Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+};
+inline Pose operator*(const Pose& a, const Pose& b) {
+  return {a.R * b.R, a.R * b.p + a.p};
+}
+inline Vec3 operator*(const Pose& X, const Vec3& p) {
+  return X.R * p + X.p;
+}
+
+/// Unit quaternion with w >= 0, as published.
+inline Quat canonical(const Quat& q) {
+  const Quat unit = q.normalized();
+  return unit.w() < 0.0 ? Quat(-unit.coeffs()) : unit;
+}
+
+/// The rotation by |w| about w.
+inline Mat3 exp_rotation(const Vec3& w) {
+  const double angle = w.norm();
+  if (angle < 1e-12) return Mat3::Identity();
+  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
+}
+
+/// The vector whose rotation is R, of length in [0, pi].
+inline Vec3 log_rotation(const Mat3& R) {
+  const Eigen::AngleAxisd turn{canonical(Quat(R))};
+  return turn.angle() * turn.axis();
+}
+
+/// Angle of the rotation between two orientations, in [0, pi].
+inline double angular_distance(const Mat3& a, const Mat3& b) {
+  return log_rotation(a.transpose() * b).norm();
+}
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "anthrob_mocap/labelling/edges.h"
+#include "anthrob_mocap/labelling/targets.h"
+#include "anthrob_mocap/pose/rigid_fit.h"
+
+namespace anthrob {
+namespace mocap {
+
+struct LabellingOptions {
+  double edge_tolerance = 0.003;     ///< epsilon of (A.3.4) [m]
+  double rms_tolerance = 0.0015;     ///< of a fit of four or more markers [m]
+  double triple_tolerance = 0.0005;  ///< of a fit of three: little else speaks for it [m]
+  double tie_margin = 0.00015;       ///< fits this much worse than twice the best are rivals [m]
+  int step_limit = 20000;            ///< of one search; bounds the time that clutter can cost
+};
+
+/// Which points are the markers of a target.
+struct Labelling {
+  std::vector<int> point;  ///< by marker; -1: not seen
+  int count = 0;           ///< markers seen; 0: the target is not found
+  RigidFit fit;            ///< target frame to rectified left frame
+  bool ambiguous = false;  ///< another labelling fits as well, with another pose
+};
+
+/// Finds the largest part of one target's reference graph in the candidate graph: a maximum clique
+/// of the graph whose nodes are (marker, point) and whose edges join nodes of equal distance within
+/// the tolerance. Depth first over the markers, on bit sets, with the best size so far as bound.
+/// Distances cannot tell a constellation from its mirror image: that is left to the fit, whose
+/// residual is large then.
+class CliqueSearch {
+ public:
+  CliqueSearch(const MarkerTarget& target, const LabellingOptions& options);
+
+  /// @param edges of find_edges
+  /// @param usable by point; false: belongs to another target
+  /// @return the labelling of most markers and then of least residual; ambiguous if a rival of as
+  ///   many markers fits about as well elsewhere
+  const Labelling& find(const std::vector<MarkerPoint>& points, const std::vector<Edge>& edges,
+                        const std::vector<char>& usable);
+
+  double longest_edge() const { return longest_; }
+  /// Whether the last search hit its step limit.
+  bool gave_up() const { return steps_ > options_.step_limit; }
+
+ private:
+  struct ReferenceEdge {
+    int i, j;
+    double length;
+  };
+  using Word = std::uint64_t;
+
+  void build(const std::vector<MarkerPoint>& points, const std::vector<Edge>& edges,
+             const std::vector<char>& usable);
+  Word* links(int marker, int point, int other_marker);
+  Word* allowed(int level, int marker);
+  bool any(const Word* set) const;
+  void descend(int level, int chosen);
+  void judge(int chosen);
+  bool mirrored(int chosen) const;
+
+  MarkerTarget target_;
+  LabellingOptions options_;
+  std::vector<ReferenceEdge> reference_;
+  double longest_ = 0.0;
+
+  // Scratch, kept between calls.
+  const std::vector<MarkerPoint>* points_ = nullptr;
+  int point_count_ = 0, words_ = 0, steps_ = 0;
+  std::vector<Word> links_, allowed_;
+  std::vector<int> assigned_;
+  Labelling best_, rival_;
+  std::vector<std::vector<int>> mirrored_;
+  std::size_t mirrored_count_ = 0;
+};
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "anthrob_mocap/labelling/clique_search.h"
+#include "anthrob_mocap/labelling/motion_prior.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// Finds all targets among the points; no blob is used twice. Frames come in the order of time.
+class Labeller {
+ public:
+  Labeller(const std::vector<MarkerTarget>& targets, const LabellingOptions& options,
+           const MotionOptions& motion);
+
+  /// @param t [s] exposure
+  /// @param result replaced: one for every target, of count 0 if it is not found
+  void label(double t, const std::vector<MarkerPoint>& points, const std::vector<Edge>& edges,
+             std::vector<Labelling>& result);
+
+  double longest_edge() const { return longest_; }  ///< [m] that matters to any target
+
+ private:
+  void withdraw_used(const Labelling& labelling, const std::vector<MarkerPoint>& points);
+  bool collides(const Labelling& labelling) const;
+
+  std::vector<CliqueSearch> searches_;
+  std::vector<MotionPrior> priors_;
+  double longest_ = 0.0;
+  std::vector<char> usable_;
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace mocap
+}  // namespace anthrob

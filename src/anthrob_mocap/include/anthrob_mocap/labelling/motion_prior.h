@@ -1,0 +1,41 @@
+#pragma once
+
+#include "anthrob_mocap/core/types.h"
+
+namespace anthrob {
+namespace mocap {
+
+struct MotionOptions {
+  double max_turn_rate = 6.0;  ///< [rad/s]
+  double max_speed = 1.5;      ///< [m/s]
+  double memory = 0.25;        ///< [s] how long a pose speaks about the next ones
+};
+
+/// What the recent past says about a target's pose. It never adds a pose and never shapes one; it
+/// only doubts those that stand on three markers, where chance could have placed a reflection.
+/// Poses of more markers are believed and, where they jump (single pictures, a bag that loops),
+/// show that there is no motion to go by.
+class MotionPrior {
+ public:
+  explicit MotionPrior(const MotionOptions& options) : options_(options) {}
+
+  bool contradicts(double t, const Pose& X) const {
+    return streak_ >= kSteady && recent(t) && !near(t, X);
+  }
+  void accept(double t, const Pose& X);
+
+ private:
+  static constexpr int kSteady = 5;
+
+  bool recent(double t) const { return known_ && t > t_ && t - t_ <= options_.memory; }
+  bool near(double t, const Pose& X) const;
+
+  MotionOptions options_;
+  bool known_ = false;  ///< there is a last pose
+  int streak_ = 0;      ///< poses in a row that followed from the one before
+  double t_ = 0.0;
+  Pose X_;
+};
+
+}  // namespace mocap
+}  // namespace anthrob

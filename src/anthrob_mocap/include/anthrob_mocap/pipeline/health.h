@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "anthrob_mocap/pipeline/stereo_frame.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// Whether rig, calibration and targets belong together, from what a run of frames shows.
+class Health {
+ public:
+  Health(const StereoRig& rig, const MatchingOptions& options);
+
+  void add(const StereoFrame& frame);
+  void clear() { sums_ = Sums(); }
+
+  int frames() const { return sums_.frames; }
+  int poses() const { return sums_.poses; }
+  /// Mean of v_left - v_right over the markers used [pixel]; far from 0: the rig has moved.
+  double row_error() const { return sums_.poses > 0 ? sums_.row_error / sums_.poses : 0.0; }
+  double pixel_rms() const { return sums_.poses > 0 ? sums_.pixel_rms / sums_.poses : 0.0; }
+
+  /// What must be wrong with the images or the calibration; empty if nothing must.
+  std::string contradiction() const;
+  /// What to look at if nothing was found; empty if something was.
+  std::string advice() const;
+
+ private:
+  struct Sums {
+    int frames = 0, poses = 0, cluttered = 0;
+    long matches = 0, matches_if_swapped = 0, blobs[2] = {0, 0};
+    double row_error = 0.0, pixel_rms = 0.0;
+  };
+  void try_swapped(const StereoFrame& frame);
+
+  StereoRig rig_;
+  EpipolarMatcher matcher_;
+  Sums sums_;
+};
+
+}  // namespace mocap
+}  // namespace anthrob

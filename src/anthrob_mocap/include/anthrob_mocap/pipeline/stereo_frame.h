@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "anthrob_mocap/core/image.h"
+#include "anthrob_mocap/joint/joint_estimator.h"
+#include "anthrob_mocap/labelling/labeller.h"
+#include "anthrob_mocap/matching/epipolar_matcher.h"
+#include "anthrob_mocap/pipeline/pipeline.h"
+#include "anthrob_mocap/pose/pose_estimator.h"
+#include "anthrob_mocap/segmentation/blob.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// A pair of images and all that the stages find in it, each member the output of one stage.
+struct StereoFrame final : Packet {
+  std::uint64_t index = 0;
+  double t = 0.0;  ///< [s] exposure
+  std::array<ImageView, 2> image;
+  std::array<std::shared_ptr<const void>, 2> owner;  ///< keeps the pixels alive
+
+  std::array<std::vector<Blob>, 2> blobs;      ///< segmentation
+  std::array<bool, 2> cluttered{};             ///< too many specks to be a scene of markers
+  std::array<std::vector<Vec2>, 2> rectified;  ///< undistortion
+  std::vector<Match> matches;                  ///< matching
+  std::vector<MarkerPoint> points;             ///< triangulation
+  std::vector<Edge> edges;                     ///< points to edges
+  std::vector<Labelling> labels;               ///< labelling, by target
+  std::vector<TargetPose> targets;             ///< pose, by target
+  std::vector<JointEstimate> joints;           ///< joint, by joint
+};
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "anthrob_mocap/pipeline/stereo_frame.h"
+#include "anthrob_mocap/segmentation/segmenter.h"
+
+namespace anthrob {
+namespace mocap {
+
+struct TrackerOptions {
+  SegmentationOptions segmentation;
+  MatchingOptions matching;
+  LabellingOptions labelling;
+  MotionOptions motion;
+  PoseOptions pose;
+  int most_points = 400;  ///< points in space; of more, only these are looked at
+};
+
+/// The stages between a pair of images and the joints, in the order of Figure A.2. They keep
+/// scratch and state: one tracker is one stream of frames, in the order of time.
+/// @throws std::invalid_argument if an option makes no sense
+std::vector<Stage> tracking_stages(const StereoRig& rig, const TargetSet& targets,
+                                   const TrackerOptions& options);
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "anthrob_mocap/source/frame_source.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// Pairs of images 000000.png, ... of two folders. Times are in times.csv ("index,t") in one or
+/// both of the folders or beside them; without it, the index divided by the rate.
+class FolderSource final : public FrameSource {
+ public:
+  struct Options {
+    double rate = 60.0;             ///< [Hz] without times.csv
+    double sync_tolerance = 0.002;  ///< [s] between times of left and right
+  };
+
+  /// @throws BadInput if folders, names or times of left and right do not belong together
+  FolderSource(const std::string& left, const std::string& right, const Options& options);
+
+  /// @throws BadInput if an image is missing, truncated, not 8-bit grey, or of another size
+  Grab next(StereoFrame& frame, double timeout) override;
+
+  std::size_t count() const { return names_.size(); }
+
+ private:
+  using Times = std::map<long, double>;
+  static Times read_times(const std::string& file);
+  void load_times(const Options& options);
+  void check_times(const Times& left, const Times& right, double tolerance) const;
+
+  std::string folder_[2];
+  std::vector<std::string> names_;
+  std::vector<double> times_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "anthrob_mocap/pipeline/stereo_frame.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// Where pairs of images come from.
+class FrameSource {
+ public:
+  enum class Grab { kFrame, kNothing, kEnd };
+
+  virtual ~FrameSource() = default;
+
+  /// Fills index, t, image and owner of a frame; waits at most `timeout` [s].
+  /// @throws BadInput for images that cannot be used
+  virtual Grab next(StereoFrame& frame, double timeout) = 0;
+
+  /// What is wrong with the cameras at the moment, in one line; empty if nothing is. Sources heal
+  /// themselves: keep calling next.
+  virtual std::string trouble() const { return ""; }
+};
+
+}  // namespace mocap
+}  // namespace anthrob

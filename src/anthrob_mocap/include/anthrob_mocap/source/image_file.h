@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "anthrob_mocap/core/image.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// Reads an 8-bit grey image.
+/// @throws BadInput naming the file if it is missing, truncated, 16-bit, in colour or no image
+Image read_grey_image(const std::string& file);
+
+/// The same, but colours become grey: for pictures of checkerboards.
+Image read_any_image(const std::string& file);
+
+void write_grey_image(const std::string& file, const Image& image);
+
+/// Names of the image files of a folder, sorted.
+/// @throws BadInput if there is no such folder or no image in it
+std::vector<std::string> list_images(const std::string& folder);
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "anthrob_mocap/core/image.h"
+#include "anthrob_mocap/core/types.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// One camera's image and its exposure.
+struct TimedImage {
+  double t = 0.0;  ///< [s]
+  ImageView image;
+  std::shared_ptr<const void> owner;
+};
+
+/// Brings images of two cameras together by their stamps: whatever arrives first waits for its
+/// partner; what turns out to have none is dropped and counted.
+class Pairing {
+ public:
+  /// @param tolerance [s] between the stamps of a pair; 0: they must be equal
+  explicit Pairing(double tolerance) : tolerance_(tolerance) {}
+
+  /// @return true if the image completes a pair, then in pair[kLeft], pair[kRight]
+  bool add(Side side, const TimedImage& image, TimedImage pair[2]);
+
+  struct Counts {
+    int images[2] = {0, 0};
+    int pairs = 0;
+    double nearest = 0.0;  ///< [s] right minus left stamp of the nearest that did not pair
+  };
+  /// Since the last call.
+  Counts take_counts();
+  /// Why there are images but no pairs, or none of one camera; empty if all is well.
+  static std::string complaint(const Counts& counts, double tolerance);
+  double tolerance() const { return tolerance_; }
+
+ private:
+  double tolerance_;
+  std::deque<TimedImage> waiting_[2];
+  Counts counts_;
+};
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "anthrob_mocap/camera/stereo_rig.h"
+#include "anthrob_mocap/matching/epipolar_matcher.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// A point in space that could be a marker.
+struct MarkerPoint {
+  Vec3 p = Vec3::Zero();   ///< centre, rectified left frame [m]
+  Vec2 image[2];           ///< rectified pixels of the centre, before the rows are averaged
+  int blob[2] = {-1, -1};  ///< which blobs it is made of
+};
+
+/// Matches to points in space, optimally (see StereoRig::triangulate), with the outlines of spheres
+/// put right: the outline of a sphere is an ellipse, whose centre lies farther from the image
+/// centre than the sphere's does. For a sphere of radius r at depth z of a pinhole, exactly,
+///   m_centre = m_ellipse (1 - r^2 / z^2).
+class Triangulator {
+ public:
+  /// @param marker_radius [m]; 0 for flat markers
+  Triangulator(const StereoRig& rig, double marker_radius) : rig_(rig), radius_(marker_radius) {}
+
+  /// @param points rectified centroids, by side
+  /// @param result replaced; one for every match
+  void triangulate(const std::array<std::vector<Vec2>, 2>& points,
+                   const std::vector<Match>& matches, std::vector<MarkerPoint>& result) const;
+
+ private:
+  Vec2 centre_of_sphere(Side side, const Vec2& ellipse, const Vec3& p) const;
+
+  StereoRig rig_;
+  double radius_;
+};
+
+}  // namespace mocap
+}  // namespace anthrob

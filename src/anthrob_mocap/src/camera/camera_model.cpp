@@ -1,0 +1,131 @@
+#include "anthrob_mocap/camera/camera_model.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "anthrob_mocap/file/settings.h"
+
+namespace anthrob {
+namespace mocap {
+
+namespace {
+
+std::vector<double> matrix(const Settings& parent, const std::string& key, int rows, int cols) {
+  const Settings node = parent.at(key);
+  node.at("rows").integer(rows, rows);
+  node.at("cols").integer(cols, cols);
+  for (const char* extra : {"dt"}) {
+    if (node.has(extra)) node.at(extra);
+  }
+  return node.at("data").numbers(static_cast<std::size_t>(rows * cols));
+}
+
+void read_distortion(const Settings& file, CameraModel& camera) {
+  const std::string model =
+      file.has("distortion_model") ? file.at("distortion_model").text() : "plumb_bob";
+  if (model != "plumb_bob" && model != "rational_polynomial") {
+    file.at("distortion_model").fail_expected("plumb_bob or rational_polynomial");
+  }
+  const Settings node = file.at("distortion_coefficients");
+  const Settings data = node.at("data");
+  const std::size_t count = data.items().size();
+  if (count != 4 && count != 5 && count != 8) data.fail_expected("4, 5 or 8 numbers");
+  const std::vector<double> values = data.numbers(count);
+  std::copy(values.begin(), values.end(), camera.distortion.begin());
+}
+
+}  // namespace
+
+CameraModel CameraModel::load(const std::string& path) {
+  const Settings file = Settings::load(path);
+  CameraModel camera;
+  camera.width = file.at("image_width").integer(1, 100000);
+  camera.height = file.at("image_height").integer(1, 100000);
+  camera.name = file.has("camera_name") ? file.at("camera_name").text() : "camera";
+  const std::vector<double> K = matrix(file, "camera_matrix", 3, 3);
+  camera.fx = K[0], camera.cx = K[2], camera.fy = K[4], camera.cy = K[5];
+  if (!(K[0] > 0.0 && K[4] > 0.0) || K[1] != 0.0 || K[3] != 0.0 || K[8] != 1.0) {
+    file.at("camera_matrix").fail("expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0");
+  }
+  read_distortion(file, camera);
+  const std::vector<double> R = matrix(file, "rectification_matrix", 3, 3);
+  camera.R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
+  // A mirrored calibration passes every test of distances; its determinant gives it away.
+  const bool rotation = (camera.R * camera.R.transpose() - Mat3::Identity()).norm() < 1e-4;
+  if (!rotation || camera.R.determinant() < 0.0) {
+    file.at("rectification_matrix")
+        .fail("expected a rotation; this one is " +
+              std::string(rotation ? "mirrored" : "not orthonormal"));
+  }
+  const std::vector<double> P = matrix(file, "projection_matrix", 3, 4);
+  camera.P = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(P.data());
+  if (!(P[0] > 0.0) || std::abs(P[0] - P[5]) > 1e-6 * P[0] || P[10] != 1.0) {
+    file.at("projection_matrix").fail("expected a rectified camera [f, 0, cx, Tx, 0, f, cy, ...]");
+  }
+  return camera;
+}
+
+namespace {
+
+template <typename Matrix>
+void write_matrix(std::ostream& out, const std::string& key, const Matrix& values) {
+  out << key << ":\n  rows: " << values.rows() << "\n  cols: " << values.cols() << "\n  data: [";
+  for (int i = 0; i < values.rows(); ++i) {
+    for (int j = 0; j < values.cols(); ++j) out << (i + j > 0 ? ", " : "") << values(i, j);
+  }
+  out << "]\n";
+}
+
+}  // namespace
+
+std::string CameraModel::to_yaml() const {
+  std::ostringstream out;
+  out.precision(std::numeric_limits<double>::max_digits10);
+  Mat3 K;
+  K << fx, 0, cx, 0, fy, cy, 0, 0, 1;
+  const bool rational = distortion[5] != 0.0 || distortion[6] != 0.0 || distortion[7] != 0.0;
+  Eigen::RowVectorXd D(rational ? 8 : 5);
+  for (int i = 0; i < D.size(); ++i) D[i] = distortion[static_cast<std::size_t>(i)];
+  out << "image_width: " << width << "\nimage_height: " << height << "\ncamera_name: " << name
+      << "\n";
+  write_matrix(out, "camera_matrix", K);
+  out << "distortion_model: " << (rational ? "rational_polynomial" : "plumb_bob") << "\n";
+  write_matrix(out, "distortion_coefficients", D);
+  write_matrix(out, "rectification_matrix", R);
+  write_matrix(out, "projection_matrix", P);
+  return out.str();
+}
+
+Vec2 CameraModel::distort(const Vec2& ideal) const {
+  const auto& k = distortion;
+  const double x = ideal.x(), y = ideal.y(), xy = x * y, r2 = x * x + y * y;
+  const double radial =
+      (1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+  return {x * radial + 2.0 * k[2] * xy + k[3] * (r2 + 2.0 * x * x),
+          y * radial + k[2] * (r2 + 2.0 * y * y) + 2.0 * k[3] * xy};
+}
+
+Vec2 CameraModel::undistort(const Vec2& distorted) const {
+  // distort(x) = x + small: iterating x <- x - (distort(x) - target) contracts for real lenses.
+  Vec2 x = distorted;
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 miss = distort(x) - distorted;
+    x -= miss;
+    if (miss.squaredNorm() < 1e-24) return x;
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  return {nan, nan};
+}
+
+Vec2 CameraModel::project(const Vec3& p_C) const {
+  const Vec2 d = distort({p_C.x() / p_C.z(), p_C.y() / p_C.z()});
+  return {fx * d.x() + cx, fy * d.y() + cy};
+}
+
+Vec2 CameraModel::ideal(const Vec2& pixel) const {
+  return undistort({(pixel.x() - cx) / fx, (pixel.y() - cy) / fy});
+}
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,66 @@
+#include "anthrob_mocap/pipeline/health.h"
+
+#include <algorithm>
+
+namespace anthrob {
+namespace mocap {
+
+Health::Health(const StereoRig& rig, const MatchingOptions& options)
+    : rig_(rig), matcher_(rig, options) {}
+
+void Health::add(const StereoFrame& frame) {
+  ++sums_.frames;
+  sums_.cluttered += frame.cluttered[kLeft] || frame.cluttered[kRight] ? 1 : 0;
+  sums_.matches += static_cast<long>(frame.matches.size());
+  for (const Side side : {kLeft, kRight}) {
+    sums_.blobs[side] += static_cast<long>(frame.blobs[side].size());
+  }
+  const int before = sums_.poses;
+  for (const TargetPose& pose : frame.targets) {
+    if (!pose.valid) continue;
+    ++sums_.poses;
+    sums_.row_error += pose.row_error;
+    sums_.pixel_rms += pose.pixel_rms;
+  }
+  if (sums_.poses == before) try_swapped(frame);
+}
+
+void Health::try_swapped(const StereoFrame& frame) {
+  const std::array<std::vector<Blob>, 2> blobs{frame.blobs[kRight], frame.blobs[kLeft]};
+  std::array<std::vector<Vec2>, 2> points;
+  for (const Side side : {kLeft, kRight}) {
+    for (const Blob& blob : blobs[side]) points[side].push_back(rig_.rectify(side, blob.centre));
+  }
+  std::vector<Match> matches;
+  matcher_.match(blobs, points, matches);
+  sums_.matches_if_swapped += static_cast<long>(matches.size());
+}
+
+std::string Health::contradiction() const {
+  if (sums_.frames == 0 || sums_.poses > 0) return "";
+  const long frames = sums_.frames, fewest = std::min(sums_.blobs[kLeft], sums_.blobs[kRight]);
+  if (sums_.cluttered == sums_.frames) {
+    return "the images are full of bright specks: too bright, or the threshold is too low";
+  }
+  if (sums_.matches_if_swapped >= 3 * frames && sums_.matches_if_swapped > 2 * sums_.matches) {
+    return "left and right images are swapped";
+  }
+  if (fewest >= 4 * frames && 4 * sums_.matches < fewest) {
+    return "the blobs of left and right image do not lie on common rows: the pair is "
+           "unsynchronised, or this is not the calibration of these cameras";
+  }
+  return "";
+}
+
+std::string Health::advice() const {
+  if (sums_.frames == 0 || sums_.poses > 0) return "";
+  const std::string why = contradiction();
+  if (!why.empty()) return why;
+  if (std::min(sums_.blobs[kLeft], sums_.blobs[kRight]) < 3L * sums_.frames) {
+    return "hardly any marker is seen: lighting, threshold or view";
+  }
+  return "markers are seen but form no target: wrong targets.yaml, wrong calibration, or occlusion";
+}
+
+}  // namespace mocap
+}  // namespace anthrob

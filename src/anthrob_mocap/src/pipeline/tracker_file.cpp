@@ -1,0 +1,57 @@
+#include "anthrob_mocap/pipeline/tracker_file.h"
+
+#include "anthrob_mocap/file/settings.h"
+
+namespace anthrob {
+namespace mocap {
+
+TrackerOptions load_tracker_options(const std::string& path) {
+  const Settings file = Settings::load(path);
+  TrackerOptions options;
+  const auto section = [&](const char* name, auto&& read) {
+    if (file.has(name)) read(file.at(name));
+  };
+  const auto number = [](const Settings& node, const char* key, double& value, double lo,
+                         double hi) { value = node.number_or(key, value, lo, hi); };
+  section("segmentation", [&](const Settings& node) {
+    SegmentationOptions& o = options.segmentation;
+    if (node.has("threshold")) o.threshold = node.at("threshold").integer(1, 254);
+    number(node, "min_area", o.min_area, 1.0, 1e6);
+    number(node, "max_area", o.max_area, 1.0, 1e6);
+    number(node, "max_axis_ratio", o.max_axis_ratio, 1.0, 100.0);
+    number(node, "min_fill", o.min_fill, 0.0, 1.0);
+    number(node, "least_shape_area", o.least_shape_area, 0.0, 1e6);
+  });
+  section("matching", [&](const Settings& node) {
+    MatchingOptions& o = options.matching;
+    number(node, "epipolar_tolerance", o.epipolar_tolerance, 0.01, 100.0);
+    number(node, "min_depth", o.min_depth, 0.01, 100.0);
+    number(node, "max_depth", o.max_depth, 0.01, 1000.0);
+    number(node, "size_factor", o.size_factor, 1.0, 100.0);
+  });
+  section("labelling", [&](const Settings& node) {
+    LabellingOptions& o = options.labelling;
+    number(node, "edge_tolerance", o.edge_tolerance, 1e-5, 0.1);
+    number(node, "rms_tolerance", o.rms_tolerance, 1e-5, 0.1);
+    number(node, "triple_tolerance", o.triple_tolerance, 1e-5, 0.1);
+    number(node, "tie_margin", o.tie_margin, 0.0, 0.1);
+    if (node.has("step_limit")) o.step_limit = node.at("step_limit").integer(100, 100000000);
+  });
+  section("motion", [&](const Settings& node) {
+    MotionOptions& o = options.motion;
+    number(node, "max_turn_rate", o.max_turn_rate, 0.01, 1000.0);
+    number(node, "max_speed", o.max_speed, 0.01, 1000.0);
+    number(node, "memory", o.memory, 0.0, 10.0);
+  });
+  section("pose", [&](const Settings& node) {
+    PoseOptions& o = options.pose;
+    number(node, "pixel_noise", o.pixel_noise, 1e-4, 10.0);
+    number(node, "max_turn_sigma", o.max_turn_sigma, 1e-5, 1.0);
+  });
+  if (file.has("most_points")) options.most_points = file.at("most_points").integer(3, 10000);
+  file.refuse_unknown_keys();
+  return options;
+}
+
+}  // namespace mocap
+}  // namespace anthrob

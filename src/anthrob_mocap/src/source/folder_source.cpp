@@ -1,0 +1,109 @@
+#include "anthrob_mocap/source/folder_source.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "anthrob_mocap/core/errors.h"
+#include "anthrob_mocap/source/image_file.h"
+
+namespace anthrob {
+namespace mocap {
+
+namespace fs = std::filesystem;
+
+FolderSource::FolderSource(const std::string& left, const std::string& right,
+                           const Options& options)
+    : folder_{left, right} {
+  names_ = list_images(left);
+  const std::vector<std::string> right_names = list_images(right);
+  for (std::size_t i = 0; i < std::max(names_.size(), right_names.size()); ++i) {
+    if (i < names_.size() && i < right_names.size() && names_[i] == right_names[i]) continue;
+    const bool left_first =
+        i < names_.size() && (i >= right_names.size() || names_[i] < right_names[i]);
+    throw BadInput((left_first ? right : left) + ": no " +
+                   (left_first ? names_[i] : right_names[i]) +
+                   ", which the other folder has: expected the same names in both");
+  }
+  load_times(options);
+}
+
+FolderSource::Times FolderSource::read_times(const std::string& file) {
+  std::ifstream in(file);
+  std::string line;
+  Times times;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || (number == 1 && line == "index,t")) continue;
+    long index = 0;
+    double t = 0.0;
+    char rest = 0;
+    if (std::sscanf(line.c_str(), "%ld,%lf%c", &index, &t, &rest) != 2 || !std::isfinite(t)) {
+      throw BadInput(file + ":" + std::to_string(number) + ": " + line + ": expected index,t");
+    }
+    if (!times.emplace(index, t).second) {
+      throw BadInput(file + ":" + std::to_string(number) + ": index " + std::to_string(index) +
+                     " appears twice");
+    }
+  }
+  return times;
+}
+
+void FolderSource::load_times(const Options& options) {
+  Times times, right;
+  std::string file = folder_[kLeft] + "/times.csv";
+  if (fs::exists(file)) times = read_times(file);
+  if (fs::exists(folder_[kRight] + "/times.csv"))
+    right = read_times(folder_[kRight] + "/times.csv");
+  if (!times.empty() && !right.empty()) check_times(times, right, options.sync_tolerance);
+  if (times.empty()) times = right, file = folder_[kRight] + "/times.csv";
+  const fs::path beside = fs::absolute(folder_[kLeft]).lexically_normal();
+  const fs::path parent = (beside.has_filename() ? beside : beside.parent_path()).parent_path();
+  if (times.empty() && fs::exists(parent / "times.csv")) {
+    file = (parent / "times.csv").string();
+    times = read_times(file);
+  }
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const std::string stem = fs::path(names_[i]).stem().string();
+    char* end = nullptr;
+    const long number = std::strtol(stem.c_str(), &end, 10);
+    const long index = *end == 0 && !stem.empty() ? number : static_cast<long>(i);
+    const auto t = times.find(index);
+    if (!times.empty() && t == times.end()) {
+      throw BadInput(file + ": no time for " + names_[i]);
+    }
+    times_.push_back(times.empty() ? static_cast<double>(index) / options.rate : t->second);
+    if (i > 0 && !(times_[i] > times_[i - 1])) {
+      throw BadInput((times.empty() ? folder_[kLeft] : file) + ": " + names_[i] +
+                     ": expected times that increase");
+    }
+  }
+}
+
+void FolderSource::check_times(const Times& left, const Times& right, double tolerance) const {
+  for (const auto& [index, t] : left) {
+    const auto other = right.find(index);
+    if (other != right.end() && std::abs(other->second - t) > tolerance) {
+      throw BadInput(folder_[kRight] + "/times.csv: index " + std::to_string(index) +
+                     ": unsynchronised pair: left and right are " +
+                     std::to_string(1e3 * std::abs(other->second - t)) +
+                     " ms apart, expected at most " + std::to_string(1e3 * tolerance));
+    }
+  }
+}
+
+FrameSource::Grab FolderSource::next(StereoFrame& frame, double) {
+  if (position_ == names_.size()) return Grab::kEnd;
+  for (const Side side : {kLeft, kRight}) {
+    auto image = std::make_shared<Image>(read_grey_image(folder_[side] + "/" + names_[position_]));
+    frame.image[side] = image->view();
+    frame.owner[side] = image;
+  }
+  frame.index = position_;
+  frame.t = times_[position_];
+  ++position_;
+  return Grab::kFrame;
+}
+
+}  // namespace mocap
+}  // namespace anthrob

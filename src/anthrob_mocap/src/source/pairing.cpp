@@ -1,0 +1,66 @@
+#include "anthrob_mocap/source/pairing.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace anthrob {
+namespace mocap {
+
+namespace {
+
+constexpr std::size_t kMostWaiting = 8;  // more than this long no partner comes
+
+}  // namespace
+
+bool Pairing::add(Side side, const TimedImage& image, TimedImage pair[2]) {
+  const Side other = side == kLeft ? kRight : kLeft;
+  std::deque<TimedImage>&mine = waiting_[side], &theirs = waiting_[other];
+  ++counts_.images[side];
+  // Time that steps back (a bag that loops, a simulator anew) makes what waits worthless.
+  if (!mine.empty() && image.t < mine.back().t) mine.clear();
+  std::size_t best = theirs.size();
+  for (std::size_t i = 0; i < theirs.size(); ++i) {
+    const double gap = std::abs(theirs[i].t - image.t);
+    if (best == theirs.size() || gap < std::abs(theirs[best].t - image.t)) best = i;
+  }
+  if (best < theirs.size() && std::abs(theirs[best].t - image.t) <= tolerance_) {
+    pair[side] = image, pair[other] = theirs[best];
+    theirs.erase(theirs.begin(), theirs.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+    mine.clear();
+    ++counts_.pairs;
+    return true;
+  }
+  if (best < theirs.size()) {
+    const double gap = (theirs[best].t - image.t) * (side == kLeft ? 1.0 : -1.0);
+    if (counts_.nearest == 0.0 || std::abs(gap) < std::abs(counts_.nearest)) counts_.nearest = gap;
+  }
+  mine.push_back(image);
+  if (mine.size() > kMostWaiting) mine.pop_front();
+  return false;
+}
+
+Pairing::Counts Pairing::take_counts() {
+  const Counts counts = counts_;
+  counts_ = Counts();
+  return counts;
+}
+
+std::string Pairing::complaint(const Counts& counts, double tolerance) {
+  char text[160] = "";
+  if (counts.images[kLeft] == 0 && counts.images[kRight] == 0) return "no images";
+  for (const Side side : {kLeft, kRight}) {
+    if (counts.images[side] == 0)
+      return std::string("no images from the ") + name(side) + " camera";
+  }
+  if (counts.pairs == 0) {
+    std::snprintf(text, sizeof(text),
+                  "unsynchronised pair: %d left and %d right images, none within %.1f ms; nearest "
+                  "%.1f ms apart",
+                  counts.images[kLeft], counts.images[kRight], 1e3 * tolerance,
+                  1e3 * std::abs(counts.nearest));
+  }
+  return text;
+}
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,182 @@
+// The offline command: its contract, and one clear line for everything that is wrong.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "anthrob_mocap/source/image_file.h"
+#include "support.h"
+#include "temporary_folder.h"
+
+namespace anthrob {
+namespace mocap {
+namespace {
+
+using test::make_rig;
+using test::make_targets;
+
+constexpr int kFrames = 8;
+
+class Offline : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const StereoRig rig = make_rig();
+    folder_.folder("calibration"), folder_.folder("left"), folder_.folder("right");
+    folder_.write("calibration/left.yaml", rig.camera(kLeft).to_yaml());
+    folder_.write("calibration/right.yaml", rig.camera(kRight).to_yaml());
+    folder_.write("targets.yaml", make_targets().to_yaml());
+    static Renderer renderer(rig, RenderOptions());
+    const test::Motion motion = test::swing(0.4, 1.0);
+    for (int i = 0; i < kFrames; ++i) {
+      Scene scene = test::scene_of(make_targets(), motion(i / 60.0));
+      if (i == 5) scene.spheres.resize(5);  // the humerus is hidden once
+      for (const Side side : {kLeft, kRight}) {
+        Image image;
+        renderer.render(side, {scene}, static_cast<std::uint64_t>(i), image);
+        write_grey_image(file(name(side), i), image);
+      }
+    }
+  }
+  std::string file(const std::string& side, int i) const {
+    char text[16];
+    std::snprintf(text, sizeof(text), "/%06d.png", i);
+    return folder_.path(side) + text;
+  }
+  int run(const std::string& more = "", const std::string& left = "left",
+          const std::string& right = "right") {
+    const std::string command =
+        std::string(ANTHROB_MOCAP_OFFLINE) + " --left " + folder_.path(left) + " --right " +
+        folder_.path(right) + " --calibration " + folder_.path("calibration") + " --targets " +
+        folder_.path("targets.yaml") + " --out " + folder_.path("poses.csv") + " " + more + " > " +
+        folder_.path("out") + " 2> " + folder_.path("err");
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+  void refuse(const std::string& part, const std::string& left = "left",
+              const std::string& right = "right") {
+    EXPECT_EQ(run("", left, right), 2);
+    const std::string error = folder_.read("err");
+    EXPECT_NE(error.find(part), std::string::npos) << error << "expected: " << part;
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+  }
+  std::vector<std::vector<std::string>> table() const {
+    std::istringstream in(folder_.read("poses.csv"));
+    std::vector<std::vector<std::string>> rows;
+    for (std::string line; std::getline(in, line);) {
+      std::vector<std::string> cells(1);
+      for (const char c : line) {
+        if (c == ',')
+          cells.emplace_back();
+        else
+          cells.back() += c;
+      }
+      rows.push_back(cells);
+    }
+    return rows;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Offline, WritesPosesAndJoints) {
+  ASSERT_EQ(run(), 0) << folder_.read("err");
+  const auto rows = table();
+  ASSERT_EQ(rows.size(), kFrames + 1u);
+  const std::vector<std::string> header{
+      "t",           "scapula/valid",  "scapula/x",  "scapula/y",   "scapula/z",     "scapula/qw",
+      "scapula/qx",  "scapula/qy",     "scapula/qz", "scapula/rms", "humerus/valid", "humerus/x",
+      "humerus/y",   "humerus/z",      "humerus/qw", "humerus/qx",  "humerus/qy",    "humerus/qz",
+      "humerus/rms", "shoulder/valid", "shoulder/w", "shoulder/x",  "shoulder/y",    "shoulder/z"};
+  EXPECT_EQ(rows[0], header);
+  const auto number = [&](int row, std::size_t column) {
+    return std::stod(rows[static_cast<std::size_t>(row) + 1][column]);
+  };
+  for (int i = 0; i < kFrames; ++i) {
+    const auto& row = rows[static_cast<std::size_t>(i) + 1];
+    ASSERT_EQ(row.size(), header.size());
+    EXPECT_DOUBLE_EQ(number(i, 0), i / 60.0);
+    EXPECT_EQ(row[1], "1");
+    if (i == 5) {
+      EXPECT_EQ(row[10], "0");
+      EXPECT_EQ(row[19], "0");
+      for (const std::size_t column : {11, 17, 18, 20, 23}) EXPECT_EQ(row[column], "");
+      continue;
+    }
+    const auto truth = test::swing(0.4, 1.0)(i / 60.0);
+    const Quat q(number(i, 20), number(i, 21), number(i, 22), number(i, 23));
+    EXPECT_LT(angular_distance(q.toRotationMatrix(), truth[0].R.transpose() * truth[1].R),
+              0.1 * test::kDegree);
+    EXPECT_NEAR(number(i, 11), truth[1].p.x(), 2e-4);
+    EXPECT_LT(number(i, 18), 1e-3);
+  }
+}
+
+TEST_F(Offline, GivesTheSameFileThreaded) {
+  ASSERT_EQ(run(), 0);
+  const std::string sequential = folder_.read("poses.csv");
+  ASSERT_EQ(run("--pipeline threaded"), 0);
+  EXPECT_EQ(folder_.read("poses.csv"), sequential);
+}
+
+TEST_F(Offline, TakesTimesFromAFile) {
+  std::string times = "index,t\n";
+  for (int i = 0; i < kFrames; ++i)
+    times += std::to_string(i) + "," + std::to_string(100.0 + 0.01 * i) + "\n";
+  folder_.write("left/times.csv", times);
+  ASSERT_EQ(run(), 0) << folder_.read("err");
+  EXPECT_DOUBLE_EQ(std::stod(table()[3][0]), 100.02);
+  folder_.write("right/times.csv", test::replaced(times, "100.030000", "100.045000"));
+  refuse("index 3: unsynchronised pair: left and right are 15.0");
+  folder_.write("right/times.csv", "index,t\n0,zero\n");
+  refuse("times.csv:2: 0,zero: expected index,t");
+  folder_.write("right/times.csv", "");
+  folder_.write("left/times.csv", "index,t\n0,1\n");
+  refuse("no time for 000001.png");
+}
+
+TEST_F(Offline, RefusesImagesItCannotUse) {
+  const std::string good = folder_.read("left/000003.png");
+  folder_.write("left/000003.png", good.substr(0, good.size() / 2));
+  refuse("left/000003.png: truncated image");
+  folder_.write("left/000003.png", "not an image");
+  refuse("left/000003.png: not an image that can be decoded");
+  folder_.write("left/000003.png", "");
+  refuse("left/000003.png: the file is empty");
+  cv::imwrite(file("left", 3), cv::Mat(488, 648, CV_16U, cv::Scalar(0)));
+  refuse("left/000003.png: 16-bit image of 1 channel(s): expected 8-bit grey");
+  cv::imwrite(file("left", 3), cv::Mat(488, 648, CV_8UC3, cv::Scalar(0)));
+  refuse("left/000003.png: 8-bit image of 3 channel(s): expected 8-bit grey");
+  cv::imwrite(file("left", 3), cv::Mat(487, 647, CV_8U, cv::Scalar(0)));
+  refuse("left image 3: 647x487 pixels: expected 648x488");
+  std::filesystem::remove(file("left", 3));
+  refuse("left: no 000003.png");
+  refuse("nowhere: no such folder", "nowhere");
+  refuse("calibration: holds no image", "calibration");
+}
+
+TEST_F(Offline, RefusesWhatDoesNotBelongTogether) {
+  refuse("left and right images are swapped", "right", "left");
+  std::istringstream in(folder_.read("poses.csv"));
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line))
+    EXPECT_NE(line.find(",0,,,,,,,,,0,,,,,,,,,0,,,,"), std::string::npos) << line;
+  const std::string left = folder_.read("calibration/left.yaml");
+  folder_.write("calibration/left.yaml", folder_.read("calibration/right.yaml"));
+  folder_.write("calibration/right.yaml", left);
+  refuse("left and right are swapped");
+  folder_.write("calibration/right.yaml", "image_width: 648\n");
+  refuse("right.yaml:1: 'image_height': missing");
+}
+
+TEST_F(Offline, KnowsItsArguments) {
+  EXPECT_EQ(run("--pipeline parallel"), 2);
+  EXPECT_EQ(run("--threshold 400"), 2);
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_EQ(run("--out /nowhere/poses.csv"), 2);  // twice
+  EXPECT_EQ(std::system((std::string(ANTHROB_MOCAP_OFFLINE) + " 2> /dev/null").c_str()) >> 8, 2);
+}
+
+}  // namespace
+}  // namespace mocap
+}  // namespace anthrob

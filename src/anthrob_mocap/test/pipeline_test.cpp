@@ -1,0 +1,237 @@
+// Pipeline: order and failures in both modes, equal results, no growth; contradictions.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "anthrob_mocap/output/pose_table.h"
+#include "anthrob_mocap/pipeline/health.h"
+#include "anthrob_mocap/pipeline/tracker_file.h"
+#include "expect_bad_input.h"
+#include "support.h"
+#include "temporary_folder.h"
+
+namespace anthrob {
+namespace mocap {
+namespace {
+
+using test::make_rig;
+using test::make_targets;
+using test::Session;
+
+struct Number final : Packet {
+  int value = 0;
+};
+
+class EitherMode : public ::testing::TestWithParam<PipelineMode> {};
+INSTANTIATE_TEST_SUITE_P(Modes, EitherMode,
+                         ::testing::Values(PipelineMode::kSequential, PipelineMode::kThreaded));
+
+TEST_P(EitherMode, KeepsTheOrderInEveryStage) {
+  std::vector<std::vector<int>> seen(3);
+  std::vector<Stage> stages;
+  for (std::size_t i = 0; i < 3; ++i) {
+    stages.push_back(
+        {"stage",
+         {[&seen, i](Packet& packet) { seen[i].push_back(static_cast<Number&>(packet).value); },
+          [](Packet&) { std::this_thread::yield(); }}});
+  }
+  std::vector<int> out;
+  Pipeline pipeline(stages, GetParam(), 4, [&](PacketPtr packet) {
+    out.push_back(static_cast<Number&>(*packet).value);
+    EXPECT_EQ(packet->stage_seconds.size(), 3u);
+  });
+  std::vector<int> in;
+  for (int i = 0; i < 500; ++i) {
+    auto packet = std::make_unique<Number>();
+    packet->value = i;
+    in.push_back(i);
+    pipeline.push(std::move(packet));
+  }
+  pipeline.drain();
+  EXPECT_EQ(out, in);
+  for (const auto& stage : seen) EXPECT_EQ(stage, in);
+}
+
+TEST_P(EitherMode, HandsOnWhatAStageThrows) {
+  Pipeline pipeline({{"fails", {[](Packet& packet) {
+                        if (static_cast<Number&>(packet).value == 3) throw BadInput("three");
+                      }}}},
+                    GetParam(), 2, [](PacketPtr) {});
+  EXPECT_THROW(
+      {
+        for (int i = 0; i < 10; ++i) {
+          auto packet = std::make_unique<Number>();
+          packet->value = i;
+          pipeline.push(std::move(packet));
+        }
+        pipeline.drain();
+      },
+      BadInput);
+}
+
+TEST(Pipeline, RefusesNonsense) {
+  EXPECT_THROW(Pipeline({}, PipelineMode::kSequential, 1, [](PacketPtr) {}), std::invalid_argument);
+  EXPECT_THROW(Pipeline({{"s", {}}}, PipelineMode::kThreaded, 0, [](PacketPtr) {}),
+               std::invalid_argument);
+  test::expect_bad_input([] { pipeline_mode("parallel"); }, "expected sequential or threaded");
+}
+
+/// Rendered pairs, made once.
+class Recording {
+ public:
+  explicit Recording(int count) {
+    const TargetSet set = make_targets();
+    Renderer renderer(rig_, RenderOptions());
+    std::mt19937_64 random(3);
+    const test::Motion motion = test::swing(0.5, 2.0);
+    for (int i = 0; i < count; ++i) {
+      Scene scene = test::scene_of(set, motion(i / 60.0));
+      test::add_distractors(scene, 10, random);
+      for (const Side side : {kLeft, kRight}) {
+        images_[side].emplace_back();
+        renderer.render(side, {scene}, static_cast<std::uint64_t>(i), images_[side].back());
+      }
+    }
+  }
+  std::unique_ptr<StereoFrame> frame(int i) const {
+    auto frame = std::make_unique<StereoFrame>();
+    frame->index = static_cast<std::uint64_t>(i);
+    frame->t = i / 60.0;
+    for (const Side side : {kLeft, kRight}) {
+      frame->image[side] = images_[side][static_cast<std::size_t>(i) % images_[side].size()].view();
+    }
+    return frame;
+  }
+  const StereoRig& rig() const { return rig_; }
+
+ private:
+  StereoRig rig_ = make_rig();
+  std::vector<Image> images_[2];
+};
+
+TEST(Tracking, GivesTheSameBitsInBothModes) {
+  const Recording recording(60);
+  std::vector<std::string> table;
+  std::vector<std::vector<double>> numbers;
+  for (const PipelineMode mode : {PipelineMode::kSequential, PipelineMode::kThreaded}) {
+    std::ostringstream out;
+    PoseTable poses(out, make_targets());
+    std::vector<double> bits;
+    Pipeline pipeline(
+        tracking_stages(recording.rig(), make_targets(), {}), mode, 4, [&](PacketPtr packet) {
+          const auto& frame = static_cast<StereoFrame&>(*packet);
+          poses.add(frame);
+          for (const TargetPose& pose : frame.targets) {
+            bits.insert(bits.end(), pose.X.R.data(), pose.X.R.data() + 9);
+            bits.insert(bits.end(), pose.covariance.data(), pose.covariance.data() + 36);
+          }
+          for (const JointEstimate& joint : frame.joints) {
+            bits.insert(bits.end(), joint.velocity.data(), joint.velocity.data() + 3);
+          }
+        });
+    for (int i = 0; i < 60; ++i) pipeline.push(recording.frame(i));
+    pipeline.drain();
+    table.push_back(out.str());
+    numbers.push_back(bits);
+  }
+  EXPECT_EQ(table[0], table[1]);
+  ASSERT_EQ(numbers[0].size(), numbers[1].size());
+  EXPECT_EQ(std::memcmp(numbers[0].data(), numbers[1].data(), 8 * numbers[0].size()), 0);
+  EXPECT_NE(table[0].find(",1,"), std::string::npos);
+}
+
+double resident_megabytes() {
+  std::ifstream statm("/proc/self/statm");
+  double total = 0.0, resident = 0.0;
+  statm >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+TEST_P(EitherMode, DoesNotGrow) {
+  // ANTHROB_MOCAP_PAIRS=5184000 is a day at 60 Hz.
+  const char* wanted = std::getenv("ANTHROB_MOCAP_PAIRS");
+  const int count = wanted ? std::atoi(wanted) : 10000;
+  const Recording recording(60);
+  int poses = 0;
+  Pipeline pipeline(tracking_stages(recording.rig(), make_targets(), {}), GetParam(), 4,
+                    [&](PacketPtr packet) {
+                      poses += static_cast<StereoFrame&>(*packet).targets[0].valid ? 1 : 0;
+                    });
+  const int warm = count / 5;
+  for (int i = 0; i < warm; ++i) pipeline.push(recording.frame(i));
+  pipeline.drain();
+  const double before = resident_megabytes();
+  for (int i = warm; i < count; ++i) pipeline.push(recording.frame(i));
+  pipeline.drain();
+  EXPECT_LT(resident_megabytes() - before, 2.0);
+  EXPECT_GT(poses, 9 * count / 10);
+  RecordProperty("growth_kB", static_cast<int>(1e3 * (resident_megabytes() - before)));
+}
+
+/// Tracks 20 pairs after something has been done to them.
+Health health_of(const StereoRig& rendered, const StereoRig& believed, bool swap, double late) {
+  Renderer renderer(rendered, RenderOptions());
+  const TargetSet set = make_targets();
+  const test::Motion motion = test::swing(0.5, 2.0);
+  Health health(believed, MatchingOptions());
+  Pipeline pipeline(tracking_stages(believed, set, {}), PipelineMode::kSequential, 1,
+                    [&](PacketPtr packet) { health.add(static_cast<StereoFrame&>(*packet)); });
+  for (int i = 0; i < 20; ++i) {
+    auto frame = std::make_unique<StereoFrame>();
+    frame->t = i / 60.0;
+    Image images[2];
+    for (const Side side : {kLeft, kRight}) {
+      const double t = frame->t + (side == kRight ? late : 0.0);
+      renderer.render(side, {test::scene_of(set, motion(t))}, 1, images[side]);
+      frame->image[swap ? 1 - side : side] = images[side].view();
+    }
+    pipeline.push(std::move(frame));
+  }
+  return health;
+}
+
+TEST(Health, KnowsSwappedImagesAndForeignCalibrations) {
+  const StereoRig rig = make_rig();
+  EXPECT_EQ(health_of(rig, rig, false, 0.0).advice(), "");
+  EXPECT_GT(health_of(rig, rig, false, 0.0).poses(), 30);
+  const Health swapped = health_of(rig, rig, true, 0.0);
+  EXPECT_EQ(swapped.poses(), 0);
+  EXPECT_NE(swapped.contradiction().find("swapped"), std::string::npos);
+  CameraModel tilted = rig.camera(kRight);
+  tilted.R = exp_rotation({0.03, 0.0, 0.0}) * tilted.R;
+  const Health foreign = health_of(rig, StereoRig(rig.camera(kLeft), tilted), false, 0.0);
+  EXPECT_EQ(foreign.poses(), 0);
+  EXPECT_NE(foreign.contradiction().find("calibration"), std::string::npos);
+}
+
+TEST(Health, SeesARigThatHasMoved) {
+  const StereoRig rig = make_rig();
+  CameraModel tilted = rig.camera(kRight);
+  tilted.R = exp_rotation({0.0004, 0.0, 0.0}) * tilted.R;
+  const Health moved = health_of(rig, StereoRig(rig.camera(kLeft), tilted), false, 0.0);
+  EXPECT_GT(moved.poses(), 0);
+  EXPECT_GT(std::abs(moved.row_error()), 0.3);
+}
+
+TEST(TrackerFile, IsStrict) {
+  const test::TemporaryFolder folder;
+  folder.write("t.yaml", "segmentation: {threshold: 70}\nlabelling: {edge_tolerance: 0.002}\n");
+  const TrackerOptions options = load_tracker_options(folder.path("t.yaml"));
+  EXPECT_EQ(options.segmentation.threshold, 70);
+  EXPECT_EQ(options.labelling.edge_tolerance, 0.002);
+  folder.write("t.yaml", "segmentation: {treshold: 70}\n");
+  test::expect_bad_input([&] { load_tracker_options(folder.path("t.yaml")); },
+                         "t.yaml:1: segmentation.treshold: unknown key");
+  folder.write("t.yaml", "segmentation: {threshold: 300}\n");
+  test::expect_bad_input([&] { load_tracker_options(folder.path("t.yaml")); },
+                         "segmentation.threshold: 300: expected a number between 1 and 254");
+}
+
+}  // namespace
+}  // namespace mocap
+}  // namespace anthrob
