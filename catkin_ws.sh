@@ -16,6 +16,7 @@ debian_ros_packages=(
   libdiagnostic-msgs-dev libgeometry-msgs-dev libros-rosgraph-msgs-dev libsensor-msgs-dev libstd-msgs-dev
   libstd-srvs-dev libvisualization-msgs-dev
   ros-robot-state-publisher rviz
+  libimage-transport-dev
   libmujoco-dev  # a peer in benchmarks
 )
 # Ubuntu with /opt/ros/noetic.
@@ -25,6 +26,7 @@ common_packages=(
   build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
+  libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libdc1394-dev opencv-doc
   libgtest-dev libgmock-dev libbenchmark-dev
   xvfb xauth imagemagick libgl1-mesa-dri
   user-mode-linux kmod iproute2  # CAN for the tests, where the kernel has none

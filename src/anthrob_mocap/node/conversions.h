@@ -1,0 +1,46 @@
+#pragma once
+
+#include <anthrob_msgs/SphericalJointStates.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "anthrob_mocap/output/annotation.h"
+#include "anthrob_mocap/pipeline/stereo_frame.h"
+#include "anthrob_mocap/source/pairing.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// @throws BadInput if there is no calibration in it
+CameraModel camera_model(const sensor_msgs::CameraInfo& info, Side side);
+sensor_msgs::CameraInfo camera_info(const CameraModel& camera);
+
+/// Shares the message's pixels.
+/// @throws BadInput unless it is 8-bit grey
+TimedImage timed_image(const sensor_msgs::ImageConstPtr& message, Side side);
+
+Pose pose(const geometry_msgs::Transform& transform);
+geometry_msgs::TransformStamped transform(const Pose& X, const std_msgs::Header& header,
+                                          const std::string& child_frame);
+
+/// Joints that are seen and whose velocity is known; what is not seen is absent.
+anthrob_msgs::SphericalJointStates spherical_joint_states(const StereoFrame& frame,
+                                                          const TargetSet& set,
+                                                          const std_msgs::Header& header);
+geometry_msgs::PoseWithCovarianceStamped pose_message(const TargetPose& pose,
+                                                      const std_msgs::Header& header);
+/// Orientation and angular velocity with their covariances; no acceleration.
+sensor_msgs::Imu joint_message(const JointEstimate& joint, const std_msgs::Header& header);
+
+/// Markers of targets in the target's colour, other points grey.
+visualization_msgs::MarkerArray marker_array(const StereoFrame& frame, const TargetSet& set,
+                                             const std_msgs::Header& header);
+
+sensor_msgs::Image image_message(const ColourImage& image, const std_msgs::Header& header);
+
+}  // namespace mocap
+}  // namespace anthrob

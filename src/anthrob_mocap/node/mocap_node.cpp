@@ -1,0 +1,189 @@
+#include "mocap_node.h"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+
+#include "anthrob_mocap/core/errors.h"
+#include "conversions.h"
+
+namespace anthrob {
+namespace mocap {
+
+namespace {
+
+constexpr double kReportPeriod = 0.5;   // [s] a lost camera is known within a second
+constexpr double kMarkerPeriod = 0.04;  // [s]
+constexpr double kDebugPeriod = 0.1;    // [s]
+
+bool due(ros::WallTime& last, double period) {
+  const ros::WallTime now = ros::WallTime::now();
+  if ((now - last).toSec() < period) return false;
+  last = now;
+  return true;
+}
+
+}  // namespace
+
+MocapNode::MocapNode(ros::NodeHandle nh, const StereoRig& rig, const TargetSet& set,
+                     const std::optional<Setup>& setup, const Options& options)
+    : nh_(nh),
+      images_(nh, "mocap"),
+      rig_(rig),
+      set_(set),
+      setup_(setup),
+      options_(options),
+      last_report_(ros::WallTime::now()),
+      status_(nh.getNamespace() + ": mocap", rig, set, options.tracker),
+      pipeline_(tracking_stages(rig, set, options.tracker), options.mode, 4,
+                [this](PacketPtr packet) { publish(static_cast<StereoFrame&>(*packet)); }) {
+  advertise();
+  publish_camera_frame();
+}
+
+MocapNode::~MocapNode() = default;
+
+void MocapNode::advertise() {
+  joints_ = nh_.advertise<anthrob_msgs::SphericalJointStates>("spherical_joint_states", 100);
+  markers_ = images_.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  debug_ = images_.advertise<sensor_msgs::Image>("debug_image", 1);
+  diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+  for (const MarkerTarget& target : set_.targets) {
+    target_poses_.push_back(
+        images_.advertise<geometry_msgs::PoseWithCovarianceStamped>("targets/" + target.name, 100));
+  }
+  for (const BallJoint& joint : set_.joints) {
+    joint_estimates_.push_back(images_.advertise<sensor_msgs::Imu>("joints/" + joint.name, 100));
+  }
+}
+
+void MocapNode::publish_camera_frame() {
+  if (!setup_) return;
+  std_msgs::Header header;
+  header.stamp = ros::Time::now();
+  header.frame_id = setup_->camera_parent;
+  static_transforms_.sendTransform(transform(setup_->X_PC, header, options_.camera_frame));
+}
+
+void MocapNode::run() {
+  TopicInput input(
+      images_, options_.sync_tolerance, [this](const TimedImage pair[2]) { on_pair(pair); },
+      [this](const std::string& why) {
+        ROS_WARN_STREAM_THROTTLE(1.0, why);
+        status_.refuse(why);
+      });
+  const ros::WallTimer timer =
+      nh_.createWallTimer(ros::WallDuration(kReportPeriod), [&](const ros::WallTimerEvent&) {
+        // While simulated time stands still there is nothing to see.
+        const bool still = ros::Time::isSimTime() && ros::Time::now() == last_report_time_;
+        last_report_time_ = ros::Time::now();
+        const std::string trouble = input.take_trouble();
+        publish_diagnostics(still ? "" : trouble);
+      });
+  ros::spin();
+  pipeline_.drain();
+}
+
+void MocapNode::run(FrameSource& source) {
+  bool ended = false;
+  while (ros::ok() && !ended) {
+    auto frame = std::make_unique<StereoFrame>();
+    const FrameSource::Grab grab = source.next(*frame, 0.1);
+    if (grab == FrameSource::Grab::kFrame) take(std::move(frame));
+    ended = grab == FrameSource::Grab::kEnd;
+    if ((ros::WallTime::now() - last_report_).toSec() > kReportPeriod) {
+      publish_diagnostics(source.trouble());
+    }
+    ros::spinOnce();
+  }
+  pipeline_.drain();
+}
+
+void MocapNode::on_pair(const TimedImage pair[2]) {
+  auto frame = std::make_unique<StereoFrame>();
+  frame->t = pair[kLeft].t;
+  for (const Side side : {kLeft, kRight}) {
+    frame->image[side] = pair[side].image;
+    frame->owner[side] = pair[side].owner;
+  }
+  take(std::move(frame));
+}
+
+void MocapNode::take(std::unique_ptr<StereoFrame> frame) {
+  frame->index = index_++;
+  try {
+    check_size(*frame);
+    pipeline_.push(std::move(frame));
+  } catch (const BadInput& error) {
+    ROS_WARN_STREAM_THROTTLE(1.0, error.what());
+    status_.refuse(error.what());
+  }
+}
+
+void MocapNode::check_size(const StereoFrame& frame) const {
+  for (const Side side : {kLeft, kRight}) {
+    const ImageView& image = frame.image[side];
+    if (image.width == rig_.width() && image.height == rig_.height()) continue;
+    throw BadInput(std::string(name(side)) + " image: " + std::to_string(image.width) + "x" +
+                   std::to_string(image.height) + " pixels: expected " +
+                   std::to_string(rig_.width()) + "x" + std::to_string(rig_.height()) +
+                   ", as calibrated");
+  }
+}
+
+void MocapNode::publish(const StereoFrame& frame) {
+  std_msgs::Header header;
+  header.stamp.fromSec(frame.t);
+  header.frame_id = options_.camera_frame;
+  const anthrob_msgs::SphericalJointStates states = spherical_joint_states(frame, set_, header);
+  if (!states.name.empty()) joints_.publish(states);
+  for (std::size_t j = 0; j < frame.joints.size(); ++j) {
+    const JointEstimate& joint = frame.joints[j];
+    if (joint.valid && joint.velocity_valid) {
+      joint_estimates_[j].publish(joint_message(joint, header));
+    }
+  }
+  for (std::size_t k = 0; k < frame.targets.size(); ++k) {
+    if (frame.targets[k].valid) {
+      target_poses_[k].publish(pose_message(frame.targets[k], header));
+    }
+  }
+  publish_transforms(frame, header);
+  publish_pictures(frame, header);
+  status_.add(frame, (ros::Time::now() - header.stamp).toSec());
+}
+
+void MocapNode::publish_transforms(const StereoFrame& frame, const std_msgs::Header& header) {
+  std::vector<geometry_msgs::TransformStamped> messages;
+  for (std::size_t k = 0; k < frame.targets.size(); ++k) {
+    if (!frame.targets[k].valid) continue;
+    messages.push_back(transform(frame.targets[k].X, header, "mocap/" + set_.targets[k].name));
+  }
+  for (std::size_t j = 0; j < frame.joints.size() && options_.joint_tf && setup_; ++j) {
+    if (!frame.joints[j].valid) continue;
+    const Setup::JointFrame& joint = setup_->joints[j];
+    std_msgs::Header link = header;
+    link.frame_id = joint.parent;
+    messages.push_back(transform(joint.at(frame.joints[j].q), link, joint.child));
+  }
+  if (!messages.empty()) transforms_.sendTransform(messages);
+}
+
+void MocapNode::publish_pictures(const StereoFrame& frame, const std_msgs::Header& header) {
+  if (markers_.getNumSubscribers() > 0 && due(last_markers_, kMarkerPeriod)) {
+    markers_.publish(marker_array(frame, set_, header));
+  }
+  if (debug_.getNumSubscribers() > 0 && due(last_debug_, kDebugPeriod)) {
+    debug_.publish(image_message(annotate(frame, rig_, set_), header));
+  }
+}
+
+void MocapNode::publish_diagnostics(const std::string& trouble) {
+  const ros::WallTime now = ros::WallTime::now();
+  diagnostic_msgs::DiagnosticArray array;
+  array.header.stamp = ros::Time::now();
+  array.status.push_back(status_.report((now - last_report_).toSec(), trouble));
+  last_report_ = now;
+  diagnostics_.publish(array);
+}
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <memory>
+#include <optional>
+
+#include "anthrob_mocap/pipeline/tracker.h"
+#include "anthrob_mocap/render/setup.h"
+#include "anthrob_mocap/source/frame_source.h"
+#include "status.h"
+#include "topic_input.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// The pipeline between images and ROS: ball joints as the simulator publishes them, target poses,
+/// tf, markers, a debug image, diagnostics.
+class MocapNode {
+ public:
+  struct Options {
+    PipelineMode mode = PipelineMode::kSequential;
+    std::string camera_frame = "mocap_camera";
+    double sync_tolerance = 0.0;  ///< [s] between stamps of image topics
+    bool joint_tf = false;        ///< publish links of joints; not beside a simulator, which does
+    TrackerOptions tracker;
+  };
+
+  MocapNode(ros::NodeHandle nh, const StereoRig& rig, const TargetSet& set,
+            const std::optional<Setup>& setup, const Options& options);
+  ~MocapNode();
+
+  /// Tracks image topics until ROS shuts down.
+  void run();
+  /// Tracks what a source delivers, until it ends or ROS shuts down.
+  void run(FrameSource& source);
+
+ private:
+  void advertise();
+  void publish_camera_frame();
+  void on_pair(const TimedImage pair[2]);
+  void take(std::unique_ptr<StereoFrame> frame);
+  void publish(const StereoFrame& frame);
+  void publish_transforms(const StereoFrame& frame, const std_msgs::Header& header);
+  void publish_pictures(const StereoFrame& frame, const std_msgs::Header& header);
+  void publish_diagnostics(const std::string& trouble);
+  void check_size(const StereoFrame& frame) const;
+
+  ros::NodeHandle nh_, images_;
+  StereoRig rig_;
+  TargetSet set_;
+  std::optional<Setup> setup_;
+  Options options_;
+
+  ros::Publisher joints_, markers_, debug_, diagnostics_;
+  std::vector<ros::Publisher> target_poses_, joint_estimates_;
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  ros::WallTime last_markers_, last_debug_, last_report_;
+  ros::Time last_report_time_;
+
+  Status status_;
+  std::uint64_t index_ = 0;
+  Pipeline pipeline_;  ///< last: its threads use all of the above
+};
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,131 @@
+#include "status.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace anthrob {
+namespace mocap {
+
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not moved stays below
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), "%.3f", value);
+  return buffer;
+}
+
+void add_value(DiagnosticStatus& status, const std::string& key, const std::string& value) {
+  diagnostic_msgs::KeyValue kv;
+  kv.key = key, kv.value = value;
+  status.values.push_back(kv);
+}
+
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+Status::Status(const std::string& name, const StereoRig& rig, const TargetSet& set,
+               const TrackerOptions& options)
+    : name_(name), health_(rig, options.matching) {
+  for (const MarkerTarget& target : set.targets) targets_.push_back(target.name);
+  for (const Stage& stage : tracking_stages(rig, set, options)) stages_.push_back(stage.name);
+  clear();
+}
+
+void Status::clear() {
+  health_.clear();
+  processing_.clear(), delay_.clear();
+  stage_seconds_.assign(stages_.size(), 0.0);
+  seen_.assign(targets_.size(), 0), markers_.assign(targets_.size(), 0);
+  refused_ = 0;
+  last_refusal_.clear();
+}
+
+void Status::add(const StereoFrame& frame, double delay) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  health_.add(frame);
+  double total = 0.0;
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    stage_seconds_[i] += frame.stage_seconds[i];
+    total += frame.stage_seconds[i];
+  }
+  processing_.push_back(total), delay_.push_back(delay);
+  for (std::size_t k = 0; k < targets_.size(); ++k) {
+    seen_[k] += frame.targets[k].valid ? 1 : 0;
+    markers_[k] += frame.targets[k].markers;
+  }
+}
+
+void Status::refuse(const std::string& why) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++refused_;
+  last_refusal_ = why;
+}
+
+DiagnosticStatus Status::report(double elapsed, const std::string& trouble) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  DiagnosticStatus status;
+  status.name = name_;
+  status.hardware_id = "stereo rig";
+  judge(trouble, status);
+  list_values(elapsed, status);
+  clear();
+  return status;
+}
+
+void Status::judge(const std::string& trouble, DiagnosticStatus& status) const {
+  const std::string error = refused_ > 0       ? last_refusal_
+                            : !trouble.empty() ? trouble
+                                               : health_.contradiction();
+  status.level = DiagnosticStatus::ERROR;
+  status.message = error;
+  if (!error.empty()) return;
+  status.level = DiagnosticStatus::WARN;
+  if (std::abs(health_.row_error()) > kLargestRowError) {
+    status.message =
+        "rows of left and right differ by " + text(health_.row_error()) + " pixels: calibrate anew";
+    return;
+  }
+  if (health_.frames() > 0) {
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+      if (seen_[k] > 0) continue;
+      status.message = targets_[k] + " is not seen";
+      if (health_.poses() == 0) status.message = health_.advice();
+      return;
+    }
+  }
+  status.level = DiagnosticStatus::OK;
+  status.message = health_.frames() > 0 ? "tracking" : "waiting";
+}
+
+void Status::list_values(double elapsed, DiagnosticStatus& status) {
+  const double frames = std::max(1, health_.frames());
+  add_value(status, "rate", text(health_.frames() / elapsed));
+  add_value(status, "processing_ms_median", text(1e3 * quantile(processing_, 0.5)));
+  add_value(status, "processing_ms_worst", text(1e3 * quantile(processing_, 1.0)));
+  add_value(status, "exposure_to_result_ms", text(1e3 * quantile(delay_, 0.5)));
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    add_value(status, stages_[i] + "_us", text(1e6 * stage_seconds_[i] / frames));
+  }
+  for (std::size_t k = 0; k < targets_.size(); ++k) {
+    add_value(status, targets_[k] + "_availability", text(seen_[k] / frames));
+    add_value(status, targets_[k] + "_markers", text(markers_[k] / frames));
+  }
+  add_value(status, "residual_px", text(health_.pixel_rms()));
+  add_value(status, "row_error_px", text(health_.row_error()));
+  add_value(status, "refused_images", std::to_string(refused_));
+}
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,136 @@
+#include "virtual_rig.h"
+
+#include <sensor_msgs/image_encodings.h>
+
+#include <cmath>
+
+#include "conversions.h"
+#include "parameters.h"
+
+namespace anthrob {
+namespace mocap {
+
+namespace {
+
+constexpr double kLargestLag = 0.5;  // [s] behind tf; then pictures are skipped
+
+}  // namespace
+
+VirtualRig::VirtualRig(ros::NodeHandle nh, const StereoRig& rig, const TargetSet& set,
+                       const Setup& setup)
+    : rig_(rig),
+      set_(set),
+      setup_(setup),
+      renderer_(rig, setup.render),
+      listener_(buffer_, nh, true, ros::TransportHints().tcpNoDelay()),
+      transport_(nh) {
+  for (const Side side : {kLeft, kRight}) {
+    publishers_[side] = transport_.advertiseCamera(std::string(name(side)) + "/image_raw", 8);
+  }
+}
+
+/// How far tf reaches for all links; zero if it does not know them yet.
+ros::Time VirtualRig::latest() const {
+  ros::Time common(ros::TIME_MAX);
+  for (const Setup::Mount& mount : setup_.mounts) {
+    try {
+      const ros::Time t =
+          buffer_.lookupTransform(setup_.camera_parent, mount.link, ros::Time(0)).header.stamp;
+      // Static transforms have stamp zero: they reach anywhere.
+      if (!t.isZero()) common = std::min(common, t);
+    } catch (const tf2::TransformException&) {
+      return ros::Time();
+    }
+  }
+  return common == ros::Time(ros::TIME_MAX) ? ros::Time::now() : common;
+}
+
+void VirtualRig::run() {
+  const ros::Duration period(1.0 / setup_.rate);
+  const ros::Duration half_exposure(0.5 * setup_.exposure);
+  ros::Time next;
+  while (ros::ok()) {
+    const ros::Time reach = latest();
+    const bool jumped =
+        next > reach + ros::Duration(1.0) || reach > next + ros::Duration(kLargestLag);
+    if (!reach.isZero() && (next.isZero() || jumped)) {
+      // On the grid of whole periods, so that a rerun sees the same instants.
+      next.fromSec(std::ceil(reach.toSec() * setup_.rate) / setup_.rate);
+    }
+    if (reach.isZero() || next.isZero() || next + half_exposure > reach) {
+      ros::spinOnce();
+      ros::WallDuration(0.001).sleep();
+      continue;
+    }
+    expose(next);
+    next.fromSec((std::round(next.toSec() * setup_.rate) + 1.0) / setup_.rate);
+  }
+}
+
+bool VirtualRig::expose(const ros::Time& stamp) {
+  std::vector<Scene> instants(static_cast<std::size_t>(setup_.instants));
+  for (int i = 0; i < setup_.instants; ++i) {
+    const double offset = setup_.exposure * ((i + 0.5) / setup_.instants - 0.5);
+    if (!scene_at(stamp + ros::Duration(offset), instants[static_cast<std::size_t>(i)]))
+      return false;
+  }
+  publish(stamp, instants);
+  return true;
+}
+
+bool VirtualRig::scene_at(const ros::Time& time, Scene& scene) const {
+  const Pose X_CP = setup_.X_PC.inverse();
+  try {
+    for (std::size_t k = 0; k < set_.targets.size(); ++k) {
+      const Setup::Mount& mount = setup_.mounts[k];
+      const Pose X_PL =
+          pose(buffer_.lookupTransform(setup_.camera_parent, mount.link, time).transform);
+      const Pose X_CT = X_CP * X_PL * mount.X_LT;
+      for (const Vec3& marker : set_.targets[k].markers) {
+        scene.spheres.push_back({X_CT * marker, 0.5 * set_.marker_diameter, setup_.brightness});
+      }
+    }
+  } catch (const tf2::TransformException& error) {
+    ROS_WARN_STREAM_THROTTLE(1.0, "no picture: " << error.what());
+    return false;
+  }
+  scene.spheres.insert(scene.spheres.end(), setup_.distractors.begin(), setup_.distractors.end());
+  return true;
+}
+
+void VirtualRig::publish(const ros::Time& stamp, const std::vector<Scene>& instants) {
+  for (const Side side : {kLeft, kRight}) {
+    renderer_.render(side, instants, frame_, image_);
+    const auto message = boost::make_shared<sensor_msgs::Image>();
+    message->header.stamp = stamp;
+    message->header.frame_id = std::string("mocap_") + name(side);
+    message->width = static_cast<std::uint32_t>(image_.width);
+    message->height = static_cast<std::uint32_t>(image_.height);
+    message->encoding = sensor_msgs::image_encodings::MONO8;
+    message->step = message->width;
+    message->data = image_.pixels;
+    const auto info = boost::make_shared<sensor_msgs::CameraInfo>(camera_info(rig_.camera(side)));
+    info->header = message->header;
+    publishers_[side].publish(message, info);
+  }
+  ++frame_;
+}
+
+}  // namespace mocap
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  namespace mocap = anthrob::mocap;
+  ros::init(argc, argv, "virtual_rig");
+  return mocap::run_node([] {
+    ros::NodeHandle nh("mocap"), settings("~");
+    const auto rig = mocap::StereoRig::load(
+        mocap::required(settings, "calibration", "a folder with left.yaml and right.yaml"));
+    const auto set =
+        mocap::TargetSet::load(mocap::required(settings, "targets", "the path of targets.yaml"),
+                               mocap::LabellingOptions().edge_tolerance);
+    const auto setup =
+        mocap::Setup::load(mocap::required(settings, "rig", "the path of rig.yaml"), set);
+    mocap::VirtualRig(nh, rig, set, setup).run();
+  });
+}
