@@ -1,0 +1,66 @@
+#include "anthrob_mocap/calibration/checkerboard.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "anthrob_mocap/core/errors.h"
+
+namespace anthrob {
+namespace mocap {
+
+Board Board::parse(const std::string& size, double square) {
+  Board board;
+  char rest = 0;
+  if (std::sscanf(size.c_str(), "%dx%d%c", &board.columns, &board.rows, &rest) != 2 ||
+      board.columns < 3 || board.rows < 3 || board.columns == board.rows) {
+    throw BadInput("--board " + size +
+                   ": expected the inner corners as COLUMNSxROWS, at least 3 and not equal: a "
+                   "square board can be read in four ways");
+  }
+  if (!(square > 0.0 && square < 10.0)) {
+    throw BadInput("--square " + std::to_string(square) + ": expected the edge of a square [m]");
+  }
+  board.square = square;
+  return board;
+}
+
+std::vector<Vec3> Board::points() const {
+  std::vector<Vec3> result;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) result.emplace_back(c * square, r * square, 0.0);
+  }
+  return result;
+}
+
+std::optional<std::vector<Vec2>> find_corners(const Image& image, const Board& board) {
+  const cv::Mat grey(image.height, image.width, CV_8U,
+                     const_cast<std::uint8_t*>(image.pixels.data()));
+  std::vector<cv::Point2f> corners;
+  if (!cv::findChessboardCorners(grey, {board.columns, board.rows}, corners,
+                                 cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE)) {
+    return std::nullopt;
+  }
+  // The window must stay within the squares around a corner.
+  float shortest = 1e9f;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    if (i % static_cast<std::size_t>(board.columns) == 0) continue;
+    shortest = std::min(shortest, static_cast<float>(cv::norm(corners[i] - corners[i - 1])));
+  }
+  const int half = std::clamp(static_cast<int>(0.45f * shortest), 2, 11);
+  cv::cornerSubPix(grey, corners, {half, half}, {-1, -1},
+                   {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-3});
+  std::vector<Vec2> result;
+  for (const cv::Point2f& corner : corners) result.emplace_back(corner.x, corner.y);
+  return result;
+}
+
+void same_direction(const std::vector<Vec2>& left, std::vector<Vec2>& right) {
+  if ((left.back() - left.front()).dot(right.back() - right.front()) < 0.0) {
+    std::reverse(right.begin(), right.end());
+  }
+}
+
+}  // namespace mocap
+}  // namespace anthrob

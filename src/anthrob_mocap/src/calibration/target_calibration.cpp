@@ -1,0 +1,109 @@
+#include "anthrob_mocap/calibration/target_calibration.h"
+
+#include <cmath>
+
+#include "anthrob_mocap/core/errors.h"
+#include "anthrob_mocap/labelling/clique_search.h"
+
+namespace anthrob {
+namespace mocap {
+
+namespace {
+
+constexpr double kGuessError = 0.02;    // [m] of edges measured by hand
+constexpr double kLargestRms = 0.0015;  // [m] beyond it something is loose
+constexpr int kFewestFrames = 20;       // in which a marker must be seen
+constexpr int kRounds = 10;
+
+/// One round: means of all frames, each brought onto the target as known.
+class Mean {
+ public:
+  explicit Mean(const MarkerTarget& target)
+      : target_(target),
+        sum_(target.markers.size(), Vec3::Zero()),
+        seen_(target.markers.size(), 0) {}
+
+  void add(const Labelling& labelling, const std::vector<MarkerPoint>& points) {
+    ++frames_;
+    const Pose X_TC = labelling.fit.X.inverse();
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      if (labelling.point[i] < 0) continue;
+      const Vec3 m = X_TC * points[static_cast<std::size_t>(labelling.point[i])].p;
+      sum_[i] += m, ++seen_[i];
+      squares_ += (m - target_.markers[i]).squaredNorm(), ++count_;
+    }
+  }
+  TargetCalibration result() const {
+    TargetCalibration result{target_, frames_, std::sqrt(squares_ / std::max(1, count_)), seen_};
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      if (seen_[i] > 0) result.target.markers[i] = sum_[i] / seen_[i];
+    }
+    return result;
+  }
+
+ private:
+  const MarkerTarget& target_;
+  std::vector<Vec3> sum_;
+  std::vector<int> seen_;
+  int frames_ = 0, count_ = 0;
+  double squares_ = 0.0;
+};
+
+TargetCalibration round(const MarkerTarget& target, double tolerance,
+                        const std::vector<std::vector<MarkerPoint>>& frames) {
+  LabellingOptions options;
+  options.edge_tolerance = tolerance;
+  options.rms_tolerance = options.triple_tolerance = tolerance;
+  CliqueSearch search(target, options);
+  Mean mean(target);
+  std::vector<Edge> edges;
+  for (const std::vector<MarkerPoint>& points : frames) {
+    find_edges(points, search.longest_edge() + tolerance, edges);
+    const Labelling& labelling = search.find(points, edges, std::vector<char>(points.size(), 1));
+    // Four markers or more: three say too little while the target is not known well.
+    if (labelling.count >= std::min<int>(4, static_cast<int>(target.markers.size())) &&
+        !labelling.ambiguous) {
+      mean.add(labelling, points);
+    }
+  }
+  return mean.result();
+}
+
+/// Brings the markers back onto the guess: the rounds may have drifted as a whole.
+void anchor(const MarkerTarget& guess, MarkerTarget& target) {
+  PointPairs pairs;
+  for (std::size_t i = 0; i < guess.markers.size(); ++i) {
+    pairs.add(target.markers[i], guess.markers[i]);
+  }
+  const Pose X = fit_rigid(pairs).X;
+  for (Vec3& m : target.markers) m = X * m;
+}
+
+}  // namespace
+
+TargetCalibration calibrate_target(const MarkerTarget& guess,
+                                   const std::vector<std::vector<MarkerPoint>>& frames) {
+  TargetCalibration result;
+  result.target = guess;
+  double tolerance = kGuessError;
+  for (int i = 0; i < kRounds; ++i) {
+    result = round(result.target, tolerance, frames);
+    if (i > 1) tolerance = 2.0 * kLargestRms;
+  }
+  for (std::size_t i = 0; i < result.seen.size(); ++i) {
+    if (result.seen[i] >= kFewestFrames) continue;
+    throw BadInput("target " + guess.name + ": marker " + std::to_string(i) + " was seen in " +
+                   std::to_string(result.seen[i]) + " frames: expected at least " +
+                   std::to_string(kFewestFrames) +
+                   "; is the guess right to a centimetre, and does the target turn enough?");
+  }
+  if (!(result.rms <= kLargestRms)) {
+    throw BadInput("target " + guess.name + ": markers scatter by " +
+                   std::to_string(1e3 * result.rms) + " mm: is one of them loose?");
+  }
+  anchor(guess, result.target);
+  return result;
+}
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,173 @@
+// Calibration of rigs and targets: recovery of what was simulated, refusals, and the pictures that
+// Debian's opencv-doc ships, where it is installed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+#include "anthrob_mocap/calibration/stereo_calibration.h"
+#include "anthrob_mocap/calibration/target_calibration.h"
+#include "anthrob_mocap/source/image_file.h"
+#include "expect_bad_input.h"
+#include "support.h"
+
+namespace anthrob {
+namespace mocap {
+namespace {
+
+using test::expect_bad_input;
+using test::make_rig;
+
+const Board kBoard{9, 6, 0.025};
+
+/// A board held all over the view of a rig, corners with noise.
+std::vector<BoardView> simulate(const StereoRig& rig, int count, double noise) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> x(-0.12, 0.4), y(-0.2, 0.2), z(0.7, 1.3), turn(-0.5, 0.5);
+  std::normal_distribution<double> pixel(0.0, noise);
+  std::vector<BoardView> views;
+  while (static_cast<int>(views.size()) < count) {
+    const Pose X{exp_rotation({turn(random), turn(random), turn(random)}),
+                 {x(random), y(random), z(random)}};
+    BoardView view;
+    view.name = std::to_string(views.size());
+    bool inside = true;
+    for (const Vec3& p : kBoard.points()) {
+      for (const Side side : {kLeft, kRight}) {
+        const Vec2 c = rig.project(side, X * (p - Vec3(0.1, 0.0625, 0.0)));
+        inside &= c.x() > 5 && c.y() > 5 && c.x() < rig.width() - 5 && c.y() < rig.height() - 5;
+        view.corners[side].push_back(c + Vec2(pixel(random), pixel(random)));
+      }
+    }
+    if (inside) views.push_back(view);
+  }
+  return views;
+}
+
+StereoCalibration calibrate(const std::vector<BoardView>& views) {
+  return calibrate_stereo(views, kBoard, 648, 488, {});
+}
+
+TEST(StereoCalibration, RecoversARig) {
+  const StereoRig rig = make_rig();
+  const StereoCalibration result = calibrate(simulate(rig, 20, 0.05));
+  EXPECT_NEAR(result.rig.baseline(), rig.baseline(), 3e-4);
+  EXPECT_NEAR(result.rig.camera(kLeft).fx, 1071.0, 2.0);
+  EXPECT_NEAR(result.rig.camera(kRight).cy, 241.0, 2.0);
+  EXPECT_NEAR(result.stereo_rms, 0.07, 0.02);  // 0.05 in each of two axes
+  EXPECT_LT(result.epipolar_rms, 0.1);
+  EXPECT_NE(result.report().find("baseline"), std::string::npos);
+}
+
+TEST(StereoCalibration, LeavesOutAViewThatDoesNotFit) {
+  std::vector<BoardView> views = simulate(make_rig(), 20, 0.05);
+  for (Vec2& c : views[7].corners[kRight]) c.y() += 1.5;  // the board moved between the pictures
+  const StereoCalibration result = calibrate(views);
+  EXPECT_EQ(result.dropped, std::vector<std::string>{"7"});
+  EXPECT_EQ(result.views, 19);
+}
+
+TEST(StereoCalibration, RefusesWhatCannotBeTrusted) {
+  const std::vector<BoardView> good = simulate(make_rig(), 12, 0.05);
+  std::vector<BoardView> views = good;
+  for (BoardView& view : views) std::swap(view.corners[kLeft], view.corners[kRight]);
+  expect_bad_input([&] { calibrate(views); }, "swapped or the images mirrored");
+
+  views = good;  // both cameras behind a mirror
+  for (BoardView& view : views) {
+    for (const Side side : {kLeft, kRight}) {
+      for (Vec2& c : view.corners[side]) c.x() = 647.0 - c.x();
+    }
+  }
+  expect_bad_input([&] { calibrate(views); }, "swapped or the images mirrored");
+
+  views = good;  // one of them
+  for (BoardView& view : views) {
+    for (Vec2& c : view.corners[kRight]) c.x() = 647.0 - c.x();
+  }
+  expect_bad_input([&] { calibrate(views); }, "calibration: ");
+
+  views.assign(good.begin(), good.begin() + 5);
+  expect_bad_input([&] { calibrate(views); }, "5 usable views: expected at least 8");
+
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> pixel(0.0, 2.0);
+  views = good;
+  for (BoardView& view : views) {
+    for (Vec2& c : view.corners[kLeft]) c += Vec2(pixel(random), pixel(random));
+  }
+  expect_bad_input([&] { calibrate(views); }, "reprojection error");
+
+  CalibrationLimits limits;
+  limits.least_coverage = 0.999;
+  expect_bad_input([&] { calibrate_stereo(good, kBoard, 648, 488, limits); }, "covers");
+}
+
+TEST(Board, IsChecked) {
+  EXPECT_EQ(Board::parse("8x5", 0.03).points().size(), 40u);
+  expect_bad_input([] { Board::parse("9by6", 0.03); }, "--board 9by6");
+  expect_bad_input([] { Board::parse("6x6", 0.03); }, "square board");
+  expect_bad_input([] { Board::parse("9x6", -1.0); }, "--square");
+}
+
+TEST(StereoCalibration, OfRealPictures) {
+  const std::string folder = "/usr/share/doc/opencv-doc/examples/data/";
+  if (!std::filesystem::exists(folder + "left01.jpg")) {
+    GTEST_SKIP() << "Debian's opencv-doc is not installed: no pictures of real checkerboards";
+  }
+  std::vector<BoardView> views;
+  for (const char* number :
+       {"01", "02", "03", "04", "05", "06", "07", "08", "09", "11", "12", "13", "14"}) {
+    BoardView view;
+    view.name = number;
+    for (const Side side : {kLeft, kRight}) {
+      const auto corners =
+          find_corners(read_any_image(folder + name(side) + number + ".jpg"), kBoard);
+      ASSERT_TRUE(corners.has_value()) << name(side) << number;
+      view.corners[side] = *corners;
+    }
+    same_direction(view.corners[kLeft], view.corners[kRight]);
+    views.push_back(view);
+  }
+  const StereoCalibration result = calibrate_stereo(views, kBoard, 640, 480, {});
+  EXPECT_EQ(result.views, 13);
+  EXPECT_LE(result.stereo_rms, 0.64);
+  EXPECT_NEAR(result.rig.baseline(), 0.0836, 0.0006);
+}
+
+TEST(TargetCalibration, RecoversATargetMeasuredByHand) {
+  const StereoRig rig = make_rig();
+  const TargetSet truth = test::make_targets();
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> by_hand(-0.004, 0.004);
+  MarkerTarget guess = truth.targets[1];
+  for (Vec3& m : guess.markers) m += Vec3(by_hand(random), by_hand(random), by_hand(random));
+  const auto record = [&](double loose) {
+    test::Session session(rig, truth);
+    std::vector<std::vector<MarkerPoint>> frames;
+    const test::Motion motion = test::swing(0.6, 1.0);
+    for (int i = 0; i < 80; ++i) {
+      TargetSet shaken = truth;
+      shaken.targets[1].markers[2].z() += i % 2 ? loose : -loose;
+      frames.push_back(session.track(i / 10.0, {test::scene_of(shaken, motion(i / 10.0))}).points);
+    }
+    return frames;
+  };
+  const TargetCalibration result = calibrate_target(guess, record(0.0));
+  EXPECT_LT(result.rms, 2e-4);
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto edge = [&](const MarkerTarget& t) { return (t.markers[i] - t.markers[j]).norm(); };
+      EXPECT_NEAR(edge(result.target), edge(truth.targets[1]), 1e-4) << i << j;
+    }
+    // It keeps the axes of the guess, as well as those are known.
+    EXPECT_LT((result.target.markers[i] - truth.targets[1].markers[i]).norm(), 0.006);
+  }
+  MarkerTarget wrong = guess;
+  wrong.markers[2].x() += 0.05;
+  expect_bad_input([&] { calibrate_target(wrong, record(0.0)); }, "marker 2 was seen in 0 frames");
+}
+
+}  // namespace
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,112 @@
+// Calibrates a stereo rig from pairs of pictures of a checkerboard.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+
+#include "anthrob_mocap/calibration/stereo_calibration.h"
+#include "anthrob_mocap/core/errors.h"
+#include "anthrob_mocap/source/image_file.h"
+#include "tool.h"
+
+namespace mocap = anthrob::mocap;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Arguments {
+  std::string left, right, board = "9x6", out = "calibration";
+  double square = 0.025;
+  mocap::CalibrationLimits limits;
+};
+
+/// left07.jpg and right07.jpg belong together: the last number of a name, else the name.
+std::string key_of(const std::string& file) {
+  const std::string stem = fs::path(file).stem().string();
+  const auto end = stem.find_last_of("0123456789");
+  if (end == std::string::npos) return stem;
+  const auto before = stem.find_last_not_of("0123456789", end);
+  return stem.substr(before == std::string::npos ? 0 : before + 1, end + 1);
+}
+
+std::map<std::string, std::string> by_key(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const std::string& file : mocap::list_images(folder)) {
+    if (!files.emplace(key_of(file), folder + "/" + file).second) {
+      throw mocap::BadInput(folder + "/" + file + ": another image has the same number " +
+                            key_of(file));
+    }
+  }
+  return files;
+}
+
+void write(const std::string& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(file + ": cannot be written");
+}
+
+int calibrate(const Arguments& arguments) {
+  const auto board = mocap::Board::parse(arguments.board, arguments.square);
+  const auto left = by_key(arguments.left), right = by_key(arguments.right);
+  std::vector<mocap::BoardView> views;
+  int width = 0, height = 0;
+  for (const auto& [key, file] : left) {
+    if (mocap::tool::interrupted()) return mocap::tool::kInterrupted;
+    const auto partner = right.find(key);
+    if (partner == right.end()) {
+      std::cout << file << ": no partner in " << arguments.right << "\n";
+      continue;
+    }
+    mocap::BoardView view;
+    view.name = key;
+    for (const auto side : {mocap::kLeft, mocap::kRight}) {
+      const std::string& name = side == mocap::kLeft ? file : partner->second;
+      const mocap::Image image = mocap::read_any_image(name);
+      if (width == 0) width = image.width, height = image.height;
+      if (image.width != width || image.height != height) {
+        throw mocap::BadInput(name + ": " + std::to_string(image.width) + "x" +
+                              std::to_string(image.height) + " pixels: expected " +
+                              std::to_string(width) + "x" + std::to_string(height) +
+                              " as the others");
+      }
+      const auto corners = mocap::find_corners(image, board);
+      if (corners)
+        view.corners[side] = *corners;
+      else
+        std::cout << name << ": no board of " << arguments.board << " corners found\n";
+    }
+    if (view.corners[mocap::kLeft].empty() || view.corners[mocap::kRight].empty()) continue;
+    mocap::same_direction(view.corners[mocap::kLeft], view.corners[mocap::kRight]);
+    views.push_back(view);
+  }
+  const auto result = mocap::calibrate_stereo(views, board, width, height, arguments.limits);
+  std::cout << result.report();
+  fs::create_directories(arguments.out);
+  for (const auto side : {mocap::kLeft, mocap::kRight}) {
+    const std::string file = arguments.out + "/" + mocap::name(side) + ".yaml";
+    write(file, result.rig.camera(side).to_yaml());
+    std::cout << "written            " << file << "\n";
+  }
+  return mocap::tool::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Calibrates a stereo rig from pairs of pictures of a checkerboard.",
+               "anthrob_mocap_calibrate");
+  Arguments a;
+  app.option_defaults()->always_capture_default();
+  app.add_option("--left", a.left, "folder of the left camera's pictures")->required();
+  app.add_option("--right", a.right, "of the right camera's; same numbers, same moments")
+      ->required();
+  app.add_option("--board", a.board, "inner corners, COLUMNSxROWS");
+  app.add_option("--square", a.square, "edge of a square [m]");
+  app.add_option("--out", a.out, "folder for left.yaml and right.yaml");
+  app.add_option("--max-rms", a.limits.stereo_rms, "refuse a worse reprojection [pixel]")
+      ->check(CLI::Range(0.01, 100.0));
+  app.add_option("--min-coverage", a.limits.least_coverage, "refuse less of the picture")
+      ->check(CLI::Range(0.0, 1.0));
+  return mocap::tool::run(app, argc, argv, [&] { return calibrate(a); });
+}

@@ -1,0 +1,75 @@
+// Measures where the markers of a target are, from a recording in which it moves.
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "anthrob_mocap/calibration/target_calibration.h"
+#include "anthrob_mocap/core/errors.h"
+#include "anthrob_mocap/pipeline/tracker.h"
+#include "anthrob_mocap/source/folder_source.h"
+#include "tool.h"
+
+namespace mocap = anthrob::mocap;
+
+namespace {
+
+struct Arguments {
+  std::string left, right, calibration, targets, name, out;
+};
+
+/// Points in space of every pair of images.
+std::vector<std::vector<mocap::MarkerPoint>> read_points(const Arguments& arguments,
+                                                         const mocap::TargetSet& set) {
+  const auto rig = mocap::StereoRig::load(arguments.calibration);
+  std::vector<std::vector<mocap::MarkerPoint>> frames;
+  mocap::Pipeline pipeline(mocap::tracking_stages(rig, set, {}), mocap::PipelineMode::kSequential,
+                           1, [&](mocap::PacketPtr packet) {
+                             frames.push_back(static_cast<mocap::StereoFrame&>(*packet).points);
+                           });
+  mocap::FolderSource source(arguments.left, arguments.right, {});
+  for (;;) {
+    auto frame = std::make_unique<mocap::StereoFrame>();
+    if (source.next(*frame, 0.0) == mocap::FrameSource::Grab::kEnd) return frames;
+    pipeline.push(std::move(frame));
+  }
+}
+
+int calibrate(const Arguments& arguments) {
+  // A guess may look ambiguous at the tolerance of tracking; the result must not.
+  const double kNone = 0.0;
+  mocap::TargetSet set = mocap::TargetSet::load(arguments.targets, kNone);
+  for (mocap::MarkerTarget& target : set.targets) {
+    if (target.name != arguments.name) continue;
+    const auto result = mocap::calibrate_target(target, read_points(arguments, set));
+    for (std::size_t i = 0; i < result.seen.size(); ++i) {
+      std::printf("marker %zu: moved by %.2f mm, seen in %d frames\n", i,
+                  1e3 * (result.target.markers[i] - target.markers[i]).norm(), result.seen[i]);
+    }
+    std::printf("%d frames, %.3f mm rms\n", result.frames, 1e3 * result.rms);
+    target = result.target;
+    const std::string text = set.to_yaml();
+    mocap::TargetSet::parse(text, arguments.out, mocap::LabellingOptions().edge_tolerance);
+    std::ofstream out(arguments.out);
+    out << text;
+    if (!out.flush()) throw std::runtime_error(arguments.out + ": cannot be written");
+    return mocap::tool::kDone;
+  }
+  throw mocap::BadInput("--name " + arguments.name + ": no such target in " + arguments.targets);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures where the markers of a target are, from a recording in which it moves.",
+               "anthrob_mocap_calibrate_target");
+  Arguments a;
+  app.add_option("--left", a.left, "folder of images")->required();
+  app.add_option("--right", a.right, "folder of images")->required();
+  app.add_option("--calibration", a.calibration, "folder with left.yaml and right.yaml")
+      ->required();
+  app.add_option("--targets", a.targets, "targets.yaml with the markers as measured by hand")
+      ->required();
+  app.add_option("--name", a.name, "the target to calibrate")->required();
+  app.add_option("--out", a.out, "targets.yaml to be written")->required();
+  return mocap::tool::run(app, argc, argv, [&] { return calibrate(a); });
+}
