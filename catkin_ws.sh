@@ -31,6 +31,7 @@ common_packages=(
   xvfb xauth imagemagick libgl1-mesa-dri
   user-mode-linux kmod iproute2  # CAN for the tests, where the kernel has none
 )
+
 say() { printf '\033[1m%s\033[0m\n' "$*"; }
 
 # One line: what failed, and what to do.
