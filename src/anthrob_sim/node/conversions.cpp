@@ -59,7 +59,7 @@ sensor_msgs::JointState joint_states(const Simulation& sim, const ros::Time& sta
     if (joints[j].type == JointType::kBall) continue;
     states.name.push_back(joints[j].name);
     states.position.push_back(sim.measured_joint_position(static_cast<int>(j)));
-    states.velocity.push_back(sim.tree().velocities()[joints[j].velocity_offset]);
+    states.velocity.push_back(sim.read_velocity(static_cast<int>(j)));
     states.effort.push_back(sim.joint_effort(static_cast<int>(j)));
   }
   return states;
@@ -72,8 +72,8 @@ anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
   const auto& joints = sim.model().skeleton->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (joints[j].type != JointType::kBall) continue;
-    const double* q = &sim.configuration()[joints[j].position_offset];
-    const Vec3 w = sim.tree().ball_velocity(static_cast<int>(j));
+    const double* q = sim.read_positions() + joints[j].position_offset;
+    const Vec3 w = sim.read_ball_velocity(static_cast<int>(j));
     geometry_msgs::Quaternion orientation;
     orientation.w = q[0], orientation.x = q[1], orientation.y = q[2], orientation.z = q[3];
     geometry_msgs::Vector3 velocity;

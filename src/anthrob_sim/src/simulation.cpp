@@ -51,7 +51,8 @@ Simulation::Simulation(std::shared_ptr<const RobotModel> model)
       resistance_(*model_->skeleton, model_->step),
       q_(model_->skeleton->rest_configuration()),
       effort_(model_->skeleton->joints.size(), 0.0),
-      load_(model_->skeleton->joints.size(), 0.0) {
+      load_(model_->skeleton->joints.size(), 0.0),
+      joint_loads_(*model_->skeleton, model_->gravity, model_->step) {
   const SkeletonModel& skeleton = *model_->skeleton;
   muscles_.reserve(model_->muscles.size());
   for (std::size_t i = 0; i < model_->muscles.size(); ++i) {
@@ -68,8 +69,37 @@ Simulation::Simulation(std::shared_ptr<const RobotModel> model)
     joint_sensor_offsets_.push_back(store_.reserve(joint_sensors_.back().state_size()));
   }
   tau_.setZero(skeleton.velocity_count);
+  reserve_effects();
   for (Muscle& muscle : muscles_) muscle.set_enabled(true);
   place(q_, std::vector<double>(muscles_.size(), 0.0));
+}
+
+void Simulation::reserve_effects() {
+  const SkeletonModel& skeleton = *model_->skeleton;
+  if (joint_loads_.wanted()) loads_offset_ = store_.reserve(skeleton.joints.size());
+  if (!model_->joint_torques.empty()) joint_torque_.setZero(skeleton.velocity_count);
+  if (!model_->power_effects.empty()) lines_.resize(muscles_.size());
+  for (const auto& effect : model_->power_effects) {
+    power_offsets_.push_back(store_.reserve(effect->state_size()));
+  }
+  if (model_->reading_effects.empty()) return;
+  readings_offset_ = store_.reserve(muscles_.size() * state_size_of<ecu::Measurement>() +
+                                    skeleton.position_count + skeleton.velocity_count);
+  for (const auto& effect : model_->reading_effects) {
+    reading_offsets_.push_back(store_.reserve(effect->state_size()));
+  }
+}
+
+void Simulation::reset_effects() {
+  if (joint_loads_.wanted()) joint_loads_.reset(store_.at(loads_offset_).data());
+  for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
+    model_->power_effects[i]->reset(store_.at(power_offsets_[i]));
+  }
+  if (model_->reading_effects.empty()) return;
+  const Readings readings = true_readings();
+  for (std::size_t i = 0; i < model_->reading_effects.size(); ++i) {
+    model_->reading_effects[i]->reset(readings, store_.at(reading_offsets_[i]));
+  }
 }
 
 void Simulation::check_muscle(int muscle) const {
@@ -150,6 +180,7 @@ void Simulation::settle_in(const std::vector<BodyState>& bodies) {
     const std::size_t i = &joint - model_->skeleton->joints.data();
     joint_sensors_[i].reset(q_[joint.position_offset], store_.at(joint_sensor_offsets_[i]));
   }
+  reset_effects();
   sense();
 }
 
@@ -176,22 +207,46 @@ void Simulation::step_once() {
     const std::size_t i = &joint - model_->skeleton->joints.data();
     tau_[joint.velocity_offset] += effort_[i] + load_[i];
   }
+  if (!model_->joint_torques.empty()) add_joint_torques();
   for (Muscle& muscle : muscles_) muscle.prepare_sliding(tree_, tau_);
-  resistance_.solve(tree_, q_, tau_, sliding_);
+  resistance_.solve(tree_, q_, tau_, sliding_,
+                    joint_loads_.wanted() ? store_.at(loads_offset_).data() : nullptr);
   // Work within the step goes with the mean of the velocities at its ends.
   const Eigen::Map<const Eigen::VectorXd> start(tree_.velocities().data(), tau_.size());
   joint_dissipation_ = -0.5 * resistance_.joint_torque().dot(start + resistance_.velocity());
   for (Muscle& muscle : muscles_) muscle.finish_sliding();
 
   apply_wrenches();
-  for (Muscle& muscle : muscles_) muscle.advance_actuator();
+  advance_actuators();
+  if (joint_loads_.wanted()) joint_loads_.before(skeleton_);
   skeleton_.step();
+  if (joint_loads_.wanted()) joint_loads_.after(skeleton_, store_.at(loads_offset_).data());
 
   ++step_index_;
   tree_.update(skeleton_.bodies(), q_);
   for (Muscle& muscle : muscles_) muscle.update(skeleton_.bodies(), tree_);
   check_finite();
   sense();
+}
+
+void Simulation::add_joint_torques() {
+  joint_torque_.setZero();
+  for (const auto& torque : model_->joint_torques) torque->add(tree_, q_, joint_torque_.data());
+  tau_ += joint_torque_;
+}
+
+void Simulation::advance_actuators() {
+  if (model_->power_effects.empty()) {
+    for (Muscle& muscle : muscles_) muscle.advance_actuator(muscle.voltage());
+    return;
+  }
+  for (std::size_t m = 0; m < muscles_.size(); ++m) {
+    lines_[m] = {muscles_[m].voltage(), muscles_[m].actuator().current};
+  }
+  for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
+    model_->power_effects[i]->apply(lines_, store_.at(power_offsets_[i]));
+  }
+  for (std::size_t m = 0; m < muscles_.size(); ++m) muscles_[m].advance_actuator(lines_[m].voltage);
 }
 
 void Simulation::apply_wrenches() {
@@ -223,9 +278,10 @@ void Simulation::apply_joint_efforts() {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
     if (joint.type == JointType::kBall) {
       torque = resistance_.joint_torque().segment<3>(joint.velocity_offset);
+      if (joint_torque_.size() > 0) torque += joint_torque_.segment<3>(joint.velocity_offset);
     } else {
-      const double effort =
-          resistance_.joint_torque()[joint.velocity_offset] + effort_[i] + load_[i];
+      double effort = resistance_.joint_torque()[joint.velocity_offset] + effort_[i] + load_[i];
+      if (joint_torque_.size() > 0) effort += joint_torque_[joint.velocity_offset];
       (joint.type == JointType::kHinge ? torque : force) = effort * view.axis_W;
     }
     for (const auto& [body, sign] : {std::pair{joint.child, 1.0}, std::pair{joint.parent, -1.0}}) {
@@ -237,12 +293,65 @@ void Simulation::apply_joint_efforts() {
 }
 
 void Simulation::sense() {
-  for (Muscle& muscle : muscles_) muscle.sense(step_index_);
+  if (!model_->reading_effects.empty()) {
+    Readings readings = true_readings();
+    for (std::size_t i = 0; i < model_->reading_effects.size(); ++i) {
+      model_->reading_effects[i]->apply(readings, store_.at(reading_offsets_[i]));
+    }
+  }
+  for (std::size_t m = 0; m < muscles_.size(); ++m) {
+    muscles_[m].sense(step_index_, reading(static_cast<int>(m)));
+  }
   const auto& joints = model_->skeleton->joints;
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    store_.at(measured_offset_)[i] = joint_sensors_[i].measure(
-        q_[joints[i].position_offset], step_index_, store_.at(joint_sensor_offsets_[i]));
+    store_.at(measured_offset_)[i] =
+        joint_sensors_[i].measure(read_positions()[joints[i].position_offset], step_index_,
+                                  store_.at(joint_sensor_offsets_[i]));
   }
+}
+
+Readings Simulation::true_readings() {
+  const SkeletonModel& skeleton = *model_->skeleton;
+  const StateView memory = store_.at(readings_offset_);
+  Readings readings;
+  readings.muscles = &memory.as<ecu::Measurement>();
+  readings.positions = memory.from(muscles_.size() * state_size_of<ecu::Measurement>()).data();
+  readings.velocities = readings.positions + skeleton.position_count;
+  for (std::size_t m = 0; m < muscles_.size(); ++m) readings.muscles[m] = muscles_[m].truth();
+  std::copy(q_.begin(), q_.end(), readings.positions);
+  for (const JointModel& joint : skeleton.joints) {
+    double* velocity = readings.velocities + joint.velocity_offset;
+    if (joint.type == JointType::kBall) {
+      const Vec3 w = tree_.ball_velocity(static_cast<int>(&joint - skeleton.joints.data()));
+      std::copy(w.data(), w.data() + 3, velocity);
+    } else {
+      *velocity = tree_.velocities()[joint.velocity_offset];
+    }
+  }
+  return readings;
+}
+
+ecu::Measurement Simulation::reading(int muscle) const {
+  if (model_->reading_effects.empty()) return muscles_[muscle].truth();
+  return (&store_.at(readings_offset_).as<ecu::Measurement>())[muscle];
+}
+
+const double* Simulation::read_positions() const {
+  if (model_->reading_effects.empty()) return q_.data();
+  return store_.at(readings_offset_ + muscles_.size() * state_size_of<ecu::Measurement>()).data();
+}
+
+double Simulation::read_velocity(int joint) const {
+  const int dof = model_->skeleton->joints[joint].velocity_offset;
+  if (model_->reading_effects.empty()) return tree_.velocities()[dof];
+  return read_positions()[model_->skeleton->position_count + dof];
+}
+
+Vec3 Simulation::read_ball_velocity(int joint) const {
+  if (model_->reading_effects.empty()) return tree_.ball_velocity(joint);
+  const double* w = read_positions() + model_->skeleton->position_count +
+                    model_->skeleton->joints[joint].velocity_offset;
+  return {w[0], w[1], w[2]};
 }
 
 void Simulation::check_finite() const {
@@ -303,6 +412,7 @@ double Simulation::potential_energy() const {
   for (std::size_t i = 1; i < bodies().size(); ++i) {
     energy -= model_->skeleton->bodies[i].mass * model_->gravity.dot(bodies()[i].X_WB.p);
   }
+  for (const auto& torque : model_->joint_torques) energy += torque->energy(q_);
   return energy;
 }
 

@@ -81,7 +81,7 @@ Account audit(const std::string& model_name, double step) {
                         (before[m].current * before[m].current + now.current * now.current) * step;
       const double torque = load[m] * p.spindle_radius;
       account.gear +=
-          (motor.gear().load(torque, before[m].velocity, before[m].current).torque - torque) *
+          (motor.gear()->load(torque, before[m].velocity, before[m].current).torque - torque) *
           (now.position - before[m].position);
       account.eyelets += muscle.friction_power() * step;
       account.rings += muscle.spring_dissipation() * step;

@@ -7,6 +7,7 @@
 #include "anthrob_sim/friction/resistance_solver.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/muscle/muscle.h"
+#include "anthrob_sim/skeleton/joint_loads.h"
 #include "anthrob_sim/skeleton/skeleton.h"
 
 namespace anthrob {
@@ -69,6 +70,13 @@ class Simulation {
   const std::vector<double>& configuration() const { return q_; }
   /// What the joint sensors saw: hinge and prismatic joints with noise; ball joints as they are.
   double measured_joint_position(int joint) const;
+  /// What ideal sensors say: the truth, with the systematic errors that are effects of the model.
+  ecu::Measurement reading(int muscle) const;
+  /// The same of joints: positions as in configuration(); velocities, ball joints in the child's
+  /// axes.
+  const double* read_positions() const;
+  Vec3 read_ball_velocity(int joint) const;
+  double read_velocity(int joint) const;
   double joint_effort(int joint) const { return effort_[joint]; }
   double joint_load(int joint) const { return load_[joint]; }
   /// Moment arms -dl/dq of a muscle [m]: one a generalised velocity, ball joints in the child's
@@ -77,7 +85,7 @@ class Simulation {
   /// Pose of a link in the world.
   Pose link_pose(int frame) const;
 
-  /// Kinetic and potential energy of the skeleton [J].
+  /// Kinetic and potential energy of the skeleton, springs on joints included [J].
   double kinetic_energy() const;
   double potential_energy() const;
   /// Power that joint friction and stops take out of the last step [W].
@@ -89,6 +97,11 @@ class Simulation {
 
  private:
   void settle_in(const std::vector<BodyState>& bodies);
+  void reserve_effects();
+  void reset_effects();
+  void add_joint_torques();
+  void advance_actuators();
+  Readings true_readings();
   void step_once();
   void apply_wrenches();
   void sense();
@@ -108,6 +121,12 @@ class Simulation {
   std::size_t measured_offset_;  ///< measured joint positions
   std::vector<std::size_t> joint_sensor_offsets_;
   Eigen::VectorXd tau_;
+  // Of effects: empty in a plain model.
+  JointLoads joint_loads_;
+  Eigen::VectorXd joint_torque_;  ///< of joint_torques
+  std::vector<PowerLine> lines_;  ///< scratch of power_effects
+  std::size_t readings_offset_ = 0, loads_offset_ = 0;
+  std::vector<std::size_t> power_offsets_, reading_offsets_;
   double joint_dissipation_ = 0.0;
   std::uint64_t step_index_ = 0;
 };

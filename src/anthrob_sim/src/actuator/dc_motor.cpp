@@ -31,15 +31,16 @@ void DcMotor::place(double position, StateView state) const {
   state.as<State>() = {0.0, 0.0, position};
 }
 
-void DcMotor::impose(double position, double velocity, StateView state) const {
+void DcMotor::impose(double position, double velocity, double, StateView state) const {
   auto& s = state.as<State>();
   s.velocity = velocity;
   s.position = position;
 }
 
-void DcMotor::advance(double input, double load, StateView state) const {
+void DcMotor::advance_with(double input, double load, double torque, StateView state) const {
   auto& s = state.as<State>();
   GearLaw::Load at_gear = gear_->load(load * p_.spindle_radius, s.velocity, s.current);
+  at_gear.torque -= torque;
   at_gear.friction += p_.ratio * p_.friction_torque;
   if (at_gear.friction > 0.0) {
     advance_with_friction(input, at_gear, s);
@@ -104,7 +105,8 @@ std::shared_ptr<const Actuator> DcMotor::load(const ConfigNode& kind, const Conf
                                               double step) {
   const ConfigNode motor = kind.at("motor"), gear = kind.at("gear");
   Parameters p;
-  p.resistance = motor.number("resistance", Bounds::positive(), "ohm") +
+  p.winding_resistance = motor.number("resistance", Bounds::positive(), "ohm");
+  p.resistance = p.winding_resistance +
                  kind.at("power_stage").number("resistance", Bounds::nonnegative(), "ohm");
   p.inductance = motor.number("inductance", Bounds::positive(), "H");
   p.torque_constant = motor.number("torque_constant", Bounds::positive(), "Nm/A");

@@ -46,7 +46,7 @@ void HillMuscle::place(double position, StateView state) const {
   state.as<State>() = {kMinActivation, 1.0 - position, 0.0};
 }
 
-void HillMuscle::impose(double position, double velocity, StateView state) const {
+void HillMuscle::impose(double position, double velocity, double, StateView state) const {
   auto& s = state.as<State>();
   s.length = 1.0 - position;
   s.velocity = -velocity / p_.max_velocity;

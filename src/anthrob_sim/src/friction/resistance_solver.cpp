@@ -20,9 +20,8 @@ ResistanceSolver::ResistanceSolver(const SkeletonModel& model, double step)
     : model_(model), step_(step) {
   const int n = model.velocity_count;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const JointFrictionModel& friction = model.joints[i].friction;
-    if (friction.static_torque > 0.0 || friction.kinetic_torque > 0.0) {
-      dry_.push_back({static_cast<int>(i), true, Vec3::Zero(), 0.0});
+    if (model.joints[i].friction.is_dry()) {
+      dry_.push_back({static_cast<int>(i), true, Vec3::Zero(), 0.0, 0.0, 0.0});
     }
   }
   held_.resize(n, 0);
@@ -32,8 +31,11 @@ ResistanceSolver::ResistanceSolver(const SkeletonModel& model, double step)
 }
 
 void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double>& q,
-                             const Eigen::VectorXd& tau,
-                             const std::vector<SlidingTendon*>& tendons) {
+                             const Eigen::VectorXd& tau, const std::vector<SlidingTendon*>& tendons,
+                             const double* loads) {
+  if (loads) {
+    for (DryJoint& dry : dry_) dry.load = loads[dry.joint];
+  }
   start(tree, tau);
   for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
     assemble(tree, q, tendons);
@@ -56,9 +58,11 @@ void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& t
     const auto speed = u_.segment(joint.velocity_offset, joint.dof());
     const double norm = speed.norm();
     dry.held = norm < kAtRest;
+    dry.speed = norm;
     dry.direction.setZero();
     if (!dry.held) dry.direction.head(joint.dof()) = speed / norm;
-    dry.level = dry_friction(joint.friction, norm);
+    dry.level = dry_friction(joint.friction, norm) +
+                more_dry_friction(joint.friction, dry.direction.x(), dry.load);
   }
 }
 
@@ -150,6 +154,19 @@ void ResistanceSolver::add_dry_friction() {
       held_[dof] = dry.held;
       if (!dry.held) rhs_[dof] -= step_ * dry.level * dry.direction[k];
     }
+    if (!dry.held && joint.dof() == 3 && dry.speed > kAtRest) add_turning(dry, joint);
+  }
+}
+
+void ResistanceSolver::add_turning(const DryJoint& dry, const JointModel& joint) {
+  // A ball joint's friction turns with its velocity: tangent of -level u / |u| across u. Without it
+  // slow sliding of a body with one small moment of inertia would not settle.
+  const double stiffness = step_ * dry.level / dry.speed;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double across = (i == j ? 1.0 : 0.0) - dry.direction[i] * dry.direction[j];
+      system_(joint.velocity_offset + i, joint.velocity_offset + j) += stiffness * across;
+    }
   }
 }
 
@@ -180,10 +197,12 @@ bool ResistanceSolver::revise_dry_friction() {
       for (int k = 0; k < count; ++k)
         hold[k] = (system_.row(dof + k).dot(u_) - rhs_[dof + k]) / step_;
       const double norm = hold.norm();
-      const double limit = std::max(joint.friction.static_torque, joint.friction.kinetic_torque);
+      const double limit = std::max(joint.friction.static_torque, joint.friction.kinetic_torque) +
+                           more_dry_friction(joint.friction, -hold.x(), dry.load);
       if (norm <= limit) continue;
       dry.held = false;
       dry.direction = -hold / norm;
+      dry.speed = 0.0;
       dry.level = limit;
       revised = true;
       continue;
@@ -197,12 +216,14 @@ bool ResistanceSolver::revise_dry_friction() {
     }
     const double norm = speed.norm();
     const Vec3 direction = speed / norm;
-    const double level = dry_friction(joint.friction, norm);
+    const double level = dry_friction(joint.friction, norm) +
+                         more_dry_friction(joint.friction, direction.x(), dry.load);
     if ((direction - dry.direction).norm() > 1e-9 ||
         std::abs(level - dry.level) > 1e-9 * dry.level) {
       revised = true;
     }
     dry.direction = direction;
+    dry.speed = norm;
     dry.level = level;
   }
   return revised;

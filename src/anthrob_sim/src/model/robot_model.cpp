@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 
 namespace anthrob {
@@ -13,6 +14,9 @@ namespace {
 
 /// How deep a path point may lie inside the surface next to it: table rounding, not a mistake [m].
 constexpr double kAllowedPenetration = 0.0002;
+/// The same where an effect may have moved points or surfaces: less than where forces stop being
+/// right.
+constexpr double kAllowedByEffects = 0.003;
 
 void require_snake_case(const ConfigNode& node, const std::string& name) {
   bool good = !name.empty() && name[0] >= 'a' && name[0] <= 'z';
@@ -43,9 +47,16 @@ class Builder {
     read_joints();
     model_->skeleton = skeleton_;
 
+    const std::vector<EffectSetting> effects = read_effects(config_, options_.effects, *model_);
+    ModelDraft draft{*model_, *skeleton_};
+    build_in(effects, Stage::kSkeleton, draft);
     read_muscles();
     read_sensors();
     read_touch_pads();
+    for (const Stage stage : {Stage::kNumbers, Stage::kParts, Stage::kComponents}) {
+      build_in(effects, stage, draft);
+    }
+    for (const EffectSetting& effect : effects) model_->effects.push_back(effect.instance());
     config_.refuse_unknown_keys();
     check_rest_posture();
     return model_;
@@ -205,6 +216,7 @@ class Builder {
     std::vector<PathObstacle> obstacles;
     for (std::size_t i = 0; i < entries.size(); ++i) {
       obstacles.push_back(read_obstacle(entries[i], eyelets, surfaces));
+      obstacles[i].entry = static_cast<int>(i);
       const bool end = i == 0 || i + 1 == entries.size();
       if (obstacles[i].surface && end) {
         entries[i].fail("a path begins and ends with a point, not with a surface");
@@ -306,13 +318,16 @@ class Builder {
       MusclePath posture(path);
       posture.initialise(bodies, StateView(memory.data()));
       const auto entries = nodes[m].second.at("path").items();
-      for (std::size_t i = 0; i < entries.size(); ++i) {
+      for (std::size_t i = 0; i < path.obstacles().size(); ++i) {
         const double depth = posture.obstacles()[i].penetration;
-        if (depth <= kAllowedPenetration) continue;
+        if (depth <= (model_->effects.empty() ? kAllowedPenetration : kAllowedByEffects)) continue;
         char text[32];
         std::snprintf(text, sizeof(text), "%.2f", 1e3 * depth);
-        entries[i].fail(std::string("a neighbouring path point lies ") + text +
-                        " mm inside the surface at rest; expected it outside");
+        const std::string message = std::string("a neighbouring path point lies ") + text +
+                                    " mm inside the surface at rest; expected it outside";
+        const int entry = path.obstacles()[i].entry;
+        if (entry >= 0) entries[entry].fail(message);
+        nodes[m].second.at("path").fail("surface that an effect puts there: " + message);
       }
     }
   }

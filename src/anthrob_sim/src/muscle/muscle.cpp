@@ -27,6 +27,10 @@ Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const Se
                           static_cast<std::uint64_t>(index) * kSensorCount + i, step);
     sensor_offsets_[i] = store.reserve(sensors_[i].state_size());
   }
+  if (model.command_delay > 0.0) {
+    command_delay_.emplace(model.command_delay, 2, step);
+    command_delay_offset_ = store.reserve(command_delay_->state_size());
+  }
 
   const auto spring = static_cast<std::size_t>(model.spring_segment);
   path_before_spring_moves_ = false;
@@ -84,10 +88,12 @@ void Muscle::relax() {
   model_.spring->relax(c.expansion, spring_state());
   const double tension = model_.spring->relaxed_tension(c.expansion);
   for (std::size_t i = 0; i < model_.path->segment_count(); ++i) tension_slot(i) = tension;
-  const Actuator::Readout actuator = model_.actuator->read(actuator_state());
-  const double values[] = {actuator.position, actuator.velocity, actuator.current, force()};
+  const ecu::Measurement now = truth();
+  const double values[] = {now.position, now.velocity, now.current, now.force};
   for (int i = 0; i < kSensorCount; ++i)
     sensors_[i].reset(values[i], store_.at(sensor_offsets_[i]));
+  const double command[] = {c.mode, c.reference};
+  if (command_delay_) command_delay_->fill(command, store_.at(command_delay_offset_));
 }
 
 void Muscle::command(ecu::Mode mode, double reference) {
@@ -116,30 +122,44 @@ void Muscle::release() {
   memory().drive = static_cast<double>(Drive::kController);
 }
 
-void Muscle::sense(std::uint64_t step_index) {
+ecu::Measurement Muscle::truth() const {
   const Actuator::Readout actuator = model_.actuator->read(actuator_state());
+  return {actuator.position, actuator.velocity, actuator.current, force()};
+}
+
+void Muscle::sense(std::uint64_t step_index, const ecu::Measurement& seen) {
   ecu::Measurement& m = memory().measured;
   const auto measure = [&](SensorIndex i, double value) {
     return sensors_[i].measure(value, step_index, store_.at(sensor_offsets_[i]));
   };
-  m.position = measure(kPosition, actuator.position);
-  m.velocity = measure(kVelocity, actuator.velocity);
-  m.current = measure(kCurrent, actuator.current);
-  m.force = measure(kForce, force());
+  m.position = measure(kPosition, seen.position);
+  m.velocity = measure(kVelocity, seen.velocity);
+  m.current = measure(kCurrent, seen.current);
+  m.force = measure(kForce, seen.force);
 }
 
 void Muscle::control(std::uint64_t step_index) {
   Control& c = memory();
+  ecu::Mode heard_mode = mode();
+  double heard = c.reference;
+  if (command_delay_) delay_command(heard_mode, heard);
   if (step_index % static_cast<std::uint64_t>(model_.steps_per_tick) != 0) return;
   if (c.enabled == 0.0) {
     c.voltage = 0.0;
     c.controller = {};
   } else if (model_.has_controller) {
-    c.voltage = ecu::control(mode(), c.reference, c.measured, model_.controller, c.controller);
+    c.voltage = ecu::control(heard_mode, heard, c.measured, model_.controller, c.controller);
   } else {
-    c.voltage =
-        std::clamp(c.reference, model_.actuator->input_low(), model_.actuator->input_high());
+    c.voltage = std::clamp(heard, model_.actuator->input_low(), model_.actuator->input_high());
   }
+}
+
+void Muscle::delay_command(ecu::Mode& mode, double& reference) {
+  const StateView state = store_.at(command_delay_offset_);
+  const double now[] = {static_cast<double>(mode), reference};
+  command_delay_->push(now, state);
+  mode = static_cast<ecu::Mode>(static_cast<int>(command_delay_->nearest(0, state)));
+  reference = command_delay_->blended(1, state);
 }
 
 void Muscle::prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau) {
@@ -180,12 +200,12 @@ void Muscle::finish_sliding() {
   }
 }
 
-void Muscle::advance_actuator() {
+void Muscle::advance_actuator(double input) {
   const Control& c = memory();
   if (c.drive == static_cast<double>(Drive::kImposed)) {
-    model_.actuator->impose(c.imposed_position, c.imposed_velocity, actuator_state());
+    model_.actuator->impose(c.imposed_position, c.imposed_velocity, tension(0), actuator_state());
   } else {
-    model_.actuator->advance(c.voltage, tension(0), actuator_state());
+    model_.actuator->advance(input, tension(0), actuator_state());
   }
 }
 

@@ -149,17 +149,18 @@ class Probe {
   bool interpolates() const { return !holds_words(quantity_) && quantity_ != "reference"; }
 
   double read(const Simulation& sim) const {
-    return muscle_ >= 0 ? read_muscle(sim.muscle(muscle_)) : read_joint(sim);
+    return muscle_ >= 0 ? read_muscle(sim) : read_joint(sim);
   }
 
  private:
-  double read_muscle(const Muscle& muscle) const {
-    const Actuator::Readout actuator = muscle.actuator();
-    if (quantity_ == "position") return actuator.position;
-    if (quantity_ == "velocity") return actuator.velocity;
-    if (quantity_ == "current") return actuator.current;
+  double read_muscle(const Simulation& sim) const {
+    const Muscle& muscle = sim.muscle(muscle_);
+    const ecu::Measurement reading = sim.reading(muscle_);
+    if (quantity_ == "position") return reading.position;
+    if (quantity_ == "velocity") return reading.velocity;
+    if (quantity_ == "current") return reading.current;
     if (quantity_ == "voltage") return muscle.voltage();
-    if (quantity_ == "force") return muscle.force();
+    if (quantity_ == "force") return reading.force;
     if (quantity_ == "reference") return muscle.reference();
     if (quantity_ == "mode") return static_cast<double>(muscle.mode());
     return 2.0;  // ecu_state: ENABLED
@@ -167,16 +168,16 @@ class Probe {
 
   double read_joint(const Simulation& sim) const {
     const JointModel& joint = sim.model().skeleton->joints[joint_];
-    const double* q = &sim.configuration()[joint.position_offset];
+    const double* q = sim.read_positions() + joint.position_offset;
     if (joint.type == JointType::kBall) {
       if (quantity_ == "w") return q[0];
       if (quantity_ == "x") return q[1];
       if (quantity_ == "y") return q[2];
       if (quantity_ == "z") return q[3];
-      return sim.tree().ball_velocity(joint_)[quantity_[1] - 'x'];
+      return sim.read_ball_velocity(joint_)[quantity_[1] - 'x'];
     }
     if (quantity_ == "position") return q[0];
-    if (quantity_ == "velocity") return sim.tree().velocities()[joint.velocity_offset];
+    if (quantity_ == "velocity") return sim.read_velocity(joint_);
     if (quantity_ == "effort") return sim.joint_effort(joint_);
     return sim.joint_load(joint_);
   }

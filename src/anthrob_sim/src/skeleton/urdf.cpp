@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <sstream>
 
 #include "anthrob_sim/core/errors.h"
@@ -66,6 +67,8 @@ class Builder {
     text << in.rdbuf();
     urdf::ModelInterfaceSharedPtr robot;
     {
+      static std::mutex one_at_a_time;  // urdfdom reports through a global handler
+      const std::lock_guard<std::mutex> lock(one_at_a_time);
       MessageCollector messages;
       robot = urdf::parseURDF(text.str());
       if (!robot) {

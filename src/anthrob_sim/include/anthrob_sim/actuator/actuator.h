@@ -25,8 +25,9 @@ class Actuator {
 
   /// At rest at a position; all currents zero.
   virtual void place(double position, StateView state) const = 0;
-  /// Moves as an outside hand dictates, whatever input and load say.
-  virtual void impose(double position, double velocity, StateView state) const = 0;
+  /// Moves as an outside hand dictates, whatever the input says.
+  /// @param load as in advance
+  virtual void impose(double position, double velocity, double load, StateView state) const = 0;
   /// One step.
   /// @param input volts after the ECU, or excitation of a Hill muscle
   /// @param load tension of the tendon at the actuator [N]

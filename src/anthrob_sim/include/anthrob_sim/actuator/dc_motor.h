@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "anthrob_sim/actuator/actuator.h"
 #include "anthrob_sim/actuator/gear_law.h"
+#include "anthrob_sim/actuator/geared_motor.h"
 
 namespace anthrob {
 
@@ -13,27 +13,31 @@ namespace anthrob {
 ///
 /// The thesis takes ten Runge-Kutta steps a millisecond. With voltage and load held over the step
 /// the equations are linear, so the step is one precomputed affine map, exact for any step.
-class DcMotor final : public Actuator {
+class DcMotor final : public GearedMotor {
  public:
   struct Parameters {
-    double resistance;          ///< R_A + power stage [ohm], > 0
-    double inductance;          ///< L_A [H], > 0
-    double torque_constant;     ///< K_T [Nm/A], > 0
-    double back_emf_constant;   ///< K_E [Vs/rad], > 0
-    double inertia;             ///< J_M + J_G at the motor shaft [kg m^2], > 0
-    double ratio;               ///< N [1], > 0
-    double friction_torque;     ///< dry friction at the motor shaft [Nm], >= 0
-    double spindle_radius;      ///< r_S, tendon included [m], > 0
-    double rest_tendon_length;  ///< l_T0 [m]
-    double voltage_limit;       ///< largest useful input [V]
+    double resistance;                ///< R_A + power stage [ohm], > 0
+    double inductance;                ///< L_A [H], > 0
+    double torque_constant;           ///< K_T [Nm/A], > 0
+    double back_emf_constant;         ///< K_E [Vs/rad], > 0
+    double inertia;                   ///< J_M + J_G at the motor shaft [kg m^2], > 0
+    double ratio;                     ///< N [1], > 0
+    double friction_torque;           ///< dry friction at the motor shaft [Nm], >= 0
+    double spindle_radius;            ///< r_S, tendon included [m], > 0
+    double rest_tendon_length;        ///< l_T0 [m]
+    double voltage_limit;             ///< largest useful input [V]
+    double winding_resistance = 0.0;  ///< share of the winding in `resistance` [ohm]
   };
 
   DcMotor(const Parameters& parameters, std::shared_ptr<const GearLaw> gear, double step);
 
   std::size_t state_size() const override { return state_size_of<State>(); }
   void place(double position, StateView state) const override;
-  void impose(double position, double velocity, StateView state) const override;
-  void advance(double input, double load, StateView state) const override;
+  void impose(double position, double velocity, double load, StateView state) const override;
+  void advance(double input, double load, StateView state) const override {
+    advance_with(input, load, 0.0, state);
+  }
+  void advance_with(double input, double load, double torque, StateView state) const override;
   Readout read(StateView state) const override;
   double tendon_length(StateView state) const override;
   double winding_speed(StateView state) const override;
@@ -43,7 +47,9 @@ class DcMotor final : public Actuator {
   double input_high() const override { return p_.voltage_limit; }
 
   const Parameters& parameters() const { return p_; }
-  const GearLaw& gear() const { return *gear_; }
+  const std::shared_ptr<const GearLaw>& gear() const { return gear_; }
+  double ratio() const override { return p_.ratio; }
+  double spindle_radius() const override { return p_.spindle_radius; }
 
   static std::shared_ptr<const Actuator> load(const ConfigNode& kind, const ConfigNode& muscle,
                                               double step);

@@ -19,6 +19,10 @@ class GearLaw {
   /// @param torque f r_S of the tendon [Nm]   @param velocity of the output [rad/s]   @param
   /// current [A]
   virtual Load load(double torque, double velocity, double current) const = 0;
+
+  virtual double efficiency() const = 0;
+  /// The same law with another efficiency, in (0, 1].
+  virtual std::shared_ptr<const GearLaw> with_efficiency(double efficiency) const = 0;
 };
 
 /// `{law: current_sign | load_direction, efficiency:, ...}`
@@ -34,6 +38,10 @@ class CurrentSignGear final : public GearLaw {
   CurrentSignGear(double efficiency, double steepness, double shift)
       : efficiency_(efficiency), steepness_(steepness), shift_(shift) {}
   Load load(double torque, double velocity, double current) const override;
+  double efficiency() const override { return efficiency_; }
+  std::shared_ptr<const GearLaw> with_efficiency(double efficiency) const override {
+    return std::make_shared<CurrentSignGear>(efficiency, steepness_, shift_);
+  }
 
  private:
   double efficiency_, steepness_, shift_;
@@ -46,6 +54,10 @@ class LoadDirectionGear final : public GearLaw {
  public:
   explicit LoadDirectionGear(double efficiency) : efficiency_(efficiency) {}
   Load load(double torque, double velocity, double current) const override;
+  double efficiency() const override { return efficiency_; }
+  std::shared_ptr<const GearLaw> with_efficiency(double efficiency) const override {
+    return std::make_shared<LoadDirectionGear>(efficiency);
+  }
 
  private:
   double efficiency_;

@@ -28,7 +28,7 @@ class HillMuscle final : public Actuator {
 
   std::size_t state_size() const override { return state_size_of<State>(); }
   void place(double position, StateView state) const override;
-  void impose(double position, double velocity, StateView state) const override;
+  void impose(double position, double velocity, double load, StateView state) const override;
   void advance(double input, double load, StateView state) const override;
   Readout read(StateView state) const override;
   double tendon_length(StateView state) const override;

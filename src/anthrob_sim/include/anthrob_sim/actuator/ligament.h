@@ -11,7 +11,7 @@ class Ligament final : public Actuator {
 
   std::size_t state_size() const override { return 0; }
   void place(double, StateView) const override {}
-  void impose(double, double, StateView) const override {}
+  void impose(double, double, double, StateView) const override {}
   void advance(double, double, StateView) const override {}
   Readout read(StateView) const override { return {0.0, 0.0, 0.0}; }
   double tendon_length(StateView) const override { return length_; }

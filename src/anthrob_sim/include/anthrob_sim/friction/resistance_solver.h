@@ -26,8 +26,9 @@ class ResistanceSolver {
   /// @param tau generalised forces known beforehand, without bias forces [Nm, N]
   /// @param tendons get their tensions and sliding speeds filled in
   /// @param q joint positions
+  /// @param loads forces that joints carry [N], for friction that grows with them; or null
   void solve(const KinematicTree& tree, const std::vector<double>& q, const Eigen::VectorXd& tau,
-             const std::vector<SlidingTendon*>& tendons);
+             const std::vector<SlidingTendon*>& tendons, const double* loads = nullptr);
 
   /// Velocity at the end of the step.
   const Eigen::VectorXd& velocity() const { return u_; }
@@ -43,6 +44,8 @@ class ResistanceSolver {
     bool held;
     Vec3 direction;  ///< of motion while sliding, unit; x only for one degree of freedom
     double level;    ///< friction while sliding [Nm]
+    double load;     ///< that the joint carries [N]
+    double speed;    ///< to which `direction` belongs; 0 when it comes from rest [rad/s, m/s]
   };
 
   void start(const KinematicTree& tree, const Eigen::VectorXd& tau);
@@ -53,6 +56,7 @@ class ResistanceSolver {
                     const JointStopModel& stop);
   void add_tendon(SlidingTendon& tendon);
   void add_dry_friction();
+  void add_turning(const DryJoint& dry, const JointModel& joint);
   void solve_linear();
   bool revise_dry_friction();
   void finish(const std::vector<SlidingTendon*>& tendons);

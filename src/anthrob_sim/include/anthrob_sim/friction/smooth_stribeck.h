@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "anthrob_sim/friction/friction_law.h"
 
 namespace anthrob {
@@ -16,6 +18,9 @@ class SmoothStribeck final : public FrictionLaw {
 
   std::size_t state_size() const override { return 0; }
   Value evaluate(double v, StateView state) const override;
+  double level(double speed) const override {
+    return kinetic_ + (static_ - kinetic_) * std::exp(-speed / velocity_);
+  }
   void commit(double, StateView) const override {}
 
   static std::shared_ptr<const FrictionLaw> load(const ConfigNode& node, double step);

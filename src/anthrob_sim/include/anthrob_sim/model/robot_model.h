@@ -7,9 +7,13 @@
 
 #include "anthrob_ecu/control_law.h"
 #include "anthrob_sim/actuator/actuator.h"
+#include "anthrob_sim/actuator/power_effect.h"
+#include "anthrob_sim/effects/effect_instance.h"
 #include "anthrob_sim/path/muscle_path.h"
+#include "anthrob_sim/sensing/reading_effect.h"
 #include "anthrob_sim/sensing/sensor.h"
 #include "anthrob_sim/sensing/touch_pad.h"
+#include "anthrob_sim/skeleton/joint_torque.h"
 #include "anthrob_sim/skeleton/skeleton_model.h"
 #include "anthrob_sim/spring/series_elastic_element.h"
 
@@ -34,7 +38,8 @@ struct MuscleModel {
   bool has_controller = false;
   CommandLimits limits;
   ecu::ControllerSettings controller;
-  int steps_per_tick = 1;  ///< simulation steps between two ticks of the controller
+  int steps_per_tick = 1;      ///< simulation steps between two ticks of the controller
+  double command_delay = 0.0;  ///< until the controller gets a command [s]
 };
 
 struct SensorsModel {
@@ -57,6 +62,10 @@ struct RobotModel {
   std::vector<TouchPadModel> touch_pads;
   std::vector<std::string>
       remarks;  ///< on what is odd in the files but was put right, one line each
+  std::vector<EffectInstance> effects;  ///< as asked for; what they change is in the rest already
+  std::vector<std::shared_ptr<const PowerEffect>> power_effects;
+  std::vector<std::shared_ptr<const ReadingEffect>> reading_effects;
+  std::vector<std::shared_ptr<const JointTorque>> joint_torques;
 
   /// Index in `muscles`, or -1.
   int find_muscle(const std::string& muscle) const;
@@ -66,14 +75,16 @@ struct LoadOptions {
   double step = 0.001;  ///< length of a simulation step [s]
   /// Numbers to replace before the model is built, by key path:
   /// "muscles.biceps_brachii.spindle_radius".
-  std::map<std::string, double> overrides;
+  std::map<std::string, double> overrides = {};
+  /// Effects beside those of the model file.
+  std::vector<EffectInstance> effects = {};
 };
 
 /// Reads a model file, what it extends, and the URDF it names.
 /// @throws BadInput with one line: file, line, key, value, what was expected
 std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,
                                                    const LoadOptions& options = {});
-/// The same for a model file in memory.
+/// The same for a model file in memory; many threads may build from one `config`.
 std::shared_ptr<const RobotModel> build_robot_model(const ConfigNode& config,
                                                     const LoadOptions& options = {});
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "anthrob_ecu/control_law.h"
+#include "anthrob_sim/core/delay_line.h"
 #include "anthrob_sim/friction/sliding_tendon.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/path/muscle_path.h"
@@ -41,17 +43,21 @@ class Muscle {
   void impose(double position, double velocity);
   void release();
 
-  /// Sensors sample the current state.
-  void sense(std::uint64_t step_index);
+  /// What the ECU's sensors would measure if they were ideal.
+  ecu::Measurement truth() const;
+  /// Sensors sample what they are given: the truth, unless an effect lies between.
+  void sense(std::uint64_t step_index, const ecu::Measurement& seen);
   /// The controller ticks if it is due.
   void control(std::uint64_t step_index);
   /// Tensions up to the spring are known; what lies beyond depends on how the joints will move.
   void prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau);
   SlidingTendon& sliding() { return sliding_; }
+  const SlidingTendon& sliding() const { return sliding_; }
   /// Takes over the solved tensions.
   void finish_sliding();
   /// Moves the actuator.
-  void advance_actuator();
+  /// @param input of the actuator: voltage(), unless an effect lies between
+  void advance_actuator(double input);
   /// New posture: path, spring, tensions up to the spring (lines 1-16 of Algorithm 4.1).
   void update(const std::vector<BodyState>& bodies, const KinematicTree& tree);
 
@@ -102,6 +108,8 @@ class Muscle {
   /// Rate at which the path from the origin to an obstacle gets longer [m/s].
   double path_rate(std::size_t obstacle, const KinematicTree& tree) const;
   void relax();
+  /// The command that arrives at the controller in this step.
+  void delay_command(ecu::Mode& mode, double& reference);
 
   const MuscleModel& model_;
   StateStore& store_;
@@ -109,6 +117,8 @@ class Muscle {
   MusclePath path_;
   SlidingTendon sliding_;
   std::vector<Sensor> sensors_;  ///< position, velocity, current, force
+  std::optional<DelayLine> command_delay_;
+  std::size_t command_delay_offset_ = 0;
   std::size_t spring_offset_, actuator_offset_, path_offset_, control_offset_, tension_offset_;
   std::size_t sensor_offsets_[4];
   std::vector<std::size_t> sliding_obstacles_;  ///< with friction, beyond the spring

@@ -17,6 +17,7 @@ struct PathObstacle {
   Vec3 point_B = Vec3::Zero();  ///< in the body's principal frame [m]; of a point
   std::shared_ptr<const WrappingSurface> surface;  ///< null: a point
   std::shared_ptr<const FrictionLaw> friction;     ///< null: frictionless
+  int entry = -1;  ///< number in the model file's path; -1: put there by an effect
 };
 
 /// A straight piece between two neighbouring obstacles.

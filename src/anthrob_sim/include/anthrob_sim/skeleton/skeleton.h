@@ -29,6 +29,9 @@ class Skeleton {
     torques_[body] += torque_W;
   }
 
+  /// Applied to a body's centre of mass in this step, without gravity [N].
+  const Vec3& force(int body) const { return forces_[body]; }
+
   void step();
 
  private:

@@ -15,6 +15,14 @@ struct JointFrictionModel {
   double kinetic_torque = 0.0;      ///< [Nm] or [N]
   double viscous = 0.0;             ///< [Nms/rad] or [Ns/m]
   double stribeck_velocity = 0.05;  ///< [rad/s] or [m/s]
+  double forward = 0.0;      ///< more dry friction while moving forward [Nm] or [N]; not for balls
+  double backward = 0.0;     ///< the same while moving backward
+  double load_radius = 0.0;  ///< dry friction per force that the joint carries [m]
+
+  bool is_dry() const {
+    return static_torque > 0.0 || kinetic_torque > 0.0 || forward > 0.0 || backward > 0.0 ||
+           load_radius > 0.0;
+  }
 };
 
 /// A soft stop: one-sided spring and damper beyond the limit.

@@ -1,0 +1,72 @@
+// An effect of one's own: this file, built as a shared library, is all there is to it.
+// docs/effects.md explains.
+#include <cmath>
+
+#include "anthrob_sim/effects/motor_effect.h"
+
+namespace {
+
+using namespace anthrob;
+
+EffectInfo describe() {
+  EffectInfo i;
+  i.id = "spindle_eccentricity";
+  i.name = "Spindle that runs out of true";
+  i.description =
+      "The spindle sits beside its axis: the length that is wound in swings about that of a round "
+      "spindle once a turn.";
+  i.equation = "l_T = l_T0 - r_S position - offset (1 - cos position)";
+  i.source = "an example";
+  i.where = "MUSCLE | all";
+  i.seam = Seam::kSpindle;
+  i.channels = {"force", "position"};
+  i.parameters = {
+      {"offset", "m", "of the spindle's centre from the axis", 0.0, 5e-4, {0.0, 0.005}}};
+  return i;
+}
+
+/// A spindle whose radius depends on its angle; power stays what it was.
+class EccentricSpindle final : public MotorWrapper {
+ public:
+  EccentricSpindle(std::shared_ptr<const GearedMotor> motor, double offset)
+      : MotorWrapper(std::move(motor)), offset_(offset) {}
+
+  void advance_with(double input, double load, double torque, StateView state) const override {
+    inner().advance_with(input, load * lever(state) / spindle_radius(), torque, state);
+  }
+  double tendon_length(StateView state) const override {
+    return inner().tendon_length(state) - offset_ * (1.0 - std::cos(read(state).position));
+  }
+  double winding_speed(StateView state) const override {
+    return inner().winding_speed(state) * lever(state) / spindle_radius();
+  }
+  double position_for(double tendon_length) const override {
+    double position = inner().position_for(tendon_length);
+    for (int i = 0; i < 50; ++i) {
+      position = inner().position_for(tendon_length + offset_ * (1.0 - std::cos(position)));
+    }
+    return position;
+  }
+
+ private:
+  double lever(StateView state) const {
+    return spindle_radius() + offset_ * std::sin(read(state).position);
+  }
+  double offset_;
+};
+
+class SpindleEccentricity final : public MotorWrappingEffect {
+ public:
+  SpindleEccentricity() : MotorWrappingEffect(describe()) {}
+
+ protected:
+  std::shared_ptr<const Actuator> wrap(const EffectSetting& setting,
+                                       std::shared_ptr<const GearedMotor> motor,
+                                       double) const override {
+    return std::make_shared<EccentricSpindle>(std::move(motor), setting["offset"]);
+  }
+};
+
+const EffectRegistration kRegistration(std::make_unique<SpindleEccentricity>());
+
+}  // namespace

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "anthrob_sim/effects/catalogue.h"
+#include "anthrob_sim/effects/placed_effects.h"
+#include "anthrob_sim/friction/friction_law.h"
+
+namespace anthrob {
+
+/// A law with more friction: its own curve raised so that its kinetic coefficient grows by `mu`.
+/// Where there is no friction yet, the thesis's law (4.75) with its ratio of coefficients.
+std::shared_ptr<const FrictionLaw> raise_friction(const std::shared_ptr<const FrictionLaw>& law,
+                                                  double mu);
+
+/// MUSCLE/k | MUSCLE | all: more friction where tendons slide.
+class SlidingFrictionEffect : public PathEffect {
+ public:
+  using PathEffect::PathEffect;
+
+ protected:
+  void change(const EffectSetting& setting, const RobotModel&,
+              PathObstacle& obstacle) const override {
+    obstacle.friction = raise_friction(obstacle.friction, setting["mu"]);
+  }
+};
+
+}  // namespace anthrob

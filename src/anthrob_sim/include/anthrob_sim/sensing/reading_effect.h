@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "anthrob_ecu/control_law.h"
+#include "anthrob_sim/core/state.h"
+
+namespace anthrob {
+
+/// What the sensors are given to measure. It begins as the truth.
+struct Readings {
+  ecu::Measurement* muscles;  ///< one a muscle
+  /// Joints as in Simulation::configuration, and their velocities, ball joints in the child's axes.
+  double* positions;
+  double* velocities;
+};
+
+/// A systematic error of sensors, before their delay, noise and counts. Recordings of the simulator
+/// show it, and controllers see it.
+class ReadingEffect {
+ public:
+  virtual ~ReadingEffect() = default;
+  virtual std::size_t state_size() const { return 0; }
+  /// The robot is put somewhere: as if it had always been there.
+  virtual void reset(const Readings&, StateView) const {}
+  /// Once a step.
+  virtual void apply(Readings& readings, StateView state) const = 0;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,169 @@
+#include "anthrob_sim/effects/catalogue.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+
+namespace {
+
+/// Built by the first registration: registrations run before main, in any order.
+struct Registry {
+  std::mutex mutex;
+  std::multimap<std::string, const Effect*> effects;
+  std::map<std::string, void*> libraries;
+};
+
+Registry& registry() {
+  static Registry instance;
+  return instance;
+}
+
+/// Keys of an entry of `effects:` that are no parameters.
+bool is_parameter(const std::string& key) {
+  return key != "id" && key != "place";
+}
+
+EffectSetting read_entry(const ConfigNode& node, const RobotModel& robot) {
+  EffectInstance instance{node.text("id"), node.text("place"), {}};
+  const Effect* effect = find_effect(instance.id);
+  if (!effect) node.at("id").fail_expected("the id of an effect; anthrob_effects lists them");
+  const auto parameters = effect->parameters_at(robot, instance.place);
+  for (const auto& [key, value] : node.entries()) {
+    if (!is_parameter(key)) continue;
+    const EffectParameter* parameter = effect->info().find(key);
+    if (!parameter) value.fail("unknown key: no parameter of " + instance.id);
+    instance.parameters[key] = value.as_number(Bounds::any(), parameter->unit);
+  }
+  return EffectSetting(*effect, instance, parameters, node);
+}
+
+void check_place(const EffectSetting& setting, const RobotModel& robot) {
+  const std::vector<std::string> places = setting.effect().places(robot);
+  if (std::find(places.begin(), places.end(), setting.place()) != places.end()) return;
+  constexpr std::size_t kShortList = 15;
+  std::string expectation = "a place for it on this robot (" + setting.effect().info().where + ")";
+  if (places.empty()) {
+    expectation += "; there is none";
+  } else if (places.size() <= kShortList) {
+    expectation += ":";
+    for (const std::string& place : places) expectation += " " + place;
+  } else {
+    expectation += "; anthrob_effects " + setting.id() + " --model FILE lists them";
+  }
+  setting.fail("place", expectation);
+}
+
+}  // namespace
+
+std::vector<const Effect*> all_effects() {
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  std::vector<const Effect*> list;
+  for (const auto& entry : registry().effects) list.push_back(entry.second);
+  return list;
+}
+
+const Effect* find_effect(const std::string& id) {
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  const auto range = registry().effects.equal_range(id);
+  if (range.first == range.second) return nullptr;
+  if (std::next(range.first) != range.second) {
+    throw BadInput("effect " + id + ": it is registered twice; expected one library to have it");
+  }
+  return range.first->second;
+}
+
+EffectRegistration::EffectRegistration(std::unique_ptr<const Effect> effect)
+    : effect_(std::move(effect)) {
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  registry().effects.emplace(effect_->info().id, effect_.get());
+}
+
+EffectRegistration::~EffectRegistration() {
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  auto& effects = registry().effects;
+  for (auto it = effects.begin(); it != effects.end(); ++it) {
+    if (it->second != effect_.get()) continue;
+    effects.erase(it);
+    return;
+  }
+}
+
+void load_effect_library(const std::string& library, const ConfigNode& origin) {
+  const std::string file =
+      library.find_first_of("/.") == std::string::npos ? "lib" + library + ".so" : library;
+  static std::mutex loading;  // not the registry's: loading registers
+  const std::lock_guard<std::mutex> lock(loading);
+  if (registry().libraries.count(file)) return;
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (!handle) {
+    origin.fail_expected(std::string("a library with effects, built and on LD_LIBRARY_PATH (") +
+                         dlerror() + ")");
+  }
+  registry().libraries[file] = handle;
+}
+
+std::vector<EffectSetting> read_effects(const ConfigNode& config,
+                                        const std::vector<EffectInstance>& more,
+                                        const RobotModel& robot) {
+  if (config.has("effect_libraries")) {
+    for (const ConfigNode& node : config.at("effect_libraries").items()) {
+      load_effect_library(node.as_text(), node);
+    }
+  }
+  std::vector<EffectSetting> settings;
+  if (config.has("effects")) {
+    for (const ConfigNode& node : config.at("effects").items()) {
+      settings.push_back(read_entry(node, robot));
+    }
+  }
+  for (const EffectInstance& instance : more) {
+    const Effect* effect = find_effect(instance.id);
+    if (!effect) {
+      config.fail("effect '" + instance.id + "': expected the id of an effect; anthrob_effects " +
+                  "lists them");
+    }
+    settings.emplace_back(*effect, instance, effect->parameters_at(robot, instance.place), config);
+  }
+  const auto order = [](const EffectSetting& s) {
+    const EffectInfo& info = s.effect().info();
+    return std::make_tuple(info.stage, info.seam, s.id(), s.place());
+  };
+  std::stable_sort(
+      settings.begin(), settings.end(),
+      [&](const EffectSetting& a, const EffectSetting& b) { return order(a) < order(b); });
+  for (std::size_t i = 1; i < settings.size(); ++i) {
+    if (order(settings[i - 1]) == order(settings[i])) {
+      settings[i].fail("place", "every effect once at a place; this one is there already");
+    }
+  }
+  return settings;
+}
+
+void build_in(const std::vector<EffectSetting>& settings, Stage stage, ModelDraft& draft) {
+  for (const EffectSetting& setting : settings) {
+    if (setting.effect().info().stage != stage) continue;
+    check_place(setting, draft.robot);
+    if (!setting.neutral()) setting.effect().build_in(setting, draft);
+  }
+}
+
+std::string effects_yaml(const std::vector<EffectInstance>& effects) {
+  std::ostringstream out;
+  out.precision(17);
+  out << "effects:\n";
+  for (const EffectInstance& effect : effects) {
+    out << "  - {id: " << effect.id << ", place: " << effect.place;
+    for (const auto& [name, value] : effect.parameters) out << ", " << name << ": " << value;
+    out << "}\n";
+  }
+  return out.str();
+}
+
+}  // namespace anthrob

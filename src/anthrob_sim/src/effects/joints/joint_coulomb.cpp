@@ -1,0 +1,51 @@
+#include "anthrob_sim/effects/catalogue.h"
+#include "anthrob_sim/effects/placed_effects.h"
+
+namespace anthrob {
+namespace {
+
+EffectInfo describe() {
+  EffectInfo i;
+  i.id = "joint_coulomb";
+  i.name = "Dry joint friction";
+  i.description =
+      "Bearings and seals resist with a torque that hardly depends on speed, and hold the joint at "
+      "rest up to a somewhat higher one: it sticks and slips at low speed. Added to what the model "
+      "has; the Stribeck velocity replaces the model's. Isotropic for ball joints.";
+  i.equation = "|tau| = torque (1 + (static_ratio - 1) exp(-|dq/dt| / stribeck_velocity))";
+  i.source = "thesis (3.6); Stribeck 1902";
+  i.where = "JOINT";
+  i.seam = Seam::kJoints;
+  i.stage = Stage::kSkeleton;
+  i.dissipates = true;
+  i.channels = {"joint", "force"};
+  i.parameters = {
+      {"torque", "Nm", "while sliding fast, F_c", 0.0, 0.1, {0.0, 10.0}},
+      {"static_ratio",
+       "1",
+       "friction at rest over that, F_s / F_c",
+       1.0,
+       1.3,
+       {1.0, 3.0},
+       EffectParameter::kShape},
+      {"stribeck_velocity", "rad/s", "v_s", 0.05, 0.05, {0.001, 1.0}, EffectParameter::kShape},
+  };
+  return i;
+}
+
+class JointCoulomb final : public JointEffect {
+ public:
+  JointCoulomb() : JointEffect(describe()) {}
+
+ protected:
+  void change(const EffectSetting& setting, ModelDraft&, JointModel& joint) const override {
+    joint.friction.kinetic_torque += setting["torque"];
+    joint.friction.static_torque += setting["torque"] * setting["static_ratio"];
+    joint.friction.stribeck_velocity = setting["stribeck_velocity"];
+  }
+};
+
+const EffectRegistration kRegistration(std::make_unique<JointCoulomb>());
+
+}  // namespace
+}  // namespace anthrob

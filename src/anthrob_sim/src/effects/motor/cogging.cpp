@@ -1,0 +1,71 @@
+#include <cmath>
+
+#include "anthrob_sim/effects/motor_effect.h"
+
+namespace anthrob {
+namespace {
+
+EffectInfo describe() {
+  EffectInfo i;
+  i.id = "cogging";
+  i.name = "Cogging of the motor";
+  i.description =
+      "The rotor's slots are drawn to the magnets: a torque that repeats with the angle of the "
+      "rotor, conservative, seen as ripple of current or speed at fixed rotor angles. Its mean "
+      "over the angle that the rotor is about to turn acts in a step, so that fast turning "
+      "averages it out.";
+  i.equation = "tau_shaft = amplitude sin(periods phi + phase), phi = N position";
+  i.source = "known";
+  i.where = "MUSCLE | all";
+  i.seam = Seam::kMotor;
+  i.channels = {"current", "velocity", "position"};
+  i.parameters = {
+      {"amplitude", "Nm", "at the motor shaft; 1-5 % of stall", 0.0, 5e-4, {0.0, 0.05}},
+      {"periods", "1", "a turn of the rotor", 12.0, 12.0, {1.0, 200.0}, EffectParameter::kGiven},
+      {"phase", "rad", "at position 0", 0.0, 0.5, {-3.1416, 3.1416}, EffectParameter::kShape},
+  };
+  return i;
+}
+
+class CoggingMotor final : public MotorWrapper {
+ public:
+  CoggingMotor(std::shared_ptr<const GearedMotor> motor, double amplitude, double periods,
+               double phase, double step)
+      : MotorWrapper(std::move(motor)),
+        amplitude_(amplitude * inner().ratio()),
+        periods_(periods * inner().ratio()),
+        phase_(phase),
+        step_(step) {}
+
+  void advance_with(double input, double load, double torque, StateView state) const override {
+    const Readout motor = inner().read(state);
+    const double angle = periods_ * motor.position + phase_;
+    const double turn = periods_ * motor.velocity * step_;
+    const double mean =
+        std::abs(turn) < 1e-6 ? std::sin(angle) : (std::cos(angle) - std::cos(angle + turn)) / turn;
+    inner().advance_with(input, load, torque + amplitude_ * mean, state);
+  }
+
+ private:
+  double amplitude_;  ///< at the gear output [Nm]
+  double periods_;    ///< a turn of the gear output
+  double phase_, step_;
+};
+
+class Cogging final : public MotorWrappingEffect {
+ public:
+  Cogging() : MotorWrappingEffect(describe()) {}
+
+ protected:
+  std::shared_ptr<const Actuator> wrap(const EffectSetting& setting,
+                                       std::shared_ptr<const GearedMotor> motor,
+                                       double step) const override {
+    return std::make_shared<CoggingMotor>(std::move(motor), setting["amplitude"],
+                                          setting["periods"], setting["phase"], step);
+  }
+};
+
+const EffectRegistration kRegistration(std::make_unique<Cogging>());
+
+}  // namespace
+}  // namespace anthrob

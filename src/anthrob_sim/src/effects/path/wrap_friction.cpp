@@ -1,0 +1,39 @@
+#include "anthrob_sim/effects/friction_effect.h"
+
+namespace anthrob {
+namespace {
+
+EffectInfo describe() {
+  EffectInfo i;
+  i.id = "wrap_friction";
+  i.name = "Friction on wrapped surfaces";
+  i.description =
+      "The tendon rubs on the bone it is wrapped round: capstan friction with a wrapping angle "
+      "that depends on posture, none where the tendon is off. What rubs along the arc does no "
+      "visible harm where surface and insertion move together. More of it than the model has, by "
+      "the model's own law; without one, by the thesis's with static over kinetic 1.25.";
+  i.equation = "T_2 = T_1 exp(+-mu_total alpha(q)), kinetic mu_total = mu_model + mu";
+  i.source = "thesis (4.69)-(4.77)";
+  i.where = "MUSCLE/k | MUSCLE | all";
+  i.seam = Seam::kPath;
+  i.stage = Stage::kComponents;
+  i.dissipates = true;
+  i.channels = {"force", "joint", "current"};
+  i.parameters = {{"mu", "1", "kinetic coefficient on top of the model's", 0.0, 0.15, {0.0, 1.0}}};
+  return i;
+}
+
+class WrapFriction final : public SlidingFrictionEffect {
+ public:
+  WrapFriction() : SlidingFrictionEffect(describe()) {}
+
+ protected:
+  bool fits(const PathObstacle& obstacle, bool) const override {
+    return obstacle.surface != nullptr;
+  }
+};
+
+const EffectRegistration kRegistration(std::make_unique<WrapFriction>());
+
+}  // namespace
+}  // namespace anthrob

@@ -1,0 +1,170 @@
+#include <algorithm>
+
+#include "anthrob_sim/effects/catalogue.h"
+#include "anthrob_sim/effects/placed_effects.h"
+#include "anthrob_sim/path/cylinder.h"
+
+namespace anthrob {
+namespace {
+
+EffectInfo describe() {
+  EffectInfo i;
+  i.id = "wrapping_surface";
+  i.name = "Surface the tendon wraps round";
+  i.description =
+      "Where the model lets the tendon run straight across a joint, in some postures a bone is in "
+      "the way: a cylinder on the body beyond the joint, round a line through the joint's centre, "
+      "along the axis of a hinge or along the bone of a ball joint (towards the next joint, or the "
+      "centre of mass). Moment arm and length err in one region of posture, with a kink at touch "
+      "down. At MUSCLE it is the last segment that crosses a joint, at MUSCLE/k the one that ends "
+      "at entry k. Without friction: wrap_friction adds some.";
+  i.equation = "shortest path over the cylinder, (4.28)-(4.33)";
+  i.source = "thesis, sections 4.3 and 7.4: model I against model II";
+  i.where = "MUSCLE | MUSCLE/k";
+  i.seam = Seam::kPath;
+  i.stage = Stage::kParts;
+  i.channels = {"joint", "force", "position"};
+  i.parameters = {
+      {"radius", "m", "of the cylinder", 0.0, 0.013, {0.0, 0.1}},
+      {"offset_u",
+       "m",
+       "of its axis, across it",
+       0.0,
+       0.002,
+       {-0.05, 0.05},
+       EffectParameter::kShape},
+      {"offset_v",
+       "m",
+       "the same, across both",
+       0.0,
+       0.002,
+       {-0.05, 0.05},
+       EffectParameter::kShape},
+  };
+  return i;
+}
+
+/// A segment between two points with a joint between them: where a surface can be.
+struct Spot {
+  std::size_t obstacle = 0;  ///< at which the segment ends; 0: none
+  int joint = -1;
+};
+
+class WrappingSurfaceEffect final : public Effect {
+ public:
+  WrappingSurfaceEffect() : Effect(describe()) {}
+
+  std::vector<std::string> places(const RobotModel& robot) const override {
+    std::vector<std::string> list;
+    for (const MuscleModel& muscle : robot.muscles) {
+      bool any = false;
+      for (std::size_t i = 1; i < muscle.path->obstacles().size(); ++i) {
+        if (joint_of(*robot.skeleton, *muscle.path, i) < 0) continue;
+        any = true;
+        list.push_back(muscle.name + "/" + std::to_string(muscle.path->obstacles()[i].entry));
+      }
+      if (any) list.push_back(muscle.name);
+    }
+    return list;
+  }
+
+  /// The radius ends where the nearer end of the segment would lie inside, at rest.
+  std::vector<EffectParameter> parameters_at(const RobotModel& robot,
+                                             const std::string& place) const override {
+    std::vector<EffectParameter> list = info().parameters;
+    const int muscle = robot.find_muscle(split_place(place)[0]);
+    if (muscle < 0) return list;
+    const Spot spot = find(robot, place);
+    if (spot.joint < 0) return list;
+    std::vector<BodyState> bodies;
+    const SkeletonModel& skeleton = *robot.skeleton;
+    KinematicTree(skeleton).place(skeleton.rest_configuration(), {}, bodies);
+    const Pose X_LC = line(skeleton, spot.joint);
+    const int body = skeleton.joints[spot.joint].child;
+    const Pose X_WC = bodies[body].X_WB * (skeleton.bodies[body].X_LB.inverse() * X_LC);
+    double nearest = list[0].bounds.hi;
+    for (const std::size_t end : {spot.obstacle - 1, spot.obstacle}) {
+      const PathObstacle& point = robot.muscles[muscle].path->obstacles()[end];
+      Vec3 p_C = X_WC.to_local(bodies[point.body].X_WB * point.point_B);
+      p_C.y() = 0.0;
+      nearest = std::min(nearest, p_C.norm());
+    }
+    list[0].bounds.hi = nearest;
+    list[0].typical = std::min(list[0].typical, 0.9 * nearest);
+    return list;
+  }
+
+  void build_in(const EffectSetting& setting, ModelDraft& draft) const override {
+    const Spot spot = find(draft.robot, setting.place());
+    MuscleModel& muscle =
+        draft.robot.muscles[draft.robot.find_muscle(split_place(setting.place())[0])];
+    const SkeletonModel& skeleton = draft.skeleton;
+    Pose X_LC = line(skeleton, spot.joint);
+    X_LC.p += X_LC.R * Vec3(setting["offset_u"], 0.0, setting["offset_v"]);
+
+    PathObstacle surface;
+    surface.body = skeleton.joints[spot.joint].child;
+    surface.surface =
+        std::make_shared<Cylinder>(skeleton.bodies[surface.body].X_LB.inverse() * X_LC,
+                                   CircleWrap(setting["radius"], WrapStart::kNotWrapping, 0));
+    std::vector<PathObstacle> obstacles = muscle.path->obstacles();
+    obstacles.insert(obstacles.begin() + static_cast<std::ptrdiff_t>(spot.obstacle), surface);
+    muscle.path = std::make_shared<PathModel>(skeleton, std::move(obstacles));
+    // Segments behind the new one move up.
+    const int at = static_cast<int>(spot.obstacle);
+    if (muscle.spring_segment >= at) ++muscle.spring_segment;
+    if (muscle.sensor_segment >= at) ++muscle.sensor_segment;
+  }
+
+ private:
+  /// The outermost joint between the ends of the segment that ends at obstacle i, or -1.
+  static int joint_of(const SkeletonModel& skeleton, const PathModel& path, std::size_t i) {
+    const PathObstacle &a = path.obstacles()[i - 1], &b = path.obstacles()[i];
+    if (a.surface || b.surface || b.entry < 0) return -1;
+    const auto joints = joints_between(skeleton, a.body, b.body);
+    if (joints.empty()) return -1;
+    const int joint =
+        std::max_element(joints.begin(), joints.end(), [](const auto& x, const auto& y) {
+          return x.joint < y.joint;
+        })->joint;
+    return skeleton.joints[joint].type == JointType::kPrismatic ? -1 : joint;
+  }
+
+  static Spot find(const RobotModel& robot, const std::string& place) {
+    const std::vector<std::string> parts = split_place(place);
+    const PathModel& path = *robot.muscles[robot.find_muscle(parts[0])].path;
+    Spot spot;
+    for (std::size_t i = 1; i < path.obstacles().size(); ++i) {
+      const int joint = joint_of(*robot.skeleton, path, i);
+      if (joint < 0) continue;
+      if (parts.size() > 1 && std::to_string(path.obstacles()[i].entry) != parts[1]) continue;
+      spot = {i, joint};
+    }
+    return spot;
+  }
+
+  /// The line in the link frame of the body beyond the joint; y along it.
+  static Pose line(const SkeletonModel& skeleton, int index) {
+    const JointModel& joint = skeleton.joints[index];
+    Vec3 axis = joint.axis_C;
+    if (joint.type == JointType::kBall) {
+      axis = skeleton.bodies[joint.child].com_L - joint.center_C;
+      for (const JointModel& next : skeleton.joints) {
+        if (next.parent != joint.child) continue;
+        axis = next.X_PC_rest * next.center_C - joint.center_C;
+        break;
+      }
+      axis.normalize();
+    }
+    const Vec3 across = axis.unitOrthogonal();
+    Pose X_LC;
+    X_LC.R << across, axis, across.cross(axis);
+    X_LC.p = joint.center_C;
+    return X_LC;
+  }
+};
+
+const EffectRegistration kRegistration(std::make_unique<WrappingSurfaceEffect>());
+
+}  // namespace
+}  // namespace anthrob

@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include "anthrob_sim/effects/catalogue.h"
+#include "anthrob_sim/effects/placed_effects.h"
+
+namespace anthrob {
+namespace {
+
+EffectInfo describe() {
+  EffectInfo i;
+  i.id = "mocap_misalignment";
+  i.name = "Motion capture turned against the base";
+  i.description =
+      "The frame in which motion capture reports is turned about an axis of the world: what it "
+      "says about a body against the base is off by one constant rotation. Joints between two "
+      "moving bodies are right, for both are seen turned.";
+  i.equation = "R_read = R(axis, angle) R, of ball joints on the base";
+  i.source = "known: 1-5 degrees";
+  i.where = "x | y | z";
+  i.seam = Seam::kSensors;
+  i.channels = {"joint"};
+  i.parameters = {{"angle", "rad", "by which readings are turned", 0.0, 0.03, {-0.5, 0.5}}};
+  return i;
+}
+
+class TurnedReadings final : public ReadingEffect {
+ public:
+  TurnedReadings(const SkeletonModel& skeleton, const Vec3& axis_W, double angle) {
+    for (const JointModel& joint : skeleton.joints) {
+      if (joint.parent != 0 || joint.type != JointType::kBall) continue;
+      // R_WC = R_rest R(q): the turn in the axes of the child at rest.
+      const Vec3 axis = joint.X_PC_rest.R.transpose() * axis_W;
+      balls_.push_back({joint.position_offset, Quat(Eigen::AngleAxisd(angle, axis))});
+    }
+  }
+  void apply(Readings& readings, StateView) const override {
+    for (const Ball& ball : balls_) {
+      double* q = readings.positions + ball.offset;
+      const Quat turned = canonical(ball.turn * Quat(q[0], q[1], q[2], q[3]));
+      q[0] = turned.w(), q[1] = turned.x(), q[2] = turned.y(), q[3] = turned.z();
+    }
+  }
+
+ private:
+  struct Ball {
+    int offset;
+    Quat turn;
+  };
+  std::vector<Ball> balls_;
+};
+
+class MocapMisalignment final : public WorldAxisEffect {
+ public:
+  MocapMisalignment() : WorldAxisEffect(describe()) {}
+
+  void build_in(const EffectSetting& setting, ModelDraft& draft) const override {
+    draft.robot.reading_effects.push_back(std::make_shared<TurnedReadings>(
+        draft.skeleton, axis_of(setting.place()), setting["angle"]));
+  }
+
+ protected:
+  bool fits(const RobotModel& robot, const Vec3&) const override {
+    const auto& joints = robot.skeleton->joints;
+    return std::any_of(joints.begin(), joints.end(), [](const JointModel& joint) {
+      return joint.parent == 0 && joint.type == JointType::kBall;
+    });
+  }
+};
+
+const EffectRegistration kRegistration(std::make_unique<MocapMisalignment>());
+
+}  // namespace
+}  // namespace anthrob

@@ -1,0 +1,48 @@
+#include "anthrob_sim/skeleton/joint_loads.h"
+
+namespace anthrob {
+
+JointLoads::JointLoads(const SkeletonModel& model, const Vec3& gravity, double step)
+    : model_(model), gravity_(gravity), step_(step) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].friction.load_radius == 0.0) continue;
+    joints_.push_back(static_cast<int>(i));
+    std::vector<int> bodies;
+    for (int b = model.joints[i].child; b < static_cast<int>(model.bodies.size()); ++b) {
+      int ancestor = b;
+      while (ancestor > model.joints[i].child) ancestor = model.joints[ancestor - 1].parent;
+      if (ancestor == model.joints[i].child) bodies.push_back(b);
+    }
+    beyond_.push_back(bodies);
+  }
+  carried_.resize(joints_.size());
+}
+
+void JointLoads::reset(double* loads) const {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    double mass = 0.0;
+    for (const int b : beyond_[i]) mass += model_.bodies[b].mass;
+    loads[joints_[i]] = mass * gravity_.norm();
+  }
+}
+
+void JointLoads::before(const Skeleton& skeleton) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    carried_[i].setZero();
+    for (const int b : beyond_[i]) {
+      const double mass = model_.bodies[b].mass;
+      carried_[i] -= mass * skeleton.bodies()[b].v_W / step_ + mass * gravity_ + skeleton.force(b);
+    }
+  }
+}
+
+void JointLoads::after(const Skeleton& skeleton, double* loads) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    for (const int b : beyond_[i]) {
+      carried_[i] += model_.bodies[b].mass * skeleton.bodies()[b].v_W / step_;
+    }
+    loads[joints_[i]] = carried_[i].norm();
+  }
+}
+
+}  // namespace anthrob

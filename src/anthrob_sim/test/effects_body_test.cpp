@@ -1,0 +1,298 @@
+// Effects on bodies, joints and sensors, each against a closed form, and what they dissipate.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "effects_support.h"
+
+namespace anthrob {
+namespace {
+
+using namespace testing_support;
+
+const char* const kAxis = "driven_axis/model_I.yaml";
+const char* const kArm = "anthrob/model_II.yaml";
+constexpr double kViscous = 203.5, kMass = 95.1;  // of the driven axis [Ns/m, kg]
+
+/// Speed of the driven axis after a time under a constant effort, from rest.
+double speed_of_axis(const std::vector<EffectInstance>& effects, double effort, int steps = 1500) {
+  Simulation sim(robot_with(kAxis, effects));
+  sim.apply_effort(0, effort);
+  sim.step(steps);
+  return sim.tree().velocities()[0];
+}
+
+/// The closed form of that, for a force that friction leaves and a damping.
+double expected_speed(double force, double damping, double seconds = 1.5) {
+  return force / damping * -std::expm1(-damping * seconds / kMass);
+}
+
+TEST(DrivenAxis, FollowsItsEquationOfMotion) {
+  EXPECT_NEAR(speed_of_axis({}, 40.0), expected_speed(40.0, kViscous), 1e-3 * 0.2);
+  Simulation sim(robot_with(kAxis, {}));
+  EXPECT_EQ(sim.model().skeleton->joints[0].name, "axis");
+}
+
+TEST(JointViscous, AddsDamping) {
+  EXPECT_NEAR(speed_of_axis({{"joint_viscous", "axis", {{"damping", 100.0}}}}, 40.0),
+              expected_speed(40.0, kViscous + 100.0), 2e-4);
+}
+
+TEST(JointCoulomb, HoldsBelowBreakawayAndTakesAConstantForceAbove) {
+  const std::vector<EffectInstance> effects = {
+      {"joint_coulomb",
+       "axis",
+       {{"torque", 20.0}, {"static_ratio", 1.5}, {"stribeck_velocity", 0.001}}}};
+  EXPECT_EQ(speed_of_axis(effects, 29.0), 0.0);
+  EXPECT_EQ(speed_of_axis(effects, -29.0), 0.0);
+  // One second: in 1.5 s it would get to the stop.
+  EXPECT_NEAR(speed_of_axis(effects, 45.0, 1000), expected_speed(25.0, kViscous, 1.0), 1e-3);
+  EXPECT_NEAR(speed_of_axis(effects, -45.0, 1000), -expected_speed(25.0, kViscous, 1.0), 1e-3);
+}
+
+TEST(JointCoulombAsymmetric, TakesAnotherForceInEachDirection) {
+  const std::vector<EffectInstance> effects = {
+      {"joint_coulomb_asymmetric", "axis", {{"forward", 17.2}, {"backward", 23.6}}}};
+  EXPECT_EQ(speed_of_axis(effects, 17.0), 0.0);
+  EXPECT_EQ(speed_of_axis(effects, -23.0), 0.0);
+  EXPECT_NEAR(speed_of_axis(effects, 40.0), expected_speed(40.0 - 17.2, kViscous), 2e-4);
+  EXPECT_NEAR(speed_of_axis(effects, -40.0), -expected_speed(40.0 - 23.6, kViscous), 2e-4);
+}
+
+TEST(JointOffsetTorque, AddsAConstantForce) {
+  EXPECT_NEAR(speed_of_axis({{"joint_offset_torque", "axis", {{"torque", -3.16}}}}, 40.0),
+              expected_speed(40.0 - 3.16, kViscous), 2e-4);
+}
+
+TEST(JointOffsetTorque, MovingItIsAsymmetricFrictionAtRestItIsNot) {
+  const std::vector<EffectInstance> offset = {
+      {"joint_coulomb", "axis", {{"torque", 20.4}, {"static_ratio", 1.0}}},
+      {"joint_offset_torque", "axis", {{"torque", -3.2}}}};
+  const std::vector<EffectInstance> asymmetric = {
+      {"joint_coulomb_asymmetric", "axis", {{"forward", 23.6}, {"backward", 17.2}}}};
+  for (const double effort : {40.0, -40.0}) {
+    EXPECT_NEAR(speed_of_axis(offset, effort), speed_of_axis(asymmetric, effort), 1e-9);
+  }
+  EXPECT_NE(speed_of_axis(offset, 22.0), speed_of_axis(asymmetric, 24.0));
+}
+
+/// Where the energy of a joint that is driven to and fro goes: share that is not accounted for.
+double unexplained_joint_work(const std::vector<EffectInstance>& effects, double step) {
+  Simulation sim(robot_with(kAxis, effects, step));
+  double work = 0.0, heat = 0.0, turned_over = 0.0;
+  const double start = sim.kinetic_energy() + sim.potential_energy();
+  for (int i = 0; i < static_cast<int>(std::lround(4.0 / step)); ++i) {
+    const double before = sim.configuration()[0], effort = 60.0 * std::sin(4.0 * sim.time());
+    sim.apply_effort(0, effort);
+    sim.step();
+    work += effort * (sim.configuration()[0] - before);
+    turned_over += std::abs(effort * (sim.configuration()[0] - before));
+    heat += sim.joint_dissipation() * step;
+  }
+  EXPECT_GT(heat, 0.0);
+  const double stored = sim.kinetic_energy() + sim.potential_energy() - start;
+  return std::abs(work - stored - heat) / turned_over;
+}
+
+TEST(JointEffects, EnergyIsAccountedFor) {
+  const std::vector<std::vector<EffectInstance>> cases = {
+      {{"joint_viscous", "axis", {{"damping", 100.0}}}},
+      {{"joint_coulomb", "axis", {{"torque", 20.0}}}},
+      {{"joint_coulomb_asymmetric", "axis", {{"forward", 10.0}, {"backward", 20.0}}}},
+      {{"joint_offset_torque", "axis", {{"torque", 5.0}}}},
+      {{"cable_drag", "axis", {{"stiffness", 300.0}, {"rest", 0.05}}}},
+  };
+  for (const auto& effects : cases) {
+    const double coarse = unexplained_joint_work(effects, 1e-3);
+    const double fine = unexplained_joint_work(effects, 1e-4);
+    EXPECT_LT(coarse, 1e-2) << effects[0].id;
+    EXPECT_LT(fine, 0.3 * coarse + 1e-6) << effects[0].id;
+  }
+}
+
+TEST(CableDrag, BalancesAForceWhereHookeSays) {
+  const double stiffness = 400.0, rest = 0.03;
+  Simulation sim(
+      robot_with(kAxis, {{"cable_drag", "axis", {{"stiffness", stiffness}, {"rest", rest}}}}));
+  sim.apply_effort(0, 20.0);
+  sim.step(20000);
+  EXPECT_NEAR(sim.configuration()[0], rest + 20.0 / stiffness, 1e-6);
+}
+
+TEST(CableDrag, TorqueOnABallJointIsTheGradientOfItsEnergy) {
+  const auto robot = robot_with(kArm, {{"cable_drag", "shoulder", {{"stiffness", 0.3}}}});
+  const JointTorque& cable = *robot->joint_torques.at(0);
+  Simulation sim(robot);
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    const std::vector<double> q = random_posture(random);
+    sim.place(q, std::vector<double>(11, 0.0));
+    double tau[4] = {0.0, 0.0, 0.0, 0.0};
+    cable.add(sim.tree(), q, tau);
+    const Vec3 torque_C = sim.tree().joint(0).R_WC.transpose() * Vec3(tau[0], tau[1], tau[2]);
+    for (int k = 0; k < 3; ++k) {
+      double energy[2];
+      for (int side = 0; side < 2; ++side) {
+        const Quat turn(Eigen::AngleAxisd(side == 0 ? -1e-5 : 1e-5, Vec3::Unit(k)));
+        const Quat r = Quat(q[0], q[1], q[2], q[3]) * turn;
+        energy[side] = cable.energy({r.w(), r.x(), r.y(), r.z(), q[4]});
+      }
+      EXPECT_NEAR(torque_C[k], -(energy[1] - energy[0]) / 2e-5, 1e-7);
+    }
+  }
+}
+
+TEST(GravityTilt, TurnsGravityAgainstTheTiltOfTheBase) {
+  const auto robot = robot_with(kArm, {{"gravity_tilt", "x", {{"angle", 0.1}}}});
+  // A base tilted forwards about x has gravity with a part along -y sin... : seen from the base.
+  EXPECT_NEAR((robot->gravity - 9.81 * Vec3(0.0, -std::sin(0.1), -std::cos(0.1))).norm(), 0.0,
+              1e-12);
+  const auto places = find_effect("gravity_tilt")->places(*load_robot_model(config(kArm)));
+  EXPECT_EQ(places, (std::vector<std::string>{"x", "y"}));
+  EXPECT_TRUE(find_effect("gravity_tilt")->places(*load_robot_model(config(kAxis))).empty());
+}
+
+TEST(Payload, MassCentreAndInertiaAreThoseOfBoth) {
+  const double mass = 0.25;
+  const Vec3 d(0.01, -0.02, 0.05);
+  const auto plain = load_robot_model(config(kArm));
+  const auto robot = robot_with(
+      kArm, {{"payload", "forearm", {{"mass", mass}, {"x", d[0]}, {"y", d[1]}, {"z", d[2]}}}});
+  const BodyModel &a = plain->skeleton->bodies[2], &b = robot->skeleton->bodies[2];
+  ASSERT_EQ(b.name, "forearm");
+  EXPECT_NEAR(b.mass, a.mass + mass, 1e-12);
+  EXPECT_NEAR((b.com_L - a.com_L - mass / b.mass * d).norm(), 0.0, 1e-12);
+  // About the old centre of mass: Steiner backwards, and the point mass alone.
+  const auto shift = [](double m, const Vec3& r) -> Mat3 {
+    return m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  };
+  const Mat3 about_old = b.inertia_L + shift(b.mass, b.com_L - a.com_L);
+  EXPECT_NEAR((about_old - a.inertia_L - shift(mass, d)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((b.X_LB.R * b.principal.asDiagonal() * b.X_LB.R.transpose() - b.inertia_L).norm(),
+              0.0, 1e-12);
+  // Paths stay where they are.
+  Simulation before(plain), after(robot);
+  for (int m = 0; m < 11; ++m) {
+    EXPECT_NEAR(before.muscle(m).length(), after.muscle(m).length(), 1e-12);
+  }
+}
+
+TEST(BallJointLoadFriction, PendulumLosesTheSameAmplitudeEveryHalfSwing) {
+  // A small mass on a ball joint swings in one plane: 2 mu r / l less every half period.
+  const double length = 0.5, mu = 0.2, radius = 0.01;
+  const std::string urdf =
+      "<robot name=\"p\"><link name=\"world\"/><joint name=\"ball\" type=\"floating\"><parent "
+      "link=\"world\"/><child link=\"bob\"/></joint><link name=\"bob\"><inertial><origin "
+      "xyz=\"0 0 -0.5\"/><mass value=\"2\"/><inertia ixx=\"1e-3\" ixy=\"0\" ixz=\"0\" iyy=\"1e-3\" "
+      "iyz=\"0\" izz=\"1e-3\"/></inertial></link></robot>";
+  const std::string model =
+      "robot: robot.urdf\ngravity: [0, 0, -9.81]\njoints:\n  ball: {type: ball, center: [0, 0, "
+      "0]}\neffects:\n  - {id: ball_joint_load_friction, place: ball, mu: 0.2, radius: 0.01}\n";
+  Simulation sim(TemporaryRobot(urdf, model).load(1e-4));
+  const double start = 0.2;
+  sim.place({std::cos(0.5 * start), std::sin(0.5 * start), 0.0, 0.0}, {});
+  const double begin = sim.potential_energy();
+  double heat = 0.0, last = start;
+  std::vector<double> turning;
+  double speed = 0.0;
+  for (int i = 0; i < 45000; ++i) {
+    sim.step();
+    heat += sim.joint_dissipation() * 1e-4;
+    const double angle = 2.0 * std::atan2(sim.configuration()[1], sim.configuration()[0]);
+    if ((angle - last) * speed < 0.0) turning.push_back(std::abs(angle));
+    speed = angle - last;
+    last = angle;
+  }
+  ASSERT_GE(turning.size(), 4u);
+  const double loss = 2.0 * mu * radius / length;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(turning[i], start - loss * static_cast<double>(i + 1), 0.05 * loss * (i + 1.0));
+  }
+  const double end = sim.potential_energy() + sim.kinetic_energy();
+  EXPECT_NEAR(begin - end, heat, 0.01 * heat);
+}
+
+// --- sensors
+// --------------------------------------------------------------------------------------
+
+TEST(ForceSensor, ReadsWithOffsetDriftAndGain) {
+  Simulation sim(
+      robot_with(kArm, {{"force_sensor_offset", "brachialis", {{"offset", 1.5}, {"drift", 0.2}}},
+                        {"force_sensor_gain", "biceps_brachii", {{"gain", 1.1}}}}));
+  const int brachialis = sim.model().find_muscle("brachialis");
+  const int biceps = sim.model().find_muscle("biceps_brachii");
+  run(sim, 500);
+  EXPECT_NEAR(sim.reading(brachialis).force, sim.muscle(brachialis).force() + 1.5 + 0.2 * 0.5,
+              1e-9);
+  EXPECT_GT(sim.muscle(biceps).force(), 1.0);
+  EXPECT_NEAR(sim.reading(biceps).force, 1.1 * sim.muscle(biceps).force(), 1e-12);
+  EXPECT_EQ(sim.reading(0).force, sim.muscle(0).force());
+  // The ECU sees what the sensor reads.
+  EXPECT_EQ(sim.muscle(biceps).measured().force, sim.reading(biceps).force);
+}
+
+TEST(ForceCrosstalk, AddsAShareOfTheNeighbour) {
+  Simulation sim(
+      robot_with(kArm, {{"force_crosstalk", "teres_minor/brachialis", {{"share", 0.05}}}}));
+  run(sim, 300);
+  const int to = sim.model().find_muscle("teres_minor");
+  const int from = sim.model().find_muscle("brachialis");
+  EXPECT_GT(sim.muscle(from).force(), 1.0);
+  EXPECT_NEAR(sim.reading(to).force, sim.muscle(to).force() + 0.05 * sim.muscle(from).force(),
+              1e-12);
+}
+
+TEST(EncoderDrift, FollowsTimeAndTravel) {
+  Simulation sim(
+      robot_with(kArm, {{"encoder_drift", "brachialis", {{"rate", 0.01}, {"missed", 0.1}}}}));
+  const int m = sim.model().find_muscle("brachialis");
+  for (int i = 1; i <= 1000; ++i) {  // there and half the way back
+    const double position = i <= 600 ? 0.002 * i : 2.4 - 0.002 * i;
+    sim.impose_position(m, position, 0.0);
+    sim.step();
+  }
+  EXPECT_NEAR(sim.muscle(m).actuator().position, 0.4, 1e-12);
+  EXPECT_NEAR(sim.reading(m).position, 0.4 + 0.01 * 1.0 - 0.1 * 2.0, 1e-9);
+}
+
+TEST(SensingLatency, ReadsThePast) {
+  const double delay = 0.0045;
+  Simulation sim(robot_with(kArm, {{"sensing_latency", "all", {{"delay", delay}}}}));
+  std::vector<double> truth, read;
+  for (int i = 0; i < 300; ++i) {
+    run(sim, 1);
+    truth.push_back(sim.muscle(3).truth().position);
+    read.push_back(sim.reading(3).position);
+  }
+  for (std::size_t i = 10; i < truth.size(); ++i) {
+    EXPECT_NEAR(read[i], 0.5 * (truth[i - 4] + truth[i - 5]), 1e-12);
+  }
+}
+
+TEST(MocapDelay, ReadsThePastOfAllJoints) {
+  Simulation sim(robot_with(kArm, {{"mocap_delay", "global", {{"delay", 0.02}}}}));
+  std::vector<std::vector<double>> truth;
+  for (int i = 0; i < 300; ++i) {
+    run(sim, 1);
+    truth.push_back(sim.configuration());
+    if (i < 30) continue;
+    const double* read = sim.read_positions();
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(read[k], truth[i - 20][k], 1e-9);
+  }
+}
+
+TEST(MocapMisalignment, TurnsReadingsAboutAnAxisOfTheWorld) {
+  const double angle = 0.05;
+  Simulation sim(robot_with(kArm, {{"mocap_misalignment", "y", {{"angle", angle}}}}));
+  run(sim, 400);
+  const double *read = sim.read_positions(), *q = sim.configuration().data();
+  const Mat3 R_rest = sim.model().skeleton->joints[0].X_PC_rest.R;
+  const Mat3 R_true = R_rest * Quat(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  const Mat3 R_read = R_rest * Quat(read[0], read[1], read[2], read[3]).toRotationMatrix();
+  EXPECT_NEAR((R_read - Eigen::AngleAxisd(angle, Vec3::UnitY()) * R_true).norm(), 0.0, 1e-12);
+  EXPECT_EQ(read[4], q[4]);
+  EXPECT_EQ(sim.measured_joint_position(1), q[4]);
+}
+
+}  // namespace
+}  // namespace anthrob
