@@ -1,0 +1,175 @@
+// The effect catalogue: lists and explains, and says where an effect can sit on a robot.
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/effects/catalogue.h"
+#include "anthrob_sim/tool/tool.h"
+
+namespace anthrob {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* kind_name(EffectParameter::Kind kind) {
+  return kind == EffectParameter::kSize    ? "size"
+         : kind == EffectParameter::kShape ? "shape"
+                                           : "given";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// Breaks a paragraph into lines of at most 90 letters.
+std::string wrapped(const std::string& paragraph, const std::string& indent) {
+  std::istringstream words(paragraph);
+  std::string word, line, text;
+  while (words >> word) {
+    if (!line.empty() && line.size() + word.size() > 89) {
+      text += indent + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return text + indent + line + "\n";
+}
+
+/// An effect by itself, or as it is at its places on one robot.
+struct View {
+  const Effect* effect;
+  const RobotModel* robot;  ///< null: none given
+
+  std::vector<std::string> places() const {
+    return robot ? effect->places(*robot) : std::vector<std::string>();
+  }
+};
+
+void print_list(const std::vector<View>& views) {
+  for (const View& view : views) {
+    const EffectInfo& info = view.effect->info();
+    std::printf("%-25s %-12s %s", info.id.c_str(), seam_name(info.seam).c_str(), info.name.c_str());
+    if (view.robot) std::printf(" (%zu places)", view.places().size());
+    std::printf("\n");
+  }
+}
+
+void print_parameters(const std::vector<EffectParameter>& parameters) {
+  std::printf("  %-20s %-9s %-6s %-10s %-10s %-22s %s\n", "parameter", "unit", "kind", "neutral",
+              "typical", "bounds", "meaning");
+  for (const EffectParameter& p : parameters) {
+    char bounds[64];
+    std::snprintf(bounds, sizeof(bounds), "%c%g, %g]", p.bounds.lo_open ? '(' : '[', p.bounds.lo,
+                  p.bounds.hi);
+    std::printf("  %-20s %-9s %-6s %-10g %-10g %-22s %s\n", p.name.c_str(), p.unit.c_str(),
+                kind_name(p.kind), p.neutral, p.typical, bounds, p.meaning.c_str());
+  }
+}
+
+void explain(const View& view) {
+  const EffectInfo& info = view.effect->info();
+  std::cout << info.id << ": " << info.name << "\n\n" << wrapped(info.description, "  ") << "\n";
+  std::cout << wrapped(info.equation, "    ") << "\n";
+  std::cout << "  source:     " << info.source << "\n  seam:       " << seam_name(info.seam)
+            << "\n  places:     " << info.where << "\n  shows in:   " << joined(info.channels)
+            << "\n  dissipates: " << (info.dissipates ? "yes" : "no") << "\n\n";
+  const std::vector<std::string> places = view.places();
+  print_parameters(places.empty() ? info.parameters
+                                  : view.effect->parameters_at(*view.robot, places.front()));
+  if (!view.robot) return;
+  std::cout << "\n  on this robot at:\n"
+            << wrapped(places.empty() ? "nowhere" : joined(places), "    ");
+}
+
+Json to_json(const EffectParameter& p) {
+  return {{"name", p.name},       {"unit", p.unit},       {"kind", kind_name(p.kind)},
+          {"neutral", p.neutral}, {"typical", p.typical}, {"bounds", {p.bounds.lo, p.bounds.hi}},
+          {"meaning", p.meaning}};
+}
+
+Json to_json(const View& view) {
+  const EffectInfo& info = view.effect->info();
+  Json object = {{"id", info.id},
+                 {"name", info.name},
+                 {"description", info.description},
+                 {"equation", info.equation},
+                 {"source", info.source},
+                 {"seam", seam_name(info.seam)},
+                 {"where", info.where},
+                 {"channels", info.channels},
+                 {"dissipates", info.dissipates}};
+  for (const EffectParameter& p : info.parameters) object["parameters"].push_back(to_json(p));
+  if (!view.robot) return object;
+  object["places"] = Json::array();
+  for (const std::string& place : view.places()) {
+    Json entry = {{"place", place}};
+    for (const EffectParameter& p : view.effect->parameters_at(*view.robot, place)) {
+      entry["parameters"].push_back(to_json(p));
+    }
+    object["places"].push_back(entry);
+  }
+  return object;
+}
+
+/// A row of the table in docs/effects.md.
+void print_row(const View& view) {
+  const EffectInfo& info = view.effect->info();
+  std::string parameters;
+  for (const EffectParameter& p : info.parameters) {
+    char text[128];
+    std::snprintf(text, sizeof(text), "%s`%s` %g %s", parameters.empty() ? "" : ", ",
+                  p.name.c_str(), p.typical, p.unit == "1" ? "" : p.unit.c_str());
+    parameters += text;
+    while (parameters.back() == ' ') parameters.pop_back();
+  }
+  std::string where = info.where;
+  for (std::size_t at; (at = where.find(" | ")) != std::string::npos;) where.replace(at, 3, ", ");
+  std::string equation = info.equation;
+  for (std::size_t at = 0; (at = equation.find('|', at)) != std::string::npos; at += 2) {
+    equation.replace(at, 1, "\\|");
+  }
+  std::cout << "| `" << info.id << "` | " << info.name << " | " << equation << " | " << parameters
+            << " | " << where << " | " << joined(info.channels) << " | "
+            << (info.dissipates ? "yes" : "") << " |\n";
+}
+
+}  // namespace
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  using namespace anthrob;
+  CLI::App app("Lists and explains the effects that a model file can have under 'effects:'.",
+               "anthrob_effects");
+  std::string id, model_file, format = "text";
+  app.add_option("id", id, "explain this effect; all are listed without");
+  app.add_option("--model", model_file, "model file: say where on this robot effects can sit");
+  app.add_option("--format", format, "of the output")
+      ->check(CLI::IsMember({"text", "json", "markdown"}))
+      ->capture_default_str();
+  return tool::run(app, argc, argv, [&]() -> int {
+    std::shared_ptr<const RobotModel> robot;
+    if (!model_file.empty()) robot = load_robot_model(model_file);
+    std::vector<View> views;
+    for (const Effect* effect : all_effects()) {
+      if (id.empty() || effect->info().id == id) views.push_back({effect, robot.get()});
+    }
+    if (views.empty())
+      throw BadInput(id + ": expected the id of an effect; run without to see all");
+    if (format == "json") {
+      Json list = Json::array();
+      for (const View& view : views) list.push_back(to_json(view));
+      std::cout << list.dump(2) << "\n";
+    } else if (format == "markdown") {
+      for (const View& view : views) print_row(view);
+    } else if (id.empty()) {
+      print_list(views);
+    } else {
+      explain(views.front());
+    }
+    return tool::kDone;
+  });
+}
