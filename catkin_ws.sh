@@ -29,7 +29,7 @@ common_packages=(
   libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libdc1394-dev opencv-doc
   libgtest-dev libgmock-dev libbenchmark-dev
   xvfb xauth imagemagick libgl1-mesa-dri
-  user-mode-linux kmod iproute2  # CAN for the tests, where the kernel has none
+  user-mode-linux kmod iproute2  # CAN where the kernel has none
 )
 
 say() { printf '\033[1m%s\033[0m\n' "$*"; }
