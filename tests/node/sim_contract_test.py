@@ -64,7 +64,8 @@ class SimContract(unittest.TestCase):
         cls.emergency_stop = rospy.ServiceProxy('emergency_stop', Trigger)
         cls.clear_faults = rospy.ServiceProxy('clear_faults', Trigger)
         cls.pause = rospy.ServiceProxy('sim/pause', SetBool)
-        cls.step = rospy.ServiceProxy('sim/step', Step)
+        step = rospy.ServiceProxy('sim/step', Step)
+        cls.step = staticmethod(lambda count: step(steps=count))
         cls.reset = rospy.ServiceProxy('sim/reset', Trigger)
         cls.set_state = rospy.ServiceProxy('sim/set_state', SetState)
         wait_for(lambda: cls.states.messages and cls.command.get_num_connections() > 0
