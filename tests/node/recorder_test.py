@@ -66,6 +66,14 @@ class Recorder(unittest.TestCase):
             list_.append((topic, stamp.to_nsec(), str(message)))
         return list_
 
+    def check_same_run(self, a, b):
+        """Equal but for the last instant, of which a bag that is closed may have got some topics and not others."""
+        ends = [max(stamp for topic, stamp, _ in run if topic.endswith(name))
+                for run in (a, b) for name in ('muscle_states', '/joint_states', 'spherical_joint_states')]
+        common = [sorted(message for message in run if message[1] < min(ends)) for run in (a, b)]
+        self.assertTrue(common[0] == common[1], 'the runs differ')
+        self.assertGreater(len(common[0]), 0.98 * max(len(a), len(b)))
+
     def test_interrupted_and_gone_on_with(self):
         whole, parts = self.path('whole'), self.path('parts')
         output = self.record(whole)
@@ -98,7 +106,7 @@ class Recorder(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(parts)), complete)
         self.assertEqual(os.stat(first).st_mtime_ns, written)
         # In lock-step the same run gives the same bits.
-        self.assertEqual(self.messages(first), self.messages(os.path.join(whole, 'E1_run1.bag')))
+        self.check_same_run(self.messages(first), self.messages(os.path.join(whole, 'E1_run1.bag')))
         # Another protocol does not go into the same folder.
         self.assertIn('belongs to another protocol', self.record(parts, limit=0.06))
 
