@@ -79,7 +79,7 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
   if (state == ecu::State::kFault) raise(status, DiagnosticStatus::ERROR);
   if (state == ecu::State::kStopping) raise(status, DiagnosticStatus::WARN);
   status.message = ecu::name(state);
-  if (!link.heard() || !link.alive(now)) {
+  if (!link.heard() || !link.alive()) {
     raise(status, DiagnosticStatus::ERROR);
     status.message = link.heard() ? "lost" : "never heard";
   } else if (!link.configured()) {

@@ -50,8 +50,7 @@ std::string DriverNode::other_backend() const {
   return other_publisher(muscles_);
 }
 
-// ---- commands and services
-// -----------------------------------------------------------------------
+// ---- commands and services ----
 
 void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   RobotDriver::Outcome outcome;
@@ -112,13 +111,15 @@ bool DriverNode::on_emergency_stop(Trigger::Request&, Trigger::Response& respons
 bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response) {
   thread_.call(
       [&](RobotDriver& driver, double now) { answer(driver.clear_faults(now), response); });
-  // Until the ECUs have had the time to clear: enable may follow at once.
-  for (int i = 0; i < 25; ++i) publish_measurements(0.004);
+  // Until the ECUs have cleared too: enable may follow at once.
+  for (bool waiting = true; waiting && ros::ok();) {
+    publish_measurements(0.002);
+    thread_.call([&](RobotDriver& driver, double now) { waiting = driver.clearing(now); });
+  }
   return true;
 }
 
-// ---- measurements
-// --------------------------------------------------------------------------------
+// ---- measurements ----
 
 ros::Time DriverNode::stamp(std::int64_t kernel_ns) const {
   // The kernel stamps with the wall clock, ROS time may be another: what carries over is the age.
@@ -173,8 +174,7 @@ void DriverNode::publish(const AnalogSample& sample) {
   touch_.publish(state);
 }
 
-// ---- diagnostics
-// ---------------------------------------------------------------------------------
+// ---- diagnostics ----
 
 void DriverNode::publish_diagnostics() {
   const double time = monotonic_now();

@@ -18,7 +18,10 @@ EcuLink::EcuLink(const Hardware& hardware, int index, Findings& findings)
 }
 
 void EcuLink::start_cycle(std::uint8_t counter, double now) {
-  if (started_ && sampled_ && !complete()) findings_.add(Finding::kLostFrame, index_, now);
+  if (started_ && sampled_ && !complete()) {
+    if (unanswered_ < kLostSyncs) ++unanswered_;
+    findings_.add(Finding::kLostFrame, index_, now);
+  }
   started_ = true;
   counter_ = static_cast<std::uint8_t>(counter & 0xF);
   got_ = 0;
@@ -68,6 +71,7 @@ void EcuLink::on_status(const ecu::Frame&, unsigned part, std::uint8_t counter, 
   if (!complete()) return;
   sample_ = incoming_;
   sampled_ = true;
+  unanswered_ = 0;
   sample_time_ = now;
   state_ = sample_.motion[0].state;
   latched_ = sample_.motion[0].stop_latched;

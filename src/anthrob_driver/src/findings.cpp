@@ -22,7 +22,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kRepeatedFrame, "repeated_frame", false, "a status with an old counter; it was ignored", "look for gateways that repeat frames, two nodes with one number, a busy host"},
     {Finding::kLostFrame, "lost_frame", false, "an ECU did not answer a SYNC", "look at the bus load and error counters"},
     {Finding::kEcuSilent, "ecu_silent", false, "an ECU that is configured was never heard", "switch it on; check its node number"},
-    {Finding::kEcuLost, "ecu_lost", true, "no complete answer of an ECU for 12.5 ms", "check its power and cable; clear_faults, enable"},
+    {Finding::kEcuLost, "ecu_lost", true, "no complete answer of an ECU to two SYNCs in a row", "check its power and cable; clear_faults, enable"},
     {Finding::kEcuRestarted, "ecu_restarted", true, "an ECU started anew: its zero is lost", "check its power; clear_faults, home, enable"},
     {Finding::kEcuFault, "ecu_fault", true, "an ECU reports a fault, named in its diagnostics", "see the ECU's fault codes; clear_faults, enable"},
     {Finding::kEcuStopped, "ecu_stopped", true, "an ECU stopped by itself while enabled", "see its reason in diagnostics; enable again"},

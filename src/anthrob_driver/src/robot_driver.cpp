@@ -59,8 +59,7 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
   sample_.muscles.resize(hardware_.muscles.size());
 }
 
-// ---- in
-// ------------------------------------------------------------------------------------------
+// ---- in ----
 
 void RobotDriver::receive(const BusEvent& event, double now) {
   watch_.receive(event, now);
@@ -139,8 +138,7 @@ bool RobotDriver::take_analog(AnalogSample& sample) {
   return true;
 }
 
-// ---- requests
-// ------------------------------------------------------------------------------------
+// ---- requests ----
 
 RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
                                           const std::vector<std::uint8_t>& modes,
@@ -155,7 +153,7 @@ RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
   return outcome;
 }
 
-std::string RobotDriver::why_not_enable(double now) const {
+std::string RobotDriver::why_not_enable() const {
   if (supervisor_.stop_latched()) return "emergency stop is latched: call clear_faults first";
   if (!watch_.trouble().empty()) return watch_.trouble();
   for (std::size_t e = 0; e < links_.size(); ++e) {
@@ -165,7 +163,7 @@ std::string RobotDriver::why_not_enable(double now) const {
       return who + "is in FAULT: call clear_faults first";
     }
     if (!link.heard()) return who + "was never heard; is it switched on?";
-    if (!link.alive(now)) return who + "does not answer";
+    if (!link.alive()) return who + "does not answer";
     if (!link.configured()) return who + "is being configured; try again in a second";
     if (link.state() == ecu::State::kFault) {
       return who + "fault " + ecu::name(link.report().fault) + ": call clear_faults first";
@@ -178,7 +176,7 @@ std::string RobotDriver::why_not_enable(double now) const {
 RobotDriver::Outcome RobotDriver::start_enable(double now) {
   if (phase_ == Phase::kEnabled) return last_outcome_ = {true, "already enabled"};
   if (phase_ == Phase::kEnabling) return {true, "enabling"};
-  const std::string reason = why_not_enable(now);
+  const std::string reason = why_not_enable();
   if (!reason.empty()) {
     findings_.add(Finding::kEnableRefused, -1, now, reason);
     return last_outcome_ = {false, reason};
@@ -270,8 +268,15 @@ RobotDriver::Outcome RobotDriver::clear_faults(double now) {
   return outcome;
 }
 
-// ---- watching
-// ------------------------------------------------------------------------------------
+bool RobotDriver::clearing(double now) const {
+  if (cleared_ < 0.0 || now - cleared_ > kClearGrace) return false;
+  if (clear_repeats_ > 0) return true;
+  return std::any_of(links_.begin(), links_.end(), [](const EcuLink& link) {
+    return link.alive() && (link.stop_latched() || link.state() == ecu::State::kFault);
+  });
+}
+
+// ---- watching ----
 
 void RobotDriver::stop(Finding finding, int ecu) {
   if (phase_ == Phase::kDisabled) return;
@@ -306,7 +311,7 @@ void RobotDriver::check_ecus(double now) {
       if (now - started_ > kSilence) findings_.add(Finding::kEcuSilent, index, now);
       continue;
     }
-    if (link.sample_time() > 0.0 && !link.alive(now)) {
+    if (link.sample_time() > 0.0 && !link.alive()) {
       findings_.add(Finding::kEcuLost, index, now);
       stop(Finding::kEcuLost, index);
       continue;
@@ -355,8 +360,7 @@ void RobotDriver::continue_home(double now) {
   }
 }
 
-// ---- out
-// -----------------------------------------------------------------------------------------
+// ---- out ----
 
 void RobotDriver::send(const ecu::Frame& frame) {
   watch_.sent(bus_.send(frame), last_cycle_);
@@ -379,6 +383,10 @@ void RobotDriver::cycle(double now) {
   check_bus(now);
   last_cycle_ = now;
   if (watch_.condition() == BusWatch::Condition::kDown) bus_.recover();
+  close_sample(now);
+  ++cycles_;
+  ++counter_;
+  for (EcuLink& link : links_) link.start_cycle(counter_, now);
   check_ecus(now);
   if (supervisor_.update(now)) {
     findings_.add(Finding::kCommandTimeout, -1, now);
@@ -386,8 +394,6 @@ void RobotDriver::cycle(double now) {
     stop(Finding::kCommandTimeout, -1);
   }
   if (phase_ == Phase::kEnabled) continue_home(now);
-  close_sample(now);
-  ++cycles_;
   send_cycle(now);
   if (phase_ == Phase::kEnabling) continue_enable(now);
   watch_.sent(bus_.flush(), now);
@@ -395,8 +401,6 @@ void RobotDriver::cycle(double now) {
 
 void RobotDriver::send_cycle(double now) {
   if (supervisor_.stop_latched()) send(ecu::Frame{});
-  ++counter_;
-  for (EcuLink& link : links_) link.start_cycle(counter_, now);
   sample_open_ = true;
   sync_stamp_ = 0;
   sample_.time = now;

@@ -60,6 +60,121 @@ TEST(RobotDriver, EnablesAndMovesAllMuscles) {
   }
 }
 
+TEST(RobotDriver, AnEmergencyStopIsLatchedAndClearsWithoutMotion) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.driver().emergency_stop();
+  rig.run(2);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_FALSE(rig.driver().start_enable(rig.now()).accepted);
+  rig.run(500);
+  EXPECT_EQ(rig.moving(), 0);
+  rig.driver().clear_faults(rig.now());
+  EXPECT_TRUE(rig.driver().clearing(rig.now()));
+  for (int ms = 0; rig.driver().clearing(rig.now()); ++ms) {
+    rig.step();
+    ASSERT_LT(ms, 50);
+  }
+  EXPECT_EQ(rig.samples.back().muscles[0].state, ecu::State::kIdle);
+  rig.run(500);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_TRUE(rig.enable());
+}
+
+TEST(RobotDriver, AStopWinsOverAnEnableUnderWay) {
+  Rig rig;
+  rig.run(1000);
+  ASSERT_TRUE(rig.driver().start_enable(rig.now()).accepted);
+  rig.run(1);
+  rig.driver().emergency_stop();
+  rig.commander_runs = true;
+  rig.run(1000);
+  EXPECT_EQ(rig.driver().phase(), Phase::kDisabled);
+  EXPECT_EQ(rig.moving(), 0);
+}
+
+TEST(RobotDriver, OneEcuMissingAndNoneIsEnabled) {
+  Rig rig;
+  rig.rack.board(5).set_power(false);
+  rig.run(1500);
+  const auto outcome = rig.driver().start_enable(rig.now());
+  EXPECT_FALSE(outcome.accepted);
+  EXPECT_NE(outcome.reason.find("ecu_6"), std::string::npos) << outcome.reason;
+  rig.commander_runs = true;
+  rig.run(500);
+  EXPECT_EQ(rig.moving(), 0);
+}
+
+TEST(RobotDriver, OneEcuRefusesAndAllAreDisabled) {
+  Rig rig;
+  rig.run(1000);
+  // Its supply fails in the moment of enabling.
+  ASSERT_TRUE(rig.driver().start_enable(rig.now()).accepted);
+  rig.rack.board(4).set_power(false);
+  rig.commander_runs = true;
+  for (int ms = 0; ms < 1000; ++ms) {
+    rig.step();
+    ASSERT_EQ(rig.moving(), 0);
+  }
+  EXPECT_FALSE(rig.driver().last_outcome().accepted);
+  EXPECT_EQ(rig.driver().phase(), Phase::kDisabled);
+}
+
+TEST(RobotDriver, StaleDataIsNeverGivenOutAgain) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.rack.board(2).set_power(false);
+  rig.samples.clear();
+  rig.run(200);
+  std::int64_t last = 0;
+  for (const Sample& sample : rig.samples) {
+    EXPECT_GT(sample.stamp_ns, last);
+    last = sample.stamp_ns;
+    EXPECT_FALSE(sample.muscles[4].measured);
+    EXPECT_TRUE(std::isnan(sample.muscles[4].position));
+    EXPECT_TRUE(sample.muscles[0].measured);
+  }
+  EXPECT_EQ(rig.samples.back().muscles[4].state, ecu::State::kFault);
+  // Nobody answers: nothing to give out.
+  for (std::size_t e = 0; e < rig.rack.size(); ++e) rig.rack.board(e).set_power(false);
+  rig.run(10);
+  rig.samples.clear();
+  rig.run(200);
+  EXPECT_TRUE(rig.samples.empty());
+}
+
+TEST(RobotDriver, AnalogSensorsAreCalibrated) {
+  Rig rig;
+  rig.plant.set_joint(0, 1.2);
+  rig.plant.set_touch(2, 3.0);
+  rig.run(1500);
+  rig.analogs.clear();
+  rig.run(100);
+  int joints = 0, pads = 0;
+  for (const AnalogSample& a : rig.analogs) {
+    if (a.kind == AnalogSample::Kind::kJoint) {
+      ++joints;
+      EXPECT_NEAR(a.value, 1.2, 0.0007);
+    } else if (a.sensor == 2) {
+      ++pads;
+      EXPECT_NEAR(a.value, 3.0, 0.01);
+    }
+  }
+  EXPECT_EQ(joints, 10);
+  EXPECT_EQ(pads, 10);
+}
+
+TEST(RobotDriver, BusLoadIsAsCalculated) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  const auto bits = rig.bus.bits(), frames = rig.bus.frames();
+  rig.run(5000);
+  EXPECT_EQ((rig.bus.frames() - frames) / 5, 5884u);  // docs/ecu_protocol.md
+  const double load = static_cast<double>(rig.bus.bits() - bits) / 5.0 / 1e6;
+  EXPECT_GT(load, 0.647);
+  EXPECT_LT(load, 0.786);
+}
+
 }  // namespace
 }  // namespace driver
 }  // namespace anthrob

@@ -24,8 +24,8 @@ class DriverThread {
     RobotDriver::Options driver;
     /// SCHED_FIFO and locked memory; needs rights, goes on without and says so in note().
     bool realtime = false;
-    /// Below 1 all of the driver's time runs slower, watchdogs too: for emulated ECUs of the same pace
-    /// on machines that are too slow for real time. Never with a robot.
+    /// Below 1 all of the driver's time runs slower, watchdogs too: for emulated ECUs of the same
+    /// pace on machines that are too slow for real time. Never with a robot.
     double pace = 1.0;
   };
 

@@ -14,9 +14,9 @@ namespace driver {
 /// configuration that it should.
 class EcuLink {
  public:
-  /// Without an answer for this long an ECU counts as lost [s]: at 200 Hz the others get zero volts
-  /// within 20 ms.
-  static constexpr double kLost = 0.0125;
+  /// That many SYNCs in a row without an answer, and an ECU counts as lost: at 200 Hz the others
+  /// get zero volts within 20 ms. Counted, not timed: a host that was late must not blame the ECUs.
+  static constexpr int kLostSyncs = 2;
 
   /// @param hardware, findings must outlive the link   @param index of this ECU, for findings
   EcuLink(const Hardware& hardware, int index, Findings& findings);
@@ -30,7 +30,7 @@ class EcuLink {
 
   bool heard() const { return heard_; }
   /// Whether it answers.
-  bool alive(double now) const { return sampled_ && now - sample_time_ <= kLost; }
+  bool alive() const { return sampled_ && unanswered_ < kLostSyncs; }
   bool configured() const { return heard_ && report_.configuration == own().configuration; }
   /// All frames of the current SYNC are in.
   bool complete() const { return got_ == wanted_; }
@@ -67,6 +67,7 @@ class EcuLink {
   Findings& findings_;
   unsigned wanted_;  ///< bits of the frames that make an answer
   unsigned got_ = 0;
+  int unanswered_ = 0;        ///< SYNCs since the last complete answer
   std::uint8_t counter_ = 0;  ///< low four bits of the SYNC's
   bool started_ = false;
   Sample incoming_, sample_;

@@ -74,6 +74,9 @@ class RobotDriver {
   Outcome emergency_stop();
   Outcome clear_faults(double now);
 
+  /// Between clear_faults and the moment the ECUs have cleared too.
+  bool clearing(double now) const;
+
   Phase phase() const { return phase_; }
   const Outcome& last_outcome() const { return last_outcome_; }
   const Home& home() const { return home_; }
@@ -104,7 +107,7 @@ class RobotDriver {
   void close_sample(double now);
   void keep_analog(EcuLink& link, int ecu);
   bool all_complete() const;
-  std::string why_not_enable(double now) const;
+  std::string why_not_enable() const;
 
   Hardware hardware_;
   Options options_;
