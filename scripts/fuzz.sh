@@ -10,14 +10,11 @@ sources=(src/anthrob_config/src/*.cpp src/anthrob_ecu/src/*.cpp src/anthrob_ecu/
   src/anthrob_driver/src/*.cpp src/anthrob_driver/src/bus/*.cpp src/anthrob_driver/src/emulation/*.cpp
   src/anthrob_driver/test/fuzz_test.cpp)
 includes=(-Isrc/anthrob_config/include -Isrc/anthrob_ecu/include -Isrc/anthrob_driver/include -isystem /usr/include/eigen3)
-objects=()
-for source in "${sources[@]}"; do
-  object="$out/$(echo "$source" | tr / _).o"
-  objects+=("$object")
-  if [ "$source" -nt "$object" ]; then echo "$source $object"; fi
-done | xargs -r -P "$(nproc)" -L 1 bash -c \
-  'g++ -std=c++17 -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all \
-     -DANTHROB_CONFIG_DIR="\"'"$PWD"'/config\"" '"${includes[*]}"' -c "$1" -o "$2"' compile
-for source in "${sources[@]}"; do objects+=("$out/$(echo "$source" | tr / _).o"); done
-g++ -fsanitize=address,undefined "${objects[@]}" -o "$out/fuzz_test" -lgtest_main -lgtest -lyaml-cpp -lpthread
+# Anew each time: an object that is older than a header would be a bug of its own.
+rm -f "$out"/*
+for source in "${sources[@]}"; do echo "$source $out/$(echo "$source" | tr / _).o"; done |
+  xargs -P "$(nproc)" -L 1 bash -c \
+    'g++ -std=c++17 -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all \
+       -DANTHROB_CONFIG_DIR="\"'"$PWD"'/config\"" '"${includes[*]}"' -c "$1" -o "$2"' compile
+g++ -fsanitize=address,undefined "$out"/*.o -o "$out/fuzz_test" -lgtest_main -lgtest -lyaml-cpp -lpthread
 FUZZ_FRAMES="${1:-1000000}" "$out/fuzz_test"
