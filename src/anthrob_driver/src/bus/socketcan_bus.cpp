@@ -18,6 +18,9 @@ namespace driver {
 
 namespace {
 
+/// Bands of the interface's queue (pfifo_fast): 7 is served before 0.
+constexpr int kOrdinary = 0, kUrgent = 7;
+
 int open_socket(unsigned index) {
   const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (fd < 0) return -1;
@@ -103,7 +106,7 @@ SocketCanBus::SocketCanBus(const std::string& interface)
 }
 
 SocketCanBus::~SocketCanBus() {
-  close_sockets();
+  close_socket();
 }
 
 bool SocketCanBus::interface_is_up() const {
@@ -115,43 +118,35 @@ bool SocketCanBus::interface_is_up() const {
   return up;
 }
 
-bool SocketCanBus::open_sockets() {
+bool SocketCanBus::open_interface() {
   const unsigned index = ::if_nametoindex(interface_.c_str());
   if (index == 0) return false;
   socket_ = open_socket(index);
-  stop_socket_ = open_socket(index);
-  if (socket_ < 0 || stop_socket_ < 0) {
-    close_sockets();
-    return false;
-  }
+  if (socket_ < 0) return false;
   option(socket_, SOL_SOCKET, SO_TIMESTAMPNS, int{1});
   option(socket_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, int{1});
   option(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});
   // Bursts of a whole cycle must fit, whatever the scheduler does.
   option(socket_, SOL_SOCKET, SO_RCVBUF, int{1 << 20});
-  option(socket_, SOL_SOCKET, SO_PRIORITY, int{6});
-  option(stop_socket_, SOL_SOCKET, SO_PRIORITY, int{7});
-  // The stop socket only sends.
-  ::setsockopt(stop_socket_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);
+  option(socket_, SOL_SOCKET, SO_PRIORITY, kOrdinary);
   return true;
 }
 
-void SocketCanBus::close_sockets() {
+void SocketCanBus::close_socket() {
   if (socket_ >= 0) ::close(socket_);
-  if (stop_socket_ >= 0) ::close(stop_socket_);
-  socket_ = stop_socket_ = -1;
+  socket_ = -1;
 }
 
 void SocketCanBus::lose() {
-  close_sockets();
+  close_socket();
   up_ = false;
 }
 
 void SocketCanBus::recover() {
   if (up_) return;
   // A socket bound to an interface that was removed stays dead; only a new one helps.
-  close_sockets();
-  up_ = interface_is_up() && open_sockets();
+  close_socket();
+  up_ = interface_is_up() && open_interface();
 }
 
 SendResult SocketCanBus::give_up_or_wait() {
@@ -166,12 +161,18 @@ SendResult SocketCanBus::send(const ecu::Frame& frame) {
   raw.can_id = frame.id;
   raw.can_dlc = frame.length;
   std::memcpy(raw.data, frame.data.data(), 8);
-  if (frame.id == 0) {
-    return ::write(stop_socket_, &raw, sizeof(raw)) == sizeof(raw) ? SendResult::kSent
-                                                                   : give_up_or_wait();
-  }
+  if (frame.id == 0) return send_urgently(&raw);
   out_->frames[out_->count++] = raw;
   return out_->count == kBatch ? flush() : SendResult::kSent;
+}
+
+SendResult SocketCanBus::send_urgently(const void* raw) {
+  // Not through a second socket: its frames would come in here as somebody else's.
+  option(socket_, SOL_SOCKET, SO_PRIORITY, kUrgent);
+  const bool sent = ::write(socket_, raw, sizeof(can_frame)) == sizeof(can_frame);
+  const SendResult result = sent ? SendResult::kSent : give_up_or_wait();
+  if (up_) option(socket_, SOL_SOCKET, SO_PRIORITY, kOrdinary);
+  return result;
 }
 
 SendResult SocketCanBus::flush() {

@@ -10,7 +10,7 @@ namespace anthrob {
 namespace driver {
 
 /// A Linux CAN interface through PF_CAN raw sockets: kernel time stamps, error frames, echoes of
-/// our own frames, many frames a system call. STOP has a socket of its own with the highest
+/// our own frames, many frames a system call. STOP goes out with the highest
 /// priority, so that it overtakes what waits in the interface's queue.
 class SocketCanBus final : public Bus {
  public:
@@ -34,15 +34,16 @@ class SocketCanBus final : public Bus {
   static constexpr std::size_t kBatch = 64;  ///< frames in one system call
   struct Batch;
 
+  SendResult send_urgently(const void* raw);
   SendResult give_up_or_wait();
   bool fetch();
-  bool open_sockets();
-  void close_sockets();
+  bool open_interface();
+  void close_socket();
   void lose();
   bool interface_is_up() const;
 
   std::string interface_;
-  int socket_ = -1, stop_socket_ = -1;
+  int socket_ = -1;
   bool up_ = false, reported_up_ = true;
   std::unique_ptr<Batch> out_, in_;
 };
