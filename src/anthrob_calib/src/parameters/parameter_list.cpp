@@ -1,0 +1,130 @@
+#include "anthrob_calib/parameters/parameter_list.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace anthrob {
+
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, separator);) words.push_back(word);
+  return words;
+}
+
+bool is_integer(const std::string& word) {
+  const std::size_t digits = word.find_first_not_of("0123456789", word[0] == '-' ? 1 : 0);
+  return digits == std::string::npos && word != "-" && !word.empty();
+}
+
+/// What a word of a pattern stands for below a node: keys as they stand in a key path.
+std::vector<std::string> matches(const std::string& word, const ConfigNode& node) {
+  std::vector<std::string> keys;
+  if (node.is_map()) {
+    for (const auto& [key, child] : node.entries()) keys.push_back(key);
+  } else if (node.is_sequence()) {
+    for (std::size_t i = 0; i < node.items().size(); ++i) keys.push_back(std::to_string(i));
+  }
+  if (word == "*") return keys;
+  std::vector<std::string> wanted = {word};
+  if (word.size() > 1 && word.front() == '{' && word.back() == '}') {
+    wanted = split(word.substr(1, word.size() - 2), ',');
+  }
+  std::vector<std::string> found;
+  for (const std::string& name : wanted) {
+    std::string key = name;
+    if (node.is_sequence() && is_integer(name) && name[0] == '-') {
+      key = std::to_string(static_cast<long>(keys.size()) + std::stol(name));
+    }
+    if (std::count(keys.begin(), keys.end(), key)) found.push_back(key);
+  }
+  return found;
+}
+
+ConfigNode child_of(const ConfigNode& node, const std::string& key) {
+  return node.is_map() ? node.at(key) : node.items()[std::stoul(key)];
+}
+
+void expand(const ConfigNode& node, const std::vector<std::string>& words, std::size_t depth,
+            std::vector<ConfigNode>& found) {
+  if (depth == words.size()) {
+    if (node.is_scalar()) found.push_back(node);
+    return;
+  }
+  for (const std::string& key : matches(words[depth], node)) {
+    expand(child_of(node, key), words, depth + 1, found);
+  }
+}
+
+ModelParameter read_parameter(const ConfigNode& entry, const ConfigNode& number) {
+  ModelParameter p;
+  p.path = number.path();
+  p.unit = entry.text("unit");
+  p.initial = number.as_number(Bounds::any(), p.unit);
+  p.step = entry.number("step", Bounds::positive(), p.unit);
+  if (entry.has("range")) {
+    const double range = entry.number("range", Bounds::positive(), p.unit);
+    p.lower = p.initial - range;
+    p.upper = p.initial + range;
+  } else {
+    p.lower = entry.number("low", Bounds::any(), p.unit);
+    p.upper = entry.number("high", Bounds::any(), p.unit);
+    if (!(p.lower < p.upper)) entry.at("high").fail_expected("more than low");
+    if (p.initial < p.lower || p.initial > p.upper) {
+      entry.fail(p.path + " is " + std::to_string(p.initial) + " in " + number.file() +
+                 ", outside [low, high]");
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
+std::string ModelParameter::name() const {
+  std::vector<std::string> words = split(path, '.');
+  if (words.size() > 2 && (words[0] == "muscles" || words[0] == "joints")) {
+    words.erase(words.begin());
+  }
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (words[i - 1] == "point" && is_integer(words[i])) {
+      words[i] = std::string(1, static_cast<char>('x' + std::stoi(words[i])));
+      words.erase(words.begin() + static_cast<long>(i) - 1);
+    }
+  }
+  std::string name;
+  for (const std::string& word : words) name += (name.empty() ? "" : ".") + word;
+  return name;
+}
+
+std::vector<ModelParameter> read_parameters(const ConfigNode& list, const ConfigNode& model) {
+  std::vector<ModelParameter> parameters;
+  std::set<std::string> taken;
+  for (const ConfigNode& entry : list.items()) {
+    const std::string pattern = entry.text("path");
+    std::vector<ConfigNode> numbers;
+    expand(model, split(pattern, '.'), 0, numbers);
+    const bool may_be_absent = entry.has("if_present") && entry.at("if_present").as_bool();
+    if (numbers.empty() && !may_be_absent) {
+      entry.at("path").fail_expected("the path of a number in " + model.file());
+    }
+    for (const ConfigNode& number : numbers) {
+      parameters.push_back(read_parameter(entry, number));
+      if (!taken.insert(parameters.back().path).second) {
+        entry.at("path").fail("it is about " + parameters.back().path + ", as another entry is");
+      }
+    }
+  }
+  return parameters;
+}
+
+std::map<std::string, double> overrides_of(const std::vector<ModelParameter>& parameters,
+                                           const std::vector<double>& values) {
+  std::map<std::string, double> overrides;
+  for (std::size_t i = 0; i < parameters.size(); ++i) overrides[parameters[i].path] = values[i];
+  return overrides;
+}
+
+}  // namespace anthrob

@@ -1,0 +1,96 @@
+#include "anthrob_calib/parameters/parameter_list.h"
+
+#include <gtest/gtest.h>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/model/robot_model.h"
+
+namespace anthrob {
+namespace {
+
+const char* const kModel = R"(
+muscles:
+  flexor: {spindle_radius: 0.006, path: [{point: [0, 1, 2]}, {point: [3, 4, 5]}, {point: [6, 7, 8]}]}
+  extensor: {spindle_radius: 0.007, path: [{point: [0, 1, 2]}, {radius: 0.01}, {point: [6, 7, 8]}]}
+joints:
+  elbow: {friction: {viscous: 0.02}}
+)";
+
+std::vector<ModelParameter> read(const std::string& list) {
+  return read_parameters(ConfigNode::parse(list, "calibration.yaml"),
+                         ConfigNode::parse(kModel, "model.yaml"));
+}
+
+std::string error_of(const std::string& list) {
+  try {
+    read(list);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ParameterList, PatternsFindTheirNumbers) {
+  const auto radii =
+      read("- {path: muscles.*.spindle_radius, unit: m, range: 0.0005, step: 0.0001}");
+  ASSERT_EQ(radii.size(), 2u);
+  EXPECT_EQ(radii[0].path, "muscles.flexor.spindle_radius");
+  EXPECT_EQ(radii[0].name(), "flexor.spindle_radius");
+  EXPECT_DOUBLE_EQ(radii[1].lower, 0.0065);
+  EXPECT_DOUBLE_EQ(radii[1].upper, 0.0075);
+
+  const auto points =
+      read("- {path: 'muscles.{flexor}.path.-2.point.*', unit: m, range: 0.0025, step: 0.001}");
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[2].path, "muscles.flexor.path.1.point.2");
+  EXPECT_EQ(points[2].name(), "flexor.path.1.z");
+  EXPECT_DOUBLE_EQ(points[2].initial, 5.0);
+
+  EXPECT_TRUE(
+      read("- {path: muscles.*.nothing, unit: m, range: 1, step: 1, if_present: true}").empty());
+
+  const auto viscous =
+      read("- {path: joints.*.friction.viscous, unit: Nms/rad, low: 0.0, high: 0.5, step: 0.05}");
+  ASSERT_EQ(viscous.size(), 1u);
+  EXPECT_DOUBLE_EQ(viscous[0].upper, 0.5);
+}
+
+TEST(ParameterList, RefusesWhatCannotBeMeant) {
+  EXPECT_NE(
+      error_of("- {path: muscles.*.nothing, unit: m, range: 1, step: 1}")
+          .find("calibration.yaml:1: 0.path: muscles.*.nothing: expected the path of a number"),
+      std::string::npos)
+      << error_of("- {path: muscles.*.nothing, unit: m, range: 1, step: 1}");
+  EXPECT_NE(error_of("- {path: joints.elbow.friction.viscous, unit: x, low: 1, high: 2, step: 1}")
+                .find("outside [low, high]"),
+            std::string::npos);
+  EXPECT_NE(error_of("- {path: joints.elbow.friction.viscous, unit: x, low: 2, high: 1, step: 1}")
+                .find("more than low"),
+            std::string::npos);
+  EXPECT_NE(error_of("- {path: muscles.flexor.spindle_radius, unit: m, range: 1, step: 1}\n"
+                     "- {path: muscles.*.spindle_radius, unit: m, range: 1, step: 1}")
+                .find("as another entry is"),
+            std::string::npos);
+  EXPECT_NE(error_of("- {path: muscles.*.spindle_radius, unit: m, range: -1, step: 1}").find("-1"),
+            std::string::npos);
+}
+
+TEST(ParameterList, OverridesReachTheModel) {
+  const std::string file = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml";
+  const ConfigNode model = ConfigNode::load(file);
+  const auto list = ConfigNode::load(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/calibration.yaml");
+  const auto parameters = read_parameters(list.at("parameters"), model);
+  ASSERT_GT(parameters.size(), 50u);
+  std::vector<double> values;
+  for (const ModelParameter& p : parameters) values.push_back(p.initial);
+  values[0] = parameters[0].initial + 0.001;
+  LoadOptions options;
+  options.overrides = overrides_of(parameters, values);
+  const auto plain = build_robot_model(model), other = build_robot_model(model, options);
+  const double l0 = plain->muscles[0].actuator->position_for(0.3);
+  const double l1 = other->muscles[0].actuator->position_for(0.3);
+  EXPECT_NEAR(l1 - l0, 0.001 / 0.0065, 1e-9);
+}
+
+}  // namespace
+}  // namespace anthrob
