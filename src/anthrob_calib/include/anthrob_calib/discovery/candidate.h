@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_sim/effects/effect.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// An effect at a place that might be missing.
+struct Candidate {
+  const Effect* effect = nullptr;
+  std::string place;
+  std::vector<EffectParameter> parameters;  ///< at this place
+  /// Ordinary parameters that are the same quantity: held where the model has them while the
+  /// effect is fitted, so that it is found whole.
+  std::vector<int> same_as;
+
+  std::string name() const { return effect->info().id + " @ " + place; }
+  /// At its neutral sizes, other parameters at their defaults.
+  EffectInstance neutral() const;
+  /// The same with one size at its typical value.
+  EffectInstance dose(const EffectParameter& size) const;
+  std::vector<const EffectParameter*> sizes() const;
+};
+
+/// All effects at all their places on a robot, without those its model has already.
+/// @param ids only these; empty: the whole catalogue  @throws BadInput for unknown ids
+std::vector<Candidate> list_candidates(const Evaluator& evaluator,
+                                       const std::vector<std::string>& ids);
+
+}  // namespace discovery
+}  // namespace anthrob

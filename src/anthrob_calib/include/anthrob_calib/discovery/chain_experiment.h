@@ -1,0 +1,55 @@
+#pragma once
+
+#include "anthrob_calib/discovery/experiment.h"
+#include "anthrob_sim/recording/replay.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// A recording of a robot with muscles: its inputs are replayed through the whole chain, and the
+/// simulated sensors, without noise and counts, are compared with the measured ones.
+class ChainExperiment final : public Experiment {
+ public:
+  ChainExperiment(const RobotModel& model, const Dataset& recording,
+                  const ExperimentOptions& options);
+
+  void compare(const std::shared_ptr<const RobotModel>& model, float* out) const override;
+
+ private:
+  /// A quantity of the simulation that was measured.
+  struct Reader {
+    enum Kind { kPosition, kCurrent, kVoltage, kForce, kJoint, kBall } kind;
+    int index;                                    ///< of the muscle or joint
+    std::size_t offset;                           ///< of its (first) channel
+    std::vector<double> mean;                     ///< measured, by bin; not of ball joints
+    std::vector<std::array<double, 4>> rotation;  ///< measured, by row; of ball joints
+  };
+  /// Readers whose samples were taken at the same times.
+  struct Sampling {
+    struct Row {
+      std::int64_t step;  ///< that arrives at or after the row's time
+      double share;       ///< of that step at the row's time
+      std::uint32_t bin;
+    };
+    std::vector<Row> rows;
+    std::vector<double> per_bin;  ///< 1 / rows in it, or 0
+    std::vector<Reader> readers;
+  };
+
+  Sampling& sampling_of(const std::vector<double>& times);
+  void add(Reader reader, const Series& series, const Channel& channel);
+  void add_ball(int joint, const std::string& name, const Dataset& recording);
+  void finish_row(const Sampling& sampling, std::size_t row, const std::vector<double>& before,
+                  const std::vector<double>& now, float* out) const;
+  static void read(const Simulation& sim, const Sampling& sampling, std::vector<double>& values);
+
+  Dataset recording_;
+  ReplayMode mode_;
+  double step_;
+  std::size_t bins_;
+  std::vector<std::vector<double>> times_;  ///< of each sampling
+  std::vector<Sampling> samplings_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/noise_floor.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// A question to the data: what is this model missing?
+struct Question {
+  std::string model_file;
+  std::vector<ModelParameter> nuisances;
+  std::vector<Dataset> train, test, repeats;
+  std::vector<std::string> effects;  ///< ids to consider; empty: all
+  int max_effects = 3;
+  int jobs = 1;
+  std::uint64_t seed = 1;
+  double step = 0.001;  ///< of the simulation [s]
+  /// Called with what is being done and the share of it; returns false to stop.
+  std::function<bool(const std::string&, double)> progress;
+};
+
+struct FoundParameter {
+  std::string name, unit;
+  double value = 0.0, low = 0.0, high = 0.0;  ///< 95 % interval
+};
+
+struct Rival {
+  std::string id, place;
+  double probability = 0.0;
+  double evidence = 0.0;  ///< gain in held-out log score [nat]
+  std::vector<FoundParameter> parameters;
+};
+
+/// An effect that the data ask for.
+struct FoundEffect {
+  std::string id, name, place;
+  double probability = 0.0, evidence = 0.0;
+  std::vector<FoundParameter> parameters;
+  std::vector<Rival> rivals;
+  std::string separating_experiment;
+};
+
+/// Root mean squares in standard deviations of the floor.
+struct Gap {
+  double before = 0.0, recalibrated = 0.0, after = 0.0, floor = 0.0;
+};
+
+/// Where model and data disagree.
+struct Place {
+  std::string channel, place, subsystem, regime, unit;
+  double rmse = 0.0, noise_floor = 0.0;  ///< [unit]
+  double share = 0.0;                    ///< of the squared gap
+};
+
+/// An effect that these data could not show.
+struct Invisible {
+  std::string id, place, unit;
+  double smallest_visible = 0.0;  ///< infinite if no size is
+};
+
+struct Answer {
+  std::string verdict;  ///< effects_found | no_missing_effect | unexplained
+  std::vector<Place> where;
+  std::vector<FoundEffect> effects;
+  double remaining_share = 0.0;
+  std::string remaining_description;
+  Gap train, test;
+  std::map<std::string, Gap> per_channel;  ///< held out, by "<place>/<channel>"
+  std::vector<Invisible> not_visible;
+  Scales scales;
+  Variant given, recalibrated, extended;
+  std::vector<std::pair<double, double>> nuisance_intervals;
+};
+
+/// Locates, names, adds and judges, until nothing earns its place.
+/// @throws BadInput for recordings that cannot answer; Interrupted
+Answer discover(const Evaluator& evaluator, const Question& question);
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/discovery/experiment.h"
+#include "anthrob_calib/parameters/parameter_list.h"
+#include "anthrob_sim/effects/effect_instance.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// A model as it might be: the given one with its ordinary parameters moved and effects added.
+struct Variant {
+  std::vector<double> nuisances;  ///< values of Evaluator::nuisances(), or empty: as given
+  std::vector<EffectInstance> effects = {};
+  double step = 0.0;  ///< of the simulation [s]; 0: as usual
+};
+
+/// Differences of all experiments, one after the other; empty if the variant cannot be built or
+/// simulated.
+using Differences = Eigen::VectorXf;
+
+/// Work was stopped from outside.
+class Interrupted : public std::exception {};
+
+/// Compares variants of a model with experiments, on many threads; results do not depend on how
+/// many.
+class Evaluator {
+ public:
+  /// @param model_file, nuisances as read for it   @param progress called with the share of a
+  /// batch that is done; returns false to stop; may be empty
+  Evaluator(const std::string& model_file, std::vector<ModelParameter> nuisances, double step,
+            int jobs);
+
+  const std::shared_ptr<const RobotModel>& model() const { return plain_; }
+  const std::vector<ModelParameter>& nuisances() const { return nuisances_; }
+  std::vector<double> initial_nuisances() const;
+
+  void on_progress(std::function<bool(double)> progress) { progress_ = std::move(progress); }
+
+  /// One result a variant. @throws Interrupted
+  std::vector<Differences> compare(
+      const std::vector<Variant>& variants,
+      const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
+
+  /// @throws BadInput if it cannot be built
+  std::shared_ptr<const RobotModel> build(const Variant& variant) const;
+  std::size_t simulations() const { return simulations_; }
+
+ private:
+  ConfigNode config_;
+  std::vector<ModelParameter> nuisances_;
+  double step_;
+  int jobs_;
+  std::shared_ptr<const RobotModel> plain_;
+  std::function<bool(double)> progress_;
+  mutable std::size_t simulations_ = 0;
+};
+
+/// Length of all experiments' differences together.
+std::size_t total_size(const std::vector<std::shared_ptr<const Experiment>>& experiments);
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "anthrob_calib/discovery/noise_floor.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// Compares models by how well they predict, in log likelihood [nat], added up over blocks of time.
+///
+/// Two things are counted as they are and not as one would like them: the spread of a channel is
+/// what the best model leaves (or the floor, if that is more), so that no model is praised for
+/// noise that is not there; and bins that are correlated in what the best model leaves count less.
+class Judge {
+ public:
+  static constexpr double kBlock = 2.0;  ///< [s] longer than what residuals remember
+
+  /// @param whitener as the residuals were whitened with
+  Judge(const Experiments& experiments, const Eigen::VectorXf& whitener);
+
+  std::size_t block_count() const { return blocks_; }
+
+  /// Log score of each residual in each block: one row a residual.
+  /// @param best index of the residual that defines spread and correlation
+  Eigen::MatrixXd block_scores(const std::vector<Eigen::VectorXf>& residuals,
+                               std::size_t best) const;
+
+  /// Root mean square over all channels, in standard deviations.
+  double gap(const Eigen::VectorXf& residual) const;
+  /// The same by channel.
+  std::map<std::string, double> channel_gaps(const Eigen::VectorXf& residual) const;
+
+ private:
+  struct Run {
+    std::string name;
+    Eigen::Index offset, count;
+    std::vector<std::size_t> block;  ///< of every bin
+  };
+
+  const Eigen::VectorXf& whitener_;
+  std::vector<Run> runs_;
+  std::size_t blocks_ = 0;
+};
+
+/// Share of (weighted) blocks' verdicts for each model: softmax of the total scores under the
+/// Bayesian bootstrap (pseudo-BMA+, Yao et al. 2018). Deterministic by seed.
+/// @param scores one row a model   @param handicap subtracted from each model's total [nat]
+std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
+                                        const std::vector<double>& handicap, std::uint64_t seed);
+
+/// Mean of the blocks' gains over its standard error.
+double block_significance(const Eigen::VectorXd& gains);
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/noise_floor.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// A number to be found: an ordinary parameter of the model, or one of an effect.
+struct Unknown {
+  int nuisance = -1;      ///< index among Evaluator::nuisances(), or
+  int effect = -1;        ///< index among Variant::effects, and
+  std::string parameter;  ///< of that effect
+  double lower = 0.0, upper = 0.0;
+  double scale = 1.0;     ///< size of an ordinary change: the unit in which it is solved
+  double expected = 0.0;  ///< before any data were seen
+  double spread = 0.0;    ///< standard deviation of that expectation; 0: none
+
+  double read(const Variant& variant) const;
+  void write(double value, Variant& variant) const;
+};
+
+/// A variant, what is free in it, and how it fits.
+struct Fitted {
+  Variant variant;
+  std::vector<Unknown> unknowns;
+  Eigen::VectorXf residual;     ///< whitened
+  Eigen::MatrixXf sensitivity;  ///< of the residual to the unknowns, each in units of its scale
+  double cost = 0.0;            ///< half the sum of squares, expectations included
+
+  Eigen::VectorXd scaled() const;     ///< the unknowns' values in units of their scales
+  Eigen::VectorXd expected() const;   ///< the same of what is expected
+  Eigen::VectorXd precision() const;  ///< of the expectations, in these units
+};
+
+/// Unknowns of the ordinary parameters: within their ranges, expected where the model has them.
+std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator);
+
+/// Least squares in the full simulation: Levenberg-Marquardt with bounds. Sensitivities are
+/// simulated once and then carried along by what each step really did (Broyden); those to effects,
+/// which are few and less linear, once more after the first step.
+class ModelFit {
+ public:
+  ModelFit(const Evaluator& evaluator, Experiments experiments, Eigen::VectorXf whitener)
+      : evaluator_(evaluator),
+        experiments_(std::move(experiments)),
+        whitener_(std::move(whitener)) {}
+
+  /// From a variant and its unknowns, all sensitivities simulated.
+  /// @throws std::runtime_error if the variant cannot be simulated
+  Fitted start(const Variant& variant, std::vector<Unknown> unknowns) const;
+  /// Goes on until nothing is gained any more.
+  /// @param renew how often sensitivities to ordinary parameters are simulated anew
+  void improve(Fitted& fitted, int iterations, int renew = 0) const;
+  /// The same fit with more unknowns; those after the present ones are simulated.
+  Fitted extend(const Fitted& fitted, const Variant& variant,
+                const std::vector<Unknown>& more) const;
+
+  /// The same on the first recordings, as many as last `seconds`. Their residuals are the head of
+  /// this one's.
+  ModelFit first_recordings(double seconds) const;
+
+  Eigen::VectorXf residual(const Variant& variant) const;  ///< empty if it cannot be simulated
+  std::vector<Eigen::VectorXf> residuals(const std::vector<Variant>& variants) const;
+  const Experiments& experiments() const { return experiments_; }
+  const Eigen::VectorXf& whitening() const { return whitener_; }
+
+ private:
+  void simulate_sensitivity(Fitted& fitted, std::size_t from) const;
+  double cost_of(const Fitted& fitted, const Variant& variant,
+                 const Eigen::VectorXf& residual) const;
+
+  const Evaluator& evaluator_;
+  Experiments experiments_;
+  Eigen::VectorXf whitener_;
+};
+
+/// Minimises 1/2 x' A x + g' x within bounds (projected active set).
+Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd& g,
+                                const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+
+}  // namespace discovery
+}  // namespace anthrob

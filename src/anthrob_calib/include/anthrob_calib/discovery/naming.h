@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/discovery/screening.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// A candidate, fitted in the full simulation together with the ordinary parameters.
+struct Named {
+  std::size_t candidate = 0;
+  Fitted fit;                 ///< on the training recordings
+  Eigen::VectorXf test;       ///< whitened residual of the held-out recordings
+  double evidence = 0.0;      ///< gain in held-out log score [nat]
+  double significance = 0.0;  ///< of the gain over blocks of all recordings
+  double probability = 0.0;   ///< among all that were fitted, and none
+};
+
+/// The short list of one round, most probable first.
+struct ShortList {
+  std::vector<Named> named;
+  double none = 0.0;  ///< probability that none of them is it
+};
+
+/// Weighs candidates: the best of the linear screening are simulated at the sizes it suggests, the
+/// best of those are fitted, and all are judged on data they were fitted to and on data they were
+/// not.
+class Naming {
+ public:
+  static constexpr std::size_t kTried = 24;  ///< simulated at their size
+  static constexpr std::size_t kFitted = 8;  ///< fitted, roughly
+  static constexpr std::size_t kJudged = 5;  ///< fitted to the end and judged
+
+  Naming(const ModelFit& train, const ModelFit& test, const Judge& train_judge,
+         const Judge& test_judge, const std::vector<Candidate>& candidates, std::uint64_t seed)
+      : train_(train),
+        test_(test),
+        train_judge_(train_judge),
+        test_judge_(test_judge),
+        candidates_(candidates),
+        seed_(seed) {}
+
+  /// @param base fitted without them   @param base_test its held-out residual
+  ShortList weigh(const Fitted& base, const Eigen::VectorXf& base_test,
+                  const std::vector<Score>& scores) const;
+
+ private:
+  EffectInstance sized(const Candidate& candidate, const std::vector<double>& amount) const;
+  std::vector<std::size_t> try_out(const Fitted& base, const std::vector<Score>& scores) const;
+  Named fit(const Fitted& base, const Score& score) const;
+  void judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
+
+  const ModelFit &train_, &test_;
+  const Judge &train_judge_, &test_judge_;
+  const std::vector<Candidate>& candidates_;
+  std::uint64_t seed_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob

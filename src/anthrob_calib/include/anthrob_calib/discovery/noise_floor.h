@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/discovery/evaluator.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// How exactly one quantity of one place can be known, averaged over a bin.
+struct ChannelScale {
+  std::string unit;
+  double floor = 0.0;      ///< scatter of repeats, or of neighbouring bins where there are none
+  double numerics = 0.0;   ///< difference to a simulation with half the step
+  double inflation = 1.0;  ///< bins that count as one, because their noise is correlated; >= 1
+
+  double sigma() const;
+};
+
+/// By Channel::name().
+using Scales = std::map<std::string, ChannelScale>;
+using Experiments = std::vector<std::shared_ptr<const Experiment>>;
+
+/// Floors of all channels. With repeats: rms difference of repeats / sqrt 2. Without: a robust
+/// estimate from the third differences of neighbouring bins, which sees white noise only.
+/// @param repeats further runs of the commands of train.front(), may be empty
+/// @throws BadInput if a repeat cannot be laid over the first recording
+Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
+                      const Experiments& repeats);
+
+/// Factors that turn differences into numbers of standard deviations; 0 where nothing was measured.
+/// @param independent divides by the square root of ChannelScale::inflation too, so that squares
+/// can be summed as if all bins were independent
+Eigen::VectorXf whitener(const Experiments& experiments, const Scales& scales, bool independent);
+
+/// 1 + twice the sum of the autocorrelations of a series, up to where they vanish.
+double correlation_length(const Eigen::VectorXf& series);
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,131 @@
+#include "anthrob_calib/discovery/axis_experiment.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// Position and velocity at `time` by a parabola through the samples around it.
+std::pair<double, double> motion_at(const Series& series, double time, double half_width) {
+  const auto first = std::lower_bound(series.t.begin(), series.t.end(), time - half_width);
+  const auto last = std::upper_bound(series.t.begin(), series.t.end(), time + half_width);
+  auto from = first - series.t.begin(), to = last - series.t.begin();
+  const auto size = static_cast<std::ptrdiff_t>(series.t.size());
+  while (to - from < 4 && (from > 0 || to < size)) {
+    if (from > 0) --from;
+    if (to < size) ++to;
+  }
+  Eigen::MatrixXd basis(to - from, 3);
+  Eigen::VectorXd values(to - from);
+  // From the first value on, so that a small motion far from zero keeps its digits.
+  const double origin = series.values[static_cast<std::size_t>(from)];
+  for (auto i = from; i < to; ++i) {
+    const double dt = series.t[static_cast<std::size_t>(i)] - time;
+    basis.row(i - from) << 1.0, dt, dt * dt;
+    values[i - from] = series.values[static_cast<std::size_t>(i)] - origin;
+  }
+  const Eigen::VectorXd parabola = basis.colPivHouseholderQr().solve(values);
+  return {origin + parabola[0], parabola[1]};
+}
+
+}  // namespace
+
+AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording,
+                               const ExperimentOptions& options)
+    : step_(model.step) {
+  name_ = recording.folder;
+  steps_per_bin_ = static_cast<std::size_t>(std::lround(options.bin / step_));
+  bin_ = static_cast<double>(steps_per_bin_) * step_;
+  const auto& joints = model.skeleton->joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const std::string& name = joints[j].name;
+    const Series position = recording.series(name + "/position");
+    if (!joints[j].driven) continue;
+    if (position.empty()) {
+      throw BadInput(recording.folder + ": column '" + name +
+                     "/position' is missing: expected the measured motion of a driven joint");
+    }
+    if (duration_ == 0.0) {
+      duration_ = seconds(recording.end() - recording.begin());
+      bins_ = static_cast<std::size_t>(std::floor(duration_ / bin_ + 1e-9));
+    }
+    Axis axis{static_cast<int>(j),
+              {},
+              {},
+              {},
+              recording.series(name + "/effort"),
+              recording.series(name + "/load")};
+    if (axis.effort.empty()) {
+      throw BadInput(recording.folder + ": column '" + name +
+                     "/effort' is missing: expected the effort that drives the joint");
+    }
+    for (std::size_t edge = 0; edge <= bins_; ++edge) {
+      const auto [q, u] = motion_at(position, static_cast<double>(edge) * bin_, kSmoothing);
+      axis.position.push_back(q);
+      axis.velocity.push_back(u);
+    }
+    const bool hinge = joints[j].type == JointType::kHinge;
+    channels_.push_back({name, "effort", hinge ? "Nm" : "N", 0, present_.size(), bins_});
+    present_.insert(present_.end(), bins_, 1);
+    axes_.push_back(std::move(axis));
+  }
+  if (bins_ < 10) {
+    throw BadInput(recording.folder + ": too short: expected at least ten bins of " +
+                   std::to_string(bin_) + " s");
+  }
+  Simulation sim(std::make_shared<RobotModel>(model));
+  for (std::size_t b = 0; b < bins_; ++b) {
+    place(sim, b);
+    sim.step();
+    for (Axis& axis : axes_) {
+      const int dof = joints[static_cast<std::size_t>(axis.joint)].velocity_offset;
+      axis.inertia.push_back(sim.tree().mass_matrix()(dof, dof));
+    }
+  }
+}
+
+void AxisExperiment::place(Simulation& sim, std::size_t edge) const {
+  const SkeletonModel& skeleton = *sim.model().skeleton;
+  std::vector<double> u(static_cast<std::size_t>(skeleton.velocity_count), 0.0);
+  Snapshot snapshot = sim.snapshot();
+  for (const Axis& axis : axes_) {
+    const JointModel& joint = skeleton.joints[static_cast<std::size_t>(axis.joint)];
+    snapshot.q[static_cast<std::size_t>(joint.position_offset)] = axis.position[edge];
+    u[static_cast<std::size_t>(joint.velocity_offset)] = axis.velocity[edge];
+  }
+  sim.tree().place(snapshot.q, u, snapshot.bodies);
+  sim.restore(snapshot);
+}
+
+void AxisExperiment::compare(const std::shared_ptr<const RobotModel>& model, float* out) const {
+  Simulation sim(model);
+  const auto split = static_cast<std::size_t>(std::lround(step_ / model->step));
+  const auto steps = steps_per_bin_ * split;
+  for (std::size_t b = 0; b < bins_; ++b) {
+    place(sim, b);
+    for (std::size_t s = 0; s < steps; ++s) {
+      const double time = (static_cast<double>(b * steps + s)) * model->step + 1e-9;
+      for (const Axis& axis : axes_) {
+        sim.apply_effort(axis.joint, axis.effort.held_at(time));
+        if (!axis.load.empty()) sim.apply_load(axis.joint, axis.load.held_at(time));
+      }
+      sim.step();
+    }
+    for (std::size_t a = 0; a < axes_.size(); ++a) {
+      const Axis& axis = axes_[a];
+      const int dof = model->skeleton->joints[static_cast<std::size_t>(axis.joint)].velocity_offset;
+      const double error =
+          sim.tree().velocities()[static_cast<std::size_t>(dof)] - axis.velocity[b + 1];
+      out[channels_[a].offset + b] = static_cast<float>(error * axis.inertia[b] / bin_);
+    }
+  }
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,102 @@
+#include "anthrob_calib/discovery/bootstrap.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_calib/discovery/judge.h"
+#include "anthrob_sim/core/random.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// Normal equations of one block of time.
+struct Block {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+};
+
+std::vector<Block> blocks_of(const Fitted& fitted, const Experiments& experiments) {
+  const auto n = fitted.sensitivity.cols();
+  std::vector<Block> blocks;
+  std::size_t offset = 0;
+  for (const auto& experiment : experiments) {
+    const std::size_t per_block =
+        std::max<std::size_t>(1, static_cast<std::size_t>(Judge::kBlock / experiment->bin()));
+    const std::size_t bins = experiment->channels().front().count;
+    for (std::size_t from = 0; from < bins; from += per_block) {
+      Block block{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+      for (const Channel& channel : experiment->channels()) {
+        const std::size_t count =
+            std::min(per_block, channel.count - std::min(from, channel.count));
+        if (count == 0) continue;
+        const auto at = static_cast<Eigen::Index>(offset + channel.offset + from);
+        const auto rows = static_cast<Eigen::Index>(count);
+        const auto J = fitted.sensitivity.middleRows(at, rows);
+        block.information += (J.transpose() * J).cast<double>();
+        block.gradient += (J.transpose() * fitted.residual.segment(at, rows)).cast<double>();
+      }
+      blocks.push_back(std::move(block));
+    }
+    offset += experiment->size();
+  }
+  return blocks;
+}
+
+}  // namespace
+
+std::vector<std::pair<double, double>> bootstrap_intervals(const Fitted& fitted,
+                                                           const Experiments& experiments,
+                                                           std::uint64_t seed) {
+  constexpr int kDraws = 400;
+  const auto blocks = blocks_of(fitted, experiments);
+  const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
+  const Eigen::VectorXd x = fitted.scaled(), precision = fitted.precision();
+  const Eigen::VectorXd prior = precision.cwiseProduct(x - fitted.expected());
+  Eigen::VectorXd lower(n), upper(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
+    lower[i] = std::min(0.0, u.lower / u.scale - x[i]);
+    upper[i] = std::max(0.0, u.upper / u.scale - x[i]);
+  }
+  const CounterRandom random(seed, 78);
+  std::uint64_t index = 0;
+  std::vector<std::vector<double>> draws(static_cast<std::size_t>(n));
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd gradient = prior;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto pick = std::min(
+          blocks.size() - 1,
+          static_cast<std::size_t>(random.uniform(index++) * static_cast<double>(blocks.size())));
+      information += blocks[pick].information;
+      gradient += blocks[pick].gradient;
+    }
+    information.diagonal() += precision;
+    information.diagonal().array() += 1e-9 * (1.0 + information.diagonal().maxCoeff());
+    const Eigen::VectorXd step = bounded_minimum(information, gradient, lower, upper);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      draws[static_cast<std::size_t>(i)].push_back(
+          (x[i] + step[i]) * fitted.unknowns[static_cast<std::size_t>(i)].scale);
+    }
+  }
+  std::vector<std::pair<double, double>> intervals;
+  // Resampling blocks underrates the spread of few blocks by the usual factor.
+  const auto count = static_cast<double>(blocks.size());
+  const double widen = std::sqrt(count / std::max(1.0, count - 1.0));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    auto& values = draws[static_cast<std::size_t>(i)];
+    std::sort(values.begin(), values.end());
+    const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
+    const double at = x[i] * u.scale;
+    intervals.emplace_back(
+        std::max(u.lower, at + widen * (values[static_cast<std::size_t>(0.025 * kDraws)] - at)),
+        std::min(u.upper, at + widen * (values[static_cast<std::size_t>(0.975 * kDraws)] - at)));
+  }
+  return intervals;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

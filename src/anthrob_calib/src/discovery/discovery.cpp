@@ -1,0 +1,234 @@
+#include "anthrob_calib/discovery/discovery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "anthrob_calib/discovery/bootstrap.h"
+#include "anthrob_calib/discovery/naming.h"
+#include "anthrob_calib/discovery/preparation.h"
+#include "anthrob_calib/discovery/screening.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// What an effect must do to be named. Judged on data it was not fitted to.
+constexpr double kEvidence = 3.0;        ///< [nat] beyond the logarithm of the number of candidates
+constexpr double kSignificance = 3.0;    ///< standard errors over blocks
+constexpr double kShareOfPresent = 0.1;  ///< of the squared gap above the floor
+constexpr double kShareOfFirst = 0.03;
+/// A gap is one only beyond what a wrong estimate of the noise may look like.
+constexpr double kRealGap = 1.3;
+constexpr int kRecalibrations = 8;
+constexpr std::size_t kRenewed =
+    60;                              ///< candidates whose doses are simulated again in later rounds
+constexpr double kMentioned = 0.02;  ///< least probability of a rival
+
+double excess(double gap) {
+  return std::max(0.0, gap * gap - 1.0);
+}
+
+class Search {
+ public:
+  Search(const Evaluator& evaluator, const Question& question)
+      : evaluator_(evaluator),
+        question_(question),
+        laboratory_(prepare(evaluator, question)),
+        scales_(measure_scales(evaluator, laboratory_.train, laboratory_.repeats)),
+        train_(evaluator, laboratory_.train, whitener(laboratory_.train, scales_, true)),
+        test_(evaluator, laboratory_.test, whitener(laboratory_.test, scales_, true)),
+        train_judge_(laboratory_.train, train_.whitening()),
+        test_judge_(laboratory_.test, test_.whitening()),
+        candidates_(list_candidates(evaluator, question.effects)),
+        naming_(train_, test_, train_judge_, test_judge_, candidates_, question.seed) {}
+
+  Answer answer() {
+    Answer answer;
+    answer.scales = scales_;
+    recalibrate(answer);
+    stage("screening " + std::to_string(candidates_.size()) + " candidates", -1);
+    Screening screening(train_, base_, candidates_);
+    std::vector<Score> scores = screening.scores(base_);
+    list_invisible(scores, answer);
+    for (int round = 0; round < question_.max_effects; ++round) {
+      if (round > 0) {
+        stage("screening", round);
+        screening.renew(base_, screening.scores(base_), kRenewed);
+        scores = screening.scores(base_);
+      }
+      scores.erase(std::remove_if(scores.begin(), scores.end(),
+                                  [&](const Score& s) { return named_.count(s.candidate) > 0; }),
+                   scores.end());
+      stage("fitting the short list", round);
+      const ShortList list = naming_.weigh(base_, base_test_, scores);
+      if (getenv("DD")) {
+        for (std::size_t i = 0; i < scores.size() && i < 12; ++i)
+          fprintf(stderr, "  screen %s gain %.1f amount %.2f +- %.3f\n",
+                  candidates_[scores[i].candidate].name().c_str(), scores[i].gain,
+                  scores[i].amount[0], scores[i].uncertainty);
+        fprintf(stderr, "  base cost %.1f test gap %.3f train gap %.3f none %.3f\n", base_.cost,
+                test_judge_.gap(base_test_), train_judge_.gap(base_.residual), list.none);
+        for (const Named& n : list.named) {
+          fprintf(stderr, "  fit %s p %.3f ev %.1f sig %.1f cost %.1f test gap %.3f:",
+                  candidates_[n.candidate].name().c_str(), n.probability, n.evidence,
+                  n.significance, n.fit.cost, test_judge_.gap(n.test));
+          for (auto& [k, v] : n.fit.variant.effects.back().parameters)
+            fprintf(stderr, " %s=%g", k.c_str(), v);
+          fprintf(stderr, "\n");
+        }
+        for (auto& [k, g] : test_judge_.channel_gaps(base_test_))
+          fprintf(stderr, "   %s %.2f\n", k.c_str(), g);
+      }
+      if (list.named.empty() || !earns_its_place(list)) break;
+      accept(list, answer);
+      if (test_judge_.gap(base_test_) < kRealGap && train_judge_.gap(base_.residual) < kRealGap)
+        break;
+    }
+    conclude(answer);
+    return answer;
+  }
+
+ private:
+  void stage(const std::string& what, int round) {
+    const std::string title =
+        round < 0 ? what : "effect " + std::to_string(round + 1) + ": " + what;
+    if (question_.progress && !question_.progress(title, -1.0)) throw Interrupted();
+  }
+
+  void recalibrate(Answer& answer) {
+    stage("fitting ordinary parameters", -1);
+    answer.given.nuisances = evaluator_.initial_nuisances();
+    base_ = train_.start(answer.given, nuisance_unknowns(evaluator_));
+    given_train_ = base_.residual;
+    given_test_ = test_.residual(answer.given);
+    train_.improve(base_, kRecalibrations);
+    base_test_ = test_.residual(base_.variant);
+    if (given_test_.size() == 0 || base_test_.size() == 0) {
+      throw std::runtime_error("the model cannot be simulated along the held-out recordings");
+    }
+    answer.recalibrated = base_.variant;
+    recalibrated_train_ = base_.residual;
+    recalibrated_test_ = base_test_;
+    first_excess_ = excess(test_judge_.gap(base_test_));
+  }
+
+  bool earns_its_place(const ShortList& list) const {
+    const Named& best = list.named.front();
+    const double before = test_judge_.gap(base_test_), after = test_judge_.gap(best.test);
+    const double gained = before * before - after * after;
+    return best.probability > list.none &&
+           best.evidence > kEvidence + std::log(static_cast<double>(candidates_.size())) &&
+           best.significance > kSignificance && gained > kShareOfPresent * excess(before) &&
+           gained > kShareOfFirst * first_excess_;
+  }
+
+  std::vector<FoundParameter> parameters_of(const Named& named, bool intervals) const {
+    const Candidate& candidate = candidates_[named.candidate];
+    const auto& effect = named.fit.variant.effects.back();
+    std::vector<std::pair<double, double>> ranges;
+    if (intervals) ranges = bootstrap_intervals(named.fit, train_.experiments(), question_.seed);
+    std::vector<FoundParameter> found;
+    for (const EffectParameter& p : candidate.parameters) {
+      FoundParameter parameter{p.name, p.unit, effect.parameters.at(p.name), 0.0, 0.0};
+      parameter.low = parameter.high = parameter.value;
+      for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const Unknown& u = named.fit.unknowns[i];
+        if (u.effect == static_cast<int>(named.fit.variant.effects.size()) - 1 &&
+            u.parameter == p.name) {
+          parameter.low = ranges[i].first;
+          parameter.high = ranges[i].second;
+        }
+      }
+      found.push_back(parameter);
+    }
+    return found;
+  }
+
+  void accept(const ShortList& list, Answer& answer) {
+    const Named& best = list.named.front();
+    const Candidate& candidate = candidates_[best.candidate];
+    FoundEffect effect;
+    effect.id = candidate.effect->info().id;
+    effect.name = candidate.effect->info().name;
+    effect.place = candidate.place;
+    effect.probability = best.probability;
+    effect.evidence = best.evidence;
+    effect.parameters = parameters_of(best, true);
+    for (std::size_t i = 1; i < list.named.size(); ++i) {
+      const Named& other = list.named[i];
+      if (other.probability < kMentioned) continue;
+      const Candidate& rival = candidates_[other.candidate];
+      effect.rivals.push_back({rival.effect->info().id, rival.place, other.probability,
+                               other.evidence, parameters_of(other, false)});
+    }
+    answer.effects.push_back(std::move(effect));
+    base_ = best.fit;
+    base_test_ = best.test;
+    named_.insert(best.candidate);
+  }
+
+  void list_invisible(const std::vector<Score>& scores, Answer& answer) const {
+    const double needed = kEvidence + std::log(static_cast<double>(candidates_.size()));
+    const double held_out = static_cast<double>(test_judge_.block_count()) /
+                            static_cast<double>(train_judge_.block_count());
+    for (const Score& score : scores) {
+      const Candidate& candidate = candidates_[score.candidate];
+      const EffectParameter& size = *candidate.sizes().front();
+      const double dose = std::abs(size.typical - size.neutral);
+      const double smallest = score.uncertainty * std::sqrt(2.0 * needed / held_out) * dose;
+      const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
+      if (smallest > largest || smallest > 5.0 * dose) {
+        answer.not_visible.push_back(
+            {candidate.effect->info().id, candidate.place, size.unit, smallest});
+      }
+    }
+  }
+
+  Gap gap_of(const Judge& judge, const Eigen::VectorXf& given, const Eigen::VectorXf& recalibrated,
+             const Eigen::VectorXf& after) const {
+    return {judge.gap(given), judge.gap(recalibrated), judge.gap(after), 1.0};
+  }
+
+  void conclude(Answer& answer) {
+    answer.extended = base_.variant;
+    answer.train = gap_of(train_judge_, given_train_, recalibrated_train_, base_.residual);
+    answer.test = gap_of(test_judge_, given_test_, recalibrated_test_, base_test_);
+    const auto given = test_judge_.channel_gaps(given_test_),
+               recalibrated = test_judge_.channel_gaps(recalibrated_test_),
+               after = test_judge_.channel_gaps(base_test_);
+    for (const auto& [name, value] : given) {
+      answer.per_channel[name] = {value, recalibrated.at(name), after.at(name), 1.0};
+    }
+    const double whole = excess(answer.test.recalibrated);
+    answer.remaining_share = whole > 0.0 ? excess(answer.test.after) / whole : 0.0;
+    if (!answer.effects.empty()) {
+      answer.verdict = "effects_found";
+    } else {
+      answer.verdict = answer.test.recalibrated > kRealGap ? "unexplained" : "no_missing_effect";
+    }
+  }
+
+  const Evaluator& evaluator_;
+  const Question& question_;
+  Laboratory laboratory_;
+  Scales scales_;
+  ModelFit train_, test_;
+  Judge train_judge_, test_judge_;
+  std::vector<Candidate> candidates_;
+  Naming naming_;
+  Fitted base_;
+  Eigen::VectorXf base_test_, given_train_, given_test_, recalibrated_train_, recalibrated_test_;
+  std::set<std::size_t> named_;  ///< candidates that are in the model now
+  double first_excess_ = 0.0;
+};
+
+}  // namespace
+
+Answer discover(const Evaluator& evaluator, const Question& question) {
+  return Search(evaluator, question).answer();
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,99 @@
+#include "anthrob_calib/discovery/evaluator.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// Sensors as the model has them, but without chance: what remains is what can be predicted.
+std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const RobotModel>& model) {
+  auto quiet = std::make_shared<RobotModel>(*model);
+  SensorsModel& sensors = quiet->sensors;
+  for (SensorModel* sensor : {&sensors.position, &sensors.velocity, &sensors.current,
+                              &sensors.force, &sensors.joint_position}) {
+    sensor->noise = 0.0;
+    sensor->quantum = 0.0;
+  }
+  return quiet;
+}
+
+}  // namespace
+
+Evaluator::Evaluator(const std::string& model_file, std::vector<ModelParameter> nuisances,
+                     double step, int jobs)
+    : config_(ConfigNode::load(model_file)),
+      nuisances_(std::move(nuisances)),
+      step_(step),
+      jobs_(jobs) {
+  plain_ = build({});
+}
+
+std::vector<double> Evaluator::initial_nuisances() const {
+  std::vector<double> values;
+  for (const ModelParameter& p : nuisances_) values.push_back(p.initial);
+  return values;
+}
+
+std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const {
+  LoadOptions options;
+  options.step = variant.step > 0.0 ? variant.step : step_;
+  if (!variant.nuisances.empty()) options.overrides = overrides_of(nuisances_, variant.nuisances);
+  options.effects = variant.effects;
+  return without_noise(build_robot_model(config_, options));
+}
+
+std::vector<Differences> Evaluator::compare(
+    const std::vector<Variant>& variants,
+    const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
+  const std::size_t size = total_size(experiments);
+  std::vector<Differences> results(variants.size());
+  std::atomic<std::size_t> done{0};
+  std::atomic<bool> stop{false};
+  std::mutex progress_mutex;
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                            static_cast<std::size_t>(jobs_));
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, variants.size(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end() && !stop; ++i) {
+          try {
+            const auto model = build(variants[i]);
+            Differences differences = Differences::Zero(static_cast<Eigen::Index>(size));
+            std::size_t offset = 0;
+            for (const auto& experiment : experiments) {
+              experiment->compare(model, differences.data() + offset);
+              offset += experiment->size();
+            }
+            if (differences.allFinite()) results[i] = std::move(differences);
+          } catch (const NumericalFailure&) {
+            // Left empty: no such robot.
+          } catch (const BadInput&) {
+          }
+          const double share = static_cast<double>(++done) / static_cast<double>(variants.size());
+          const std::lock_guard<std::mutex> lock(progress_mutex);
+          if (progress_ && !progress_(share)) stop = true;
+        }
+      },
+      tbb::simple_partitioner());
+  if (stop) throw Interrupted();
+  simulations_ += variants.size() * experiments.size();
+  return results;
+}
+
+std::size_t total_size(const std::vector<std::shared_ptr<const Experiment>>& experiments) {
+  std::size_t size = 0;
+  for (const auto& experiment : experiments) size += experiment->size();
+  return size;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,114 @@
+#include "anthrob_calib/discovery/judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_sim/core/random.h"
+
+namespace anthrob {
+namespace discovery {
+
+Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener)
+    : whitener_(whitener) {
+  std::size_t offset = 0;
+  for (const auto& experiment : experiments) {
+    for (const Channel& channel : experiment->channels()) {
+      Run run{channel.name(),
+              static_cast<Eigen::Index>(offset + channel.offset),
+              static_cast<Eigen::Index>(channel.count),
+              {}};
+      for (std::size_t b = 0; b < channel.count; ++b) {
+        run.block.push_back(blocks_ + static_cast<std::size_t>(experiment->bin_time(b) / kBlock));
+      }
+      runs_.push_back(std::move(run));
+    }
+    blocks_ += static_cast<std::size_t>(std::floor(experiment->duration() / kBlock)) + 1;
+    offset += experiment->size();
+  }
+}
+
+Eigen::MatrixXd Judge::block_scores(const std::vector<Eigen::VectorXf>& residuals,
+                                    std::size_t best) const {
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(residuals.size()),
+                                                 static_cast<Eigen::Index>(blocks_));
+  // A channel's spread is one number over all its components and recordings.
+  std::map<std::string, std::array<double, 3>> left;  // squares, bins, correlation-weighted bins
+  for (const Run& run : runs_) {
+    const Eigen::VectorXf own = residuals[best].segment(run.offset, run.count);
+    auto& sums = left[run.name];
+    const double measured =
+        static_cast<double>((whitener_.segment(run.offset, run.count).array() > 0.0f).count());
+    sums[0] += own.cast<double>().squaredNorm();
+    sums[1] += measured;
+    sums[2] += measured * correlation_length(own);
+  }
+  for (const Run& run : runs_) {
+    const auto& sums = left[run.name];
+    if (!(sums[1] > 0.0)) continue;
+    const double variance = std::max(1.0, sums[0] / sums[1]);
+    const double weight = 0.5 / (variance * std::max(1.0, sums[2] / sums[1]));
+    for (std::size_t r = 0; r < residuals.size(); ++r) {
+      for (Eigen::Index b = 0; b < run.count; ++b) {
+        const double y = residuals[r][run.offset + b];
+        scores(static_cast<Eigen::Index>(r),
+               static_cast<Eigen::Index>(run.block[static_cast<std::size_t>(b)])) -= weight * y * y;
+      }
+    }
+  }
+  return scores;
+}
+
+double Judge::gap(const Eigen::VectorXf& residual) const {
+  double sum = 0.0;
+  const auto gaps = channel_gaps(residual);
+  for (const auto& [name, value] : gaps) sum += value * value;
+  return gaps.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(gaps.size()));
+}
+
+std::map<std::string, double> Judge::channel_gaps(const Eigen::VectorXf& residual) const {
+  std::map<std::string, std::array<double, 2>> sums;
+  for (const Run& run : runs_) {
+    auto& sum = sums[run.name];
+    sum[0] += residual.segment(run.offset, run.count).cast<double>().squaredNorm();
+    sum[1] +=
+        static_cast<double>((whitener_.segment(run.offset, run.count).array() > 0.0f).count());
+  }
+  std::map<std::string, double> gaps;
+  for (const auto& [name, sum] : sums) {
+    if (sum[1] > 0.0) gaps[name] = std::sqrt(sum[0] / sum[1]);
+  }
+  return gaps;
+}
+
+std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
+                                        const std::vector<double>& handicap, std::uint64_t seed) {
+  constexpr int kDraws = 2000;
+  const Eigen::Index models = scores.rows(), blocks = scores.cols();
+  std::vector<double> probability(static_cast<std::size_t>(models), 0.0);
+  const CounterRandom random(seed, 77);
+  Eigen::VectorXd weight(blocks);
+  std::uint64_t index = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    // Dirichlet(1, ..., 1) times the number of blocks.
+    for (Eigen::Index b = 0; b < blocks; ++b) weight[b] = -std::log(random.uniform(index++));
+    weight *= static_cast<double>(blocks) / weight.sum();
+    Eigen::VectorXd total = scores * weight;
+    for (Eigen::Index m = 0; m < models; ++m) total[m] -= handicap[static_cast<std::size_t>(m)];
+    const Eigen::VectorXd share = (total.array() - total.maxCoeff()).exp();
+    for (Eigen::Index m = 0; m < models; ++m) {
+      probability[static_cast<std::size_t>(m)] += share[m] / share.sum() / kDraws;
+    }
+  }
+  return probability;
+}
+
+double block_significance(const Eigen::VectorXd& gains) {
+  const auto n = static_cast<double>(gains.size());
+  if (n < 3.0) return 0.0;
+  const double mean = gains.mean();
+  const double variance = (gains.array() - mean).square().sum() / (n - 1.0);
+  return variance > 0.0 ? mean / std::sqrt(variance / n) : 0.0;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,285 @@
+#include "anthrob_calib/discovery/model_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kDone = 3e-3;  ///< relative gain that is not worth another iteration
+
+}  // namespace
+
+double Unknown::read(const Variant& variant) const {
+  if (nuisance >= 0) return variant.nuisances[static_cast<std::size_t>(nuisance)];
+  return variant.effects[static_cast<std::size_t>(effect)].parameters.at(parameter);
+}
+
+void Unknown::write(double value, Variant& variant) const {
+  value = std::clamp(value, lower, upper);
+  if (nuisance >= 0) {
+    variant.nuisances[static_cast<std::size_t>(nuisance)] = value;
+  } else {
+    variant.effects[static_cast<std::size_t>(effect)].parameters[parameter] = value;
+  }
+}
+
+Eigen::VectorXd Fitted::scaled() const {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    x[static_cast<Eigen::Index>(i)] = unknowns[i].read(variant) / unknowns[i].scale;
+  }
+  return x;
+}
+
+Eigen::VectorXd Fitted::expected() const {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    x[static_cast<Eigen::Index>(i)] = unknowns[i].expected / unknowns[i].scale;
+  }
+  return x;
+}
+
+Eigen::VectorXd Fitted::precision() const {
+  Eigen::VectorXd p(static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const Unknown& u = unknowns[i];
+    const double sd = u.spread / u.scale;
+    p[static_cast<Eigen::Index>(i)] = u.spread > 0.0 ? 1.0 / (sd * sd) : 0.0;
+  }
+  return p;
+}
+
+std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator) {
+  std::vector<Unknown> unknowns;
+  const auto& parameters = evaluator.nuisances();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const ModelParameter& p = parameters[i];
+    Unknown u;
+    u.nuisance = static_cast<int>(i);
+    u.lower = p.lower;
+    u.upper = p.upper;
+    u.scale = p.step;
+    u.expected = p.initial;
+    // A uniform distribution over the range has this standard deviation.
+    u.spread = p.range() / std::sqrt(12.0);
+    unknowns.push_back(u);
+  }
+  return unknowns;
+}
+
+Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd& g,
+                                const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  const Eigen::Index n = g.size();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n).cwiseMax(lower).cwiseMin(upper);
+  std::vector<char> held(static_cast<std::size_t>(n), 0);
+  for (int sweep = 0; sweep < 50; ++sweep) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
+    }
+    const auto m = static_cast<Eigen::Index>(free.size());
+    Eigen::MatrixXd system(m, m);
+    Eigen::VectorXd rhs(m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Eigen::Index r = free[static_cast<std::size_t>(i)];
+      rhs[i] = -g[r];
+      for (Eigen::Index j = 0; j < n; ++j) {
+        if (held[static_cast<std::size_t>(j)]) rhs[i] -= A(r, j) * x[j];
+      }
+      for (Eigen::Index j = 0; j < m; ++j) {
+        system(i, j) = A(r, free[static_cast<std::size_t>(j)]);
+      }
+    }
+    const Eigen::VectorXd solution = m > 0 ? system.ldlt().solve(rhs).eval() : Eigen::VectorXd();
+    bool changed = false;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Eigen::Index r = free[static_cast<std::size_t>(i)];
+      x[r] = std::clamp(solution[i], lower[r], upper[r]);
+      if (x[r] != solution[i]) {
+        held[static_cast<std::size_t>(r)] = 1;
+        changed = true;
+      }
+    }
+    if (changed) continue;
+    // Let go the one that pushes inwards most.
+    const Eigen::VectorXd gradient = A * x + g;
+    Eigen::Index best = -1;
+    double strongest = 1e-9 * (1.0 + g.cwiseAbs().maxCoeff());
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!held[static_cast<std::size_t>(i)] || lower[i] == upper[i]) continue;
+      const double inwards = x[i] <= lower[i] ? -gradient[i] : gradient[i];
+      if (inwards > strongest) {
+        strongest = inwards;
+        best = i;
+      }
+    }
+    if (best < 0) break;
+    held[static_cast<std::size_t>(best)] = 0;
+  }
+  return x;
+}
+
+ModelFit ModelFit::first_recordings(double seconds) const {
+  Experiments first;
+  double length = 0.0;
+  for (const auto& experiment : experiments_) {
+    if (length >= seconds) break;
+    first.push_back(experiment);
+    length += experiment->duration();
+  }
+  const auto size = static_cast<Eigen::Index>(total_size(first));
+  return ModelFit(evaluator_, first, whitener_.head(size));
+}
+
+std::vector<Eigen::VectorXf> ModelFit::residuals(const std::vector<Variant>& variants) const {
+  auto results = evaluator_.compare(variants, experiments_);
+  for (auto& r : results) {
+    if (r.size() > 0) r.array() *= whitener_.array();
+  }
+  return results;
+}
+
+Eigen::VectorXf ModelFit::residual(const Variant& variant) const {
+  return residuals({variant}).front();
+}
+
+double ModelFit::cost_of(const Fitted& fitted, const Variant& variant,
+                         const Eigen::VectorXf& residual) const {
+  Fitted other;
+  other.variant = variant;
+  other.unknowns = fitted.unknowns;
+  const Eigen::VectorXd off = other.scaled() - other.expected();
+  return 0.5 * residual.cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(other.precision());
+}
+
+void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
+  std::vector<Variant> moved;
+  std::vector<double> size;
+  for (std::size_t i = from; i < fitted.unknowns.size(); ++i) {
+    const Unknown& u = fitted.unknowns[i];
+    const double value = u.read(fitted.variant);
+    double change = 0.5 * u.scale;
+    if (value + change > u.upper) change = -change;
+    Variant variant = fitted.variant;
+    u.write(value + change, variant);
+    size.push_back((u.read(variant) - value) / u.scale);
+    moved.push_back(std::move(variant));
+  }
+  const auto results = residuals(moved);
+  fitted.sensitivity.conservativeResize(fitted.residual.size(),
+                                        static_cast<Eigen::Index>(fitted.unknowns.size()));
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(from + i));
+    if (results[i].size() == 0 || size[i] == 0.0) {
+      column.setZero();
+    } else {
+      column = (results[i] - fitted.residual) / static_cast<float>(size[i]);
+    }
+  }
+}
+
+Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) const {
+  Fitted fitted;
+  fitted.variant = variant;
+  fitted.unknowns = std::move(unknowns);
+  fitted.residual = residual(variant);
+  if (fitted.residual.size() == 0) {
+    throw std::runtime_error("the model cannot be simulated along the recordings");
+  }
+  simulate_sensitivity(fitted, 0);
+  fitted.cost = cost_of(fitted, variant, fitted.residual);
+  return fitted;
+}
+
+Fitted ModelFit::extend(const Fitted& fitted, const Variant& variant,
+                        const std::vector<Unknown>& more) const {
+  Fitted next = fitted;
+  const std::size_t before = fitted.unknowns.size();
+  next.variant = variant;
+  next.unknowns.insert(next.unknowns.end(), more.begin(), more.end());
+  const Eigen::VectorXf at = residual(variant);
+  if (at.size() == 0) throw std::runtime_error("the variant cannot be simulated");
+  next.residual = at;
+  next.cost = cost_of(next, variant, at);
+  simulate_sensitivity(next, before);
+  return next;
+}
+
+void ModelFit::improve(Fitted& fitted, int iterations, int renew) const {
+  const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
+  if (n == 0) return;
+  std::size_t first_effect = 0;
+  while (first_effect < fitted.unknowns.size() && fitted.unknowns[first_effect].nuisance >= 0) {
+    ++first_effect;
+  }
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    const Eigen::MatrixXd information =
+        (fitted.sensitivity.transpose() * fitted.sensitivity).cast<double>();
+    const Eigen::VectorXd x = fitted.scaled(), precision = fitted.precision();
+    const Eigen::VectorXd gradient =
+        (fitted.sensitivity.transpose() * fitted.residual).cast<double>() +
+        precision.cwiseProduct(x - fitted.expected());
+    Eigen::VectorXd lower(n), upper(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
+      lower[i] = std::min(0.0, u.lower / u.scale - x[i]);
+      upper[i] = std::max(0.0, u.upper / u.scale - x[i]);
+    }
+    // Several dampings at once: they run side by side.
+    std::vector<Variant> trials;
+    std::vector<Eigen::VectorXd> steps;
+    for (const double damping : {1e-4, 1.0}) {
+      Eigen::MatrixXd system = information;
+      system.diagonal() += precision;
+      system.diagonal() += damping * information.diagonal();
+      system.diagonal().array() += 1e-9 * (1.0 + information.diagonal().maxCoeff());
+      const Eigen::VectorXd step = bounded_minimum(system, gradient, lower, upper);
+      Variant trial = fitted.variant;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
+        u.write((x[i] + step[i]) * u.scale, trial);
+      }
+      trials.push_back(std::move(trial));
+      steps.push_back(step);
+    }
+    const auto results = residuals(trials);
+    std::size_t best = trials.size();
+    double cost = fitted.cost;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (results[i].size() == 0) continue;
+      const double c = cost_of(fitted, trials[i], results[i]);
+      if (c < cost) {
+        cost = c;
+        best = i;
+      }
+    }
+    if (best == trials.size()) break;
+    const double gain = fitted.cost - cost;
+    // Broyden's update: what the step really did.
+    const Eigen::VectorXf step = steps[best].cast<float>();
+    const float length = step.squaredNorm();
+    if (length > 0.0f) {
+      const Eigen::VectorXf surprise = results[best] - fitted.residual - fitted.sensitivity * step;
+      fitted.sensitivity += surprise * (step.transpose() / length);
+    }
+    fitted.variant = trials[best];
+    fitted.residual = results[best];
+    fitted.cost = cost;
+    const bool done = gain < kDone * cost;
+    if (renew > 0 && !done) {
+      --renew;
+      simulate_sensitivity(fitted, 0);
+    } else if (!done && iteration == 0 && first_effect < fitted.unknowns.size()) {
+      simulate_sensitivity(fitted, first_effect);
+    }
+    if (done) break;
+  }
+}
+
+}  // namespace discovery
+}  // namespace anthrob

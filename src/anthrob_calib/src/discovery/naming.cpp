@@ -1,0 +1,199 @@
+#include "anthrob_calib/discovery/naming.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// Nothing larger is believed: bounds may be infinite.
+constexpr double kLargest = 100.0;   // [doses]
+constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
+constexpr int kIterations = 6;
+
+std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstance& start,
+                                 int effect) {
+  std::vector<Unknown> unknowns;
+  for (const EffectParameter& p : candidate.parameters) {
+    if (p.kind == EffectParameter::kGiven) continue;
+    const double value = start.parameters.at(p.name);
+    const double dose = std::abs(p.typical - (p.kind == EffectParameter::kSize ? p.neutral : 0.0));
+    Unknown u;
+    u.effect = effect;
+    u.parameter = p.name;
+    u.lower = std::max(p.bounds.lo, value - kLargest * dose);
+    u.upper = std::min(p.bounds.hi, value + kLargest * dose);
+    if (p.bounds.lo_open) u.lower += 1e-3 * dose;
+    if (p.bounds.hi_open) u.upper -= 1e-3 * dose;
+    if (p.kind == EffectParameter::kSize) {
+      u.scale = std::max(0.2 * std::abs(value - p.neutral), 0.03 * dose);
+    } else {
+      u.scale = 0.3 * dose;
+      u.expected = p.typical;
+      u.spread = 1.5 * dose;
+    }
+    unknowns.push_back(u);
+  }
+  return unknowns;
+}
+
+}  // namespace
+
+EffectInstance Naming::sized(const Candidate& candidate, const std::vector<double>& amount) const {
+  EffectInstance instance = candidate.neutral();
+  const auto sizes = candidate.sizes();
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const EffectParameter& p = *sizes[i];
+    const double value = p.neutral + amount[i] * (p.typical - p.neutral);
+    const double inside = 1e-3 * std::abs(p.typical - p.neutral);
+    instance.parameters[p.name] = std::clamp(value, p.bounds.lo + (p.bounds.lo_open ? inside : 0.0),
+                                             p.bounds.hi - (p.bounds.hi_open ? inside : 0.0));
+  }
+  return instance;
+}
+
+std::vector<std::size_t> Naming::try_out(const Fitted& base,
+                                         const std::vector<Score>& scores) const {
+  // A dose says little about a size ten times smaller or larger where an effect is not linear, so
+  // several sizes around the suggested one are simulated, ordinary parameters as they are, and the
+  // part that these can take up is taken off afterwards by the fit.
+  std::vector<Variant> variants;
+  std::vector<std::size_t> owner;
+  for (std::size_t s = 0; s < scores.size() && s < kTried; ++s) {
+    if (!(scores[s].gain > 0.0)) break;
+    for (const double factor : {0.5, 1.0}) {
+      std::vector<double> amount = scores[s].amount;
+      for (double& a : amount) a *= factor;
+      Variant variant = base.variant;
+      variant.effects.push_back(sized(candidates_[scores[s].candidate], amount));
+      variants.push_back(std::move(variant));
+      owner.push_back(s);
+    }
+  }
+  const auto residuals = train_.residuals(variants);
+
+  // What is left after the ordinary parameters have done what they can, in linear approximation.
+  const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
+  Eigen::MatrixXd A = (base.sensitivity.transpose() * base.sensitivity).cast<double>();
+  A.diagonal() += precision;
+  A.diagonal().array() += 1e-9 * (1.0 + A.diagonal().maxCoeff());
+  const Eigen::VectorXd x = base.scaled();
+  Eigen::VectorXd lower(x.size()), upper(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Unknown& u = base.unknowns[static_cast<std::size_t>(i)];
+    lower[i] = std::min(0.0, u.lower / u.scale - x[i]);
+    upper[i] = std::max(0.0, u.upper / u.scale - x[i]);
+  }
+  std::vector<double> left(scores.size(), base.cost);
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (residuals[i].size() == 0) continue;
+    const Eigen::VectorXd g =
+        (base.sensitivity.transpose() * residuals[i]).cast<double>() + precision.cwiseProduct(off);
+    double cost =
+        0.5 * residuals[i].cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(precision);
+    if (x.size() > 0) {
+      const Eigen::VectorXd step = bounded_minimum(A, g, lower, upper);
+      cost += 0.5 * step.dot(A * step) + g.dot(step);
+    }
+    left[owner[i]] = std::min(left[owner[i]], cost);
+  }
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < scores.size() && s < kTried; ++s) {
+    if (scores[s].gain > 0.0) order.push_back(s);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return left[a] < left[b]; });
+  if (order.size() > kFitted) order.resize(kFitted);
+  return order;
+}
+
+Named Naming::fit(const Fitted& base, const Score& score) const {
+  const Candidate& candidate = candidates_[score.candidate];
+  Variant variant = base.variant;
+  const EffectInstance start = sized(candidate, score.amount);
+  variant.effects.push_back(start);
+  Fitted from = base;
+  for (const int nuisance : candidate.same_as) {
+    for (Unknown& u : from.unknowns) {
+      if (u.nuisance != nuisance) continue;
+      u.lower = u.upper = u.expected;
+      u.write(u.expected, variant);
+    }
+  }
+  Named named;
+  named.candidate = score.candidate;
+  named.fit = train_.extend(
+      from, variant, unknowns_of(candidate, start, static_cast<int>(variant.effects.size()) - 1));
+  train_.improve(named.fit, kFirstIterations);
+  return named;
+}
+
+void Naming::judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const {
+  std::vector<Eigen::VectorXf> train = {base.residual}, test = {base_test};
+  for (const Named& named : list.named) {
+    train.push_back(named.fit.residual);
+    test.push_back(named.test);
+  }
+  std::size_t best = 0;
+  double least = train[0].squaredNorm() + test[0].squaredNorm();
+  for (std::size_t i = 1; i < train.size(); ++i) {
+    const double size = train[i].squaredNorm() + test[i].squaredNorm();
+    if (size < least) {
+      least = size;
+      best = i;
+    }
+  }
+  const Eigen::MatrixXd on_train = train_judge_.block_scores(train, best);
+  const Eigen::MatrixXd on_test = test_judge_.block_scores(test, best);
+  Eigen::MatrixXd all(on_train.rows(), on_train.cols() + on_test.cols());
+  all << on_train, on_test;
+
+  // Each unknown costs half a log of the number of blocks; having looked at many candidates costs
+  // the logarithm of their number.
+  std::vector<double> handicap = {0.0};
+  for (const Named& named : list.named) {
+    const auto more = static_cast<double>(named.fit.unknowns.size() - base.unknowns.size());
+    handicap.push_back(0.5 * more * std::log(static_cast<double>(all.cols())) +
+                       std::log(static_cast<double>(candidates_.size())));
+  }
+  const std::vector<double> probability = model_probabilities(all, handicap, seed_);
+  list.none = probability[0];
+  for (std::size_t i = 0; i < list.named.size(); ++i) {
+    Named& named = list.named[i];
+    const auto row = static_cast<Eigen::Index>(i + 1);
+    named.evidence = (on_test.row(row) - on_test.row(0)).sum();
+    named.significance = block_significance((all.row(row) - all.row(0)).transpose());
+    named.probability = probability[i + 1];
+  }
+  std::stable_sort(list.named.begin(), list.named.end(),
+                   [](const Named& a, const Named& b) { return a.probability > b.probability; });
+}
+
+ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
+                        const std::vector<Score>& scores) const {
+  ShortList list;
+  for (const std::size_t s : try_out(base, scores)) {
+    try {
+      list.named.push_back(fit(base, scores[s]));
+    } catch (const std::runtime_error&) {
+      // Cannot be simulated at that size: not this one.
+    }
+  }
+  std::stable_sort(list.named.begin(), list.named.end(),
+                   [](const Named& a, const Named& b) { return a.fit.cost < b.fit.cost; });
+  if (list.named.size() > kJudged) list.named.resize(kJudged);
+  for (Named& named : list.named) {
+    train_.improve(named.fit, kIterations);
+    named.test = test_.residual(named.fit.variant);
+  }
+  list.named.erase(std::remove_if(list.named.begin(), list.named.end(),
+                                  [](const Named& named) { return named.test.size() == 0; }),
+                   list.named.end());
+  judge(base, base_test, list);
+  return list;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

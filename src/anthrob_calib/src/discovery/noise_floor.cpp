@@ -1,0 +1,173 @@
+#include "anthrob_calib/discovery/noise_floor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// Sums of squares of a channel, over its components and experiments.
+struct Moments {
+  double squares = 0.0;
+  double count = 0.0;
+  double rms() const { return count > 0.0 ? std::sqrt(squares / count) : 0.0; }
+};
+
+template <typename Visit>
+void for_each_channel(const Experiments& experiments, Visit visit) {
+  std::size_t offset = 0;
+  for (const auto& experiment : experiments) {
+    for (const Channel& channel : experiment->channels()) {
+      visit(*experiment, channel, static_cast<Eigen::Index>(offset + channel.offset));
+    }
+    offset += experiment->size();
+  }
+}
+
+/// Values of a channel where it was measured.
+Eigen::VectorXf measured(const Experiment& experiment, const Channel& channel,
+                         const Eigen::VectorXf& values, Eigen::Index offset) {
+  std::vector<float> found;
+  for (std::size_t b = 0; b < channel.count; ++b) {
+    if (experiment.present()[channel.offset + b]) {
+      found.push_back(values[offset + static_cast<Eigen::Index>(b)]);
+    }
+  }
+  return Eigen::Map<Eigen::VectorXf>(found.data(), static_cast<Eigen::Index>(found.size()));
+}
+
+/// Standard deviation of white noise on a smooth series.
+double white_noise(const Eigen::VectorXf& series) {
+  std::vector<double> third;
+  for (Eigen::Index i = 3; i < series.size(); ++i) {
+    third.push_back(
+        std::abs(double(series[i]) - 3.0 * series[i - 1] + 3.0 * series[i - 2] - series[i - 3]));
+  }
+  if (third.empty()) return 0.0;
+  const auto middle = third.begin() + static_cast<std::ptrdiff_t>(third.size() / 2);
+  std::nth_element(third.begin(), middle, third.end());
+  return 1.4826 * *middle / std::sqrt(20.0);
+}
+
+void from_repeats(const Evaluator& evaluator, const Experiments& train, const Experiments& repeats,
+                  Scales& scales) {
+  const Experiment& first = *train.front();
+  const Variant given{};
+  const Differences base = evaluator.compare({given}, {train.front()}).front();
+  std::map<std::string, Moments> moments;
+  std::map<std::string, std::vector<double>> lengths;
+  for (const auto& repeat : repeats) {
+    const Differences other = evaluator.compare({given}, {repeat}).front();
+    if (repeat->channels().size() != first.channels().size()) {
+      throw BadInput(repeat->name() + ": expected the channels of " + first.name() +
+                     ", whose commands it repeats");
+    }
+    for (std::size_t c = 0; c < first.channels().size(); ++c) {
+      const Channel &a = first.channels()[c], &b = repeat->channels()[c];
+      if (a.name() != b.name()) {
+        throw BadInput(repeat->name() + ": expected the channels of " + first.name() +
+                       ", whose commands it repeats");
+      }
+      const auto count = static_cast<Eigen::Index>(std::min(a.count, b.count));
+      Eigen::VectorXf both = Eigen::VectorXf::Zero(count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (!first.present()[a.offset + k] || !repeat->present()[b.offset + k]) continue;
+        both[i] = (base[static_cast<Eigen::Index>(a.offset) + i] -
+                   other[static_cast<Eigen::Index>(b.offset) + i]) /
+                  std::sqrt(2.0f);
+        moments[a.name()].squares += double(both[i]) * both[i];
+        moments[a.name()].count += 1.0;
+      }
+      lengths[a.name()].push_back(correlation_length(both));
+    }
+  }
+  for (auto& [name, scale] : scales) {
+    if (!moments.count(name)) continue;
+    scale.floor = moments[name].rms();
+    double mean = 0.0;
+    for (const double length : lengths[name]) mean += length;
+    scale.inflation = std::max(1.0, mean / static_cast<double>(lengths[name].size()));
+  }
+}
+
+}  // namespace
+
+double ChannelScale::sigma() const {
+  return std::hypot(floor, numerics);
+}
+
+double correlation_length(const Eigen::VectorXf& series) {
+  const auto n = series.size();
+  if (n < 8) return 1.0;
+  const Eigen::VectorXd centred = (series.array() - series.mean()).cast<double>();
+  const double variance = centred.squaredNorm();
+  if (!(variance > 0.0)) return 1.0;
+  double length = 1.0;
+  for (Eigen::Index lag = 1; lag < n / 4; ++lag) {
+    const double r = centred.head(n - lag).dot(centred.tail(n - lag)) / variance;
+    if (r < 2.0 / std::sqrt(static_cast<double>(n))) break;
+    length += 2.0 * r;
+  }
+  return length;
+}
+
+Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
+                      const Experiments& repeats) {
+  Variant half{};
+  half.step = 0.5 * evaluator.model()->step;
+  const auto both = evaluator.compare({Variant{}, half}, train);
+  if (both[0].size() == 0) {
+    throw std::runtime_error(
+        "the given model cannot be simulated along the recordings: replay them with anthrob_replay "
+        "to see where it fails");
+  }
+  Scales scales;
+  std::map<std::string, Moments> numerics, noise;
+  for_each_channel(
+      train, [&](const Experiment& experiment, const Channel& channel, Eigen::Index offset) {
+        scales[channel.name()].unit = channel.unit;
+        const auto own = measured(experiment, channel, both[0], offset);
+        const double sigma = white_noise(own);
+        noise[channel.name()].squares += sigma * sigma * static_cast<double>(own.size());
+        noise[channel.name()].count += static_cast<double>(own.size());
+        if (both[1].size() == 0) return;
+        const auto finer = measured(experiment, channel, both[1], offset);
+        numerics[channel.name()].squares += (finer - own).cast<double>().squaredNorm();
+        numerics[channel.name()].count += static_cast<double>(own.size());
+      });
+  for (auto& [name, scale] : scales) {
+    scale.numerics = numerics[name].rms();
+    scale.floor = noise[name].rms();
+  }
+  if (!repeats.empty()) from_repeats(evaluator, train, repeats, scales);
+  for (auto& [name, scale] : scales) {
+    if (!(scale.sigma() > 0.0)) scale.floor = 1e-9;
+  }
+  return scales;
+}
+
+Eigen::VectorXf whitener(const Experiments& experiments, const Scales& scales, bool independent) {
+  Eigen::VectorXf factors =
+      Eigen::VectorXf::Zero(static_cast<Eigen::Index>(total_size(experiments)));
+  for_each_channel(experiments, [&](const Experiment& experiment, const Channel& channel,
+                                    Eigen::Index offset) {
+    const auto found = scales.find(channel.name());
+    if (found == scales.end()) return;
+    const ChannelScale& scale = found->second;
+    const double factor = 1.0 / (scale.sigma() * (independent ? std::sqrt(scale.inflation) : 1.0));
+    for (std::size_t b = 0; b < channel.count; ++b) {
+      if (experiment.present()[channel.offset + b]) {
+        factors[offset + static_cast<Eigen::Index>(b)] = static_cast<float>(factor);
+      }
+    }
+  });
+  return factors;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

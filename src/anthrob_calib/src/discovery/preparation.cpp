@@ -1,0 +1,118 @@
+#include "anthrob_calib/discovery/preparation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kShortest = 2.0;         // [s] of all training recordings together
+constexpr double kFinestBin = 0.02;       // [s]
+constexpr double kAxisBin = 0.025;        // [s]
+constexpr double kMostDifferences = 4e5;  // of the training recordings
+
+/// Largest less smallest value of a column; 0 if it is not there.
+double span(const Dataset& recording, const std::string& column) {
+  const Series series = recording.series(column);
+  if (series.empty()) return 0.0;
+  const auto [lo, hi] = std::minmax_element(series.values.begin(), series.values.end());
+  return *hi - *lo;
+}
+
+void refuse_nonsense(const Dataset& recording) {
+  for (const Table& table : recording.tables) {
+    for (std::size_t i = 1; i < table.t.size(); ++i) {
+      if (table.t[i] < table.t[i - 1]) {
+        throw BadInput(recording.folder + "/" + table.name + ".csv: row " + std::to_string(i + 1) +
+                       ": time runs backwards: expected rows in order of time");
+      }
+    }
+    for (const Column& column : table.columns) {
+      for (std::size_t i = 0; i < column.values.size(); ++i) {
+        if (column.present[i] && !std::isfinite(column.values[i])) {
+          throw BadInput(recording.folder + "/" + table.name + ".csv: row " +
+                         std::to_string(i + 1) + ": " + column.name + ": expected a finite number");
+        }
+      }
+    }
+  }
+  // Files of one recording share a clock.
+  for (const Table& table : recording.tables) {
+    if (table.t.empty()) continue;
+    const double late = seconds(table.t.front() - recording.begin());
+    const double length = seconds(recording.end() - recording.begin());
+    const double covered = seconds(table.t.back() - table.t.front());
+    if (length > 0.0 && table.t.size() > 2 && (late > 0.5 * length || covered < 0.3 * length) &&
+        table.name != "commands") {
+      throw BadInput(recording.folder + "/" + table.name +
+                     ".csv: not synchronised: its times cover " + std::to_string(covered) +
+                     " s of a recording of " + std::to_string(length) + " s");
+    }
+  }
+}
+
+/// Whether anything moves; without motion there is nothing to learn.
+void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recordings) {
+  bool moves = false;
+  for (const Dataset& recording : recordings) {
+    for (const MuscleModel& muscle : robot.muscles) {
+      moves = moves || span(recording, muscle.name + "/position") > 0.02 ||
+              span(recording, muscle.name + "/reference") > 0.02 ||
+              span(recording, muscle.name + "/force") > 0.5;
+    }
+    for (const JointModel& joint : robot.skeleton->joints) {
+      moves = moves || (joint.driven && span(recording, joint.name + "/position") > 1e-5);
+    }
+  }
+  if (moves) return;
+  const std::string name = recordings.front().folder;
+  throw BadInput(name +
+                 (robot.muscles.empty()
+                      ? ": the axis does not move: nothing to learn about friction or inertia"
+                      : ": no muscle moves: nothing to learn about friction, springs or "
+                        "motors: expected motion over the range you care about"));
+}
+
+}  // namespace
+
+Laboratory prepare(const Evaluator& evaluator, const Question& question) {
+  const RobotModel& robot = *evaluator.model();
+  if (question.train.empty()) throw BadInput("--train: expected at least one recording");
+  if (question.test.empty()) {
+    throw BadInput("--test: expected at least one recording that is not fitted");
+  }
+  double length = 0.0;
+  for (const auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (const Dataset& recording : *group) refuse_nonsense(recording);
+  }
+  for (const Dataset& recording : question.train) {
+    length += seconds(recording.end() - recording.begin());
+  }
+  if (length < kShortest) {
+    throw BadInput(question.train.front().folder + ": too short: " + std::to_string(length) +
+                   " s to learn from: expected " + std::to_string(kShortest) + " s or more");
+  }
+  refuse_stillness(robot, question.train);
+
+  ExperimentOptions options;
+  options.bin = robot.muscles.empty() ? kAxisBin : kFinestBin;
+  const double channels = 4.0 * static_cast<double>(robot.muscles.size()) + 4.0;
+  options.bin *= std::max(1.0, std::ceil(length / options.bin * channels / kMostDifferences));
+  Laboratory laboratory;
+  const auto make = [&](const std::vector<Dataset>& recordings, Experiments& experiments) {
+    for (const Dataset& recording : recordings) {
+      experiments.push_back(make_experiment(robot, recording, options));
+    }
+  };
+  make(question.train, laboratory.train);
+  make(question.test, laboratory.test);
+  make(question.repeats, laboratory.repeats);
+  return laboratory;
+}
+
+}  // namespace discovery
+}  // namespace anthrob
