@@ -1,0 +1,35 @@
+#pragma once
+
+#include "anthrob_calib/calibration/calibration_config.h"
+#include "anthrob_calib/report/calibration_outcome.h"
+
+namespace anthrob {
+namespace calibration {
+
+/// All input of a calibration, read and checked.
+struct CalibrationInput {
+  CalibrationConfig config;
+  ConfigNode model;                       ///< with the numbers of `start`
+  std::map<std::string, double> started;  ///< numbers taken over from earlier calibrations
+  std::vector<MeasuredRun> runs, validation;
+
+  /// @param data, validation folders of recordings; validation may be empty
+  /// @param start result.json of earlier calibrations: their numbers go into the model; numbers
+  /// that this model lacks are skipped
+  /// @throws BadInput with one line
+  static CalibrationInput read(CalibrationConfig config, const std::string& data,
+                               const std::string& validation,
+                               const std::vector<std::string>& start);
+
+  Problem problem() const;
+  /// Of everything that fitnesses depend on.
+  std::string fingerprint() const;
+};
+
+/// What is left to do when the search is over: both models over all runs in full length,
+/// identifiability, other drives. @param thorough false: errors only
+CalibrationOutcome conclude(const CalibrationInput& input, const Problem& problem,
+                            const Journal& journal, const std::string& reason, bool thorough);
+
+}  // namespace calibration
+}  // namespace anthrob

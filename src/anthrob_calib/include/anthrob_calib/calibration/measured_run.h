@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/recording/dataset.h"
+
+namespace anthrob {
+namespace calibration {
+
+/// What was measured at some instants: one row each.
+struct Samples {
+  std::vector<double> t;     ///< [s] since the first command
+  Eigen::MatrixXd q;         ///< joint positions as in Simulation::configuration()
+  Eigen::MatrixXd force;     ///< by muscle [N]
+  Eigen::MatrixXd position;  ///< of actuators, by muscle [rad]; no columns: not measured
+
+  int count() const { return static_cast<int>(t.size()); }
+};
+
+/// References of all muscles from a time on.
+struct Command {
+  double t = 0.0;                 ///< [s] since the first command
+  std::vector<double> reference;  ///< by muscle [rad]
+};
+
+/// A recording as calibration sees it: a robot at rest, commands, and what came of them.
+/// Time starts when the references first change.
+struct MeasuredRun {
+  std::string name;
+  bool is_trajectory = false;     ///< else: an equilibrium
+  std::vector<double> start;      ///< references at which the robot was at rest [rad]
+  std::vector<Command> commands;  ///< the first one at t = 0
+  Samples before;                 ///< one row, the posture at rest; none for an equilibrium
+  Samples path;                   ///< evenly spaced; none for an equilibrium
+  Samples after;                  ///< one row: the posture at the end
+  double duration = 0.0;          ///< [s]
+};
+
+struct SamplingOptions {
+  double rate = 100.0;    ///< of path [Hz]
+  double average = 0.1;   ///< postures at rest are means over so long [s]
+  double shortest = 0.5;  ///< a recording has to go on so long after its first command [s]
+};
+
+/// @throws BadInput with one line if the recording is no run of this robot in position control, or
+/// lacks what calibration needs
+MeasuredRun read_run(const Dataset& recording, const std::shared_ptr<const RobotModel>& model,
+                     const SamplingOptions& options = {});
+
+/// The recordings of a folder (dataset folders and bags, in natural order of their names), or the
+/// one recording that it is.
+/// @throws BadInput if there is none, or one cannot be used
+std::vector<MeasuredRun> read_runs(const std::string& folder,
+                                   const std::shared_ptr<const RobotModel>& model,
+                                   const SamplingOptions& options = {});
+
+}  // namespace calibration
+}  // namespace anthrob

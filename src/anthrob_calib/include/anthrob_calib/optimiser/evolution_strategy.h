@@ -1,0 +1,22 @@
+#pragma once
+
+#include "anthrob_calib/optimiser/optimiser.h"
+
+namespace anthrob {
+namespace calibration {
+
+/// The (mu, lambda) evolution strategy of section 5.1, Algorithm 5.1: comma selection, no
+/// recombination, one self-adapting step size a variable (5.2), (5.3), mutations out of bounds
+/// drawn again, invalid individuals not selected, best individual ever kept.
+class EvolutionStrategy final : public Optimiser {
+ public:
+  explicit EvolutionStrategy(const OptimiserSettings& settings) : settings_(settings) {}
+  SearchResult minimise(const std::vector<SearchVariable>& variables,
+                        Evaluator& evaluator) const override;
+
+ private:
+  OptimiserSettings settings_;
+};
+
+}  // namespace calibration
+}  // namespace anthrob

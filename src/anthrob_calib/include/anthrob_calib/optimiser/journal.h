@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/optimiser/evaluator.h"
+
+namespace anthrob {
+namespace calibration {
+
+/// Thrown out of a search when its user wants it to end.
+struct Interrupted {};
+
+/// One batch of evaluations in the history of a search.
+struct Generation {
+  int evaluations = 0;  ///< so far
+  int valid = 0;        ///< of this batch
+  double best = 0.0;    ///< of this batch
+  double mean = 0.0;    ///< of the valid ones of this batch
+  double best_ever = 0.0;
+};
+
+/// Stands between an optimiser and the evaluator: keeps the best point and the history, and writes
+/// down every fitness. After an interruption the optimiser simply starts again: as long as the
+/// journal has an answer it comes from there, so that every optimiser resumes to the same bits.
+/// Residuals are not written down: a least-squares search starts over.
+class Journal final : public Evaluator {
+ public:
+  struct Options {
+    std::string file;         ///< of the journal; empty: none is kept
+    std::string fingerprint;  ///< of everything that the numbers depend on
+    bool resume = false;      ///< else an old journal is replaced
+    int batch = 36;           ///< single evaluations are taken together in the history
+    std::function<bool()> stop = {};
+    std::function<void(int)> progress = {};  ///< told the number of evaluations
+  };
+
+  /// @throws BadInput if there is nothing to resume, or it belongs to something else
+  Journal(Evaluator& evaluator, Options options);
+
+  std::vector<double> fitness(const std::vector<Point>& points) override;
+  std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
+  /// Writes what has not been written yet.
+  void save();
+
+  const Point& best() const { return best_; }
+  double best_fitness() const { return best_fitness_; }
+  int evaluations() const { return evaluations_; }
+  int replayed() const { return replayed_; }  ///< evaluations that came from the file
+  std::vector<Generation> history() const;
+
+ private:
+  struct Entry {
+    std::uint64_t point;  ///< fingerprint
+    double fitness;
+  };
+
+  void load();
+  void check_stop() const;
+  void note(const Point& point, double fitness);
+  void close_generation();
+
+  Evaluator& evaluator_;
+  Options options_;
+  std::vector<Entry> entries_;  ///< of the file
+  std::size_t unsaved_ = 0;
+  int evaluations_ = 0, replayed_ = 0;
+  Point best_;
+  double best_fitness_;
+  Generation open_;
+  double open_sum_ = 0.0;
+  int open_count_ = 0;
+  std::vector<Generation> history_;
+};
+
+}  // namespace calibration
+}  // namespace anthrob

@@ -1,0 +1,185 @@
+#include "anthrob_calib/calibration/calibrate.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+namespace calibration {
+
+namespace {
+
+/// FNV-1a over text and numbers.
+class Fingerprint {
+ public:
+  void add(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 1099511628211ULL;
+  }
+  void add(const std::string& text) { add(text.data(), text.size()); }
+  void add(const std::vector<double>& v) { add(v.data(), v.size() * sizeof(double)); }
+  void add(const Eigen::MatrixXd& m) { add(m.data(), m.size() * sizeof(double)); }
+  void add(const Samples& samples) {
+    add(samples.t);
+    add(samples.q), add(samples.force), add(samples.position);
+  }
+  void add(const MeasuredRun& run) {
+    add(run.start);
+    for (const Command& command : run.commands) {
+      add(&command.t, sizeof(double));
+      add(command.reference);
+    }
+    add(run.before), add(run.path), add(run.after);
+  }
+  std::string text() const {
+    char digits[20];
+    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash_));
+    return digits;
+  }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037ULL;
+};
+
+/// Numbers of an earlier calibration that this model has, too.
+void take_over(const std::string& file, ConfigNode& model, std::map<std::string, double>& numbers) {
+  std::ifstream in(file);
+  if (!in) throw BadInput(file + ": cannot be read; expected the result.json of a calibration");
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (json.is_discarded() || !json.contains("overrides") || !json["overrides"].is_object()) {
+    throw BadInput(file + ": no result of a calibration; expected a map 'overrides'");
+  }
+  int taken = 0;
+  for (const auto& [path, value] : json["overrides"].items()) {
+    if (!value.is_number()) throw BadInput(file + ": overrides: " + path + ": expected a number");
+    try {
+      number_at(model, path);
+    } catch (const BadInput&) {
+      continue;  // a part that this model has not
+    }
+    model.set_number(path, value.get<double>());
+    numbers[path] = value.get<double>();
+    ++taken;
+  }
+  if (taken == 0) throw BadInput(file + ": none of its numbers is in " + model.file());
+}
+
+DriveErrors errors_with(Drive drive, const char* name, const Problem& problem, const Point& best,
+                        const std::vector<MeasuredRun>& runs) {
+  SimulationOptions options = problem.options();
+  options.motion = HUGE_VAL;
+  options.drive = drive;
+  DriveErrors errors{name};
+  const auto all = simulate_runs(problem.build(best), runs, options);
+  for (const RunDifferences& run : all) {
+    errors.posture += run.shown().posture_square() / static_cast<double>(all.size());
+    errors.force += run.shown().force_square() / static_cast<double>(all.size());
+    if (run.shown().actuator.size() > 0) {
+      errors.actuator = std::max(errors.actuator, run.shown().actuator.cwiseAbs().maxCoeff());
+    }
+  }
+  errors.posture = std::sqrt(errors.posture);
+  errors.force = std::sqrt(errors.force);
+  return errors;
+}
+
+std::vector<DriveErrors> compare_drives(const Problem& problem, const Point& best,
+                                        const std::vector<MeasuredRun>& runs) {
+  std::vector<DriveErrors> errors;
+  errors.push_back(errors_with(Drive::kReferences, "commanded references", problem, best, runs));
+  const bool measured = runs.front().after.position.cols() > 0;
+  if (!measured || !runs.front().is_trajectory) return errors;
+  errors.push_back(errors_with(Drive::kFinalPositions, "final actuator positions as references",
+                               problem, best, runs));
+  errors.push_back(errors_with(Drive::kSampledPositions, "every sampled actuator position", problem,
+                               best, runs));
+  return errors;
+}
+
+BeforeAfter simulate_both(const Problem& problem, const Point& best,
+                          const std::vector<MeasuredRun>& runs) {
+  if (runs.empty()) return {};
+  SimulationOptions options = problem.options();
+  options.motion = HUGE_VAL;
+  return {runs, simulate_runs(problem.build(problem.space().initial()), runs, options),
+          simulate_runs(problem.build(best), runs, options)};
+}
+
+}  // namespace
+
+CalibrationInput CalibrationInput::read(CalibrationConfig config, const std::string& data,
+                                        const std::string& validation,
+                                        const std::vector<std::string>& start) {
+  ConfigNode model = ConfigNode::load(config.model_file).clone();
+  std::map<std::string, double> started;
+  for (const std::string& file : start) take_over(file, model, started);
+  const auto robot = build_robot_model(model);
+  CalibrationInput input{std::move(config), model, std::move(started), {}, {}};
+  input.runs = read_runs(data, robot);
+  input.config.check(input.runs, data);
+  if (!validation.empty()) input.validation = read_runs(validation, robot);
+  return input;
+}
+
+Problem CalibrationInput::problem() const {
+  return {model.clone(), ParameterSpace(config.node, model), runs, config.weights,
+          config.simulation};
+}
+
+std::string CalibrationInput::fingerprint() const {
+  Fingerprint fingerprint;
+  fingerprint.add(config.node.at("parameters").to_yaml());
+  if (config.node.has("shares")) fingerprint.add(config.node.at("shares").to_yaml());
+  fingerprint.add(model.to_yaml());
+  const Weights& w = config.weights;
+  const OptimiserSettings& o = config.optimiser;
+  fingerprint.add(
+      std::vector<double>{w.posture, w.force, w.before, w.path, w.after, config.simulation.settle,
+                          config.simulation.motion, static_cast<double>(o.parents),
+                          static_cast<double>(o.offspring), o.target, static_cast<double>(o.seed)});
+  fingerprint.add(o.method);
+  for (const MeasuredRun& run : runs) fingerprint.add(run);
+  return fingerprint.text();
+}
+
+CalibrationOutcome conclude(const CalibrationInput& input, const Problem& problem,
+                            const Journal& journal, const std::string& reason, bool thorough) {
+  CalibrationOutcome outcome;
+  outcome.config_file = input.config.file;
+  outcome.model_file = input.config.model_file;
+  outcome.optimiser = input.config.optimiser;
+  outcome.weights = input.config.weights;
+  outcome.simulation = input.config.simulation;
+  outcome.parameters = problem.space().parameters();
+  const Point initial = problem.space().initial();
+  outcome.fitness_before = problem.fitness(initial);
+  outcome.fitness = journal.best_fitness();
+  outcome.best = journal.best();
+  // The start was not asked for by every optimiser, and nothing may come out worse.
+  if (outcome.best.empty() || outcome.fitness_before < outcome.fitness) {
+    outcome.best = initial;
+    outcome.fitness = outcome.fitness_before;
+  }
+  outcome.model = problem.build(outcome.best);
+  outcome.overrides = input.started;
+  for (const auto& [path, value] : problem.space().overrides(outcome.best)) {
+    outcome.overrides[path] = value;
+  }
+  outcome.reason = reason;
+  outcome.evaluations = journal.evaluations();
+  outcome.history = journal.history();
+  outcome.calibration = simulate_both(problem, outcome.best, problem.runs());
+  outcome.validation = simulate_both(problem, outcome.best, input.validation);
+  if (!thorough) return outcome;
+  constexpr int kProfiles = 3;
+  outcome.identifiability = examine(problem, outcome.best, kProfiles);
+  outcome.drives = compare_drives(problem, outcome.best, problem.runs());
+  return outcome;
+}
+
+}  // namespace calibration
+}  // namespace anthrob

@@ -1,0 +1,89 @@
+#include "anthrob_calib/calibration/extended_model.h"
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "anthrob_sim/recording/dataset.h"
+
+namespace anthrob {
+namespace calibration {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string relative_to(const std::string& folder, const fs::path& file) {
+  return fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder)).string();
+}
+
+/// A node as YAML flow text, with names of files as seen from another folder.
+std::string flow_text(const ConfigNode& node, const std::string& folder) {
+  std::string out;
+  if (node.is_sequence()) {
+    for (const ConfigNode& item : node.items()) {
+      out += (out.empty() ? "" : ", ") + flow_text(item, folder);
+    }
+    return "[" + out + "]";
+  }
+  if (node.is_map()) {
+    for (const auto& [key, value] : node.entries()) {
+      const std::string text =
+          key == "file"
+              ? relative_to(folder, fs::path(value.file()).parent_path() / value.as_text())
+              : flow_text(value, folder);
+      out += (out.empty() ? "" : ", ") + key + ": " + text;
+    }
+    return "{" + out + "}";
+  }
+  return node.is_scalar() ? node.as_text() : "null";
+}
+
+/// What changes, as a tree of keys down to numbers and lists.
+struct Branch {
+  std::map<std::string, Branch> children;
+  std::string text;  ///< of a leaf
+};
+
+void write(const Branch& branch, const std::string& indent, std::ostringstream& out) {
+  for (const auto& [key, child] : branch.children) {
+    out << indent << key << ":";
+    if (child.children.empty()) {
+      out << " " << child.text << "\n";
+    } else {
+      out << "\n";
+      write(child, indent + "  ", out);
+    }
+  }
+}
+
+}  // namespace
+
+std::string extended_model_text(const ConfigNode& model, const std::string& model_file,
+                                const std::map<std::string, double>& overrides,
+                                const std::string& folder, const std::string& comment) {
+  ConfigNode changed = model.clone();
+  for (const auto& [path, value] : overrides) changed.set_number(path, value);
+  Branch root;
+  for (const auto& [path, value] : overrides) {
+    ConfigNode node = changed;
+    Branch* branch = &root;
+    std::istringstream words(path);
+    for (std::string word; !node.is_sequence() && std::getline(words, word, '.');) {
+      node = node.at(word);
+      branch = &branch->children[word];
+    }
+    // A number as it was computed, a list as it stands.
+    branch->text = node.is_sequence() ? flow_text(node, folder) : exact_text(value);
+  }
+  std::ostringstream out;
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);) out << "# " << line << "\n";
+  out << "\nextends: " << relative_to(folder, model_file) << "\n\n";
+  write(root, "", out);
+  return out.str();
+}
+
+}  // namespace calibration
+}  // namespace anthrob

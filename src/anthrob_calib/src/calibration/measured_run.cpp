@@ -1,0 +1,246 @@
+#include "anthrob_calib/calibration/measured_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/load_recording.h"
+#include "anthrob_sim/recording/replay.h"
+
+namespace anthrob {
+namespace calibration {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The columns of a recording that calibration needs, checked.
+class RunReader {
+ public:
+  RunReader(const Dataset& recording, const std::shared_ptr<const RobotModel>& model,
+            const SamplingOptions& options)
+      : recording_(recording), model_(*model), options_(options) {
+    if (recording.tables.empty() || recording.end() <= recording.begin()) {
+      fail("holds less than two rows");
+    }
+    const Replay names_are_known(model, recording, ReplayMode::kReference);
+    for (const MuscleModel& muscle : model_.muscles) read_muscle(muscle.name);
+    if (positions_.size() != references_.size()) positions_.clear();
+    for (const JointModel& joint : model_.skeleton->joints) read_joint(joint);
+  }
+
+  MeasuredRun read() {
+    MeasuredRun run;
+    run.name = fs::path(recording_.folder).stem().string();
+    read_kind(run);
+    read_commands(run);
+    run.duration = end_ - origin_;
+    if (run.duration < options_.shortest) {
+      fail("ends " + std::to_string(run.duration) + " s after its first command; expected " +
+           std::to_string(options_.shortest) + " s at least");
+    }
+    run.after = mean_of(std::max(origin_, end_ - options_.average), end_);
+    if (!run.is_trajectory) return run;
+    run.before = mean_of(std::max(0.0, origin_ - options_.average), origin_);
+    const int count = static_cast<int>(std::floor(run.duration * options_.rate + 1e-6)) + 1;
+    std::vector<double> times;
+    for (int i = 0; i < count; ++i) times.push_back(i / options_.rate);
+    run.path = samples_at(times);
+    return run;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw BadInput(recording_.folder + ": " + message);
+  }
+
+  Series column(const std::string& name, bool required = true) {
+    Series series = recording_.series(name);
+    if (series.empty() && required) fail("column '" + name + "' is missing or empty");
+    for (std::size_t i = 0; i < series.values.size(); ++i) {
+      if (!std::isfinite(series.values[i])) {
+        fail(name + ": not a finite number at t = " + std::to_string(series.t[i]) + " s");
+      }
+    }
+    return series;
+  }
+
+  Series measured(const std::string& name, bool required = true) {
+    Series series = column(name, required);
+    if (!series.empty()) end_ = std::min(end_, series.t.back());
+    return series;
+  }
+
+  void read_muscle(const std::string& name) {
+    for (const double mode : column(name + "/mode", false).values) {
+      if (mode != static_cast<double>(ecu::Mode::kPosition)) {
+        fail(name + "/mode: " + word_of("mode", static_cast<int>(mode)) +
+             ": expected POSITION; calibration replays position control only");
+      }
+    }
+    references_.push_back(column(name + "/reference"));
+    forces_.push_back(measured(name + "/force"));
+    Series position = measured(name + "/position", false);
+    if (!position.empty()) positions_.push_back(std::move(position));
+  }
+
+  void read_joint(const JointModel& joint) {
+    if (joint.type != JointType::kBall) {
+      q_.push_back(measured(joint.name + "/position"));
+      return;
+    }
+    for (const char* axis : {"w", "x", "y", "z"}) q_.push_back(measured(joint.name + "/" + axis));
+    const std::size_t w = q_.size() - 4;
+    for (std::size_t i = 0; i < q_[w].values.size(); ++i) {
+      double square = 0.0;
+      for (std::size_t k = w; k < w + 4; ++k) {
+        if (q_[k].values.size() != q_[w].values.size())
+          fail(joint.name + ": incomplete quaternion");
+        square += q_[k].values[i] * q_[k].values[i];
+      }
+      if (std::abs(square - 1.0) > 0.01) {
+        fail(joint.name + ": no unit quaternion at t = " + std::to_string(q_[w].t[i]) + " s");
+      }
+    }
+  }
+
+  void read_kind(MeasuredRun& run) const {
+    const std::string& kind = recording_.meta.kind;
+    if (kind != "equilibrium" && kind != "trajectory") {
+      fail("meta.yaml: kind: " + kind + ": expected equilibrium or trajectory");
+    }
+    run.is_trajectory = kind == "trajectory";
+  }
+
+  void read_commands(MeasuredRun& run) {
+    std::set<double> changes;
+    for (std::size_t m = 0; m < references_.size(); ++m) {
+      const Series& reference = references_[m];
+      run.start.push_back(start_reference(m));
+      if (run.start.back() != reference.values.front()) changes.insert(reference.t.front());
+      for (std::size_t i = 1; i < reference.t.size(); ++i) {
+        if (reference.values[i] != reference.values[i - 1]) changes.insert(reference.t[i]);
+      }
+    }
+    // A run to where the robot is already.
+    if (changes.empty()) changes.insert(references_.front().t.front());
+    origin_ = *changes.begin();
+    for (const double t : changes) {
+      Command command{t - origin_, {}};
+      for (const Series& reference : references_) command.reference.push_back(reference.held_at(t));
+      run.commands.push_back(command);
+    }
+  }
+
+  double start_reference(std::size_t muscle) const {
+    if (recording_.meta.start == "first") return references_[muscle].values.front();
+    const auto given = recording_.meta.start_position.find(model_.muscles[muscle].name);
+    return given == recording_.meta.start_position.end() ? 0.0 : given->second;
+  }
+
+  Samples empty(std::size_t rows) const {
+    Samples samples;
+    const auto count = static_cast<Eigen::Index>(rows);
+    samples.q.setZero(count, static_cast<Eigen::Index>(q_.size()));
+    samples.force.setZero(count, static_cast<Eigen::Index>(forces_.size()));
+    samples.position.setZero(count, static_cast<Eigen::Index>(positions_.size()));
+    return samples;
+  }
+
+  Samples samples_at(const std::vector<double>& times) const {
+    Samples samples = empty(times.size());
+    samples.t = times;
+    const auto fill = [&](const std::vector<Series>& columns, Eigen::MatrixXd& out) {
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        for (std::size_t i = 0; i < times.size(); ++i) {
+          out(static_cast<long>(i), static_cast<long>(c)) = columns[c].at(origin_ + times[i]);
+        }
+      }
+    };
+    fill(q_, samples.q);
+    fill(forces_, samples.force);
+    fill(positions_, samples.position);
+    return samples;
+  }
+
+  /// Mean over an interval in which the robot stands still. Quaternions that are close together may
+  /// be averaged as vectors; comparing normalises them.
+  Samples mean_of(double from, double to) const {
+    constexpr int kPoints = 21;
+    std::vector<double> times;
+    for (int i = 0; i < kPoints; ++i)
+      times.push_back(from + (to - from) * i / (kPoints - 1) - origin_);
+    const Samples all = samples_at(times);
+    Samples mean = empty(1);
+    mean.t = {to - origin_};
+    mean.q = all.q.colwise().mean();
+    mean.force = all.force.colwise().mean();
+    mean.position = all.position.colwise().mean();
+    return mean;
+  }
+
+  const Dataset& recording_;
+  const RobotModel& model_;
+  const SamplingOptions& options_;
+  std::vector<Series> references_, forces_, positions_, q_;
+  double origin_ = 0.0, end_ = HUGE_VAL;
+};
+
+/// "E2" before "E10".
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0, k = 0;
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  while (i < a.size() && k < b.size()) {
+    if (digit(a[i]) && digit(b[k])) {
+      std::size_t i_end = i, k_end = k;
+      while (i_end < a.size() && digit(a[i_end])) ++i_end;
+      while (k_end < b.size() && digit(b[k_end])) ++k_end;
+      const std::string x = a.substr(i, i_end - i), y = b.substr(k, k_end - k);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+      i = i_end, k = k_end;
+    } else {
+      if (a[i] != b[k]) return a[i] < b[k];
+      ++i, ++k;
+    }
+  }
+  return a.size() - i < b.size() - k;
+}
+
+}  // namespace
+
+MeasuredRun read_run(const Dataset& recording, const std::shared_ptr<const RobotModel>& model,
+                     const SamplingOptions& options) {
+  return RunReader(recording, model, options).read();
+}
+
+std::vector<MeasuredRun> read_runs(const std::string& folder,
+                                   const std::shared_ptr<const RobotModel>& model,
+                                   const SamplingOptions& options) {
+  std::vector<std::string> paths;
+  const bool is_recording =
+      fs::path(folder).extension() == ".bag" || fs::exists(fs::path(folder) / "meta.yaml");
+  if (is_recording) {
+    paths.push_back(folder);
+  } else {
+    if (!fs::is_directory(folder)) throw BadInput(folder + ": no such folder of recordings");
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_directory() || entry.path().extension() == ".bag") {
+        paths.push_back(entry.path().string());
+      }
+    }
+  }
+  if (paths.empty()) {
+    throw BadInput(folder + ": holds no recordings; expected bags or dataset folders");
+  }
+  std::sort(paths.begin(), paths.end(), natural_less);
+  std::vector<MeasuredRun> runs;
+  for (const std::string& path : paths)
+    runs.push_back(read_run(load_recording(path), model, options));
+  return runs;
+}
+
+}  // namespace calibration
+}  // namespace anthrob

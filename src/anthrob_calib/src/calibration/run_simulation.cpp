@@ -1,0 +1,212 @@
+#include "anthrob_calib/calibration/run_simulation.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+
+namespace anthrob {
+namespace calibration {
+
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Fills rows of differences from a running simulation.
+class Comparison {
+ public:
+  Comparison(const RobotModel& model, const Samples& measured, int rows)
+      : model_(model), measured_(measured), posture_(rows, model.skeleton->velocity_count) {
+    differences.joints = static_cast<int>(model.skeleton->joints.size());
+    differences.force.resize(rows, static_cast<Eigen::Index>(model.muscles.size()));
+    differences.actuator.resize(rows, measured.position.cols());
+  }
+
+  void add(const Simulation& sim, int row) {
+    const Eigen::VectorXd q = measured_.q.row(row);
+    posture_row(*model_.skeleton, q.data(), sim.read_positions(), posture_.row(row).data());
+    for (Eigen::Index m = 0; m < differences.force.cols(); ++m) {
+      const ecu::Measurement reading = sim.reading(static_cast<int>(m));
+      differences.force(row, m) = reading.force - measured_.force(row, m);
+      if (differences.actuator.cols() > 0) {
+        differences.actuator(row, m) = reading.position - measured_.position(row, m);
+      }
+    }
+  }
+
+  Differences take() {
+    differences.posture = posture_;
+    return std::move(differences);
+  }
+
+ private:
+  const RobotModel& model_;
+  const Samples& measured_;
+  RowMatrix posture_;
+  Differences differences;
+};
+
+Differences compare_once(const Simulation& sim, const Samples& measured) {
+  if (measured.count() == 0) return {};
+  Comparison comparison(sim.model(), measured, 1);
+  comparison.add(sim, 0);
+  return comparison.take();
+}
+
+void command_positions(Simulation& sim, const std::vector<double>& reference) {
+  for (std::size_t m = 0; m < reference.size(); ++m) {
+    sim.command(static_cast<int>(m), ecu::Mode::kPosition, reference[m]);
+  }
+}
+
+std::vector<double> row_of(const Eigen::MatrixXd& matrix, int row) {
+  const Eigen::VectorXd values = matrix.row(row);
+  return {values.data(), values.data() + values.size()};
+}
+
+/// Gives the inputs of a run to a simulation, step by step.
+class Driver {
+ public:
+  Driver(const MeasuredRun& run, Drive drive) : run_(run), drive_(drive) {
+    if (drive != Drive::kReferences && run.after.position.cols() == 0) {
+      throw BadInput(run.name + ": actuator positions were not measured");
+    }
+  }
+
+  void apply(Simulation& sim, double time) {
+    switch (drive_) {
+      case Drive::kReferences:
+        for (; next_ < run_.commands.size() && run_.commands[next_].t <= time + 1e-9; ++next_) {
+          command_positions(sim, run_.commands[next_].reference);
+        }
+        break;
+      case Drive::kFinalPositions:
+        if (next_++ == 0) command_positions(sim, row_of(run_.after.position, 0));
+        break;
+      case Drive::kSampledPositions:
+        follow_samples(sim, time + sim.step_length());
+        break;
+    }
+  }
+
+ private:
+  void follow_samples(Simulation& sim, double time) const {
+    const Samples& path = run_.path;
+    if (path.count() < 2) return;
+    const double rate = 1.0 / (path.t[1] - path.t[0]);
+    const double place = std::min(time * rate, static_cast<double>(path.count() - 1) - 1e-9);
+    const auto row = static_cast<Eigen::Index>(place);
+    for (Eigen::Index m = 0; m < path.position.cols(); ++m) {
+      const double from = path.position(row, m), to = path.position(row + 1, m);
+      const double share = place - static_cast<double>(row);
+      sim.impose_position(static_cast<int>(m), from + share * (to - from), rate * (to - from));
+    }
+  }
+
+  const MeasuredRun& run_;
+  Drive drive_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<Chain> chains_of(const std::vector<MeasuredRun>& runs) {
+  std::map<std::vector<double>, int> starts;
+  for (const MeasuredRun& run : runs) ++starts[run.start];
+  if (runs.empty()) return {};
+  const auto& home =
+      std::max_element(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      })->first;
+  std::vector<Chain> chains;
+  std::vector<int> returns;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (runs[r].start == home) {
+      chains.push_back({{static_cast<int>(r)}, true});
+    } else {
+      returns.push_back(static_cast<int>(r));
+    }
+  }
+  for (const int r : returns) {
+    const auto before = std::find_if(chains.begin(), chains.end(), [&](const Chain& chain) {
+      return runs[chain.runs.back()].commands.back().reference == runs[r].start;
+    });
+    if (before != chains.end()) {
+      before->runs.push_back(r);
+    } else {
+      chains.push_back({{r}, false});
+    }
+  }
+  return chains;
+}
+
+void settle_at_start(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
+  const std::size_t muscles = sim.muscle_count();
+  sim.place(sim.model().skeleton->rest_configuration(), std::vector<double>(muscles, 0.0));
+  const bool by_reference = options.drive == Drive::kReferences || run.before.position.cols() == 0;
+  command_positions(sim, by_reference ? run.start : row_of(run.before.position, 0));
+  sim.step(static_cast<int>(std::lround(options.settle / sim.step_length())));
+}
+
+RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
+  RunDifferences result;
+  result.before = compare_once(sim, run.before);
+  const double h = sim.step_length();
+  const int steps = static_cast<int>(std::lround(std::min(options.motion, run.duration) / h));
+  int rows = 0;
+  const auto due = [&](int row) { return static_cast<int>(std::lround(run.path.t[row] / h)); };
+  while (rows < run.path.count() && due(rows) <= steps) ++rows;
+
+  Comparison path(sim.model(), run.path, rows);
+  Driver driver(run, options.drive);
+  int row = 0;
+  for (int step = 0; step <= steps; ++step) {
+    for (; row < rows && due(row) <= step; ++row) path.add(sim, row);
+    if (step == steps) break;
+    driver.apply(sim, step * h);
+    sim.step();
+  }
+  if (rows > 0) result.path = path.take();
+  result.after = compare_once(sim, run.after);
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m) sim.release(static_cast<int>(m));
+  return result;
+}
+
+std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& model,
+                                          const std::vector<MeasuredRun>& runs,
+                                          const SimulationOptions& options) {
+  const std::vector<Chain> chains = chains_of(runs);
+  Snapshot home;
+  const auto first = std::find_if(chains.begin(), chains.end(),
+                                  [](const Chain& chain) { return chain.from_home; });
+  if (first != chains.end()) {
+    Simulation sim(model);
+    settle_at_start(sim, runs[first->runs.front()], options);
+    home = sim.snapshot();
+  }
+  std::vector<RunDifferences> results(runs.size());
+  std::vector<std::exception_ptr> failures(chains.size());
+  tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t c) {
+    try {
+      Simulation sim(model);
+      if (chains[c].from_home) {
+        sim.restore(home);
+      } else {
+        settle_at_start(sim, runs[chains[c].runs.front()], options);
+      }
+      for (const int r : chains[c].runs) results[r] = follow(sim, runs[r], options);
+    } catch (...) {
+      failures[c] = std::current_exception();
+    }
+  });
+  // The first one by place, not by time.
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+  return results;
+}
+
+}  // namespace calibration
+}  // namespace anthrob

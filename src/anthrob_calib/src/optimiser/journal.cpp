@@ -1,0 +1,143 @@
+#include "anthrob_calib/optimiser/journal.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/atomic_file.h"
+#include "anthrob_sim/recording/dataset.h"
+
+namespace anthrob {
+namespace calibration {
+
+namespace {
+
+constexpr const char* kTitle = "anthrob_calibrate journal 1 ";
+
+/// FNV-1a over the bits of the numbers.
+std::uint64_t fingerprint_of(const Point& point) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const double value : point) {
+    unsigned char bytes[sizeof(value)];
+    std::memcpy(bytes, &value, sizeof(value));
+    for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;
+  }
+  return hash;
+}
+
+}  // namespace
+
+Journal::Journal(Evaluator& evaluator, Options options)
+    : evaluator_(evaluator),
+      options_(std::move(options)),
+      best_fitness_(std::numeric_limits<double>::infinity()) {
+  if (options_.resume && !options_.file.empty()) load();
+}
+
+void Journal::load() {
+  std::ifstream in(options_.file);
+  std::string title;
+  if (!in || !std::getline(in, title)) {
+    throw BadInput(options_.file + ": cannot be read; expected the journal of an interrupted run");
+  }
+  if (title != kTitle + options_.fingerprint) {
+    throw BadInput(options_.file +
+                   ": belongs to other data, another configuration or another model; expected the "
+                   "same ones, or no --resume");
+  }
+  std::string point, fitness;
+  while (in >> point >> fitness) {
+    entries_.push_back(
+        {std::strtoull(point.c_str(), nullptr, 16), std::strtod(fitness.c_str(), nullptr)});
+  }
+}
+
+void Journal::check_stop() const {
+  if (options_.stop && options_.stop()) throw Interrupted();
+}
+
+void Journal::note(const Point& point, double fitness) {
+  ++evaluations_;
+  if (fitness < best_fitness_) best_fitness_ = fitness, best_ = point;
+  open_.best = open_count_ == 0 ? fitness : std::min(open_.best, fitness);
+  ++open_count_;
+  if (std::isfinite(fitness)) ++open_.valid, open_sum_ += fitness;
+}
+
+void Journal::close_generation() {
+  if (open_count_ == 0) return;
+  open_.evaluations = evaluations_;
+  open_.best_ever = best_fitness_;
+  open_.mean = open_.valid > 0 ? open_sum_ / open_.valid : HUGE_VAL;
+  history_.push_back(open_);
+  open_ = {};
+  open_sum_ = 0.0;
+  open_count_ = 0;
+}
+
+std::vector<double> Journal::fitness(const std::vector<Point>& points) {
+  std::vector<double> fitness;
+  const std::size_t known = static_cast<std::size_t>(evaluations_);
+  if (known + points.size() <= entries_.size()) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Entry& entry = entries_[known + i];
+      if (entry.point != fingerprint_of(points[i])) {
+        throw BadInput(options_.file + ": evaluation " + std::to_string(known + i + 1) +
+                       " was of another point; the program has changed: start without --resume");
+      }
+      fitness.push_back(entry.fitness);
+      ++replayed_;
+    }
+  } else {
+    check_stop();
+    // What is left of a batch that was not complete is evaluated again.
+    entries_.resize(std::min(entries_.size(), known));
+    fitness = evaluator_.fitness(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      entries_.push_back({fingerprint_of(points[i]), fitness[i]});
+    }
+    unsaved_ += points.size();
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) note(points[i], fitness[i]);
+  if (points.size() > 1 || open_count_ >= options_.batch) close_generation();
+  if (unsaved_ >= static_cast<std::size_t>(options_.batch)) save();
+  if (options_.progress) options_.progress(evaluations_);
+  return fitness;
+}
+
+std::vector<std::vector<double>> Journal::residuals(const std::vector<Point>& points) {
+  check_stop();
+  auto residuals = evaluator_.residuals(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    double square = residuals[i].empty() ? HUGE_VAL : 0.0;
+    for (const double r : residuals[i]) square += r * r;
+    note(points[i], square);
+  }
+  if (points.size() > 1 || open_count_ >= options_.batch) close_generation();
+  if (options_.progress) options_.progress(evaluations_);
+  return residuals;
+}
+
+void Journal::save() {
+  if (options_.file.empty() || unsaved_ == 0) return;
+  std::ostringstream out;
+  out << kTitle << options_.fingerprint << "\n";
+  for (const Entry& entry : entries_) {
+    out << std::hex << entry.point << " "
+        << (std::isfinite(entry.fitness) ? exact_text(entry.fitness) : "inf") << "\n";
+  }
+  write_file_atomically(options_.file, out.str());
+  unsaved_ = 0;
+}
+
+std::vector<Generation> Journal::history() const {
+  Journal copy(*this);
+  copy.close_generation();
+  return copy.history_;
+}
+
+}  // namespace calibration
+}  // namespace anthrob

@@ -1,0 +1,53 @@
+#include "anthrob_calib/optimiser/optimiser.h"
+
+#include "anthrob_calib/optimiser/evolution_strategy.h"
+#include "anthrob_calib/optimiser/least_squares_optimiser.h"
+#include "anthrob_calib/optimiser/pagmo_optimiser.h"
+
+namespace anthrob {
+namespace calibration {
+
+OptimiserSettings OptimiserSettings::read(const ConfigNode& node) {
+  OptimiserSettings s;
+  s.method = node.text("method");
+  s.generations = node.at("generations").as_integer(1, 1000000);
+  if (node.has("parents")) s.parents = node.at("parents").as_integer(1, 100000);
+  if (node.has("offspring")) s.offspring = node.at("offspring").as_integer(1, 100000);
+  s.target = node.number_or("target", s.target, Bounds::nonnegative(), "1");
+  if (node.has("seed")) {
+    s.seed = static_cast<std::uint64_t>(node.at("seed").as_integer(0, 2147483647));
+  }
+  s.check(node);
+  return s;
+}
+
+void OptimiserSettings::check(const ConfigNode& node) const {
+  static const char* const kMethods[] = {"evolution_strategy", "cmaes", "sade", "bee_colony",
+                                         "least_squares"};
+  bool known = false;
+  for (const char* name : kMethods) known = known || method == name;
+  if (!known) {
+    node.at("method").fail(
+        method + ": expected evolution_strategy, cmaes, sade, bee_colony or least_squares");
+  }
+  if (method == "evolution_strategy" && parents > offspring) {
+    node.at("parents").fail_expected("at most as many parents as offspring");
+  }
+  if ((method == "cmaes" || method == "sade" || method == "bee_colony") && offspring < 7) {
+    node.fail("offspring: " + std::to_string(offspring) + ": expected 7 at least for " + method);
+  }
+}
+
+int OptimiserSettings::evaluations(std::size_t variables) const {
+  if (method == "least_squares") return generations * (static_cast<int>(variables) + 2);
+  return generations * offspring;
+}
+
+std::unique_ptr<Optimiser> make_optimiser(const OptimiserSettings& settings) {
+  if (settings.method == "evolution_strategy") return std::make_unique<EvolutionStrategy>(settings);
+  if (settings.method == "least_squares") return std::make_unique<LeastSquaresOptimiser>(settings);
+  return std::make_unique<PagmoOptimiser>(settings);
+}
+
+}  // namespace calibration
+}  // namespace anthrob

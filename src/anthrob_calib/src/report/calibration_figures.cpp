@@ -1,0 +1,138 @@
+#include "anthrob_calib/report/calibration_figures.h"
+
+#include <cmath>
+
+#include "anthrob_sim/report/svg_figure.h"
+
+namespace anthrob {
+namespace calibration {
+
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& v : values) v *= factor;
+  return values;
+}
+
+std::vector<double> column(const Eigen::MatrixXd& m, Eigen::Index c, double factor) {
+  std::vector<double> values;
+  for (Eigen::Index row = 0; row < m.rows(); ++row) values.push_back(factor * m(row, c));
+  return values;
+}
+
+/// Share of a trajectory that both simulations cover.
+std::vector<double> times_of(const Samples& samples, int rows) {
+  return {samples.t.begin(), samples.t.begin() + rows};
+}
+
+/// Measured and simulated number of a hinge; ball joints are shown by their errors.
+void add_joint_panels(SvgFigure& figure, const MeasuredRun& run, const RunDifferences& before,
+                      const RunDifferences& after, const JointModel& joint) {
+  const int rows = after.path.count();
+  const std::vector<double> t = times_of(run.path, rows);
+  if (joint.type != JointType::kBall) {
+    auto& panel = figure.add_panel("time [s]", joint.name + " [deg]");
+    const Eigen::MatrixXd measured = run.path.q.topRows(rows);
+    panel.lines.push_back({"robot", t, column(measured, joint.position_offset, kDegrees), true});
+    std::vector<double> simulated;
+    for (int row = 0; row < rows; ++row) {
+      simulated.push_back(kDegrees * (measured(row, joint.position_offset) +
+                                      after.path.posture(row, joint.velocity_offset)));
+    }
+    panel.lines.push_back({"simulation", t, simulated});
+  } else {
+    auto& panel = figure.add_panel("time [s]", joint.name + " error [deg]");
+    const char* const axes[] = {"x", "y", "z"};
+    for (int k = 0; k < 3; ++k) {
+      panel.lines.push_back(
+          {axes[k], t, column(after.path.posture, joint.velocity_offset + k, kDegrees)});
+    }
+  }
+  auto& panel = figure.add_panel("time [s]", joint.name + " distance [deg]");
+  panel.lines.push_back({"before", times_of(run.path, before.path.count()),
+                         scaled(before.path.joint_error(joint), kDegrees), true});
+  panel.lines.push_back({"after", t, scaled(after.path.joint_error(joint), kDegrees)});
+}
+
+}  // namespace
+
+std::string fitness_figure(const std::vector<Generation>& history) {
+  SvgFigure figure("Fitness");
+  auto& panel = figure.add_panel("evaluations", "log10 of fitness");
+  std::vector<double> x, best, ever, mean;
+  for (const Generation& g : history) {
+    x.push_back(g.evaluations);
+    best.push_back(std::log10(g.best));
+    ever.push_back(std::log10(g.best_ever));
+    mean.push_back(std::log10(g.mean));
+  }
+  panel.lines.push_back({"mean of generation", x, mean, true});
+  panel.lines.push_back({"best of generation", x, best});
+  panel.lines.push_back({"best ever", x, ever});
+  return figure.render();
+}
+
+std::string run_error_figure(const BeforeAfter& both, const RobotModel& model,
+                             const std::string& title) {
+  SvgFigure figure(title);
+  std::vector<double> x;
+  for (std::size_t r = 0; r < both.runs.size(); ++r) x.push_back(static_cast<double>(r));
+  const auto add = [&](const std::string& label, auto value_of) {
+    auto& panel = figure.add_panel("run", label);
+    for (const bool after : {false, true}) {
+      std::vector<double> y;
+      for (const RunDifferences& run : after ? both.after : both.before) {
+        y.push_back(value_of(run_errors(run, model)));
+      }
+      SvgFigure::Line line{after ? "after" : "before", x, y};
+      line.marks = after ? SvgFigure::Line::kFilled : SvgFigure::Line::kOpen;
+      panel.lines.push_back(line);
+    }
+  };
+  for (std::size_t j = 0; j < model.skeleton->joints.size(); ++j) {
+    add(model.skeleton->joints[j].name + " error [deg]",
+        [j](const MeanErrors& e) { return kDegrees * e.joints[j]; });
+  }
+  add("mean force error [N]", [](const MeanErrors& e) { return e.force; });
+  return figure.render();
+}
+
+std::string trajectory_figure(const BeforeAfter& both, std::size_t r, const RobotModel& model) {
+  const MeasuredRun& run = both.runs[r];
+  SvgFigure figure(run.name);
+  for (const JointModel& joint : model.skeleton->joints) {
+    add_joint_panels(figure, run, both.before[r], both.after[r], joint);
+  }
+  const Differences& after = both.after[r].path;
+  const std::vector<double> t = times_of(run.path, after.count());
+  auto& force = figure.add_panel("time [s]", "force error [N]");
+  for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+    force.lines.push_back(
+        {model.muscles[m].name, t, column(after.force, static_cast<Eigen::Index>(m), 1.0)});
+  }
+  if (after.actuator.cols() == 0) return figure.render();
+  auto& actuator = figure.add_panel("time [s]", "actuator error [deg]");
+  for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+    actuator.lines.push_back(
+        {"", t, column(after.actuator, static_cast<Eigen::Index>(m), kDegrees)});
+  }
+  return figure.render();
+}
+
+std::string profile_figure(const Identifiability& identifiability,
+                           const std::vector<ModelParameter>& parameters, double best_fitness) {
+  SvgFigure figure("Fitness along the least known parameters, the others following");
+  for (const Profile& profile : identifiability.profiles) {
+    const ModelParameter& p = parameters[profile.parameter];
+    auto& panel = figure.add_panel(p.name() + " [" + p.unit + "]", "fitness / best");
+    std::vector<double> y;
+    for (const double f : profile.fitness) y.push_back(f / best_fitness);
+    panel.lines.push_back({"profile", profile.value, y});
+  }
+  return figure.render();
+}
+
+}  // namespace calibration
+}  // namespace anthrob

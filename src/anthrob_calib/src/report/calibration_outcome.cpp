@@ -1,0 +1,33 @@
+#include "anthrob_calib/report/calibration_outcome.h"
+
+#include <numeric>
+
+namespace anthrob {
+namespace calibration {
+
+MeanErrors run_errors(const RunDifferences& run, const RobotModel& model) {
+  MeanErrors errors;
+  const Differences& d = run.shown();
+  for (const JointModel& joint : model.skeleton->joints) {
+    const std::vector<double> error = d.joint_error(joint);
+    errors.joints.push_back(std::accumulate(error.begin(), error.end(), 0.0) / d.count());
+  }
+  errors.force = d.force.cwiseAbs().mean();
+  return errors;
+}
+
+MeanErrors mean_errors(const std::vector<RunDifferences>& runs, const RobotModel& model) {
+  MeanErrors mean;
+  mean.joints.assign(model.skeleton->joints.size(), 0.0);
+  for (const RunDifferences& run : runs) {
+    const MeanErrors errors = run_errors(run, model);
+    for (std::size_t j = 0; j < mean.joints.size(); ++j) {
+      mean.joints[j] += errors.joints[j] / static_cast<double>(runs.size());
+    }
+    mean.force += errors.force / static_cast<double>(runs.size());
+  }
+  return mean;
+}
+
+}  // namespace calibration
+}  // namespace anthrob

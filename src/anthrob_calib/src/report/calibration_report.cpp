@@ -1,0 +1,191 @@
+#include "anthrob_calib/report/calibration_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "anthrob_calib/report/calibration_figures.h"
+
+namespace anthrob {
+namespace calibration {
+
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;
+
+std::string text(double value, const char* format = "%.4g") {
+  if (!std::isfinite(value)) return "invalid";
+  char out[40];
+  std::snprintf(out, sizeof(out), format, value);
+  return out;
+}
+
+std::string escaped(const std::string& raw) {
+  std::string out;
+  for (const char c : raw) {
+    out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return out;
+}
+
+std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
+  std::string out = "<tr>";
+  for (const std::string& cell : cells)
+    out += std::string("<") + tag + ">" + cell + "</" + tag + ">";
+  return out + "</tr>\n";
+}
+
+std::string error_table(const BeforeAfter& both, const RobotModel& model) {
+  std::vector<std::string> head = {""};
+  for (const JointModel& joint : model.skeleton->joints) head.push_back(joint.name + " [deg]");
+  head.push_back("force [N]");
+  std::string out = "<table>" + row(head, "th");
+  for (const bool after : {false, true}) {
+    const MeanErrors errors = mean_errors(after ? both.after : both.before, model);
+    std::vector<std::string> cells = {after ? "after" : "before"};
+    for (const double e : errors.joints) cells.push_back(text(kDegrees * e, "%.2f"));
+    cells.push_back(text(errors.force, "%.2f"));
+    out += row(cells);
+  }
+  return out + "</table>\n";
+}
+
+std::string errors_section(const BeforeAfter& both, const RobotModel& model,
+                           const std::string& title) {
+  std::string out = error_table(both, model);
+  out += run_error_figure(both, model, title);
+  out += "<p>Runs: ";
+  for (std::size_t r = 0; r < both.runs.size(); ++r) {
+    out += (r ? ", " : "") + std::to_string(r) + " " + escaped(both.runs[r].name);
+  }
+  out += "</p>\n";
+  // The longest one is as good an example as any, and is not picked by its error.
+  const auto longest = std::max_element(
+      both.runs.begin(), both.runs.end(),
+      [](const MeasuredRun& a, const MeasuredRun& b) { return a.path.count() < b.path.count(); });
+  if (longest->is_trajectory) {
+    out += trajectory_figure(both, static_cast<std::size_t>(longest - both.runs.begin()), model);
+  }
+  return out;
+}
+
+std::string parameter_table(const CalibrationOutcome& o) {
+  std::string out = "<table>" + row({"parameter", "unit", "range", "before", "after", "sigma",
+                                     "the data tell it", "at a bound"},
+                                    "th");
+  for (std::size_t i = 0; i < o.parameters.size(); ++i) {
+    const ModelParameter& p = o.parameters[i];
+    const bool known = !o.identifiability.parameters.empty();
+    const double edge = 1e-6 * p.range();
+    const bool at_bound = o.best[i] - p.lower < edge || p.upper - o.best[i] < edge;
+    out += row({escaped(p.name()), p.unit, text(p.lower) + " ... " + text(p.upper),
+                text(p.initial, "%.6g"), text(o.best[i], "%.6g"),
+                known ? text(o.identifiability.parameters[i].sigma, "%.2g") : "",
+                !known                                         ? ""
+                : o.identifiability.parameters[i].identifiable ? "yes"
+                                                               : "<b>no</b>",
+                at_bound ? "yes" : ""});
+  }
+  return out + "</table>\n";
+}
+
+std::string identifiability_section(const CalibrationOutcome& o) {
+  const Identifiability& id = o.identifiability;
+  if (id.parameters.empty()) return "";
+  const auto told = std::count_if(id.parameters.begin(), id.parameters.end(),
+                                  [](const ParameterKnowledge& k) { return k.identifiable; });
+  std::string out =
+      "<h2>What the data tell</h2>\n<p>" + std::to_string(told) + " of " +
+      std::to_string(id.parameters.size()) + " parameters: the data leave less than " +
+      text(100 * kIdentifiableShare) +
+      " % of the deviation that their range allows. Taken from the derivatives of all "
+      "differences at the best point, with what is left as noise (" +
+      text(kDegrees * id.posture_noise) + " deg, " + text(id.force_noise) + " N). ";
+  if (!o.calibration.runs.front().is_trajectory) {
+    out += "Equilibria needed by (5.13): " +
+           std::to_string(equilibria_needed(static_cast<int>(o.parameters.size()),
+                                            static_cast<int>(o.model->muscles.size()))) +
+           ", given: " + std::to_string(o.calibration.runs.size()) + ".";
+  }
+  out += "</p>\n<p>Singular values of the derivatives by steps, largest to smallest: ";
+  for (const double s : id.singular_values) out += text(s, "%.2g") + " ";
+  std::vector<std::size_t> order(id.flattest.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(id.flattest[a]) > std::abs(id.flattest[b]);
+  });
+  out += "</p>\n<p>The flattest direction, in steps: ";
+  for (std::size_t k = 0; k < std::min<std::size_t>(5, order.size()); ++k) {
+    out += (k ? ", " : "") + text(id.flattest[order[k]], "%+.2f") + " " +
+           escaped(o.parameters[order[k]].name());
+  }
+  out += "</p>\n" + parameter_table(o);
+  if (!id.profiles.empty()) out += profile_figure(id, o.parameters, o.fitness);
+  return out;
+}
+
+std::string drives_section(const CalibrationOutcome& o) {
+  if (o.drives.size() < 2) return "";
+  std::string out = "<h2>Other ways to drive the simulation</h2>\n<table>" +
+                    row({"actuators get", "posture rms [deg]", "force rms [N]",
+                         "largest actuator difference [deg]"},
+                        "th");
+  for (const DriveErrors& d : o.drives) {
+    out += row({d.drive, text(kDegrees * d.posture, "%.2f"), text(d.force, "%.2f"),
+                text(kDegrees * d.actuator, "%.2f")});
+  }
+  return out + "</table>\n";
+}
+
+std::string name_of(const std::string& file) {
+  return escaped(std::filesystem::path(file).filename().string());
+}
+
+}  // namespace
+
+std::string report_html(const CalibrationOutcome& o) {
+  std::string out =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
+      "charset=\"utf-8\"><title>Calibration</title>\n"
+      "<style>body{font-family:sans-serif;max-width:60em;margin:2em auto}"
+      "table{border-collapse:collapse;margin:1em 0}td,th{border:1px solid #ccc;padding:2px 8px;"
+      "text-align:right}td:first-child{text-align:left}</style></head><body>\n<h1>Calibration of " +
+      name_of(o.model_file) + "</h1>\n<p>" + name_of(o.config_file) + ", " + o.optimiser.method +
+      ", seed " + std::to_string(o.optimiser.seed) + ", " + std::to_string(o.evaluations) +
+      " evaluations; " + o.reason + ". Fitness " + text(o.fitness_before) + " before, " +
+      text(o.fitness) + " after.</p>\n";
+  out += "<h2>Held-out recordings</h2>\n";
+  out += o.validation.runs.empty()
+             ? "<p>None were given (--validation): how well the model predicts is not known.</p>\n"
+             : errors_section(o.validation, *o.model, "Errors of held-out runs");
+  out += "<h2>Recordings of the calibration</h2>\n" +
+         errors_section(o.calibration, *o.model, "Errors of calibration runs");
+  out += "<h2>Search</h2>\n" + fitness_figure(o.history);
+  out += o.identifiability.parameters.empty() ? "<h2>Parameters</h2>\n" + parameter_table(o)
+                                              : identifiability_section(o);
+  return out + drives_section(o) + "</body></html>\n";
+}
+
+std::string summary(const CalibrationOutcome& o) {
+  std::string out = "fitness " + text(o.fitness_before) + " -> " + text(o.fitness) + " (" +
+                    o.reason + ", " + std::to_string(o.evaluations) + " evaluations)\n";
+  const auto line = [&](const char* what, const BeforeAfter& both) {
+    if (both.runs.empty()) return;
+    const MeanErrors before = mean_errors(both.before, *o.model);
+    const MeanErrors after = mean_errors(both.after, *o.model);
+    out += std::string(what) + ":";
+    for (std::size_t j = 0; j < before.joints.size(); ++j) {
+      out += " " + o.model->skeleton->joints[j].name + " " +
+             text(kDegrees * before.joints[j], "%.2f") + " -> " +
+             text(kDegrees * after.joints[j], "%.2f") + " deg,";
+    }
+    out += " force " + text(before.force, "%.2f") + " -> " + text(after.force, "%.2f") + " N\n";
+  };
+  line("held out", o.validation);
+  line("calibration", o.calibration);
+  return out;
+}
+
+}  // namespace calibration
+}  // namespace anthrob

@@ -1,0 +1,245 @@
+// Optimisers on functions whose minimum is known, and what the journal does for them.
+#include "anthrob_calib/optimiser/optimiser.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "anthrob_calib/optimiser/journal.h"
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+namespace calibration {
+namespace {
+
+/// A function as an evaluator; remembers what it was asked.
+class Function final : public Evaluator {
+ public:
+  explicit Function(std::function<std::vector<double>(const Point&)> residuals)
+      : residuals_(std::move(residuals)) {}
+
+  std::vector<double> fitness(const std::vector<Point>& points) override {
+    std::vector<double> fitness;
+    for (const auto& list : residuals(points)) {
+      double square = list.empty() ? HUGE_VAL : 0.0;
+      for (const double r : list) square += r * r;
+      fitness.push_back(square);
+    }
+    return fitness;
+  }
+
+  std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override {
+    std::vector<std::vector<double>> lists;
+    for (const Point& point : points) {
+      asked.push_back(point);
+      lists.push_back(residuals_(point));
+    }
+    return lists;
+  }
+
+  std::vector<Point> asked;
+
+ private:
+  std::function<std::vector<double>(const Point&)> residuals_;
+};
+
+std::vector<double> sphere(const Point& p) {
+  return p;
+}
+
+std::vector<SearchVariable> variables(int n, double initial, double bound = 100.0) {
+  return std::vector<SearchVariable>(n, {initial, -bound, bound, 0.5});
+}
+
+OptimiserSettings settings(const std::string& method, int generations, std::uint64_t seed = 1) {
+  OptimiserSettings s;
+  s.method = method;
+  s.generations = generations;
+  s.seed = seed;
+  return s;
+}
+
+SearchResult search(const OptimiserSettings& s, const std::vector<SearchVariable>& v,
+                    Evaluator& evaluator) {
+  return make_optimiser(s)->minimise(v, evaluator);
+}
+
+/// log10 of the best fitness after so many generations, mean over seeds.
+double progress(int generations) {
+  constexpr int kSeeds = 10;
+  double sum = 0.0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Function function(sphere);
+    sum += std::log10(
+        search(settings("evolution_strategy", generations, seed), variables(10, 3.0), function)
+            .fitness);
+  }
+  return sum / kSeeds;
+}
+
+TEST(EvolutionStrategy, ConvergesLinearlyOnTheSphere) {
+  // Self-adaptation keeps the step in proportion to the distance: the logarithm falls steadily.
+  const double at_0 = std::log10(90.0), at_60 = progress(60), at_120 = progress(120);
+  EXPECT_LT(at_60, at_0 - 2.5);
+  EXPECT_NEAR(at_120 - at_60, at_60 - at_0, 0.35 * (at_0 - at_60));
+}
+
+TEST(EvolutionStrategy, MutationsAreSpreadAsEquationsSay) {
+  // y + s exp(N/sqrt(2n)) exp(N/sqrt(2 sqrt n)) N has the variance s^2 exp(1/n + 1/sqrt n).
+  constexpr int n = 4, kCount = 40000;
+  OptimiserSettings s = settings("evolution_strategy", 1);
+  s.offspring = kCount;
+  Function function(sphere);
+  search(s, variables(n, 1.0, 1e6), function);
+  double square = 0.0;
+  for (const Point& p : function.asked) {
+    for (const double y : p) square += (y - 1.0) * (y - 1.0);
+  }
+  const double expected = 0.25 * std::exp(1.0 / n + 1.0 / std::sqrt(n));
+  EXPECT_NEAR(square / (n * kCount), expected, 0.05 * expected);
+}
+
+TEST(EvolutionStrategy, StaysWithinBounds) {
+  // The minimum lies outside; values at a bound start there.
+  std::vector<SearchVariable> v = variables(3, 2.0);
+  for (SearchVariable& x : v) x.lower = 1.0, x.upper = 2.0;
+  Function function(sphere);
+  const SearchResult result = search(settings("evolution_strategy", 40), v, function);
+  for (const Point& p : function.asked) {
+    for (const double y : p) {
+      EXPECT_GE(y, 1.0);
+      EXPECT_LE(y, 2.0);
+    }
+  }
+  EXPECT_NEAR(result.fitness, 3.0, 0.05);
+}
+
+TEST(EvolutionStrategy, KeepsTheBestEver) {
+  // The world gets worse with every evaluation: comma selection loses what was best.
+  int evaluations = 0;
+  Function function([&](const Point&) { return Point{1.0 + ++evaluations}; });
+  const SearchResult result =
+      search(settings("evolution_strategy", 5), variables(2, 0.0), function);
+  EXPECT_DOUBLE_EQ(result.fitness, 4.0);
+  EXPECT_EQ(result.best, function.asked.front());
+  EXPECT_EQ(evaluations, 5 * 36);
+}
+
+TEST(EvolutionStrategy, DoesNotSelectInvalidIndividuals) {
+  Function half([](const Point& p) { return p[0] < 2.0 ? Point{} : p; });
+  const SearchResult result = search(settings("evolution_strategy", 60), variables(3, 3.0), half);
+  EXPECT_GE(result.best[0], 2.0);
+  EXPECT_NEAR(result.fitness, 4.0, 0.2);
+
+  Function none([](const Point&) { return Point{}; });
+  const SearchResult nothing = search(settings("evolution_strategy", 60), variables(3, 3.0), none);
+  EXPECT_EQ(nothing.reason, "no valid individual left");
+  EXPECT_EQ(none.asked.size(), 36u);
+}
+
+TEST(EvolutionStrategy, StopsAtTheTarget) {
+  OptimiserSettings s = settings("evolution_strategy", 1000);
+  s.target = 1.0;
+  Function function(sphere);
+  const SearchResult result = search(s, variables(5, 3.0), function);
+  EXPECT_EQ(result.reason, "target reached");
+  EXPECT_LT(result.fitness, 1.0);
+}
+
+class EveryMethod : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryMethod, FindsAMinimumAndTheSameOneAgain) {
+  Function first(sphere), second(sphere), other(sphere);
+  const auto v = variables(4, 3.0);
+  const SearchResult a = search(settings(GetParam(), 60), v, first);
+  const SearchResult b = search(settings(GetParam(), 60), v, second);
+  EXPECT_LT(a.fitness, 0.05) << a.reason;
+  EXPECT_EQ(a.best, b.best);
+  EXPECT_EQ(first.asked, second.asked);
+  if (std::string(GetParam()) == "least_squares") return;
+  search(settings(GetParam(), 60, 2), v, other);
+  EXPECT_NE(first.asked, other.asked);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryMethod,
+                         testing::Values("evolution_strategy", "cmaes", "sade", "bee_colony",
+                                         "least_squares"));
+
+TEST(LeastSquares, SolvesRosenbrockAtABound) {
+  Function rosenbrock([](const Point& p) {
+    return Point{10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]};
+  });
+  std::vector<SearchVariable> v = {{-1.2, -5.0, 5.0, 0.01}, {1.0, -5.0, 5.0, 0.01}};
+  EXPECT_LT(search(settings("least_squares", 100), v, rosenbrock).fitness, 1e-3);
+  v[0].upper = 0.5;
+  const SearchResult bounded = search(settings("least_squares", 100), v, rosenbrock);
+  EXPECT_NEAR(bounded.best[0], 0.5, 1e-6);
+  EXPECT_NEAR(bounded.fitness, 0.25, 1e-3);
+}
+
+class JournalTest : public testing::Test {
+ protected:
+  ~JournalTest() override { std::filesystem::remove(file_); }
+
+  Journal::Options options(bool resume, int stop_after = 1 << 30) {
+    Journal::Options o;
+    o.file = file_;
+    o.fingerprint = "robot";
+    o.resume = resume;
+    o.stop = [this, stop_after] { return static_cast<int>(function_.asked.size()) >= stop_after; };
+    return o;
+  }
+
+  std::string file_ =
+      (std::filesystem::temp_directory_path() / ("journal_" + std::to_string(getpid()))).string();
+  Function function_{sphere};
+};
+
+TEST_F(JournalTest, AnyMethodResumesToTheSameBits) {
+  for (const char* method : {"evolution_strategy", "cmaes", "sade", "bee_colony"}) {
+    const auto v = variables(4, 3.0);
+    Function plain(sphere);
+    Journal whole(plain, {"", "robot"});
+    search(settings(method, 30), v, whole);
+
+    function_.asked.clear();
+    {
+      Journal journal(function_, options(false, 500));
+      EXPECT_THROW(search(settings(method, 30), v, journal), Interrupted);
+      journal.save();
+    }
+    const std::size_t before = function_.asked.size();
+    ASSERT_LT(before, plain.asked.size());
+    Journal journal(function_, options(true));
+    search(settings(method, 30), v, journal);
+    EXPECT_EQ(journal.best(), whole.best()) << method;
+    EXPECT_EQ(journal.best_fitness(), whole.best_fitness()) << method;
+    EXPECT_EQ(function_.asked, plain.asked) << method;  // nothing was asked twice
+    EXPECT_EQ(journal.replayed(), static_cast<int>(before));
+    ASSERT_EQ(journal.history().size(), whole.history().size());
+    EXPECT_EQ(journal.history().back().best_ever, whole.best_fitness());
+  }
+}
+
+TEST_F(JournalTest, RefusesWhatItDoesNotBelongTo) {
+  EXPECT_THROW(Journal(function_, options(true)), BadInput);  // nothing there
+  {
+    Journal journal(function_, options(false));
+    search(settings("evolution_strategy", 3), variables(2, 1.0), journal);
+    journal.save();
+  }
+  Journal::Options other = options(true);
+  other.fingerprint = "another robot";
+  EXPECT_THROW(Journal(function_, other), BadInput);
+  Journal same(function_, options(true));
+  EXPECT_THROW(search(settings("evolution_strategy", 3, 2), variables(2, 1.0), same), BadInput);
+}
+
+}  // namespace
+}  // namespace calibration
+}  // namespace anthrob

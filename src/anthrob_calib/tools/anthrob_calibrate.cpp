@@ -1,0 +1,134 @@
+// Calibrates a model against recordings.
+#include <tbb/global_control.h>
+
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "anthrob_calib/calibration/calibrate.h"
+#include "anthrob_calib/calibration/extended_model.h"
+#include "anthrob_calib/identification/output_files.h"
+#include "anthrob_calib/optimiser/mpi_evaluator.h"
+#include "anthrob_calib/optimiser/problem_evaluator.h"
+#include "anthrob_calib/report/calibration_report.h"
+#include "anthrob_sim/tool/tool.h"
+
+namespace anthrob {
+namespace {
+
+using namespace calibration;
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string config, data, validation, model, out, method;
+  std::vector<std::string> start;
+  bool resume = false;
+  int jobs = 0, generations = 0;
+  std::int64_t seed = -1;
+};
+
+CalibrationConfig configure(const Arguments& arguments) {
+  CalibrationConfig config = CalibrationConfig::load(arguments.config);
+  if (!arguments.model.empty()) config.model_file = arguments.model;
+  if (!arguments.method.empty()) config.optimiser.method = arguments.method;
+  if (arguments.generations > 0) config.optimiser.generations = arguments.generations;
+  if (arguments.seed >= 0) config.optimiser.seed = static_cast<std::uint64_t>(arguments.seed);
+  config.optimiser.check(config.node.at("optimiser"));
+  return config;
+}
+
+void write(const Arguments& arguments, const CalibrationInput& input,
+           const CalibrationOutcome& outcome) {
+  identification::OutputFiles files;
+  files["result.json"] = result_json(outcome);
+  files["report.html"] = report_html(outcome);
+  files["model.yaml"] = extended_model_text(
+      ConfigNode::load(input.config.model_file), input.config.model_file, outcome.overrides,
+      arguments.out, "Calibrated by anthrob_calibrate; result.json and report.html say how well.");
+  identification::write_files(arguments.out, files);
+}
+
+int calibrate(const Arguments& arguments, const MpiSession& session) {
+  const CalibrationInput input = CalibrationInput::read(configure(arguments), arguments.data,
+                                                        arguments.validation, arguments.start);
+  const Problem problem = input.problem();
+  ProblemEvaluator local(problem);
+  if (session.rank() > 0) {
+    serve(session, local);
+    return tool::kDone;
+  }
+  identification::require_writable(arguments.out);
+  MpiEvaluator everywhere(session, local);
+  const OptimiserSettings& settings = input.config.optimiser;
+  tool::Progress progress("calibrating");
+  const double expected = settings.evaluations(problem.space().size());
+
+  Journal::Options options;
+  options.file = (fs::path(arguments.out) / "journal.txt").string();
+  options.fingerprint = input.fingerprint();
+  options.resume = arguments.resume;
+  options.batch = settings.offspring;
+  options.stop = tool::interrupted;
+  options.progress = [&](int done) { progress.update(std::min(1.0, done / expected)); };
+  fs::create_directories(arguments.out);
+  Journal journal(everywhere, options);
+  problem.build(problem.space().initial());  // a start that cannot be built has its own message
+
+  std::string reason = "interrupted";
+  bool complete = false;
+  try {
+    reason = make_optimiser(settings)->minimise(search_variables(problem.space()), journal).reason;
+    complete = true;
+  } catch (const Interrupted&) {
+  }
+  journal.save();
+  const CalibrationOutcome outcome = conclude(input, problem, journal, reason, complete);
+  write(arguments, input, outcome);
+  std::cout << summary(outcome);
+  if (complete) return tool::kDone;
+  std::cerr << "anthrob_calibrate: interrupted; what was best so far is in " << arguments.out
+            << ", --resume goes on\n";
+  return tool::kInterrupted;
+}
+
+void add_options(CLI::App& app, Arguments& a) {
+  app.add_option("--config", a.config, "what to calibrate and how (docs/calibration.md)")
+      ->required();
+  app.add_option("--data", a.data, "folder of recordings to fit")->required();
+  app.add_option("--validation", a.validation, "folder of recordings to judge by, never fitted");
+  app.add_option("--out", a.out, "folder for model.yaml, result.json, report.html")->required();
+  app.add_option("--model", a.model, "instead of the configuration's model file");
+  app.add_option("--start", a.start, "result.json of earlier calibrations to start from");
+  app.add_flag("--resume", a.resume, "go on after an interruption");
+  app.add_option("--jobs", a.jobs, "threads (default: all)")->check(CLI::Range(1, 1024));
+  app.add_option("--optimiser", a.method, "instead of the configuration's method");
+  app.add_option("--generations", a.generations, "instead of the configuration's")
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--seed", a.seed, "instead of the configuration's")
+      ->check(CLI::Range(0, 2147483647));
+}
+
+}  // namespace
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  using namespace anthrob;
+  const MpiSession session(&argc, &argv);
+  if (session.rank() > 0) {
+    std::cerr.rdbuf(nullptr);  // one process speaks for all
+    tool::interrupted();       // rank 0 decides when to stop
+  }
+  CLI::App app(
+      "Calibrates a model against recordings: fits parameters within their ranges so that the "
+      "simulated robot does what the recorded one did. Threads by itself, hosts by mpirun.",
+      "anthrob_calibrate");
+  Arguments arguments;
+  add_options(app, arguments);
+  return tool::run(app, argc, argv, [&] {
+    const int jobs =
+        arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(std::max(1, jobs)));
+    return calibrate(arguments, session);
+  });
+}
