@@ -1,0 +1,213 @@
+// anthrob_calibrate as a user sees it: equal bits however it is run, and one clear line for bad
+// input, with nothing lost.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "simulated_recordings.h"
+
+namespace anthrob {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kRig = std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/model_II.yaml";
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream(file) << text;
+}
+
+struct Outcome {
+  int status;
+  std::string errors;
+  long lines() const { return std::count(errors.begin(), errors.end(), '\n'); }
+};
+
+class CalibrateTool : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    root_ = fs::temp_directory_path() / ("anthrob_calibrate_" + std::to_string(getpid()));
+    fs::create_directories(root_);
+    LoadOptions truth;
+    truth.overrides = {{"muscles.flexor.rest_tendon_length", 0.3625},
+                       {"muscles.extensor.spindle_radius", 0.0069}};
+    const auto robot = load_robot_model(kRig, truth);
+    for (const double to : {0.0, 2.0, 3.0}) {
+      RecordingPlan plan;
+      plan.from = {1.0, 1.0};
+      plan.to = {to, 2.0 - to};
+      plan.duration = 1.0;
+      plan.force_noise = 0.1;
+      record_simulation(robot, plan).save(path("eq/E" + std::to_string(int(to))));
+      plan.kind = "trajectory";
+      record_simulation(robot, plan).save(path("tr/E1_to_E" + std::to_string(int(to))));
+    }
+    write_config("c.yaml", "equilibria", 0.006);
+    write_config("t.yaml", "trajectories", 0.006);
+  }
+  static void TearDownTestSuite() { fs::remove_all(root_); }
+
+  static std::string path(const std::string& name) { return (root_ / name).string(); }
+
+  static void write_config(const std::string& name, const std::string& kind, double range) {
+    write(path(name), "model: " + fs::relative(kRig, root_).string() + "\nrecordings: " + kind +
+                          "\nsimulate: {settle: 0.5, motion: 1.0}\n"
+                          "optimiser: {method: evolution_strategy, parents: 2, offspring: 8, "
+                          "generations: 5, seed: 3}\nparameters:\n"
+                          "  - {path: muscles.*.rest_tendon_length, unit: m, range: " +
+                          std::to_string(range) +
+                          ", step: 0.001}\n"
+                          "  - {path: muscles.*.spindle_radius, unit: m, low: 0.006, high: 0.0075, "
+                          "step: 0.0002}\n");
+  }
+
+  static Outcome run(const std::string& arguments, const std::string& before = "") {
+    const std::string errors = path("errors.txt");
+    const int status = std::system(
+        (before + ANTHROB_CALIBRATE + " " + arguments + " >/dev/null 2>" + errors).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(errors)};
+  }
+
+  static Outcome calibrate(const std::string& out, const std::string& more = "",
+                           const std::string& before = "") {
+    return run(
+        "--config " + path("c.yaml") + " --data " + path("eq") + " --out " + path(out) + " " + more,
+        before);
+  }
+
+  void expect_same(const std::string& a, const std::string& b) {
+    for (const char* file : {"/result.json", "/model.yaml", "/report.html", "/journal.txt"}) {
+      EXPECT_FALSE(content(path(a + file)).empty()) << a << file;
+      EXPECT_EQ(content(path(a + file)), content(path(b + file))) << b << file;
+    }
+  }
+
+  static fs::path root_;
+};
+
+fs::path CalibrateTool::root_;
+
+TEST_F(CalibrateTool, BitsAreEqualHoweverItIsRun) {
+  ASSERT_EQ(calibrate("one", "--jobs 1").status, 0);
+  const auto result = nlohmann::json::parse(content(path("one/result.json")));
+  EXPECT_LT(result["fitness"]["after"].get<double>(),
+            0.5 * result["fitness"]["before"].get<double>());
+  EXPECT_NO_THROW(load_robot_model(path("one/model.yaml")));
+
+  EXPECT_EQ(calibrate("two", "--jobs 2").status, 0);
+  expect_same("one", "two");
+
+  // Killed in the middle: the journal of the first generations is what is left.
+  ASSERT_EQ(calibrate("killed", "--jobs 2 --generations 2").status, 0);
+  fs::remove(path("killed/result.json"));
+  EXPECT_EQ(calibrate("killed", "--jobs 2 --resume").status, 0);
+  expect_same("one", "killed");
+
+  if (std::system("mpirun --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no mpirun";
+  const char* const mpirun =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 3 ";
+  EXPECT_EQ(calibrate("hosts", "--jobs 1", mpirun).status, 0);
+  expect_same("one", "hosts");
+}
+
+TEST_F(CalibrateTool, InterruptedItKeepsTheBestAndGoesOn) {
+  ASSERT_EQ(calibrate("whole", "--generations 40").status, 0);
+  const Outcome stopped = calibrate("stopped", "--generations 40", "timeout --preserve-status -s INT 2 ");
+  // A machine that is fast enough to finish first shows nothing.
+  if (stopped.status == 0) GTEST_SKIP();
+  EXPECT_EQ(stopped.status, 130);
+  EXPECT_NE(stopped.errors.find("--resume goes on"), std::string::npos) << stopped.errors;
+  EXPECT_TRUE(fs::exists(path("stopped/model.yaml")));
+  EXPECT_EQ(calibrate("stopped", "--generations 40 --resume").status, 0);
+  expect_same("whole", "stopped");
+}
+
+TEST_F(CalibrateTool, TrajectoriesValidationAndStart) {
+  ASSERT_EQ(calibrate("first").status, 0);
+  const Outcome outcome =
+      run("--config " + path("t.yaml") + " --data " + path("tr") + " --validation " + path("eq") +
+          " --start " + path("first/result.json") + " --out " + path("second"));
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const auto first = nlohmann::json::parse(content(path("first/result.json")));
+  const auto second = nlohmann::json::parse(content(path("second/result.json")));
+  EXPECT_EQ(second["parameters"][0]["initial"], first["parameters"][0]["value"]);
+  EXPECT_EQ(second["drives"].size(), 3u);
+  EXPECT_TRUE(second["validation"].is_object());
+  const std::string html = content(path("second/report.html"));
+  EXPECT_LT(html.find("Held-out"), html.find("Recordings of the calibration"));
+  EXPECT_EQ(html.find("nan"), std::string::npos);
+}
+
+TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
+  const auto expect = [&](const std::string& arguments, const std::string& part) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(outcome.lines(), 1) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
+  };
+  const std::string config = "--config " + path("c.yaml"), out = " --out " + path("bad");
+  const auto altered = [&](const std::string& name, auto change) {
+    fs::remove_all(path(name));
+    fs::copy(path("eq"), path(name), fs::copy_options::recursive);
+    const fs::path csv = fs::path(path(name)) / "E2/muscles.csv";
+    write(csv, change(content(csv)));
+    return config + out + " --data " + path(name);
+  };
+  expect(config + out + " --data " + path("nowhere"), "no such folder of recordings");
+  fs::create_directories(path("empty"));
+  expect(config + out + " --data " + path("empty"), "holds no recordings");
+  expect(altered("x", [](const std::string&) { return std::string(); }), "muscles.csv: empty");
+  expect(altered("x", [](const std::string& text) { return text.substr(0, text.size() / 2); }),
+         "muscles.csv:");
+  expect(altered("x",
+                 [](std::string text) {
+                   const std::size_t line = text.find('\n', text.size() / 2);
+                   const std::size_t cell = text.find(',', line) + 1;
+                   return text.replace(cell, text.find(',', cell) - cell, "nan");
+                 }),
+         "not a finite number");
+  expect(altered("x",
+                 [](const std::string& text) {
+                   const std::size_t row = text.find('\n') + 1, next = text.find('\n', row) + 1;
+                   return text + text.substr(row, next - row);
+                 }),
+         "expected time to grow");
+  expect(
+      altered("x", [](std::string text) { return text.replace(text.find("flexor"), 6, "biceps"); }),
+      "no such quantity");
+  expect(config + out + " --data " + path("tr"), "expected equilibria");
+
+  write_config("impossible.yaml", "equilibria", -0.001);
+  expect("--config " + path("impossible.yaml") + out + " --data " + path("eq"), "impossible.yaml:");
+  write(path("unknown.yaml"), content(path("c.yaml")) + "colour: red\n");
+  expect("--config " + path("unknown.yaml") + out + " --data " + path("eq"), "unknown key");
+  expect(config + out + " --optimiser magic --data " + path("eq"), "expected evolution_strategy");
+  expect(config + out + " --resume --data " + path("eq"), "expected the journal");
+  write(path("file"), "");
+  expect(config + " --out " + path("file") + "/x --data " + path("eq"), "--out");
+
+  // A journal of other data is refused, and stays.
+  ASSERT_EQ(calibrate("kept", "--generations 1").status, 0);
+  const std::string journal = content(path("kept/journal.txt"));
+  expect(config + " --seed 9 --resume --out " + path("kept") + " --data " + path("eq"),
+         "belongs to other data");
+  EXPECT_EQ(content(path("kept/journal.txt")), journal);
+  EXPECT_FALSE(fs::exists(path("bad/result.json")));
+}
+
+}  // namespace
+}  // namespace anthrob
