@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string config, data, validation, model, out, method;
   std::vector<std::string> start;
-  bool resume = false;
+  bool resume = false, evaluate = false;
   int jobs = 0, generations = 0;
   std::int64_t seed = -1;
 };
@@ -74,15 +74,19 @@ int calibrate(const Arguments& arguments, const MpiSession& session) {
   Journal journal(everywhere, options);
   problem.build(problem.space().initial());  // a start that cannot be built has its own message
 
-  std::string reason = "interrupted";
+  std::string reason = arguments.evaluate ? "errors only" : "interrupted";
   bool complete = false;
   try {
-    reason = make_optimiser(settings)->minimise(search_variables(problem.space()), journal).reason;
+    if (!arguments.evaluate) {
+      reason =
+          make_optimiser(settings)->minimise(search_variables(problem.space()), journal).reason;
+    }
     complete = true;
   } catch (const Interrupted&) {
   }
   journal.save();
-  const CalibrationOutcome outcome = conclude(input, problem, journal, reason, complete);
+  const bool thorough = complete && !arguments.evaluate;
+  const CalibrationOutcome outcome = conclude(input, problem, journal, reason, thorough);
   write(arguments, input, outcome);
   std::cout << summary(outcome);
   if (complete) return tool::kDone;
@@ -100,6 +104,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--model", a.model, "instead of the configuration's model file");
   app.add_option("--start", a.start, "result.json of earlier calibrations to start from");
   app.add_flag("--resume", a.resume, "go on after an interruption");
+  app.add_flag("--evaluate", a.evaluate, "no search: the errors of the model as it is");
   app.add_option("--jobs", a.jobs, "threads (default: all)")->check(CLI::Range(1, 1024));
   app.add_option("--optimiser", a.method, "instead of the configuration's method");
   app.add_option("--generations", a.generations, "instead of the configuration's")

@@ -236,5 +236,20 @@ TEST_F(MeshFile, BadKeys) {
   expect_refusal(file, "colour", ", colour: red");
 }
 
+TEST_F(MeshFile, PreparedOnceForEveryDescription) {
+  const std::string file = write("box.stl", binary_stl(box()));
+  const auto first = load(file);
+  EXPECT_EQ(load(file), first);
+  EXPECT_NE(load(file, ", offset: [0.001, 0, 0]"), first);
+  const std::string half = ", part: [{point: [0, 0, 0], normal: [0, 1, 0]}]";
+  const auto part = load(file, half);
+  EXPECT_NE(part, first);
+  EXPECT_EQ(load(file, half), part);
+  write("box.stl", binary_stl(box(0.021)));  // the file has changed
+  const auto larger = load(file);
+  EXPECT_NE(larger, first);
+  EXPECT_GT(larger->hull().size(), first->hull().size());
+}
+
 }  // namespace
 }  // namespace anthrob

@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
+#include "anthrob_sim/path/mesh_cache.h"
 #include "anthrob_sim/path/mesh_file.h"
 
 namespace anthrob {
@@ -217,7 +223,48 @@ void MeshSurface::trace(const WrapContact& contact, std::vector<Vec3>& points) c
   points.push_back(contact.exit);
 }
 
+namespace {
+
+constexpr const char* kKeys[] = {"chi", "scale", "offset", "part"};
+
+/// All that a prepared surface depends on.
+std::string description(const ConfigNode& node, const Pose& X_BL) {
+  const ConfigNode file = node.at("file");
+  const auto path = std::filesystem::path(file.file()).parent_path() / file.as_text();
+  std::string content;  // no file, or a folder, has a message of its own
+  if (std::filesystem::is_regular_file(path)) {
+    std::ifstream in(path, std::ios::binary);
+    content.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  std::ostringstream out;
+  out.precision(17);
+  // Remarks name the file that describes.
+  out << file.file() << file.path() << "\n"
+      << path.string() << content.size() << " " << std::hash<std::string>()(content) << "\n"
+      << X_BL.R << X_BL.p;
+  for (const char* key : kKeys) {
+    if (node.has(key)) out << "\n" << key << node.at(key).to_yaml();
+  }
+  return out.str();
+}
+
+}  // namespace
+
 std::shared_ptr<const WrappingSurface> MeshSurface::load(const ConfigNode& node, const Pose& X_BL) {
+  static MeshCache cache;
+  bool known = true;
+  const auto surface = cache.get(description(node, X_BL), [&] {
+    known = false;
+    return prepare(node, X_BL);
+  });
+  for (const char* key : kKeys) {
+    if (known && node.has(key)) node.at(key).ignore();
+  }
+  return surface;
+}
+
+std::shared_ptr<const WrappingSurface> MeshSurface::prepare(const ConfigNode& node,
+                                                            const Pose& X_BL) {
   const Vec3 chi = node.at("chi").as_vector3("1");
   if (!(chi.norm() > 1e-9)) node.at("chi").fail_expected("a vector that is not zero");
   MeshPoints mesh = load_mesh_points(node);

@@ -46,10 +46,13 @@ class MeshSurface final : public WrappingSurface {
   const ConvexHull& hull() const { return hull_; }
   const Vec3& chi() const { return chi_; }  ///< unit or zero, in the body's frame
 
-  /// `{file: , scale: , offset: [m], chi: [1], part: [{point: [m], normal: [1]}]}`
+  /// `{file: , scale: , offset: [m], chi: [1], part: [{point: [m], normal: [1]}]}`; the same
+  /// description in the same file gives the same object.
   static std::shared_ptr<const WrappingSurface> load(const ConfigNode& node, const Pose& X_BL);
 
  private:
+  static std::shared_ptr<const WrappingSurface> prepare(const ConfigNode& node, const Pose& X_BL);
+
   /// What is remembered: where the points were, and the strip of facets, from the point named.
   struct Header {
     double facet_before, facet_after;
