@@ -52,6 +52,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
   demo              the arm raises, bends and returns; records demo.bag, converts it and draws build/demo/
   test              all tests; the last line counts them
   bench             benchmarks beside MuJoCo; writes build/bench.json
+  study NAME        calibration: chapter 8 of the thesis against virtual robots; resumable, build/study/
   shell             a shell in which rosrun, roslaunch and rostopic know the workspace
   clean             remove what was built, but not build/study
   help              this text
@@ -192,6 +193,15 @@ bench() {
   /usr/bin/python3 scripts/bench_table.py build/bench.json build/step.json build/scaling.json build/mesh.json
 }
 
+study() {
+  local name="${1:-}"
+  [ -f "scripts/study/$name.py" ] || die "study: expected one of: $(cd scripts/study && ls -- *.py | sed 's/\.py$//' | tr '\n' ' ')"
+  shift
+  build
+  mkdir -p build/study
+  scripts/study/"$name".py "$@"
+}
+
 shell() {
   build
   say "a shell with the workspace; exit leaves it"
@@ -208,7 +218,7 @@ command="${1:-help}"
 [ $# -gt 0 ] && shift
 clean_environment
 case "$command" in
-  deps | build | sim | demo | bench | shell | clean | help) "$command" "$@" ;;
+  deps | build | sim | demo | bench | study | shell | clean | help) "$command" "$@" ;;
   test) tests "$@" ;;
   -h | --help) help ;;
   *) die "unknown command '$command': ./catkin_ws.sh help lists them" ;;

@@ -1,0 +1,278 @@
+#!/usr/bin/python3
+"""The study of chapter 8: models I, II, III calibrated tier by tier against virtual robots.
+
+Every step leaves its result under build/study/calibration/ and is not done again; what was
+interrupted goes on. Writes build/study/calibration.json and .html and docs/studies/calibration.md.
+"""
+
+import argparse
+import html
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+
+MODELS = ["I", "II", "III"]
+STAGES = ["tier1_statics", "tier1_dynamics", "tier2_statics", "tier2_dynamics"]
+DATA = {
+    "tier1_statics": "tier1/equilibria",
+    "tier1_dynamics": "tier1/trajectories",
+    "tier2_statics": "tier2/equilibria",
+    "tier2_dynamics": "tier2/trajectories",
+}
+# Tables C.12 and D.1 of the thesis: shoulder [deg], elbow [deg] or None, force [N].
+BEFORE = {
+    "I": [(21.9, None, 5.0), (15.2, None, 4.4), (14.3, 4.4, 3.1), (8.7, 5.1, 2.9)],
+    "II": [(15.6, None, 5.4), (11.5, None, 4.3), (13.0, 5.1, 2.7), (7.5, 5.8, 2.7)],
+    "III": [(11.3, None, 5.3), (8.7, None, 4.1), (10.4, 4.8, 2.7), (6.3, 5.6, 2.7)],
+}
+AFTER = {
+    "I": [(4.5, None, 6.0), (9.9, None, 4.0), (6.7, 2.4, 3.3), (7.1, 2.2, 2.9)],
+    "II": [(3.7, None, 5.5), (6.6, None, 3.7), (4.1, 1.2, 3.0), (4.0, 2.5, 2.7)],
+    "III": [(4.3, None, 5.2), (6.6, None, 3.6), (5.9, 1.8, 3.3), (5.0, 1.7, 2.6)],
+}
+RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
+TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
+CONFIG = "config/anthrob/calibration"
+
+
+def run(command, log):
+    """Runs a step; the study ends where a step does."""
+    with open(log, "a") as out:
+        status = subprocess.run(command, stdout=out, stderr=subprocess.STDOUT).returncode
+    if status == 130:
+        sys.exit(130)
+    if status != 0:
+        sys.exit(f"study: {' '.join(command)} failed: see {log}")
+
+
+def load(file):
+    with open(file) as text:
+        return json.load(text)
+
+
+def generations(stage, model, share):
+    """Of the configuration, or a share of it."""
+    if share >= 1:
+        return []
+    with open(f"{CONFIG}/{stage}_{model}.yaml") as text:
+        for line in text:
+            if line.strip().startswith("generations:"):
+                full = int(line.split(":")[1].split("#")[0])
+                return ["--generations", str(max(1, round(full * share)))]
+    sys.exit(f"study: {stage}_{model}.yaml names no generations")
+
+
+class Robot:
+    """One virtual robot and what was calibrated against it."""
+
+    def __init__(self, seed, options):
+        self.seed = seed
+        self.options = options
+        self.folder = f"{options.out}/calibration/robot_{seed}"
+        self.data = f"{self.folder}/data"
+        self.log = f"{self.folder}/study.log"
+        os.makedirs(self.folder, exist_ok=True)
+
+    def record(self):
+        if os.path.exists(f"{self.data}/complete"):
+            return
+        say(f"robot {self.seed}: recording")
+        for tier in "12":
+            run([RECORDER, "--seed", str(self.seed), "--tier", tier, "--model",
+                 "config/anthrob/model_II.yaml", "--out", f"{self.data}/tier{tier}"], self.log)
+        open(f"{self.data}/complete", "w").close()
+
+    def step(self, stage, model, name, start, more):
+        """One run of anthrob_calibrate, unless it was done before."""
+        out = f"{self.folder}/{model}/{stage}/{name}"
+        if os.path.exists(f"{out}/seconds"):
+            return out
+        os.makedirs(out, exist_ok=True)
+        command = [TOOL, "--config", f"{CONFIG}/{stage}_{model}.yaml", "--data",
+                   f"{self.data}/{DATA[stage]}", "--out", out, "--jobs", str(self.options.jobs)] + more
+        command += ["--validation", f"{self.data}/{stage[:5]}/validation"]
+        if start:
+            command += ["--start", f"{start}/result.json"]
+        if os.path.exists(f"{out}/journal.txt"):
+            command.append("--resume")
+        begin = time.time()
+        run(command, self.log)
+        with open(f"{out}/seconds", "w") as text:
+            text.write(f"{time.time() - begin:.1f}\n")
+        return out
+
+    def calibrate(self, model):
+        start = None
+        for stage in STAGES:
+            say(f"robot {self.seed}: model {model}, {stage}")
+            self.step(stage, model, "uncalibrated", None, ["--evaluate"])
+            runs = []
+            for k in range(1, self.options.runs + 1):
+                more = ["--seed", str(k)] + generations(stage, model, self.options.share)
+                runs.append(self.step(stage, model, f"run_{k}", start, more))
+            start = min(runs, key=lambda r: load(f"{r}/result.json")["fitness"]["after"])
+            with open(f"{self.folder}/{model}/{stage}/best", "w") as text:
+                text.write(os.path.basename(start) + "\n")
+            summarise(self.options)
+
+    def result(self, stage, model):
+        """Errors before and after, None if the stage has not been done."""
+        folder = f"{self.folder}/{model}/{stage}"
+        if not os.path.exists(f"{folder}/best"):
+            return None
+        best = f"{folder}/{open(f'{folder}/best').read().strip()}"
+        result = load(f"{best}/result.json")
+        before = load(f"{folder}/uncalibrated/result.json")["calibration"]["mean"]["after"]
+        out = {
+            "before": errors(before),
+            "after": errors(result["calibration"]["mean"]["after"]),
+            "fitness": [result["fitness"]["before"], result["fitness"]["after"]],
+            "evaluations": result["optimiser"]["evaluations"],
+            "seconds": float(open(f"{best}/seconds").read()),
+        }
+        out["validation"] = errors(result["validation"]["mean"]["after"])
+        return out
+
+
+def errors(mean):
+    joints = mean["joints_deg"]
+    return [joints["shoulder"], joints.get("elbow"), mean["force_N"]]
+
+
+def median(lists):
+    """Of lists of numbers or None, place by place."""
+    return [None if None in column else statistics.median(column) for column in zip(*lists)]
+
+
+def text(values):
+    return " / ".join(f"{v:.1f}" for v in values if v is not None)
+
+
+def collect(options):
+    table = []
+    for model in MODELS:
+        for index, stage in enumerate(STAGES):
+            done = {}
+            for seed in options.robots:
+                result = Robot(seed, options).result(stage, model)
+                if result:
+                    done[seed] = result
+            if not done:
+                continue
+            entry = {
+                "model": model,
+                "stage": stage,
+                "robots": done,
+                "before": median([r["before"] for r in done.values()]),
+                "after": median([r["after"] for r in done.values()]),
+                "thesis": {"before": BEFORE[model][index], "after": AFTER[model][index]},
+            }
+            entry["factor"] = entry["before"][0] / entry["after"][0]
+            entry["thesis"]["factor"] = BEFORE[model][index][0] / AFTER[model][index][0]
+            table.append(entry)
+    return table
+
+
+def machine():
+    with open("/proc/cpuinfo") as info:
+        names = [line.split(":")[1].strip() for line in info if line.startswith("model name")]
+    return f"{len(names)} x {names[0]}" if names else "unknown"
+
+
+def commit():
+    out = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
+    return out.stdout.strip() or "unknown"
+
+
+def head():
+    return ["model", "stage", "before", "after", "factor", "thesis before", "thesis after",
+            "thesis factor", "robots", "minutes"]
+
+
+def rows(table):
+    for e in table:
+        minutes = statistics.median(r["seconds"] for r in e["robots"].values()) / 60
+        yield [e["model"], e["stage"], text(e["before"]), text(e["after"]), f"{e['factor']:.1f}",
+               text(e["thesis"]["before"]), text(e["thesis"]["after"]),
+               f"{e['thesis']['factor']:.1f}", str(len(e["robots"])), f"{minutes:.1f}"]
+
+
+def markdown(table, facts):
+    lines = ["# Study: calibration against virtual robots", "",
+             "Written by `./catkin_ws.sh study calibration`. Errors are means over runs, medians over robots: shoulder [deg] /",
+             "elbow [deg] / muscle force [N]; thesis: Tables C.12 and D.1, of the real robot.", ""]
+    lines += [f"- {key}: {value}" for key, value in facts.items()]
+    lines += ["", "| " + " | ".join(head()) + " |", "|" + "---|" * len(head())]
+    lines += ["| " + " | ".join(row) + " |" for row in rows(table)]
+    lines += ["", "## Held-out trajectories", "",
+              "A tour through several postures, never fitted; medians over robots.", "",
+              "| model | tier | error of the calibrated model |", "|---|---|---|"]
+    lines += [f"| {e['model']} | {e['stage'][4]} | {text(median([r['validation'] for r in e['robots'].values()]))} |"
+              for e in table if e["stage"].endswith("dynamics")]
+    return "\n".join(lines) + "\n"
+
+
+def page(table, facts):
+    def cells(row, tag):
+        return "<tr>" + "".join(f"<{tag}>{html.escape(c)}</{tag}>" for c in row) + "</tr>"
+
+    body = "".join(f"<li>{html.escape(k)}: {html.escape(str(v))}</li>" for k, v in facts.items())
+    body = f"<ul>{body}</ul><table>" + cells(head(), "th")
+    body += "".join(cells(row, "td") for row in rows(table)) + "</table>"
+    return ("<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Calibration</title>"
+            "<style>body{font-family:sans-serif}td,th{border:1px solid #ccc;padding:2px 8px}"
+            "table{border-collapse:collapse}</style></head><body><h1>Calibration against virtual "
+            f"robots</h1><p>shoulder [deg] / elbow [deg] / force [N]</p>{body}</body></html>\n")
+
+
+def write(file, content):
+    with open(file + ".part", "w") as out:
+        out.write(content)
+    os.replace(file + ".part", file)
+
+
+def summarise(options):
+    table = collect(options)
+    facts = {
+        "commit": commit(),
+        "robots (seeds)": ", ".join(str(s) for s in options.robots),
+        "searches a stage": options.runs,
+        "share of the thesis's generations": options.share,
+        "machine": machine(),
+    }
+    write(f"{options.out}/calibration.json", json.dumps({"facts": facts, "table": table}, indent=2))
+    write(f"{options.out}/calibration.html", page(table, facts))
+    os.makedirs("docs/studies", exist_ok=True)
+    write("docs/studies/calibration.md", markdown(table, facts))
+
+
+def say(line):
+    print(f"study: {line}", file=sys.stderr, flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--robots", type=int, nargs="+", default=[1, 2, 3], help="seeds")
+    parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS)
+    parser.add_argument("--runs", type=int, default=2, help="searches a stage; the better one survives")
+    parser.add_argument("--share", type=float, default=1.0, help="of the thesis's generations")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--out", default="build/study")
+    options = parser.parse_args()
+    for seed in options.robots:
+        robot = Robot(seed, options)
+        robot.record()
+        for model in options.models:
+            robot.calibrate(model)
+    summarise(options)
+    say(f"done: {options.out}/calibration.html, docs/studies/calibration.md")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit(130)
