@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "anthrob_reference/check.h"
 #include "anthrob_reference/load.h"
@@ -52,6 +53,14 @@ void Arm::set_step(double step) {
 
 void Arm::scale_eyelet_friction(double factor) {
   dynamics_.scale_eyelet_friction(factor);
+}
+
+void Arm::add_law(std::size_t i, std::shared_ptr<MuscleLaw> law) {
+  dynamics_.add_law(i, std::move(law));
+}
+
+void Arm::add_law(std::shared_ptr<JointLaw> law) {
+  dynamics_.add_law(std::move(law));
 }
 
 void Arm::place(const Eigen::Quaterniond& shoulder, double elbow,
@@ -151,6 +160,7 @@ void Arm::step(double h) {
   const JointState joints = dynamics_.joints(x_);
   dynamics_.set_joints(joints, &x_);
   dynamics_.update_contacts(joints);
+  dynamics_.settle(h, x_);
 }
 
 double Arm::time() const {

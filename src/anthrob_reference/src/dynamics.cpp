@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <utility>
 
 namespace anthrob::reference {
 namespace {
@@ -61,6 +62,16 @@ void Dynamics::scale_eyelet_friction(double factor) {
   for (Muscle& muscle : muscles_) muscle.scale_eyelet_friction(factor);
 }
 
+void Dynamics::add_law(std::size_t i, std::shared_ptr<MuscleLaw> law) {
+  muscles_.at(i).add_law(std::move(law));
+  has_laws_ = true;
+}
+
+void Dynamics::add_law(std::shared_ptr<JointLaw> law) {
+  joint_laws_.push_back(std::move(law));
+  has_laws_ = true;
+}
+
 void Dynamics::reset_contacts(const JointState& joints) {
   const Posture posture = skeleton_.posture(joints);
   for (Muscle& muscle : muscles_) muscle.path().reset_contacts(posture);
@@ -98,12 +109,39 @@ void Dynamics::rate(const Eigen::VectorXd& x, Eigen::VectorXd* dx) {
     set_muscle_state(i, muscles_[i].rate(muscle, voltages_[i], solutions_[i]), dx);
     torque += solutions_[i].torque;
   }
+  for (const auto& law : joint_laws_) torque += law->torque(state);
   note_regime(state);
   const Eigen::Quaterniond omega(0.0, state.velocity(0), state.velocity(1), state.velocity(2));
   dx->head<4>() = 0.5 * coefficients(quaternion(x) * omega);
   (*dx)(kElbow) = state.velocity(3);
   mass_ = skeleton_.mass_matrix(posture);
   dx->segment<4>(kVelocity) = mass_.llt().solve(torque);
+}
+
+void Dynamics::settle(double h, const Eigen::VectorXd& x) {
+  if (!has_laws_) return;
+  const std::vector<MuscleSolution>& solutions = solve_muscles(x);
+  for (std::size_t i = 0; i < muscles_.size(); ++i) {
+    if (muscles_[i].has_laws()) muscles_[i].settle(h, muscle_state(x, i), solutions[i]);
+  }
+  if (joint_laws_.empty()) return;
+  const JointState state = joints(x);
+  const Eigen::Vector3d load = shoulder_load(state);
+  for (const auto& law : joint_laws_) law->settle(h, state, load);
+}
+
+Eigen::Vector3d Dynamics::shoulder_load(const JointState& state) const {
+  constexpr double kNoArm = 1e-9;  // of tendons that do not cross the shoulder [m]
+  Eigen::Vector3d load = skeleton_.weight(state);
+  for (const MuscleSolution& solution : solutions_) {
+    for (std::size_t s = 0; s < solution.tensions.size(); ++s) {
+      const SpanSolution& span = solution.path.spans[s];
+      if (span.arm.head<3>().norm() > kNoArm) {
+        load -= solution.tensions[s] * span.geometry.u_start;
+      }
+    }
+  }
+  return load;
 }
 
 void Dynamics::note_regime(const JointState& state) {
@@ -119,6 +157,7 @@ void Dynamics::rate_and_prepare(const Eigen::VectorXd& x, double shift, Eigen::V
   first_regime_ = regime_;
   smooth_ = true;
   Matrix4 damping = skeleton_.damping(joints(x));
+  for (const auto& law : joint_laws_) damping.diagonal() += law->damping(joints(x));
   for (std::size_t i = 0; i < muscles_.size(); ++i) {
     muscles_[i].add_damping(solutions_[i], &damping);
   }

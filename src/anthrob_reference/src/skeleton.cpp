@@ -133,6 +133,10 @@ Eigen::Vector3d Skeleton::gravity_in_humerus(const JointState& state) const {
   return state.shoulder.conjugate() * gravity_H_rest_;
 }
 
+Eigen::Vector3d Skeleton::weight(const JointState& state) const {
+  return (parameters_.humerus.mass + parameters_.forearm.mass) * gravity_in_humerus(state);
+}
+
 double Skeleton::kinetic_energy(const JointState& state) const {
   return 0.5 * state.velocity.dot(mass_matrix(posture(state)) * state.velocity);
 }

@@ -2,11 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "anthrob_reference/controller.h"
 #include "anthrob_reference/dynamics.h"
+#include "anthrob_reference/joint_law.h"
 #include "anthrob_reference/parameters.h"
 #include "anthrob_reference/rosenbrock.h"
 
@@ -45,6 +47,10 @@ class Arm final {
   void set_step(double step);
   /// Multiplies the present friction coefficients of all eyelets.
   void scale_eyelet_friction(double factor);
+
+  /// What this arm does beside its equations. Laws remember: give each arm its own, before place().
+  void add_law(std::size_t i, std::shared_ptr<MuscleLaw> law);
+  void add_law(std::shared_ptr<JointLaw> law);
 
   /// Puts the arm at rest: no velocity, no current, rings relaxed at their stretch, all commands
   /// 0 V, time 0. Contacts are those of a continuous motion from the rest posture, shoulder along

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
+#include "anthrob_reference/joint_law.h"
 #include "anthrob_reference/muscle.h"
 #include "anthrob_reference/parameters.h"
 #include "anthrob_reference/rosenbrock.h"
@@ -29,6 +31,10 @@ class Dynamics final : public StiffSystem {
   void set_voltage(std::size_t i, double voltage) { voltages_[i] = voltage; }
   double voltage(std::size_t i) const { return voltages_[i]; }
   void scale_eyelet_friction(double factor);
+  void add_law(std::size_t i, std::shared_ptr<MuscleLaw> law);
+  void add_law(std::shared_ptr<JointLaw> law);
+  /// Tells the laws that a step of h [s] has led to x.
+  void settle(double h, const Eigen::VectorXd& x);
 
   void reset_contacts(const JointState& joints);
   void update_contacts(const JointState& joints);
@@ -46,10 +52,13 @@ class Dynamics final : public StiffSystem {
 
  private:
   void note_regime(const JointState& state);
+  Eigen::Vector3d shoulder_load(const JointState& state) const;
 
   Skeleton skeleton_;
   std::vector<Muscle> muscles_;
   std::vector<double> voltages_;
+  std::vector<std::shared_ptr<JointLaw>> joint_laws_;
+  bool has_laws_ = false;
   std::vector<MuscleSolution> solutions_;  // scratch, kept to avoid allocation
   Matrix4 mass_ = Matrix4::Identity();     // of the last rate()
   std::vector<bool> regime_;               // of the last rate(): rings taut, stop pushing

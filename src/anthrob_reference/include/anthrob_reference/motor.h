@@ -16,6 +16,8 @@ class Motor final {
   double current_rate(double voltage, double current, double speed) const;
   /// dw/dt [rad/s^2] under a load torque at the gear's output [Nm], positive against w > 0.
   double acceleration(double current, double speed, double load) const;
+  /// dw/dt of a torque at the gear's output alone [rad/s^2].
+  double unloaded_acceleration(double torque) const { return torque / inertia_; }
   /// rho of (4.13) [1]
   double efficiency(double current, double speed) const;
   /// (current, speed) <- (shift I - A)^-1 (current, speed), with A the exact Jacobian of the linear

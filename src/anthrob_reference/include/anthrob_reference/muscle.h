@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "anthrob_reference/friction.h"
 #include "anthrob_reference/motor.h"
+#include "anthrob_reference/muscle_law.h"
 #include "anthrob_reference/parameters.h"
 #include "anthrob_reference/path.h"
 #include "anthrob_reference/ring.h"
@@ -41,7 +44,12 @@ class Muscle final {
   const Path& path() const { return path_; }
   void scale_eyelet_friction(double factor) { friction_.scale(factor); }
 
-  /// l_T = l_T0 - r_S position [m]
+  /// Laws act in the order in which they were added.
+  void add_law(std::shared_ptr<MuscleLaw> law) { laws_.push_back(std::move(law)); }
+  bool has_laws() const { return !laws_.empty(); }
+  void settle(double h, const MuscleState& state, const MuscleSolution& solution);
+
+  /// l_T = l_T0 - r_S position, and what laws add [m]
   double tendon_length(double position) const;
 
   void solve(const Posture& posture, const Vector4& velocity, const MuscleState& state,
@@ -55,6 +63,8 @@ class Muscle final {
   double sensor_force(const MuscleSolution& solution) const;  ///< [N]
 
  private:
+  double friction(std::size_t eyelet, double sliding) const;
+  double friction_slope(std::size_t eyelet, double sliding) const;
   void spread_towards_origin(double speed, MuscleSolution* solution) const;
   void spread_towards_insertion(const Vector4& velocity, MuscleSolution* solution) const;
 
@@ -66,6 +76,9 @@ class Muscle final {
   std::size_t sensor_span_;
   double spindle_radius_;
   double rest_tendon_length_;
+  double ring_rest_length_;
+  MotorParameters motor_parameters_;
+  std::vector<std::shared_ptr<MuscleLaw>> laws_;
 };
 
 }  // namespace anthrob::reference

@@ -33,6 +33,7 @@ class Skeleton final {
   /// A stop of the elbow pushes.
   bool at_stop(const JointState& state) const;
 
+  Eigen::Vector3d weight(const JointState& state) const;   ///< of both bodies, humerus axes [N]
   double kinetic_energy(const JointState& state) const;    ///< [J]
   double potential_energy(const JointState& state) const;  ///< of gravity, 0 at the shoulder [J]
 

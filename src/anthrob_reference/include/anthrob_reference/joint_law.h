@@ -1,0 +1,22 @@
+#pragma once
+
+#include "anthrob_reference/skeleton.h"
+
+namespace anthrob::reference {
+
+/// What the joints do beside their equations: generalised torques on the skeleton. As with
+/// MuscleLaw only settle() changes what a law remembers.
+class JointLaw {
+ public:
+  virtual ~JointLaw() = default;
+
+  virtual Vector4 torque(const JointState& state) const = 0;  ///< [Nm]
+  /// -d torque / d velocity as far as it is stiff [Nms/rad].
+  virtual Vector4 damping(const JointState& /*state*/) const { return Vector4::Zero(); }
+
+  /// An integration step of h [s] has led to this state; the shoulder carries muscle forces and
+  /// weight of `load` [N], humerus axes.
+  virtual void settle(double /*h*/, const JointState& /*state*/, const Eigen::Vector3d& /*load*/) {}
+};
+
+}  // namespace anthrob::reference
