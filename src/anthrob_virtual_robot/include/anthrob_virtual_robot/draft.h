@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "anthrob_reference/arm.h"
+#include "anthrob_virtual_robot/readings.h"
+
+namespace anthrob::virtual_robot {
+
+/// A robot about to be built: numbers of the reference arm, and laws beside them. Laws remember, so
+/// a draft serves for one robot.
+struct Draft {
+  reference::ArmParameters arm;
+  std::vector<std::pair<std::size_t, std::shared_ptr<reference::MuscleLaw>>> muscle_laws;
+  std::vector<std::shared_ptr<reference::JointLaw>> joint_laws;
+  std::vector<std::shared_ptr<CommandLaw>> command_laws;
+  std::vector<std::shared_ptr<PowerLaw>> power_laws;
+  std::vector<std::shared_ptr<ReadingLaw>> reading_laws;
+
+  /// @throws std::invalid_argument
+  std::size_t muscle(const std::string& name) const;
+  /// Of a place: one muscle, or all of them for "all".
+  std::vector<std::size_t> muscles(const std::string& place) const;
+};
+
+/// Parts of a place: "biceps_brachii/2/x" -> three words.
+std::vector<std::string> words(const std::string& place);
+
+}  // namespace anthrob::virtual_robot

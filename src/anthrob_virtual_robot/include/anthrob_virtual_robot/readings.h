@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace anthrob::virtual_robot {
+
+/// What can be measured of a muscle.
+struct MuscleReading {
+  double position = 0.0;  ///< gear output, winding in positive [rad]
+  double velocity = 0.0;  ///< [rad/s]
+  double current = 0.0;   ///< [A]
+  double force = 0.0;     ///< tension of the first segment [N]
+};
+
+/// What can be measured of the robot at one time.
+struct Readings {
+  double t = 0.0;  ///< [s] since the robot was placed
+  std::vector<MuscleReading> muscles;
+  Eigen::Quaterniond shoulder = Eigen::Quaterniond::Identity();  ///< from rest, w >= 0
+  double elbow = 0.0;                                            ///< [rad]
+};
+
+/// Something between what is and what sensors see, once an ECU period, in the order of
+/// installation.
+class ReadingLaw {
+ public:
+  virtual ~ReadingLaw() = default;
+  virtual void apply(Readings* readings) = 0;
+};
+
+/// Something between control law and motors, once an ECU period.
+class PowerLaw {
+ public:
+  virtual ~PowerLaw() = default;
+  /// @param seconds since the last call  @param true_readings of the same time
+  virtual void apply(double seconds, const Readings& true_readings,
+                     std::vector<double>* voltages) = 0;
+};
+
+/// Something between commands and control law, once an ECU period.
+class CommandLaw {
+ public:
+  virtual ~CommandLaw() = default;
+  virtual void apply(double t, std::vector<double>* references) = 0;
+};
+
+}  // namespace anthrob::virtual_robot

@@ -1,0 +1,208 @@
+#include "anthrob_virtual_robot/blind_case.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "anthrob_virtual_robot/channels.h"
+#include "anthrob_virtual_robot/dosing.h"
+
+namespace anthrob::virtual_robot {
+namespace {
+
+// Streams of random numbers, so that one draw does not move another.
+enum Stream : std::uint64_t {
+  kPlace,
+  kParameters,
+  kSize,
+  kNuisance,
+  kTrain,
+  kTest,
+  kNoise,
+  kVariant
+};
+
+constexpr std::pair<const char*, CaseKind> kKinds[] = {{"effect", CaseKind::kEffect},
+                                                       {"null", CaseKind::kNull},
+                                                       {"pair", CaseKind::kPair},
+                                                       {"outside", CaseKind::kOutside}};
+
+Robot robot_of(const BlindCase& blind, const std::vector<Hidden>& hidden,
+               const SensorSettings* sensors, std::uint64_t noise_seed) {
+  Draft draft;
+  draft.arm = blind.built;
+  for (const Hidden& one : hidden) build_in(one, &draft);
+  return Robot(std::move(draft), sensors, noise_seed);
+}
+
+std::vector<Command> commands_of(const BlindCase& blind, double seconds, std::uint64_t stream) {
+  return excitation(blind.believed, seconds, Random(blind.seed, stream));
+}
+
+double train_seconds(const BlindCase& blind, const CaseSettings& settings) {
+  return blind.slow ? settings.slow_train : settings.train;
+}
+
+/// The k-th place in an order that the seed shuffles.
+std::string place_of(const HiddenLaw& law, const reference::ArmParameters& arm, std::uint64_t k,
+                     std::uint64_t seed) {
+  std::vector<std::string> places = law.places(arm);
+  Random random(seed, kPlace);
+  for (std::size_t i = places.size(); i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
+  return places[k % places.size()];
+}
+
+/// Sizes such that the worst channel changes by the target, one hidden thing after the other.
+void find_sizes(const CaseSettings& settings, BlindCase* blind) {
+  Random random(blind->seed, kSize);
+  const double seconds = train_seconds(*blind, settings);
+  const std::vector<Command> commands = commands_of(*blind, seconds, kTrain);
+  const auto run = [&](const std::vector<Hidden>& hidden) {
+    Robot robot = robot_of(*blind, hidden, nullptr, 0);
+    return record(&robot, commands, seconds, settings.recording);
+  };
+  const Recording plain = run({});
+  const auto change = [&](const std::vector<Hidden>& hidden) {
+    return difference(run(hidden), plain, blind->built, blind->sensors);
+  };
+  for (Hidden& hidden : blind->hidden) {
+    const HiddenLaw& law = hidden_law(hidden.id);
+    const double target = random.log_uniform(settings.least_change, settings.most_change);
+    if (law.sizes.empty()) continue;
+    const double factor = dose([&](double f) { return worst(change({scaled(hidden, f)})).second; },
+                               target, law.least, law.most);
+    hidden = scaled(hidden, factor);
+  }
+  if (!blind->hidden.empty()) blind->change = change(blind->hidden);
+}
+
+/// What makes one null harder than another.
+void vary_null(std::uint64_t number, BlindCase* blind) {
+  Random random(blind->seed, kVariant);
+  SensorSettings& s = blind->sensors;
+  if (number % 2 == 1) blind->stated_noise = random.uniform() < 0.5 ? 0.8 : 1.2;
+  for (SensorErrors* errors :
+       {&s.position, &s.velocity, &s.current, &s.force, &s.elbow, &s.shoulder}) {
+    if (number % 4 >= 2) errors->memory = 0.02;
+    if (number % 8 >= 4) errors->quantum *= 3.0;
+  }
+}
+
+BlindCase empty_case(CaseKind kind, std::uint64_t seed, const reference::ArmParameters& believed,
+                     const CaseSettings& settings) {
+  BlindCase blind;
+  blind.kind = kind;
+  blind.seed = seed;
+  blind.believed = believed;
+  blind.built = miscalibrated(believed, settings.nuisances, Random(seed, kNuisance));
+  blind.sensors = settings.sensors;
+  return blind;
+}
+
+void hide(const HiddenLaw& law, const std::string& place, Random* random, BlindCase* blind) {
+  blind->hidden.push_back({law.id, place, law.draw(blind->built, place, random)});
+  blind->slow = blind->slow || law.slow;
+}
+
+}  // namespace
+
+CaseKind case_kind(const std::string& name) {
+  for (const auto& [text, kind] : kKinds) {
+    if (name == text) return kind;
+  }
+  throw std::invalid_argument("no kind of case " + name);
+}
+
+std::string word(CaseKind wanted) {
+  for (const auto& [text, kind] : kKinds) {
+    if (wanted == kind) return text;
+  }
+  return "";
+}
+
+CaseSettings CaseSettings::load(const std::string& file) {
+  const ConfigNode node = ConfigNode::load(file);
+  CaseSettings settings;
+  settings.sensors = SensorSettings::load(node.at("sensors"));
+  settings.nuisances = NuisanceRanges::load(node.at("nuisances"));
+  const ConfigNode recordings = node.at("recordings");
+  settings.train = recordings.number("train", Bounds::positive(), "s");
+  settings.test = recordings.number("test", Bounds::positive(), "s");
+  settings.slow_train = recordings.number("slow_train", Bounds::positive(), "s");
+  settings.slow_test = recordings.number("slow_test", Bounds::positive(), "s");
+  const ConfigNode change = node.at("change");
+  settings.least_change = change.number("least", Bounds::positive(), "1");
+  settings.most_change = change.number("most", Bounds::positive(), "1");
+  node.refuse_unknown_keys();
+  return settings;
+}
+
+BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
+                    const reference::ArmParameters& believed, const CaseSettings& settings) {
+  // Every case has an arm of its own.
+  BlindCase blind =
+      empty_case(kind, 1000003 * seed + 16 * number + static_cast<int>(kind), believed, settings);
+  Random random(blind.seed, kParameters);
+  const auto& laws = kind == CaseKind::kOutside ? outside_laws() : catalogue_laws();
+  const auto hide_kth = [&](std::uint64_t k) {
+    const HiddenLaw& law = laws[k % laws.size()];
+    hide(law, place_of(law, blind.built, k / laws.size(), seed), &random, &blind);
+  };
+  if (kind == CaseKind::kNull) vary_null(number, &blind);
+  if (kind == CaseKind::kEffect || kind == CaseKind::kOutside) hide_kth(number);
+  if (kind == CaseKind::kPair) {
+    // Quick ones, of two different ids.
+    while (blind.hidden.size() < 2) {
+      const std::uint64_t k = random.below(laws.size());
+      if (laws[k].slow || laws[k].sizes.empty()) continue;
+      if (!blind.hidden.empty() && blind.hidden.front().id == laws[k].id) continue;
+      hide(laws[k], place_of(laws[k], blind.built, random.below(1000), seed), &random, &blind);
+    }
+  }
+  find_sizes(settings, &blind);
+  return blind;
+}
+
+BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws_and_places,
+                    std::uint64_t seed, const reference::ArmParameters& believed,
+                    const CaseSettings& settings) {
+  BlindCase blind = empty_case(CaseKind::kEffect, seed, believed, settings);
+  Random random(blind.seed, kParameters);
+  for (const auto& [id, place] : laws_and_places) {
+    const HiddenLaw& law = hidden_law(id);
+    const std::vector<std::string> places = law.places(blind.built);
+    if (std::find(places.begin(), places.end(), place) == places.end()) {
+      throw std::invalid_argument(id + " cannot sit at " + place + "; it can at " + places.front());
+    }
+    hide(law, place, &random, &blind);
+  }
+  find_sizes(settings, &blind);
+  return blind;
+}
+
+void record_case(const BlindCase& blind, const CaseSettings& settings, const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& muscle : blind.believed.muscles) names.push_back(muscle.name);
+  SensorSettings stated = blind.sensors;
+  for (SensorErrors* errors : {&stated.position, &stated.velocity, &stated.current, &stated.force,
+                               &stated.elbow, &stated.shoulder}) {
+    errors->noise *= blind.stated_noise;
+  }
+  Meta meta;
+  meta.settle = settings.recording.settle;
+  meta.sensors = stated.yaml();
+  const double train = train_seconds(blind, settings);
+  const double test = blind.slow ? settings.slow_test : settings.test;
+  const auto run = [&](const std::string& name, double seconds, std::uint64_t stream,
+                       std::uint64_t noise) {
+    Robot robot = robot_of(blind, blind.hidden, &blind.sensors, blind.seed * 31 + noise);
+    const std::vector<Command> commands = commands_of(blind, seconds, stream);
+    write_dataset(record(&robot, commands, seconds, settings.recording), names, settings.recording,
+                  meta, folder + "/" + name);
+  };
+  run("train_0", train, kTrain, 0);
+  run("repeat_0", train, kTrain, 1);
+  run("train_1", train, kTrain + 100, 2);
+  run("test_0", test, kTest, 3);
+}
+
+}  // namespace anthrob::virtual_robot

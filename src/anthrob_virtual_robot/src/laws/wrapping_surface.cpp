@@ -1,0 +1,47 @@
+#include "laws.h"
+
+namespace anthrob::virtual_robot {
+// The cylinder of model II for the same muscle: along the humerus at the shoulder, about the axis
+// of the elbow; the tendon of a surface's muscle is as long as is relaxed at rest with it.
+HiddenLaw wrapping_surface() {
+  HiddenLaw law;
+  law.id = "wrapping_surface";
+  law.law = "cylinder, the reference arm's own closed form; rest length as with the surface";
+  law.sizes = {};
+  law.places = muscle_places;
+  law.draw = [](const reference::ArmParameters& arm, const std::string& place,
+                Random* random) -> Parameters {
+    for (const auto& muscle : arm.muscles) {
+      if (muscle.name != place) continue;
+      const std::size_t k = crossing_segment(muscle);
+      const bool elbow = muscle.path[k + 1].body == reference::Body::kForearm;
+      // No larger than what leaves the insertion outside.
+      const Eigen::Vector3d p = muscle.path[k + 1].position;
+      const double distance = elbow ? std::hypot(p.y(), p.z()) : std::hypot(p.x(), p.z());
+      const double largest = std::min(elbow ? 0.018 : 0.024, 0.98 * distance);
+      return {{"radius", random->uniform(0.85, 1.0) * largest}};
+    }
+    throw std::invalid_argument("no muscle " + place);
+  };
+  law.build = [](const Hidden& h, Draft* draft) {
+    if (h["radius"] == 0.0) return;
+    reference::MuscleParameters& muscle = draft->arm.muscles[draft->muscle(h.place)];
+    const auto rest_length = [&] {
+      return reference::Arm(draft->arm).muscle(draft->muscle(h.place)).length;
+    };
+    const double before = rest_length();
+    const std::size_t k = crossing_segment(muscle);
+    reference::PathEntry surface;
+    surface.body = muscle.path[k + 1].body;
+    const bool elbow = surface.body == reference::Body::kForearm;
+    surface.cylinder = reference::CylinderShape{
+        elbow ? Eigen::Vector3d(-1.0, 0.0, 0.0) : Eigen::Vector3d::UnitY(), h["radius"]};
+    muscle.path.insert(muscle.path.begin() + static_cast<std::ptrdiff_t>(k) + 1, surface);
+    if (muscle.ring_segment > static_cast<int>(k)) ++muscle.ring_segment;
+    if (muscle.sensor_segment > static_cast<int>(k)) ++muscle.sensor_segment;
+    muscle.rest_tendon_length += rest_length() - before;
+  };
+  return law;
+}
+
+}  // namespace anthrob::virtual_robot

@@ -1,0 +1,88 @@
+// One case of a blind test of discovery: recordings of a robot with something hidden, the model it
+// is believed to be, and, elsewhere, the truth.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+
+#include "anthrob_virtual_robot/blind_case.h"
+#include "anthrob_virtual_robot/tool.h"
+
+namespace {
+
+using namespace anthrob::virtual_robot;
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  std::ofstream stream(file);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+void list_laws() {
+  for (const auto* laws : {&catalogue_laws(), &outside_laws()}) {
+    for (const HiddenLaw& law : *laws) {
+      std::cout << (laws == &outside_laws() ? "outside  " : "effect   ") << law.id << ": "
+                << law.law << "\n";
+    }
+  }
+}
+
+/// "joint_coulomb@elbow" -> both words
+std::pair<std::string, std::string> law_and_place(const std::string& text) {
+  const std::size_t at = text.find('@');
+  if (at == std::string::npos) {
+    throw std::invalid_argument("--hide " + text + ": expected ID@PLACE");
+  }
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+/// The truth must not lie where discovery looks.
+void refuse_inside(const std::string& truth, const std::string& out) {
+  const auto folder = std::filesystem::weakly_canonical(out);
+  auto file = std::filesystem::weakly_canonical(truth);
+  while (file.has_relative_path()) {
+    if (file == folder)
+      throw std::invalid_argument("--truth " + truth + ": expected outside --out");
+    file = file.parent_path();
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Makes one case of a blind test of discovery.", "anthrob_blind_case");
+  std::string kind = "effect", out, truth, model, config;
+  std::uint64_t number = 0, seed = 1;
+  std::vector<std::string> hide;
+  bool list = false;
+  app.add_option("--kind", kind, "effect, null, pair or outside");
+  app.add_option("--case", number, "number of the case; goes through all laws and places");
+  app.add_option("--seed", seed, "of everything that is drawn");
+  app.add_option("--hide", hide, "ID@PLACE in place of what --case would hide; may be repeated");
+  app.add_option("--model", model, "model that is believed: .../config/anthrob/model_I.yaml");
+  app.add_option("--config", config, "settings; default: virtual_robot.yaml beside the model");
+  app.add_option("--out", out, "folder for recordings and model.yaml");
+  app.add_option("--truth", truth, "file for the truth, outside of --out");
+  app.add_flag("--list", list, "tells what can be hidden");
+  return run_tool(app, argc, argv, [&] {
+    if (list) return list_laws();
+    if (out.empty() || truth.empty() || model.empty()) {
+      throw std::invalid_argument("expected --model, --out and --truth");
+    }
+    refuse_inside(truth, out);
+    const auto model_file = std::filesystem::canonical(model);
+    const auto believed = anthrob::reference::Arm::load(model_file.string());
+    const CaseSettings settings = CaseSettings::load(
+        config.empty() ? (model_file.parent_path() / "virtual_robot.yaml").string() : config);
+    std::vector<std::pair<std::string, std::string>> hidden;
+    for (const std::string& text : hide) hidden.push_back(law_and_place(text));
+    const BlindCase blind = hidden.empty()
+                                ? draw_case(case_kind(kind), number, seed, believed, settings)
+                                : make_case(hidden, seed, believed, settings);
+    record_case(blind, settings, out);
+    write(std::filesystem::path(out) / "model.yaml", "extends: " + model_file.string() + "\n");
+    write(truth, truth_text(blind));
+  });
+}
