@@ -24,12 +24,18 @@ class Tally final {
   std::map<std::string, double> squares_;
 };
 
-/// What the control law makes of its sensors' errors [V].
+/// What the control law makes of its sensors' errors [V], and what comes of it in the motor [A].
 double voltage_sigma(const reference::ControllerParameters& controller,
                      const SensorSettings& sensors) {
   return std::hypot(controller.proportional * sensors.position.sigma(),
                     controller.derivative * sensors.velocity.sigma(),
                     controller.force_feedforward * sensors.force.sigma());
+}
+
+double current_sigma(const reference::MuscleParameters& muscle, const SensorSettings& sensors) {
+  const double resistance = muscle.motor.resistance + muscle.motor.power_stage_resistance;
+  return std::hypot(sensors.current.sigma(),
+                    voltage_sigma(muscle.controller, sensors) / resistance);
 }
 
 }  // namespace
@@ -46,7 +52,7 @@ std::map<std::string, double> difference(const Recording& a, const Recording& b,
       const MuscleReading &p = x.muscles[i], &q = y.muscles[i];
       tally.add(name + "/position", p.position - q.position, sensors.position.sigma());
       tally.add(name + "/velocity", p.velocity - q.velocity, sensors.velocity.sigma());
-      tally.add(name + "/current", p.current - q.current, sensors.current.sigma());
+      tally.add(name + "/current", p.current - q.current, current_sigma(arm.muscles[i], sensors));
       tally.add(name + "/force", p.force - q.force, sensors.force.sigma());
       tally.add(name + "/voltage", a.samples[k].voltages[i] - b.samples[k].voltages[i],
                 voltage_sigma(arm.muscles[i].controller, sensors));

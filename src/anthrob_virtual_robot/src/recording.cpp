@@ -120,7 +120,7 @@ void write_dataset(const Recording& recording, const std::vector<std::string>& m
   std::filesystem::create_directories(path);
   commands_table(recording, muscle_names).save(path / "commands.csv");
   muscles_table(recording, muscle_names).save(path / "muscles.csv");
-  joints_table(recording).save(path / "joints.csv");
+  if (meta.has_elbow) joints_table(recording).save(path / "joints.csv");
   spherical_joints_table(recording, settings.mocap_divider / settings.muscle_divider)
       .save(path / "spherical_joints.csv");
   std::ofstream out(path / "meta.yaml");

@@ -36,6 +36,7 @@ struct Meta {
   double settle = 5.0;
   std::string sensors;  ///< YAML, indented by two
   std::string notes;
+  bool has_elbow = true;
 };
 
 /// @throws std::runtime_error naming the file that cannot be written
