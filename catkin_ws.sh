@@ -27,7 +27,8 @@ common_packages=(
   libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libpagmo-dev libopenmpi-dev openmpi-bin
-  libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libdc1394-dev opencv-doc
+  libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libusb-1.0-0-dev
+  libdc1394-dev pkg-config opencv-doc
   libgtest-dev libgmock-dev libbenchmark-dev
   xvfb xauth imagemagick libgl1-mesa-dri
   user-mode-linux kmod iproute2  # CAN where the kernel has none

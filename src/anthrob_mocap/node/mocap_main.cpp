@@ -1,6 +1,6 @@
 #include "anthrob_mocap/pipeline/tracker_file.h"
-#include "anthrob_mocap/source/folder_source.h"
 #include "mocap_node.h"
+#include "open_source.h"
 #include "parameters.h"
 
 namespace mocap = anthrob::mocap;
@@ -19,18 +19,6 @@ mocap::MocapNode::Options read_options(const ros::NodeHandle& settings) {
     throw mocap::BadInput("parameter ~sync_tolerance: expected a number >= 0 [s]");
   }
   return options;
-}
-
-std::unique_ptr<mocap::FrameSource> open_source(const std::string& kind,
-                                                const ros::NodeHandle& settings) {
-  if (kind == "folder") {
-    mocap::FolderSource::Options options;
-    settings.param("rate", options.rate, options.rate);
-    return std::make_unique<mocap::FolderSource>(
-        mocap::required(settings, "left", "a folder of images"),
-        mocap::required(settings, "right", "a folder of images"), options);
-  }
-  throw mocap::BadInput("parameter ~source: " + kind + ": expected topics or folder");
 }
 
 void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
@@ -55,7 +43,7 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   if (source == "topics") {
     node.run();
   } else {
-    node.run(*open_source(source, settings));
+    node.run(*mocap::open_source(source, rig, settings));
   }
 }
 

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "anthrob_mocap/source/camera_options.h"
+#include "anthrob_mocap/source/frame_source.h"
+
+namespace anthrob {
+namespace mocap {
+
+/// Two FireWire cameras on one bus through libdc1394, as in the thesis (section A.3.1), named by
+/// their GUID in hexadecimal. Stamps are the driver's, less half the exposure.
+/// Compiled but never run by us: no such camera is at hand.
+class Dc1394Source final : public FrameSource {
+ public:
+  /// @throws BadInput if a name is no GUID
+  explicit Dc1394Source(const CameraOptions& options);
+  ~Dc1394Source() override;
+
+  Grab next(StereoFrame& frame, double timeout) override;
+  std::string trouble() const override;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace mocap
+}  // namespace anthrob

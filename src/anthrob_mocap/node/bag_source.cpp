@@ -1,0 +1,49 @@
+#include "bag_source.h"
+
+#include "anthrob_mocap/core/errors.h"
+#include "conversions.h"
+
+namespace anthrob {
+namespace mocap {
+
+BagSource::BagSource(const std::string& file, const std::string& left, const std::string& right,
+                     double sync_tolerance)
+    : file_(file), topics_{left, right}, pairing_(sync_tolerance) {
+  try {
+    bag_.open(file, rosbag::bagmode::Read);
+  } catch (const rosbag::BagException& error) {
+    throw BadInput(file + ": no bag that can be read (" + error.what() + ")");
+  }
+  view_ = std::make_unique<rosbag::View>(bag_,
+                                         rosbag::TopicQuery(std::vector<std::string>{left, right}));
+  for (const std::string& topic : topics_) {
+    rosbag::View one(bag_, rosbag::TopicQuery(topic));
+    if (one.size() == 0) throw BadInput(file + ": no images on topic " + topic);
+  }
+  position_ = view_->begin();
+}
+
+FrameSource::Grab BagSource::next(StereoFrame& frame, double) {
+  for (; position_ != view_->end(); ++position_) {
+    const sensor_msgs::ImageConstPtr message = position_->instantiate<sensor_msgs::Image>();
+    if (!message)
+      throw BadInput(file_ + ": " + position_->getTopic() + ": expected sensor_msgs/Image");
+    const Side side = position_->getTopic() == topics_[kLeft] ? kLeft : kRight;
+    TimedImage pair[2];
+    if (!pairing_.add(side, timed_image(message, side), pair)) continue;
+    for (const Side s : {kLeft, kRight}) {
+      frame.image[s] = pair[s].image;
+      frame.owner[s] = pair[s].owner;
+    }
+    frame.t = pair[kLeft].t;
+    frame.index = index_++;
+    ++position_;
+    return Grab::kFrame;
+  }
+  if (index_ == 0)
+    throw BadInput(file_ + ": " + Pairing::complaint(pairing_.take_counts(), pairing_.tolerance()));
+  return Grab::kEnd;
+}
+
+}  // namespace mocap
+}  // namespace anthrob

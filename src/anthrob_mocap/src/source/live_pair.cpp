@@ -1,0 +1,73 @@
+#include "anthrob_mocap/source/live_pair.h"
+
+#include <chrono>
+#include <cstdio>
+
+namespace anthrob {
+namespace mocap {
+
+namespace {
+
+constexpr std::size_t kMostPairs = 4;  // older ones are late anyway
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+void LivePair::add(Side side, const TimedImage& image) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_image_[side] = now();
+  trouble_[side].clear();
+  Pair pair;
+  if (!pairing_.add(side, image, pair.image)) return;
+  last_pair_ = now();
+  pairs_.push_back(pair);
+  if (pairs_.size() > kMostPairs) pairs_.pop_front();
+  arrived_.notify_one();
+}
+
+void LivePair::set_trouble(Side side, const std::string& what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  trouble_[side] = what;
+}
+
+bool LivePair::next(StereoFrame& frame, double timeout) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const auto wait = std::chrono::duration<double>(timeout);
+  if (!arrived_.wait_for(lock, wait, [this] { return !pairs_.empty(); })) return false;
+  for (const Side side : {kLeft, kRight}) {
+    frame.image[side] = pairs_.front().image[side].image;
+    frame.owner[side] = pairs_.front().image[side].owner;
+  }
+  frame.t = pairs_.front().image[kLeft].t;
+  frame.index = index_++;
+  pairs_.pop_front();
+  return true;
+}
+
+std::string LivePair::trouble() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const double t = now();
+  for (const Side side : {kLeft, kRight}) {
+    const std::string who = std::string(name(side)) + " camera: ";
+    if (!trouble_[side].empty()) return who + trouble_[side];
+    if (t - last_image_[side] < kSilence) continue;
+    if (last_image_[side] == 0.0) return who + "no image yet";
+    char text[64];
+    std::snprintf(text, sizeof(text), "no image for %.1f s", t - last_image_[side]);
+    return who + text;
+  }
+  if (t - last_pair_ > kSilence) {
+    char text[96];
+    std::snprintf(text, sizeof(text),
+                  "unsynchronised pair: no left and right image within %.1f ms of each other",
+                  1e3 * pairing_.tolerance());
+    return text;
+  }
+  return "";
+}
+
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,151 @@
+// Sources: pairing by stamps, and cameras through aravis, one of which dies and comes back.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "anthrob_mocap/source/aravis_source.h"
+#include "anthrob_mocap/source/pairing.h"
+#include "expect_bad_input.h"
+
+namespace anthrob {
+namespace mocap {
+namespace {
+
+TimedImage at(double t) {
+  TimedImage image;
+  image.t = t;
+  return image;
+}
+
+TEST(Pairing, FindsPartnersInAnyOrder) {
+  Pairing pairing(0.002);
+  TimedImage pair[2];
+  EXPECT_FALSE(pairing.add(kLeft, at(0.000), pair));
+  EXPECT_FALSE(pairing.add(kLeft, at(0.016), pair));
+  EXPECT_TRUE(pairing.add(kRight, at(0.001), pair));
+  EXPECT_EQ(pair[kLeft].t, 0.0);
+  EXPECT_FALSE(pairing.add(kRight, at(0.032), pair));
+  EXPECT_TRUE(pairing.add(kLeft, at(0.033), pair));
+  EXPECT_EQ(pair[kRight].t, 0.032);
+  EXPECT_EQ(Pairing::complaint(pairing.take_counts(), 0.002), "");
+}
+
+TEST(Pairing, WantsEqualStampsIfToldSo) {
+  Pairing pairing(0.0);
+  TimedImage pair[2];
+  EXPECT_FALSE(pairing.add(kLeft, at(1.0), pair));
+  EXPECT_FALSE(pairing.add(kRight, at(1.0 + 1e-9), pair));
+  EXPECT_TRUE(pairing.add(kLeft, at(1.0 + 1e-9), pair));
+}
+
+TEST(Pairing, SaysWhatIsWrong) {
+  Pairing pairing(0.002);
+  TimedImage pair[2];
+  EXPECT_EQ(Pairing::complaint(pairing.take_counts(), 0.002), "no images");
+  for (int i = 0; i < 30; ++i) EXPECT_FALSE(pairing.add(kLeft, at(i / 60.0), pair));
+  EXPECT_EQ(Pairing::complaint(pairing.take_counts(), 0.002), "no images from the right camera");
+  for (int i = 30; i < 60; ++i) {
+    EXPECT_FALSE(pairing.add(kLeft, at(i / 60.0), pair));
+    EXPECT_FALSE(pairing.add(kRight, at(i / 60.0 + 0.008), pair));
+  }
+  const std::string why = Pairing::complaint(pairing.take_counts(), 0.002);
+  EXPECT_NE(why.find("unsynchronised pair: 30 left and 30 right images"), std::string::npos) << why;
+  EXPECT_NE(why.find("nearest 8.0 ms apart"), std::string::npos) << why;
+}
+
+TEST(Pairing, SurvivesTimeThatStepsBack) {
+  Pairing pairing(0.0);
+  TimedImage pair[2];
+  for (double t = 100.0; t < 101.0; t += 0.1) pairing.add(kLeft, at(t), pair);
+  EXPECT_FALSE(pairing.add(kLeft, at(1.0), pair));
+  EXPECT_TRUE(pairing.add(kRight, at(1.0), pair));
+}
+
+/// The fake camera as a process of its own.
+class FakeCamera {
+ public:
+  FakeCamera() {
+    pid_ = fork();
+    if (pid_ == 0) {
+      execl(ANTHROB_FAKE_GV_CAMERA, ANTHROB_FAKE_GV_CAMERA, static_cast<char*>(nullptr));
+      _exit(1);
+    }
+  }
+  ~FakeCamera() {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+
+ private:
+  pid_t pid_;
+};
+
+class Cameras : public ::testing::Test {
+ protected:
+  /// Takes what comes until `done`, for `seconds` at most.
+  template <typename Done>
+  bool wait(AravisSource& source, double seconds, const Done& done) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < end) {
+      StereoFrame frame;
+      if (source.next(frame, 0.05) == FrameSource::Grab::kFrame)
+        ++frames_, last_ = std::move(frame);
+      if (done()) return true;
+    }
+    return false;
+  }
+  CameraOptions options(const std::string& right) const {
+    CameraOptions options;
+    options.name[kLeft] = "Fake_1", options.name[kRight] = right;
+    options.width = 648, options.height = 488;
+    options.rate = 20.0;
+    options.sync_tolerance = 0.02;  // two processes on a busy machine
+    return options;
+  }
+
+  int frames_ = 0;
+  StereoFrame last_;
+};
+
+TEST_F(Cameras, StreamPairs) {
+  AravisSource source(options("Fake_1"));
+  ASSERT_TRUE(wait(source, 20.0, [&] { return frames_ >= 20; })) << source.trouble();
+  EXPECT_EQ(source.trouble(), "");
+  EXPECT_EQ(last_.image[kRight].width, 648);
+  EXPECT_EQ(last_.image[kRight].height, 488);
+  const double now =
+      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  EXPECT_NEAR(last_.t, now, 5.0);
+}
+
+TEST_F(Cameras, AreReportedWhenLostAndTakenBack) {
+  auto camera = std::make_unique<FakeCamera>();
+  AravisSource source(options("127.0.0.1"));
+  ASSERT_TRUE(wait(source, 30.0, [&] { return frames_ >= 10; })) << source.trouble();
+  camera.reset();
+  const auto killed = std::chrono::steady_clock::now();
+  ASSERT_TRUE(wait(source, 5.0, [&] { return !source.trouble().empty(); }));
+  const std::chrono::duration<double> noticed = std::chrono::steady_clock::now() - killed;
+  EXPECT_LT(noticed.count(), 1.0);
+  EXPECT_NE(source.trouble().find("right camera"), std::string::npos) << source.trouble();
+  camera = std::make_unique<FakeCamera>();
+  const int before = frames_;
+  ASSERT_TRUE(wait(source, 60.0, [&] { return frames_ >= before + 10; })) << source.trouble();
+  EXPECT_EQ(source.trouble(), "");
+}
+
+TEST_F(Cameras, ThatAreNotThereAreNamed) {
+  AravisSource source(options("Nobody"));
+  EXPECT_TRUE(wait(source, 20.0, [&] {
+    return source.trouble().find("Nobody") != std::string::npos;
+  })) << source.trouble();
+  test::expect_bad_input([&] { AravisSource none(options("")); }, "names of a left and a right");
+}
+
+}  // namespace
+}  // namespace mocap
+}  // namespace anthrob

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""What the mocap node says to images it cannot use, and to a camera that is pulled and comes back."""
+import subprocess
+import time
+import unittest
+
+import rospy
+import rostest
+from anthrob_msgs.msg import SphericalJointStates
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import Image
+
+
+class Watch:
+    """The last diagnosis of a mocap node, with the time of its arrival."""
+
+    def __init__(self, name):
+        self.name, self.level, self.message, self.values = name, None, '', {}
+        self.subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, self.on_array, queue_size=100)
+
+    def on_array(self, array):
+        for status in array.status:
+            if status.name == self.name:
+                self.level, self.message = status.level, status.message
+                self.values = {v.key: v.value for v in status.values}
+
+    def wait(self, condition, seconds):
+        start = time.time()
+        while time.time() < start + seconds:
+            if self.level is not None and condition(self):
+                return time.time() - start
+            time.sleep(0.02)
+        raise AssertionError('last diagnosis after %.1f s: %s %r' % (seconds, self.level, self.message))
+
+    def wait_for_error(self, part, seconds=20):
+        return self.wait(lambda w: w.level == 2 and part in w.message, seconds)
+
+
+def image(stamp, encoding='mono8', width=648, height=488, size=None):
+    bytes_per_pixel = {'mono8': 1, 'mono16': 2, 'bgr8': 3}[encoding]
+    message = Image(width=width, height=height, encoding=encoding, step=width * bytes_per_pixel)
+    message.header.stamp = stamp
+    message.data = bytes(message.step * height if size is None else size)
+    return message
+
+
+class MocapInput(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.watch = Watch('/anthrob: mocap')
+        cls.states = []
+        cls.subscriber = rospy.Subscriber('/anthrob/spherical_joint_states', SphericalJointStates, cls.states.append)
+        cls.publishers = [rospy.Publisher('/anthrob/mocap/%s/image_raw' % side, Image, queue_size=4)
+                          for side in ['left', 'right']]
+        end = time.time() + 30
+        while time.time() < end and not all(p.get_num_connections() for p in cls.publishers):
+            time.sleep(0.05)
+
+    def stream(self, part, left=None, right=None, delay=0.0):
+        """Publishes pairs until the node says what is wrong with them."""
+        end = time.time() + 20
+        while time.time() < end:
+            now = rospy.Time.now()
+            if left is not False:
+                self.publishers[0].publish(image(now, **(left or {})))
+            if right is not False:
+                self.publishers[1].publish(image(now + rospy.Duration(delay), **(right or {})))
+            time.sleep(0.03)
+            if self.watch.level == 2 and part in self.watch.message:
+                break
+        self.watch.wait_for_error(part, 1)
+        self.assertNotIn('\n', self.watch.message)
+
+    def test_bad_images(self):
+        self.watch.wait_for_error('no images')
+        self.stream('no images from the right camera', right=False)
+        self.stream('unsynchronised pair', delay=0.007)
+        self.stream('left image: encoding mono16: expected mono8', left={'encoding': 'mono16'})
+        self.stream('right image: encoding bgr8: expected mono8', right={'encoding': 'bgr8'})
+        self.stream('right image: 647x487 pixels: expected 648x488', right={'width': 647, 'height': 487},
+                    left={'width': 648, 'height': 488})
+        self.stream('left image: 100 bytes: truncated', left={'size': 100})
+        self.assertEqual(self.states, [])
+
+    def test_pulled_camera(self):
+        watch = Watch('/cameras: mocap')
+        watch.wait_for_error('right camera')
+        camera = self.start_camera()
+        try:
+            watch.wait(lambda w: w.level != 2 and float(w.values['rate']) > 2.0, 40)
+            camera.kill()
+            camera.wait()
+            # Within 1 s on an idle machine: half a second of silence, half a second between reports.
+            noticed = watch.wait(lambda w: w.level == 2 and 'right camera' in w.message, 5)
+            print('pulled camera diagnosed after %.2f s' % noticed)
+            camera = self.start_camera()
+            watch.wait(lambda w: w.level != 2 and float(w.values['rate']) > 2.0, 60)
+        finally:
+            camera.kill()
+            camera.wait()
+
+    @staticmethod
+    def start_camera():
+        return subprocess.Popen(['rosrun', 'anthrob_mocap', 'fake_gv_camera'])
+
+
+if __name__ == '__main__':
+    rospy.init_node('mocap_input_test')
+    rostest.rosrun('anthrob_tests', 'mocap_input', MocapInput)
