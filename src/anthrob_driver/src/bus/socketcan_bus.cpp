@@ -18,8 +18,8 @@ namespace driver {
 
 namespace {
 
-/// Bands of the interface's queue (pfifo_fast): 7 is served before 0.
-constexpr int kOrdinary = 0, kUrgent = 7;
+/// Bands of the queue of an interface (pfifo_fast): 6 is served before 0, and needs no privilege as 7 would.
+constexpr int kOrdinary = 0, kUrgent = 6;
 
 int open_socket(unsigned index) {
   const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
