@@ -1,7 +1,6 @@
 // Checks a CAN bus: how fast commands and answers go round, what is lost, how loaded the bus is.
-// With
-// --emulate the ECUs run in software in this process, so that an adapter, a vcan or a driver can be
-// tried without a robot. Nothing is enabled on a real robot.
+// With --emulate the ECUs run in software in this process, so that an adapter, a vcan or a driver
+// can be tried without a robot. Nothing is enabled on a real robot.
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +27,7 @@ std::atomic<bool> interrupted{false};
 
 struct Arguments {
   std::string can = "can0", hardware;
-  double seconds = 10.0, rate = 200.0;
+  double seconds = 10.0, rate = 200.0, pace = 1.0;
   bool emulate = false, hand = true, realtime = false;
 };
 
@@ -114,6 +113,11 @@ bool enable(DriverThread& thread) {
   return false;
 }
 
+/// [s] of the robot, which may be slower than the clock.
+double robot_time(const Arguments& arguments) {
+  return arguments.pace * monotonic_now();
+}
+
 /// Volts for all muscles, a tenth of a newton's worth.
 void command(DriverThread& thread, const Hardware& hardware) {
   std::vector<std::string> names;
@@ -127,6 +131,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   DriverThread::Options options;
   options.driver.rate = arguments.rate;
   options.realtime = arguments.realtime;
+  options.pace = arguments.pace;
   DriverThread thread(hardware, options, arguments.can);
   if (!thread.note().empty()) std::cerr << "anthrob_can_check: " << thread.note() << "\n";
   if (arguments.emulate && !enable(thread)) return 1;
@@ -143,10 +148,10 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
     });
   };
   count(cycles, frames);
-  const double start = monotonic_now(), processor = processor_time();
-  while (monotonic_now() - start < arguments.seconds && !interrupted) {
+  const double start = robot_time(arguments), processor = processor_time();
+  while (robot_time(arguments) - start < arguments.seconds && !interrupted) {
     if (arguments.emulate) command(thread, hardware);
-    for (const double end = monotonic_now() + 0.1; monotonic_now() < end;) {
+    for (const double end = robot_time(arguments) + 0.1; robot_time(arguments) < end;) {
       for (const Sample& sample : thread.wait(0.02).samples) {
         bool all = true;
         for (const MuscleSample& muscle : sample.muscles) all = all && muscle.measured;
@@ -155,7 +160,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
       }
     }
   }
-  const double elapsed = monotonic_now() - start, busy = processor_time() - processor;
+  const double elapsed = robot_time(arguments) - start, busy = processor_time() - processor;
   std::uint64_t last_cycles = 0, last_frames = 0;
   count(last_cycles, last_frames);
   bool stopped = false;
@@ -167,7 +172,13 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
           "  " + std::string(info(entry.finding).name) + " " + std::to_string(entry.count) + "x\n";
     }
   });
-  listener.listen(2.0);
+  constexpr double kListen = 2.0;
+  std::thread listening([&] { listener.listen(kListen / arguments.pace); });
+  for (const double end = robot_time(arguments) + kListen; robot_time(arguments) < end;) {
+    if (arguments.emulate) command(thread, hardware);
+    thread.wait(0.1);
+  }
+  listening.join();
 
   const Load load = calculated_load(hardware, arguments.rate);
   const auto answered = static_cast<double>(round_trips.size());
@@ -183,9 +194,13 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   std::printf(
       "bus load at 1 Mbit/s: calculated %.1f %% without stuff bits, %.1f %% at most;"
       " counted %.1f %% (%.0f frames/s)\n",
-      load.plain / 1e4, load.worst / 1e4, listener.bits() / 2.0 / 1e4, listener.frames() / 2.0);
-  std::printf("processor: %.1f %% of one%s\n", 100.0 * busy / elapsed,
+      load.plain / 1e4, load.worst / 1e4, listener.bits() / kListen / 1e4,
+      listener.frames() / kListen);
+  std::printf("processor: %.2f ms a second of the robot%s\n", 1e3 * busy / elapsed,
               arguments.emulate ? ", emulated ECUs included" : "");
+  if (arguments.pace < 1.0) {
+    std::printf("all times are the robot's, at %.2f of real time\n", arguments.pace);
+  }
   std::printf("%s",
               findings.empty() ? "nothing was found wrong\n" : ("found:\n" + findings).c_str());
   return stopped || incomplete > 0 ? 1 : 0;
@@ -193,14 +208,17 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
 
 int run(const Arguments& arguments) {
   const Hardware hardware = load_hardware(arguments.hardware, arguments.hand);
+  if (!arguments.emulate && arguments.pace < 1.0) {
+    throw BadInput("--pace: a robot has no other pace than 1; expected --emulate");
+  }
   if (!arguments.emulate) return measure(arguments, hardware);
   TendonPlant plant(hardware.muscles.size(), hardware.joints.size(), hardware.touch.size());
   SocketCanBus bus(arguments.can);
   Rack rack(hardware, plant, bus);
-  Emulator emulator(rack, bus);
+  Emulator emulator(rack, bus, arguments.pace);
   std::atomic<bool> quit{false};
   std::thread ecus([&] {
-    if (arguments.realtime) become_realtime(50);
+    if (arguments.realtime) become_realtime(Emulator::kPriority);
     emulator.run([&] { return quit.load(); }, [] {});
   });
   const int status = measure(arguments, hardware);
@@ -221,8 +239,12 @@ int main(int argc, char** argv) {
   CLI::App app("Checks a CAN bus with a robot or with emulated ECUs", "anthrob_can_check");
   app.add_option("--hardware", arguments.hardware, "hardware.yaml of the robot")->required();
   app.add_option("--can", arguments.can, "CAN interface")->capture_default_str();
-  app.add_option("--seconds", arguments.seconds, "how long")->capture_default_str();
+  app.add_option("--seconds", arguments.seconds, "how long, of the robot's time")
+      ->capture_default_str();
   app.add_option("--rate", arguments.rate, "[Hz] of SYNC")->capture_default_str();
+  app.add_option("--pace", arguments.pace, "with --emulate: below 1 all time runs slower")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1.0));
   app.add_flag("--emulate", arguments.emulate, "run the ECUs in software");
   app.add_flag("--hand,!--no-hand", arguments.hand, "with the hand's ECU (default)");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");

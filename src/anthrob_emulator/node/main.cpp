@@ -88,7 +88,7 @@ int run(const Arguments& arguments) {
   driver::SocketCanBus bus(arguments.can);
   driver::Rack rack(hardware, *plant, bus);
   if (arguments.realtime) {
-    const std::string refused = driver::become_realtime(50);
+    const std::string refused = driver::become_realtime(driver::Emulator::kPriority);
     if (!refused.empty()) std::cerr << "anthrob_emulator: " << refused << "\n";
   }
   const int ticks_per_message = std::max(1, static_cast<int>(1000.0 / arguments.rate));

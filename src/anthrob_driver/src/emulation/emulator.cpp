@@ -1,7 +1,5 @@
 #include "anthrob_driver/emulation/emulator.h"
 
-#include <poll.h>
-
 #include <ctime>
 
 #include "anthrob_driver/driver_thread.h"
@@ -9,20 +7,24 @@
 namespace anthrob {
 namespace driver {
 
-void Emulator::wait_for_frames(double until) {
-  for (double left = until - monotonic_now(); left > 0.0; left = until - monotonic_now()) {
-    timespec timeout{0, static_cast<long>(1e9 * left)};
-    pollfd socket{bus_.descriptor(), POLLIN, 0};
-    if (ppoll(&socket, 1, &timeout, nullptr) > 0) rack_.receive();
-  }
+namespace {
+
+/// Frames wait in the socket meanwhile: they would be answered at the next tick anyway.
+void sleep_until(double time) {
+  timespec wake;
+  wake.tv_sec = static_cast<std::time_t>(time);
+  wake.tv_nsec = static_cast<long>(1e9 * (time - static_cast<double>(wake.tv_sec)));
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr);
 }
+
+}  // namespace
 
 void Emulator::run(const std::function<bool()>& quit, const std::function<void()>& each_tick) {
   const double too_late = 5.0 * period_;
   double deadline = monotonic_now();
   for (std::uint64_t ticks = 0; !quit(); ++ticks) {
     deadline += period_;
-    wait_for_frames(deadline);
+    sleep_until(deadline);
     const double now = monotonic_now();
     if (now - deadline > too_late) {
       deadline = now;

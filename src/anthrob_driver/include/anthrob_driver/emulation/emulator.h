@@ -12,6 +12,9 @@ namespace driver {
 /// its milliseconds get longer rather than fewer: the ECUs' watchdogs count their own ticks.
 class Emulator {
  public:
+  /// For become_realtime: above the driver's, as real ECUs do not wait for the host.
+  static constexpr int kPriority = 70;
+
   /// @param pace below 1: time runs slower, as DriverThread's
   Emulator(Rack& rack, SocketCanBus& bus, double pace = 1.0)
       : rack_(rack), bus_(bus), period_(0.001 / pace) {}
@@ -22,8 +25,6 @@ class Emulator {
   std::uint64_t late() const { return late_; }
 
  private:
-  void wait_for_frames(double until);
-
   Rack& rack_;
   SocketCanBus& bus_;
   double period_;  ///< [s] of a tick
