@@ -52,7 +52,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
                     robot:=anthrob model:=II rviz:=false rate:=1 (0: as fast as possible)
   demo              the arm raises, bends and returns; records demo.bag, converts it and draws build/demo/
   test              all tests; the last line counts them
-  bench             benchmarks beside MuJoCo; writes build/bench.json
+  bench             benchmarks beside MuJoCo and OpenCV; writes build/bench.json
   study NAME        calibration: chapter 8 of the thesis against virtual robots; resumable, build/study/
   shell             a shell in which rosrun, roslaunch and rostopic know the workspace
   clean             remove what was built, but not build/study
@@ -168,7 +168,7 @@ tests() {
 measure() {
   local name="$1"
   shift
-  devel/lib/anthrob_sim/"${name}_benchmark" --benchmark_out="build/$name.json" --benchmark_out_format=json \
+  devel/lib/*/"${name}_benchmark" --benchmark_out="build/$name.json" --benchmark_out_format=json \
     --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_display_aggregates_only=true \
     --benchmark_enable_random_interleaving=true "$@" >"build/$name.log" 2>&1 ||
     die "the benchmark failed: see build/$name.log"
@@ -177,7 +177,7 @@ measure() {
 bench() {
   build
   say "building the benchmarks"
-  catkin_make -j"$(nproc)" step_benchmark scaling_benchmark mesh_benchmark >>build/build.log 2>&1 ||
+  catkin_make -j"$(nproc)" step_benchmark scaling_benchmark mesh_benchmark mocap_benchmark >>build/build.log 2>&1 ||
     die "the benchmarks do not build: see build/build.log"
   export ANTHROB_BENCH_ROBOTS="$here/build/bench_robots"
   local n
@@ -191,7 +191,8 @@ bench() {
   measure step "$@"
   measure scaling "$@"
   measure mesh "$@"
-  /usr/bin/python3 scripts/bench_table.py build/bench.json build/step.json build/scaling.json build/mesh.json
+  measure mocap "$@"
+  /usr/bin/python3 scripts/bench_table.py build/bench.json build/{step,scaling,mesh,mocap}.json
 }
 
 study() {

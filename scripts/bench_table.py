@@ -83,6 +83,54 @@ def print_parallel(benchmarks):
                   (b['threads'], b['steps_per_s'] * 1e-3))
 
 
+# Figure A.5 [ms], an Intel i7-860 of 2009; the thesis's steps and the stages that do their work here.
+MOCAP_STEPS = [
+    ('segmentation, undistortion', ['segmentation', 'undistortion'], '3.46'),
+    ('matching, triangulation', ['matching', 'triangulation'], '0.7 with joint'),
+    ('edges, labelling, pose', ['edges', 'labelling', 'pose'], '0.14'),
+    ('joint', ['joint'], ''),
+    ('all', ['total'], '4.3'),
+    ('all, processor time', ['processor'], ''),
+]
+
+
+def print_mocap_latency(row, medians):
+    print('\n%-36s %9s %9s %14s' % ('stereo pair 648x488, 10 markers,', 'median', '99 %', 'thesis'))
+    print('%-36s %9s %9s %14s' % ('10 reflections, one core', '[us]', '[us]', '[ms]'))
+    for label, stages, thesis in MOCAP_STEPS:
+        middle, late = (sum(row[stage + end] for stage in stages) for end in ('_us', '_99_us'))
+        print('%-36s %9.1f %9.1f %14s' % (label, middle, late, thesis))
+    for label, name in (('threshold, connected components', 'segmentation'), ('threshold, contours, moments', 'contours')):
+        print('%-36s %9.1f' % ('OpenCV: ' + label, medians['opencv_' + name]))
+
+
+def print_mocap(benchmarks, medians):
+    rows = {b['run_name']: b for b in benchmarks if b.get('aggregate_name') == 'median'}
+    if 'track/targets:2/blobs:10' not in rows:
+        return
+    print_mocap_latency(rows['track/targets:2/blobs:10'], medians)
+    sizes = sorted({tuple(int(part.split(':')[1]) for part in name.split('/')[1:3]) for name in rows if name.startswith('track/')})
+    blobs = sorted({size[1] for size in sizes})
+    print('\nstereo pairs a second on one core\n%22s' % 'targets, reflections:' + ''.join('%8d' % b for b in blobs))
+    for targets in sorted({size[0] for size in sizes}):
+        rates = [1e6 / medians['track/targets:%d/blobs:%d' % (targets, b)] for b in blobs]
+        print('%22d' % targets + ''.join('%8.0f' % rate for rate in rates))
+
+
+def print_chains(benchmarks):
+    """Figure F.2: latency, throughput and time without and with threads, and the speed-up."""
+    rows = {tuple(b['run_name'].split('/')[:2]): b for b in benchmarks if b.get('aggregate_name') == 'median'}
+    lengths = sorted(int(length) for kind, length in (key for key in rows if len(key) == 2) if kind == 'sequential')
+    if not lengths:
+        return
+    print('\n%7s %17s %17s %17s %9s' % ('stages', 'latency [ms]', 'packets a second', 'time [ms]', 'speed-up'))
+    print('%7s' % '' + ' %8s %8s' % ('one', 'threads') * 3)
+    for n in lengths:
+        pair = [rows[kind, str(n)] for kind in ('sequential', 'threaded')]
+        cells = [row[key] for key in ('latency_ms', 'packets_per_s', 'real_time') for row in pair]
+        print('%7d' % n + ''.join(' %8.1f' % cell for cell in cells) + ' %9.2f' % (cells[4] / cells[5]))
+
+
 def main():
     results = join(sys.argv[1], sys.argv[2:])
     medians = {b['run_name']: b['cpu_time'] for b in results['benchmarks'] if b.get('aggregate_name') == 'median'}
@@ -91,6 +139,8 @@ def main():
     print_peers(medians)
     print_scaling(medians)
     print_meshes(results['benchmarks'])
+    print_mocap(results['benchmarks'], medians)
+    print_chains(results['benchmarks'])
     print()
     print_parallel(results['benchmarks'])
 

@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""How well a ball joint seen by virtual cameras agrees with the simulator's own.
+
+    mocap_agreement.py BAG    a bag of demo.launch mocap:=virtual, or any with both spherical_joint_states
+"""
+import bisect
+import math
+import sys
+
+import rosbag
+
+
+def components(message, joint):
+    q = message.orientation[joint]
+    return q.w, q.x, q.y, q.z
+
+
+def angle_deg(a, b):
+    dot = abs(sum(x * y for x, y in zip(a, b))) / math.sqrt(sum(x * x for x in a) * sum(y * y for y in b))
+    return 2.0 * math.degrees(math.acos(min(1.0, dot)))
+
+
+def read(bag):
+    """Of each of the two topics {joint: [(time, quaternion), ...]}."""
+    seen, truth = {}, {}
+    for topic, message, _ in bag.read_messages():
+        if not topic.endswith('/spherical_joint_states'):
+            continue
+        joints = truth if topic.endswith('/sim/spherical_joint_states') else seen
+        for i, name in enumerate(message.name):
+            joints.setdefault(name, []).append((message.header.stamp.to_sec(), components(message, i)))
+    return seen, truth
+
+
+def interpolated(truth, t):
+    """Between two states that are some milliseconds apart; none at the ends."""
+    i = bisect.bisect(truth, (t,))
+    if i == 0 or i == len(truth):
+        return None
+    (t0, a), (t1, b) = truth[i - 1], truth[i]
+    u = (t - t0) / (t1 - t0)
+    return [x + u * (y - x) for x, y in zip(a, b)]
+
+
+def report(name, seen, truth):
+    pairs = [(q, interpolated(truth, t)) for t, q in seen]
+    errors = sorted(angle_deg(q, p) for q, p in pairs if p)
+    motion = max(angle_deg(p, (1, 0, 0, 0)) for _, p in pairs if p)
+    gaps = [b[0] - a[0] for a, b in zip(seen, seen[1:])]
+    seconds = seen[-1][0] - seen[0][0]
+    print('%s: %d measurements in %.1f s, %.1f a second, longest gap %.0f ms; motion up to %.1f deg' %
+          (name, len(seen), seconds, (len(seen) - 1) / seconds, 1e3 * max(gaps), motion))
+    print('%s: difference rms %.4f deg, median %.4f, 99 %% %.4f, worst %.4f' %
+          (name, math.sqrt(sum(e * e for e in errors) / len(errors)), errors[len(errors) // 2],
+           errors[int(0.99 * (len(errors) - 1))], errors[-1]))
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    with rosbag.Bag(sys.argv[1]) as bag:
+        seen, truth = read(bag)
+    both = sorted(set(seen) & set(truth))
+    if not both:
+        sys.exit('%s: expected spherical_joint_states and sim/spherical_joint_states' % sys.argv[1])
+    for name in both:
+        report(name, seen[name], sorted(truth[name]))
+
+
+if __name__ == '__main__':
+    main()
