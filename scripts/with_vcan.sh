@@ -56,7 +56,7 @@ INIT
 chmod +x "$script"
 
 # In a process group of its own and in the background, so that a signal gets through and ends all of it.
-exec 3> >(tr -d '\r' | sed -u '/^Halting\.$/d; /reboot: System halted$/d')
+exec 3> >(sed -u 's/\r//g; /^Halting\.$/d; /reboot: System halted$/d')
 TMPDIR=/tmp setsid linux.uml mem="${ANTHROB_VCAN_MEMORY:-768M}" rootfstype=hostfs rootflags=/ rw "init=$script" \
   con=null con0=null,fd:1 quiet loglevel=0 </dev/null 2>"$out/.kernel" >&3 &
 uml=$!
