@@ -150,6 +150,8 @@ class Contract(unittest.TestCase):
     def test_joints_and_frames(self):
         wait_for(lambda: self.joints.last() and self.balls.last(), 'joints')
         self.assertEqual(self.joints.last().name, ['elbow'])
+        self.assertEqual(len(self.joints.last().position), 1)
+        self.assertEqual(len(self.joints.last().velocity), 1)  # controllers want it
         self.assertEqual(self.balls.last().name, ['shoulder'])
         q = self.balls.last().orientation[0]
         self.assertGreaterEqual(q.w, 0.0)

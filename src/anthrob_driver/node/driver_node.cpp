@@ -164,6 +164,7 @@ void DriverNode::publish(const AnalogSample& sample) {
     state.header.stamp = stamp(sample.stamp_ns);
     state.name.push_back(hardware_.joints[sample.sensor].joint);
     state.position.push_back(sample.value);
+    state.velocity.push_back(sample.rate);
     joints_.publish(state);
     return;
   }

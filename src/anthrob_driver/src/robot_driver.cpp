@@ -57,6 +57,7 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
   }
   enabling_.sequence.resize(links_.size());
   sample_.muscles.resize(hardware_.muscles.size());
+  joint_slopes_.resize(hardware_.joints.size());
 }
 
 // ---- in ----
@@ -111,14 +112,16 @@ void RobotDriver::keep_analog(EcuLink& link, int ecu) {
   for (std::size_t j = 0; j < hardware_.joints.size(); ++j) {
     const JointSensor& joint = hardware_.joints[j];
     if (joint.ecu != ecu) continue;
+    const double angle = joint.sensor.value(count[joint.input]);
+    joint_slopes_[j].add(sample_.time, angle);
     analogs_.push_back(
-        {sync_stamp_, AnalogSample::Kind::kJoint, j, joint.sensor.value(count[joint.input])});
+        {sync_stamp_, AnalogSample::Kind::kJoint, j, angle, joint_slopes_[j].rate()});
   }
   for (std::size_t t = 0; t < hardware_.touch.size(); ++t) {
     const TouchSensor& touch = hardware_.touch[t];
     if (touch.ecu != ecu) continue;
     analogs_.push_back(
-        {sync_stamp_, AnalogSample::Kind::kTouch, t, touch.sensor.force(count[touch.input])});
+        {sync_stamp_, AnalogSample::Kind::kTouch, t, touch.sensor.force(count[touch.input]), 0.0});
   }
   // Nobody takes them: the newest are worth most.
   while (analogs_.size() > 64) analogs_.pop_front();

@@ -155,6 +155,7 @@ TEST(RobotDriver, AnalogSensorsAreCalibrated) {
     if (a.kind == AnalogSample::Kind::kJoint) {
       ++joints;
       EXPECT_NEAR(a.value, 1.2, 0.0007);
+      EXPECT_NEAR(a.rate, 0.0, 0.03);
     } else if (a.sensor == 2) {
       ++pads;
       EXPECT_NEAR(a.value, 3.0, 0.01);

@@ -8,6 +8,7 @@
 #include "anthrob_driver/bus_watch.h"
 #include "anthrob_driver/ecu_link.h"
 #include "anthrob_driver/home.h"
+#include "anthrob_driver/slope.h"
 #include "anthrob_ecu/supervisor.h"
 
 namespace anthrob {
@@ -37,6 +38,7 @@ struct AnalogSample {
   Kind kind = Kind::kJoint;
   std::size_t sensor = 0;  ///< index in Hardware::joints or touch
   double value = 0.0;      ///< [rad] or [N]
+  double rate = 0.0;       ///< [rad/s] of joints; NaN for the first value after a gap
 };
 
 /// The robot behind a bus: sends SYNC and references, collects answers, decides who may move.
@@ -137,6 +139,7 @@ class RobotDriver {
   bool sample_open_ = false, sample_ready_ = false;
   std::int64_t sync_stamp_ = 0;  ///< of the last SYNC; 0: not known yet
   std::deque<AnalogSample> analogs_;
+  std::vector<Slope> joint_slopes_;
 };
 
 }  // namespace driver
