@@ -24,9 +24,10 @@ def read(bag):
     """Of each of the two topics {joint: [(time, quaternion), ...]}."""
     seen, truth = {}, {}
     for topic, message, _ in bag.read_messages():
-        if not topic.endswith('/spherical_joint_states'):
+        parts = topic.split('/')
+        if parts[-1] != 'spherical_joint_states':
             continue
-        joints = truth if topic.endswith('/sim/spherical_joint_states') else seen
+        joints = truth if 'sim' in parts else seen
         for i, name in enumerate(message.name):
             joints.setdefault(name, []).append((message.header.stamp.to_sec(), components(message, i)))
     return seen, truth
