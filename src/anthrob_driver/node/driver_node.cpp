@@ -5,6 +5,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 
 #include "anthrob_ros/diagnostics.h"
@@ -36,6 +37,7 @@ DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
     : thread_(hardware, options, interface),
       hardware_(std::move(hardware)),
       interface_(interface),
+      pace_(options.pace),
       nh_(nh),
       stop_nh_(nh) {
   stop_nh_.setCallbackQueue(&stop_queue_);
@@ -127,6 +129,7 @@ ros::Time DriverNode::stamp(std::int64_t kernel_ns) const {
   constexpr std::int64_t kOldest = 500000000;
   std::int64_t age = kernel_ns == 0 ? 0 : wall_clock_ns() - kernel_ns;
   if (age < 0 || age > kOldest) age = 0;
+  age = std::llround(pace_ * static_cast<double>(age));
   const ros::Time now = ros::Time::now();
   const ros::Duration back = ros::Duration().fromNSec(age);
   return now.toNSec() > static_cast<std::uint64_t>(age) ? now - back : now;

@@ -48,6 +48,7 @@ class DriverNode {
   DriverThread thread_;
   Hardware hardware_;
   std::string interface_;
+  double pace_;
   ros::NodeHandle nh_, stop_nh_;
   ros::CallbackQueue stop_queue_;
   std::vector<ros::Subscriber> subscribers_;

@@ -3,12 +3,14 @@
 #include <anthrob_msgs/SphericalJointStates.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "anthrob_driver/driver_thread.h"
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
@@ -20,7 +22,7 @@ namespace {
 
 struct Arguments {
   std::string hardware, model, can = "can0";
-  bool hand = false, realtime = false, ros = false;
+  bool hand = false, realtime = false, ros = false, clock = false;
   double rate = 100.0, pace = 1.0;
 };
 
@@ -73,10 +75,30 @@ class BallJoints {
   tf2_ros::TransformBroadcaster transforms_;
 };
 
+/// The robot's time as ROS time, so that controllers, too, have the pace of the robot. It is the
+/// driver's time: the machine's monotonic clock, slowed down.
+class RobotClock {
+ public:
+  explicit RobotClock(double pace)
+      : pace_(pace), publisher_(ros::NodeHandle().advertise<rosgraph_msgs::Clock>("/clock", 100)) {}
+
+  void publish() {
+    rosgraph_msgs::Clock message;
+    message.clock.fromSec(1.0 + pace_ * driver::monotonic_now());  // zero would mean: unknown
+    publisher_.publish(message);
+  }
+
+ private:
+  double pace_;
+  ros::Publisher publisher_;
+};
+
 int run(const Arguments& arguments) {
   const driver::Hardware hardware = driver::load_hardware(arguments.hardware, arguments.hand);
   std::unique_ptr<driver::Plant> plant;
   std::unique_ptr<BallJoints> balls;
+  std::unique_ptr<RobotClock> clock;
+  if (arguments.clock) clock = std::make_unique<RobotClock>(arguments.pace);
   if (arguments.model.empty()) {
     plant = std::make_unique<driver::TendonPlant>(hardware.muscles.size(), hardware.joints.size(),
                                                   hardware.touch.size());
@@ -92,11 +114,14 @@ int run(const Arguments& arguments) {
     if (!refused.empty()) std::cerr << "anthrob_emulator: " << refused << "\n";
   }
   const int ticks_per_message = std::max(1, static_cast<int>(1000.0 / arguments.rate));
+  constexpr int kTicksPerClock = 2;
   int tick = 0;
   const auto each_tick = [&] {
-    if (balls && ++tick % ticks_per_message == 0) balls->publish();
+    ++tick;
+    if (clock && tick % kTicksPerClock == 0) clock->publish();
+    if (balls && tick % ticks_per_message == 0) balls->publish();
   };
-  const auto quit = [&] { return tool::interrupted() || (arguments.ros && !ros::ok()); };
+  const auto quit = [&] { return tool::interrupted() || ((balls || clock) && !ros::ok()); };
   driver::Emulator(rack, bus, arguments.pace).run(quit, each_tick);
   return tool::kDone;
 }
@@ -121,5 +146,6 @@ int main(int argc, char** argv) {
   app.add_flag("--hand", arguments.hand, "with the hand's muscles");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
   app.add_flag("--ros", arguments.ros, "publish the ball joints, as motion capture would");
+  app.add_flag("--clock", arguments.clock, "publish /clock, the robot's time at --pace");
   return anthrob::tool::run(app, argc, argv, [&] { return anthrob::run(arguments); });
 }
