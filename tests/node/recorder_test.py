@@ -116,6 +116,18 @@ class Recorder(unittest.TestCase):
         self.assertIn('the rest posture has drifted', output)
         self.assertFalse([name for name in os.listdir(out) if name.endswith(('.part', '.bag'))])
 
+    def test_motors_that_are_stopped_end_the_session(self):
+        out = self.path('stopped')
+        process = self.start(out)
+        end = time.time() + 60
+        while not os.path.exists(os.path.join(out, 'E1_run1.bag.part')):
+            self.assertLess(time.time(), end)
+            time.sleep(0.02)
+        subprocess.check_call(['rosservice', 'call', '/anthrob/emergency_stop'], stdout=subprocess.DEVNULL,
+                              env=dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT))
+        self.assertIn('is not enabled', process.communicate(timeout=60)[0])
+        self.assertFalse([name for name in os.listdir(out) if name.endswith(('.part', '.csv'))])
+
     def test_bad_input_is_one_line(self):
         for out, values, expected in [
                 (self.path('a'), dict(protocol='dance'), 'expected equilibria, trajectories or zero_gravity'),

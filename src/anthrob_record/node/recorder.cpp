@@ -14,6 +14,7 @@ constexpr double kCommandPeriod = 0.02;
 /// Silence after which a measurement counts as old and the robot as gone, and gap after which a
 /// recording counts as broken [s].
 constexpr double kSilence = 1.0, kLargestGap = 0.05;
+constexpr double kUndriven = 0.5;  // motors may start with the first commands
 /// How long a robot may take to appear, of wall time [s].
 constexpr double kPatience = 30.0;
 constexpr double kDegree = 0.017453292519943295;
@@ -126,11 +127,21 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
     return true;
   }
   heard_ = ros::WallTime::now();
+  check_motors();
   const Visit::Order order = visit.step(link_.state().measurement(), link_.now().toSec());
   if (visit.outcome() != Visit::Outcome::kRunning) return true;
   switch_recording(order.recording, target);
   follow(order, target);
   return true;
+}
+
+void Recorder::check_motors() {
+  const std::string off = link_.state().disabled_muscle();
+  if (off.empty() || driven_.isZero()) driven_ = link_.now();
+  if ((link_.now() - driven_).toSec() > kUndriven) {
+    throw std::runtime_error("the motor of " + off +
+                             " is not enabled; enable, then the same command goes on");
+  }
 }
 
 void Recorder::follow(const Visit::Order& order, const Protocol::Target& target) {

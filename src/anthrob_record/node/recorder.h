@@ -28,6 +28,8 @@ class Recorder {
   Result record(const Protocol::Target& target, int repeat);
   /// One instant of a visit. @return false if ROS shut down
   bool advance(Visit& visit, const Protocol::Target& target);
+  /// @throws std::runtime_error if motors are off: what hangs there is no equilibrium
+  void check_motors();
   void follow(const Visit::Order& order, const Protocol::Target& target);
   void send_references(const std::vector<double>& references);
   void call_controller(Visit::Aim aim, const Protocol::Target& target);
@@ -52,7 +54,7 @@ class Recorder {
   Visit* visit_ = nullptr;
   bool aimed_ = false;
   Visit::Aim aim_ = Visit::Aim::kRest;
-  ros::Time sent_;
+  ros::Time sent_, driven_;
   int done_ = 0, recorded_ = 0;
   ros::WallTime start_ = ros::WallTime::now(), heard_ = start_;
 };
