@@ -64,7 +64,8 @@ std::vector<Motion> motions_of_arm(const std::string& model, const std::string& 
 }
 
 /// A bone-shaped body of `count` vertices, a point on it and one that swings round it.
-Motion motion_round_body(int count) {
+/// @param fixed the surface knows that the point on it stays where it is, as in a model
+Motion motion_round_body(int count, bool fixed) {
   const Vec3 radii(0.020, 0.050, 0.018);
   std::vector<Vec3> points;
   for (int i = 0; i < count; ++i) {
@@ -72,13 +73,16 @@ Motion motion_round_body(int count) {
     const double r = std::sqrt(1.0 - y * y);
     points.push_back(radii.cwiseProduct(Vec3(r * std::cos(turn), y, r * std::sin(turn))));
   }
-  Motion motion{
-      std::to_string(count), std::make_shared<MeshSurface>(points, Vec3::UnitX()), {}, {}};
+  const Vec3 insertion = 1.002 * radii.cwiseProduct(Vec3(0.6, 0.1, -0.79).normalized());
+  std::shared_ptr<const WrappingSurface> surface =
+      std::make_shared<MeshSurface>(points, Vec3::UnitX());
+  if (fixed) surface = surface->prepared_for(nullptr, &insertion);
+  Motion motion{std::to_string(count), surface, {}, {}};
   for (int i = 0; i < kSteps; ++i) {
     const double t = 1e-3 * i;
     motion.before.emplace_back(0.012 + 0.01 * std::sin(1.3 * t), 0.01 + 0.02 * std::sin(0.9 * t),
                                0.05 + 0.01 * std::cos(1.7 * t));
-    motion.after.push_back(1.002 * radii.cwiseProduct(Vec3(0.6, 0.1, -0.79).normalized()));
+    motion.after.push_back(insertion);
   }
   return motion;
 }
@@ -168,7 +172,10 @@ void register_all() {
     run_cgal(s, motion);
   })->Unit(benchmark::kMicrosecond);
   for (const int count : {100, 300, 1000, 3000, 10000, 30000}) {
-    add("vertices/" + std::to_string(count), {motion_round_body(count)}, 2);
+    add("vertices/" + std::to_string(count), {motion_round_body(count, true)}, 2);
+  }
+  for (const int count : {100, 1000, 10000}) {
+    add("both_ends_move/" + std::to_string(count), {motion_round_body(count, false)}, 2);
   }
 }
 

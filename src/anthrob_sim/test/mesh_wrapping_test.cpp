@@ -1,11 +1,13 @@
 // Meshes as wrapping surfaces: against CGAL's exact geodesics, closed forms, and virtual work.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/path/horizon.h"
 #include "anthrob_sim/path/mesh_surface.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 #include "mesh_reference.h"
@@ -74,7 +76,7 @@ struct Tally {
 
 TEST(MeshSurface, RandomBodiesAgreeWithCgal) {
   Random random(1);
-  Tally cold, warm;
+  Tally cold, warm, prepared;
   const int cases = campaign(300);
   for (int i = 0; i < cases; ++i) {
     const std::vector<Vec3> points = random_body(random);
@@ -93,11 +95,90 @@ TEST(MeshSurface, RandomBodiesAgreeWithCgal) {
       p = np, q = nq;
       tendon.move(p, q);
     }
-    warm.compare(tendon, p, reference_way(points, p, q, chi), "warm " + std::to_string(i));
+    const ReferenceWay way = reference_way(points, p, q, chi);
+    warm.compare(tendon, p, way, "warm " + std::to_string(i));
+    // One end fixed to the body, and the distances from there known before; cold or warm.
+    const bool first = i % 2 == 0;
+    Tendon fixed(surface->prepared_for(first ? &p : nullptr, first ? nullptr : &q));
+    const Vec3 away = random.vector(i % 3 == 0 ? 0.0 : stride);
+    fixed.start(first ? p : p + away, first ? q + away : q);
+    fixed.move(p, q);
+    prepared.compare(fixed, p, way, "prepared " + std::to_string(i));
   }
   cold.report("cold", cases);
   warm.report("warm", cases);
+  prepared.report("prepared", cases);
   EXPECT_GT(cold.leaning, cases / 20);
+}
+
+/// Where the point for which a surface was prepared is not: as if it were not prepared.
+TEST(MeshSurface, PreparationIsNoPromise) {
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    const auto surface = std::make_shared<MeshSurface>(random_body(random), random.direction());
+    const Vec3 p = random_outside(random, *surface), q = random_outside(random, *surface);
+    const Vec3 elsewhere = q + random.vector(1e-3);
+    Tendon plain(surface), prepared(surface->prepared_for(nullptr, &elsewhere));
+    plain.start(p, q);
+    prepared.start(p, q);
+    EXPECT_EQ(plain.length(), prepared.length());
+  }
+}
+
+TEST(Horizon, WalkedIsTheOneFound) {
+  Random random(7);
+  for (int i = 0; i < 300; ++i) {
+    const MeshSurface surface(random_body(random), Vec3::UnitX());
+    const ConvexHull& hull = surface.hull();
+    const Vec3 p = random_outside(random, surface);
+    Horizon walked, flooded;
+    walked.reserve(hull);
+    flooded.reserve(hull);
+    flooded.flood(hull, p, HullLocator(hull).locate(p, 0).facet);
+    std::vector<int> expected = flooded.edges();
+    ASSERT_TRUE(walked.trace(hull, p, expected[i % expected.size()]));
+    std::vector<int> found = walked.edges();
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+    EXPECT_FALSE(walked.trace(hull, p, hull.edge(expected[0]).twin)) << "the wrong side of it";
+  }
+}
+
+/// From a point in the plane of a plate rounding decides which of its triangles count as seen: a
+/// walk round some of them is not taken for the horizon.
+TEST(Horizon, IslandsAreRefused) {
+  Random random(8);
+  int refused = 0;
+  for (int i = 0; i < 50; ++i) {
+    // A drum: two plates of many triangles, turned so that rounding has something to do.
+    const Mat3 turn = Quat(Eigen::AngleAxisd(random.uniform(0, 3), random.direction())).matrix();
+    std::vector<Vec3> points;
+    for (int k = 0; k < 24; ++k) {
+      const double angle = 0.1 + 2 * M_PI * k / 24;
+      for (const double z : {-0.3, 0.3}) {
+        points.push_back(turn * Vec3(std::cos(angle), std::sin(angle), z));
+      }
+    }
+    const ConvexHull hull(points);
+    const Vec3 p = turn * Vec3(2.0, 0.3, 0.3);
+    Horizon horizon;
+    horizon.reserve(hull);
+    for (int h = 0; h < hull.half_edge_count(); ++h) {
+      const bool is_border = hull.height(ConvexHull::facet_of(h), p) <= 0.0 &&
+                             hull.height(ConvexHull::facet_of(hull.edge(h).twin), p) > 0.0;
+      if (!is_border) {
+        EXPECT_FALSE(horizon.trace(hull, p, h));
+      } else if (!horizon.trace(hull, p, h)) {
+        ++refused;
+        EXPECT_LT(horizon.edges().size(), 24u) << "an island in a plate";
+      } else {
+        // It separates the drum's near side from the far one.
+        EXPECT_GE(horizon.edges().size(), 6u);
+      }
+    }
+  }
+  EXPECT_GT(refused, 0);
 }
 
 /// A mesh in the path of one of model III's muscles.

@@ -21,51 +21,30 @@ Vec3 middle(const GeodesicQuery& query, int h) {
 
 void HullGeodesic::reserve(const ConvexHull& hull) {
   search_.reserve(hull);
-  const std::size_t edges = hull.half_edge_count();
-  if (seen_.size() >= edges) return;
-  string_.reserve(static_cast<int>(edges));
-  seen_.resize(edges, 0);
-  rim_.reserve(edges);
-  queue_.reserve(edges);
-  walked_.reserve(edges);
+  rim_.reserve(hull);
+  string_.reserve(hull.half_edge_count());
+  walked_.reserve(hull.half_edge_count());
 }
 
 HullGeodesic::Outcome HullGeodesic::solve(const GeodesicQuery& query, int facet,
                                           std::vector<int>& strip) {
-  find_rim(query, facet);
   Outcome outcome = Outcome::kConfirmed;
-  if (!fit(query, strip)) {
+  const bool fits = fit(query, strip);
+  if (!fits || !rim_.trace(query.hull, query.source, strip.front())) {
+    rim_.flood(query.hull, query.source, facet);
+  }
+  if (!fits) {
     outcome = Outcome::kCold;
     cut(query, strip);
   }
   length_ = strip.empty() ? std::numeric_limits<double>::infinity() : string_.pull(query, strip);
-  search_.run(query, rim_, length_);
+  search_.run(query, rim_.edges(), length_);
   if (!search_.strip().empty()) {
     if (outcome == Outcome::kConfirmed) outcome = Outcome::kImproved;
     strip = search_.strip();
     length_ = string_.pull(query, strip);
   }
   return outcome;
-}
-
-/// The border between the facets that the source lies above and the others.
-void HullGeodesic::find_rim(const GeodesicQuery& query, int facet) {
-  ++round_;
-  rim_.clear();
-  queue_.assign(1, facet);
-  seen_[facet] = round_;
-  for (std::size_t i = 0; i < queue_.size(); ++i) {
-    for (int h = 3 * queue_[i]; h < 3 * queue_[i] + 3; ++h) {
-      const int twin = query.hull.edge(h).twin, beyond = ConvexHull::facet_of(twin);
-      if (seen_[beyond] == round_) continue;
-      if (query.sees_source(beyond)) {
-        seen_[beyond] = round_;
-        queue_.push_back(beyond);
-      } else {
-        rim_.push_back(twin);
-      }
-    }
-  }
 }
 
 /// Shortens or extends a strip so that it runs from the source's rim to the target's.
@@ -101,7 +80,7 @@ bool HullGeodesic::cut(const GeodesicQuery& query, std::vector<int>& strip) {
   const Vec3 line = query.target - query.source;
   const Vec3 up = query.limited ? query.up : Vec3(line.unitOrthogonal());
   const Vec3 side = up.cross(line);
-  for (const int h : rim_) {
+  for (const int h : rim_.edges()) {
     const double a = side.dot(hull.from(h) - query.source);
     const double b = side.dot(hull.to(h) - query.source);
     if ((a < 0.0) == (b < 0.0)) continue;

@@ -16,6 +16,9 @@ namespace anthrob {
 
 namespace {
 
+/// Facets. The distances over denser hulls take seconds to find and 100 MB to keep.
+constexpr int kDense = 30000;
+
 /// Scratch memory: what survives a step is in the state.
 struct Workspace {
   HullGeodesic geodesic;
@@ -63,12 +66,28 @@ struct BorderGradient {
 
 MeshSurface::MeshSurface(std::vector<Vec3> points_B, const Vec3& chi_B,
                          std::vector<std::string> remarks)
-    : hull_(std::move(points_B)),
-      locator_(hull_),
+    : hull_(std::make_shared<ConvexHull>(std::move(points_B))),
+      locator_(*hull_),
       chi_(unit_or_zero(chi_B)),
       remarks_(std::move(remarks)) {
   // Ways cross a few times as many edges as the hull is facets wide; longer strips start cold.
-  capacity_ = 16 + static_cast<std::size_t>(6.0 * std::sqrt(hull_.facet_count()));
+  capacity_ = 16 + static_cast<std::size_t>(6.0 * std::sqrt(hull_->facet_count()));
+}
+
+std::shared_ptr<const WrappingSurface> MeshSurface::prepared_for(const Vec3* before,
+                                                                 const Vec3* after) const {
+  if (before == nullptr && after == nullptr) return nullptr;
+  if (hull_->facet_count() > kDense) return nullptr;
+  const HullPoint point = locator_.locate(after != nullptr ? *after : *before, 0);
+  if (is_fixed(point)) return nullptr;
+  auto prepared = std::make_shared<MeshSurface>(*this);
+  prepared->field_ = std::make_shared<DistanceField>(*hull_, point.p, point.facet);
+  return prepared;
+}
+
+bool MeshSurface::is_fixed(const HullPoint& point) const {
+  // The search looks for ways shorter by more than this.
+  return field_ && (field_->from() - point.p).norm() < 0.1 * StripSearch::kSame * hull_->size();
 }
 
 MeshSurface::Counts MeshSurface::counts(StateView state) {
@@ -77,8 +96,8 @@ MeshSurface::Counts MeshSurface::counts(StateView state) {
 
 void MeshSurface::initialise(const Vec3&, const Vec3&, StateView state) const {
   Workspace& space = workspace();
-  space.geodesic.reserve(hull_);
-  space.strip.reserve(hull_.half_edge_count());
+  space.geodesic.reserve(*hull_);
+  space.strip.reserve(hull_->half_edge_count());
   state.as<Header>() = Header{};
 }
 
@@ -87,7 +106,7 @@ void MeshSurface::wrap(const Vec3& before, const Vec3& after, StateView state,
   Way way;
   solve(before, after, state, way);
   if (!way.wraps && !way.before.moved && !way.after.moved) {
-    const Vec3& core = hull_.core_begin();
+    const Vec3& core = hull_->core_begin();
     set_straight(before, after, core, contact);
     return;
   }
@@ -106,13 +125,16 @@ void MeshSurface::solve(const Vec3& before, const Vec3& after, StateView state, 
     memory.strip_length = 0.0;
     return;
   }
-  // From the point nearer to the surface windows stay narrower.
+  // Towards the point that is fixed; else from the one nearer to the surface windows stay narrower.
+  const bool before_fixed = is_fixed(way.before),
+             after_fixed = !before_fixed && is_fixed(way.after);
   const double nearer =
-      hull_.height(way.after.facet, way.after.p) - hull_.height(way.before.facet, way.before.p);
-  way.reversed = nearer < 0.0;
+      hull_->height(way.after.facet, way.after.p) - hull_->height(way.before.facet, way.before.p);
+  way.reversed = before_fixed || (!after_fixed && nearer < 0.0);
   const HullPoint& source = way.reversed ? way.after : way.before;
   const HullPoint& target = way.reversed ? way.before : way.after;
-  GeodesicQuery query{hull_, source.p, target.p, false, Vec3::UnitZ()};
+  GeodesicQuery query{*hull_, source.p, target.p, false, Vec3::UnitZ()};
+  if (before_fixed || after_fixed) query.field = field_.get();
   const Vec3 line = (target.p - source.p).normalized();
   const Vec3 up = chi_ - chi_.dot(line) * line;
   if (up.norm() > 1e-9) {
@@ -121,13 +143,13 @@ void MeshSurface::solve(const Vec3& before, const Vec3& after, StateView state, 
   }
 
   Workspace& space = workspace();
-  space.geodesic.reserve(hull_);
+  space.geodesic.reserve(*hull_);
   space.strip.clear();
   double* stored = state.data() + kHeader;
   for (int i = 0; i < static_cast<int>(memory.strip_length); ++i) {
     space.strip.push_back(static_cast<int>(stored[i]));
   }
-  if ((memory.from_after != 0.0) != way.reversed) reverse(hull_, space.strip);
+  if ((memory.from_after != 0.0) != way.reversed) reverse(*hull_, space.strip);
   const HullGeodesic::Outcome outcome = space.geodesic.solve(query, source.facet, space.strip);
   memory.counts.solved += 1.0;
   memory.counts.improved += outcome == HullGeodesic::Outcome::kImproved;
@@ -160,14 +182,14 @@ void MeshSurface::follow(const Vec3& before, const Vec3& after, const Way& way,
     const double length = piece.norm();
     (i == 0 ? contact.length_in : i < count ? contact.length_on : contact.length_out) += length;
     // Pieces between edges that meet in one corner have no direction.
-    if (length > 1e-12 * hull_.size()) {
+    if (length > 1e-12 * hull_->size()) {
       const Vec3 ahead = piece / length;
       if (started)
         contact.turning += 2.0 * std::asin(std::min(1.0, 0.5 * (ahead - direction).norm()));
       if (!started) contact.direction_in = ahead;
       if (i > 0 && crossings[index(i - 1)].bend == TautString::Bend::kAtLimit) {
         const int h = space.strip[index(i - 1)];
-        border.add(p, q, chi_, last, (hull_.to(h) - hull_.from(h)).normalized(),
+        border.add(p, q, chi_, last, (hull_->to(h) - hull_->from(h)).normalized(),
                    started ? Vec3(direction - ahead) : Vec3(Vec3::Zero()));
         leans = true;
       }
@@ -204,8 +226,8 @@ void MeshSurface::follow(const Vec3& before, const Vec3& after, const Way& way,
 Vec3 MeshSurface::crossing(int k) const {
   const Workspace& space = workspace();
   const int h = space.strip[k];
-  const double share = space.geodesic.crossings()[k].x * hull_.edge(h).inverse_length;
-  return hull_.from(h) + share * (hull_.to(h) - hull_.from(h));
+  const double share = space.geodesic.crossings()[k].x * hull_->edge(h).inverse_length;
+  return hull_->from(h) + share * (hull_->to(h) - hull_->from(h));
 }
 
 void MeshSurface::trace(const WrapContact& contact, std::vector<Vec3>& points) const {

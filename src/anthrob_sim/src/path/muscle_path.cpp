@@ -18,6 +18,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 
 PathModel::PathModel(const SkeletonModel& skeleton, std::vector<PathObstacle> obstacles)
     : obstacles_(std::move(obstacles)) {
+  for (std::size_t i = 1; i + 1 < obstacles_.size(); ++i) prepare_surface(i);
   for (const auto& obstacle : obstacles_) {
     state_offsets_.push_back(state_size_);
     if (obstacle.surface) state_size_ += obstacle.surface->state_size();
@@ -28,6 +29,17 @@ PathModel::PathModel(const SkeletonModel& skeleton, std::vector<PathObstacle> ob
     joints_.push_back(joints_between(skeleton, a.body, b.body));
     static_.push_back(!a.surface && !b.surface && a.body == 0 && b.body == 0);
   }
+}
+
+/// Neighbours on the surface's own body do not move in its frame.
+void PathModel::prepare_surface(std::size_t i) {
+  if (!obstacles_[i].surface) return;
+  const auto fixed = [&](const PathObstacle& point) {
+    return !point.surface && point.body == obstacles_[i].body ? &point.point_B : nullptr;
+  };
+  auto prepared =
+      obstacles_[i].surface->prepared_for(fixed(obstacles_[i - 1]), fixed(obstacles_[i + 1]));
+  if (prepared) obstacles_[i].surface = std::move(prepared);
 }
 
 MusclePath::MusclePath(const PathModel& model)

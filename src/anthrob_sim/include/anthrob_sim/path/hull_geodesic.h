@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "anthrob_sim/path/horizon.h"
 #include "anthrob_sim/path/strip_search.h"
 
 namespace anthrob {
@@ -33,16 +33,14 @@ class HullGeodesic {
   int windows() const { return search_.windows(); }
 
  private:
-  void find_rim(const GeodesicQuery& query, int facet);
   bool fit(const GeodesicQuery& query, std::vector<int>& strip);
   bool cut(const GeodesicQuery& query, std::vector<int>& strip);
   bool walk(const GeodesicQuery& query, const Vec3& through, bool to_source, int from);
 
   TautString string_;
   StripSearch search_;
-  std::vector<int> rim_, queue_, walked_;
-  std::vector<std::uint64_t> seen_;
-  std::uint64_t round_ = 0;
+  Horizon rim_;  ///< of the source
+  std::vector<int> walked_;
   double length_ = 0.0;
 };
 

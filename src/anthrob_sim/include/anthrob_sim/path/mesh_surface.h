@@ -1,6 +1,7 @@
 #pragma once
 
 #include "anthrob_sim/path/convex_hull.h"
+#include "anthrob_sim/path/distance_field.h"
 #include "anthrob_sim/path/hull_geodesic.h"
 #include "anthrob_sim/path/hull_locator.h"
 #include "anthrob_sim/path/wrapping_surface.h"
@@ -36,6 +37,10 @@ class MeshSurface final : public WrappingSurface {
             WrapContact& contact) const override;
   void trace(const WrapContact& contact, std::vector<Vec3>& points) const override;
   std::vector<std::string> remarks() const override { return remarks_; }
+  /// With the distances from a fixed point the search has nothing left to find out but what the
+  /// other one sees.
+  std::shared_ptr<const WrappingSurface> prepared_for(const Vec3* before,
+                                                      const Vec3* after) const override;
 
   /// What the search for the way did since initialise().
   struct Counts {
@@ -43,7 +48,7 @@ class MeshSurface final : public WrappingSurface {
   };
   static Counts counts(StateView state);
 
-  const ConvexHull& hull() const { return hull_; }
+  const ConvexHull& hull() const { return *hull_; }
   const Vec3& chi() const { return chi_; }  ///< unit or zero, in the body's frame
 
   /// `{file: , scale: , offset: [m], chi: [1], part: [{point: [m], normal: [1]}]}`; the same
@@ -74,9 +79,13 @@ class MeshSurface final : public WrappingSurface {
   void follow(const Vec3& before, const Vec3& after, const Way& way, WrapContact& contact) const;
   Vec3 crossing(int k) const;  ///< of the way in the workspace with its k-th edge
 
-  ConvexHull hull_;
+  /// Whether the fixed point that the distances belong to is here.
+  bool is_fixed(const HullPoint& point) const;
+
+  std::shared_ptr<const ConvexHull> hull_;
   HullLocator locator_;
   Vec3 chi_;
+  std::shared_ptr<const DistanceField> field_;  ///< null: no neighbour is fixed
   std::vector<std::string> remarks_;
   std::size_t capacity_;
 };

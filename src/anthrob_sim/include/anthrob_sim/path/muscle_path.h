@@ -55,6 +55,8 @@ class PathModel {
   bool is_static(std::size_t i) const { return static_[i]; }
 
  private:
+  void prepare_surface(std::size_t i);
+
   std::vector<PathObstacle> obstacles_;
   std::vector<std::size_t> state_offsets_;
   std::size_t state_size_ = 0;

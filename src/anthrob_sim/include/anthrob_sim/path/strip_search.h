@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "anthrob_sim/path/beam.h"
 #include "anthrob_sim/path/taut_string.h"
 
 namespace anthrob {
@@ -15,10 +16,15 @@ namespace anthrob {
 /// so this covers all ways but those that lean on the limit: for them each point in which an edge
 /// crosses the limit becomes a source of its own.
 ///
-/// A window is dropped as soon as it cannot lead to a way shorter than the best one known, even if
-/// the rest ran through the air: with a good first guess few windows live.
+/// A window is dropped as soon as it cannot lead to a way shorter than the best one known. What is
+/// left of the way is bounded by the distances from the target if they are known: then no window
+/// lives but those on a shorter way. Else by the air line: with a good first guess few windows live
+/// as long as the way turns by less than a right angle.
 class StripSearch {
  public:
+  /// Ways shorter by less than this share of the hull's size are the same.
+  static constexpr double kSame = 1e-9;
+
   void reserve(const ConvexHull& hull);
 
   /// @param rim half-edges through which the facets hidden from the source are entered
@@ -30,20 +36,19 @@ class StripSearch {
   int windows() const { return windows_; }                  ///< looked at in the last run
 
  private:
-  /// A stretch [a, b] of an edge, in the frame of the half-edge, and the unfolded source.
   struct Window {
-    int edge, depth;
-    double a, b;
-    double sx, sy;  ///< sy <= 0
-    double before;  ///< length of the way to the unfolded source: 0, or to a point of the limit
+    Beam beam;
+    int depth;
+    double before;  ///< length of the way to the beam's source: 0, or to a point of the limit
     double clear0, clear1;  ///< clearance of the edge's ends
     double far0, far1;      ///< their squared distances to the target
     double least;           ///< no way through the window is shorter
-    bool point;             ///< the source is the point a = b of the edge
   };
 
+  void enter(const GeodesicQuery& query, int half_edge);
   void consider(const GeodesicQuery& query, Window& window);
-  void open_point(const Window& window, double x, double remaining);
+  void open_point(const GeodesicQuery& query, const Window& window, double x);
+  double through_air(const GeodesicQuery& query, const Window& window) const;
   void carry_on(const GeodesicQuery& query, const Window& window);
   void keep_if_better(const Window& window, double length);
 

@@ -6,13 +6,16 @@
 
 namespace anthrob {
 
+class DistanceField;
+
 /// Two points outside a convex hull and the side on which the way between them may run: the
 /// half-space through both points into which `up` shows.
 struct GeodesicQuery {
   const ConvexHull& hull;
   Vec3 source = Vec3::Zero(), target = Vec3::Zero();  ///< [m]
   bool limited = false;
-  Vec3 up = Vec3::UnitZ();  ///< unit, across the line from source to target
+  Vec3 up = Vec3::UnitZ();               ///< unit, across the line from source to target
+  const DistanceField* field = nullptr;  ///< distances from the target, if they are known
 
   /// Over the limit [m]; positive where the way may run.
   double clearance(const Vec3& p) const { return limited ? up.dot(p - source) : 1.0; }

@@ -55,6 +55,14 @@ class WrappingSurface {
   /// Appends points of the path on the surface, from entry to exit, for drawing.
   virtual void trace(const WrapContact& contact, std::vector<Vec3>& points) const = 0;
 
+  /// The same surface, prepared for neighbours that never move in its frame; null where that gains
+  /// nothing. What it answers does not change, whatever the neighbours do.
+  /// @param before, after the point next to it, or null if it moves
+  virtual std::shared_ptr<const WrappingSurface> prepared_for(const Vec3* /*before*/,
+                                                              const Vec3* /*after*/) const {
+    return nullptr;
+  }
+
   /// What its user should know about the files it came from, one line each.
   virtual std::vector<std::string> remarks() const { return {}; }
 };

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "anthrob_sim/path/beam.h"
+
+namespace anthrob {
+
+/// Lengths of the shortest ways from one point to every point of a convex hull's edges: what is
+/// known before the motion if a path point is fixed to the bone.
+///
+/// An edge falls into stretches that see the unfolded point through one strip of facets each. They
+/// are found by carrying beams over the hull, shortest first; where two reach the same stretch the
+/// shorter one keeps it. On a convex body no shortest way passes a corner, so all of them start at
+/// the point itself, and two of them are equally long at one place of the edge at most.
+class DistanceField {
+ public:
+  /// @param from outside the hull    @param facet one that it lies above
+  DistanceField(const ConvexHull& hull, const Vec3& from, int facet);
+
+  const Vec3& from() const { return from_; }
+
+  /// Shortest way from a beam's source over its edge to the point, if nothing were in the way of
+  /// the beam.
+  double beyond(const Beam& beam) const;
+  std::size_t piece_count() const { return pieces_.size(); }
+
+ private:
+  /// Up to `end` the point, unfolded, is at (x, y >= 0) in the frame of the half-edge.
+  struct Piece {
+    double end, x, y;
+  };
+  friend class DistanceFieldBuilder;
+
+  Vec3 from_;
+  std::vector<Piece> pieces_;
+  std::vector<int> first_;  ///< of each half-edge; one more at the end
+};
+
+}  // namespace anthrob
