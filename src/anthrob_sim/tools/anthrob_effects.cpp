@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
     std::shared_ptr<const RobotModel> robot;
-    if (!model_file.empty()) robot = load_robot_model(model_file);
+    if (!model_file.empty()) robot = tool::load_model(app, model_file);
     std::vector<View> views;
     for (const Effect* effect : all_effects()) {
       if (id.empty() || effect->info().id == id) views.push_back({effect, robot.get()});

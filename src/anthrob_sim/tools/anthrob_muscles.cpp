@@ -257,7 +257,7 @@ int main(int argc, char** argv) {
   app.add_flag("--csv", csv, "comma separated, SI units");
   app.add_flag("--json", json, "JSON, SI units")->excludes("--csv");
   return tool::run(app, argc, argv, [&]() -> int {
-    const auto model = load_robot_model(tool::find_model_file(robot, model_name));
+    const auto model = tool::load_model(app, tool::find_model_file(robot, model_name));
     std::vector<double> q = model->skeleton->rest_configuration();
     for (const std::string& option : joints) set_joint(*model, option, q);
     std::vector<double> actuators(model->muscles.size(), 0.0);

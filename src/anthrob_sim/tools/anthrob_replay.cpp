@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"reference", "voltage", "position"}))
       ->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
-    const auto model = load_robot_model(model_file, {step, {}});
+    const auto model = tool::load_model(app, model_file, {step, {}});
     const Dataset recording = load_recording(in);
     const ReplayMode replay_mode = mode == "reference" ? ReplayMode::kReference
                                    : mode == "voltage" ? ReplayMode::kVoltage

@@ -92,6 +92,15 @@ std::string find_model_file(const std::string& robot, const std::string& model) 
   return file.string();
 }
 
+std::shared_ptr<const RobotModel> load_model(const CLI::App& app, const std::string& file,
+                                             const LoadOptions& options) {
+  auto model = load_robot_model(file, options);
+  for (const std::string& remark : model->remarks) {
+    std::cerr << app.get_name() << ": " << remark << "\n";
+  }
+  return model;
+}
+
 Assignment parse_assignment(const std::string& option, const std::string& text) {
   const auto fail = [&] {
     throw BadInput(option + " " + text + ": expected NAME=NUMBER or NAME=NUMBER,NUMBER,...");

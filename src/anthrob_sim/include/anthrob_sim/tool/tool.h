@@ -25,6 +25,10 @@ bool interrupted();
 /// @throws BadInput naming what was looked for and where
 std::string find_model_file(const std::string& robot, const std::string& model);
 
+/// The model in a file; what was odd in it but put right is said on standard error, one line each.
+std::shared_ptr<const RobotModel> load_model(const CLI::App& app, const std::string& file,
+                                             const LoadOptions& options = {});
+
 /// "a=1,2,3" into name and numbers.
 /// @throws BadInput
 struct Assignment {

@@ -1,0 +1,56 @@
+// What command-line tools say about a model file.
+#include "anthrob_sim/tool/tool.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "support.h"
+
+namespace anthrob {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A robot with a bone one facet of which faces inwards.
+class OddRobot : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("anthrob_odd_" + std::to_string(getpid()));
+    fs::copy(testing_support::config("anthrob"), folder_, fs::copy_options::recursive);
+    // Binary STL: header of 84 bytes, then normal and corners of 12 bytes each.
+    std::fstream bone(folder_ / "meshes/scapula.stl",
+                      std::ios::in | std::ios::out | std::ios::binary);
+    char corners[24];
+    bone.seekg(84 + 12).read(corners, 24);
+    bone.seekp(84 + 12).write(corners + 12, 12).write(corners, 12);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+TEST_F(OddRobot, IsRemarkedOnAndUsed) {
+  CLI::App app("", "anthrob_something");
+  testing::internal::CaptureStderr();
+  const auto model = tool::load_model(app, (folder_ / "model_III.yaml").string());
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(model->muscles.size(), 11u);
+  EXPECT_EQ(said.find("anthrob_something: " + folder_.string()), 0u) << said;
+  EXPECT_NE(said.find("meshes/scapula.stl: 3 edges between facets that face opposite ways"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
+}
+
+TEST(Tool, SaysNothingAboutASoundModel) {
+  CLI::App app("", "anthrob_something");
+  testing::internal::CaptureStderr();
+  tool::load_model(app, testing_support::config("anthrob/model_III.yaml"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace anthrob
