@@ -19,7 +19,8 @@ struct MadeRecording {
   double length = 10.0;     ///< [s]
   double rate = 200.0;      ///< [Hz]
   std::uint64_t noise = 1;  ///< seed of the noise
-  double position_noise = 1e-3, current_noise = 5e-3, force_noise = 0.05, joint_noise = 1e-3;
+  double position_noise = 1e-3, current_noise = 5e-3, force_noise = 0.05, voltage_noise = 0.02,
+         joint_noise = 1e-3;
 
   Dataset commands(const std::shared_ptr<const RobotModel>& model) const {
     Simulation sim(model);
@@ -30,7 +31,8 @@ struct MadeRecording {
     for (double t = 0.0; t < length + kLeg; t += kLeg) {
       EquilibriumOptions options;
       options.lowest_tension = 3.0 + 12.0 * random.uniform(index++);
-      references.push_back(find_equilibrium(sim, posture(*model, random, index), options).reference);
+      references.push_back(
+          find_equilibrium(sim, posture(*model, random, index), options).reference);
     }
     Dataset data;
     data.folder = "made";
@@ -51,7 +53,8 @@ struct MadeRecording {
       }
       column.present.assign(rows, 1);
     }
-    for (std::size_t i = 0; i < rows; ++i) table.t.push_back(static_cast<Nanoseconds>(i) * 10000000);
+    for (std::size_t i = 0; i < rows; ++i)
+      table.t.push_back(static_cast<Nanoseconds>(i) * 10000000);
     return data;
   }
 
@@ -60,7 +63,8 @@ struct MadeRecording {
     Table& muscles = data.table("muscles");
     const auto rows = static_cast<std::size_t>(length * rate) + 1;
     for (std::size_t i = 0; i < rows; ++i) {
-      muscles.t.push_back(static_cast<Nanoseconds>(std::llround(1e9 / rate * static_cast<double>(i))));
+      muscles.t.push_back(
+          static_cast<Nanoseconds>(std::llround(1e9 / rate * static_cast<double>(i))));
     }
     for (const MuscleModel& muscle : robot->muscles) {
       for (const char* quantity : {"position", "current", "voltage", "force"}) {
@@ -120,8 +124,9 @@ struct MadeRecording {
   double noise_of(const std::string& quantity) const {
     if (quantity == "current") return current_noise;
     if (quantity == "force") return force_noise;
-    if (quantity == "voltage" || quantity == "velocity" || quantity == "mode" ||
-        quantity == "reference" || (quantity.size() == 2 && quantity[0] == 'w')) {
+    if (quantity == "voltage") return voltage_noise;
+    if (quantity == "velocity" || quantity == "mode" || quantity == "reference" ||
+        (quantity.size() == 2 && quantity[0] == 'w')) {
       return 0.0;
     }
     if (quantity.size() == 1) return 0.5 * joint_noise;

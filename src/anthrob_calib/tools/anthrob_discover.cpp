@@ -1,71 +1,95 @@
 // Where do a model and recordings disagree, and which physical effect is missing?
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <thread>
 
 #include "anthrob_calib/discovery/discovery.h"
+#include "anthrob_calib/discovery/report.h"
+#include "anthrob_calib/identification/output_files.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/tool/tool.h"
 
+namespace {
+
+using namespace anthrob;
+
+/// calibration.yaml beside the model, unless another one is named.
+std::vector<ModelParameter> nuisances_of(const std::string& model_file, std::string calibration) {
+  if (calibration.empty()) {
+    const auto beside = std::filesystem::path(model_file).parent_path() / "calibration.yaml";
+    if (!std::filesystem::exists(beside)) return {};
+    calibration = beside.string();
+  }
+  return read_parameters(ConfigNode::load(calibration).at("parameters"),
+                         ConfigNode::load(model_file));
+}
+
+std::vector<Dataset> load_all(const std::vector<std::string>& names) {
+  std::vector<Dataset> recordings;
+  for (const std::string& name : names) recordings.push_back(load_recording(name));
+  return recordings;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace anthrob;
   CLI::App app("Finds the physical effect that a model misses in recordings.", "anthrob_discover");
   discovery::Question question;
   std::vector<std::string> train, test, repeats;
   std::string out, calibration;
   question.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   app.add_option("--model", question.model_file, "model file to be examined")->required();
-  app.add_option("--train", train, "recordings to learn from")->required();
-  app.add_option("--test", test, "recordings to judge by; not fitted")->required();
+  app.add_option("--train", train, "recordings to learn from: bags or dataset folders")->required();
+  app.add_option("--test", test, "recordings to judge by; never fitted")->required();
   app.add_option("--repeat", repeats, "further runs of the first --train's commands");
   app.add_option("--out", out, "folder for report.json, report.html and model.yaml")->required();
-  app.add_option("--effects", question.effects, "consider only these ids")->delimiter(',');
+  app.add_option("--effects", question.effects, "consider only these ids: ID,ID")->delimiter(',');
   app.add_option("--max-effects", question.max_effects, "stop after so many")
       ->check(CLI::Range(0, 20))
       ->capture_default_str();
-  app.add_option("--jobs", question.jobs, "threads")->check(CLI::Range(1, 1024));
+  app.add_option("--jobs", question.jobs, "threads (default: all cores)")
+      ->check(CLI::Range(1, 1024));
   app.add_option("--seed", question.seed, "of resampling")->capture_default_str();
   app.add_option("--calibration", calibration,
                  "ordinary parameters (default: calibration.yaml beside the model)");
   app.add_option("--dt", question.step, "simulation step [s]")->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
-    if (calibration.empty()) {
-      const auto beside =
-          std::filesystem::path(question.model_file).parent_path() / "calibration.yaml";
-      if (std::filesystem::exists(beside)) calibration = beside.string();
-    }
-    if (!calibration.empty()) {
-      question.nuisances = read_parameters(ConfigNode::load(calibration).at("parameters"),
-                                           ConfigNode::load(question.model_file));
-    }
-    for (const std::string& r : train) question.train.push_back(load_recording(r));
-    for (const std::string& r : test) question.test.push_back(load_recording(r));
-    for (const std::string& r : repeats) question.repeats.push_back(load_recording(r));
+    const auto start = std::chrono::steady_clock::now();
+    identification::require_writable(out);
+    question.nuisances = nuisances_of(question.model_file, calibration);
+    question.train = load_all(train);
+    question.test = load_all(test);
+    question.repeats = load_all(repeats);
     tool::interrupted();
+
+    std::unique_ptr<tool::Progress> bar;
     discovery::Evaluator evaluator(question.model_file, question.nuisances, question.step,
                                    question.jobs);
-    evaluator.on_progress([](double) { return !tool::interrupted(); });
-    question.progress = [](const std::string& what, double) {
+    evaluator.on_progress([&](double share) {
+      if (bar) bar->update(share);
+      return !tool::interrupted();
+    });
+    question.progress = [&](const std::string& what, double) {
+      bar.reset();
       std::cerr << what << "\n";
+      bar = std::make_unique<tool::Progress>("  ");
       return !tool::interrupted();
     };
-    const discovery::Answer answer = discover(evaluator, question);
-    std::cout << answer.verdict << "\n";
-    for (const auto& effect : answer.effects) {
-      std::cout << effect.id << " @ " << effect.place << " p=" << effect.probability
-                << " evidence=" << effect.evidence << "\n";
-      for (const auto& p : effect.parameters) {
-        std::cout << "  " << p.name << " = " << p.value << " [" << p.low << ", " << p.high << "] "
-                  << p.unit << "\n";
-      }
-      for (const auto& r : effect.rivals) {
-        std::cout << "  rival " << r.id << " @ " << r.place << " p=" << r.probability << " "
-                  << r.evidence << "\n";
-      }
+    question.comment = [](const std::string& line) { std::cerr << line << "\n"; };
+    try {
+      const discovery::Answer answer = discover(evaluator, question);
+      bar.reset();
+      const std::chrono::duration<double> runtime = std::chrono::steady_clock::now() - start;
+      identification::write_files(out,
+                                  {{"report.json", report_json(answer, question, runtime.count())},
+                                   {"report.html", report_html(answer, question, runtime.count())},
+                                   {"model.yaml", model_text(answer, evaluator, question, out)}});
+      std::cout << summary(answer);
+      return tool::kDone;
+    } catch (const discovery::Interrupted&) {
+      std::cerr << "anthrob_discover: interrupted; nothing written\n";
+      return tool::kInterrupted;
     }
-    std::cout << "train gap " << answer.train.before << " -> " << answer.train.recalibrated
-              << " -> " << answer.train.after << ", test " << answer.test.before << " -> "
-              << answer.test.recalibrated << " -> " << answer.test.after << "\n";
-    return tool::kDone;
   });
 }

@@ -35,7 +35,9 @@ Eigen::Vector3d rotation_vector(const std::array<double, 4>& from, const double*
 
 ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recording,
                                  const ExperimentOptions& options)
-    : recording_(recording), mode_(mode_of(model, recording)), step_(model.step) {
+    : recording_(recording),
+      mode_(options.mode.value_or(mode_of(model, recording))),
+      step_(model.step) {
   name_ = recording.folder;
   bin_ = options.bin;
   duration_ = Replay(std::make_shared<RobotModel>(model), recording, mode_).duration();

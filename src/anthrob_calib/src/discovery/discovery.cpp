@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 #include "anthrob_calib/discovery/bootstrap.h"
 #include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/preparation.h"
 #include "anthrob_calib/discovery/screening.h"
+#include "anthrob_calib/discovery/seams.h"
+#include "anthrob_calib/discovery/separating_experiment.h"
 
 namespace anthrob {
 namespace discovery {
@@ -22,6 +25,8 @@ constexpr double kShareOfFirst = 0.03;
 /// A gap is one only beyond what a wrong estimate of the noise may look like.
 constexpr double kRealGap = 1.3;
 constexpr int kRecalibrations = 8;
+constexpr int kPolish = 5;
+constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects are not the answer
 constexpr std::size_t kRenewed =
     60;                              ///< candidates whose doses are simulated again in later rounds
 constexpr double kMentioned = 0.02;  ///< least probability of a rival
@@ -39,8 +44,8 @@ class Search {
         scales_(measure_scales(evaluator, laboratory_.train, laboratory_.repeats)),
         train_(evaluator, laboratory_.train, whitener(laboratory_.train, scales_, true)),
         test_(evaluator, laboratory_.test, whitener(laboratory_.test, scales_, true)),
-        train_judge_(laboratory_.train, train_.whitening()),
-        test_judge_(laboratory_.test, test_.whitening()),
+        train_judge_(laboratory_.train, train_.whitening(), scales_),
+        test_judge_(laboratory_.test, test_.whitening(), scales_),
         candidates_(list_candidates(evaluator, question.effects)),
         naming_(train_, test_, train_judge_, test_judge_, candidates_, question.seed) {}
 
@@ -62,25 +67,8 @@ class Search {
                                   [&](const Score& s) { return named_.count(s.candidate) > 0; }),
                    scores.end());
       stage("fitting the short list", round);
-      const ShortList list = naming_.weigh(base_, base_test_, scores);
-      if (getenv("DD")) {
-        for (std::size_t i = 0; i < scores.size() && i < 12; ++i)
-          fprintf(stderr, "  screen %s gain %.1f amount %.2f +- %.3f\n",
-                  candidates_[scores[i].candidate].name().c_str(), scores[i].gain,
-                  scores[i].amount[0], scores[i].uncertainty);
-        fprintf(stderr, "  base cost %.1f test gap %.3f train gap %.3f none %.3f\n", base_.cost,
-                test_judge_.gap(base_test_), train_judge_.gap(base_.residual), list.none);
-        for (const Named& n : list.named) {
-          fprintf(stderr, "  fit %s p %.3f ev %.1f sig %.1f cost %.1f test gap %.3f:",
-                  candidates_[n.candidate].name().c_str(), n.probability, n.evidence,
-                  n.significance, n.fit.cost, test_judge_.gap(n.test));
-          for (auto& [k, v] : n.fit.variant.effects.back().parameters)
-            fprintf(stderr, " %s=%g", k.c_str(), v);
-          fprintf(stderr, "\n");
-        }
-        for (auto& [k, g] : test_judge_.channel_gaps(base_test_))
-          fprintf(stderr, "   %s %.2f\n", k.c_str(), g);
-      }
+      ShortList list = naming_.weigh(base_, base_test_, scores);
+      if (question_.comment) comment_on(list);
       if (list.named.empty() || !earns_its_place(list)) break;
       accept(list, answer);
       if (test_judge_.gap(base_test_) < kRealGap && train_judge_.gap(base_.residual) < kRealGap)
@@ -95,6 +83,16 @@ class Search {
     const std::string title =
         round < 0 ? what : "effect " + std::to_string(round + 1) + ": " + what;
     if (question_.progress && !question_.progress(title, -1.0)) throw Interrupted();
+  }
+
+  void comment_on(const ShortList& list) const {
+    for (const Named& named : list.named) {
+      char line[200];
+      std::snprintf(line, sizeof(line), "  %-45s probability %.3f, gain %.1f nat (%.1f sigma)",
+                    candidates_[named.candidate].name().c_str(), named.probability, named.evidence,
+                    named.significance);
+      question_.comment(line);
+    }
   }
 
   void recalibrate(Answer& answer) {
@@ -146,8 +144,10 @@ class Search {
     return found;
   }
 
-  void accept(const ShortList& list, Answer& answer) {
-    const Named& best = list.named.front();
+  void accept(ShortList& list, Answer& answer) {
+    Named& best = list.named.front();
+    train_.polish(best.fit, kPolish);
+    best.test = test_.residual(best.fit.variant);
     const Candidate& candidate = candidates_[best.candidate];
     FoundEffect effect;
     effect.id = candidate.effect->info().id;
@@ -162,6 +162,9 @@ class Search {
       const Candidate& rival = candidates_[other.candidate];
       effect.rivals.push_back({rival.effect->info().id, rival.place, other.probability,
                                other.evidence, parameters_of(other, false)});
+    }
+    if (!effect.rivals.empty()) {
+      effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
     }
     answer.effects.push_back(std::move(effect));
     base_ = best.fit;
@@ -203,10 +206,110 @@ class Search {
     }
     const double whole = excess(answer.test.recalibrated);
     answer.remaining_share = whole > 0.0 ? excess(answer.test.after) / whole : 0.0;
-    if (!answer.effects.empty()) {
-      answer.verdict = "effects_found";
+    answer.dependences = find_dependences(laboratory_.train, question_.train, recalibrated_train_,
+                                          train_.whitening());
+    answer.remaining =
+        find_dependences(laboratory_.train, question_.train, base_.residual, train_.whitening());
+    locate(answer);
+    show_examples(answer);
+    pronounce(answer);
+  }
+
+  void locate(Answer& answer) {
+    stage("locating", -1);
+    const auto gaps = train_judge_.channel_gaps(recalibrated_train_);
+    double whole = 0.0;
+    for (const auto& [name, gap] : gaps) whole += excess(gap);
+    answer.seams = seam_gaps(evaluator_, question_, laboratory_, scales_, answer.recalibrated);
+    for (const auto& [name, gap] : gaps) {
+      const ChannelScale& scale = scales_.at(name);
+      const std::size_t slash = name.rfind('/');
+      Place place{name.substr(slash + 1), name.substr(0, slash), "", "", scale.unit};
+      place.rmse = gap * scale.sigma();
+      place.noise_floor = scale.floor;
+      place.share = whole > 0.0 ? excess(gap) / whole : 0.0;
+      for (const SeamGap& seam : answer.seams) {
+        if (seam.place == place.place && seam.channel == place.channel) {
+          place.subsystem = subsystem_of(seam);
+        }
+      }
+      double best = 0.05;
+      for (const Dependence& d : answer.dependences) {
+        if (d.channel.rfind(name, 0) == 0 && d.share > best) {
+          best = d.share;
+          place.regime = d.word + (d.word == "time" ? "" : " (" + d.variable + ")");
+        }
+      }
+      if (gap > kRealGap) answer.where.push_back(std::move(place));
+    }
+    std::stable_sort(answer.where.begin(), answer.where.end(),
+                     [](const Place& a, const Place& b) { return a.share > b.share; });
+  }
+
+  /// The held-out channels in which most happened.
+  void show_examples(Answer& answer) const {
+    std::vector<std::pair<double, std::string>> order;
+    for (const auto& [name, gap] : answer.per_channel) {
+      order.emplace_back(-std::abs(gap.recalibrated - gap.after) - 1e-3 * gap.recalibrated, name);
+    }
+    std::sort(order.begin(), order.end());
+    const Experiment& experiment = *laboratory_.test.front();
+    for (std::size_t i = 0; i < order.size() && i < 3; ++i) {
+      for (const Channel& channel : experiment.channels()) {
+        if (channel.name() != order[i].second) continue;
+        Example example{channel.name(), channel.unit, {}, {}, {}};
+        for (std::size_t b = 0; b < channel.count; ++b) {
+          const auto k = static_cast<Eigen::Index>(channel.offset + b);
+          const double factor = test_.whitening()[k];
+          if (!(factor > 0.0)) continue;
+          example.t.push_back(experiment.bin_time(b));
+          example.recalibrated.push_back(recalibrated_test_[k] / factor);
+          example.after.push_back(base_test_[k] / factor);
+        }
+        answer.examples.push_back(std::move(example));
+        break;
+      }
+    }
+  }
+
+  void pronounce(Answer& answer) const {
+    // What depends on nothing is noise that was thought smaller, not something missing.
+    double structured = 0.0;
+    const Dependence* strongest = nullptr;
+    const auto gaps = train_judge_.channel_gaps(base_.residual);
+    double whole = 0.0;
+    for (const auto& [name, gap] : gaps) whole += excess(gap);
+    for (const Dependence& d : answer.remaining) {
+      for (const auto& [name, gap] : gaps) {
+        if (d.channel.rfind(name, 0) != 0 || d.share < 0.05 || !(whole > 0.0)) continue;
+        const double part = excess(gap) / whole * d.share;
+        if (part > structured) {
+          structured = part;
+          strongest = &d;
+        }
+      }
+    }
+    const bool gap = answer.test.after > kRealGap && answer.train.after > kRealGap;
+    if (answer.effects.empty()) {
+      answer.verdict = gap ? "unexplained" : "no_missing_effect";
     } else {
-      answer.verdict = answer.test.recalibrated > kRealGap ? "unexplained" : "no_missing_effect";
+      const bool most = answer.remaining_share > kMostRemains && gap;
+      answer.verdict = most ? "unexplained" : "effects_found";
+      // What is left shows that the law may be another one.
+      if (gap) {
+        for (FoundEffect& effect : answer.effects) {
+          effect.probability *= 1.0 - std::min(1.0, answer.remaining_share);
+        }
+      }
+    }
+    if (!gap) {
+      answer.remaining_description = "nothing beyond the floor";
+    } else if (strongest) {
+      answer.remaining_description = strongest->channel + " depends on " +
+                                     (strongest->word == "time" ? "" : strongest->word + " of ") +
+                                     strongest->variable;
+    } else {
+      answer.remaining_description = "depends on none of the measured quantities";
     }
   }
 

@@ -8,14 +8,15 @@
 namespace anthrob {
 namespace discovery {
 
-Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener)
+Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales)
     : whitener_(whitener) {
   std::size_t offset = 0;
   for (const auto& experiment : experiments) {
     for (const Channel& channel : experiment->channels()) {
-      Run run{channel.name(),
-              static_cast<Eigen::Index>(offset + channel.offset),
+      const auto scale = scales.find(channel.name());
+      Run run{channel.name(), static_cast<Eigen::Index>(offset + channel.offset),
               static_cast<Eigen::Index>(channel.count),
+              scale == scales.end() ? 1.0 : scale->second.inflation,
               {}};
       for (std::size_t b = 0; b < channel.count; ++b) {
         run.block.push_back(blocks_ + static_cast<std::size_t>(experiment->bin_time(b) / kBlock));
@@ -69,7 +70,7 @@ std::map<std::string, double> Judge::channel_gaps(const Eigen::VectorXf& residua
   std::map<std::string, std::array<double, 2>> sums;
   for (const Run& run : runs_) {
     auto& sum = sums[run.name];
-    sum[0] += residual.segment(run.offset, run.count).cast<double>().squaredNorm();
+    sum[0] += run.inflation * residual.segment(run.offset, run.count).cast<double>().squaredNorm();
     sum[1] +=
         static_cast<double>((whitener_.segment(run.offset, run.count).array() > 0.0f).count());
   }

@@ -210,7 +210,12 @@ Fitted ModelFit::extend(const Fitted& fitted, const Variant& variant,
   return next;
 }
 
-void ModelFit::improve(Fitted& fitted, int iterations, int renew) const {
+void ModelFit::polish(Fitted& fitted, int iterations) const {
+  simulate_sensitivity(fitted, 0);
+  improve(fitted, iterations);
+}
+
+void ModelFit::improve(Fitted& fitted, int iterations) const {
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   if (n == 0) return;
   std::size_t first_effect = 0;
@@ -271,10 +276,7 @@ void ModelFit::improve(Fitted& fitted, int iterations, int renew) const {
     fitted.residual = results[best];
     fitted.cost = cost;
     const bool done = gain < kDone * cost;
-    if (renew > 0 && !done) {
-      --renew;
-      simulate_sensitivity(fitted, 0);
-    } else if (!done && iteration == 0 && first_effect < fitted.unknowns.size()) {
+    if (!done && iteration == 0 && first_effect < fitted.unknowns.size()) {
       simulate_sensitivity(fitted, first_effect);
     }
     if (done) break;

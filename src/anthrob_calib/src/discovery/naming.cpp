@@ -10,6 +10,7 @@ namespace {
 
 /// Nothing larger is believed: bounds may be infinite.
 constexpr double kLargest = 100.0;   // [doses]
+constexpr double kMostOfIt = 0.75;   ///< of a gain
 constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
 constexpr int kIterations = 6;
 
@@ -171,6 +172,26 @@ void Naming::judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortLi
                    [](const Named& a, const Named& b) { return a.probability > b.probability; });
 }
 
+void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
+  if (list.named.empty()) return;
+  const Named& best = list.named.front();
+  const Candidate& whole = candidates_[best.candidate];
+  for (std::size_t i = 1; i < list.named.size(); ++i) {
+    const Candidate& part = candidates_[list.named[i].candidate];
+    const double gain = base.cost - list.named[i].fit.cost;
+    if (part.place != whole.place || part.effect->info().seam != whole.effect->info().seam ||
+        part.sizes().size() >= whole.sizes().size() ||
+        gain < kMostOfIt * (base.cost - best.fit.cost) || list.named[i].evidence <= 0.0) {
+      continue;
+    }
+    Named simple = std::move(list.named[i]);
+    simple.probability += best.probability;
+    list.named.erase(list.named.begin() + static_cast<std::ptrdiff_t>(i));
+    list.named.insert(list.named.begin(), std::move(simple));
+    return;
+  }
+}
+
 ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
                         const std::vector<Score>& scores) const {
   ShortList list;
@@ -192,6 +213,7 @@ ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
                                   [](const Named& named) { return named.test.size() == 0; }),
                    list.named.end());
   judge(base, base_test, list);
+  prefer_simpler(base, list);
   return list;
 }
 

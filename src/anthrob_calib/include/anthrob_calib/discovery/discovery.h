@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_calib/discovery/dependence.h"
 #include "anthrob_calib/discovery/evaluator.h"
 #include "anthrob_calib/discovery/noise_floor.h"
 
@@ -24,6 +25,7 @@ struct Question {
   double step = 0.001;  ///< of the simulation [s]
   /// Called with what is being done and the share of it; returns false to stop.
   std::function<bool(const std::string&, double)> progress;
+  std::function<void(const std::string&)> comment;  ///< a line on what was found so far
 };
 
 struct FoundParameter {
@@ -59,6 +61,21 @@ struct Place {
   double share = 0.0;                    ///< of the squared gap
 };
 
+/// How large a channel's disagreement is, depending on what is fed with measured values: a gap
+/// that stays belongs behind the seam, one that goes belongs before it. [standard deviations]
+struct SeamGap {
+  std::string place, channel;
+  double commands = -1.0;   ///< the whole chain replayed from its commands
+  double voltages = -1.0;   ///< from measured voltages on: without controllers
+  double positions = -1.0;  ///< measured motor positions imposed: without motors; -1: not compared
+};
+
+/// One channel of a held-out recording, for a figure.
+struct Example {
+  std::string channel, unit;
+  std::vector<double> t, recalibrated, after;  ///< simulated minus measured
+};
+
 /// An effect that these data could not show.
 struct Invisible {
   std::string id, place, unit;
@@ -68,6 +85,10 @@ struct Invisible {
 struct Answer {
   std::string verdict;  ///< effects_found | no_missing_effect | unexplained
   std::vector<Place> where;
+  std::vector<SeamGap> seams;
+  std::vector<Dependence> dependences;  ///< of what the recalibrated model leaves
+  std::vector<Dependence> remaining;    ///< of what the extended model leaves
+  std::vector<Example> examples;
   std::vector<FoundEffect> effects;
   double remaining_share = 0.0;
   std::string remaining_description;

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "anthrob_sim/model/robot_model.h"
-#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_sim/recording/replay.h"
 
 namespace anthrob {
 namespace discovery {
@@ -51,6 +52,8 @@ class Experiment {
 /// What a recording is replayed with.
 struct ExperimentOptions {
   double bin = 0.02;  ///< [s]
+  /// What is fed with measured values; by default the earliest input of the chain that there is.
+  std::optional<ReplayMode> mode = {};
 };
 
 /// Replays all of a recording's commands, the whole chain from the controllers on. Robots whose

@@ -18,7 +18,8 @@ class Judge {
   static constexpr double kBlock = 2.0;  ///< [s] longer than what residuals remember
 
   /// @param whitener as the residuals were whitened with
-  Judge(const Experiments& experiments, const Eigen::VectorXf& whitener);
+  /// @param scales of channels whose whitener has their inflation in it; others: none
+  Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales);
 
   std::size_t block_count() const { return blocks_; }
 
@@ -36,6 +37,7 @@ class Judge {
   struct Run {
     std::string name;
     Eigen::Index offset, count;
+    double inflation;                ///< that the whitener has in it
     std::vector<std::size_t> block;  ///< of every bin
   };
 

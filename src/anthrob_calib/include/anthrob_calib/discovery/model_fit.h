@@ -54,8 +54,9 @@ class ModelFit {
   /// @throws std::runtime_error if the variant cannot be simulated
   Fitted start(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// Goes on until nothing is gained any more.
-  /// @param renew how often sensitivities to ordinary parameters are simulated anew
-  void improve(Fitted& fitted, int iterations, int renew = 0) const;
+  void improve(Fitted& fitted, int iterations) const;
+  /// All sensitivities simulated anew, then a few more iterations.
+  void polish(Fitted& fitted, int iterations) const;
   /// The same fit with more unknowns; those after the present ones are simulated.
   Fitted extend(const Fitted& fitted, const Variant& variant,
                 const std::vector<Unknown>& more) const;

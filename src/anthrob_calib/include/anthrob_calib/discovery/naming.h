@@ -18,7 +18,9 @@ struct Named {
   double probability = 0.0;   ///< among all that were fitted, and none
 };
 
-/// The short list of one round, most probable first.
+/// The short list of one round, most probable first. A law that contains a simpler one at the same
+/// place, which alone brings most of the gain, stands behind it: one step at a time. The simpler
+/// one's probability is then that of both, the other keeps its own.
 struct ShortList {
   std::vector<Named> named;
   double none = 0.0;  ///< probability that none of them is it
@@ -51,6 +53,7 @@ class Naming {
   std::vector<std::size_t> try_out(const Fitted& base, const std::vector<Score>& scores) const;
   Named fit(const Fitted& base, const Score& score) const;
   void judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
+  void prefer_simpler(const Fitted& base, ShortList& list) const;
 
   const ModelFit &train_, &test_;
   const Judge &train_judge_, &test_judge_;

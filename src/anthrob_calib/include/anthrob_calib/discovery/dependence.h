@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/discovery/noise_floor.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// On what the disagreement in one channel depends: the measured quantity that predicts it best,
+/// and how.
+struct Dependence {
+  std::string channel;   ///< "<place>/<quantity>", components of an orientation named x, y, z
+  std::string variable;  ///< "biceps_brachii/force"; empty if nothing predicts it
+  std::string word;      ///< "sign of velocity", "load", "posture", "time", ...
+  double share = 0.0;    ///< of its square that the curve predicts in data it was not fitted to
+  std::vector<double> at, curve, error;  ///< variable and residual [their units], standard error
+};
+
+/// Tries every measured quantity of the same place, every joint, and time, with a curve of a few
+/// steps fitted on one half of the blocks and judged on the other.
+/// @param residual in units of sigma, as whitened by `whitener`
+std::vector<Dependence> find_dependences(const Experiments& experiments,
+                                         const std::vector<Dataset>& recordings,
+                                         const Eigen::VectorXf& residual,
+                                         const Eigen::VectorXf& whitener);
+
+}  // namespace discovery
+}  // namespace anthrob

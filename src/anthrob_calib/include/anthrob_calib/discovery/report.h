@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "anthrob_calib/discovery/discovery.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// report.json, as scripts read it.
+std::string report_json(const Answer& answer, const Question& question, double runtime);
+
+/// report.html: one self-contained page, the answer first.
+std::string report_html(const Answer& answer, const Question& question, double runtime);
+
+/// model.yaml: extends the examined model by what was found, and says where that came from.
+/// @param folder where it will be put
+std::string model_text(const Answer& answer, const Evaluator& evaluator, const Question& question,
+                       const std::string& folder);
+
+/// A few lines for the terminal.
+std::string summary(const Answer& answer);
+
+/// "0.0421", three significant digits.
+std::string short_number(double value);
+
+}  // namespace discovery
+}  // namespace anthrob

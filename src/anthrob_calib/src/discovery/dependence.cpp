@@ -1,0 +1,222 @@
+#include "anthrob_calib/discovery/dependence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "anthrob_calib/discovery/judge.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr std::size_t kSteps = 9;  ///< of a curve
+constexpr double kStill = 0.02;    ///< of the largest speed: below it a sign means nothing
+
+/// Something measured that a residual might depend on, at the bins of one experiment.
+struct Variable {
+  std::string name, word;
+  std::vector<std::vector<double>> values;  ///< by experiment and bin
+  bool sign = false;                        ///< only its sign counts
+};
+
+std::vector<double> at_bins(const Experiment& experiment, const Series& series) {
+  std::vector<double> values;
+  const std::size_t bins = experiment.channels().front().count;
+  for (std::size_t b = 0; b < bins; ++b) values.push_back(series.at(experiment.bin_time(b)));
+  return values;
+}
+
+std::vector<double> rate_of(const std::vector<double>& values, double bin) {
+  std::vector<double> rate(values.size(), 0.0);
+  constexpr std::size_t kReach = 2;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t a = i < kReach ? 0 : i - kReach;
+    const std::size_t b = std::min(values.size() - 1, i + kReach);
+    if (b > a) rate[i] = (values[b] - values[a]) / (bin * static_cast<double>(b - a));
+  }
+  return rate;
+}
+
+/// Quantities of recordings that may explain something, columns that all recordings have.
+std::vector<Variable> variables_of(const Experiments& experiments,
+                                   const std::vector<Dataset>& recordings) {
+  std::vector<Variable> variables;
+  Variable time{"time", "time", {}, false};
+  for (const auto& experiment : experiments) {
+    std::vector<double> t;
+    for (std::size_t b = 0; b < experiment->channels().front().count; ++b) {
+      t.push_back(experiment->bin_time(b));
+    }
+    time.values.push_back(t);
+  }
+  variables.push_back(time);
+  const std::map<std::string, std::string> words = {
+      {"position", "posture"}, {"force", "load"}, {"current", "current"}, {"effort", "load"},
+      {"x", "posture"},        {"y", "posture"},  {"z", "posture"}};
+  for (const Table& table : recordings.front().tables) {
+    for (const Column& column : table.columns) {
+      const auto word = words.find(column.quantity());
+      if (word == words.end()) continue;
+      Variable variable{column.name, word->second, {}, false};
+      for (std::size_t e = 0; e < experiments.size(); ++e) {
+        const Series series = recordings[e].series(column.name);
+        if (series.empty()) break;
+        variable.values.push_back(at_bins(*experiments[e], series));
+      }
+      if (variable.values.size() < experiments.size()) continue;
+      if (column.quantity() == "position" || word->second == "posture") {
+        Variable speed{column.name, "speed", {}, false},
+            sign{column.name, "sign of velocity", {}, true};
+        for (std::size_t e = 0; e < experiments.size(); ++e) {
+          speed.values.push_back(rate_of(variable.values[e], experiments[e]->bin()));
+        }
+        sign.values = speed.values;
+        variables.push_back(speed);
+        variables.push_back(sign);
+      }
+      variables.push_back(std::move(variable));
+    }
+  }
+  return variables;
+}
+
+/// One sample: a bin of the channel.
+struct Sample {
+  double x, y;
+  bool odd;  ///< block of time
+};
+
+/// Means of y over steps of x with equal numbers of samples.
+struct Steps {
+  std::vector<double> edges;  ///< upper ones, but the last
+  std::vector<double> mean, error, centre;
+
+  std::size_t of(double x) const {
+    return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) -
+                                    edges.begin());
+  }
+};
+
+Steps steps_of(const std::vector<Sample>& samples, bool sign, double largest) {
+  Steps steps;
+  if (sign) {
+    steps.edges = {-kStill * largest, kStill * largest};
+  } else {
+    std::vector<double> x;
+    for (const Sample& s : samples) x.push_back(s.x);
+    std::sort(x.begin(), x.end());
+    for (std::size_t k = 1; k < kSteps; ++k) {
+      const double edge = x[k * x.size() / kSteps];
+      if (steps.edges.empty() || edge > steps.edges.back()) steps.edges.push_back(edge);
+    }
+  }
+  return steps;
+}
+
+void fill(Steps& steps, const std::vector<Sample>& samples, bool odd) {
+  const std::size_t n = steps.edges.size() + 1;
+  std::vector<double> sum(n, 0.0), square(n, 0.0), x(n, 0.0), count(n, 0.0);
+  for (const Sample& s : samples) {
+    if (s.odd != odd) continue;
+    const std::size_t k = steps.of(s.x);
+    sum[k] += s.y;
+    square[k] += s.y * s.y;
+    x[k] += s.x;
+    count[k] += 1.0;
+  }
+  steps.mean.assign(n, 0.0);
+  steps.error.assign(n, 0.0);
+  steps.centre.assign(n, 0.0);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (count[k] < 2.0) continue;
+    steps.mean[k] = sum[k] / count[k];
+    steps.centre[k] = x[k] / count[k];
+    steps.error[k] =
+        std::sqrt(std::max(0.0, square[k] / count[k] - steps.mean[k] * steps.mean[k]) / count[k]);
+  }
+}
+
+/// Share of the squares of the other half that the curve predicts.
+double predicted(const Steps& steps, const std::vector<Sample>& samples, bool odd) {
+  double left = 0.0, whole = 0.0;
+  for (const Sample& s : samples) {
+    if (s.odd != odd) continue;
+    const double e = s.y - steps.mean[steps.of(s.x)];
+    left += e * e;
+    whole += s.y * s.y;
+  }
+  return whole > 0.0 ? 1.0 - left / whole : 0.0;
+}
+
+std::vector<Sample> samples_of(const Experiments& experiments, std::size_t channel,
+                               const Variable& variable, const Eigen::VectorXf& residual,
+                               const Eigen::VectorXf& whitener, bool& ok) {
+  std::vector<Sample> samples;
+  std::size_t offset = 0;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const Experiment& experiment = *experiments[e];
+    ok = channel < experiment.channels().size();
+    if (!ok) return samples;
+    const Channel& c = experiment.channels()[channel];
+    for (std::size_t b = 0; b < c.count; ++b) {
+      const auto i = static_cast<Eigen::Index>(offset + c.offset + b);
+      if (!(whitener[i] > 0.0f)) continue;
+      const bool odd =
+          (static_cast<std::size_t>(experiment.bin_time(b) / Judge::kBlock) + e) % 2 == 1;
+      samples.push_back({variable.values[e][b], double(residual[i] / whitener[i]), odd});
+    }
+    offset += experiment.size();
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::vector<Dependence> find_dependences(const Experiments& experiments,
+                                         const std::vector<Dataset>& recordings,
+                                         const Eigen::VectorXf& residual,
+                                         const Eigen::VectorXf& whitener) {
+  const auto variables = variables_of(experiments, recordings);
+  std::vector<Dependence> found;
+  const auto& channels = experiments.front()->channels();
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    Dependence best;
+    best.channel = channels[c].name();
+    if (channels[c].quantity == "orientation") {
+      best.channel += std::string("/") + static_cast<char>('x' + channels[c].component);
+    }
+    for (const Variable& variable : variables) {
+      const std::string owner = variable.name.substr(0, variable.name.find('/'));
+      // What others do explains a muscle by accident too easily; joints move all of them.
+      const bool own = owner == channels[c].place || variable.name == "time";
+      const bool muscle = variable.word == "load" || variable.word == "current";
+      if (!own && muscle) continue;
+      bool ok = true;
+      const auto samples = samples_of(experiments, c, variable, residual, whitener, ok);
+      if (!ok || samples.size() < 10 * kSteps) continue;
+      double largest = 0.0;
+      for (const Sample& s : samples) largest = std::max(largest, std::abs(s.x));
+      Steps steps = steps_of(samples, variable.sign, largest);
+      fill(steps, samples, false);
+      double share = predicted(steps, samples, true);
+      fill(steps, samples, true);
+      share = 0.5 * (share + predicted(steps, samples, false));
+      if (share > best.share + 0.02) {
+        best.share = share;
+        best.variable = variable.name;
+        best.word = variable.word;
+        best.at = steps.centre;
+        best.curve = steps.mean;
+        best.error = steps.error;
+      }
+    }
+    found.push_back(std::move(best));
+  }
+  return found;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

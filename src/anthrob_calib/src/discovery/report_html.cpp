@@ -1,0 +1,234 @@
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_calib/discovery/report.h"
+#include "anthrob_sim/report/svg_figure.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string cell(const std::string& text) {
+  return "<td>" + escaped(text) + "</td>";
+}
+
+const char* const kHead = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>What the model misses</title><style>
+body{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222;line-height:1.45}
+h1{margin-bottom:.2em}table{border-collapse:collapse;margin:1em 0}
+td,th{border:1px solid #ccc;padding:.25em .6em;text-align:left}th{background:#f2f2f2}
+.answer{font-size:1.25em;border-left:.4em solid #1f77b4;padding:.3em 1em;background:#f5f9fd}
+.small{color:#555;font-size:.9em}svg{max-width:100%;height:auto}
+</style></head><body>
+)";
+
+/// The answer in one or two sentences.
+std::string sentence(const Answer& answer) {
+  if (answer.verdict == "no_missing_effect") {
+    return "Nothing is missing: the model, with its ordinary parameters fitted, predicts the "
+           "held-out recordings as well as a repeat would (gap " +
+           short_number(answer.test.recalibrated) + " times the floor).";
+  }
+  std::string text;
+  for (const FoundEffect& effect : answer.effects) {
+    text += "<b>" + escaped(effect.name) + "</b> at <b>" + escaped(effect.place) + "</b>";
+    if (!effect.parameters.empty()) {
+      const FoundParameter& p = effect.parameters.front();
+      text += " (" + escaped(p.name) + " " + short_number(p.value) + " " + escaped(p.unit) +
+              ", 95 % interval " + short_number(p.low) + " to " + short_number(p.high) + ")";
+    }
+    text += ", probability " + short_number(effect.probability) + ". ";
+  }
+  if (answer.verdict == "effects_found") {
+    return "The model misses: " + text + "With it, the held-out gap falls from " +
+           short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
+           " times the floor; " + short_number(100.0 * answer.remaining_share) +
+           " % of its square is left.";
+  }
+  text = answer.effects.empty() ? "" : "The catalogue offers: " + text;
+  return "Something is missing that the catalogue does not have. " + text + "Held-out gap " +
+         short_number(answer.test.after) +
+         " times the floor; what is left: " + escaped(answer.remaining_description) + ".";
+}
+
+std::string gap_table(const Answer& answer) {
+  const auto row = [](const std::string& name, const Gap& gap) {
+    return "<tr><th>" + name + "</th>" + cell(short_number(gap.before)) +
+           cell(short_number(gap.recalibrated)) + cell(short_number(gap.after)) + cell("1") +
+           "</tr>\n";
+  };
+  return "<table><tr><th>gap, in units of the floor</th><th>model as given</th><th>recalibrated"
+         "</th><th>with what was found</th><th>floor</th></tr>\n" +
+         row("recordings never seen", answer.test) + row("recordings learned from", answer.train) +
+         "</table>\n";
+}
+
+std::string effects_table(const Answer& answer) {
+  std::string html;
+  for (const FoundEffect& effect : answer.effects) {
+    html += "<h3>" + escaped(effect.id) + " @ " + escaped(effect.place) + "</h3>\n<table><tr><th>" +
+            "parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>\n";
+    for (const FoundParameter& p : effect.parameters) {
+      html += "<tr>" + cell(p.name) + cell(short_number(p.value)) +
+              cell(short_number(p.low) + " to " + short_number(p.high)) + cell(p.unit) + "</tr>\n";
+    }
+    html += "</table>\n<p>Probability " + short_number(effect.probability) +
+            ", gain in held-out log score " + short_number(effect.evidence) + " nat.</p>\n";
+    if (effect.rivals.empty()) continue;
+    html += "<p>These data hardly tell it apart from:</p><ul>\n";
+    for (const Rival& rival : effect.rivals) {
+      html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", probability " +
+              short_number(rival.probability) + "</li>\n";
+    }
+    html += "</ul><p>What would: " + escaped(effect.separating_experiment) + ".</p>\n";
+  }
+  return html;
+}
+
+std::string colour_of(double gap) {
+  if (gap < 0.0) return "#ffffff";
+  const double heat = std::clamp(std::log(std::max(gap, 1.0)) / std::log(20.0), 0.0, 1.0);
+  char text[16];
+  std::snprintf(text, sizeof(text), "#ff%02x%02x", static_cast<int>(255 - 190 * heat),
+                static_cast<int>(255 - 215 * heat));
+  return text;
+}
+
+/// Where x which input is fed: a gap that vanishes to the right belongs to what was cut off.
+std::string heat_map(const Answer& answer) {
+  if (answer.seams.empty()) return "";
+  std::string html =
+      "<p>Gap of every channel (recalibrated model) when the chain is fed with commands, with "
+      "measured voltages, with measured motor positions. What stays red to the right arises "
+      "behind the motors; what turns white belongs to the part that was cut off.</p>\n<table>"
+      "<tr><th>place / channel</th><th>commands</th><th>voltages</th><th>positions</th></tr>\n";
+  for (const SeamGap& seam : answer.seams) {
+    if (std::max({seam.commands, seam.voltages, seam.positions}) < 1.3) continue;
+    html += "<tr><th>" + escaped(seam.place + "/" + seam.channel) + "</th>";
+    for (const double gap : {seam.commands, seam.voltages, seam.positions}) {
+      html += "<td style=\"background:" + colour_of(gap) + "\">" +
+              (gap < 0.0 ? std::string() : short_number(gap)) + "</td>";
+    }
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string where_table(const Answer& answer) {
+  if (answer.where.empty()) return "<p>Nowhere beyond the floor.</p>\n";
+  std::string html =
+      "<table><tr><th>place</th><th>channel</th><th>rmse</th><th>floor</th><th>share</th><th>"
+      "subsystem</th><th>depends on</th></tr>\n";
+  for (std::size_t i = 0; i < answer.where.size() && i < 12; ++i) {
+    const Place& place = answer.where[i];
+    html += "<tr>" + cell(place.place) + cell(place.channel) +
+            cell(short_number(place.rmse) + " " + place.unit) +
+            cell(short_number(place.noise_floor) + " " + place.unit) +
+            cell(short_number(100.0 * place.share) + " %") + cell(place.subsystem) +
+            cell(place.regime) + "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string example_figures(const Answer& answer) {
+  std::string html;
+  for (const Example& example : answer.examples) {
+    SvgFigure figure("simulated minus measured, held-out recording");
+    auto& panel = figure.add_panel("time [s]", example.channel + " [" + example.unit + "]");
+    panel.lines.push_back({"recalibrated", example.t, example.recalibrated});
+    if (!answer.effects.empty()) {
+      panel.lines.push_back({"with what was found", example.t, example.after});
+    }
+    html += figure.render() + "\n";
+  }
+  return html;
+}
+
+std::string dependence_figures(const std::vector<Dependence>& dependences) {
+  std::vector<const Dependence*> strongest;
+  for (const Dependence& d : dependences) {
+    if (d.share > 0.1) strongest.push_back(&d);
+  }
+  std::sort(strongest.begin(), strongest.end(),
+            [](const Dependence* a, const Dependence* b) { return a->share > b->share; });
+  std::string html;
+  for (std::size_t i = 0; i < strongest.size() && i < 3; ++i) {
+    const Dependence& d = *strongest[i];
+    SvgFigure figure(d.channel + " depends on " + d.word);
+    auto& panel = figure.add_panel(d.variable + " (" + d.word + ")", "simulated minus measured");
+    SvgFigure::Line line{"", d.at, d.curve};
+    line.marks = SvgFigure::Line::kFilled;
+    line.error = d.error;
+    panel.lines.push_back(line);
+    html += figure.render() + "<p class=\"small\">The curve predicts " +
+            short_number(100.0 * d.share) +
+            " % of the square in blocks it was not fitted to.</p>\n";
+  }
+  return html;
+}
+
+std::string channel_table(const Answer& answer) {
+  std::string html =
+      "<table><tr><th>channel</th><th>as given</th><th>recalibrated</th><th>with what was found"
+      "</th></tr>\n";
+  for (const auto& [name, gap] : answer.per_channel) {
+    html += "<tr>" + cell(name) + cell(short_number(gap.before)) +
+            cell(short_number(gap.recalibrated)) + cell(short_number(gap.after)) + "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string invisible_table(const Answer& answer) {
+  if (answer.not_visible.empty()) return "<p>Everything in the catalogue would have shown.</p>\n";
+  std::string html =
+      "<table><tr><th>effect</th><th>place</th><th>smallest size that would show</th></tr>\n";
+  for (const Invisible& effect : answer.not_visible) {
+    html += "<tr>" + cell(effect.id) + cell(effect.place) +
+            cell(std::isfinite(effect.smallest_visible)
+                     ? short_number(effect.smallest_visible) + " " + effect.unit
+                     : "none") +
+            "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+}  // namespace
+
+std::string report_html(const Answer& answer, const Question& question, double runtime) {
+  std::string recordings;
+  for (const Dataset& r : question.train)
+    recordings += "<li>learned from: " + escaped(r.folder) + "</li>";
+  for (const Dataset& r : question.test)
+    recordings += "<li>judged by: " + escaped(r.folder) + "</li>";
+  for (const Dataset& r : question.repeats)
+    recordings += "<li>repeat: " + escaped(r.folder) + "</li>";
+  return std::string(kHead) + "<h1>What the model misses</h1>\n<p class=\"small\">" +
+         escaped(question.model_file) + ", seed " + std::to_string(question.seed) + ", " +
+         short_number(runtime) + " s</p>\n<p class=\"answer\">" + sentence(answer) + "</p>\n" +
+         gap_table(answer) + example_figures(answer) + "<h2>What</h2>\n" + effects_table(answer) +
+         "<h2>Where the recalibrated model disagrees</h2>\n" + where_table(answer) +
+         heat_map(answer) + dependence_figures(answer.dependences) + "<h2>What is left</h2>\n<p>" +
+         escaped(answer.remaining_description) + "</p>\n" + dependence_figures(answer.remaining) +
+         "<h2>Held-out gap by channel</h2>\n" + channel_table(answer) +
+         "<h2>What these recordings could not have shown</h2>\n" + invisible_table(answer) +
+         "<h2>Recordings</h2><ul>" + recordings + "</ul>\n</body></html>\n";
+}
+
+}  // namespace discovery
+}  // namespace anthrob

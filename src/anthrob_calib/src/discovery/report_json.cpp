@@ -1,0 +1,146 @@
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "anthrob_calib/discovery/report.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Not a number is never written.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json gap_json(const Gap& gap) {
+  return {{"before", number(gap.before)},
+          {"recalibrated", number(gap.recalibrated)},
+          {"after", number(gap.after)},
+          {"floor", number(gap.floor)}};
+}
+
+Json parameters_json(const std::vector<FoundParameter>& parameters) {
+  Json json = Json::object();
+  for (const FoundParameter& p : parameters) {
+    json[p.name] = {
+        {"value", number(p.value)}, {"ci95", {number(p.low), number(p.high)}}, {"unit", p.unit}};
+  }
+  return json;
+}
+
+Json effect_json(const FoundEffect& effect) {
+  Json rivals = Json::array();
+  for (const Rival& rival : effect.rivals) {
+    rivals.push_back({{"id", rival.id},
+                      {"place", rival.place},
+                      {"probability", number(rival.probability)},
+                      {"evidence", number(rival.evidence)}});
+  }
+  return {{"id", effect.id},
+          {"name", effect.name},
+          {"place", effect.place},
+          {"parameters", parameters_json(effect.parameters)},
+          {"probability", number(effect.probability)},
+          {"evidence", number(effect.evidence)},
+          {"rivals", rivals},
+          {"separating_experiment", effect.separating_experiment}};
+}
+
+Json where_json(const Answer& answer) {
+  Json where = Json::array();
+  for (const Place& place : answer.where) {
+    where.push_back({{"channel", place.channel},
+                     {"place", place.place},
+                     {"subsystem", place.subsystem},
+                     {"regime", place.regime},
+                     {"rmse", number(place.rmse)},
+                     {"noise_floor", number(place.noise_floor)},
+                     {"share", number(place.share)}});
+  }
+  return where;
+}
+
+Json dependences_json(const Answer& answer) {
+  Json list = Json::array();
+  for (const Dependence& d : answer.remaining) {
+    if (d.variable.empty() || d.share < 0.1) continue;
+    list.push_back({{"channel", d.channel},
+                    {"variable", d.variable},
+                    {"how", d.word},
+                    {"share", number(d.share)},
+                    {"at", d.at},
+                    {"curve", d.curve}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string report_json(const Answer& answer, const Question& question, double runtime) {
+  Json report;
+  report["verdict"] = answer.verdict;
+  report["where"] = where_json(answer);
+  report["effects"] = Json::array();
+  for (const FoundEffect& effect : answer.effects) report["effects"].push_back(effect_json(effect));
+  report["remaining"] = {{"share", number(answer.remaining_share)},
+                         {"description", answer.remaining_description},
+                         {"dependences", dependences_json(answer)}};
+  Json channels = Json::object();
+  for (const auto& [name, gap] : answer.per_channel) channels[name] = gap_json(gap);
+  report["gap"] = {{"train", gap_json(answer.train)},
+                   {"test", gap_json(answer.test)},
+                   {"per_channel", channels}};
+  report["not_visible"] = Json::array();
+  for (const Invisible& effect : answer.not_visible) {
+    report["not_visible"].push_back({{"id", effect.id},
+                                     {"place", effect.place},
+                                     {"smallest_visible", number(effect.smallest_visible)},
+                                     {"unit", effect.unit}});
+  }
+  report["seams"] = Json::array();
+  for (const SeamGap& seam : answer.seams) {
+    Json entry = {{"place", seam.place}, {"channel", seam.channel}};
+    if (seam.commands >= 0.0) entry["commands"] = number(seam.commands);
+    if (seam.voltages >= 0.0) entry["voltages"] = number(seam.voltages);
+    if (seam.positions >= 0.0) entry["positions"] = number(seam.positions);
+    report["seams"].push_back(entry);
+  }
+  report["model"] = "model.yaml";
+  report["seed"] = question.seed;
+  report["runtime_s"] = number(runtime);
+  return report.dump(2) + "\n";
+}
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return "unlimited";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+std::string summary(const Answer& answer) {
+  std::string text = answer.verdict + "\n";
+  for (const FoundEffect& effect : answer.effects) {
+    text += "  " + effect.id + " @ " + effect.place + ", probability " +
+            short_number(effect.probability) + "\n";
+    for (const FoundParameter& p : effect.parameters) {
+      text += "    " + p.name + " " + short_number(p.value) + " [" + short_number(p.low) + ", " +
+              short_number(p.high) + "] " + p.unit + "\n";
+    }
+    for (const Rival& rival : effect.rivals) {
+      text += "    or " + rival.id + " @ " + rival.place + ", probability " +
+              short_number(rival.probability) + "\n";
+    }
+  }
+  text += "  held-out gap in units of the floor: " + short_number(answer.test.before) +
+          " as given, " + short_number(answer.test.recalibrated) + " recalibrated, " +
+          short_number(answer.test.after) + " after; left: " + answer.remaining_description + "\n";
+  return text;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

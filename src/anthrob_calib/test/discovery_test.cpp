@@ -1,0 +1,306 @@
+#include "anthrob_calib/discovery/discovery.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "anthrob_calib/discovery/axis_experiment.h"
+#include "anthrob_calib/discovery/chain_experiment.h"
+#include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/discovery/model_fit.h"
+#include "anthrob_calib/discovery/preparation.h"
+#include "anthrob_calib/discovery/report.h"
+#include "anthrob_sim/core/errors.h"
+#include "made_recording.h"
+
+namespace anthrob {
+namespace discovery {
+namespace {
+
+const std::string kConfig = ANTHROB_CONFIG_DIR;
+
+// ---- tools ------------------------------------------------------------------------------------
+
+TEST(BoundedMinimum, IsTheFreeOneInsideAndSatisfiesOptimalityAtBounds) {
+  const CounterRandom random(3, 1);
+  std::uint64_t n = 0;
+  for (int round = 0; round < 50; ++round) {
+    Eigen::MatrixXd root(6, 6);
+    Eigen::VectorXd g(6);
+    for (int i = 0; i < 6; ++i) {
+      g[i] = random.normal(n++);
+      for (int j = 0; j < 6; ++j) root(i, j) = random.normal(n++);
+    }
+    const Eigen::MatrixXd A = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(6, 6);
+    const Eigen::VectorXd wide = Eigen::VectorXd::Constant(6, 1e6);
+    EXPECT_LT((bounded_minimum(A, g, -wide, wide) + A.ldlt().solve(g)).norm(), 1e-8);
+    const Eigen::VectorXd lower = Eigen::VectorXd::Constant(6, -0.2), upper = -0.5 * lower;
+    const Eigen::VectorXd x = bounded_minimum(A, g, lower, upper), gradient = A * x + g;
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_GE(x[i], lower[i]);
+      EXPECT_LE(x[i], upper[i]);
+      if (x[i] == lower[i]) {
+        EXPECT_GE(gradient[i], -1e-7);
+      } else if (x[i] == upper[i]) {
+        EXPECT_LE(gradient[i], 1e-7);
+      } else {
+        EXPECT_NEAR(gradient[i], 0.0, 1e-7);
+      }
+    }
+  }
+}
+
+TEST(CorrelationLength, OfWhiteAndOfColouredNoise) {
+  const CounterRandom random(5, 1);
+  Eigen::VectorXf white(4000), coloured(4000);
+  float memory = 0.0f;
+  for (int i = 0; i < 4000; ++i) {
+    white[i] = static_cast<float>(random.normal(static_cast<std::uint64_t>(i)));
+    memory = 0.9f * memory + white[i];
+    coloured[i] = memory;
+  }
+  EXPECT_NEAR(correlation_length(white), 1.0, 0.2);
+  EXPECT_NEAR(correlation_length(coloured), 19.0, 5.0);  // (1 + a) / (1 - a)
+}
+
+TEST(ModelProbabilities, FollowTheScoresAndTheHandicap) {
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(3, 20);
+  scores.row(1).setConstant(1.0);
+  scores.row(2).setConstant(1.0);
+  const auto even = model_probabilities(scores, {0.0, 0.0, 0.0}, 1);
+  EXPECT_LT(even[0], 1e-6);
+  EXPECT_NEAR(even[1], 0.5, 1e-9);
+  const auto handicapped = model_probabilities(scores, {0.0, 0.0, 30.0}, 1);
+  EXPECT_GT(handicapped[1], 0.999);
+  const auto all = model_probabilities(scores, {0.0, 60.0, 60.0}, 1);
+  EXPECT_GT(all[0], 0.999);
+}
+
+// ---- a driven axis, made here by its closed equation
+// -----------------------------------------------
+
+/// m a = u - viscous v - coulomb sign(v) - offset, under a slowly reversing effort, integrated with
+/// steps of 10 us.
+Dataset axis_recording(double coulomb, double offset, std::uint64_t seed) {
+  Dataset data;
+  data.folder = "axis";
+  data.meta.robot = "driven_axis";
+  Table& table = data.table("joints");
+  Column& position = table.column("axis/position");
+  Column& effort = table.column("axis/effort");
+  const CounterRandom random(seed, 9);
+  const double mass = 95.1089, viscous = 203.5, h = 1e-5;
+  const double first = 60.0 + 20.0 * random.uniform(1), second = 2.0 + 3.0 * random.uniform(2);
+  double q = 0.0, v = 0.0;
+  for (int i = 0; i < 800000; ++i) {
+    const double t = h * i;
+    // Held over a millisecond, as a recording's effort is; a spring keeps the carriage in place.
+    const int row = i / 100;
+    const double now = 1e-3 * row;
+    static double u = 0.0;
+    if (i % 100 == 0)
+      u = first * std::sin(1.7 * now) + 0.5 * first * std::sin(second * now) - 150.0 * q;
+    if (i % 100 == 0) {
+      table.t.push_back(static_cast<Nanoseconds>(row) * 1000000);
+      position.values.push_back(q + 2e-7 * random.normal(static_cast<std::uint64_t>(100 + row)));
+      effort.values.push_back(u);
+    }
+    const double drive = u - offset - viscous * v;
+    const double friction = std::abs(v) < 1e-7 && std::abs(drive) < coulomb
+                                ? drive
+                                : std::copysign(coulomb, v == 0.0 ? drive : v);
+    const double next = v + h / mass * (drive - friction);
+    v = v != 0.0 && next * v < 0.0 && std::abs(drive) < coulomb ? 0.0 : next;
+    q += h * v;
+    (void)t;
+  }
+  position.present.assign(position.values.size(), 1);
+  effort.present.assign(effort.values.size(), 1);
+  return data;
+}
+
+Question axis_question(double coulomb, double offset) {
+  Question question;
+  question.model_file = kConfig + "/driven_axis/model_I.yaml";
+  question.nuisances =
+      read_parameters(ConfigNode::load(kConfig + "/driven_axis/calibration.yaml").at("parameters"),
+                      ConfigNode::load(question.model_file));
+  question.train = {axis_recording(coulomb, offset, 1)};
+  question.test = {axis_recording(coulomb, offset, 2)};
+  return question;
+}
+
+Answer ask(const Question& question, int jobs = 2) {
+  const Evaluator evaluator(question.model_file, question.nuisances, question.step, jobs);
+  return discover(evaluator, question);
+}
+
+TEST(DrivenAxis, DryFrictionIsNamedAndMeasured) {
+  const Answer answer = ask(axis_question(20.4, 0.0));
+  ASSERT_EQ(answer.verdict, "effects_found") << summary(answer);
+  EXPECT_EQ(answer.effects[0].id, "joint_coulomb") << summary(answer);
+  EXPECT_EQ(answer.effects[0].place, "axis");
+  for (const FoundParameter& p : answer.effects[0].parameters) {
+    if (p.name == "torque") {
+      EXPECT_NEAR(p.value, 20.4, 0.6);
+    }
+  }
+  EXPECT_LT(answer.test.after, 0.3 * answer.test.recalibrated);
+}
+
+TEST(DrivenAxis, OffsetAndAsymmetricFrictionAreSaidToBeAlike) {
+  const Answer answer = ask(axis_question(20.4, -3.2));
+  ASSERT_GE(answer.effects.size(), 2u) << summary(answer);
+  EXPECT_EQ(answer.effects[0].id, "joint_coulomb") << summary(answer);
+  std::set<std::string> second = {answer.effects[1].id};
+  for (const Rival& rival : answer.effects[1].rivals) second.insert(rival.id);
+  EXPECT_TRUE(second.count("joint_offset_torque")) << summary(answer);
+  EXPECT_TRUE(second.count("joint_coulomb_asymmetric")) << summary(answer);
+  EXPECT_NE(answer.effects[1].separating_experiment.find("coast"), std::string::npos);
+}
+
+TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {
+  const Answer answer = ask(axis_question(0.0, 0.0));
+  EXPECT_EQ(answer.verdict, "no_missing_effect") << summary(answer);
+  EXPECT_TRUE(answer.effects.empty()) << summary(answer);
+}
+
+TEST(DrivenAxis, SameBitsOnAnyNumberOfThreads) {
+  const Question question = axis_question(20.4, 0.0);
+  const std::string one = report_json(ask(question, 1), question, 0.0);
+  EXPECT_EQ(one, report_json(ask(question, 2), question, 0.0));
+}
+
+// ---- the arm
+// --------------------------------------------------------------------------------------
+
+struct Arm {
+  ConfigNode config = ConfigNode::load(kConfig + "/anthrob/model_I.yaml");
+  std::shared_ptr<const RobotModel> plain = build_robot_model(config);
+
+  Dataset record(const std::vector<EffectInstance>& effects, std::uint64_t seed,
+                 std::uint64_t noise) const {
+    LoadOptions options;
+    options.effects = effects;
+    MadeRecording made;
+    made.seed = seed;
+    made.noise = noise;
+    made.length = 8.0;
+    return made.measure(build_robot_model(config, options), made.commands(plain));
+  }
+};
+
+TEST(ChainExperiment, DifferencesAreNoiseOnlyWhereTheModelIsRight) {
+  const Arm arm;
+  const Dataset data = arm.record({}, 1, 1);
+  const ChainExperiment experiment(*arm.plain, data, {});
+  std::vector<float> differences(experiment.size());
+  experiment.compare(arm.plain, differences.data());
+  const MadeRecording made;
+  for (const Channel& channel : experiment.channels()) {
+    double square = 0.0;
+    for (std::size_t b = 0; b < channel.count; ++b) {
+      square += std::pow(differences[channel.offset + b], 2);
+    }
+    const double rms = std::sqrt(square / static_cast<double>(channel.count));
+    const double noise = channel.quantity == "force"      ? made.force_noise
+                         : channel.quantity == "current"  ? made.current_noise
+                         : channel.quantity == "voltage"  ? made.voltage_noise
+                         : channel.quantity == "position" ? made.position_noise
+                                                          : made.joint_noise;
+    // Four samples a bin.
+    EXPECT_NEAR(rms, 0.5 * noise, 0.1 * noise) << channel.name();
+  }
+}
+
+TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {
+  const Arm arm;
+  const std::vector<EffectInstance> hidden = {
+      {"joint_coulomb", "elbow", {{"torque", 0.06}, {"static_ratio", 1.2}}}};
+  Question question;
+  question.model_file = kConfig + "/anthrob/model_I.yaml";
+  question.train = {arm.record(hidden, 1, 1)};
+  question.test = {arm.record(hidden, 2, 2)};
+  question.repeats = {arm.record(hidden, 1, 3)};
+  question.effects = {"joint_coulomb", "cable_drag", "payload", "gravity_tilt",
+                      "ball_joint_load_friction"};
+  question.max_effects = 1;
+  const Answer answer = ask(question);
+  ASSERT_EQ(answer.verdict, "effects_found") << summary(answer);
+  EXPECT_EQ(answer.effects[0].id, "joint_coulomb") << summary(answer);
+  EXPECT_EQ(answer.effects[0].place, "elbow");
+  EXPECT_GT(answer.effects[0].probability, 0.9);
+  EXPECT_LT(answer.test.after, 1.2);
+  for (const FoundParameter& p : answer.effects[0].parameters) {
+    if (p.name == "torque") {
+      EXPECT_NEAR(p.value, 0.06, 0.006);
+      EXPECT_LT(p.low, p.value);
+      EXPECT_GT(p.high, p.value);
+    }
+  }
+  // The model that was written loads and has the effect.
+  const Evaluator evaluator(question.model_file, {}, 0.001, 1);
+  const std::string text = model_text(answer, evaluator, question, kConfig + "/anthrob");
+  EXPECT_NE(text.find("extends: model_I.yaml"), std::string::npos) << text;
+  EXPECT_NE(text.find("joint_coulomb"), std::string::npos);
+  const std::string page = report_html(answer, question, 1.0);
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+// ---- recordings that cannot answer
+// -------------------------------------------------------------------
+
+std::string refusal(const Question& question) {
+  try {
+    const Evaluator evaluator(question.model_file, {}, 0.001, 1);
+    prepare(evaluator, question);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
+  const Arm arm;
+  Question good;
+  good.model_file = kConfig + "/anthrob/model_I.yaml";
+  good.train = good.test = {arm.record({}, 1, 1)};
+  EXPECT_EQ(refusal(good), "not refused");
+
+  Question still = good;
+  for (Table& table : still.train[0].tables) {
+    for (Column& column : table.columns) {
+      std::fill(column.values.begin(), column.values.end(), column.values.front());
+    }
+  }
+  EXPECT_NE(refusal(still).find("no muscle moves: nothing to learn about friction"),
+            std::string::npos)
+      << refusal(still);
+
+  Question backwards = good;
+  std::swap(backwards.train[0].tables[1].t[5], backwards.train[0].tables[1].t[50]);
+  EXPECT_NE(refusal(backwards).find("time runs backwards"), std::string::npos);
+
+  Question broken = good;
+  broken.train[0].table("muscles").columns[3].values[7] = std::nan("");
+  EXPECT_NE(refusal(broken).find("expected a finite number"), std::string::npos);
+
+  Question late = good;
+  for (Nanoseconds& t : late.train[0].table("joints").t) t += 3600000000000;
+  EXPECT_NE(refusal(late).find("not synchronised"), std::string::npos) << refusal(late);
+
+  Question brief = good;
+  for (Table& table : brief.train[0].tables) {
+    for (std::size_t i = 0; i < table.t.size(); ++i) table.t[i] /= 100;
+  }
+  EXPECT_NE(refusal(brief).find("too short"), std::string::npos);
+
+  Question untested = good;
+  untested.test.clear();
+  EXPECT_NE(refusal(untested).find("--test"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace discovery
+}  // namespace anthrob
