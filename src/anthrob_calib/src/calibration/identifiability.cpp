@@ -13,8 +13,10 @@ namespace calibration {
 
 namespace {
 
-/// All shown differences of all runs in one list, postures and forces each divided by their noise.
-/// As an evaluator, so that derivatives() can be taken.
+enum Kind { kPosture, kForce };
+
+/// All shown differences of all runs in one list, weighted as the fitness weights them. As an
+/// evaluator, so that derivatives() can be taken.
 class Stack final : public Evaluator {
  public:
   explicit Stack(const Problem& problem) : problem_(problem) {}
@@ -27,46 +29,52 @@ class Stack final : public Evaluator {
     return lists;
   }
 
-  /// Noise from what is left at the best point. Instants of a trajectory are no independent
-  /// witnesses: noise grows by how alike neighbours are.
-  void learn_noise(const Point& best) {
-    const auto runs = simulate(best);
-    double posture = 0.0, force = 0.0, like = 0.0, all = 0.0;
-    Eigen::Index posture_count = 0, force_count = 0;
-    for (const RunDifferences& run : runs) {
+  /// The list at the best point; rows are described along with it. @throws if it is invalid
+  std::vector<double> describe(const Point& best) {
+    std::vector<double> list;
+    double like = 0.0, all = 0.0;
+    for (const RunDifferences& run : simulate(best)) {
       const Differences& d = run.shown();
-      posture += d.posture.squaredNorm(), posture_count += d.posture.size();
-      force += d.force.squaredNorm(), force_count += d.force.size();
+      append(d, list);
+      kind.insert(kind.end(), d.posture.size(), kPosture);
+      kind.insert(kind.end(), d.force.size(), kForce);
+      weight.insert(weight.end(), d.posture.size(), posture_weight(d));
+      weight.insert(weight.end(), d.force.size(), force_weight(d));
       const Eigen::Index rows = d.posture.rows();
       if (rows < 2) continue;
       like += d.posture.topRows(rows - 1).cwiseProduct(d.posture.bottomRows(rows - 1)).sum();
       all += d.posture.topRows(rows - 1).squaredNorm();
     }
     const double alike = all > 0.0 ? std::clamp(like / all, 0.0, 0.999) : 0.0;
-    inflation_ = std::sqrt((1.0 + alike) / (1.0 - alike));
-    const auto count = static_cast<double>(posture_count + force_count);
-    const double free = count / std::max(1.0, count - static_cast<double>(best.size()));
-    constexpr double kSmallest = 1e-9;  // perfect data
-    posture_noise = std::max(kSmallest, std::sqrt(free * posture / posture_count));
-    force_noise = std::max(kSmallest, std::sqrt(free * force / force_count));
+    repetition = (1.0 + alike) / (1.0 - alike);
+    return list;
   }
 
-  double posture_noise = 1.0, force_noise = 1.0;
+  std::vector<Kind> kind;      ///< of each row
+  std::vector<double> weight;  ///< of each row
+  /// Instants of a trajectory are no independent witnesses: so many of them count as one.
+  double repetition = 1.0;
 
  private:
   std::vector<RunDifferences> simulate(const Point& point) const {
     return simulate_runs(problem_.build(point), problem_.runs(), problem_.options());
   }
 
+  double posture_weight(const Differences& d) const {
+    return std::sqrt(problem_.weights().posture / (d.joints * d.count()));
+  }
+  double force_weight(const Differences& d) const {
+    return std::sqrt(problem_.weights().force / static_cast<double>(d.force.size()));
+  }
+  void append(const Differences& d, std::vector<double>& list) const {
+    for (const double x : d.posture.reshaped()) list.push_back(posture_weight(d) * x);
+    for (const double x : d.force.reshaped()) list.push_back(force_weight(d) * x);
+  }
+
   std::vector<double> list(const Point& point) const {
     std::vector<double> list;
     try {
-      for (const RunDifferences& run : simulate(point)) {
-        const Differences& d = run.shown();
-        for (const double x : d.posture.reshaped())
-          list.push_back(x / (posture_noise * inflation_));
-        for (const double x : d.force.reshaped()) list.push_back(x / (force_noise * inflation_));
-      }
+      for (const RunDifferences& run : simulate(point)) append(run.shown(), list);
     } catch (const BadInput&) {
       list.clear();
     } catch (const NumericalFailure&) {
@@ -76,7 +84,26 @@ class Stack final : public Evaluator {
   }
 
   const Problem& problem_;
-  double inflation_ = 1.0;
+};
+
+/// Noise of postures and forces from what is left. Rows that the parameters could follow count
+/// less: the fit has made them small.
+struct Noise {
+  double posture = 0.0, force = 0.0;
+
+  Noise(const Stack& stack, const std::vector<double>& left, const Eigen::VectorXd& leverage) {
+    double square[2] = {0.0, 0.0}, free[2] = {0.0, 0.0};
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const double x = stack.weight[k] > 0.0 ? left[k] / stack.weight[k] : 0.0;
+      square[stack.kind[k]] += x * x;
+      free[stack.kind[k]] += 1.0 - leverage(static_cast<Eigen::Index>(k));
+    }
+    constexpr double kSmallest = 1e-9;  // perfect data
+    posture = std::max(kSmallest, std::sqrt(square[kPosture] / std::max(1.0, free[kPosture])));
+    force = std::max(kSmallest, std::sqrt(square[kForce] / std::max(1.0, free[kForce])));
+  }
+
+  double of(Kind kind) const { return kind == kPosture ? posture : force; }
 };
 
 Profile draw_profile(const Problem& problem, const std::vector<SearchVariable>& variables,
@@ -116,31 +143,47 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   Identifiability result;
   const std::vector<SearchVariable> variables = search_variables(problem.space());
   Stack stack(problem);
-  stack.learn_noise(best);
-  result.posture_noise = stack.posture_noise;
-  result.force_noise = stack.force_noise;
-
-  const std::vector<double> base = stack.residuals({best}).front();
+  const std::vector<double> left = stack.describe(best);
   const auto columns =
-      derivatives(variables, best, base, LeastSquaresOptimiser::kDifference, stack);
+      derivatives(variables, best, left, LeastSquaresOptimiser::kDifference, stack);
   const auto n = static_cast<Eigen::Index>(best.size());
-  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(base.size()), n);
+  const auto rows = static_cast<Eigen::Index>(left.size());
+  Eigen::MatrixXd jacobian(rows, n);  // of the weighted list, by steps
   for (Eigen::Index i = 0; i < n; ++i) {
-    jacobian.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), jacobian.rows());
+    jacobian.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), rows);
   }
-  Eigen::MatrixXd information = jacobian.transpose() * jacobian;  // by steps
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
+  Eigen::MatrixXd information = jacobian.transpose() * jacobian;
+  const double scatter =
+      std::max(1e-30, Eigen::Map<const Eigen::VectorXd>(left.data(), rows).squaredNorm() /
+                          static_cast<double>(std::max<Eigen::Index>(1, rows - n)));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information / scatter);
   result.singular_values = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
   const Eigen::VectorXd flattest = eigen.eigenvectors().col(0);
   result.flattest.assign(flattest.data(), flattest.data() + n);
 
   // The range of a parameter is knowledge too; without it some would have no error at all.
+  Eigen::VectorXd range_information(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double prior = (variables[i].upper - variables[i].lower) / std::sqrt(12.0);
     result.parameters.push_back({0.0, prior, false});
-    information(i, i) += std::pow(variables[i].step / prior, 2);
+    range_information(i) = scatter * std::pow(variables[i].step / prior, 2);
   }
-  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  information.diagonal() += range_information;
+  const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+
+  const Eigen::MatrixXd gain = jacobian * inverse;
+  const Noise noise(stack, left, gain.cwiseProduct(jacobian).rowwise().sum());
+  result.posture_noise = noise.posture;
+  result.force_noise = noise.force;
+  result.freedom = static_cast<double>(rows) / stack.repetition - static_cast<double>(n);
+
+  // The fit weighs as it is told to, not as noise would have it: errors go through its gain.
+  Eigen::VectorXd variance(rows);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    variance(k) = std::pow(stack.weight[k] * noise.of(stack.kind[k]), 2) * stack.repetition;
+  }
+  const Eigen::MatrixXd covariance = gain.transpose() * variance.asDiagonal() * gain +
+                                     inverse * (scatter * range_information).asDiagonal() * inverse;
   for (Eigen::Index i = 0; i < n; ++i) {
     ParameterKnowledge& p = result.parameters[i];
     p.sigma = std::sqrt(std::max(0.0, covariance(i, i))) * variables[i].step;
@@ -161,6 +204,12 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
         draw_profile(problem, variables, best, information, i, result.parameters[i].sigma));
   }
   return result;
+}
+
+identification::Estimate interval(const Identifiability& known, std::size_t parameter,
+                                  double value) {
+  return identification::make_estimate(value, known.parameters[parameter].sigma,
+                                       std::max(1.0, known.freedom));
 }
 
 int equilibria_needed(int unknowns, int muscles) {

@@ -174,7 +174,7 @@ class RunReader {
       times.push_back(from + (to - from) * i / (kPoints - 1) - origin_);
     const Samples all = samples_at(times);
     Samples mean = empty(1);
-    mean.t = {to - origin_};
+    mean.t = {0.5 * (from + to) - origin_};
     mean.q = all.q.colwise().mean();
     mean.force = all.force.colwise().mean();
     mean.position = all.position.colwise().mean();

@@ -154,7 +154,10 @@ RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationO
   RunDifferences result;
   result.before = compare_once(sim, run.before);
   const double h = sim.step_length();
-  const int steps = static_cast<int>(std::lround(std::min(options.motion, run.duration) / h));
+  const auto steps_until = [&](double t) {
+    return static_cast<int>(std::lround(std::min(options.motion, t) / h));
+  };
+  const int steps = steps_until(run.duration), end = steps_until(run.after.t.front());
   int rows = 0;
   const auto due = [&](int row) { return static_cast<int>(std::lround(run.path.t[row] / h)); };
   while (rows < run.path.count() && due(rows) <= steps) ++rows;
@@ -164,12 +167,12 @@ RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationO
   int row = 0;
   for (int step = 0; step <= steps; ++step) {
     for (; row < rows && due(row) <= step; ++row) path.add(sim, row);
+    if (step == end) result.after = compare_once(sim, run.after);
     if (step == steps) break;
     driver.apply(sim, step * h);
     sim.step();
   }
   if (rows > 0) result.path = path.take();
-  result.after = compare_once(sim, run.after);
   for (std::size_t m = 0; m < sim.muscle_count(); ++m) sim.release(static_cast<int>(m));
   return result;
 }

@@ -51,7 +51,8 @@ ordered_json parameters_json(const CalibrationOutcome& o) {
     if (!o.identifiability.parameters.empty()) {
       const ParameterKnowledge& k = o.identifiability.parameters[i];
       entry["sigma"] = number(k.sigma);
-      entry["ci95"] = {number(o.best[i] - 1.96 * k.sigma), number(o.best[i] + 1.96 * k.sigma)};
+      const identification::Estimate estimate = interval(o.identifiability, i, o.best[i]);
+      entry["ci95"] = {number(estimate.lo), number(estimate.hi)};
       entry["identifiable"] = k.identifiable;
     }
     list.push_back(entry);

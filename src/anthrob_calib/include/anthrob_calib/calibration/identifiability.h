@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "anthrob_calib/calibration/problem.h"
+#include "anthrob_calib/identification/estimate.h"
 
 namespace anthrob {
 namespace calibration {
@@ -27,12 +28,17 @@ struct Identifiability {
   Eigen::VectorXd singular_values;  ///< of the derivatives by steps, noise at 1
   std::vector<double> flattest;     ///< direction the data tell least, in steps, length 1
   std::vector<Profile> profiles;    ///< of the least identifiable parameters
+  double freedom = 0.0;             ///< independent differences minus parameters
   double posture_noise = 0.0;       ///< standard deviation of what is left [rad]
   double force_noise = 0.0;         ///< [N]
 };
 
 /// A parameter is identifiable if the data leave less than this share of its range's deviation.
 constexpr double kIdentifiableShare = 0.3;
+
+/// 95 % interval of a parameter.
+identification::Estimate interval(const Identifiability& known, std::size_t parameter,
+                                  double value);
 
 /// @param profiles how many profiles to draw, at most
 /// @throws BadInput, NumericalFailure if `best` is invalid
