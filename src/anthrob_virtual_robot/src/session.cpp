@@ -7,11 +7,12 @@
 namespace anthrob::virtual_robot {
 namespace {
 
-constexpr double kLead = 0.5;      // at the first posture [s]
-constexpr double kMove = 4.0;      // until all has settled, the ring's relaxation with it [s]
-constexpr double kRest = 5.0;      // before a recording [s]
-constexpr double kGain = 0.8;      // of a correction
-constexpr double kFarthest = 0.4;  // a correction in all [rad]
+constexpr double kLead = 0.5;        // at the first posture [s]
+constexpr double kMove = 4.0;        // until all has settled, the ring's relaxation with it [s]
+constexpr double kRest = 5.0;        // before a recording [s]
+constexpr double kSearchRest = 2.0;  // the same, where nothing is recorded [s]
+constexpr double kGain = 0.8;        // of a correction
+constexpr double kFarthest = 0.4;    // a correction in all [rad]
 
 Eigen::Vector3d vector_of(const Eigen::Quaterniond& q) {
   const Eigen::AngleAxisd turn(q);
@@ -66,7 +67,7 @@ void Session::find_references(const std::vector<Target>& targets) {
       const std::vector<double> references = reference_.positions(aim);
       Robot robot = robot_(0);
       robot.place(known_.empty() ? references : known_.front().references);
-      run_for(&robot, kRest);
+      run_for(&robot, kSearchRest);
       robot.command(references);
       run_for(&robot, kMove);
       const Readings& end = robot.truth();

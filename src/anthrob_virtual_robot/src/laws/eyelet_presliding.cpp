@@ -37,7 +37,7 @@ class SlippingFibres final : public reference::MuscleLaw {
   static constexpr std::size_t kCount = 4;
   static constexpr double kEnds[kCount] = {0.3, 0.8, 1.5, 2.4};
   // So that 63 % of the way between the limits takes the distance, as with Dahl's law.
-  static constexpr double kReach = 0.60;
+  static constexpr double kReach = 0.763;
 
   struct Fibres {
     double bent[kCount] = {};

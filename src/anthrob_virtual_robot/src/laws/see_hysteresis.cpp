@@ -33,7 +33,7 @@ class Sliders final : public reference::MuscleLaw {
   double bent(std::size_t k, double stretch) const {
     return std::clamp((stretch - slid_[k]) / reach(k), -1.0, 1.0);
   }
-  static constexpr double kReach = 0.63;  // 63 % of the way between the limits after one turn
+  static constexpr double kReach = 0.850;  // 63 % of the way between the limits after one turn
   double force_, turn_, rest_length_;
   double slid_[kCount] = {};
   bool placed_ = false;

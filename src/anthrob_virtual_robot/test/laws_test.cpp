@@ -1,0 +1,172 @@
+// Closed forms of single laws.
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+namespace anthrob::virtual_robot {
+namespace {
+
+constexpr const char* kMuscle = "biceps_brachii";
+
+double rest_tendon_length() {
+  Draft draft;
+  draft.arm = model_I();
+  return draft.arm.muscles[draft.muscle(kMuscle)].rest_tendon_length;
+}
+
+const reference::RingParameters& ring() {
+  Draft draft;
+  draft.arm = model_I();
+  return model_I().muscles[draft.muscle(kMuscle)].ring;
+}
+
+double ring_stiffness() {
+  const auto& r = ring();
+  return r.quantity * r.strands * M_PI / 4.0 * r.section_diameter * r.section_diameter * r.modulus /
+         r.rest_length;
+}
+
+TEST(SpindleGrowth, RadiusIsTheSlopeOfWhatIsWoundAndGrowsByTheLayerEachTurn) {
+  const auto law = muscle_law({"spindle_growth", kMuscle, {{"growth", 3e-4}}});
+  for (const double position : {-3.0, 0.4, 2.0, 9.0}) {
+    const double h = 1e-5;
+    const double slope = (law->wound(position + h) - law->wound(position - h)) / (2.0 * h);
+    EXPECT_NEAR(law->leverage(position), slope, 1e-10);
+    EXPECT_NEAR(law->leverage(position + 2.0 * M_PI) - law->leverage(position), 3e-4, 1e-12);
+  }
+  EXPECT_EQ(law->wound(0.0), 0.0);
+}
+
+TEST(TendonElasticity, IsLinearBeyondTheBedOfTheBraid) {
+  const auto law = muscle_law({"tendon_elasticity", kMuscle, {{"compliance", 1e-4}}});
+  law->settle(1e-3, {}, solution_of(0.1, 60.0));
+  const double at_60 = law->elongation();
+  law->settle(1e-3, {}, solution_of(0.1, 80.0));
+  EXPECT_NEAR(law->elongation() - at_60, 1e-4 * rest_tendon_length() * 20.0, 1e-9);
+}
+
+TEST(TendonCreep, FollowsTheLogarithmWithinATenth) {
+  const double force = 20.0, rate = 5e-5;
+  const auto law = muscle_law({"tendon_creep", kMuscle, {{"rate", rate}, {"onset", 1.0}}});
+  double t = 0.0;
+  for (const double end : {3.0, 10.0, 30.0, 100.0, 300.0}) {
+    for (; t < end; t += 0.01) law->settle(0.01, {}, solution_of(0.1, force));
+    const double logarithm = rate * rest_tendon_length() * force * std::log1p(t);
+    EXPECT_NEAR(law->elongation() / logarithm, 1.0, 0.13) << t;
+  }
+}
+
+TEST(SecondMaxwellArm, StepRelaxesWithItsTimeWhereItIsSmall) {
+  const auto law =
+      muscle_law({"second_maxwell_arm", kMuscle, {{"ratio", 0.15}, {"relaxation_time", 10.0}}});
+  law->settle(1e-3, {}, solution_of(0.1, 0.0));  // at rest there
+  const double stretch = (0.1 + 1e-3) * ring().rest_length;
+  const double step = law->spring_force(stretch);
+  EXPECT_NEAR(step, 0.15 * ring_stiffness() * 1e-3 * ring().rest_length, 1e-9);
+  for (int k = 0; k < 10000; ++k) law->settle(1e-3, {}, solution_of(0.1 + 1e-3, 0.0));
+  EXPECT_NEAR(law->spring_force(stretch) / step, std::exp(-1.0), 1e-3);
+}
+
+TEST(SeeHysteresis, LoopDoesNotDependOnRateAndEndsAtItsShare) {
+  const double share = 0.12, turn = 0.05;
+  const auto law = muscle_law({"see_hysteresis", kMuscle, {{"share", share}, {"turn", turn}}});
+  const double limit = share * ring_stiffness() * 0.3 * ring().rest_length;
+  const auto go = [&](double from, double to, int steps) {
+    for (int k = 1; k <= steps; ++k) {
+      law->settle(1e-3, {}, solution_of(from + (to - from) * k / steps, 0.0));
+    }
+    return law->spring_force(to * ring().rest_length);
+  };
+  law->settle(1e-3, {}, solution_of(0.2, 0.0));
+  EXPECT_NEAR(go(0.2, 0.6, 50), limit, 1e-9);
+  EXPECT_NEAR(go(0.6, 0.2, 5000), -limit, 1e-9);
+  // 63 % of the way between the limits after one turn.
+  EXPECT_NEAR(go(0.2, 0.2 + turn, 100) / limit, 1.0 - 2.0 * std::exp(-1.0), 0.06);
+}
+
+TEST(SeeMullins, SoftensBelowTheLargestStretchOnly) {
+  const auto law = muscle_law({"see_mullins", kMuscle, {{"softening", 0.25}}});
+  law->settle(1e-3, {}, solution_of(0.4, 0.0));
+  const double largest = 0.4 * ring().rest_length;
+  EXPECT_EQ(law->spring_force(largest), 0.0);
+  EXPECT_EQ(law->spring_force(1.5 * largest), 0.0);
+  EXPECT_NEAR(law->spring_force(1e-4 * largest) / (1e-4 * largest), -0.25 * ring_stiffness(),
+              1e-3 * ring_stiffness());
+}
+
+TEST(EyeletPresliding, HoldsItsSignAtRestAndComesBackOverTheDistance) {
+  const double distance = 5e-4;
+  const auto law = muscle_law({"eyelet_presliding", kMuscle, {{"distance", distance}}});
+  for (int k = 0; k < 100; ++k) law->settle(1e-3, {}, solution_of(0.1, 0.0, 0.05));
+  const double full = law->friction(0, 0.0, 0.0);
+  EXPECT_NEAR(full, 0.195, 1e-12);  // static level of model I, at rest
+  for (int k = 0; k < 100; ++k) law->settle(1e-3, {}, solution_of(0.1, 0.0, -distance / 0.1));
+  EXPECT_NEAR(law->friction(0, 0.0, 0.0) / full, -(1.0 - 2.0 * std::exp(-1.0)), 0.1);
+}
+
+TEST(GearBacklash, FreeSpindleCarriesNothingAndTheOtherFlankTakesItAlong) {
+  const auto law = muscle_law({"gear_backlash", kMuscle, {{"width", 0.02}, {"drag", 0.05}}});
+  const double radius = model_I().muscles[0].spindle_radius;
+  reference::MuscleState state;
+  law->settle(1e-3, state, solution_of(0.1, 1.0));  // 1 N does not overcome the drag
+  state.position = -0.01;
+  law->settle(1e-3, state, solution_of(0.1, 1.0));
+  EXPECT_NEAR(law->wound(0.0), 0.01 * radius, 1e-12);
+  EXPECT_NEAR(law->leverage(0.0), -radius, 1e-12);
+  state.position = -0.05;
+  law->settle(1e-3, state, solution_of(0.1, 1.0));
+  EXPECT_NEAR(law->wound(0.0), 0.02 * radius, 1e-12);
+  EXPECT_EQ(law->leverage(0.0), 0.0);
+}
+
+TEST(WindingHeating, SettlesAtThePowerTimesTheResistance) {
+  const auto law = muscle_law({"winding_heating",
+                               kMuscle,
+                               {{"thermal_resistance", 20.0},
+                                {"time_constant", 50.0},
+                                {"copper", 0.0039},
+                                {"magnet", 0.001}}});
+  reference::MuscleState state;
+  state.current = 0.5;
+  reference::MotorParameters motor = model_I().muscles[0].motor;
+  const double cold = motor.resistance;
+  for (int k = 0; k < 100000; ++k) law->settle(0.01, state, solution_of(0.1, 1.0));
+  ASSERT_TRUE(law->retune(&motor));
+  // dT = 20 K/W R i^2 with R at that temperature.
+  const double power = cold * 0.25;
+  const double warmth = 20.0 * power / (1.0 - 20.0 * power * 0.0039);
+  EXPECT_NEAR(motor.resistance, cold * (1.0 + 0.0039 * warmth), 1e-6);
+}
+
+TEST(JointCoulomb, SlidesAtItsTorqueAndKeepsItAtRest) {
+  Draft draft;
+  draft.arm = model_I();
+  build_in({"joint_coulomb",
+            "elbow",
+            {{"torque", 0.1}, {"static_ratio", 1.3}, {"stribeck_velocity", 0.05}}},
+           &draft);
+  const auto& law = draft.joint_laws.at(0);
+  reference::JointState state;
+  state.velocity(3) = 1.0;
+  for (int k = 0; k < 1000; ++k) law->settle(1e-3, state, Eigen::Vector3d::Zero());
+  // Bristles, and 2 % of it for each rad/s.
+  EXPECT_NEAR(law->torque(state)(3), -0.1 * (1.0 + 0.02), 1e-6);
+  state.velocity.setZero();
+  EXPECT_NEAR(law->torque(state)(3), -0.1, 1e-6);
+  EXPECT_EQ(law->torque(state)(0), 0.0);
+}
+
+TEST(BallJointLoadFriction, IsMuTimesRadiusTimesLoad) {
+  Draft draft;
+  draft.arm = model_I();
+  build_in({"ball_joint_load_friction", "shoulder", {{"mu", 0.15}, {"radius", 0.015}}}, &draft);
+  const auto& law = draft.joint_laws.at(0);
+  reference::JointState state;
+  state.velocity << 0.0, 3.0, 4.0, 0.0;
+  law->settle(1e-3, state, Eigen::Vector3d(0.0, 0.0, 100.0));
+  EXPECT_NEAR(law->torque(state).head<3>().norm(), 0.15 * 0.015 * 100.0, 1e-12);
+  EXPECT_LT(law->torque(state).dot(state.velocity), 0.0);
+}
+
+}  // namespace
+}  // namespace anthrob::virtual_robot

@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "anthrob_virtual_robot/blind_case.h"
+#include "anthrob_virtual_robot/channels.h"
+#include "anthrob_virtual_robot/dosing.h"
+#include "anthrob_virtual_robot/posture_reference.h"
+#include "support.h"
+
+namespace anthrob::virtual_robot {
+namespace {
+
+CaseSettings settings() {
+  CaseSettings s =
+      CaseSettings::load(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/virtual_robot.yaml");
+  s.train = s.test = 3.0;
+  s.recording.settle = 1.0;
+  return s;
+}
+
+Draft plain_draft() {
+  Draft draft;
+  draft.arm = model_I();
+  return draft;
+}
+
+TEST(Robot, IsTheReferenceArmUnderItsOwnController) {
+  Robot robot(plain_draft(), nullptr, 0);
+  reference::Arm arm(model_I());
+  arm.set_step(Robot::kStep);
+  arm.place(Eigen::Quaterniond::Identity(), 0.0, std::vector<double>(arm.muscle_count(), 0.6));
+  robot.place(std::vector<double>(arm.muscle_count(), 0.6));
+  for (std::size_t i = 0; i < arm.muscle_count(); ++i) arm.command_position(i, 1.0);
+  robot.command(std::vector<double>(arm.muscle_count(), 1.0));
+  for (int k = 0; k < 100; ++k) robot.tick();
+  for (int k = 0; k < 100; ++k) arm.advance(robot.period());
+  EXPECT_EQ(robot.truth().elbow, arm.elbow());
+  for (std::size_t i = 0; i < arm.muscle_count(); ++i) {
+    EXPECT_EQ(robot.truth().muscles[i].force, arm.muscle(i).force);
+    EXPECT_EQ(robot.truth().muscles[i].current, arm.muscle(i).current);
+  }
+}
+
+TEST(Robot, SameSeedSameBitsOtherSeedOtherNoise) {
+  const SensorSettings sensors = settings().sensors;
+  Robot a(plain_draft(), &sensors, 5), b(plain_draft(), &sensors, 5), c(plain_draft(), &sensors, 6);
+  const Readings first = moved(&a, 0.2);
+  EXPECT_TRUE(same(first, moved(&b, 0.2)));
+  EXPECT_FALSE(same(first, moved(&c, 0.2)));
+}
+
+TEST(Robot, LinksNothingOfTheSimulator) {
+  std::ifstream maps("/proc/self/maps");
+  const std::string all((std::istreambuf_iterator<char>(maps)), {});
+  EXPECT_NE(all.find("libanthrob_virtual_robot"), std::string::npos);
+  EXPECT_EQ(all.find("libanthrob_sim"), std::string::npos);
+  EXPECT_EQ(all.find("libanthrob_calib"), std::string::npos);
+}
+
+TEST(Sensors, ErrAsTheySay) {
+  SensorSettings sensors;
+  sensors.force = {0.3, 0.06, 0.0};
+  sensors.current = {0.02, 0.0, 0.05};  // coloured
+  Sensors chain(sensors, 1, 1e-3, 4);
+  double square = 0.0, coloured = 0.0, neighbour = 0.0, last = 0.0;
+  const int count = 200000;
+  for (int k = 0; k < count; ++k) {
+    Readings readings;
+    readings.muscles.resize(1);
+    readings.muscles[0].force = 10.02;
+    chain.measure(&readings);
+    square += std::pow(readings.muscles[0].force - 10.02, 2);
+    const double current = readings.muscles[0].current;
+    coloured += current * current;
+    neighbour += current * last;
+    last = current;
+    EXPECT_NEAR(std::remainder(readings.muscles[0].force, 0.06), 0.0, 1e-9);
+  }
+  EXPECT_NEAR(std::sqrt(square / count), sensors.force.sigma(), 0.01);
+  EXPECT_NEAR(std::sqrt(coloured / count), 0.02, 0.001);
+  EXPECT_NEAR(neighbour / coloured, std::exp(-1e-3 / 0.05), 0.01);
+}
+
+TEST(LeastEffort, GivesTheTorqueWithNoForceToSpare) {
+  Random random(2);
+  for (int trial = 0; trial < 50; ++trial) {
+    Eigen::MatrixXd A(4, 11);
+    Eigen::VectorXd inside(11);
+    for (int i = 0; i < 11; ++i) {
+      for (int k = 0; k < 4; ++k) A(k, i) = random.uniform(-0.05, 0.05);
+      inside(i) = random.uniform(2.0, 20.0);
+    }
+    const Eigen::VectorXd f = least_effort(A, A * inside, 1.0);
+    EXPECT_LT((A * f - A * inside).norm(), 1e-5);
+    EXPECT_GE(f.minCoeff(), 1.0 - 1e-12);
+    EXPECT_LE(f.norm(), inside.norm() + 1e-6);
+  }
+}
+
+TEST(PostureReference, LeadsTheArmThere) {
+  Draft draft = plain_draft();
+  for (auto& muscle : draft.arm.muscles) {
+    muscle.eyelet_friction.static_level = muscle.eyelet_friction.kinetic_level = 0.0;
+  }
+  PostureReference reference(draft.arm);
+  Pose pose;
+  pose.shoulder = {0.25, 0.0, -0.3};
+  pose.elbow = 0.9;
+  pose.lowest_tension = 6.0;
+  Pose rest;
+  rest.elbow = 0.2;
+  rest.lowest_tension = 3.0;
+  Robot robot(std::move(draft), nullptr, 0);
+  robot.place(reference.positions(rest));
+  for (int k = 0; k <= 4000; ++k) {
+    if (k <= 1000) robot.command(reference.positions(blend(rest, pose, 1e-3 * k)));
+    robot.tick();
+  }
+  // The gears still hold a little back.
+  EXPECT_LT(robot.truth().shoulder.angularDistance(rotation(pose.shoulder)), 0.05);
+  EXPECT_NEAR(robot.truth().elbow, pose.elbow, 0.05);
+}
+
+TEST(Dose, FindsAFactorOnACurve) {
+  const auto change = [](double f) { return 0.7 * std::pow(f, 1.6); };
+  const double factor = dose(change, 5.0, 0.01, 100.0);
+  EXPECT_NEAR(std::log(change(factor) / 5.0), 0.0, 0.12);
+  EXPECT_EQ(dose(change, 1e9, 0.1, 3.0), 3.0);
+}
+
+TEST(BlindCase, SizeIsWithinTheFloorsAskedForAndTheSameForASeed) {
+  const BlindCase blind =
+      make_case({{"force_sensor_gain", "lateral_deltoid"}}, 3, model_I(), settings());
+  const auto [channel, floors] = worst(blind.change);
+  EXPECT_EQ(channel, "lateral_deltoid/force");
+  EXPECT_GT(floors, 2.5);
+  EXPECT_LT(floors, 11.5);
+  const BlindCase again =
+      make_case({{"force_sensor_gain", "lateral_deltoid"}}, 3, model_I(), settings());
+  EXPECT_EQ(truth_text(blind), truth_text(again));
+}
+
+TEST(BlindCase, NumbersGoThroughLawsAndThenThroughPlaces) {
+  const auto count = static_cast<std::uint64_t>(catalogue_laws().size());
+  const std::uint64_t gain = [] {
+    std::uint64_t k = 0;
+    while (catalogue_laws()[k].id != "force_sensor_gain") ++k;
+    return k;
+  }();
+  const BlindCase a = draw_case(CaseKind::kEffect, gain, 1, model_I(), settings());
+  const BlindCase b = draw_case(CaseKind::kEffect, gain + count, 1, model_I(), settings());
+  EXPECT_EQ(a.hidden.at(0).id, "force_sensor_gain");
+  EXPECT_EQ(b.hidden.at(0).id, "force_sensor_gain");
+  EXPECT_NE(a.hidden[0].place, b.hidden[0].place);
+  EXPECT_TRUE(draw_case(CaseKind::kNull, 0, 1, model_I(), settings()).hidden.empty());
+}
+
+TEST(BlindCase, RefusesPlacesThatALawCannotHave) {
+  EXPECT_THROW(make_case({{"joint_coulomb", "knee"}}, 1, model_I(), settings()),
+               std::invalid_argument);
+  EXPECT_THROW(hidden_law("poltergeist"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace anthrob::virtual_robot
