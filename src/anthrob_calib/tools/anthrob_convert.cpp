@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "anthrob_calib/convert/foreign_csv.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/bag.h"
 #include "anthrob_sim/recording/dataset.h"
@@ -10,12 +11,18 @@
 int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
-      "Converts a bag to a dataset folder, or a dataset folder to a bag (by the ending .bag).",
+      "Converts a bag to a dataset folder, or a dataset folder to a bag (by the ending .bag), or "
+      "somebody else's CSV file to a dataset folder.",
       "anthrob_convert");
-  std::string in, out;
-  app.add_option("IN", in, "bag or dataset folder")->required();
+  std::string in, out, columns;
+  app.add_option("IN", in, "bag, dataset folder, or CSV file")->required();
   app.add_option("OUT", out, "dataset folder or bag")->required();
+  app.add_option("--columns", columns, "what the columns of a CSV file are, a YAML file");
   return tool::run(app, argc, argv, [&]() -> int {
+    if (!columns.empty()) {
+      read_foreign_csv(in, ForeignColumns::load(columns)).save(out);
+      return tool::kDone;
+    }
     const auto is_bag = [](const std::string& path) {
       return std::filesystem::path(path).extension() == ".bag";
     };

@@ -1,0 +1,147 @@
+#include "anthrob_calib/convert/foreign_csv.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+namespace {
+
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+std::string trimmed(const std::string& text) {
+  const char* kBlank = " \t\r\"";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+/// Cells of a line; separators inside quotes belong to the cell.
+std::vector<std::string> cells_of(const std::string& line, char separator) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == separator && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  for (std::string& cell : cells) cell = trimmed(cell);
+  return cells;
+}
+
+class ForeignReader {
+ public:
+  ForeignReader(const std::string& file, const ForeignColumns& columns)
+      : file_(file), columns_(columns), in_(file) {}
+
+  Dataset read() {
+    if (!in_) throw BadInput(file_ + ": cannot be read");
+    Dataset dataset;
+    dataset.folder = file_;
+    dataset.meta = columns_.meta;
+    read_header();
+    // Tables first: a reference to a column must not move.
+    for (const ForeignColumns::Entry& entry : columns_.entries) {
+      dataset.table(entry.table).column(entry.to);
+    }
+    for (std::string line; std::getline(in_, line);) {
+      ++row_;
+      if (!trimmed(line).empty()) read_row(cells_of(line, columns_.separator), &dataset);
+    }
+    if (dataset.tables.front().t.size() < 2) {
+      throw BadInput(file_ + ": less than two rows; expected a recording");
+    }
+    return dataset;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw BadInput(file_ + ":" + std::to_string(row_) + ": " + message);
+  }
+
+  void read_header() {
+    std::string line;
+    row_ = 1;
+    std::getline(in_, line);
+    constexpr const char* kByteOrderMark = "\xef\xbb\xbf";
+    if (line.rfind(kByteOrderMark, 0) == 0) line.erase(0, 3);
+    header_ = cells_of(line, columns_.separator);
+    if (!columns_.time.empty()) time_ = place_of(columns_.time);
+    for (const ForeignColumns::Entry& entry : columns_.entries) {
+      places_.push_back(place_of(entry.from));
+    }
+  }
+
+  std::size_t place_of(const std::string& name) const {
+    for (std::size_t i = 0; i < header_.size(); ++i) {
+      if (header_[i] == name) return i;
+    }
+    std::string there;
+    for (const std::string& column : header_) there += (there.empty() ? "" : ", ") + column;
+    throw BadInput(columns_.file + ": column '" + name + "' is not in " + file_ +
+                   "; expected one of: " + there);
+  }
+
+  double number(const std::vector<std::string>& cells, std::size_t place) const {
+    const std::string& cell = cells[place];
+    if (cell.empty()) return kNotMeasured;
+    double value = 0.0;
+    const char* begin = cell.data() + (cell[0] == '+' ? 1 : 0);
+    const char* end = cell.data() + cell.size();
+    const auto result = std::from_chars(begin, end, value);
+    if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
+      fail("column '" + header_[place] + "': '" + cell + "': expected a number");
+    }
+    return value;
+  }
+
+  Nanoseconds time(const std::vector<std::string>& cells) {
+    double t = static_cast<double>(count_++) / columns_.rate;
+    if (!columns_.time.empty()) t = columns_.time_scale * number(cells, time_);
+    if (!std::isfinite(t)) fail("column '" + columns_.time + "': empty; expected a time");
+    const auto stamp = static_cast<Nanoseconds>(std::llround(1e9 * t));
+    if (count_ > 1 && stamp <= last_) fail("time does not grow; expected each row later");
+    return last_ = stamp;
+  }
+
+  void read_row(const std::vector<std::string>& cells, Dataset* dataset) {
+    if (cells.size() != header_.size()) {
+      fail(std::to_string(cells.size()) + " cells; expected " + std::to_string(header_.size()) +
+           ", as many as the header has");
+    }
+    const Nanoseconds t = time(cells);
+    for (Table& table : dataset->tables) table.t.push_back(t);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const ForeignColumns::Entry& entry = columns_.entries[i];
+      Column& column = dataset->table(entry.table).column(entry.to);
+      const double value = number(cells, places_[i]);
+      const bool present = std::isfinite(value);
+      column.values.push_back(present ? entry.scale * value + entry.offset : 0.0);
+      column.present.push_back(present);
+    }
+  }
+
+  std::string file_;
+  const ForeignColumns& columns_;
+  std::ifstream in_;
+  int row_ = 0;
+  std::vector<std::string> header_;
+  std::size_t time_ = 0;
+  std::vector<std::size_t> places_;
+  int count_ = 0;
+  Nanoseconds last_ = 0;
+};
+
+}  // namespace
+
+Dataset read_foreign_csv(const std::string& file, const ForeignColumns& columns) {
+  return ForeignReader(file, columns).read();
+}
+
+}  // namespace anthrob
