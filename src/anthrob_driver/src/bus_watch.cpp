@@ -4,8 +4,6 @@ namespace anthrob {
 namespace driver {
 
 namespace {
-constexpr double kEchoTimeout = 0.02;  // [s] without an echo of anything we sent
-constexpr int kFullCycles = 3;
 }  // namespace
 
 void BusWatch::found(Finding finding, double now) {

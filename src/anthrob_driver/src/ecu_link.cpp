@@ -8,8 +8,6 @@ namespace driver {
 namespace {
 using ecu::Function;
 constexpr unsigned kMotionPart[] = {1, 2}, kEffortPart = 4;
-constexpr double kReplyTimeout = 0.05;  // [s]
-constexpr double kRetryPause = 1.0;     // [s] after a refusal
 }  // namespace
 
 EcuLink::EcuLink(const Hardware& hardware, int index, Findings& findings)

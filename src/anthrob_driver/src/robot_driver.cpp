@@ -15,7 +15,6 @@ using ecu::Function;
 using ecu::Operation;
 
 constexpr double kRetry = 0.05;       // [s] between two enable requests to one ECU
-constexpr double kSilence = 1.0;      // [s] before an unheard ECU is reported
 constexpr double kClearGrace = 0.15;  // [s] until ECUs have cleared their latches
 constexpr int kIdleNode = -2;         // on the bus, but not used
 constexpr int kRepeats = 3;           // cycles in which disable and clear are sent

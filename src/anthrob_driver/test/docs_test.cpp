@@ -8,7 +8,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "anthrob_driver/emulation/board.h"
 #include "anthrob_driver/findings.h"
+#include "anthrob_driver/robot_driver.h"
 #include "anthrob_ecu/fault.h"
 #include "anthrob_ecu/parameters.h"
 #include "anthrob_ecu/protocol.h"
@@ -73,6 +75,28 @@ TEST(Docs, HaveEveryFindingOfTheDriver) {
     expect_row(text, "| `" + std::string(f.name) + "` | " + f.meaning + " | " +
                          (f.stops ? "stops" : "-") + " | " + f.remedy + " |");
   }
+}
+
+TEST(Docs, HaveEveryTimeOut) {
+  const std::string text = read("robot.md");
+  const auto expect = [&](const std::string& value, const std::string& constant) {
+    EXPECT_NE(text.find(" | " + value + " | `" + constant + "` | "), std::string::npos)
+        << constant << ": " << value;
+  };
+  const auto ms = [](double seconds) { return number(1000.0 * seconds) + " ms"; };
+  expect(ms(0.001 * Board::kHardwareWatchdog), "Board::kHardwareWatchdog");
+  expect(ms(0.001 * ecu::Firmware::kWatchdogTicks), "Firmware::kWatchdogTicks");
+  EXPECT_EQ(EcuLink::kLostSyncs, 2);
+  expect("two SYNCs", "EcuLink::kLostSyncs");
+  expect(ms(RobotDriver::kEnableTimeout), "RobotDriver::kEnableTimeout");
+  expect(number(RobotDriver::kSilence) + " s", "RobotDriver::kSilence");
+  expect(ms(EcuLink::kReplyTimeout), "EcuLink::kReplyTimeout");
+  expect(number(EcuLink::kRetryPause) + " s", "EcuLink::kRetryPause");
+  expect(ms(BusWatch::kEchoTimeout) + " and two cycles", "BusWatch::kEchoTimeout");
+  expect(number(BusWatch::kFullCycles) + " cycles", "BusWatch::kFullCycles");
+  expect(number(BusWatch::kFlood), "BusWatch::kFlood");
+  EXPECT_EQ(RobotDriver::Options().command_timeout, 0.5);
+  EXPECT_NE(text.find("| `command_timeout` | 0.5 s |"), std::string::npos);
 }
 
 }  // namespace

@@ -12,6 +12,9 @@ namespace driver {
 class BusWatch {
  public:
   enum class Condition { kGood, kWarning, kPassive, kOff, kDown };
+  static constexpr double kEchoTimeout = 0.02;  ///< [s] without an echo of anything we sent
+  static constexpr int kFullCycles = 3;         ///< cycles in which the queue was full
+  static constexpr int kFlood = 150;            ///< frames in a cycle; 7 ECUs send 22 to 36
 
   explicit BusWatch(Findings& findings, double rate) : findings_(findings), rate_(rate) {}
 
@@ -43,7 +46,6 @@ class BusWatch {
   bool unheard_ = false;
   std::uint64_t frames_ = 0;
   int frames_this_cycle_ = 0, quiet_cycles_ = 0;
-  static constexpr int kFlood = 150;  ///< frames in a cycle; 7 ECUs send 22 to 36
 };
 
 }  // namespace driver

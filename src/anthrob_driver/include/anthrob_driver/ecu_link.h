@@ -17,6 +17,8 @@ class EcuLink {
   /// That many SYNCs in a row without an answer, and an ECU counts as lost: at 200 Hz the others
   /// get zero volts within 20 ms. Counted, not timed: a host that was late must not blame the ECUs.
   static constexpr int kLostSyncs = 2;
+  static constexpr double kReplyTimeout = 0.05;  ///< [s] of a parameter, then it is sent again
+  static constexpr double kRetryPause = 1.0;     ///< [s] after a refused parameter
 
   /// @param hardware, findings must outlive the link   @param index of this ECU, for findings
   EcuLink(const Hardware& hardware, int index, Findings& findings);

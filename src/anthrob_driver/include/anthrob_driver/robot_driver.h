@@ -93,6 +93,7 @@ class RobotDriver {
   const std::string& last_stop() const { return last_stop_; }
 
   static constexpr double kEnableTimeout = 0.25;  ///< [s]
+  static constexpr double kSilence = 1.0;         ///< [s] before an unheard ECU is reported
 
  private:
   void send(const ecu::Frame& frame);
