@@ -10,6 +10,7 @@
 
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/path/mesh_surface.h"
+#include "anthrob_sim/path/selected_mesh.h"
 #include "support.h"
 
 namespace anthrob {
@@ -234,6 +235,18 @@ TEST_F(MeshFile, BadKeys) {
   expect_refusal(file, "offset", ", offset: [1, 2]");
   expect_refusal(file, "normal", ", part: [{point: [0, 0, 0], normal: [0, 0, 0]}]");
   expect_refusal(file, "colour", ", colour: red");
+  expect_refusal(file, "hull or half_space", ", selection: all");
+}
+
+TEST_F(MeshFile, SelectionByHalfSpaceKeepsAllVertices) {
+  write("box.stl", binary_stl(box()));
+  const ConfigNode node = ConfigNode::parse(
+      "{file: box.stl, chi: [1, 0, 0], selection: half_space}", (folder_ / "model.yaml").string());
+  const auto surface = MeshSurface::load(node, Pose());
+  const auto* selected = dynamic_cast<const SelectedMesh*>(surface.get());
+  ASSERT_NE(selected, nullptr);
+  EXPECT_EQ(selected->vertices().size(), 8u);
+  EXPECT_EQ(selected->type(), "mesh");
 }
 
 TEST_F(MeshFile, PreparedOnceForEveryDescription) {

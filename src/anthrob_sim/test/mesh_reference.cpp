@@ -88,6 +88,26 @@ Mesh::Vertex_index nearest(const Mesh& mesh, const Vec3& p) {
   return best;
 }
 
+/// Fills in the shortest way over a mesh that has p and q among its vertices.
+void take_shortest(const Mesh& mesh, const Vec3& p, const Vec3& q, ReferenceWay& way) {
+  Geodesic geodesic(mesh);
+  geodesic.add_source_point(nearest(mesh, q));
+  std::vector<Point> way_points;
+  way.length =
+      geodesic
+          .shortest_path_points_to_source_points(nearest(mesh, p), std::back_inserter(way_points))
+          .first;
+  const auto direction = [&](std::size_t from, int step) {
+    for (std::size_t i = from + step; i < way_points.size(); i += step) {
+      const Vec3 piece = vec(way_points[i]) - vec(way_points[from]);
+      if (piece.norm() > 1e-9) return Vec3(piece.normalized());
+    }
+    return Vec3(Vec3::Zero());
+  };
+  way.direction_in = direction(0, 1);
+  way.direction_out = -direction(way_points.size() - 1, -1);
+}
+
 }  // namespace
 
 ReferenceWay reference_way(const std::vector<Vec3>& points, const Vec3& p, const Vec3& q,
@@ -114,22 +134,40 @@ ReferenceWay reference_way(const std::vector<Vec3>& points, const Vec3& p, const
   Mesh mesh = hull(around);
   if (limited) remove_floor(mesh, p, up);
 
-  Geodesic geodesic(mesh);
-  geodesic.add_source_point(nearest(mesh, q));
-  std::vector<Point> way_points;
-  way.length =
-      geodesic
-          .shortest_path_points_to_source_points(nearest(mesh, p), std::back_inserter(way_points))
-          .first;
-  const auto direction = [&](std::size_t from, int step) {
-    for (std::size_t i = from + step; i < way_points.size(); i += step) {
-      const Vec3 piece = vec(way_points[i]) - vec(way_points[from]);
-      if (piece.norm() > 1e-9) return Vec3(piece.normalized());
+  take_shortest(mesh, p, q, way);
+  return way;
+}
+
+ReferenceWay reference_way_over_selection(const std::vector<Vec3>& vertices, const Vec3& p,
+                                          const Vec3& q, const Vec3& chi,
+                                          std::vector<std::array<Vec3, 3>>* facets) {
+  ReferenceWay way;
+  const Vec3 line = q - p;
+  way.length = line.norm();
+  way.direction_in = way.direction_out = line / way.length;
+  const Vec3 up = line.cross(chi.cross(line));
+  std::vector<Vec3> around = {p, q};
+  for (const Vec3& v : vertices) {
+    if (up.dot(v - q) > 0.0 && line.dot(v - q) < 0.0) around.push_back(v);
+  }
+  Mesh mesh = hull(around);
+  std::vector<Mesh::Face_index> lower;
+  for (const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    const Vec3 a = vec(mesh.point(mesh.source(h))), b = vec(mesh.point(mesh.target(h)));
+    const Vec3 c = vec(mesh.point(mesh.target(mesh.next(h))));
+    if ((b - a).cross(c - b).dot(up) <= 0.0) {
+      lower.push_back(f);
+    } else if (facets != nullptr) {
+      facets->push_back({a, b, c});
     }
-    return Vec3(Vec3::Zero());
-  };
-  way.direction_in = direction(0, 1);
-  way.direction_out = -direction(way_points.size() - 1, -1);
+  }
+  for (const auto f : lower) CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
+  mesh.collect_garbage();
+  const auto from = nearest(mesh, p), to = nearest(mesh, q);
+  way.wraps = mesh.number_of_faces() > 1 && vec(mesh.point(from)) == p &&
+              vec(mesh.point(to)) == q && !mesh.halfedge(from, to).is_valid();
+  if (way.wraps) take_shortest(mesh, p, q, way);
   return way;
 }
 

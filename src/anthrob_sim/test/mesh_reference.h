@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "anthrob_sim/core/types.h"
@@ -18,6 +19,13 @@ struct ReferenceWay {
 /// unfolded strips from the step before.
 ReferenceWay reference_way(const std::vector<Vec3>& points, const Vec3& p, const Vec3& q,
                            const Vec3& chi);
+
+/// The same over the upper side of the hull of p, q and those vertices above the plane across chi
+/// and on p's side of q: (4.39)-(4.45). No way over the upper side: not wrapped.
+/// @param facets if given: corners of the upper side's facets, in order
+ReferenceWay reference_way_over_selection(const std::vector<Vec3>& vertices, const Vec3& p,
+                                          const Vec3& q, const Vec3& chi,
+                                          std::vector<std::array<Vec3, 3>>* facets = nullptr);
 
 }  // namespace testing_support
 }  // namespace anthrob

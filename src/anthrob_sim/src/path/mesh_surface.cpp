@@ -11,6 +11,7 @@
 
 #include "anthrob_sim/path/mesh_cache.h"
 #include "anthrob_sim/path/mesh_file.h"
+#include "anthrob_sim/path/selected_mesh.h"
 
 namespace anthrob {
 
@@ -247,7 +248,7 @@ void MeshSurface::trace(const WrapContact& contact, std::vector<Vec3>& points) c
 
 namespace {
 
-constexpr const char* kKeys[] = {"chi", "scale", "offset", "part"};
+constexpr const char* kKeys[] = {"chi", "scale", "offset", "part", "selection"};
 
 /// All that a prepared surface depends on.
 std::string description(const ConfigNode& node, const Pose& X_BL) {
@@ -291,7 +292,14 @@ std::shared_ptr<const WrappingSurface> MeshSurface::prepare(const ConfigNode& no
   if (!(chi.norm() > 1e-9)) node.at("chi").fail_expected("a vector that is not zero");
   MeshPoints mesh = load_mesh_points(node);
   for (Vec3& p : mesh.points) p = X_BL * p;
+  const std::string selection = node.text_or("selection", "hull");
+  if (selection != "hull" && selection != "half_space") {
+    node.at("selection").fail_expected("hull or half_space");
+  }
   try {
+    if (selection == "half_space") {
+      return std::make_shared<SelectedMesh>(mesh.points, X_BL.R * chi, mesh.remarks);
+    }
     return std::make_shared<MeshSurface>(mesh.points, X_BL.R * chi, mesh.remarks);
   } catch (const std::invalid_argument& error) {
     node.at("file").fail(error.what());

@@ -51,8 +51,9 @@ class MeshSurface final : public WrappingSurface {
   const ConvexHull& hull() const { return *hull_; }
   const Vec3& chi() const { return chi_; }  ///< unit or zero, in the body's frame
 
-  /// `{file: , scale: , offset: [m], chi: [1], part: [{point: [m], normal: [1]}]}`; the same
-  /// description in the same file gives the same object.
+  /// `{file: , scale: , offset: [m], chi: [1], part: [{point: [m], normal: [1]}], selection:
+  /// hull}`; with `selection: half_space` a SelectedMesh. The same description in the same file
+  /// gives the same object.
   static std::shared_ptr<const WrappingSurface> load(const ConfigNode& node, const Pose& X_BL);
 
  private:
