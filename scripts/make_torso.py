@@ -3,8 +3,8 @@
 
     scripts/make_torso.py --joints 20 --muscles 100 --out config/torso_100
 
-Joints come from a fixed list of ball joints and hinges, muscles go round the joints in turn, over nothing, cylinders or
-spheres. It is no copy of any machine: it is there to load something large and to measure how cost grows with size.
+Joints come from a fixed list of ball joints and hinges, muscles go round the joints in turn, over nothing, cylinders,
+spheres or a mesh. It is no copy of any machine: it is there to load something large and to measure how cost grows with size.
 """
 import argparse
 import math
@@ -12,7 +12,9 @@ import os
 import sys
 
 BALL, HINGE = 'ball', 'hinge'
-SURFACES = ['none', 'cylinder', 'sphere', 'none']
+SURFACES = ['none', 'cylinder', 'sphere', 'none', 'none', 'cylinder', 'sphere', 'mesh']
+KNOB = os.path.join('meshes', 'knob.obj')
+KNOB_RINGS, KNOB_SIDES = 9, 20
 GOLDEN_ANGLE = math.pi * (3.0 - math.sqrt(5.0))
 RING = {'rest_length': 0.015, 'section_diameter': 0.005, 'modulus': 0.8129e6, 'strands': 2}
 PRETENSION = 4.0        # [N]
@@ -194,15 +196,19 @@ def side_of(joint, k):
     return tuple(math.cos(angle) * x + math.sin(angle) * y for x, y in zip(u, v))
 
 
-def surface_on(joint, kind, side):
-    radius = joint.radius
+def surface_on(joint, kind, side, neighbours):
+    """What a muscle runs over at a joint: as high as the line between its neighbours, which lie outside."""
     if kind == 'none':
         return None
-    if kind == 'sphere':
-        return '{sphere: {center: [0.0, 0.0, 0.0], radius: %.5f, start: positive}, body: %s}' % (radius, joint.link)
     axis = joint.axis if joint.kind == HINGE else cross(side, unit(joint.bone))
     if length(cross(axis, side)) < 0.5:
         axis = cross(side, unit(joint.bone))
+    away = [length(cross(p, unit(axis))) if kind == 'cylinder' else length(p) for p in neighbours]
+    radius = min([1.45 * joint.radius] + [0.9 * a for a in away])
+    if kind == 'sphere':
+        return '{sphere: {center: [0.0, 0.0, 0.0], radius: %.5f, start: positive}, body: %s}' % (radius, joint.link)
+    if kind == 'mesh':
+        return '{mesh: {file: %s, scale: %.5f, chi: %s}, body: %s}' % (KNOB, radius, text(side), joint.link)
     return '{cylinder: {origin: [0.0, 0.0, 0.0], axis: %s, radius: %.5f, start: not_wrapping}, body: %s}' % (
         text(unit(axis)), radius, joint.link)
 
@@ -233,7 +239,7 @@ def make_muscle(index, joints):
     insertion = (joint.link, lifted(tuple(0.45 * x for x in joint.bone), insertion_side, out))
     points = [origin, via, insertion]
     kind = 'none' if twists else SURFACES[(index + k) % len(SURFACES)]
-    wrap = surface_on(joint, kind, side)
+    wrap = surface_on(joint, kind, side, [add(via[1], joint.origin, -1), insertion[1]])
     # What carries the body upright needs stiffer springs than gravity's own (m g h) against it.
     heavy = joint.mass >= 3.0 or joint.name.endswith('clavicle')
     return Muscle('%s_%d' % (joint.name, k + 1), 12 if heavy else 2, points, None if wrap is None else (1, wrap))
@@ -296,6 +302,30 @@ def model(joints, muscles, command):
     return '\n'.join(lines) + '\n'
 
 
+# ---- a mesh ----
+
+def knob():
+    """The end of a bone, of radius one: two condyles side by side in a Wavefront file."""
+    points = [(0.0, 0.0, -0.9)]
+    for i in range(1, KNOB_RINGS + 1):
+        height, reach = -math.cos(math.pi * i / (KNOB_RINGS + 1)), math.sin(math.pi * i / (KNOB_RINGS + 1))
+        for k in range(KNOB_SIDES):
+            angle = 2.0 * math.pi * k / KNOB_SIDES
+            radius = reach * (1.0 - 0.08 * math.cos(2.0 * angle))
+            points.append((radius * math.cos(angle), radius * math.sin(angle), 0.9 * height))
+    points.append((0.0, 0.0, 0.9))
+    at = lambda ring, k: 2 + ring * KNOB_SIDES + k % KNOB_SIDES
+    facets = []
+    for k in range(KNOB_SIDES):
+        facets.append((1, at(0, k + 1), at(0, k)))
+        for ring in range(KNOB_RINGS - 1):
+            facets += [(at(ring, k), at(ring, k + 1), at(ring + 1, k + 1)), (at(ring, k), at(ring + 1, k + 1), at(ring + 1, k))]
+        facets.append((at(KNOB_RINGS - 1, k), at(KNOB_RINGS - 1, k + 1), len(points)))
+    lines = ['# Written by scripts/make_torso.py.', 'o knob']
+    lines += ['v %.5f %.5f %.5f' % tuple(x + 0.0 for x in p) for p in points]
+    return '\n'.join(lines + ['f %d %d %d' % f for f in facets]) + '\n'
+
+
 def write(path, content):
     with open(path + '.part', 'w') as file:
         file.write(content)
@@ -315,10 +345,11 @@ def main():
         sys.exit('make_torso.py: --muscles %d: expected 0 or more' % args.muscles)
     joints = joints[:args.joints]
     muscles = [make_muscle(i, joints) for i in range(args.muscles)]
-    os.makedirs(args.out, exist_ok=True)
+    os.makedirs(os.path.join(args.out, os.path.dirname(KNOB)), exist_ok=True)
     name = os.path.basename(os.path.normpath(args.out))
     command = 'scripts/make_torso.py --joints %d --muscles %d' % (args.joints, args.muscles)
     write(os.path.join(args.out, 'robot.urdf'), urdf(name, joints))
+    write(os.path.join(args.out, KNOB), knob())
     write(os.path.join(args.out, 'model_II.yaml'), model(joints, muscles, command))
 
 

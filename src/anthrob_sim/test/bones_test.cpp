@@ -1,9 +1,13 @@
 // The bones that scripts/make_bones.py wrote: insertions on their surface, tendons as long as Table
 // C.9 says.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "anthrob_sim/path/mesh_file.h"
@@ -32,6 +36,27 @@ Vec3 nearest(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     if ((x - p).norm() < (best - p).norm()) best = x;
   }
   return best;
+}
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+TEST(Bones, AreWhatTheirGeneratorWrites) {
+  const std::filesystem::path folder = config("");
+  const auto out =
+      std::filesystem::temp_directory_path() / ("anthrob_bones_" + std::to_string(getpid()));
+  const std::string command = "/usr/bin/python3 " + (folder / "../scripts/make_bones.py").string() +
+                              " " + out.string() + " > /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  for (const char* bone : {"humerus.stl", "scapula.stl"}) {
+    const std::string written = content(out / bone);
+    EXPECT_GT(written.size(), 100000u) << bone;
+    // Byte by byte, but not printed: a bone is 300 kB.
+    EXPECT_TRUE(written == content(folder / "anthrob/meshes" / bone)) << bone;
+  }
+  std::filesystem::remove_all(out);
 }
 
 TEST(Bones, AreSoundAndOfTheRightSize) {

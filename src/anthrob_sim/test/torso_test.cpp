@@ -23,10 +23,20 @@ TEST(Torso, IsWhatItsGeneratorWrites) {
                               " --out " + out.string();
   std::filesystem::create_directories(out);
   ASSERT_EQ(std::system(command.c_str()), 0);
-  for (const char* file : {"robot.urdf", "model_II.yaml"}) {
+  for (const char* file : {"robot.urdf", "model_II.yaml", "meshes/knob.obj"}) {
     EXPECT_EQ(content(config / "torso_100" / file), content(out / file)) << file;
   }
   std::filesystem::remove_all(out.parent_path());
+}
+
+void note_contacts(const Simulation& sim, std::set<std::string>& touched) {
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+    const MusclePath& path = sim.muscle(m).path();
+    for (std::size_t i = 0; i < path.obstacles().size(); ++i) {
+      const auto& surface = path.model().obstacles()[i].surface;
+      if (surface && path.obstacles()[i].touching) touched.insert(surface->type());
+    }
+  }
 }
 
 TEST(Torso, MovesAndStaysTogether) {
@@ -42,9 +52,11 @@ TEST(Torso, MovesAndStaysTogether) {
       if (obstacle.surface) surfaces.insert(obstacle.surface->type());
     }
   }
-  EXPECT_EQ(surfaces, (std::set<std::string>{"cylinder", "sphere"}));
+  EXPECT_EQ(surfaces, (std::set<std::string>{"cylinder", "mesh", "sphere"}));
+  EXPECT_TRUE(model->remarks.empty()) << model->remarks[0];
+  std::set<std::string> touched;
 
-  const auto drive = [](Simulation& sim, int from, int to) {
+  const auto drive = [&](Simulation& sim, int from, int to) {
     for (int i = from; i < to; ++i) {
       if (i % 50 == 0) {
         for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
@@ -54,12 +66,14 @@ TEST(Torso, MovesAndStaysTogether) {
         }
       }
       sim.step();
+      if (i % 20 == 0) note_contacts(sim, touched);
     }
   };
   Simulation sim(model);
   drive(sim, 0, 400);
   const Snapshot middle = sim.snapshot();
   drive(sim, 400, 1000);
+  EXPECT_EQ(touched, surfaces) << "muscles run over all kinds of obstacles";
   // Bodies hang together: the constraint solver leaves no gap worth mentioning.
   for (std::size_t j = 0; j < model->skeleton->joints.size(); ++j) {
     const JointModel& joint = model->skeleton->joints[j];
