@@ -21,7 +21,7 @@ TEST(VirtualRobotRecording, IsReadAndReplayed) {
   constexpr double kSeconds = 6.0;
   const auto commands = virtual_robot::excitation(believed, kSeconds, virtual_robot::Random(1));
   virtual_robot::RecordingSettings settings;
-  settings.settle = 2.0;
+  settings.settle = 8.0;  // the ways there differ
   virtual_robot::Meta meta;
   meta.settle = settings.settle;
   std::vector<std::string> names;

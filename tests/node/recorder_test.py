@@ -126,7 +126,15 @@ class Recorder(unittest.TestCase):
         subprocess.check_call(['rosservice', 'call', '/anthrob/emergency_stop'], stdout=subprocess.DEVNULL,
                               env=dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT))
         self.assertIn('is not enabled', process.communicate(timeout=60)[0])
-        self.assertFalse([name for name in os.listdir(out) if name.endswith(('.part', '.csv'))])
+        names = os.listdir(out)
+        self.assertFalse([name for name in names if name.endswith('.part')])
+        # A sample for each run that was complete before the stop came, and none beside them.
+        complete = [name for name in names if name.endswith('.bag')]
+        samples = []
+        if 'samples.csv' in names:
+            with open(os.path.join(out, 'samples.csv')) as file:
+                samples = file.read().splitlines()[1:]
+        self.assertEqual(len(samples), len(complete))
 
     def test_bad_input_is_one_line(self):
         for out, values, expected in [
