@@ -86,18 +86,17 @@ Dataset axis_recording(double coulomb, double offset, std::uint64_t seed) {
   data.folder = "axis";
   data.meta.robot = "driven_axis";
   Table& table = data.table("joints");
-  Column& position = table.column("axis/position");
-  Column& effort = table.column("axis/effort");
+  table.column("axis/position");
+  table.column("axis/effort");
+  Column &position = table.columns[0], &effort = table.columns[1];
   const CounterRandom random(seed, 9);
   const double mass = 95.1089, viscous = 203.5, h = 1e-5;
   const double first = 60.0 + 20.0 * random.uniform(1), second = 2.0 + 3.0 * random.uniform(2);
-  double q = 0.0, v = 0.0;
+  double q = 0.0, v = 0.0, u = 0.0;
   for (int i = 0; i < 800000; ++i) {
-    const double t = h * i;
     // Held over a millisecond, as a recording's effort is; a spring keeps the carriage in place.
     const int row = i / 100;
     const double now = 1e-3 * row;
-    static double u = 0.0;
     if (i % 100 == 0)
       u = first * std::sin(1.7 * now) + 0.5 * first * std::sin(second * now) - 150.0 * q;
     if (i % 100 == 0) {
@@ -112,7 +111,6 @@ Dataset axis_recording(double coulomb, double offset, std::uint64_t seed) {
     const double next = v + h / mass * (drive - friction);
     v = v != 0.0 && next * v < 0.0 && std::abs(drive) < coulomb ? 0.0 : next;
     q += h * v;
-    (void)t;
   }
   position.present.assign(position.values.size(), 1);
   effort.present.assign(effort.values.size(), 1);
@@ -141,6 +139,8 @@ TEST(DrivenAxis, DryFrictionIsNamedAndMeasured) {
   EXPECT_EQ(answer.effects[0].id, "joint_coulomb") << summary(answer);
   EXPECT_EQ(answer.effects[0].place, "axis");
   for (const FoundParameter& p : answer.effects[0].parameters) {
+    EXPECT_LE(p.low, p.value) << p.name;
+    EXPECT_GE(p.high, p.value) << p.name;
     if (p.name == "torque") {
       EXPECT_NEAR(p.value, 20.4, 0.6);
     }

@@ -91,9 +91,12 @@ std::vector<std::pair<double, double>> bootstrap_intervals(const Fitted& fitted,
     std::sort(values.begin(), values.end());
     const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
     const double at = x[i] * u.scale;
-    intervals.emplace_back(
-        std::max(u.lower, at + widen * (values[static_cast<std::size_t>(0.025 * kDraws)] - at)),
-        std::min(u.upper, at + widen * (values[static_cast<std::size_t>(0.975 * kDraws)] - at)));
+    const auto quantile = [&](double share) {
+      const double value = values[static_cast<std::size_t>(share * kDraws)];
+      return std::clamp(at + widen * (value - at), u.lower, u.upper);
+    };
+    // Where the fit is not linear its own value may lie outside what resampling finds.
+    intervals.emplace_back(std::min(at, quantile(0.025)), std::max(at, quantile(0.975)));
   }
   return intervals;
 }
