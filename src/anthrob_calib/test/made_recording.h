@@ -28,7 +28,7 @@ struct MadeRecording {
     std::uint64_t index = 0;
     std::vector<std::vector<double>> references;
     constexpr double kLeg = 1.6;
-    for (double t = 0.0; t < length + kLeg; t += kLeg) {
+    for (double t = 0.0; t < length + 2.0 * kLeg; t += kLeg) {
       EquilibriumOptions options;
       options.lowest_tension = 3.0 + 12.0 * random.uniform(index++);
       references.push_back(

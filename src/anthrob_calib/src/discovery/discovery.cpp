@@ -22,17 +22,25 @@ constexpr double kEvidence = 3.0;        ///< [nat] beyond the logarithm of the 
 constexpr double kSignificance = 3.0;    ///< standard errors over blocks
 constexpr double kShareOfPresent = 0.1;  ///< of the squared gap above the floor
 constexpr double kShareOfFirst = 0.03;
-/// A gap is one only beyond what a wrong estimate of the noise may look like.
-constexpr double kRealGap = 1.3;
+/// A channel's gap is one only beyond what a wrong estimate of the noise may look like.
+constexpr double kRealGap = 1.4;
 constexpr int kRecalibrations = 8;
-constexpr int kPolish = 5;
+constexpr int kPolish = 8;
 constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects are not the answer
 constexpr std::size_t kRenewed =
     60;                              ///< candidates whose doses are simulated again in later rounds
 constexpr double kMentioned = 0.02;  ///< least probability of a rival
 
+/// What of a channel's squared gap is more than that.
 double excess(double gap) {
-  return std::max(0.0, gap * gap - 1.0);
+  return std::max(0.0, gap * gap - kRealGap * kRealGap);
+}
+
+/// The same over all channels.
+double excess(const Judge& judge, const Eigen::VectorXf& residual) {
+  double sum = 0.0;
+  for (const auto& [name, gap] : judge.channel_gaps(residual)) sum += excess(gap);
+  return sum;
 }
 
 class Search {
@@ -57,7 +65,7 @@ class Search {
     Screening screening(train_, base_, candidates_);
     std::vector<Score> scores = screening.scores(base_);
     list_invisible(scores, answer);
-    for (int round = 0; round < question_.max_effects; ++round) {
+    for (int round = 0; round < question_.max_effects && gap_is_real(); ++round) {
       if (round > 0) {
         stage("screening", round);
         screening.renew(base_, screening.scores(base_), kRenewed);
@@ -71,8 +79,6 @@ class Search {
       if (question_.comment) comment_on(list);
       if (list.named.empty() || !earns_its_place(list)) break;
       accept(list, answer);
-      if (test_judge_.gap(base_test_) < kRealGap && train_judge_.gap(base_.residual) < kRealGap)
-        break;
     }
     conclude(answer);
     return answer;
@@ -109,16 +115,21 @@ class Search {
     answer.recalibrated = base_.variant;
     recalibrated_train_ = base_.residual;
     recalibrated_test_ = base_test_;
-    first_excess_ = excess(test_judge_.gap(base_test_));
+    first_excess_ = excess(test_judge_, base_test_);
+  }
+
+  /// In what was learned from and in what was held out.
+  bool gap_is_real() const {
+    return excess(train_judge_, base_.residual) > 0.0 && excess(test_judge_, base_test_) > 0.0;
   }
 
   bool earns_its_place(const ShortList& list) const {
     const Named& best = list.named.front();
-    const double before = test_judge_.gap(base_test_), after = test_judge_.gap(best.test);
-    const double gained = before * before - after * after;
+    const double before = excess(test_judge_, base_test_);
+    const double gained = before - excess(test_judge_, best.test);
     return best.probability > list.none &&
            best.evidence > kEvidence + std::log(static_cast<double>(candidates_.size())) &&
-           best.significance > kSignificance && gained > kShareOfPresent * excess(before) &&
+           best.significance > kSignificance && gained > kShareOfPresent * before &&
            gained > kShareOfFirst * first_excess_;
   }
 
@@ -204,8 +215,8 @@ class Search {
     for (const auto& [name, value] : given) {
       answer.per_channel[name] = {value, recalibrated.at(name), after.at(name), 1.0};
     }
-    const double whole = excess(answer.test.recalibrated);
-    answer.remaining_share = whole > 0.0 ? excess(answer.test.after) / whole : 0.0;
+    answer.remaining_share =
+        first_excess_ > 0.0 ? excess(test_judge_, base_test_) / first_excess_ : 0.0;
     answer.dependences = find_dependences(laboratory_.train, question_.train, recalibrated_train_,
                                           train_.whitening());
     answer.remaining =
@@ -289,7 +300,7 @@ class Search {
         }
       }
     }
-    const bool gap = answer.test.after > kRealGap && answer.train.after > kRealGap;
+    const bool gap = gap_is_real();
     if (answer.effects.empty()) {
       answer.verdict = gap ? "unexplained" : "no_missing_effect";
     } else {

@@ -14,7 +14,8 @@ Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, co
   for (const auto& experiment : experiments) {
     for (const Channel& channel : experiment->channels()) {
       const auto scale = scales.find(channel.name());
-      Run run{channel.name(), static_cast<Eigen::Index>(offset + channel.offset),
+      Run run{channel.name(),
+              static_cast<Eigen::Index>(offset + channel.offset),
               static_cast<Eigen::Index>(channel.count),
               scale == scales.end() ? 1.0 : scale->second.inflation,
               {}};

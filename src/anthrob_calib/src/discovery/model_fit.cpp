@@ -10,7 +10,7 @@ namespace discovery {
 
 namespace {
 
-constexpr double kDone = 3e-3;  ///< relative gain that is not worth another iteration
+constexpr double kPolished = 5e-4;  ///< relative gain that is not worth another iteration
 
 }  // namespace
 
@@ -211,11 +211,15 @@ Fitted ModelFit::extend(const Fitted& fitted, const Variant& variant,
 }
 
 void ModelFit::polish(Fitted& fitted, int iterations) const {
+  for (Unknown& u : fitted.unknowns) {
+    // Close to the end small changes tell more than large ones.
+    if (u.effect >= 0) u.scale = std::max(0.1 * u.scale, 0.05 * std::abs(u.read(fitted.variant)));
+  }
   simulate_sensitivity(fitted, 0);
-  improve(fitted, iterations);
+  improve(fitted, iterations, kPolished);
 }
 
-void ModelFit::improve(Fitted& fitted, int iterations) const {
+void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   if (n == 0) return;
   std::size_t first_effect = 0;
@@ -275,7 +279,7 @@ void ModelFit::improve(Fitted& fitted, int iterations) const {
     fitted.variant = trials[best];
     fitted.residual = results[best];
     fitted.cost = cost;
-    const bool done = gain < kDone * cost;
+    const bool done = gain < enough * cost;
     if (!done && iteration == 0 && first_effect < fitted.unknowns.size()) {
       simulate_sensitivity(fitted, first_effect);
     }

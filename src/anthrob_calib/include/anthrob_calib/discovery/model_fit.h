@@ -54,7 +54,8 @@ class ModelFit {
   /// @throws std::runtime_error if the variant cannot be simulated
   Fitted start(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// Goes on until nothing is gained any more.
-  void improve(Fitted& fitted, int iterations) const;
+  /// @param enough relative gain that is not worth another iteration
+  void improve(Fitted& fitted, int iterations, double enough = 3e-3) const;
   /// All sensitivities simulated anew, then a few more iterations.
   void polish(Fitted& fitted, int iterations) const;
   /// The same fit with more unknowns; those after the present ones are simulated.
