@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
       if (bar) bar->update(share);
       return !tool::interrupted();
     });
-    question.progress = [&](const std::string& what, double) {
+    question.progress = [&](const std::string& what) {
       bar.reset();
       std::cerr << what << "\n";
       bar = std::make_unique<tool::Progress>("  ");

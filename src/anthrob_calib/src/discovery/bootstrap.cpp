@@ -55,12 +55,7 @@ std::vector<std::pair<double, double>> bootstrap_intervals(const Fitted& fitted,
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   const Eigen::VectorXd x = fitted.scaled(), precision = fitted.precision();
   const Eigen::VectorXd prior = precision.cwiseProduct(x - fitted.expected());
-  Eigen::VectorXd lower(n), upper(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
-    lower[i] = std::min(0.0, u.lower / u.scale - x[i]);
-    upper[i] = std::max(0.0, u.upper / u.scale - x[i]);
-  }
+  const Eigen::VectorXd lower = fitted.lower_room(), upper = fitted.upper_room();
   const CounterRandom random(seed, 78);
   std::uint64_t index = 0;
   std::vector<std::vector<double>> draws(static_cast<std::size_t>(n));

@@ -88,7 +88,7 @@ class Search {
   void stage(const std::string& what, int round) {
     const std::string title =
         round < 0 ? what : "effect " + std::to_string(round + 1) + ": " + what;
-    if (question_.progress && !question_.progress(title, -1.0)) throw Interrupted();
+    if (question_.progress && !question_.progress(title)) throw Interrupted();
   }
 
   void comment_on(const ShortList& list) const {
@@ -133,11 +133,10 @@ class Search {
            gained > kShareOfFirst * first_excess_;
   }
 
-  std::vector<FoundParameter> parameters_of(const Named& named, bool intervals) const {
+  std::vector<FoundParameter> parameters_of(const Named& named) const {
     const Candidate& candidate = candidates_[named.candidate];
     const auto& effect = named.fit.variant.effects.back();
-    std::vector<std::pair<double, double>> ranges;
-    if (intervals) ranges = bootstrap_intervals(named.fit, train_.experiments(), question_.seed);
+    const auto ranges = bootstrap_intervals(named.fit, train_.experiments(), question_.seed);
     std::vector<FoundParameter> found;
     for (const EffectParameter& p : candidate.parameters) {
       FoundParameter parameter{p.name, p.unit, effect.parameters.at(p.name), 0.0, 0.0};
@@ -166,13 +165,13 @@ class Search {
     effect.place = candidate.place;
     effect.probability = best.probability;
     effect.evidence = best.evidence;
-    effect.parameters = parameters_of(best, true);
+    effect.parameters = parameters_of(best);
     for (std::size_t i = 1; i < list.named.size(); ++i) {
       const Named& other = list.named[i];
       if (other.probability < kMentioned) continue;
       const Candidate& rival = candidates_[other.candidate];
-      effect.rivals.push_back({rival.effect->info().id, rival.place, other.probability,
-                               other.evidence, parameters_of(other, false)});
+      effect.rivals.push_back(
+          {rival.effect->info().id, rival.place, other.probability, other.evidence});
     }
     if (!effect.rivals.empty()) {
       effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);

@@ -85,7 +85,6 @@ std::vector<Differences> Evaluator::compare(
       },
       tbb::simple_partitioner());
   if (stop) throw Interrupted();
-  simulations_ += variants.size() * experiments.size();
   return results;
 }
 

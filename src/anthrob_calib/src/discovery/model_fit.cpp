@@ -44,6 +44,24 @@ Eigen::VectorXd Fitted::expected() const {
   return x;
 }
 
+Eigen::VectorXd Fitted::lower_room() const {
+  Eigen::VectorXd room(static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const Unknown& u = unknowns[i];
+    room[static_cast<Eigen::Index>(i)] = std::min(0.0, (u.lower - u.read(variant)) / u.scale);
+  }
+  return room;
+}
+
+Eigen::VectorXd Fitted::upper_room() const {
+  Eigen::VectorXd room(static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const Unknown& u = unknowns[i];
+    room[static_cast<Eigen::Index>(i)] = std::max(0.0, (u.upper - u.read(variant)) / u.scale);
+  }
+  return room;
+}
+
 Eigen::VectorXd Fitted::precision() const {
   Eigen::VectorXd p(static_cast<Eigen::Index>(unknowns.size()));
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
@@ -233,12 +251,7 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
     const Eigen::VectorXd gradient =
         (fitted.sensitivity.transpose() * fitted.residual).cast<double>() +
         precision.cwiseProduct(x - fitted.expected());
-    Eigen::VectorXd lower(n), upper(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
-      lower[i] = std::min(0.0, u.lower / u.scale - x[i]);
-      upper[i] = std::max(0.0, u.upper / u.scale - x[i]);
-    }
+    const Eigen::VectorXd lower = fitted.lower_room(), upper = fitted.upper_room();
     // Several dampings at once: they run side by side.
     std::vector<Variant> trials;
     std::vector<Eigen::VectorXd> steps;

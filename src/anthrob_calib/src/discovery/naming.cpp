@@ -80,13 +80,7 @@ std::vector<std::size_t> Naming::try_out(const Fitted& base,
   Eigen::MatrixXd A = (base.sensitivity.transpose() * base.sensitivity).cast<double>();
   A.diagonal() += precision;
   A.diagonal().array() += 1e-9 * (1.0 + A.diagonal().maxCoeff());
-  const Eigen::VectorXd x = base.scaled();
-  Eigen::VectorXd lower(x.size()), upper(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Unknown& u = base.unknowns[static_cast<std::size_t>(i)];
-    lower[i] = std::min(0.0, u.lower / u.scale - x[i]);
-    upper[i] = std::max(0.0, u.upper / u.scale - x[i]);
-  }
+  const Eigen::VectorXd lower = base.lower_room(), upper = base.upper_room();
   std::vector<double> left(scores.size(), base.cost);
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (residuals[i].size() == 0) continue;
@@ -94,7 +88,7 @@ std::vector<std::size_t> Naming::try_out(const Fitted& base,
         (base.sensitivity.transpose() * residuals[i]).cast<double>() + precision.cwiseProduct(off);
     double cost =
         0.5 * residuals[i].cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(precision);
-    if (x.size() > 0) {
+    if (lower.size() > 0) {
       const Eigen::VectorXd step = bounded_minimum(A, g, lower, upper);
       cost += 0.5 * step.dot(A * step) + g.dot(step);
     }

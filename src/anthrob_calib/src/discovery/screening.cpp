@@ -141,12 +141,5 @@ std::vector<Score> Screening::scores(const Fitted& base) {
   return scores;
 }
 
-double Screening::likeness(std::size_t a, std::size_t b) const {
-  const auto i = static_cast<Eigen::Index>(first_column_[a]);
-  const auto j = static_cast<Eigen::Index>(first_column_[b]);
-  const double norm = std::sqrt(gram_(i, i) * gram_(j, j));
-  return norm > 0.0 ? std::min(1.0, std::abs(gram_(i, j)) / norm) : 0.0;
-}
-
 }  // namespace discovery
 }  // namespace anthrob

@@ -9,7 +9,7 @@ namespace discovery {
 
 namespace {
 
-/// Any two of these are told apart by the same recording.
+/// Any two of these are told apart by the same recording. The first that has both counts.
 struct Separation {
   std::set<std::string> effects;
   const char* recording;
@@ -17,14 +17,14 @@ struct Separation {
 
 const std::vector<Separation>& separations() {
   static const std::vector<Separation> list = {
-      {{"eyelet_friction", "wrap_friction", "joint_coulomb", "ball_joint_load_friction",
-        "joint_coulomb_asymmetric"},
-       "the same motion at three levels of co-contraction: dry joint friction stays as it is, "
-       "friction of tendons and of loaded joints grows; then the same at a second posture"},
       {{"joint_offset_torque", "joint_coulomb_asymmetric", "joint_coulomb"},
        "let the joint coast down without drive from both sides, and rest after each: an offset "
        "moves the resting place, friction does not; while the joint moves they cannot be told "
        "apart"},
+      {{"eyelet_friction", "wrap_friction", "joint_coulomb", "ball_joint_load_friction",
+        "joint_coulomb_asymmetric"},
+       "the same motion at three levels of co-contraction: dry joint friction stays as it is, "
+       "friction of tendons and of loaded joints grows; then the same at a second posture"},
       {{"eyelet_presliding", "joint_coulomb", "pwm_dead_zone", "eyelet_friction"},
        "stop after motion from both sides and wait, then tiny reversals of less than a millimetre "
        "of tendon"},

@@ -23,8 +23,8 @@ struct Question {
   int jobs = 1;
   std::uint64_t seed = 1;
   double step = 0.001;  ///< of the simulation [s]
-  /// Called with what is being done and the share of it; returns false to stop.
-  std::function<bool(const std::string&, double)> progress;
+  /// Called with what is done next; returns false to stop.
+  std::function<bool(const std::string&)> progress;
   std::function<void(const std::string&)> comment;  ///< a line on what was found so far
 };
 
@@ -37,7 +37,6 @@ struct Rival {
   std::string id, place;
   double probability = 0.0;
   double evidence = 0.0;  ///< gain in held-out log score [nat]
-  std::vector<FoundParameter> parameters;
 };
 
 /// An effect that the data ask for.
@@ -97,7 +96,6 @@ struct Answer {
   std::vector<Invisible> not_visible;
   Scales scales;
   Variant given, recalibrated, extended;
-  std::vector<std::pair<double, double>> nuisance_intervals;
 };
 
 /// Locates, names, adds and judges, until nothing earns its place.

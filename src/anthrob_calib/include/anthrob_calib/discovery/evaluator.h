@@ -49,7 +49,6 @@ class Evaluator {
 
   /// @throws BadInput if it cannot be built
   std::shared_ptr<const RobotModel> build(const Variant& variant) const;
-  std::size_t simulations() const { return simulations_; }
 
  private:
   ConfigNode config_;
@@ -58,7 +57,6 @@ class Evaluator {
   int jobs_;
   std::shared_ptr<const RobotModel> plain_;
   std::function<bool(double)> progress_;
-  mutable std::size_t simulations_ = 0;
 };
 
 /// Length of all experiments' differences together.

@@ -32,9 +32,11 @@ struct Fitted {
   Eigen::MatrixXf sensitivity;  ///< of the residual to the unknowns, each in units of its scale
   double cost = 0.0;            ///< half the sum of squares, expectations included
 
-  Eigen::VectorXd scaled() const;     ///< the unknowns' values in units of their scales
-  Eigen::VectorXd expected() const;   ///< the same of what is expected
-  Eigen::VectorXd precision() const;  ///< of the expectations, in these units
+  Eigen::VectorXd scaled() const;      ///< the unknowns' values in units of their scales
+  Eigen::VectorXd expected() const;    ///< the same of what is expected
+  Eigen::VectorXd lower_room() const;  ///< to their lower bounds, <= 0, in these units
+  Eigen::VectorXd upper_room() const;  ///< to their upper bounds, >= 0
+  Eigen::VectorXd precision() const;   ///< of the expectations, in these units
 };
 
 /// Unknowns of the ordinary parameters: within their ranges, expected where the model has them.

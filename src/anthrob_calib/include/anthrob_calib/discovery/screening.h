@@ -35,9 +35,6 @@ class Screening {
   /// The same doses again, of some candidates only, on top of another base.
   void renew(const Fitted& base, const std::vector<Score>& best, std::size_t count);
 
-  /// How alike two candidates' first sizes look, ordinary parameters free: |cosine| in [0, 1].
-  double likeness(std::size_t a, std::size_t b) const;
-
  private:
   struct Column {
     std::size_t candidate;
