@@ -55,6 +55,7 @@ TEST(Torso, MovesAndStaysTogether) {
   EXPECT_EQ(surfaces, (std::set<std::string>{"cylinder", "mesh", "sphere"}));
   EXPECT_TRUE(model->remarks.empty()) << model->remarks[0];
   std::set<std::string> touched;
+  int sweeps = 0;
 
   const auto drive = [&](Simulation& sim, int from, int to) {
     for (int i = from; i < to; ++i) {
@@ -66,6 +67,8 @@ TEST(Torso, MovesAndStaysTogether) {
         }
       }
       sim.step();
+      sweeps += sim.solver_iterations();
+      EXPECT_LT(sim.solver_iterations(), 40) << "friction was not solved in step " << i;
       if (i % 20 == 0) note_contacts(sim, touched);
     }
   };
@@ -73,6 +76,8 @@ TEST(Torso, MovesAndStaysTogether) {
   drive(sim, 0, 400);
   const Snapshot middle = sim.snapshot();
   drive(sim, 400, 1000);
+  RecordProperty("sweeps_in_1000_steps", sweeps);
+  EXPECT_LT(sweeps, 5000);
   EXPECT_EQ(touched, surfaces) << "muscles run over all kinds of obstacles";
   // Bodies hang together: the constraint solver leaves no gap worth mentioning.
   for (std::size_t j = 0; j < model->skeleton->joints.size(); ++j) {

@@ -9,11 +9,31 @@
 namespace anthrob {
 
 namespace {
-constexpr int kMaxIterations = 20;
+constexpr int kMaxIterations = 40;
 /// Newton has converged when no velocity changes by more [rad/s, m/s].
 constexpr double kTolerance = 1e-5;
 /// A joint slower than this at the start of a step counts as at rest [rad/s, m/s].
 constexpr double kAtRest = 1e-9;
+/// Friction foreseen this well needs no care [1].
+constexpr double kForeseen = 1e-6;
+/// How many times farther a sweep goes where speeds are unstable.
+constexpr double kLeap = 6.0;
+
+/// How steeply friction shall be thought to grow with speed. The tangent alone goes in circles:
+/// friction turns round within 0.1 mm/s of rest, and tangents from outside lead across it. The
+/// chord to rest always comes closer, but slowly. Between them decides how well the last sweep
+/// foresaw the friction it led to (the primal-dual method of Chan, Golub and Mulet, 1999): foreseen
+/// well, the tangent; not at all, the chord; the wrong way round, steeper than the chord.
+double trusted_slope(const SlidingTendon::Contact& contact, double speed,
+                     const FrictionLaw::Value& friction, double foreseen) {
+  if (std::abs(foreseen - friction.mu) < kForeseen) return friction.slope;
+  const double rest = contact.law->evaluate(0.0, contact.state).mu;
+  const double grown = friction.mu - rest;
+  if (speed == 0.0 || grown == 0.0) return friction.slope;
+  const double chord = grown / speed;
+  const double trust = std::clamp((foreseen - rest) / grown, -1.0, 1.0);
+  return chord + trust * (friction.slope - chord);
+}
 }  // namespace
 
 ResistanceSolver::ResistanceSolver(const SkeletonModel& model, double step)
@@ -37,9 +57,12 @@ void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double
     for (DryJoint& dry : dry_) dry.load = loads[dry.joint];
   }
   start(tree, tau);
+  falling_ = false;
   for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
     assemble(tree, q, tendons);
-    solve_linear();
+    const bool stable = solve_linear();
+    if (!stable) leave_unstable_speed(tree, q, tendons);
+    falling_ = stable;
     // Zero for a robot without joints, which maxCoeff() does not allow.
     const double change = (next_ - u_).lpNorm<Eigen::Infinity>();
     u_ = next_;
@@ -105,13 +128,17 @@ void ResistanceSolver::add_stop_row(int dof, int count, const double* row, doubl
                                     const JointStopModel& stop) {
   double speed = 0.0;
   for (int i = 0; i < count; ++i) speed += row[i] * u_[dof + i];
+  // The damper works on the way inside the stop only. If it worked on the whole step, its force
+  // would set in at once where the stop begins, and some steps would have no solution.
   const double depth_after = depth + step_ * speed;
-  const double push = stop.stiffness * depth_after + stop.damping * speed;
+  const double inside = stop.stiffness * depth + stop.damping * std::min(0.0, depth) / step_;
+  const double slope = step_ * stop.stiffness + stop.damping;
+  const double push = inside + slope * speed;
   if (depth_after <= 0.0 || push <= 0.0) return;
-  const double damping = step_ * (step_ * stop.stiffness + stop.damping);
+  const double damping = step_ * slope;
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < count; ++j) system_(dof + i, dof + j) += damping * row[i] * row[j];
-    rhs_[dof + i] -= step_ * stop.stiffness * depth * row[i];
+    rhs_[dof + i] -= step_ * inside * row[i];
     resistance_[dof + i] -= push * row[i];
   }
 }
@@ -128,18 +155,23 @@ void ResistanceSolver::add_tendon(SlidingTendon& tendon) {
 
     const FrictionLaw::Value friction = contact.law->evaluate(speed, contact.state);
     const double after = tension * std::exp(-friction.mu * contact.turning);
-    // How steeply tension falls with speed. The tangent, unless the last sweep jumped across rest,
-    // where a tangent would throw it back: then the chord to rest.
-    double steepness = after * contact.turning * std::max(0.0, friction.slope);
-    const bool jumped = iterations_ > 1 && speed * tendon.slide_speed[j] < 0.0;
-    if (jumped) steepness = std::max(steepness, (tension - after) / speed);
+    double slope = friction.slope;
+    if (iterations_ == 1) {
+      tendon.start_speed[j] = speed;
+    } else {
+      const double foreseen = tendon.mu[j] + tendon.slope[j] * (speed - tendon.slide_speed[j]);
+      slope = trusted_slope(contact, speed, friction, foreseen);
+    }
+    if (!falling_) slope = std::max(0.0, slope);
+    const double steepness = after * contact.turning * slope;
     for (std::size_t a = 0; a < nd; ++a) {
       rhs_[tendon.dofs[a]] += step_ * (after * piece[a] + steepness * speed * slide[a]);
       for (std::size_t b = 0; b < nd; ++b) {
         system_(tendon.dofs[a], tendon.dofs[b]) += step_ * steepness * slide[a] * slide[b];
       }
     }
-    if (iterations_ == 1) tendon.start_speed[j] = speed;
+    tendon.mu[j] = friction.mu;
+    tendon.slope[j] = slope;
     tendon.slide_speed[j] = speed;
     tendon.tension_after[j] = after;
     tension = after;
@@ -170,7 +202,18 @@ void ResistanceSolver::add_turning(const DryJoint& dry, const JointModel& joint)
   }
 }
 
-void ResistanceSolver::solve_linear() {
+/// Friction falls with speed faster than inertia allows: what slides tears loose or comes to rest
+/// within this step. Without the fall a sweep leads the right way, but hardly moves.
+void ResistanceSolver::leave_unstable_speed(const KinematicTree& tree, const std::vector<double>& q,
+                                            const std::vector<SlidingTendon*>& tendons) {
+  falling_ = false;
+  assemble(tree, q, tendons);
+  solve_linear();
+  next_ += (kLeap - 1.0) * (next_ - u_);
+}
+
+/// False if the system is not positive definite.
+bool ResistanceSolver::solve_linear() {
   factor_ = system_;
   next_ = rhs_;
   if (!dry_.empty()) {
@@ -183,7 +226,9 @@ void ResistanceSolver::solve_linear() {
     }
   }
   Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(factor_);
+  if (cholesky.info() != Eigen::Success) return false;
   cholesky.solveInPlace(next_);
+  return true;
 }
 
 bool ResistanceSolver::revise_dry_friction() {

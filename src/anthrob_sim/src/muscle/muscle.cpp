@@ -57,7 +57,7 @@ Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const Se
   sliding_.slide_arms.resize(size);
   sliding_.tension_after.resize(count);
   sliding_.slide_speed.resize(count);
-  sliding_.start_speed.resize(count);
+  for (auto* v : {&sliding_.start_speed, &sliding_.mu, &sliding_.slope}) v->resize(count);
 }
 
 StateView Muscle::contact_state(std::size_t i) const {

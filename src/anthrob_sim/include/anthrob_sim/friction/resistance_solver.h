@@ -13,7 +13,9 @@ namespace anthrob {
 /// (4.76). All are taken at the end of the step, so that steep friction neither rings nor creeps at
 /// a step of 1 ms:
 ///   M (u' - u) = h (tau - bias + resistance(u'))
-/// Newton's method on that equation; joints held by dry friction are an active set.
+/// Newton's method on that equation, primal-dual in the friction of tendons; joints held by dry
+/// friction are an active set. Where friction falls with speed faster than inertia allows, the
+/// equation has several solutions, and the method goes on to a stable one.
 ///
 /// Dry joint friction acts like a joint motor with target speed zero and a bounded torque
 /// (section 3.2). It is solved here and not by Bullet's motors because Bullet's rows cannot see the
@@ -57,7 +59,9 @@ class ResistanceSolver {
   void add_tendon(SlidingTendon& tendon);
   void add_dry_friction();
   void add_turning(const DryJoint& dry, const JointModel& joint);
-  void solve_linear();
+  bool solve_linear();
+  void leave_unstable_speed(const KinematicTree& tree, const std::vector<double>& q,
+                            const std::vector<SlidingTendon*>& tendons);
   bool revise_dry_friction();
   void finish(const std::vector<SlidingTendon*>& tendons);
 
@@ -68,6 +72,7 @@ class ResistanceSolver {
   Eigen::VectorXd constant_, rhs_, u_, next_, joint_torque_, resistance_;
   Eigen::MatrixXd system_, factor_;
   int iterations_ = 0;
+  bool falling_ = false;  ///< friction that falls with speed may be taken so
 };
 
 }  // namespace anthrob

@@ -27,6 +27,7 @@ struct SlidingTendon {
   std::vector<double> tension_after;  ///< result: tension after contact j [N]
   std::vector<double> slide_speed;    ///< result: at the end of the step [m/s]
   std::vector<double> start_speed;    ///< at the start of the step [m/s]
+  std::vector<double> mu, slope;      ///< of friction, as the solver's last sweep took it [1, s/m]
 };
 
 }  // namespace anthrob
