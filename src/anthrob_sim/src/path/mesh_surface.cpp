@@ -82,8 +82,19 @@ std::shared_ptr<const WrappingSurface> MeshSurface::prepared_for(const Vec3* bef
   const HullPoint point = locator_.locate(after != nullptr ? *after : *before, 0);
   if (is_fixed(point)) return nullptr;
   auto prepared = std::make_shared<MeshSurface>(*this);
-  prepared->field_ = std::make_shared<DistanceField>(*hull_, point.p, point.facet);
+  prepared->field_ = distances_from(point);
   return prepared;
+}
+
+std::shared_ptr<const DistanceField> MeshSurface::distances_from(const HullPoint& point) const {
+  {
+    const std::lock_guard<std::mutex> lock(memo_->mutex);
+    if (memo_->last && memo_->last->from() == point.p) return memo_->last;
+  }
+  auto field = std::make_shared<DistanceField>(*hull_, point.p, point.facet);
+  const std::lock_guard<std::mutex> lock(memo_->mutex);
+  memo_->last = field;
+  return field;
 }
 
 bool MeshSurface::is_fixed(const HullPoint& point) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mutex>
+
 #include "anthrob_sim/path/convex_hull.h"
 #include "anthrob_sim/path/distance_field.h"
 #include "anthrob_sim/path/hull_geodesic.h"
@@ -80,6 +82,13 @@ class MeshSurface final : public WrappingSurface {
   void follow(const Vec3& before, const Vec3& after, const Way& way, WrapContact& contact) const;
   Vec3 crossing(int k) const;  ///< of the way in the workspace with its k-th edge
 
+  /// The distances that were asked for last: the same robot is built over and over.
+  struct FieldMemo {
+    std::mutex mutex;
+    std::shared_ptr<const DistanceField> last;
+  };
+  std::shared_ptr<const DistanceField> distances_from(const HullPoint& point) const;
+
   /// Whether the fixed point that the distances belong to is here.
   bool is_fixed(const HullPoint& point) const;
 
@@ -87,6 +96,7 @@ class MeshSurface final : public WrappingSurface {
   HullLocator locator_;
   Vec3 chi_;
   std::shared_ptr<const DistanceField> field_;  ///< null: no neighbour is fixed
+  std::shared_ptr<FieldMemo> memo_ = std::make_shared<FieldMemo>();
   std::vector<std::string> remarks_;
   std::size_t capacity_;
 };
