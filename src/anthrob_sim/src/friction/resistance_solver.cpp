@@ -45,7 +45,10 @@ ResistanceSolver::ResistanceSolver(const SkeletonModel& model, double step)
     }
   }
   held_.resize(n, 0);
-  for (auto* v : {&constant_, &rhs_, &u_, &next_, &joint_torque_, &resistance_}) v->setZero(n);
+  for (auto* v : {&constant_, &rhs_, &u_, &next_, &joint_torque_, &surprise_}) {
+    v->setZero(n);
+  }
+  stops_.reserve(2 * model.joints.size());
   system_.setZero(n, n);
   factor_.setZero(n, n);
 }
@@ -57,17 +60,19 @@ void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double
     for (DryJoint& dry : dry_) dry.load = loads[dry.joint];
   }
   start(tree, tau);
+  find_stops(tree, q);
   falling_ = false;
+  for (SlidingTendon* tendon : tendons) slide(*tendon, true);
   for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
-    assemble(tree, q, tendons);
+    assemble(tree, tendons);
     const bool stable = solve_linear();
-    if (!stable) leave_unstable_speed(tree, q, tendons);
+    if (!stable) leave_unstable_speed(tree, tendons);
     falling_ = stable;
-    // Zero for a robot without joints, which maxCoeff() does not allow.
-    const double change = (next_ - u_).lpNorm<Eigen::Infinity>();
     u_ = next_;
     const bool revised = revise_dry_friction();
-    if (change < kTolerance && !revised) break;
+    surprise_.setZero();
+    for (SlidingTendon* tendon : tendons) slide(*tendon, false);
+    if (stable && !revised && is_solved(tree)) break;
   }
   finish(tendons);
 }
@@ -89,93 +94,119 @@ void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& t
   }
 }
 
-void ResistanceSolver::assemble(const KinematicTree& tree, const std::vector<double>& q,
+void ResistanceSolver::assemble(const KinematicTree& tree,
                                 const std::vector<SlidingTendon*>& tendons) {
   system_ = tree.mass_matrix();
   rhs_ = constant_;
-  resistance_.setZero();
   for (const JointModel& joint : model_.joints) {
     for (int k = 0; k < joint.dof(); ++k) {
       const int dof = joint.velocity_offset + k;
       system_(dof, dof) += step_ * joint.friction.viscous;
-      resistance_[dof] -= joint.friction.viscous * u_[dof];
     }
-    if (joint.stop.enabled) add_stop(tree, joint, &q[joint.position_offset]);
   }
-  for (SlidingTendon* tendon : tendons) add_tendon(*tendon);
+  for (Stop& stop : stops_) add_push(stop);
+  for (const SlidingTendon* tendon : tendons) add_tendon(*tendon);
   add_dry_friction();
 }
 
-void ResistanceSolver::add_stop(const KinematicTree& tree, const JointModel& joint,
-                                const double* q) {
-  const int dof = joint.velocity_offset;
-  const double forward = 1.0, backward = -1.0;
-  if (joint.type != JointType::kBall) {
-    add_stop_row(dof, 1, &forward, q[0] - joint.stop.upper, joint.stop);
-    add_stop_row(dof, 1, &backward, joint.stop.lower - q[0], joint.stop);
-    return;
+void ResistanceSolver::find_stops(const KinematicTree& tree, const std::vector<double>& q) {
+  stops_.clear();
+  for (const JointModel& joint : model_.joints) {
+    if (!joint.stop.enabled) continue;
+    const double* position = &q[joint.position_offset];
+    if (joint.type != JointType::kBall) {
+      add_stop(joint, Vec3::UnitX(), position[0] - joint.stop.upper);
+      add_stop(joint, -Vec3::UnitX(), joint.stop.lower - position[0]);
+      continue;
+    }
+    // Rotation from rest: its angle grows with the velocity along its axis.
+    const Vec3 axis(position[1], position[2], position[3]);
+    const double sine = axis.norm();
+    if (sine < 1e-9) continue;
+    const Mat3& R_WC = tree.joint(static_cast<int>(&joint - model_.joints.data())).R_WC;
+    add_stop(joint, R_WC * (axis / sine), 2.0 * std::atan2(sine, position[0]) - joint.stop.upper);
   }
-  // Rotation from rest: its angle grows with the velocity along its axis.
-  const Vec3 axis(q[1], q[2], q[3]);
-  const double sine = axis.norm();
-  if (sine < 1e-9) return;
-  const Vec3 axis_W =
-      tree.joint(static_cast<int>(&joint - model_.joints.data())).R_WC * (axis / sine);
-  add_stop_row(dof, 3, axis_W.data(), 2.0 * std::atan2(sine, q[0]) - joint.stop.upper, joint.stop);
 }
 
-void ResistanceSolver::add_stop_row(int dof, int count, const double* row, double depth,
-                                    const JointStopModel& stop) {
-  double speed = 0.0;
-  for (int i = 0; i < count; ++i) speed += row[i] * u_[dof + i];
+void ResistanceSolver::add_stop(const JointModel& joint, const Vec3& direction, double depth) {
   // The damper works on the way inside the stop only. If it worked on the whole step, its force
   // would set in at once where the stop begins, and some steps would have no solution.
-  const double depth_after = depth + step_ * speed;
+  const JointStopModel& stop = joint.stop;
   const double inside = stop.stiffness * depth + stop.damping * std::min(0.0, depth) / step_;
-  const double slope = step_ * stop.stiffness + stop.damping;
-  const double push = inside + slope * speed;
-  if (depth_after <= 0.0 || push <= 0.0) return;
-  const double damping = step_ * slope;
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j) system_(dof + i, dof + j) += damping * row[i] * row[j];
-    rhs_[dof + i] -= step_ * inside * row[i];
-    resistance_[dof + i] -= push * row[i];
-  }
+  stops_.push_back({joint.velocity_offset, joint.dof(), direction, inside,
+                    step_ * stop.stiffness + stop.damping, 0.0});
 }
 
-void ResistanceSolver::add_tendon(SlidingTendon& tendon) {
+double ResistanceSolver::push_of(const Stop& stop) const {
+  const double speed = stop.direction.head(stop.count).dot(u_.segment(stop.dof, stop.count));
+  return std::max(0.0, stop.inside + stop.slope * speed);
+}
+
+void ResistanceSolver::add_push(Stop& stop) {
+  stop.push = push_of(stop);
+  if (stop.push <= 0.0) return;
+  const auto direction = stop.direction.head(stop.count);
+  system_.block(stop.dof, stop.dof, stop.count, stop.count) +=
+      step_ * stop.slope * direction * direction.transpose();
+  rhs_.segment(stop.dof, stop.count) -= step_ * stop.inside * direction;
+}
+
+void ResistanceSolver::slide(SlidingTendon& tendon, bool first) {
   const std::size_t nd = tendon.dofs.size();
   double tension = tendon.tension;
   for (std::size_t j = 0; j < tendon.contacts.size(); ++j) {
     const SlidingTendon::Contact& contact = tendon.contacts[j];
-    const double* slide = &tendon.slide_arms[j * nd];
-    const double* piece = &tendon.piece_arms[j * nd];
+    const double* arms = &tendon.slide_arms[j * nd];
     double speed = 0.0;
-    for (std::size_t a = 0; a < nd; ++a) speed += slide[a] * u_[tendon.dofs[a]];
+    for (std::size_t a = 0; a < nd; ++a) speed += arms[a] * u_[tendon.dofs[a]];
 
     const FrictionLaw::Value friction = contact.law->evaluate(speed, contact.state);
     const double after = tension * std::exp(-friction.mu * contact.turning);
     double slope = friction.slope;
-    if (iterations_ == 1) {
+    if (first) {
       tendon.start_speed[j] = speed;
     } else {
-      const double foreseen = tendon.mu[j] + tendon.slope[j] * (speed - tendon.slide_speed[j]);
-      slope = trusted_slope(contact, speed, friction, foreseen);
+      const double faster = speed - tendon.slide_speed[j];
+      slope = trusted_slope(contact, speed, friction, tendon.mu[j] + tendon.slope[j] * faster);
+      const double unforeseen = after - tendon.tension_after[j] + tendon.steepness[j] * faster;
+      const double* piece = &tendon.piece_arms[j * nd];
+      for (std::size_t a = 0; a < nd; ++a) surprise_[tendon.dofs[a]] += unforeseen * piece[a];
     }
     if (!falling_) slope = std::max(0.0, slope);
-    const double steepness = after * contact.turning * slope;
-    for (std::size_t a = 0; a < nd; ++a) {
-      rhs_[tendon.dofs[a]] += step_ * (after * piece[a] + steepness * speed * slide[a]);
-      for (std::size_t b = 0; b < nd; ++b) {
-        system_(tendon.dofs[a], tendon.dofs[b]) += step_ * steepness * slide[a] * slide[b];
-      }
-    }
     tendon.mu[j] = friction.mu;
     tendon.slope[j] = slope;
+    tendon.steepness[j] = after * contact.turning * slope;
     tendon.slide_speed[j] = speed;
     tendon.tension_after[j] = after;
     tension = after;
   }
+}
+
+void ResistanceSolver::add_tendon(const SlidingTendon& tendon) {
+  const std::size_t nd = tendon.dofs.size();
+  for (std::size_t j = 0; j < tendon.contacts.size(); ++j) {
+    const double* slide = &tendon.slide_arms[j * nd];
+    const double* piece = &tendon.piece_arms[j * nd];
+    const double after = tendon.tension_after[j], steepness = step_ * tendon.steepness[j];
+    const double speed = tendon.slide_speed[j];
+    for (std::size_t a = 0; a < nd; ++a) {
+      rhs_[tendon.dofs[a]] += step_ * after * piece[a] + steepness * speed * slide[a];
+      for (std::size_t b = 0; b < nd; ++b) {
+        system_(tendon.dofs[a], tendon.dofs[b]) += steepness * slide[a] * slide[b];
+      }
+    }
+  }
+}
+
+/// Whether what remains unforeseen would change no velocity by more than the tolerance.
+bool ResistanceSolver::is_solved(const KinematicTree& tree) const {
+  for (const Stop& stop : stops_) {
+    if ((push_of(stop) > 0.0) != (stop.push > 0.0)) return false;
+  }
+  for (Eigen::Index i = 0; i < u_.size(); ++i) {
+    if (step_ * std::abs(surprise_[i]) > kTolerance * tree.mass_matrix()(i, i)) return false;
+  }
+  return true;
 }
 
 void ResistanceSolver::add_dry_friction() {
@@ -204,10 +235,13 @@ void ResistanceSolver::add_turning(const DryJoint& dry, const JointModel& joint)
 
 /// Friction falls with speed faster than inertia allows: what slides tears loose or comes to rest
 /// within this step. Without the fall a sweep leads the right way, but hardly moves.
-void ResistanceSolver::leave_unstable_speed(const KinematicTree& tree, const std::vector<double>& q,
+void ResistanceSolver::leave_unstable_speed(const KinematicTree& tree,
                                             const std::vector<SlidingTendon*>& tendons) {
-  falling_ = false;
-  assemble(tree, q, tendons);
+  for (SlidingTendon* tendon : tendons) {
+    for (double& steepness : tendon->steepness) steepness = std::max(0.0, steepness);
+    for (double& slope : tendon->slope) slope = std::max(0.0, slope);
+  }
+  assemble(tree, tendons);
   solve_linear();
   next_ += (kLeap - 1.0) * (next_ - u_);
 }
@@ -275,23 +309,19 @@ bool ResistanceSolver::revise_dry_friction() {
 }
 
 void ResistanceSolver::finish(const std::vector<SlidingTendon*>& tendons) {
-  for (SlidingTendon* tendon : tendons) {
-    const std::size_t nd = tendon->dofs.size();
-    double tension = tendon->tension;
+  for (const SlidingTendon* tendon : tendons) {
     for (std::size_t j = 0; j < tendon->contacts.size(); ++j) {
-      const SlidingTendon::Contact& contact = tendon->contacts[j];
-      double speed = 0.0;
-      for (std::size_t a = 0; a < nd; ++a) {
-        speed += tendon->slide_arms[j * nd + a] * u_[tendon->dofs[a]];
-      }
-      const double mu = contact.law->evaluate(speed, contact.state).mu;
-      contact.law->commit(speed, contact.state);
-      tension *= std::exp(-mu * contact.turning);
-      tendon->slide_speed[j] = speed;
-      tendon->tension_after[j] = tension;
+      tendon->contacts[j].law->commit(tendon->slide_speed[j], tendon->contacts[j].state);
     }
   }
-  joint_torque_ = resistance_;
+  for (const JointModel& joint : model_.joints) {
+    const int dof = joint.velocity_offset;
+    joint_torque_.segment(dof, joint.dof()) =
+        -joint.friction.viscous * u_.segment(dof, joint.dof());
+  }
+  for (const Stop& stop : stops_) {
+    joint_torque_.segment(stop.dof, stop.count) -= push_of(stop) * stop.direction.head(stop.count);
+  }
   for (const DryJoint& dry : dry_) {
     const JointModel& joint = model_.joints[dry.joint];
     for (int k = 0; k < joint.dof(); ++k) {

@@ -55,9 +55,10 @@ Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const Se
   sliding_.contacts.resize(count);
   sliding_.piece_arms.resize(size);
   sliding_.slide_arms.resize(size);
-  sliding_.tension_after.resize(count);
-  sliding_.slide_speed.resize(count);
-  for (auto* v : {&sliding_.start_speed, &sliding_.mu, &sliding_.slope}) v->resize(count);
+  for (auto* v : {&sliding_.tension_after, &sliding_.slide_speed, &sliding_.start_speed,
+                  &sliding_.mu, &sliding_.slope, &sliding_.steepness}) {
+    v->resize(count);
+  }
 }
 
 StateView Muscle::contact_state(std::size_t i) const {

@@ -50,26 +50,38 @@ class ResistanceSolver {
     double speed;    ///< to which `direction` belongs; 0 when it comes from rest [rad/s, m/s]
   };
 
+  /// One side of a joint stop, as far as it is the same in all sweeps of a step. Its push along
+  /// `direction`, where positive, is inside + slope * speed.
+  struct Stop {
+    int dof, count;
+    Vec3 direction;        ///< in which the joint moves into it; x only for one degree of freedom
+    double inside, slope;  ///< [Nm, Nms]
+    double push;           ///< in the last sweep [Nm]
+  };
+
   void start(const KinematicTree& tree, const Eigen::VectorXd& tau);
-  void assemble(const KinematicTree& tree, const std::vector<double>& q,
-                const std::vector<SlidingTendon*>& tendons);
-  void add_stop(const KinematicTree& tree, const JointModel& joint, const double* q);
-  void add_stop_row(const int dof, int count, const double* row, double depth,
-                    const JointStopModel& stop);
-  void add_tendon(SlidingTendon& tendon);
+  void find_stops(const KinematicTree& tree, const std::vector<double>& q);
+  void add_stop(const JointModel& joint, const Vec3& direction, double depth);
+  double push_of(const Stop& stop) const;
+  void slide(SlidingTendon& tendon, bool first);
+  void assemble(const KinematicTree& tree, const std::vector<SlidingTendon*>& tendons);
+  void add_push(Stop& stop);
+  void add_tendon(const SlidingTendon& tendon);
   void add_dry_friction();
   void add_turning(const DryJoint& dry, const JointModel& joint);
   bool solve_linear();
-  void leave_unstable_speed(const KinematicTree& tree, const std::vector<double>& q,
-                            const std::vector<SlidingTendon*>& tendons);
+  void leave_unstable_speed(const KinematicTree& tree, const std::vector<SlidingTendon*>& tendons);
   bool revise_dry_friction();
+  bool is_solved(const KinematicTree& tree) const;
   void finish(const std::vector<SlidingTendon*>& tendons);
 
   const SkeletonModel& model_;
   double step_;
   std::vector<DryJoint> dry_;
+  std::vector<Stop> stops_;
   std::vector<char> held_;  ///< by generalised velocity
-  Eigen::VectorXd constant_, rhs_, u_, next_, joint_torque_, resistance_;
+  Eigen::VectorXd constant_, rhs_, u_, next_, joint_torque_;
+  Eigen::VectorXd surprise_;  ///< torque of tendons that the last sweep did not foresee [Nm, N]
   Eigen::MatrixXd system_, factor_;
   int iterations_ = 0;
   bool falling_ = false;  ///< friction that falls with speed may be taken so

@@ -27,7 +27,9 @@ struct SlidingTendon {
   std::vector<double> tension_after;  ///< result: tension after contact j [N]
   std::vector<double> slide_speed;    ///< result: at the end of the step [m/s]
   std::vector<double> start_speed;    ///< at the start of the step [m/s]
-  std::vector<double> mu, slope;      ///< of friction, as the solver's last sweep took it [1, s/m]
+  // As the solver's last sweep took it.
+  std::vector<double> mu, slope;  ///< of friction [1, s/m]
+  std::vector<double> steepness;  ///< fall of the tension after contact j with sliding speed [Ns/m]
 };
 
 }  // namespace anthrob
