@@ -120,9 +120,7 @@ Dataset axis_recording(double coulomb, double offset, std::uint64_t seed) {
 Question axis_question(double coulomb, double offset) {
   Question question;
   question.model_file = kConfig + "/driven_axis/model_I.yaml";
-  question.nuisances =
-      read_parameters(ConfigNode::load(kConfig + "/driven_axis/calibration.yaml").at("parameters"),
-                      ConfigNode::load(question.model_file));
+  question.nuisances = ordinary_parameters(question.model_file);
   question.train = {axis_recording(coulomb, offset, 1)};
   question.test = {axis_recording(coulomb, offset, 2)};
   return question;

@@ -1,6 +1,10 @@
-#include "anthrob_calib/parameters/parameter_list.h"
+#include "anthrob_config/parameter_list.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/model/robot_model.h"
@@ -90,6 +94,26 @@ TEST(ParameterList, OverridesReachTheModel) {
   const double l0 = plain->muscles[0].actuator->position_for(0.3);
   const double l1 = other->muscles[0].actuator->position_for(0.3);
   EXPECT_NEAR(l1 - l0, 0.001 / 0.0065, 1e-9);
+}
+
+TEST(OrdinaryParameters, AreThoseBesideTheModelOrBesideTheOneItExtends) {
+  const std::string model = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml";
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("anthrob_ordinary_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string extended = (folder / "model.yaml").string();
+  std::ofstream(extended) << "extends: " << model << "\n";
+  const auto own = ordinary_parameters(model), inherited = ordinary_parameters(extended);
+  EXPECT_FALSE(own.empty());
+  ASSERT_EQ(inherited.size(), own.size());
+  EXPECT_EQ(inherited.back().path, own.back().path);
+
+  std::ofstream(folder / "calibration.yaml")
+      << "parameters:\n  - {path: joints.elbow.friction.viscous, unit: Nms/rad, low: 0.01, "
+         "high: 0.03, step: 0.01}\n";
+  EXPECT_EQ(ordinary_parameters(extended).size(), 1u);
+  EXPECT_EQ(ordinary_parameters(model, (folder / "calibration.yaml").string()).size(), 1u);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -14,17 +14,6 @@ namespace {
 
 using namespace anthrob;
 
-/// calibration.yaml beside the model, unless another one is named.
-std::vector<ModelParameter> nuisances_of(const std::string& model_file, std::string calibration) {
-  if (calibration.empty()) {
-    const auto beside = std::filesystem::path(model_file).parent_path() / "calibration.yaml";
-    if (!std::filesystem::exists(beside)) return {};
-    calibration = beside.string();
-  }
-  return read_parameters(ConfigNode::load(calibration).at("parameters"),
-                         ConfigNode::load(model_file));
-}
-
 std::vector<Dataset> load_all(const std::vector<std::string>& names) {
   std::vector<Dataset> recordings;
   for (const std::string& name : names) recordings.push_back(load_recording(name));
@@ -52,12 +41,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--seed", question.seed, "of resampling")->capture_default_str();
   app.add_option("--calibration", calibration,
-                 "ordinary parameters (default: calibration.yaml beside the model)");
+                 "ordinary parameters (default: calibration.yaml beside the model or beside the "
+                 "one it extends)");
   app.add_option("--dt", question.step, "simulation step [s]")->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
     const auto start = std::chrono::steady_clock::now();
     identification::require_writable(out);
-    question.nuisances = nuisances_of(question.model_file, calibration);
+    question.nuisances = ordinary_parameters(question.model_file, calibration);
     question.train = load_all(train);
     question.test = load_all(test);
     question.repeats = load_all(repeats);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_calib/parameters/parameter_list.h"
+#include "anthrob_config/parameter_list.h"
 
 namespace anthrob {
 namespace calibration {

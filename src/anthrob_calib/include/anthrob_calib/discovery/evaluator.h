@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "anthrob_calib/discovery/experiment.h"
-#include "anthrob_calib/parameters/parameter_list.h"
+#include "anthrob_config/parameter_list.h"
 #include "anthrob_sim/effects/effect_instance.h"
 
 namespace anthrob {

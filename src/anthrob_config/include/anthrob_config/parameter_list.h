@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_sim/model/config_node.h"
+#include "anthrob_config/config_node.h"
 
 namespace anthrob {
 
@@ -34,6 +34,12 @@ struct ModelParameter {
 /// @throws BadInput for patterns that match no number, numbers that match twice, empty ranges, and
 /// initial values that are out of range
 std::vector<ModelParameter> read_parameters(const ConfigNode& list, const ConfigNode& model);
+
+/// What an ordinary calibration may correct of a model: `parameters` of the named file, or of
+/// calibration.yaml beside the model or beside the one that it extends; nothing if there is none.
+/// @throws BadInput
+std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
+                                                std::string calibration_file = "");
 
 /// Overrides for LoadOptions.
 std::map<std::string, double> overrides_of(const std::vector<ModelParameter>& parameters,

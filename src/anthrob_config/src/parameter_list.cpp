@@ -1,6 +1,7 @@
-#include "anthrob_calib/parameters/parameter_list.h"
+#include "anthrob_config/parameter_list.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <sstream>
 
@@ -118,6 +119,20 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
     }
   }
   return parameters;
+}
+
+std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
+                                                std::string calibration_file) {
+  const ConfigNode model = ConfigNode::load(model_file);
+  // The robot is named where the folder of its files is.
+  for (const std::string& file : {model_file, model.at("robot").file()}) {
+    const auto beside = std::filesystem::path(file).parent_path() / "calibration.yaml";
+    if (calibration_file.empty() && std::filesystem::exists(beside)) {
+      calibration_file = beside.string();
+    }
+  }
+  if (calibration_file.empty()) return {};
+  return read_parameters(ConfigNode::load(calibration_file).at("parameters"), model);
 }
 
 std::map<std::string, double> overrides_of(const std::vector<ModelParameter>& parameters,
