@@ -1,10 +1,12 @@
 #include "anthrob_virtual_robot/blind_case.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "anthrob_virtual_robot/channels.h"
 #include "anthrob_virtual_robot/dosing.h"
+#include "anthrob_virtual_robot/places.h"
 
 namespace anthrob::virtual_robot {
 namespace {
@@ -21,10 +23,14 @@ enum Stream : std::uint64_t {
   kVariant
 };
 
+/// Of an effect that a calibration may partly correct at least half is left.
+constexpr double kBeyond = 2.0;
+
 constexpr std::pair<const char*, CaseKind> kKinds[] = {{"effect", CaseKind::kEffect},
                                                        {"null", CaseKind::kNull},
                                                        {"pair", CaseKind::kPair},
-                                                       {"outside", CaseKind::kOutside}};
+                                                       {"outside", CaseKind::kOutside},
+                                                       {"wrapped", CaseKind::kWrapped}};
 
 Robot robot_of(const BlindCase& blind, const std::vector<Hidden>& hidden,
                const SensorSettings* sensors, std::uint64_t noise_seed) {
@@ -51,6 +57,18 @@ std::string place_of(const HiddenLaw& law, const reference::ArmParameters& arm, 
   return places[k % places.size()];
 }
 
+/// How far an ordinary calibration may move what a hidden thing adds to, in its direction.
+double correctable(const std::vector<ModelParameter>& ordinary, const Hidden& hidden) {
+  const HiddenLaw& law = hidden_law(hidden.id);
+  if (!law.same_as) return 0.0;
+  const std::string path = law.same_as->path(hidden.place);
+  for (const ModelParameter& p : ordinary) {
+    if (p.path != path) continue;
+    return hidden[law.sizes.front()] > 0.0 ? p.upper - p.initial : p.initial - p.lower;
+  }
+  return 0.0;
+}
+
 /// Sizes such that the worst channel changes by the target, one hidden thing after the other.
 void find_sizes(const CaseSettings& settings, BlindCase* blind) {
   Random random(blind->seed, kSize);
@@ -68,8 +86,10 @@ void find_sizes(const CaseSettings& settings, BlindCase* blind) {
     const HiddenLaw& law = hidden_law(hidden.id);
     const double target = random.log_uniform(settings.least_change, settings.most_change);
     if (law.sizes.empty()) continue;
+    const double least = std::max(law.least, kBeyond * correctable(settings.ordinary, hidden) /
+                                                 std::abs(hidden[law.sizes.front()]));
     const double factor = dose([&](double f) { return worst(change({scaled(hidden, f)})).second; },
-                               target, law.least, law.most);
+                               target, least, std::max(least, law.most));
     hidden = scaled(hidden, factor);
   }
   if (!blind->hidden.empty()) blind->change = change(blind->hidden);
@@ -99,6 +119,8 @@ BlindCase empty_case(CaseKind kind, std::uint64_t seed, const reference::ArmPara
 }
 
 void hide(const HiddenLaw& law, const std::string& place, Random* random, BlindCase* blind) {
+  // One and the same number has no error of calibration beside the effect: it is found whole.
+  if (law.same_as) law.same_as->in(&blind->built, place) = law.same_as->in(&blind->believed, place);
   blind->hidden.push_back({law.id, place, law.draw(blind->built, place, random)});
   blind->slow = blind->slow || law.slow;
 }
@@ -156,6 +178,11 @@ BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
       if (laws[k].slow || laws[k].sizes.empty()) continue;
       if (!blind.hidden.empty() && blind.hidden.front().id == laws[k].id) continue;
       hide(laws[k], place_of(laws[k], blind.built, random.below(1000), seed), &random, &blind);
+    }
+  }
+  if (kind == CaseKind::kWrapped) {
+    for (const std::string& muscle : muscle_places(blind.built)) {
+      hide(hidden_law("wrapping_surface"), muscle, &random, &blind);
     }
   }
   find_sizes(settings, &blind);

@@ -17,6 +17,8 @@ CaseSettings settings() {
       CaseSettings::load(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/virtual_robot.yaml");
   s.train = s.test = 3.0;
   s.recording.settle = 1.0;
+  s.ordinary =
+      anthrob::ordinary_parameters(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml");
   return s;
 }
 
@@ -140,6 +142,52 @@ TEST(BlindCase, SizeIsWithinTheFloorsAskedForAndTheSameForASeed) {
   const BlindCase again =
       make_case({{"force_sensor_gain", "lateral_deltoid"}}, 3, model_I(), settings());
   EXPECT_EQ(truth_text(blind), truth_text(again));
+}
+
+/// The ordinary parameter that a hidden thing is the same quantity as; nullptr if none.
+const ModelParameter* ordinary_of(const CaseSettings& s, const HiddenLaw& law,
+                                  const std::string& place) {
+  for (const ModelParameter& p : s.ordinary) {
+    if (law.same_as && p.path == law.same_as->path(place)) return &p;
+  }
+  return nullptr;
+}
+
+TEST(BlindCase, WhatACalibrationMayCorrectIsNoEffect) {
+  const CaseSettings s = settings();
+  ASSERT_FALSE(s.ordinary.empty());
+  const HiddenLaw& viscous = hidden_law("joint_viscous");
+  for (const std::string& place : viscous.places(model_I())) {
+    const ModelParameter* number = ordinary_of(s, viscous, place);
+    ASSERT_NE(number, nullptr) << place;
+    const BlindCase blind = make_case({{"joint_viscous", place}}, 2, model_I(), s);
+    reference::ArmParameters built = blind.built;
+    const double itself = viscous.same_as->in(&built, place);
+    EXPECT_EQ(itself, number->initial) << place;  // no error of calibration beside it
+    const double hidden = blind.hidden.at(0)["damping"];
+    EXPECT_GT(itself + hidden, number->upper) << place;
+    EXPECT_GE(hidden, 2.0 * (number->upper - number->initial) * (1.0 - 1e-12)) << place;
+    EXPECT_LT(worst(blind.change).second, 11.5) << place;
+  }
+  // Via-points that a calibration may move are errors of calibration; the others are effects.
+  const HiddenLaw& shift = hidden_law("via_point_shift");
+  for (const std::string& place : shift.places(model_I())) {
+    EXPECT_EQ(ordinary_of(s, shift, place), nullptr) << place;
+  }
+  CaseSettings wide = s;
+  const std::string place = shift.places(model_I()).front();
+  ModelParameter listed;
+  listed.path = shift.same_as->path(place);
+  listed.lower = -0.0025, listed.upper = 0.0025;
+  wide.ordinary.push_back(listed);
+  const BlindCase blind = make_case({{"via_point_shift", place}}, 2, model_I(), wide);
+  EXPECT_GE(std::abs(blind.hidden.at(0)["shift"]), 0.005 * (1.0 - 1e-12));
+}
+
+TEST(BlindCase, AllMusclesWrapInTheCaseOfTheThesis) {
+  const BlindCase blind = draw_case(CaseKind::kWrapped, 0, 1, model_I(), settings());
+  EXPECT_EQ(blind.hidden.size(), model_I().muscles.size());
+  for (const Hidden& hidden : blind.hidden) EXPECT_EQ(hidden.id, "wrapping_surface");
 }
 
 TEST(BlindCase, NumbersGoThroughLawsAndThenThroughPlaces) {

@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   std::uint64_t number = 0, seed = 1;
   std::vector<std::string> hide;
   bool list = false;
-  app.add_option("--kind", kind, "effect, null, pair or outside");
+  app.add_option("--kind", kind, "effect, null, pair, outside or wrapped");
   app.add_option("--case", number, "number of the case; goes through all laws and places");
   app.add_option("--seed", seed, "of everything that is drawn");
   app.add_option("--hide", hide, "ID@PLACE in place of what --case would hide; may be repeated");
@@ -74,8 +74,9 @@ int main(int argc, char** argv) {
     refuse_inside(truth, out);
     const auto model_file = std::filesystem::canonical(model);
     const auto believed = anthrob::reference::Arm::load(model_file.string());
-    const CaseSettings settings = CaseSettings::load(
+    CaseSettings settings = CaseSettings::load(
         config.empty() ? (model_file.parent_path() / "virtual_robot.yaml").string() : config);
+    settings.ordinary = anthrob::ordinary_parameters(model_file.string());
     std::vector<std::pair<std::string, std::string>> hidden;
     for (const std::string& text : hide) hidden.push_back(law_and_place(text));
     const BlindCase blind = hidden.empty()

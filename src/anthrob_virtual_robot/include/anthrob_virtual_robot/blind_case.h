@@ -5,13 +5,16 @@
 #include <vector>
 
 #include "anthrob_config/config_node.h"
+#include "anthrob_config/parameter_list.h"
 #include "anthrob_virtual_robot/hidden_law.h"
 #include "anthrob_virtual_robot/nuisances.h"
 #include "anthrob_virtual_robot/recording.h"
 
 namespace anthrob::virtual_robot {
 
-enum class CaseKind { kEffect, kNull, kPair, kOutside };
+/// One effect of the catalogue, none, two, something else, or the thesis's case: all muscles wrap
+/// around bones and the model believes in straight lines.
+enum class CaseKind { kEffect, kNull, kPair, kOutside, kWrapped };
 
 CaseKind case_kind(const std::string& word);
 std::string word(CaseKind kind);
@@ -21,6 +24,7 @@ struct CaseSettings {
   SensorSettings sensors;
   NuisanceRanges nuisances;
   RecordingSettings recording;
+  std::vector<ModelParameter> ordinary;  ///< what a calibration may correct of the believed model
   double train = 20.0, test = 20.0, slow_train = 120.0, slow_test = 60.0;  ///< [s]
   double least_change = 3.0, most_change = 10.0;  ///< of the worst channel [sensor errors]
 

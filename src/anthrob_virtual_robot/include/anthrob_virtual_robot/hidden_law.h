@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct Hidden {
   double operator[](const std::string& name) const { return parameters.at(name); }
 };
 
+/// A number of the model file, "joints.elbow.friction.viscous", and where the arm keeps it.
+struct ModelNumber {
+  std::function<std::string(const std::string& place)> path;
+  std::function<double&(reference::ArmParameters*, const std::string& place)> in;
+};
+
 /// A kind of hidden thing. Its law is this package's own: equations of the same name elsewhere may
 /// differ, as a real robot's do from any catalogue's.
 struct HiddenLaw {
@@ -32,6 +39,9 @@ struct HiddenLaw {
   std::function<Parameters(const reference::ArmParameters&, const std::string& place, Random*)>
       draw;
   std::function<void(const Hidden&, Draft*)> build;
+  /// What the first size adds to, if it is the same quantity as a number of the model file. What
+  /// an ordinary calibration may correct of it is no effect.
+  std::optional<ModelNumber> same_as = {};
   double least = 0.02;   ///< smallest factor on the typical sizes that is still plausible
   double most = 5.0;     ///< largest one
   double neutral = 0.0;  ///< value of the sizes at which there is nothing

@@ -35,11 +35,15 @@ HiddenLaw joint_viscous() {
   law.law = "damping / (1 + |w| / 30 rad/s)";
   law.sizes = {"damping"};
   law.places = joint_places;
-  // More than an ordinary calibration may explain.
   law.draw = [](const auto&, const std::string& place, Random*) -> Parameters {
     return {{"damping", is_shoulder(place) ? 0.4 : 0.1}};
   };
-  law.least = 0.7;
+  law.same_as = ModelNumber{
+      [](const std::string& place) { return "joints." + place + ".friction.viscous"; },
+      [](reference::ArmParameters* arm, const std::string& place) -> double& {
+        auto& skeleton = arm->skeleton;
+        return (is_shoulder(place) ? skeleton.shoulder_friction : skeleton.elbow_friction).viscous;
+      }};
   law.build = [](const Hidden& h, Draft* draft) {
     draft->joint_laws.push_back(
         std::make_shared<ThinningGrease>(is_shoulder(h.place), h["damping"]));

@@ -1,6 +1,20 @@
 #include "laws.h"
 
 namespace anthrob::virtual_robot {
+namespace {
+
+/// Of "biceps_brachii/3/x".
+double& coordinate(reference::ArmParameters* arm, const std::string& place) {
+  const std::vector<std::string> parts = words(place);
+  for (reference::MuscleParameters& muscle : arm->muscles) {
+    if (muscle.name != parts[0]) continue;
+    return muscle.path.at(std::stoul(parts[1])).position(parts[2][0] - 'x');
+  }
+  throw std::invalid_argument("no muscle " + parts[0]);
+}
+
+}  // namespace
+
 HiddenLaw via_point_shift() {
   HiddenLaw law;
   law.id = "via_point_shift";
@@ -10,11 +24,13 @@ HiddenLaw via_point_shift() {
   law.draw = [](const auto&, const auto&, Random* random) -> Parameters {
     return {{"shift", 0.003 * random->sign()}};
   };
-  law.build = [](const Hidden& h, Draft* draft) {
-    const std::vector<std::string> place = words(h.place);
-    auto& muscle = draft->arm.muscles[draft->muscle(place[0])];
-    muscle.path.at(std::stoul(place[1])).position(place[2][0] - 'x') += h["shift"];
-  };
+  law.same_as = ModelNumber{[](const std::string& place) {
+                              const std::vector<std::string> parts = words(place);
+                              return "muscles." + parts[0] + ".path." + parts[1] + ".point." +
+                                     std::to_string(parts[2][0] - 'x');
+                            },
+                            coordinate};
+  law.build = [](const Hidden& h, Draft* draft) { coordinate(&draft->arm, h.place) += h["shift"]; };
   return law;
 }
 
