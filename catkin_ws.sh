@@ -53,7 +53,9 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
   demo              the arm raises, bends and returns; records demo.bag, converts it and draws build/demo/
   test              all tests; the last line counts them
   bench             benchmarks beside MuJoCo and OpenCV; writes build/bench.json
-  study NAME        calibration: chapter 8 of the thesis against virtual robots; resumable, build/study/
+  study NAME        calibration: chapter 8 of the thesis against virtual robots
+                    discovery: the blind test; --slice K/N of it, --list, --summary, --help
+                    resumable; results in build/study/ and docs/studies/
   shell             a shell in which rosrun, roslaunch and rostopic know the workspace
   clean             remove what was built, but not build/study
   help              this text
@@ -197,7 +199,9 @@ bench() {
 
 study() {
   local name="${1:-}"
-  [ -f "scripts/study/$name.py" ] || die "study: expected one of: $(cd scripts/study && ls -- *.py | sed 's/\.py$//' | tr '\n' ' ')"
+  # What begins with an underscore is shared by studies.
+  [[ "$name" != _* && -f "scripts/study/$name.py" ]] ||
+    die "study: expected one of: $(cd scripts/study && ls -- [!_]*.py | sed 's/\.py$//' | tr '\n' ' ')"
   shift
   build
   mkdir -p build/study

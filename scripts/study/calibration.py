@@ -6,13 +6,14 @@ interrupted goes on. Writes build/study/calibration.json and .html and docs/stud
 """
 
 import argparse
-import html
 import json
 import os
 import statistics
-import subprocess
 import sys
 import time
+
+from _study import (commit, html_page, html_table, load, machine, markdown_facts, markdown_table,
+                    must, say, start, write)
 
 MODELS = ["I", "II", "III"]
 STAGES = ["tier1_statics", "tier1_dynamics", "tier2_statics", "tier2_dynamics"]
@@ -36,21 +37,6 @@ AFTER = {
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
-
-
-def run(command, log):
-    """Runs a step; the study ends where a step does."""
-    with open(log, "a") as out:
-        status = subprocess.run(command, stdout=out, stderr=subprocess.STDOUT).returncode
-    if status == 130:
-        sys.exit(130)
-    if status != 0:
-        sys.exit(f"study: {' '.join(command)} failed: see {log}")
-
-
-def load(file):
-    with open(file) as text:
-        return json.load(text)
 
 
 def generations(stage, model, share):
@@ -81,8 +67,8 @@ class Robot:
             return
         say(f"robot {self.seed}: recording")
         for tier in "12":
-            run([RECORDER, "--seed", str(self.seed), "--tier", tier, "--model",
-                 "config/anthrob/model_II.yaml", "--out", f"{self.data}/tier{tier}"], self.log)
+            must([RECORDER, "--seed", str(self.seed), "--tier", tier, "--model",
+                  "config/anthrob/model_II.yaml", "--out", f"{self.data}/tier{tier}"], self.log)
         open(f"{self.data}/complete", "w").close()
 
     def step(self, stage, model, name, start, more):
@@ -99,7 +85,7 @@ class Robot:
         if os.path.exists(f"{out}/journal.txt"):
             command.append("--resume")
         begin = time.time()
-        run(command, self.log)
+        must(command, self.log)
         with open(f"{out}/seconds", "w") as text:
             text.write(f"{time.time() - begin:.1f}\n")
         return out
@@ -176,17 +162,6 @@ def collect(options):
     return table
 
 
-def machine():
-    with open("/proc/cpuinfo") as info:
-        names = [line.split(":")[1].strip() for line in info if line.startswith("model name")]
-    return f"{len(names)} x {names[0]}" if names else "unknown"
-
-
-def commit():
-    out = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
-    return out.stdout.strip() or "unknown"
-
-
 def head():
     return ["model", "stage", "before", "after", "factor", "thesis before", "thesis after",
             "thesis factor", "robots", "minutes"]
@@ -204,34 +179,19 @@ def markdown(table, facts):
     lines = ["# Study: calibration against virtual robots", "",
              "Written by `./catkin_ws.sh study calibration`. Errors are means over runs, medians over robots: shoulder [deg] /",
              "elbow [deg] / muscle force [N]; thesis: Tables C.12 and D.1, of the real robot.", ""]
-    lines += [f"- {key}: {value}" for key, value in facts.items()]
-    lines += ["", "| " + " | ".join(head()) + " |", "|" + "---|" * len(head())]
-    lines += ["| " + " | ".join(row) + " |" for row in rows(table)]
+    lines += markdown_facts(facts) + [""] + markdown_table(head(), rows(table))
+    held_out = [[e["model"], e["stage"][4],
+                 text(median([r["validation"] for r in e["robots"].values()]))]
+                for e in table if e["stage"].endswith("dynamics")]
     lines += ["", "## Held-out trajectories", "",
-              "A tour through several postures, never fitted; medians over robots.", "",
-              "| model | tier | error of the calibrated model |", "|---|---|---|"]
-    lines += [f"| {e['model']} | {e['stage'][4]} | {text(median([r['validation'] for r in e['robots'].values()]))} |"
-              for e in table if e["stage"].endswith("dynamics")]
+              "A tour through several postures, never fitted; medians over robots.", ""]
+    lines += markdown_table(["model", "tier", "error of the calibrated model"], held_out)
     return "\n".join(lines) + "\n"
 
 
 def page(table, facts):
-    def cells(row, tag):
-        return "<tr>" + "".join(f"<{tag}>{html.escape(c)}</{tag}>" for c in row) + "</tr>"
-
-    body = "".join(f"<li>{html.escape(k)}: {html.escape(str(v))}</li>" for k, v in facts.items())
-    body = f"<ul>{body}</ul><table>" + cells(head(), "th")
-    body += "".join(cells(row, "td") for row in rows(table)) + "</table>"
-    return ("<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Calibration</title>"
-            "<style>body{font-family:sans-serif}td,th{border:1px solid #ccc;padding:2px 8px}"
-            "table{border-collapse:collapse}</style></head><body><h1>Calibration against virtual "
-            f"robots</h1><p>shoulder [deg] / elbow [deg] / force [N]</p>{body}</body></html>\n")
-
-
-def write(file, content):
-    with open(file + ".part", "w") as out:
-        out.write(content)
-    os.replace(file + ".part", file)
+    body = "<p>shoulder [deg] / elbow [deg] / force [N]</p>" + html_table(head(), rows(table))
+    return html_page("Calibration against virtual robots", facts, body)
 
 
 def summarise(options):
@@ -247,10 +207,6 @@ def summarise(options):
     write(f"{options.out}/calibration.html", page(table, facts))
     os.makedirs("docs/studies", exist_ok=True)
     write("docs/studies/calibration.md", markdown(table, facts))
-
-
-def say(line):
-    print(f"study: {line}", file=sys.stderr, flush=True)
 
 
 def main():
@@ -272,7 +228,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except KeyboardInterrupt:
-        sys.exit(130)
+    start(main)

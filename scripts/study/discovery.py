@@ -1,0 +1,263 @@
+#!/usr/bin/python3
+"""The blind test of discovery: effects of the catalogue, pairs, nulls and things that it does not know, hidden in
+virtual robots; discovery sees recordings and a model only, and a third program compares its reports with the truth.
+
+Every case leaves its result under build/study/discovery/ and is not done again; what was interrupted goes on. Writes
+build/study/discovery.json and .html and docs/studies/discovery.md. Slices may run on several hosts: bring their
+reports/ and sealed/ together and run with --summary.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import time
+
+from _study import (commit, html_page, html_table, load, machine, markdown_facts, markdown_table,
+                    must, refuse, run, say, start, write)
+
+MAKER = "devel/lib/anthrob_virtual_robot/anthrob_blind_case"
+DISCOVER = "devel/lib/anthrob_calib/anthrob_discover"
+SCORE = "src/anthrob_virtual_robot/scripts/anthrob_score"
+MODEL = "config/anthrob/model_I.yaml"
+ROUNDS = {"effect": 2}  # each law so often, every time at another place
+COUNTS = {"null": 60, "pair": 12, "wrapped": 1}
+KINDS = ["effect", "null", "pair", "outside", "wrapped"]
+MOST_EFFECTS = {"wrapped": 12}
+
+
+def laws(kind):
+    out = subprocess.run([MAKER, "--list"], capture_output=True, text=True, check=True).stdout
+    return sum(line.split()[0] == kind for line in out.splitlines())
+
+
+class Case:
+    """One robot with something, or nothing, hidden in it."""
+
+    def __init__(self, kind, number, count, options):
+        self.kind = kind
+        self.number = number
+        self.name = f"{kind}_{number:02d}"
+        self.turn = number / count  # kinds take turns, so that a part of the study tells of all
+        self.options = options
+        folder = f"{options.out}/discovery"
+        self.data = f"{folder}/cases/{self.name}"
+        self.truth = f"{folder}/sealed/{self.name}.json"
+        self.report = f"{folder}/reports/{self.name}"
+        self.log = f"{folder}/logs/{self.name}.log"
+
+    def done(self):
+        return os.path.exists(f"{self.report}/study.json")
+
+    def state(self):
+        return "done" if self.done() else "begun" if os.path.exists(self.truth) else ""
+
+    def make(self):
+        """The truth is written last."""
+        if os.path.exists(self.truth) and os.path.exists(self.data):
+            return
+        shutil.rmtree(self.data, ignore_errors=True)
+        must([MAKER, "--kind", self.kind, "--case", str(self.number), "--seed",
+              str(self.options.seed), "--model", MODEL, "--out", self.data, "--truth", self.truth],
+             self.log)
+
+    def examine(self):
+        command = [DISCOVER, "--model", f"{self.data}/model.yaml",
+                   "--train", f"{self.data}/train_0", f"{self.data}/train_1",
+                   "--test", f"{self.data}/test_0", "--repeat", f"{self.data}/repeat_0",
+                   "--out", self.report, "--jobs", str(self.options.jobs)]
+        if self.kind in MOST_EFFECTS:
+            command += ["--max-effects", str(MOST_EFFECTS[self.kind])]
+        return run(command, self.log)
+
+    def carry_out(self):
+        """Whether there is a report now."""
+        os.makedirs(os.path.dirname(self.log), exist_ok=True)
+        begin = time.time()
+        self.make()
+        made = time.time()
+        if self.examine() != 0:
+            say(f"{self.name} gave no report: see {self.log}")
+            return False
+        facts = {"commit": commit(), "machine": machine(), "jobs": self.options.jobs,
+                 "making_s": made - begin, "discovery_s": time.time() - made}
+        write(f"{self.report}/study.json", as_json(facts))
+        if not self.options.keep:
+            shutil.rmtree(self.data, ignore_errors=True)
+        return True
+
+    def facts(self):
+        return load(f"{self.report}/study.json")
+
+
+def as_json(value):
+    return json.dumps(value, indent=2) + "\n"
+
+
+def all_cases(options):
+    cases = []
+    for kind in KINDS:
+        count = COUNTS.get(kind) or ROUNDS.get(kind, 1) * laws(kind)
+        cases += [Case(kind, number, count, options) for number in range(count)]
+    return sorted(cases, key=lambda case: (case.turn, KINDS.index(case.kind)))
+
+
+def chosen(cases, options):
+    if options.only:
+        cases = [case for case in cases if case.kind in options.only]
+    if options.case:
+        unknown = set(options.case) - {case.name for case in cases}
+        if unknown:
+            refuse(f"no case {' '.join(sorted(unknown))}; --list tells them")
+        cases = [case for case in cases if case.name in options.case]
+    share, shares = options.slice
+    return cases[share - 1::shares]
+
+
+def seconds_of(case):
+    facts = case.facts()
+    return facts["making_s"] + facts["discovery_s"]
+
+
+def time_left(cases):
+    """Hours, guessed from what cases of the same kind took; None before the first."""
+    took = {case: seconds_of(case) for case in cases if case.done()}
+    if not took:
+        return None
+    left = 0.0
+    for case in cases:
+        if case not in took:
+            alike = [s for other, s in took.items() if other.kind == case.kind]
+            left += statistics.mean(alike or took.values())
+    return left / 3600
+
+
+def score(options):
+    """What the third program says of all reports that are there; None if there is none."""
+    folder = f"{options.out}/discovery"
+    if not os.path.isdir(f"{folder}/sealed"):
+        return None
+    must([SCORE, "--truths", f"{folder}/sealed", "--reports", f"{folder}/reports",
+          "--out", f"{folder}/score.json"], f"{folder}/score.log")
+    return load(f"{folder}/score.json")
+
+
+def several(values):
+    return ", ".join(sorted({str(value) for value in values}))
+
+
+def facts_of(cases, options):
+    done = [case.facts() for case in cases if case.done()]
+    minutes = [facts["discovery_s"] / 60 for facts in done]
+    return {
+        "cases": f"{len(done)} of {len(cases)}",
+        "commit": several(facts["commit"] for facts in done),
+        "seed": options.seed,
+        "machine": several(facts["machine"] for facts in done),
+        "threads a case": several(facts["jobs"] for facts in done),
+        "time": f"{sum(minutes) / 60:.1f} h of discovery, median {statistics.median(minutes):.1f}, "
+                f"longest {max(minutes):.1f} minutes a case",
+    }
+
+
+def rate_rows(result):
+    return [[row["label"], row["said"], row["asked"]] for row in result["rates"]]
+
+
+def confusion_rows(result):
+    rows = []
+    for hidden, answers in sorted(result["confusion"].items()):
+        answers = sorted(answers.items(), key=lambda item: -item[1])
+        rows.append([hidden, ", ".join(f"{name} {count}" for name, count in answers)])
+    return rows
+
+
+def case_rows(result):
+    for case in result["cases"]:
+        floors, probability = case["floors"], case["probability"]
+        yield [case["name"], ", ".join(case["hidden"]) if case["kind"] != "wrapped" else "all wrapped",
+               "" if floors is None else f"{floors:.1f}", case["verdict"], ", ".join(case["named"]),
+               "" if probability is None else f"{probability:.2f}"]
+
+
+RATES = ["what", "measured, 95 % interval", "asked"]
+CONFUSION = ["hidden", "answers"]
+CASES = ["case", "hidden", "change [floors]", "verdict", "named", "probability"]
+
+
+def markdown(result, facts):
+    lines = ["# Study: discovery on blind cases", "",
+             "Written by `./catkin_ws.sh study discovery`; what a case is: [the virtual robot](../virtual_robot.md).", ""]
+    lines += markdown_facts(facts)
+    for title, head, rows in (("Rates", RATES, rate_rows(result)),
+                              ("Confusion", CONFUSION, confusion_rows(result)),
+                              ("Cases", CASES, case_rows(result))):
+        lines += ["", f"## {title}", ""] + markdown_table(head, rows)
+    return "\n".join(lines) + "\n"
+
+
+def page(result, facts):
+    body = "<h2>Rates</h2>" + html_table(RATES, rate_rows(result))
+    body += "<h2>Confusion</h2>" + html_table(CONFUSION, confusion_rows(result))
+    body += "<h2>Cases</h2>" + html_table(CASES, case_rows(result))
+    return html_page("Discovery on blind cases", facts, body)
+
+
+def summarise(cases, options):
+    result = score(options)
+    if result is None or not result["cases"]:
+        refuse("no case is done yet")
+    facts = facts_of(cases, options)
+    write(f"{options.out}/discovery.json", as_json({"facts": facts, **result}))
+    write(f"{options.out}/discovery.html", page(result, facts))
+    os.makedirs("docs/studies", exist_ok=True)
+    write("docs/studies/discovery.md", markdown(result, facts))
+
+
+def a_slice(text):
+    share, _, shares = text.partition("/")
+    share, shares = int(share), int(shares)
+    if not 1 <= share <= shares:
+        raise argparse.ArgumentTypeError(f"{text}: expected k/n with 1 <= k <= n")
+    return share, shares
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="catkin_ws.sh study discovery", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--slice", type=a_slice, default=(1, 1), metavar="K/N", help="every N-th case, from the K-th")
+    parser.add_argument("--only", nargs="+", choices=KINDS, help="these kinds")
+    parser.add_argument("--case", nargs="+", metavar="NAME", help="these cases")
+    parser.add_argument("--list", action="store_true", help="tells the cases and how far they are")
+    parser.add_argument("--summary", action="store_true", help="only scores the reports that are there")
+    parser.add_argument("--keep", action="store_true", help="keeps recordings")
+    parser.add_argument("--seed", type=int, default=1, help="of everything that is drawn")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads of a case")
+    parser.add_argument("--out", default="build/study")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    everything = all_cases(options)
+    cases = chosen(everything, options)
+    if options.list:
+        for case in cases:
+            print(f"{case.name:<12} {case.state()}")
+        return
+    for case in [] if options.summary else cases:
+        if case.done():
+            continue
+        left = time_left(cases)
+        say(f"{case.name}, {sum(c.done() for c in cases)} of {len(cases)} done" +
+            ("" if left is None else f", {left:.1f} h left"))
+        if case.carry_out():
+            summarise(everything, options)
+    summarise(everything, options)
+    say(f"{options.out}/discovery.html, docs/studies/discovery.md")
+
+
+if __name__ == "__main__":
+    start(main)
