@@ -1,8 +1,15 @@
 #include "anthrob_calib/discovery/discovery.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <Eigen/Cholesky>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "anthrob_calib/discovery/axis_experiment.h"
 #include "anthrob_calib/discovery/chain_experiment.h"
@@ -16,6 +23,8 @@
 namespace anthrob {
 namespace discovery {
 namespace {
+
+namespace fs = std::filesystem;
 
 const std::string kConfig = ANTHROB_CONFIG_DIR;
 
@@ -167,6 +176,84 @@ TEST(DrivenAxis, SameBitsOnAnyNumberOfThreads) {
   const Question question = axis_question(20.4, 0.0);
   const std::string one = report_json(ask(question, 1), question, 0.0);
   EXPECT_EQ(one, report_json(ask(question, 2), question, 0.0));
+}
+
+// ---- interrupted runs
+// -------------------------------------------------------------------------------------------------
+
+class InterruptedRun : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("anthrob_discovery_" + std::to_string(getpid()));
+};
+
+TEST_F(InterruptedRun, RunGoesOnWithTheSameBitsAndSimulatesNothingTwice) {
+  const Question question = axis_question(20.4, 0.0);
+  const auto evaluator = [&] {
+    return std::make_unique<Evaluator>(question.model_file, question.nuisances, question.step, 1);
+  };
+  const auto whole = evaluator();
+  whole->keep_journal(path("whole.bin"));
+  const std::string expected = report_json(discover(*whole, question), question, 0.0);
+
+  std::size_t simulated = 0;
+  int stopped = 0;
+  std::string report;
+  for (const std::size_t third : {1, 2, 4}) {
+    const auto part = evaluator();
+    part->keep_journal(path("part.bin"));
+    part->on_progress(
+        [&](double) { return simulated + part->simulated() < third * whole->simulated() / 3; });
+    try {
+      report = report_json(discover(*part, question), question, 0.0);
+    } catch (const discovery::Interrupted&) {
+      ++stopped;
+    }
+    simulated += part->simulated();
+  }
+  EXPECT_EQ(stopped, 2);
+  EXPECT_EQ(report, expected);
+  EXPECT_EQ(simulated, whole->simulated());
+}
+
+std::string content(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST_F(InterruptedRun, ToolSaysHowToGoOn) {
+  axis_recording(20.4, 0.0, 1).save(path("train"));
+  axis_recording(20.4, 0.0, 2).save(path("test"));
+  const auto run = [&](const std::string& before, const std::string& out) {
+    const int status = std::system((before + ANTHROB_DISCOVER + " --model " + kConfig +
+                                    "/driven_axis/model_I.yaml --train " + path("train") +
+                                    " --test " + path("test") + " --jobs 1 --out " + path(out) +
+                                    " __name:=discover >/dev/null 2>" + path("errors"))
+                                       .c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  const auto report = [&](const std::string& out) {
+    auto json = nlohmann::json::parse(content(path(out + "/report.json")));
+    json.erase("runtime_s");
+    return json;
+  };
+  ASSERT_EQ(run("", "whole"), 0) << content(path("errors"));
+  EXPECT_FALSE(fs::exists(path("whole/journal.bin")));
+  const int status = run("timeout --preserve-status -s INT 1 ", "stopped");
+  // A machine that is fast enough to finish first shows nothing.
+  if (status == 0) GTEST_SKIP();
+  EXPECT_EQ(status, 130);
+  EXPECT_NE(content(path("errors")).find("the same command goes on"), std::string::npos);
+  EXPECT_TRUE(fs::exists(path("stopped/journal.bin")));
+  EXPECT_FALSE(fs::exists(path("stopped/report.json")));
+  ASSERT_EQ(run("", "stopped"), 0);
+  EXPECT_NE(content(path("errors")).find("simulations of an interrupted run"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("stopped/journal.bin")));
+  EXPECT_EQ(report("stopped"), report("whole"));
 }
 
 // ---- the arm

@@ -56,6 +56,11 @@ int main(int argc, char** argv) {
     std::unique_ptr<tool::Progress> bar;
     discovery::Evaluator evaluator(question.model_file, question.nuisances, question.step,
                                    question.jobs);
+    discovery::Journal& journal = evaluator.keep_journal(out + "/journal.bin");
+    if (journal.inherited() > 0) {
+      std::cerr << "going on with " << journal.inherited()
+                << " simulations of an interrupted run\n";
+    }
     evaluator.on_progress([&](double share) {
       if (bar) bar->update(share);
       return !tool::interrupted();
@@ -75,10 +80,12 @@ int main(int argc, char** argv) {
                                   {{"report.json", report_json(answer, question, runtime.count())},
                                    {"report.html", report_html(answer, question, runtime.count())},
                                    {"model.yaml", model_text(answer, evaluator, question, out)}});
+      journal.remove();
       std::cout << summary(answer);
       return tool::kDone;
     } catch (const discovery::Interrupted&) {
-      std::cerr << "anthrob_discover: interrupted; nothing written\n";
+      bar.reset();
+      std::cerr << "anthrob_discover: interrupted; the same command goes on where it was\n";
       return tool::kInterrupted;
     }
   });

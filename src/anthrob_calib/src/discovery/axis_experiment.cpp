@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_calib/discovery/fingerprint.h"
 #include "anthrob_sim/simulation.h"
 
 namespace anthrob {
@@ -42,6 +43,7 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
   name_ = recording.folder;
   steps_per_bin_ = static_cast<std::size_t>(std::lround(options.bin / step_));
   bin_ = static_cast<double>(steps_per_bin_) * step_;
+  fingerprint_ = Fingerprint().add(recording).add(bin_).value();
   const auto& joints = model.skeleton->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const std::string& name = joints[j].name;

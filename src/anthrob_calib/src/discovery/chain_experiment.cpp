@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "anthrob_calib/discovery/fingerprint.h"
+
 namespace anthrob {
 namespace discovery {
 
@@ -40,6 +42,8 @@ ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recordi
       step_(model.step) {
   name_ = recording.folder;
   bin_ = options.bin;
+  fingerprint_ =
+      Fingerprint().add(recording).add(static_cast<std::uint64_t>(mode_)).add(bin_).value();
   duration_ = Replay(std::make_shared<RobotModel>(model), recording, mode_).duration();
   bins_ = static_cast<std::size_t>(std::floor(duration_ / bin_)) + 1;
 

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <mutex>
 
+#include "anthrob_calib/discovery/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -24,6 +25,19 @@ std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const Robo
     sensor->quantum = 0.0;
   }
   return quiet;
+}
+
+std::uint64_t key_of(const Variant& variant,
+                     const std::vector<std::shared_ptr<const Experiment>>& experiments) {
+  Fingerprint key;
+  key.add(variant.step).add(static_cast<std::uint64_t>(variant.nuisances.size()));
+  for (const double value : variant.nuisances) key.add(value);
+  for (const EffectInstance& effect : variant.effects) {
+    key.add(effect.id).add(effect.place);
+    for (const auto& [name, value] : effect.parameters) key.add(name).add(value);
+  }
+  for (const auto& experiment : experiments) key.add(experiment->fingerprint());
+  return key.value();
 }
 
 }  // namespace
@@ -51,10 +65,47 @@ std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const
   return without_noise(build_robot_model(config_, options));
 }
 
+Journal& Evaluator::keep_journal(const std::string& file) {
+  Fingerprint context;
+  context.add(program_fingerprint()).add(model_fingerprint(config_)).add(step_);
+  for (const ModelParameter& p : nuisances_) context.add(p.path);
+  journal_ = std::make_unique<Journal>(file, context.value());
+  return *journal_;
+}
+
+Differences Evaluator::simulate(
+    const Variant& variant,
+    const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
+  ++simulated_;
+  try {
+    const auto model = build(variant);
+    Differences differences = Differences::Zero(static_cast<Eigen::Index>(total_size(experiments)));
+    std::size_t offset = 0;
+    for (const auto& experiment : experiments) {
+      experiment->compare(model, differences.data() + offset);
+      offset += experiment->size();
+    }
+    if (differences.allFinite()) return differences;
+  } catch (const NumericalFailure&) {
+  } catch (const BadInput&) {
+  }
+  return {};  // no such robot
+}
+
+Differences Evaluator::known_or_simulated(
+    const Variant& variant,
+    const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
+  if (!journal_) return simulate(variant, experiments);
+  const std::uint64_t key = key_of(variant, experiments);
+  if (auto known = journal_->find(key)) return std::move(*known);
+  Differences result = simulate(variant, experiments);
+  journal_->append(key, result);
+  return result;
+}
+
 std::vector<Differences> Evaluator::compare(
     const std::vector<Variant>& variants,
     const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
-  const std::size_t size = total_size(experiments);
   std::vector<Differences> results(variants.size());
   std::atomic<std::size_t> done{0};
   std::atomic<bool> stop{false};
@@ -65,19 +116,7 @@ std::vector<Differences> Evaluator::compare(
       tbb::blocked_range<std::size_t>(0, variants.size(), 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t i = range.begin(); i < range.end() && !stop; ++i) {
-          try {
-            const auto model = build(variants[i]);
-            Differences differences = Differences::Zero(static_cast<Eigen::Index>(size));
-            std::size_t offset = 0;
-            for (const auto& experiment : experiments) {
-              experiment->compare(model, differences.data() + offset);
-              offset += experiment->size();
-            }
-            if (differences.allFinite()) results[i] = std::move(differences);
-          } catch (const NumericalFailure&) {
-            // Left empty: no such robot.
-          } catch (const BadInput&) {
-          }
+          results[i] = known_or_simulated(variants[i], experiments);
           const double share = static_cast<double>(++done) / static_cast<double>(variants.size());
           const std::lock_guard<std::mutex> lock(progress_mutex);
           if (progress_ && !progress_(share)) stop = true;

@@ -3,13 +3,16 @@
 #include <ros/package.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <sstream>
+#include <vector>
 
 #include "anthrob_sim/core/errors.h"
 
@@ -28,6 +31,11 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// What roslaunch adds to a command line: "__name:=discover", "__log:=..."
+bool is_remapping(const std::string& argument) {
+  return argument.rfind("__", 0) == 0 && argument.find(":=") != std::string::npos;
+}
+
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -35,8 +43,11 @@ double now() {
 }  // namespace
 
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  std::vector<char*> arguments;
+  std::copy_if(argv, argv + argc, std::back_inserter(arguments),
+               [](const char* argument) { return !is_remapping(argument); });
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
     return body();
   } catch (const CLI::Success& e) {
     app.exit(e);

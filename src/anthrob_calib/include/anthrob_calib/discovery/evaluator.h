@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "anthrob_calib/discovery/experiment.h"
+#include "anthrob_calib/discovery/journal.h"
 #include "anthrob_config/parameter_list.h"
 #include "anthrob_sim/effects/effect_instance.h"
 
@@ -31,8 +33,7 @@ class Interrupted : public std::exception {};
 /// many.
 class Evaluator {
  public:
-  /// @param model_file, nuisances as read for it   @param progress called with the share of a
-  /// batch that is done; returns false to stop; may be empty
+  /// @param model_file, nuisances as read for it
   Evaluator(const std::string& model_file, std::vector<ModelParameter> nuisances, double step,
             int jobs);
 
@@ -40,7 +41,13 @@ class Evaluator {
   const std::vector<ModelParameter>& nuisances() const { return nuisances_; }
   std::vector<double> initial_nuisances() const;
 
+  /// @param progress called with the share of a batch that is done; returns false to stop
   void on_progress(std::function<bool(double)> progress) { progress_ = std::move(progress); }
+
+  /// Opens a journal: what it knows is not simulated again. Its context is this program, the model
+  /// and its ordinary parameters.
+  Journal& keep_journal(const std::string& file);
+  std::size_t simulated() const { return simulated_; }  ///< variants, so far
 
   /// One result a variant. @throws Interrupted
   std::vector<Differences> compare(
@@ -51,12 +58,20 @@ class Evaluator {
   std::shared_ptr<const RobotModel> build(const Variant& variant) const;
 
  private:
+  Differences simulate(const Variant& variant,
+                       const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
+  Differences known_or_simulated(
+      const Variant& variant,
+      const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
+
   ConfigNode config_;
   std::vector<ModelParameter> nuisances_;
   double step_;
   int jobs_;
   std::shared_ptr<const RobotModel> plain_;
   std::function<bool(double)> progress_;
+  std::unique_ptr<Journal> journal_;
+  mutable std::atomic<std::size_t> simulated_{0};
 };
 
 /// Length of all experiments' differences together.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,8 @@ class Experiment {
   const std::vector<char>& present() const { return present_; }
   double bin() const { return bin_; }            ///< [s]
   double duration() const { return duration_; }  ///< [s]
+  /// Of the recording and how it is replayed.
+  std::uint64_t fingerprint() const { return fingerprint_; }
   double bin_time(std::size_t bin) const { return (static_cast<double>(bin) + 0.5) * bin_; }
 
   /// Simulated minus measured, channel after channel; 0 where nothing was measured.
@@ -45,6 +48,7 @@ class Experiment {
  protected:
   std::string name_;
   double bin_ = 0.0, duration_ = 0.0;
+  std::uint64_t fingerprint_ = 0;
   std::vector<Channel> channels_;
   std::vector<char> present_;
 };

@@ -14,7 +14,7 @@ namespace tool {
 enum Exit { kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130 };
 
 /// Parses the command line, runs `body`, and turns whatever goes wrong into one line on standard
-/// error and the exit status of its kind.
+/// error and the exit status of its kind. What roslaunch adds to the command line is left out.
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 
 /// Whether Ctrl-C was pressed. The first call starts listening.

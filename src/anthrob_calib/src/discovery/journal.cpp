@@ -1,0 +1,153 @@
+#include "anthrob_calib/discovery/journal.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "anthrob_calib/discovery/fingerprint.h"
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Word = std::uint64_t;
+
+constexpr char kTitle[] = "anthrob_discover journal 1\n";
+constexpr std::int64_t kTitleSize = sizeof(kTitle) - 1;
+constexpr std::int64_t kHeader = kTitleSize + sizeof(Word);
+constexpr std::int64_t kHead = 2 * sizeof(Word);  // key and count
+
+bool read_all(int descriptor, void* to, std::size_t count, std::int64_t offset) {
+  char* at = static_cast<char*>(to);
+  while (count > 0) {
+    const ssize_t got = pread(descriptor, at, count, offset);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    at += got, offset += got, count -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+bool write_all(int descriptor, const void* from, std::size_t count, std::int64_t offset) {
+  const char* at = static_cast<const char*>(from);
+  while (count > 0) {
+    const ssize_t put = pwrite(descriptor, at, count, offset);
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return false;
+    at += put, offset += put, count -= static_cast<std::size_t>(put);
+  }
+  return true;
+}
+
+std::int64_t record_size(Word count) {
+  return kHead + static_cast<std::int64_t>(count * sizeof(float) + sizeof(Word));
+}
+
+Word sum_of(Word key, const float* values, Word count) {
+  return Fingerprint().add(key).add(values, count * sizeof(float)).value();
+}
+
+[[noreturn]] void fail(const std::string& file) {
+  throw std::runtime_error(file + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
+Journal::Journal(std::string file, std::uint64_t context) : file_(std::move(file)) {
+  std::error_code error;  // open() says what is wrong
+  made_folder_ = fs::create_directories(fs::path(file_).parent_path(), error);
+  descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) fail(file_);
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    close(descriptor_);
+    throw BadInput(file_ + ": used by another run: expected a folder of its own");
+  }
+  char title[kHeader];
+  char wanted[kHeader];
+  std::memcpy(wanted, kTitle, kTitleSize);
+  std::memcpy(wanted + kTitleSize, &context, sizeof(context));
+  if (read_all(descriptor_, title, kHeader, 0) && std::memcmp(title, wanted, kHeader) == 0) {
+    read_index();
+  } else if (ftruncate(descriptor_, 0) != 0 || !write_all(descriptor_, wanted, kHeader, 0)) {
+    close(descriptor_);
+    fail(file_);
+  } else {
+    end_ = kHeader;
+  }
+}
+
+Journal::~Journal() {
+  // Recordings that were refused leave nothing behind.
+  if (places_.empty()) remove();
+  std::error_code error;
+  if (places_.empty() && made_folder_) fs::remove(fs::path(file_).parent_path(), error);
+  close(descriptor_);
+}
+
+void Journal::read_index() {
+  struct stat about;
+  if (fstat(descriptor_, &about) != 0) fail(file_);
+  end_ = kHeader;
+  Word head[2];
+  while (read_all(descriptor_, head, kHead, end_)) {
+    const Word count = head[1];
+    const auto left = static_cast<Word>(about.st_size - end_);
+    if (count > left / sizeof(float) || record_size(count) > static_cast<std::int64_t>(left)) break;
+    places_[head[0]] = {end_, count};
+    end_ += record_size(count);
+  }
+  inherited_ = places_.size();
+}
+
+std::optional<Eigen::VectorXf> Journal::find(std::uint64_t key) const {
+  Place place;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = places_.find(key);
+    if (found == places_.end()) return {};
+    place = found->second;
+  }
+  Eigen::VectorXf values(static_cast<Eigen::Index>(place.count));
+  const std::size_t bytes = place.count * sizeof(float);
+  Word sum = 0;
+  // A record that a failing machine left half written is no result.
+  if (!read_all(descriptor_, values.data(), bytes, place.offset + kHead) ||
+      !read_all(descriptor_, &sum, sizeof(sum),
+                place.offset + kHead + static_cast<std::int64_t>(bytes)) ||
+      sum != sum_of(key, values.data(), place.count)) {
+    return {};
+  }
+  return values;
+}
+
+void Journal::append(std::uint64_t key, const Eigen::VectorXf& result) {
+  const auto count = static_cast<Word>(result.size());
+  std::vector<char> record(static_cast<std::size_t>(record_size(count)));
+  const Word head[] = {key, count}, sum = sum_of(key, result.data(), count);
+  std::memcpy(record.data(), head, kHead);
+  if (count > 0) std::memcpy(record.data() + kHead, result.data(), count * sizeof(float));
+  std::memcpy(record.data() + record.size() - sizeof(sum), &sum, sizeof(sum));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!write_all(descriptor_, record.data(), record.size(), end_)) fail(file_);
+  places_[key] = {end_, count};
+  end_ += static_cast<std::int64_t>(record.size());
+}
+
+void Journal::remove() {
+  unlink(file_.c_str());
+}
+
+}  // namespace discovery
+}  // namespace anthrob
