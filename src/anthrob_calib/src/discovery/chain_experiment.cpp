@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "anthrob_calib/discovery/fingerprint.h"
+#include "anthrob_calib/discovery/noise_floor.h"
 
 namespace anthrob {
 namespace discovery {
@@ -117,6 +118,7 @@ void ChainExperiment::add(Reader reader, const Series& series, const Channel& ch
   channels_.push_back(channel);
   channels_.back().offset = reader.offset;
   channels_.back().count = bins_;
+  channels_.back().resolution = resolution_of(series.values);
   for (const double share : sampling.per_bin) present_.push_back(share > 0.0);
   sampling.readers.push_back(std::move(reader));
 }

@@ -10,6 +10,8 @@ namespace discovery {
 
 namespace {
 
+constexpr double kMostCounts = 1e5;  ///< finer sensors have no steps to speak of
+
 /// Sums of squares of a channel, over its components and experiments.
 struct Moments {
   double squares = 0.0;
@@ -101,6 +103,22 @@ double ChannelScale::sigma() const {
   return std::hypot(floor, numerics);
 }
 
+double resolution_of(std::vector<double> values) {
+  const std::size_t count = values.size();
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  // Values of a fine sensor, and of none, hardly ever repeat.
+  if (values.size() < 3 || values.size() > count / 2) return 0.0;
+  double step = values[1] - values[0];
+  for (std::size_t i = 1; i < values.size(); ++i) step = std::min(step, values[i] - values[i - 1]);
+  if (values.back() - values.front() > kMostCounts * step) return 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double steps = (values[i] - values[i - 1]) / step;
+    if (std::abs(steps - std::round(steps)) > 0.05 * steps) return 0.0;
+  }
+  return step;
+}
+
 double correlation_length(const Eigen::VectorXf& series) {
   const auto n = series.size();
   if (n < 8) return 1.0;
@@ -145,6 +163,12 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
     scale.floor = noise[name].rms();
   }
   if (!repeats.empty()) from_repeats(evaluator, train, repeats, scales);
+  for (const auto& experiment : train) {
+    for (const Channel& channel : experiment->channels()) {
+      double& floor = scales.at(channel.name()).floor;
+      floor = std::max(floor, channel.resolution / std::sqrt(12.0));
+    }
+  }
   for (auto& [name, scale] : scales) {
     if (!(scale.sigma() > 0.0)) scale.floor = 1e-9;
   }

@@ -20,6 +20,7 @@ struct Channel {
   std::string unit;
   int component = 0;                  ///< of an orientation: 0, 1, 2
   std::size_t offset = 0, count = 0;  ///< its bins in the vector of differences
+  double resolution = 0.0;            ///< one count of its sensor; 0: none to be seen
 
   std::string name() const { return place + "/" + quantity; }
 };

@@ -14,7 +14,9 @@ namespace discovery {
 /// How exactly one quantity of one place can be known, averaged over a bin.
 struct ChannelScale {
   std::string unit;
-  double floor = 0.0;      ///< scatter of repeats, or of neighbouring bins where there are none
+  /// Scatter of repeats, or of neighbouring bins where there are none; no less than what a count of
+  /// the sensor errs by: repeats share that, so that their scatter does not show it.
+  double floor = 0.0;
   double numerics = 0.0;   ///< difference to a simulation with half the step
   double inflation = 1.0;  ///< bins that count as one, because their noise is correlated; >= 1
 
@@ -36,6 +38,9 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
 /// @param independent divides by the square root of ChannelScale::inflation too, so that squares
 /// can be summed as if all bins were independent
 Eigen::VectorXf whitener(const Experiments& experiments, const Scales& scales, bool independent);
+
+/// One count of the sensor, if all values are whole multiples of a step; 0 if there is none.
+double resolution_of(std::vector<double> values);
 
 /// 1 + twice the sum of the autocorrelations of a series, up to where they vanish.
 double correlation_length(const Eigen::VectorXf& series);
