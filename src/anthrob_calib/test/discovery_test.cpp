@@ -100,6 +100,17 @@ TEST(ModelProbabilities, FollowTheScoresAndTheHandicap) {
   EXPECT_GT(all[0], 0.999);
 }
 
+TEST(BlockSignificance, DoesNotDoubtGainsThatDifferInSize) {
+  Eigen::VectorXd large(8), noise(200);
+  large << 3.0, 2000.0, 40.0, 15.0, 9000.0, 120.0, 7.0, 300.0;
+  EXPECT_GT(block_significance(large), 5.0);
+  const CounterRandom random(9, 1);
+  for (int i = 0; i < 200; ++i) noise[i] = 50.0 * random.normal(static_cast<std::uint64_t>(i));
+  EXPECT_LT(std::abs(block_significance(noise)), 2.5);
+  noise[17] = 1e6;  // one lucky block
+  EXPECT_LT(block_significance(noise), 2.5);
+}
+
 // ---- a driven axis, made here by its closed equation
 // -----------------------------------------------
 

@@ -107,8 +107,9 @@ std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
 double block_significance(const Eigen::VectorXd& gains) {
   const auto n = static_cast<double>(gains.size());
   if (n < 3.0) return 0.0;
-  const double mean = gains.mean();
-  const double variance = (gains.array() - mean).square().sum() / (n - 1.0);
+  const Eigen::ArrayXd size = gains.array().asinh();
+  const double mean = size.mean();
+  const double variance = (size - mean).square().sum() / (n - 1.0);
   return variance > 0.0 ? mean / std::sqrt(variance / n) : 0.0;
 }
 

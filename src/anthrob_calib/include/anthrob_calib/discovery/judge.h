@@ -52,7 +52,8 @@ class Judge {
 std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
                                         const std::vector<double>& handicap, std::uint64_t seed);
 
-/// Mean of the blocks' gains over its standard error.
+/// Mean of the blocks' gains over its standard error. Large gains count by their logarithm: what
+/// brings ten nat in one block and a thousand in the next is not doubtful for that.
 double block_significance(const Eigen::VectorXd& gains);
 
 }  // namespace discovery
