@@ -4,7 +4,7 @@
 #include <iostream>
 #include <thread>
 
-#include "anthrob_calib/discovery/discovery.h"
+#include "anthrob_calib/discovery/closed_loop.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/identification/output_files.h"
 #include "anthrob_sim/recording/load_recording.h"
@@ -20,13 +20,20 @@ std::vector<Dataset> load_all(const std::vector<std::string>& names) {
   return recordings;
 }
 
+/// What was recorded in the loop.
+void save_from(std::size_t first, const std::vector<Dataset>& recordings, const std::string& out) {
+  for (std::size_t i = first; i < recordings.size(); ++i) {
+    recordings[i].save(out + "/" + recordings[i].folder);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Finds the physical effect that a model misses in recordings.", "anthrob_discover");
   discovery::Question question;
   std::vector<std::string> train, test, repeats;
-  std::string out, calibration;
+  std::string out, calibration, robot_file;
   question.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   app.add_option("--model", question.model_file, "model file to be examined")->required();
   app.add_option("--train", train, "recordings to learn from: bags or dataset folders")->required();
@@ -44,6 +51,9 @@ int main(int argc, char** argv) {
                  "ordinary parameters (default: calibration.yaml beside the model or beside the "
                  "one it extends)");
   app.add_option("--dt", question.step, "simulation step [s]")->capture_default_str();
+  app.add_option("--close-the-loop", robot_file,
+                 "model file of the robot itself, if it is a simulated one: it is recorded to tell "
+                 "rivals apart");
   return tool::run(app, argc, argv, [&]() -> int {
     const auto start = std::chrono::steady_clock::now();
     identification::require_writable(out);
@@ -73,13 +83,19 @@ int main(int argc, char** argv) {
     };
     question.comment = [](const std::string& line) { std::cerr << line << "\n"; };
     try {
-      const discovery::Answer answer = discover(evaluator, question);
+      const discovery::Answer answer =
+          robot_file.empty()
+              ? discover(evaluator, question)
+              : discover_in_a_loop(evaluator, question, load_robot_model(robot_file));
       bar.reset();
       const std::chrono::duration<double> runtime = std::chrono::steady_clock::now() - start;
-      identification::write_files(out,
-                                  {{"report.json", report_json(answer, question, runtime.count())},
-                                   {"report.html", report_html(answer, question, runtime.count())},
-                                   {"model.yaml", model_text(answer, evaluator, question, out)}});
+      identification::OutputFiles files = separating_files(answer, *evaluator.model());
+      files["report.json"] = report_json(answer, question, runtime.count());
+      files["report.html"] = report_html(answer, question, runtime.count());
+      files["model.yaml"] = model_text(answer, evaluator, question, out);
+      identification::write_files(out, files);
+      save_from(train.size(), question.train, out);
+      save_from(test.size(), question.test, out);
       journal.remove();
       std::cout << summary(answer);
       return tool::kDone;

@@ -173,13 +173,22 @@ class Search {
       effect.rivals.push_back(
           {rival.effect->info().id, rival.place, other.probability, other.evidence});
     }
-    if (!effect.rivals.empty()) {
-      effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
-    }
+    if (!effect.rivals.empty()) separate(list, effect);
     answer.effects.push_back(std::move(effect));
     base_ = best.fit;
     base_test_ = best.test;
     named_.insert(best.candidate);
+  }
+
+  void separate(const ShortList& list, FoundEffect& effect) const {
+    effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
+    for (std::size_t i = 1; i < list.named.size(); ++i) {
+      if (list.named[i].probability < kMentioned) continue;
+      effect.separating_recording =
+          plan_separation(evaluator_, list.named.front().fit.variant, list.named[i].fit.variant,
+                          question_.train.front(), scales_);
+      return;
+    }
   }
 
   void list_invisible(const std::vector<Score>& scores, Answer& answer) const {

@@ -81,7 +81,9 @@ std::string gap_table(const Answer& answer) {
 
 std::string effects_table(const Answer& answer) {
   std::string html;
+  std::size_t number = 0;
   for (const FoundEffect& effect : answer.effects) {
+    ++number;
     html += "<h3>" + escaped(effect.id) + " @ " + escaped(effect.place) + "</h3>\n<table><tr><th>" +
             "parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>\n";
     for (const FoundParameter& p : effect.parameters) {
@@ -97,6 +99,14 @@ std::string effects_table(const Answer& answer) {
               short_number(rival.probability) + "</li>\n";
     }
     html += "</ul><p>What would: " + escaped(effect.separating_experiment) + ".</p>\n";
+    if (!effect.separating_recording.targets.empty()) {
+      html += "<p>As a protocol of the recorder: " + separating_file(number) +
+              ", expected to tell " + short_number(effect.separating_recording.distance()) +
+              " nat.</p>\n";
+    }
+  }
+  for (const std::string& asked : answer.asked) {
+    html += "<p>Before: " + escaped(asked) + ".</p>\n";
   }
   return html;
 }

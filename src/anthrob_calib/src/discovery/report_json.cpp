@@ -50,6 +50,13 @@ Json effect_json(const FoundEffect& effect) {
           {"separating_experiment", effect.separating_experiment}};
 }
 
+/// Names of the recorder's files, and what they are expected to tell.
+void add_recording(const FoundEffect& effect, std::size_t index, Json& json) {
+  if (effect.separating_recording.targets.empty()) return;
+  json["separating_protocol"] = separating_file(index);
+  json["separating_nat"] = number(effect.separating_recording.distance());
+}
+
 Json where_json(const Answer& answer) {
   Json where = Json::array();
   for (const Place& place : answer.where) {
@@ -85,7 +92,12 @@ std::string report_json(const Answer& answer, const Question& question, double r
   report["verdict"] = answer.verdict;
   report["where"] = where_json(answer);
   report["effects"] = Json::array();
-  for (const FoundEffect& effect : answer.effects) report["effects"].push_back(effect_json(effect));
+  for (std::size_t i = 0; i < answer.effects.size(); ++i) {
+    Json effect = effect_json(answer.effects[i]);
+    add_recording(answer.effects[i], i + 1, effect);
+    report["effects"].push_back(std::move(effect));
+  }
+  if (!answer.asked.empty()) report["asked"] = answer.asked;
   report["remaining"] = {{"share", number(answer.remaining_share)},
                          {"description", answer.remaining_description},
                          {"dependences", dependences_json(answer)}};

@@ -9,6 +9,7 @@
 #include "anthrob_calib/discovery/dependence.h"
 #include "anthrob_calib/discovery/evaluator.h"
 #include "anthrob_calib/discovery/noise_floor.h"
+#include "anthrob_calib/discovery/separating_recording.h"
 
 namespace anthrob {
 namespace discovery {
@@ -45,7 +46,8 @@ struct FoundEffect {
   double probability = 0.0, evidence = 0.0;
   std::vector<FoundParameter> parameters;
   std::vector<Rival> rivals;
-  std::string separating_experiment;
+  std::string separating_experiment;         ///< from the first rival, in words
+  SeparatingRecording separating_recording;  ///< and for the recorder, where it can do it
 };
 
 /// Root mean squares in standard deviations of the floor.
@@ -96,6 +98,7 @@ struct Answer {
   std::vector<Invisible> not_visible;
   Scales scales;
   Variant given, recalibrated, extended;
+  std::vector<std::string> asked;  ///< what the robot was recorded for in between (closed_loop.h)
 };
 
 /// Locates, names, adds and judges, until nothing earns its place.

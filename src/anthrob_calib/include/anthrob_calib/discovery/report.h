@@ -18,6 +18,11 @@ std::string report_html(const Answer& answer, const Question& question, double r
 std::string model_text(const Answer& answer, const Evaluator& evaluator, const Question& question,
                        const std::string& folder);
 
+/// For the recorder: protocols and postures that tell effects from their first rivals, by name.
+std::map<std::string, std::string> separating_files(const Answer& answer, const RobotModel& model);
+/// "separating_1.yaml", of the first effect.
+std::string separating_file(std::size_t number);
+
 /// A few lines for the terminal.
 std::string summary(const Answer& answer);
 

@@ -1,0 +1,66 @@
+#include "anthrob_calib/discovery/closed_loop.h"
+
+#include <algorithm>
+
+#include "anthrob_calib/discovery/report.h"
+#include "anthrob_calib/discovery/simulated_recording.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr int kMostRecordings = 2;
+/// A rival less probable than this is settled.
+constexpr double kRival = 0.05;
+/// A recording that is expected to tell less is not worth making [nat].
+constexpr double kTells = 3.0;
+
+/// The first effect whose rival a recording can decide; null: none.
+const FoundEffect* undecided(const Answer& answer) {
+  const auto it =
+      std::find_if(answer.effects.begin(), answer.effects.end(), [](const FoundEffect& effect) {
+        return !effect.rivals.empty() && effect.rivals.front().probability > kRival &&
+               effect.separating_recording.distance() > kTells;
+      });
+  return it == answer.effects.end() ? nullptr : &*it;
+}
+
+std::string sentence(const FoundEffect& effect, int number) {
+  const Rival& rival = effect.rivals.front();
+  return effect.id + " @ " + effect.place + " (" + short_number(effect.probability) + ") or " +
+         rival.id + " @ " + rival.place + " (" + short_number(rival.probability) +
+         "): asked the robot by separating recording " + std::to_string(number) + ", expected " +
+         short_number(effect.separating_recording.distance()) + " nat";
+}
+
+}  // namespace
+
+Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
+                          const std::shared_ptr<const RobotModel>& robot) {
+  Answer answer = discover(evaluator, question);
+  std::vector<std::string> asked;
+  for (int number = 1; number <= kMostRecordings; ++number) {
+    const FoundEffect* effect = undecided(answer);
+    if (effect == nullptr) break;
+    asked.push_back(sentence(*effect, number));
+    if (question.comment) question.comment(asked.back());
+    const auto record = [&](std::size_t first, const std::string& name) {
+      const Dataset commands =
+          separating_commands(*evaluator.model(), effect->separating_recording, first, 2);
+      Dataset recording = simulated_recording(
+          robot, commands, question.seed + 2 * static_cast<std::uint64_t>(number) + first);
+      recording.folder = "separating_" + std::to_string(number) + "_" + name;
+      return recording;
+    };
+    Dataset train = record(0, "train"), test = record(1, "test");
+    question.train.push_back(std::move(train));
+    question.test.push_back(std::move(test));
+    answer = discover(evaluator, question);
+  }
+  answer.asked = std::move(asked);
+  return answer;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,76 @@
+#include <cmath>
+#include <sstream>
+
+#include "anthrob_calib/discovery/report.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+void write_references(std::ostream& out, const RobotModel& model, const std::string& name,
+                      const std::vector<double>& references) {
+  out << "  - name: " << name << "\n    references: {";
+  bool first = true;
+  for (std::size_t m = 0; m < references.size(); ++m) {
+    if (!model.muscles[m].has_controller) continue;
+    out << (first ? "" : ", ") << model.muscles[m].name << ": " << references[m];
+    first = false;
+  }
+  out << "}\n";
+}
+
+std::string protocol_yaml(const std::string& postures_file, const std::string& explanation,
+                          const std::string& rival) {
+  return "# Tells " + explanation + " from " + rival +
+         ". Written by anthrob_discover; record it with\n"
+         "#   roslaunch anthrob_bringup record.launch protocol:=separating "
+         "protocol_file:=THIS_FILE "
+         "out:=FOLDER\n"
+         "# and give some of the runs as further --train, the others as further --test.\n"
+         "protocol: trajectories\n"
+         "postures: " +
+         postures_file +
+         "\nrest: rest\n"
+         "settle: {actuator_velocity: 0.02, joint_velocity: 0.01, window: 0.5, timeout: 20.0}\n"
+         "hold: 0.5\n"
+         "average: 0.1\n"
+         "drift: {limit: 0.0524, redo: 1}\n";
+}
+
+std::string postures_yaml(const RobotModel& model, const SeparatingRecording& plan) {
+  std::ostringstream out;
+  out.precision(6);
+  out << "# Actuator references [rad]; the one that tells most first, in nat of log score.\n"
+         "postures:\n";
+  write_references(out, model, "rest", plan.rest);
+  for (const SeparatingRecording::Target& target : plan.targets) {
+    out << "  # " << std::llround(target.distance) << " nat\n";
+    write_references(out, model, target.name, target.references);
+  }
+  return out.str();
+}
+
+}  // namespace
+
+std::string separating_file(std::size_t number) {
+  return "separating_" + std::to_string(number) + ".yaml";
+}
+
+std::map<std::string, std::string> separating_files(const Answer& answer, const RobotModel& model) {
+  std::map<std::string, std::string> files;
+  for (std::size_t i = 0; i < answer.effects.size(); ++i) {
+    const FoundEffect& effect = answer.effects[i];
+    const SeparatingRecording& plan = effect.separating_recording;
+    if (plan.targets.empty()) continue;
+    const std::string postures = "separating_" + std::to_string(i + 1) + "_postures.yaml";
+    const Rival& rival = effect.rivals.front();
+    files[separating_file(i + 1)] =
+        protocol_yaml(postures, effect.id + " @ " + effect.place, rival.id + " @ " + rival.place);
+    files[postures] = postures_yaml(model, plan);
+  }
+  return files;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include "anthrob_calib/discovery/closed_loop.h"
+#include "anthrob_calib/discovery/report.h"
+#include "anthrob_calib/discovery/simulated_recording.h"
+#include "made_recording.h"
+
+namespace anthrob {
+namespace discovery {
+namespace {
+
+const std::string kModel = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml";
+
+std::shared_ptr<const RobotModel> robot_with(const EffectInstance& effect) {
+  LoadOptions options;
+  options.effects = {effect};
+  return build_robot_model(ConfigNode::load(kModel), options);
+}
+
+Dataset recording(const std::shared_ptr<const RobotModel>& robot, std::uint64_t seed, double length,
+                  double noise = 1.0) {
+  MadeRecording made;
+  for (double* size : {&made.position_noise, &made.current_noise, &made.force_noise,
+                       &made.voltage_noise, &made.joint_noise}) {
+    *size *= noise;
+  }
+  made.seed = made.noise = seed;
+  made.length = length;
+  return made.measure(robot, made.commands(load_robot_model(kModel)));
+}
+
+const EffectInstance kFriction{"joint_coulomb", "elbow", {{"torque", 0.06}, {"static_ratio", 1.2}}};
+const EffectInstance kDamping{"joint_viscous", "elbow", {{"damping", 0.08}}};
+
+class Separation : public ::testing::Test {
+ protected:
+  Separation() {
+    named.effects = {kFriction};
+    rival.effects = {kDamping};
+    // Planned once: it takes seconds.
+    static const SeparatingRecording kPlan =
+        plan_separation(evaluator, named, rival, seen, scales());
+    plan = kPlan;
+  }
+  Scales scales() const {
+    const Experiments train = {make_experiment(*evaluator.model(), seen)};
+    return measure_scales(evaluator, train, {});
+  }
+
+  const Evaluator evaluator{kModel, {}, 0.001, 2};
+  const Dataset seen = recording(robot_with(kFriction), 1, 5.0);
+  Variant named, rival;
+  SeparatingRecording plan;
+};
+
+TEST_F(Separation, GoesWhereTheExplanationsDiffer) {
+  ASSERT_EQ(plan.targets.size(), 6u);
+  EXPECT_GT(plan.distance(), 100.0);
+  for (std::size_t i = 0; i < plan.targets.size(); ++i) {
+    const auto& target = plan.targets[i];
+    ASSERT_EQ(target.references.size(), evaluator.model()->muscles.size());
+    if (i > 0) {
+      EXPECT_LE(target.distance, plan.targets[i - 1].distance);
+    }
+  }
+  const SeparatingRecording same = plan_separation(evaluator, named, named, seen, scales());
+  EXPECT_LT(same.distance(), 1e-3 * plan.distance()) << "nothing tells a model from itself";
+}
+
+TEST_F(Separation, IsMadeOfEveryTargetOnce) {
+  const RobotModel& model = *evaluator.model();
+  const Dataset all = separating_commands(model, plan);
+  const Dataset half = separating_commands(model, plan, 1, 2);
+  EXPECT_NEAR(seconds(all.end() - all.begin()), 6 * 5.0, 0.02);
+  EXPECT_NEAR(seconds(half.end() - half.begin()), 3 * 5.0, 0.02);
+  const std::string muscle = model.muscles[0].name + "/reference";
+  EXPECT_EQ(all.series(muscle).at(0.0), plan.rest[0]) << "begins settled at rest";
+  EXPECT_EQ(all.series(muscle).held_at(1.0), plan.targets[0].references[0]);
+  EXPECT_EQ(half.series(muscle).held_at(1.0), plan.targets[1].references[0]);
+}
+
+TEST_F(Separation, IsMeasuredWithTheRobotsSensors) {
+  const Dataset commands = separating_commands(*evaluator.model(), plan, 0, 6);
+  const auto robot = robot_with(kFriction);
+  const Dataset a = simulated_recording(robot, commands, 1),
+                b = simulated_recording(robot, commands, 1);
+  EXPECT_EQ(a.find_table("muscles")->columns[3].values, b.find_table("muscles")->columns[3].values);
+  // What was recorded is what the explanation that is true replays.
+  const ExperimentOptions options;
+  const Experiments experiments = {make_experiment(*robot, a, options)};
+  const auto results = evaluator.compare({named, rival}, experiments);
+  EXPECT_LT(results[0].norm(), 0.05 * results[1].norm());
+}
+
+TEST(ClosedLoop, AsksTheRobotNothingWhereNothingIsUndecided) {
+  const auto robot = robot_with({"tendon_elasticity", "biceps_brachii", {{"compliance", 2e-4}}});
+  Question question;
+  question.model_file = kModel;
+  question.train = {recording(robot, 1, 4.0, 25.0)};
+  question.test = {recording(robot, 2, 4.0, 25.0)};
+  question.effects = {"tendon_elasticity"};
+  question.max_effects = 1;
+  const Evaluator evaluator(kModel, {}, 0.001, 2);
+  const Answer answer = discover_in_a_loop(evaluator, question, robot);
+  ASSERT_EQ(answer.effects.size(), 1u) << summary(answer);
+  EXPECT_EQ(answer.effects[0].place, "biceps_brachii");
+  EXPECT_TRUE(answer.asked.empty());
+  EXPECT_EQ(question.train.size(), 1u);
+}
+
+TEST(SeparatingFiles, AreWrittenForTheRecorder) {
+  const auto model = load_robot_model(kModel);
+  Answer answer;
+  FoundEffect effect;
+  effect.id = "joint_coulomb";
+  effect.place = "elbow";
+  effect.rivals = {{"joint_viscous", "elbow", 0.3, 10.0}};
+  answer.effects = {effect, effect};
+  const std::vector<double> references(model->muscles.size(), 0.25);
+  answer.effects[1].separating_recording = {references, {{"P1_tight", references, 12.4}}};
+  const auto files = separating_files(answer, *model);
+  ASSERT_EQ(files.size(), 2u) << "only where a recording is known";
+  const std::string& protocol = files.at("separating_2.yaml");
+  EXPECT_NE(protocol.find("Tells joint_coulomb @ elbow from joint_viscous @ elbow"),
+            std::string::npos);
+  EXPECT_NE(protocol.find("postures: separating_2_postures.yaml"), std::string::npos);
+  const std::string& postures = files.at("separating_2_postures.yaml");
+  EXPECT_NE(postures.find("- name: P1_tight"), std::string::npos);
+  EXPECT_NE(postures.find("# 12 nat"), std::string::npos);
+  EXPECT_NE(postures.find("brachialis: 0.25"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace discovery
+}  // namespace anthrob
