@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""discover.launch with files named as seen from where it was started: a driven axis with dry friction."""
+import json
+import math
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import rostest
+
+PORT = '11612'
+MASS, VISCOUS, COULOMB = 95.1089, 203.5, 20.4  # of config/driven_axis, and what its model lacks
+
+
+def record(folder, second):
+    """Five seconds of an axis held by a spring under two frequencies of force."""
+    os.makedirs(folder)
+    position, velocity, step = 0.1, 0.0, 1e-4
+    with open(os.path.join(folder, 'meta.yaml'), 'w') as file:
+        file.write('robot: driven_axis\n')
+    with open(os.path.join(folder, 'joints.csv'), 'w') as file:
+        file.write('t,axis/position,axis/effort\n')
+        for k in range(50000):
+            t = 1e-3 * (k // 10)
+            if k % 10 == 0:
+                effort = 70 * math.sin(1.7 * t) + 35 * math.sin(second * t) - 2000 * (position - 0.1)
+                file.write('%.3f,%.9f,%.6f\n' % (t, position, effort))
+            drive = effort - VISCOUS * velocity
+            sticks = velocity == 0.0 and abs(drive) < COULOMB
+            friction = drive if sticks else math.copysign(COULOMB, velocity or drive)
+            after = velocity + step / MASS * (drive - friction)
+            velocity = 0.0 if after * velocity < 0.0 and abs(drive) < COULOMB else after
+            position += step * velocity
+
+
+class Discover(unittest.TestCase):
+
+    def test_from_a_folder_with_a_space(self):
+        folder = os.path.join(tempfile.mkdtemp(), 'my recordings')
+        self.addCleanup(shutil.rmtree, os.path.dirname(folder))
+        record(os.path.join(folder, 'one'), 2.9)
+        record(os.path.join(folder, 'two'), 4.3)
+        package = subprocess.check_output(['rospack', 'find', 'anthrob_bringup'], text=True).strip()
+        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT, PWD=folder)
+        done = subprocess.run(
+            ['roslaunch', '-p', PORT, 'anthrob_bringup', 'discover.launch',
+             'model:=%s/config/driven_axis/model_I.yaml' % package, 'train:=one', 'test:=two', 'out:=found', 'jobs:=2',
+             'effects:=joint_coulomb,joint_offset_torque'],
+            cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
+        report = os.path.join(folder, 'found', 'report.json')
+        self.assertTrue(os.path.exists(report), done.stdout)
+        with open(report) as file:
+            answer = json.load(file)
+        self.assertEqual(answer['effects'][0]['id'], 'joint_coulomb', done.stdout)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('anthrob_tests', 'discover', Discover)

@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""Every launch file can be read, with what it asks for, and the programs it starts are there. (roslaunch-check does not find the
+package of files that are links.)"""
+import glob
+import os
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import roslaunch.config
+import rospkg
+import roslib.packages
+import rostest
+
+
+class LaunchFiles(unittest.TestCase):
+
+    def test_name_programs_that_are_there(self):
+        files = glob.glob(os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch', '*.launch'))
+        self.assertGreater(len(files), 6)
+        for file in files:
+            with self.subTest(os.path.basename(file)):
+                self.check(file)
+
+    def check(self, file):
+        asked = ['%s:=tier1' % arg.get('name') for arg in ElementTree.parse(file).getroot().findall('arg')
+                 if arg.get('default') is None and arg.get('value') is None]
+        config = roslaunch.config.load_config_default([(file, asked)], None, assign_machines=False)
+        self.assertFalse(config.config_errors)
+        self.assertTrue(config.nodes)
+        for node in config.nodes:
+            self.assertTrue(roslib.packages.find_node(node.package, node.type), node.package + '/' + node.type)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('anthrob_tests', 'launch_files', LaunchFiles)
