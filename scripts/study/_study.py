@@ -65,9 +65,10 @@ def load(file):
 
 
 def write(file, content):
-    with open(file + ".part", "w") as out:
+    part = f"{file}.{os.getpid()}.part"  # several slices may run beside each other
+    with open(part, "w") as out:
         out.write(content)
-    os.replace(file + ".part", file)
+    os.replace(part, file)
 
 
 def machine():

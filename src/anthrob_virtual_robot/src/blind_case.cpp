@@ -147,6 +147,7 @@ CaseSettings CaseSettings::load(const std::string& file) {
   settings.sensors = SensorSettings::load(node.at("sensors"));
   settings.nuisances = NuisanceRanges::load(node.at("nuisances"));
   const ConfigNode recordings = node.at("recordings");
+  if (recordings.has("count")) settings.trains = recordings.at("count").as_integer(1, 9);
   settings.train = recordings.number("train", Bounds::positive(), "s");
   settings.test = recordings.number("test", Bounds::positive(), "s");
   settings.slow_train = recordings.number("slow_train", Bounds::positive(), "s");
@@ -228,8 +229,11 @@ void record_case(const BlindCase& blind, const CaseSettings& settings, const std
   };
   run("train_0", train, kTrain, 0);
   run("repeat_0", train, kTrain, 1);
-  run("train_1", train, kTrain + 100, 2);
   run("test_0", test, kTest, 3);
+  for (int k = 1; k < settings.trains; ++k) {
+    const auto number = static_cast<std::uint64_t>(k);
+    run("train_" + std::to_string(k), train, kTrain + 100 * number, 2 * number);
+  }
 }
 
 }  // namespace anthrob::virtual_robot

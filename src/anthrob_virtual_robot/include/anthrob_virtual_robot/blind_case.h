@@ -25,6 +25,7 @@ struct CaseSettings {
   NuisanceRanges nuisances;
   RecordingSettings recording;
   std::vector<ModelParameter> ordinary;  ///< what a calibration may correct of the believed model
+  int trains = 2;                        ///< train_0, train_1, ...
   double train = 20.0, test = 20.0, slow_train = 120.0, slow_test = 60.0;  ///< [s]
   double least_change = 3.0, most_change = 10.0;  ///< of the worst channel [sensor errors]
 
@@ -54,7 +55,7 @@ BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws
                     std::uint64_t seed, const reference::ArmParameters& believed,
                     const CaseSettings& settings);
 
-/// Runs train_0, train_1, test_0 and repeat_0, and writes them as dataset folders.
+/// Runs train_0, ..., test_0 and repeat_0, and writes them as dataset folders.
 void record_case(const BlindCase& blind, const CaseSettings& settings, const std::string& folder);
 
 /// What is hidden, as JSON.
