@@ -13,6 +13,7 @@ import os
 import shutil
 import statistics
 import subprocess
+import sys
 import time
 
 from _study import (commit, html_page, html_table, load, machine, markdown_facts, markdown_table,
@@ -206,14 +207,16 @@ def page(result, facts):
 
 
 def summarise(cases, options):
+    """Whether there was something to tell of."""
     result = score(options)
     if result is None or not result["cases"]:
-        refuse("no case is done yet")
+        return False
     facts = facts_of(cases, options)
     write(f"{options.out}/discovery.json", as_json({"facts": facts, **result}))
     write(f"{options.out}/discovery.html", page(result, facts))
     os.makedirs("docs/studies", exist_ok=True)
     write("docs/studies/discovery.md", markdown(result, facts))
+    return True
 
 
 def a_slice(text):
@@ -239,6 +242,22 @@ def arguments():
     return parser.parse_args()
 
 
+def carry_out(cases, everything, options):
+    for case in cases:
+        if case.done():
+            continue
+        left = time_left(cases)
+        say(f"{case.name}, {sum(c.done() for c in cases)} of {len(cases)} done" +
+            ("" if left is None else f", {left:.1f} h left"))
+        if case.carry_out():
+            summarise(everything, options)
+    without = [case.name for case in cases if not case.done()]
+    if without:
+        sys.exit(f"study: without a report: {' '.join(without)}")
+    summarise(everything, options)
+    say(f"{options.out}/discovery.html, docs/studies/discovery.md")
+
+
 def main():
     options = arguments()
     everything = all_cases(options)
@@ -247,16 +266,11 @@ def main():
         for case in cases:
             print(f"{case.name:<12} {case.state()}")
         return
-    for case in [] if options.summary else cases:
-        if case.done():
-            continue
-        left = time_left(cases)
-        say(f"{case.name}, {sum(c.done() for c in cases)} of {len(cases)} done" +
-            ("" if left is None else f", {left:.1f} h left"))
-        if case.carry_out():
-            summarise(everything, options)
-    summarise(everything, options)
-    say(f"{options.out}/discovery.html, docs/studies/discovery.md")
+    if options.summary:
+        if not summarise(everything, options):
+            refuse("no case is done yet")
+        return
+    carry_out(cases, everything, options)
 
 
 if __name__ == "__main__":

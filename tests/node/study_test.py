@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""The study of discovery with programs that only pretend: what it runs, in which order, and how it goes on."""
+import json
+import os
+import shutil
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+import rostest
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+sys.path.insert(0, os.path.join(TOP, 'scripts', 'study'))
+import discovery  # noqa: E402
+
+# Hides "law" everywhere; lists three laws.
+MAKER = '''#!/bin/sh
+[ "$1" = --list ] && { echo "effect   a: 1"; echo "effect   b: 2"; echo "outside  c: 3"; exit; }
+mkdir -p "${10}" "$(dirname "${12}")"
+echo "made ${10}" >> calls
+echo '{"kind": "'$2'", "effects": [{"id": "law", "place": "elbow", "parameters": {"x": 1.0}, "sizes": ["x"]}]}' > "${12}"
+'''
+# Names "law", unless the file `status` says how it ends.
+DISCOVER = '''#!/bin/sh
+echo examined >> calls
+[ -f status ] && exit "$(cat status)"
+while [ "$1" != --out ]; do shift; done
+mkdir -p "$2"
+echo '{"verdict": "effects_found", "runtime_s": 1, "effects": [{"id": "law", "place": "elbow", "probability": 1,
+  "parameters": {"x": {"value": 1.1, "ci95": [0.9, 1.2]}}}]}' > "$2/report.json"
+'''
+
+
+class Study(unittest.TestCase):
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
+        programs = {'MAKER': self.program('maker', MAKER), 'DISCOVER': self.program('discover', DISCOVER),
+                    'SCORE': os.path.join(TOP, discovery.SCORE)}
+        for name, value in programs.items():
+            patch = mock.patch.object(discovery, name, value)
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    def program(self, name, text):
+        with open(name, 'w') as file:
+            file.write(text)
+        os.chmod(name, 0o755)
+        return os.path.join(self.folder, name)
+
+    def study(self, *arguments):
+        with mock.patch.object(sys, 'argv', ['study', '--out', 'out', *arguments]):
+            discovery.main()
+
+    def calls(self):
+        with open('calls') as file:
+            return len(file.readlines())
+
+    def test_slices_are_all_cases_once_and_every_part_tells_of_all_kinds(self):
+        with mock.patch.object(sys, 'argv', ['study']):
+            options = discovery.arguments()
+        cases = discovery.all_cases(options)
+        names = [case.name for case in cases]
+        self.assertEqual(len(names), 2 * 2 + 60 + 12 + 1 + 1)
+        parts = []
+        for k in range(1, 6):
+            options.slice = (k, 5)
+            parts += [case.name for case in discovery.chosen(cases, options)]
+        self.assertEqual(sorted(parts), sorted(names))
+        self.assertEqual({case.kind for case in cases[:8]}, set(discovery.KINDS))
+
+    def test_a_case_is_done_once(self):
+        self.study('--case', 'effect_01', 'null_00')
+        self.assertEqual(self.calls(), 4)
+        self.study('--case', 'effect_01', 'null_00')
+        self.assertEqual(self.calls(), 4)
+        with open('out/discovery.json') as file:
+            result = json.load(file)
+        self.assertEqual(result['effect']['first'], 1)
+        self.assertEqual(result['null']['false'], 1)
+        self.assertIn('2 of 78', result['facts']['cases'])
+        with open('docs/studies/discovery.md') as file:
+            self.assertIn('| correct | 1/1 = 100 %', file.read())
+        self.assertFalse(os.path.exists('out/discovery/cases/effect_01'))
+
+    def test_what_was_interrupted_or_failed_is_done_again(self):
+        for status in '130', '1':
+            with open('status', 'w') as file:
+                file.write(status)
+            with self.assertRaises(KeyboardInterrupt if status == '130' else SystemExit):
+                self.study('--case', 'null_00')
+            self.assertFalse(os.path.exists('out/discovery.json'))
+        self.assertEqual(self.calls(), 3)  # made once
+        os.remove('status')
+        self.study('--case', 'null_00')
+        self.assertTrue(os.path.exists('out/discovery.json'))
+
+    def test_bad_input(self):
+        for arguments in (['--case', 'nobody'], ['--slice', '3/2'], ['--slice', 'x'], ['--summary']):
+            with self.assertRaises(SystemExit) as ended:
+                self.study(*arguments)
+            self.assertEqual(ended.exception.code, 2, arguments)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('anthrob_tests', 'study', Study)
