@@ -76,7 +76,10 @@ Motion motion_round_body(int count, bool fixed) {
   const Vec3 insertion = 1.002 * radii.cwiseProduct(Vec3(0.6, 0.1, -0.79).normalized());
   std::shared_ptr<const WrappingSurface> surface =
       std::make_shared<MeshSurface>(points, Vec3::UnitX());
-  if (fixed) surface = surface->prepared_for(nullptr, &insertion);
+  // The largest do without distances from their fixed end.
+  if (fixed) {
+    if (const auto prepared = surface->prepared_for(nullptr, &insertion)) surface = prepared;
+  }
   Motion motion{std::to_string(count), surface, {}, {}};
   for (int i = 0; i < kSteps; ++i) {
     const double t = 1e-3 * i;
