@@ -180,6 +180,7 @@ void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
     }
     Named simple = std::move(list.named[i]);
     simple.probability += best.probability;
+    list.named.front().probability = 0.0;  // whether more is needed the next round will tell
     list.named.erase(list.named.begin() + static_cast<std::ptrdiff_t>(i));
     list.named.insert(list.named.begin(), std::move(simple));
     return;
