@@ -22,14 +22,14 @@ def run(command, log):
         try:
             status = step.wait()
         except KeyboardInterrupt:
-            step.send_signal(signal.SIGINT)  # if only the study was told
+            step.terminate()  # if only the study was told
             try:
                 step.wait(PATIENCE)
             except subprocess.TimeoutExpired:
                 step.kill()
                 step.wait()
             raise
-    if status in (INTERRUPTED, -signal.SIGINT):
+    if status in (INTERRUPTED, -signal.SIGINT, -signal.SIGTERM):
         raise KeyboardInterrupt
     return status
 
