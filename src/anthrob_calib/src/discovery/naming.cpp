@@ -55,21 +55,23 @@ EffectInstance Naming::sized(const Candidate& candidate, const std::vector<doubl
   return instance;
 }
 
-std::vector<std::size_t> Naming::try_out(const Fitted& base,
-                                         const std::vector<Score>& scores) const {
+std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>& scores) const {
   // A dose says little about a size ten times smaller or larger where an effect is not linear, so
   // several sizes around the suggested one are simulated, ordinary parameters as they are, and the
-  // part that these can take up is taken off afterwards by the fit.
+  // part that these can take up is taken off afterwards by the fit. The dose itself is among them:
+  // a surface that is too small to touch does nothing.
   std::vector<Variant> variants;
+  std::vector<std::vector<double>> amounts;
   std::vector<std::size_t> owner;
   for (std::size_t s = 0; s < scores.size() && s < kTried; ++s) {
     if (!(scores[s].gain > 0.0)) break;
-    for (const double factor : {0.5, 1.0}) {
+    for (const double factor : {0.5, 1.0, 0.0}) {
       std::vector<double> amount = scores[s].amount;
-      for (double& a : amount) a *= factor;
+      for (double& a : amount) a = factor > 0.0 ? factor * a : std::copysign(a != 0.0, a);
       Variant variant = base.variant;
       variant.effects.push_back(sized(candidates_[scores[s].candidate], amount));
       variants.push_back(std::move(variant));
+      amounts.push_back(std::move(amount));
       owner.push_back(s);
     }
   }
@@ -82,6 +84,9 @@ std::vector<std::size_t> Naming::try_out(const Fitted& base,
   A.diagonal().array() += 1e-9 * (1.0 + A.diagonal().maxCoeff());
   const Eigen::VectorXd lower = base.lower_room(), upper = base.upper_room();
   std::vector<double> left(scores.size(), base.cost);
+  std::vector<Score> tried(
+      scores.begin(),
+      scores.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(scores.size(), kTried)));
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (residuals[i].size() == 0) continue;
     const Eigen::VectorXd g =
@@ -92,7 +97,9 @@ std::vector<std::size_t> Naming::try_out(const Fitted& base,
       const Eigen::VectorXd step = bounded_minimum(A, g, lower, upper);
       cost += 0.5 * step.dot(A * step) + g.dot(step);
     }
-    left[owner[i]] = std::min(left[owner[i]], cost);
+    if (cost >= left[owner[i]]) continue;
+    left[owner[i]] = cost;
+    tried[owner[i]].amount = amounts[i];
   }
   std::vector<std::size_t> order;
   for (std::size_t s = 0; s < scores.size() && s < kTried; ++s) {
@@ -100,8 +107,16 @@ std::vector<std::size_t> Naming::try_out(const Fitted& base,
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return left[a] < left[b]; });
+  // Two names of one place ("the last segment", "segment 3") give the same bits.
+  const auto same = [&](std::size_t a, std::size_t b) {
+    return left[a] == left[b] &&
+           candidates_[scores[a].candidate].effect == candidates_[scores[b].candidate].effect;
+  };
+  order.erase(std::unique(order.begin(), order.end(), same), order.end());
   if (order.size() > kFitted) order.resize(kFitted);
-  return order;
+  std::vector<Score> best;
+  for (const std::size_t i : order) best.push_back(std::move(tried[i]));
+  return best;
 }
 
 Named Naming::fit(const Fitted& base, const Score& score) const {
@@ -190,9 +205,9 @@ void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
 ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
                         const std::vector<Score>& scores) const {
   ShortList list;
-  for (const std::size_t s : try_out(base, scores)) {
+  for (const Score& score : try_out(base, scores)) {
     try {
-      list.named.push_back(fit(base, scores[s]));
+      list.named.push_back(fit(base, score));
     } catch (const std::runtime_error&) {
       // Cannot be simulated at that size: not this one.
     }

@@ -50,7 +50,7 @@ class Naming {
 
  private:
   EffectInstance sized(const Candidate& candidate, const std::vector<double>& amount) const;
-  std::vector<std::size_t> try_out(const Fitted& base, const std::vector<Score>& scores) const;
+  std::vector<Score> try_out(const Fitted& base, const std::vector<Score>& scores) const;
   Named fit(const Fitted& base, const Score& score) const;
   void judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;

@@ -25,7 +25,7 @@ EffectInfo describe() {
   i.stage = Stage::kParts;
   i.channels = {"joint", "force", "position"};
   i.parameters = {
-      {"radius", "m", "of the cylinder", 0.0, 0.013, {0.0, 0.1}},
+      {"radius", "m", "of the cylinder", 0.0, 0.025, {0.0, 0.1}},
       {"offset_u",
        "m",
        "of its axis, across it",
