@@ -10,7 +10,8 @@ namespace anthrob {
 
 namespace {
 constexpr int kMaxIterations = 40;
-/// Newton has converged when no velocity changes by more [rad/s, m/s].
+/// A step is solved when what the last sweep did not foresee changes no velocity by more [rad/s,
+/// m/s].
 constexpr double kTolerance = 1e-5;
 /// A joint slower than this at the start of a step counts as at rest [rad/s, m/s].
 constexpr double kAtRest = 1e-9;
