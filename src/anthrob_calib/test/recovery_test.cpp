@@ -88,6 +88,7 @@ void run_seed(const Trial& trial, std::uint64_t seed, Tally& tally) {
     RecordingPlan plan;
     plan.from = trial.home;
     plan.to = references;
+    plan.settle = options.settle - plan.lead;  // rings go on relaxing: the same time for both
     plan.duration = trial.duration;
     plan.angle_noise = 0.0035;  // motion capture
     plan.force_noise = 0.3;

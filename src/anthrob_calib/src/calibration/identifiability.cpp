@@ -90,9 +90,10 @@ class Stack final : public Evaluator {
 /// less: the fit has made them small.
 struct Noise {
   double posture = 0.0, force = 0.0;
+  double free[2] = {0.0, 0.0};  ///< rows of each kind that the parameters could not follow
 
   Noise(const Stack& stack, const std::vector<double>& left, const Eigen::VectorXd& leverage) {
-    double square[2] = {0.0, 0.0}, free[2] = {0.0, 0.0};
+    double square[2] = {0.0, 0.0};
     for (std::size_t k = 0; k < left.size(); ++k) {
       const double x = stack.weight[k] > 0.0 ? left[k] / stack.weight[k] : 0.0;
       square[stack.kind[k]] += x * x;
@@ -105,6 +106,16 @@ struct Noise {
 
   double of(Kind kind) const { return kind == kPosture ? posture : force; }
 };
+
+/// A variance made of two that are estimates themselves, each from its rows (Welch-Satterthwaite).
+double effective_freedom(const double (&of_kind)[2], const Noise& noise, double repetition,
+                         double variance) {
+  double doubt = 0.0;
+  for (const Kind kind : {kPosture, kForce}) {
+    doubt += std::pow(repetition * of_kind[kind], 2) * repetition / std::max(1.0, noise.free[kind]);
+  }
+  return doubt > 0.0 ? std::max(1.0, variance * variance / doubt) : HUGE_VAL;
+}
 
 Profile draw_profile(const Problem& problem, const std::vector<SearchVariable>& variables,
                      const Point& best, const Eigen::MatrixXd& information, std::size_t index,
@@ -165,7 +176,7 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   Eigen::VectorXd range_information(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double prior = (variables[i].upper - variables[i].lower) / std::sqrt(12.0);
-    result.parameters.push_back({0.0, prior, false});
+    result.parameters.push_back({0.0, prior, HUGE_VAL, false});
     range_information(i) = scatter * std::pow(variables[i].step / prior, 2);
   }
   information.diagonal() += range_information;
@@ -175,19 +186,20 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   const Noise noise(stack, left, gain.cwiseProduct(jacobian).rowwise().sum());
   result.posture_noise = noise.posture;
   result.force_noise = noise.force;
-  result.freedom = static_cast<double>(rows) / stack.repetition - static_cast<double>(n);
 
   // The fit weighs as it is told to, not as noise would have it: errors go through its gain.
-  Eigen::VectorXd variance(rows);
-  for (Eigen::Index k = 0; k < rows; ++k) {
-    variance(k) = std::pow(stack.weight[k] * noise.of(stack.kind[k]), 2) * stack.repetition;
-  }
-  const Eigen::MatrixXd covariance = gain.transpose() * variance.asDiagonal() * gain +
-                                     inverse * (scatter * range_information).asDiagonal() * inverse;
+  const Eigen::MatrixXd prior = inverse * (scatter * range_information).asDiagonal() * inverse;
   for (Eigen::Index i = 0; i < n; ++i) {
+    double of_kind[2] = {0.0, 0.0};
+    for (Eigen::Index k = 0; k < rows; ++k) {
+      const Kind kind = stack.kind[k];
+      of_kind[kind] += std::pow(gain(k, i) * stack.weight[k] * noise.of(kind), 2);
+    }
     ParameterKnowledge& p = result.parameters[i];
-    p.sigma = std::sqrt(std::max(0.0, covariance(i, i))) * variables[i].step;
+    const double variance = stack.repetition * (of_kind[kPosture] + of_kind[kForce]) + prior(i, i);
+    p.sigma = std::sqrt(std::max(0.0, variance)) * variables[i].step;
     p.identifiable = p.sigma < kIdentifiableShare * p.prior_sigma;
+    p.freedom = effective_freedom(of_kind, noise, stack.repetition, variance);
   }
 
   std::vector<std::size_t> order(best.size());
@@ -208,8 +220,8 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
 
 identification::Estimate interval(const Identifiability& known, std::size_t parameter,
                                   double value) {
-  return identification::make_estimate(value, known.parameters[parameter].sigma,
-                                       std::max(1.0, known.freedom));
+  const ParameterKnowledge& p = known.parameters[parameter];
+  return identification::make_estimate(value, p.sigma, p.freedom);
 }
 
 int equilibria_needed(int unknowns, int muscles) {

@@ -175,6 +175,7 @@ class RunReader {
     const Samples all = samples_at(times);
     Samples mean = empty(1);
     mean.t = {0.5 * (from + to) - origin_};
+    mean.window = to - from;
     mean.q = all.q.colwise().mean();
     mean.force = all.force.colwise().mean();
     mean.position = all.position.colwise().mean();

@@ -14,24 +14,26 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Fills rows of differences from a running simulation.
+/// Fills rows of differences from a running simulation; a row may be a mean over several steps.
 class Comparison {
  public:
   Comparison(const RobotModel& model, const Samples& measured, int rows)
-      : model_(model), measured_(measured), posture_(rows, model.skeleton->velocity_count) {
+      : model_(model), measured_(measured), now_(model.skeleton->velocity_count) {
+    posture_.setZero(rows, model.skeleton->velocity_count);
     differences.joints = static_cast<int>(model.skeleton->joints.size());
-    differences.force.resize(rows, static_cast<Eigen::Index>(model.muscles.size()));
-    differences.actuator.resize(rows, measured.position.cols());
+    differences.force.setZero(rows, static_cast<Eigen::Index>(model.muscles.size()));
+    differences.actuator.setZero(rows, measured.position.cols());
   }
 
-  void add(const Simulation& sim, int row) {
+  void add(const Simulation& sim, int row, double weight = 1.0) {
     const Eigen::VectorXd q = measured_.q.row(row);
-    posture_row(*model_.skeleton, q.data(), sim.read_positions(), posture_.row(row).data());
+    posture_row(*model_.skeleton, q.data(), sim.read_positions(), now_.data());
+    posture_.row(row) += weight * now_;
     for (Eigen::Index m = 0; m < differences.force.cols(); ++m) {
       const ecu::Measurement reading = sim.reading(static_cast<int>(m));
-      differences.force(row, m) = reading.force - measured_.force(row, m);
+      differences.force(row, m) += weight * (reading.force - measured_.force(row, m));
       if (differences.actuator.cols() > 0) {
-        differences.actuator(row, m) = reading.position - measured_.position(row, m);
+        differences.actuator(row, m) += weight * (reading.position - measured_.position(row, m));
       }
     }
   }
@@ -45,6 +47,7 @@ class Comparison {
   const RobotModel& model_;
   const Samples& measured_;
   RowMatrix posture_;
+  Eigen::RowVectorXd now_;
   Differences differences;
 };
 
@@ -157,22 +160,26 @@ RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationO
   const auto steps_until = [&](double t) {
     return static_cast<int>(std::lround(std::min(options.motion, t) / h));
   };
-  const int steps = steps_until(run.duration), end = steps_until(run.after.t.front());
+  const int steps = steps_until(run.duration);
+  // What was measured at the end is a mean; what was simulated is the mean over as long.
+  const int last = steps_until(run.after.t.front() + 0.5 * run.after.window);
+  const int count = std::min(last, static_cast<int>(std::lround(run.after.window / h))) + 1;
   int rows = 0;
   const auto due = [&](int row) { return static_cast<int>(std::lround(run.path.t[row] / h)); };
   while (rows < run.path.count() && due(rows) <= steps) ++rows;
 
-  Comparison path(sim.model(), run.path, rows);
+  Comparison path(sim.model(), run.path, rows), after(sim.model(), run.after, 1);
   Driver driver(run, options.drive);
   int row = 0;
   for (int step = 0; step <= steps; ++step) {
     for (; row < rows && due(row) <= step; ++row) path.add(sim, row);
-    if (step == end) result.after = compare_once(sim, run.after);
+    if (step > last - count && step <= last) after.add(sim, 0, 1.0 / count);
     if (step == steps) break;
     driver.apply(sim, step * h);
     sim.step();
   }
   if (rows > 0) result.path = path.take();
+  result.after = after.take();
   for (std::size_t m = 0; m < sim.muscle_count(); ++m) sim.release(static_cast<int>(m));
   return result;
 }

@@ -13,6 +13,7 @@ namespace calibration {
 struct ParameterKnowledge {
   double sigma = 0.0;        ///< standard error [unit of the parameter]; at most that of its range
   double prior_sigma = 0.0;  ///< what its range alone says: range / sqrt(12)
+  double freedom = 0.0;      ///< of sigma, for Student's distribution: few rows may be behind it
   bool identifiable = false;
 };
 
@@ -28,7 +29,6 @@ struct Identifiability {
   Eigen::VectorXd singular_values;  ///< of the derivatives by steps, noise at 1
   std::vector<double> flattest;     ///< direction the data tell least, in steps, length 1
   std::vector<Profile> profiles;    ///< of the least identifiable parameters
-  double freedom = 0.0;             ///< independent differences minus parameters
   double posture_noise = 0.0;       ///< standard deviation of what is left [rad]
   double force_noise = 0.0;         ///< [N]
 };

@@ -13,6 +13,7 @@ namespace calibration {
 /// What was measured at some instants: one row each.
 struct Samples {
   std::vector<double> t;     ///< [s] since the first command
+  double window = 0.0;       ///< each row is a mean over so long, t in its middle [s]
   Eigen::MatrixXd q;         ///< joint positions as in Simulation::configuration()
   Eigen::MatrixXd force;     ///< by muscle [N]
   Eigen::MatrixXd position;  ///< of actuators, by muscle [rad]; no columns: not measured
