@@ -338,6 +338,13 @@ TEST_F(VcanFaults, SecondDriver) {
               [&] { second.reset(); });
 }
 
+TEST(CanCheck, RefusesARateAtWhichEcusWouldStop) {
+  if (::if_nametoindex(kInterface) == 0) GTEST_SKIP() << "no vcan0: scripts/with_vcan.sh";
+  const std::string call = std::string(ANTHROB_CAN_CHECK) + " --emulate --rate 50 --can " +
+                           kInterface + " --hardware " + kHardwareFile;
+  EXPECT_EQ(WEXITSTATUS(std::system(call.c_str())), 2);
+}
+
 }  // namespace
 }  // namespace driver
 }  // namespace anthrob

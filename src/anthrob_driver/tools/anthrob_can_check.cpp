@@ -206,26 +206,46 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   return stopped || incomplete > 0 ? 1 : 0;
 }
 
+/// All ECUs in software; they end with this object, also when the measurement throws.
+class EmulatedRobot {
+ public:
+  EmulatedRobot(const Hardware& hardware, const Arguments& arguments)
+      : plant_(hardware.muscles.size(), hardware.joints.size(), hardware.touch.size()),
+        bus_(arguments.can),
+        rack_(hardware, plant_, bus_),
+        emulator_(rack_, bus_, arguments.pace),
+        ecus_([this, realtime = arguments.realtime] {
+          if (realtime) become_realtime(Emulator::kPriority);
+          emulator_.run([this] { return quit_.load(); }, [] {});
+        }) {}
+  ~EmulatedRobot() { stop(); }
+
+  void stop() {
+    quit_ = true;
+    if (ecus_.joinable()) ecus_.join();
+  }
+  std::uint64_t late() const { return emulator_.late(); }
+
+ private:
+  TendonPlant plant_;
+  SocketCanBus bus_;
+  Rack rack_;
+  Emulator emulator_;
+  std::atomic<bool> quit_{false};
+  std::thread ecus_;
+};
+
 int run(const Arguments& arguments) {
   const Hardware hardware = load_hardware(arguments.hardware, arguments.hand);
   if (!arguments.emulate && arguments.pace < 1.0) {
     throw BadInput("--pace: a robot has no other pace than 1; expected --emulate");
   }
   if (!arguments.emulate) return measure(arguments, hardware);
-  TendonPlant plant(hardware.muscles.size(), hardware.joints.size(), hardware.touch.size());
-  SocketCanBus bus(arguments.can);
-  Rack rack(hardware, plant, bus);
-  Emulator emulator(rack, bus, arguments.pace);
-  std::atomic<bool> quit{false};
-  std::thread ecus([&] {
-    if (arguments.realtime) become_realtime(Emulator::kPriority);
-    emulator.run([&] { return quit.load(); }, [] {});
-  });
+  EmulatedRobot robot(hardware, arguments);
   const int status = measure(arguments, hardware);
-  quit = true;
-  ecus.join();
+  robot.stop();
   std::printf("emulated milliseconds that took more than 6: %llu\n",
-              static_cast<unsigned long long>(emulator.late()));
+              static_cast<unsigned long long>(robot.late()));
   return status;
 }
 
