@@ -37,6 +37,14 @@ AFTER = {
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
+ITERATIONS = 40  # most, of least squares
+
+
+def search(stage, model, options):
+    """How a stage is searched: Ceres, or the thesis's evolution strategy with a share of its generations."""
+    if options.optimiser == "least_squares":
+        return ["--optimiser", "least_squares", "--generations", str(ITERATIONS)]
+    return ["--optimiser", options.optimiser] + generations(stage, model, options.share)
 
 
 def generations(stage, model, share):
@@ -49,6 +57,15 @@ def generations(stage, model, share):
                 full = int(line.split(":")[1].split("#")[0])
                 return ["--generations", str(max(1, round(full * share)))]
     sys.exit(f"study: {stage}_{model}.yaml names no generations")
+
+
+def search_words(options):
+    return [] if options.share >= 1 else [f"({options.share} of the thesis's generations)"]
+
+
+def searches(options):
+    """A stage; least squares knows no chance."""
+    return 1 if options.optimiser == "least_squares" else options.runs
 
 
 class Robot:
@@ -96,8 +113,8 @@ class Robot:
             say(f"robot {self.seed}: model {model}, {stage}")
             self.step(stage, model, "uncalibrated", None, ["--evaluate"])
             runs = []
-            for k in range(1, self.options.runs + 1):
-                more = ["--seed", str(k)] + generations(stage, model, self.options.share)
+            for k in range(1, searches(self.options) + 1):
+                more = ["--seed", str(k)] + search(stage, model, self.options)
                 runs.append(self.step(stage, model, f"run_{k}", start, more))
             start = min(runs, key=lambda r: load(f"{r}/result.json")["fitness"]["after"])
             with open(f"{self.folder}/{model}/{stage}/best", "w") as text:
@@ -199,8 +216,8 @@ def summarise(options):
     facts = {
         "commit": commit(),
         "robots (seeds)": ", ".join(str(s) for s in options.robots),
-        "searches a stage": options.runs,
-        "share of the thesis's generations": options.share,
+        "optimiser": " ".join([options.optimiser] + search_words(options)),
+        "searches a stage": searches(options),
         "machine": machine(),
     }
     write(f"{options.out}/calibration.json", json.dumps({"facts": facts, "table": table}, indent=2))
@@ -213,7 +230,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--robots", type=int, nargs="+", default=[1, 2, 3], help="seeds")
     parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS)
-    parser.add_argument("--runs", type=int, default=2, help="searches a stage; the better one survives")
+    parser.add_argument("--optimiser", default="least_squares", help="or evolution_strategy, cmaes, ...")
+    parser.add_argument("--runs", type=int, default=2, help="searches a stage by chance; the better one survives")
     parser.add_argument("--share", type=float, default=1.0, help="of the thesis's generations")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--out", default="build/study")

@@ -9,6 +9,9 @@ namespace calibration {
 
 namespace {
 
+/// A smaller share of the fitness is not worth another Jacobian.
+constexpr double kWorthwhile = 1e-4;
+
 Point unscaled(const std::vector<SearchVariable>& variables, const double* z) {
   Point point;
   for (std::size_t i = 0; i < variables.size(); ++i) {
@@ -91,9 +94,12 @@ SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& 
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = settings_.generations;
-  options.function_tolerance = 1e-5;
+  options.function_tolerance = kWorthwhile;
   options.parameter_tolerance = 1e-4;
   options.initial_trust_region_radius = 1e2;
+  // Between bounds Ceres also searches along the step; the default would ask for a Jacobian at each
+  // trial point.
+  options.line_search_interpolation_type = ceres::QUADRATIC;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
