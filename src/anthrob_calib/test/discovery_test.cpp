@@ -306,7 +306,8 @@ TEST(ChainExperiment, DifferencesAreNoiseOnlyWhereTheModelIsRight) {
   const Dataset data = arm.record({}, 1, 1);
   const ChainExperiment experiment(*arm.plain, data, {});
   std::vector<float> differences(experiment.size());
-  experiment.compare(arm.plain, differences.data());
+  Starts starts;
+  experiment.compare(arm.plain, starts, differences.data());
   const MadeRecording made;
   for (const Channel& channel : experiment.channels()) {
     double square = 0.0;
@@ -322,6 +323,24 @@ TEST(ChainExperiment, DifferencesAreNoiseOnlyWhereTheModelIsRight) {
     // Four samples a bin.
     EXPECT_NEAR(rms, 0.5 * noise, 0.1 * noise) << channel.name();
   }
+}
+
+TEST(ChainExperiment, RecordingsThatStartAlikeSettleOnce) {
+  const Arm arm;
+  LoadOptions options;
+  options.effects = {
+      {"see_hysteresis", "biceps_brachii", {{"share", 0.1}}},
+      {"winding_heating", "teres_major", {{"thermal_resistance", 20.0}}}};  // they remember
+  const auto model = build_robot_model(arm.config, options);
+  const ChainExperiment first(*arm.plain, arm.record({}, 1, 1), {}),
+      second(*arm.plain, arm.record({}, 1, 2), {});
+  std::vector<float> alone(second.size()), after(second.size()), ignored(first.size());
+  Starts none, starts;
+  second.compare(model, none, alone.data());
+  first.compare(model, starts, ignored.data());
+  second.compare(model, starts, after.data());
+  EXPECT_EQ(starts.size(), 1u);
+  EXPECT_EQ(after, alone);  // to the last bit
 }
 
 TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {

@@ -105,7 +105,8 @@ void AxisExperiment::place(Simulation& sim, std::size_t edge) const {
   sim.restore(snapshot);
 }
 
-void AxisExperiment::compare(const std::shared_ptr<const RobotModel>& model, float* out) const {
+void AxisExperiment::compare(const std::shared_ptr<const RobotModel>& model, Starts&,
+                             float* out) const {
   Simulation sim(model);
   const auto split = static_cast<std::size_t>(std::lround(step_ / model->step));
   const auto steps = steps_per_bin_ * split;

@@ -12,14 +12,18 @@ namespace discovery {
 
 namespace {
 
-/// Normal equations of one block of time.
+constexpr int kLevels = 3;  ///< of speed and of load
+
+/// Normal equations of some rows.
 struct Block {
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;
+
+  explicit Block(Eigen::Index n)
+      : information(Eigen::MatrixXd::Zero(n, n)), gradient(Eigen::VectorXd::Zero(n)) {}
 };
 
-std::vector<Block> blocks_of(const Fitted& fitted, const Experiments& experiments) {
-  const auto n = fitted.sensitivity.cols();
+std::vector<Block> blocks_of_time(const Fitted& fitted, const Experiments& experiments) {
   std::vector<Block> blocks;
   std::size_t offset = 0;
   for (const auto& experiment : experiments) {
@@ -27,7 +31,7 @@ std::vector<Block> blocks_of(const Fitted& fitted, const Experiments& experiment
         std::max<std::size_t>(1, static_cast<std::size_t>(Judge::kBlock / experiment->bin()));
     const std::size_t bins = experiment->channels().front().count;
     for (std::size_t from = 0; from < bins; from += per_block) {
-      Block block{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+      Block block(fitted.sensitivity.cols());
       for (const Channel& channel : experiment->channels()) {
         const std::size_t count =
             std::min(per_block, channel.count - std::min(from, channel.count));
@@ -45,13 +49,83 @@ std::vector<Block> blocks_of(const Fitted& fitted, const Experiments& experiment
   return blocks;
 }
 
-}  // namespace
+/// Levels with equally many bins.
+std::vector<std::vector<int>> levels_of(const MeasuredVariable& variable) {
+  std::vector<double> sorted;
+  for (const auto& values : variable.values) {
+    sorted.insert(sorted.end(), values.begin(), values.end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::vector<int>> levels;
+  for (const auto& values : variable.values) {
+    levels.emplace_back();
+    for (const double value : values) {
+      int level = 0;
+      for (int k = 1; k < kLevels; ++k) {
+        if (value > sorted[k * sorted.size() / kLevels]) level = k;
+      }
+      levels.back().push_back(level);
+    }
+  }
+  return levels;
+}
 
-std::vector<std::pair<double, double>> bootstrap_intervals(const Fitted& fitted,
-                                                           const Experiments& experiments,
-                                                           std::uint64_t seed) {
+/// What a place's regimes are made of: its first speed, and its first load or else posture.
+std::vector<std::vector<std::vector<int>>> regimes_of(
+    const std::string& place, const std::vector<MeasuredVariable>& variables) {
+  const MeasuredVariable *speed = nullptr, *load = nullptr, *posture = nullptr;
+  for (const MeasuredVariable& variable : variables) {
+    if (variable.owner() != place) continue;
+    if (!speed && variable.word == "speed") speed = &variable;
+    if (!load && variable.word == "load") load = &variable;
+    if (!posture && variable.word == "posture") posture = &variable;
+  }
+  std::vector<std::vector<std::vector<int>>> regimes;
+  for (const MeasuredVariable* variable : {speed, load ? load : posture}) {
+    if (variable) regimes.push_back(levels_of(*variable));
+  }
+  return regimes;
+}
+
+std::vector<Block> blocks_of_regimes(const Fitted& fitted, const Experiments& experiments,
+                                     const std::vector<MeasuredVariable>& variables) {
+  std::vector<Block> blocks;
+  const auto n = fitted.sensitivity.cols();
+  const auto& channels = experiments.front()->channels();
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto regimes = regimes_of(channels[c].place, variables);
+    std::vector<Block> own(kLevels * kLevels, Block(n));
+    std::vector<char> used(own.size(), 0);
+    std::size_t offset = 0;
+    for (std::size_t e = 0; e < experiments.size(); ++e) {
+      if (c >= experiments[e]->channels().size()) break;
+      const Channel& channel = experiments[e]->channels()[c];
+      for (std::size_t b = 0; b < channel.count; ++b) {
+        std::size_t which = 0;
+        for (const auto& levels : regimes) {
+          which = kLevels * which + static_cast<std::size_t>(levels[e][b]);
+        }
+        const auto at = static_cast<Eigen::Index>(offset + channel.offset + b);
+        const Eigen::VectorXd row = fitted.sensitivity.row(at).cast<double>();
+        own[which].information.selfadjointView<Eigen::Lower>().rankUpdate(row);
+        own[which].gradient += static_cast<double>(fitted.residual[at]) * row;
+        used[which] = 1;
+      }
+      offset += experiments[e]->size();
+    }
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (!used[k]) continue;
+      own[k].information = own[k].information.selfadjointView<Eigen::Lower>();
+      blocks.push_back(std::move(own[k]));
+    }
+  }
+  return blocks;
+}
+
+using Intervals = std::vector<std::pair<double, double>>;
+
+Intervals resample(const Fitted& fitted, const std::vector<Block>& blocks, std::uint64_t seed) {
   constexpr int kDraws = 400;
-  const auto blocks = blocks_of(fitted, experiments);
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   const Eigen::VectorXd x = fitted.scaled(), precision = fitted.precision();
   const Eigen::VectorXd prior = precision.cwiseProduct(x - fitted.expected());
@@ -77,7 +151,7 @@ std::vector<std::pair<double, double>> bootstrap_intervals(const Fitted& fitted,
           (x[i] + step[i]) * fitted.unknowns[static_cast<std::size_t>(i)].scale);
     }
   }
-  std::vector<std::pair<double, double>> intervals;
+  Intervals intervals;
   // Resampling blocks underrates the spread of few blocks by the usual factor.
   const auto count = static_cast<double>(blocks.size());
   const double widen = std::sqrt(count / std::max(1.0, count - 1.0));
@@ -94,6 +168,21 @@ std::vector<std::pair<double, double>> bootstrap_intervals(const Fitted& fitted,
     intervals.emplace_back(std::min(at, quantile(0.025)), std::max(at, quantile(0.975)));
   }
   return intervals;
+}
+
+}  // namespace
+
+std::vector<std::pair<double, double>> bootstrap_intervals(
+    const Fitted& fitted, const Experiments& experiments,
+    const std::vector<MeasuredVariable>& variables, std::uint64_t seed) {
+  Intervals widest = resample(fitted, blocks_of_time(fitted, experiments), seed);
+  const Intervals regimes =
+      resample(fitted, blocks_of_regimes(fitted, experiments, variables), seed);
+  for (std::size_t i = 0; i < widest.size(); ++i) {
+    widest[i].first = std::min(widest[i].first, regimes[i].first);
+    widest[i].second = std::max(widest[i].second, regimes[i].second);
+  }
+  return widest;
 }
 
 }  // namespace discovery

@@ -202,10 +202,17 @@ void ChainExperiment::finish_row(const Sampling& sampling, std::size_t row,
   }
 }
 
-void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, float* out) const {
+void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+                              float* out) const {
   const Replay input(model, recording_, mode_);
   Simulation sim(model);
-  input.start(sim);
+  const auto [start, is_new] = starts.try_emplace(input.start_inputs());
+  if (is_new) {
+    input.start(sim);
+    start->second = sim.snapshot();
+  } else {
+    sim.restore(start->second);
+  }
   // The simulated step may be a fraction of the one the rows were sorted by.
   const auto split = static_cast<std::int64_t>(std::lround(step_ / model->step));
 

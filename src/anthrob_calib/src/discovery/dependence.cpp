@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/discovery/measured_variable.h"
 
 namespace anthrob {
 namespace discovery {
@@ -14,74 +14,6 @@ namespace {
 
 constexpr std::size_t kSteps = 9;  ///< of a curve
 constexpr double kStill = 0.02;    ///< of the largest speed: below it a sign means nothing
-
-/// Something measured that a residual might depend on, at the bins of one experiment.
-struct Variable {
-  std::string name, word;
-  std::vector<std::vector<double>> values;  ///< by experiment and bin
-  bool sign = false;                        ///< only its sign counts
-};
-
-std::vector<double> at_bins(const Experiment& experiment, const Series& series) {
-  std::vector<double> values;
-  const std::size_t bins = experiment.channels().front().count;
-  for (std::size_t b = 0; b < bins; ++b) values.push_back(series.at(experiment.bin_time(b)));
-  return values;
-}
-
-std::vector<double> rate_of(const std::vector<double>& values, double bin) {
-  std::vector<double> rate(values.size(), 0.0);
-  constexpr std::size_t kReach = 2;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::size_t a = i < kReach ? 0 : i - kReach;
-    const std::size_t b = std::min(values.size() - 1, i + kReach);
-    if (b > a) rate[i] = (values[b] - values[a]) / (bin * static_cast<double>(b - a));
-  }
-  return rate;
-}
-
-/// Quantities of recordings that may explain something, columns that all recordings have.
-std::vector<Variable> variables_of(const Experiments& experiments,
-                                   const std::vector<Dataset>& recordings) {
-  std::vector<Variable> variables;
-  Variable time{"time", "time", {}, false};
-  for (const auto& experiment : experiments) {
-    std::vector<double> t;
-    for (std::size_t b = 0; b < experiment->channels().front().count; ++b) {
-      t.push_back(experiment->bin_time(b));
-    }
-    time.values.push_back(t);
-  }
-  variables.push_back(time);
-  const std::map<std::string, std::string> words = {
-      {"position", "posture"}, {"force", "load"}, {"current", "current"}, {"effort", "load"},
-      {"x", "posture"},        {"y", "posture"},  {"z", "posture"}};
-  for (const Table& table : recordings.front().tables) {
-    for (const Column& column : table.columns) {
-      const auto word = words.find(column.quantity());
-      if (word == words.end()) continue;
-      Variable variable{column.name, word->second, {}, false};
-      for (std::size_t e = 0; e < experiments.size(); ++e) {
-        const Series series = recordings[e].series(column.name);
-        if (series.empty()) break;
-        variable.values.push_back(at_bins(*experiments[e], series));
-      }
-      if (variable.values.size() < experiments.size()) continue;
-      if (column.quantity() == "position" || word->second == "posture") {
-        Variable speed{column.name, "speed", {}, false},
-            sign{column.name, "sign of velocity", {}, true};
-        for (std::size_t e = 0; e < experiments.size(); ++e) {
-          speed.values.push_back(rate_of(variable.values[e], experiments[e]->bin()));
-        }
-        sign.values = speed.values;
-        variables.push_back(speed);
-        variables.push_back(sign);
-      }
-      variables.push_back(std::move(variable));
-    }
-  }
-  return variables;
-}
 
 /// One sample: a bin of the channel.
 struct Sample {
@@ -152,7 +84,7 @@ double predicted(const Steps& steps, const std::vector<Sample>& samples, bool od
 }
 
 std::vector<Sample> samples_of(const Experiments& experiments, std::size_t channel,
-                               const Variable& variable, const Eigen::VectorXf& residual,
+                               const MeasuredVariable& variable, const Eigen::VectorXf& residual,
                                const Eigen::VectorXf& whitener, bool& ok) {
   std::vector<Sample> samples;
   std::size_t offset = 0;
@@ -179,7 +111,7 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
                                          const std::vector<Dataset>& recordings,
                                          const Eigen::VectorXf& residual,
                                          const Eigen::VectorXf& whitener) {
-  const auto variables = variables_of(experiments, recordings);
+  const auto variables = measured_variables(experiments, recordings);
   std::vector<Dependence> found;
   const auto& channels = experiments.front()->channels();
   for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -188,7 +120,7 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
     if (channels[c].quantity == "orientation") {
       best.channel += std::string("/") + static_cast<char>('x' + channels[c].component);
     }
-    for (const Variable& variable : variables) {
+    for (const MeasuredVariable& variable : variables) {
       const std::string owner = variable.name.substr(0, variable.name.find('/'));
       // What others do explains a muscle by accident too easily; joints move all of them.
       const bool own = owner == channels[c].place || variable.name == "time";

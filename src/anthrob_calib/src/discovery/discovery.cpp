@@ -136,7 +136,9 @@ class Search {
   std::vector<FoundParameter> parameters_of(const Named& named) const {
     const Candidate& candidate = candidates_[named.candidate];
     const auto& effect = named.fit.variant.effects.back();
-    const auto ranges = bootstrap_intervals(named.fit, train_.experiments(), question_.seed);
+    const auto variables = measured_variables(laboratory_.train, question_.train);
+    const auto ranges =
+        bootstrap_intervals(named.fit, train_.experiments(), variables, question_.seed);
     std::vector<FoundParameter> found;
     for (const EffectParameter& p : candidate.parameters) {
       FoundParameter parameter{p.name, p.unit, effect.parameters.at(p.name), 0.0, 0.0};

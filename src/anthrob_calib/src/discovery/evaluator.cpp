@@ -2,10 +2,6 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-#include <atomic>
-#include <mutex>
 
 #include "anthrob_calib/discovery/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
@@ -81,8 +77,9 @@ Differences Evaluator::simulate(
     const auto model = build(variant);
     Differences differences = Differences::Zero(static_cast<Eigen::Index>(total_size(experiments)));
     std::size_t offset = 0;
+    Starts starts;
     for (const auto& experiment : experiments) {
-      experiment->compare(model, differences.data() + offset);
+      experiment->compare(model, starts, differences.data() + offset);
       offset += experiment->size();
     }
     if (differences.allFinite()) return differences;
@@ -108,23 +105,25 @@ std::vector<Differences> Evaluator::compare(
     const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
   std::vector<Differences> results(variants.size());
   std::atomic<std::size_t> done{0};
-  std::atomic<bool> stop{false};
-  std::mutex progress_mutex;
+  side_by_side(variants.size(), [&](std::size_t i) {
+    results[i] = known_or_simulated(variants[i], experiments);
+    const double share = static_cast<double>(++done) / static_cast<double>(variants.size());
+    const std::lock_guard<std::mutex> lock(progress_mutex_);
+    if (progress_ && !progress_(share)) throw Interrupted();
+  });
+  return results;
+}
+
+void Evaluator::side_by_side(std::size_t count,
+                             const std::function<void(std::size_t)>& work) const {
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                             static_cast<std::size_t>(jobs_));
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, variants.size(), 1),
+      tbb::blocked_range<std::size_t>(0, count, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end() && !stop; ++i) {
-          results[i] = known_or_simulated(variants[i], experiments);
-          const double share = static_cast<double>(++done) / static_cast<double>(variants.size());
-          const std::lock_guard<std::mutex> lock(progress_mutex);
-          if (progress_ && !progress_(share)) stop = true;
-        }
+        for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
       },
       tbb::simple_partitioner());
-  if (stop) throw Interrupted();
-  return results;
 }
 
 std::size_t total_size(const std::vector<std::shared_ptr<const Experiment>>& experiments) {

@@ -11,6 +11,7 @@ namespace discovery {
 namespace {
 
 constexpr double kPolished = 5e-4;  ///< relative gain that is not worth another iteration
+constexpr double kKept = 0.5;       ///< share of the promised gain: as linear as can be hoped for
 
 }  // namespace
 
@@ -237,6 +238,18 @@ void ModelFit::polish(Fitted& fitted, int iterations) const {
   improve(fitted, iterations, kPolished);
 }
 
+ModelFit::Trial ModelFit::try_step(const Fitted& fitted, const Eigen::VectorXd& step) const {
+  Trial trial{fitted.variant, step, {}, HUGE_VAL};
+  const Eigen::VectorXd x = fitted.scaled();
+  for (Eigen::Index i = 0; i < step.size(); ++i) {
+    const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
+    u.write((x[i] + step[i]) * u.scale, trial.variant);
+  }
+  trial.residual = residual(trial.variant);
+  if (trial.residual.size() > 0) trial.cost = cost_of(fitted, trial.variant, trial.residual);
+  return trial;
+}
+
 void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   if (n == 0) return;
@@ -252,47 +265,34 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
         (fitted.sensitivity.transpose() * fitted.residual).cast<double>() +
         precision.cwiseProduct(x - fitted.expected());
     const Eigen::VectorXd lower = fitted.lower_room(), upper = fitted.upper_room();
-    // Several dampings at once: they run side by side.
-    std::vector<Variant> trials;
-    std::vector<Eigen::VectorXd> steps;
+    // Boldly first; carefully, too, if that did not bring what it promised.
+    Trial best;
+    best.cost = fitted.cost;
     for (const double damping : {1e-4, 1.0}) {
       Eigen::MatrixXd system = information;
       system.diagonal() += precision;
       system.diagonal() += damping * information.diagonal();
       system.diagonal().array() += 1e-9 * (1.0 + information.diagonal().maxCoeff());
-      const Eigen::VectorXd step = bounded_minimum(system, gradient, lower, upper);
-      Variant trial = fitted.variant;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
-        u.write((x[i] + step[i]) * u.scale, trial);
-      }
-      trials.push_back(std::move(trial));
-      steps.push_back(step);
+      Trial trial = try_step(fitted, bounded_minimum(system, gradient, lower, upper));
+      const double promised =
+          -(gradient.dot(trial.step) +
+            0.5 * trial.step.dot(information * trial.step + precision.cwiseProduct(trial.step)));
+      const bool kept = fitted.cost - trial.cost > kKept * promised;
+      if (trial.cost < best.cost) best = std::move(trial);
+      if (kept) break;
     }
-    const auto results = residuals(trials);
-    std::size_t best = trials.size();
-    double cost = fitted.cost;
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      if (results[i].size() == 0) continue;
-      const double c = cost_of(fitted, trials[i], results[i]);
-      if (c < cost) {
-        cost = c;
-        best = i;
-      }
-    }
-    if (best == trials.size()) break;
-    const double gain = fitted.cost - cost;
+    if (best.step.size() == 0) break;
+    const bool done = fitted.cost - best.cost < enough * best.cost;
     // Broyden's update: what the step really did.
-    const Eigen::VectorXf step = steps[best].cast<float>();
+    const Eigen::VectorXf step = best.step.cast<float>();
     const float length = step.squaredNorm();
     if (length > 0.0f) {
-      const Eigen::VectorXf surprise = results[best] - fitted.residual - fitted.sensitivity * step;
+      const Eigen::VectorXf surprise = best.residual - fitted.residual - fitted.sensitivity * step;
       fitted.sensitivity += surprise * (step.transpose() / length);
     }
-    fitted.variant = trials[best];
-    fitted.residual = results[best];
-    fitted.cost = cost;
-    const bool done = gain < enough * cost;
+    fitted.variant = std::move(best.variant);
+    fitted.residual = std::move(best.residual);
+    fitted.cost = best.cost;
     if (!done && iteration == 0 && first_effect < fitted.unknowns.size()) {
       simulate_sensitivity(fitted, first_effect);
     }

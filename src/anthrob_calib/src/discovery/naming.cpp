@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace anthrob {
 namespace discovery {
@@ -204,21 +205,26 @@ void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
 
 ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
                         const std::vector<Score>& scores) const {
-  ShortList list;
-  for (const Score& score : try_out(base, scores)) {
+  const std::vector<Score> tried = try_out(base, scores);
+  std::vector<std::optional<Named>> fitted(tried.size());
+  train_.side_by_side(tried.size(), [&](std::size_t i) {
     try {
-      list.named.push_back(fit(base, score));
+      fitted[i] = fit(base, tried[i]);
     } catch (const std::runtime_error&) {
       // Cannot be simulated at that size: not this one.
     }
+  });
+  ShortList list;
+  for (std::optional<Named>& named : fitted) {
+    if (named) list.named.push_back(std::move(*named));
   }
   std::stable_sort(list.named.begin(), list.named.end(),
                    [](const Named& a, const Named& b) { return a.fit.cost < b.fit.cost; });
   if (list.named.size() > kJudged) list.named.resize(kJudged);
-  for (Named& named : list.named) {
-    train_.improve(named.fit, kIterations);
-    named.test = test_.residual(named.fit.variant);
-  }
+  train_.side_by_side(list.named.size(), [&](std::size_t i) {
+    train_.improve(list.named[i].fit, kIterations);
+    list.named[i].test = test_.residual(list.named[i].fit.variant);
+  });
   list.named.erase(std::remove_if(list.named.begin(), list.named.end(),
                                   [](const Named& named) { return named.test.size() == 0; }),
                    list.named.end());

@@ -66,6 +66,34 @@ void Replay::check_names(const Dataset& recording) const {
   }
 }
 
+Replay::StartInput Replay::start_input(const MuscleInput& input) const {
+  const auto given = meta_.start_position.find(model_->muscles[input.muscle].name);
+  if (meta_.start == "given") {
+    if (given != meta_.start_position.end()) return {false, ecu::Mode::kPosition, given->second};
+  } else if (meta_.start == "zero") {
+    return {false, ecu::Mode::kPosition, 0.0};
+  } else if (mode_ != ReplayMode::kPosition && !input.reference.empty()) {
+    return {false, mode_at(input, 0.0), input.reference.held_at(0.0)};
+  } else if (!input.position.empty()) {
+    return {true, ecu::Mode::kPosition, input.position.values.front()};
+  }
+  return {false, ecu::Mode::kVoltage, 0.0};
+}
+
+std::vector<double> Replay::start_inputs() const {
+  std::vector<double> inputs = {meta_.settle_s};
+  for (const MuscleInput& muscle : muscles_) {
+    const StartInput input = start_input(muscle);
+    inputs.insert(inputs.end(),
+                  {input.imposed ? 1.0 : 0.0, static_cast<double>(input.mode), input.value});
+  }
+  if (!muscles_.empty()) return inputs;
+  for (const JointInput& joint : joints_) {
+    inputs.push_back(joint.position.empty() ? 0.0 : joint.position.values.front());
+  }
+  return inputs;
+}
+
 void Replay::start(Simulation& sim) const {
   std::vector<double> q = model_->skeleton->rest_configuration();
   if (muscles_.empty()) {
@@ -77,31 +105,23 @@ void Replay::start(Simulation& sim) const {
   sim.place(q, std::vector<double>(model_->muscles.size(), 0.0));
   if (muscles_.empty()) return;
 
-  for (const MuscleInput& input : muscles_) {
-    sim.release(input.muscle);
-    sim.command(input.muscle, ecu::Mode::kVoltage, 0.0);
-    const auto given = meta_.start_position.find(model_->muscles[input.muscle].name);
-    if (meta_.start == "given") {
-      if (given != meta_.start_position.end()) {
-        sim.command(input.muscle, ecu::Mode::kPosition, given->second);
-      }
-    } else if (meta_.start == "zero") {
-      sim.command(input.muscle, ecu::Mode::kPosition, 0.0);
-    } else if (mode_ != ReplayMode::kPosition && !input.reference.empty()) {
-      drive_reference(sim, input, 0.0);
-    } else if (!input.position.empty()) {
-      sim.impose_position(input.muscle, input.position.values.front(), 0.0);
+  for (const MuscleInput& muscle : muscles_) {
+    const StartInput input = start_input(muscle);
+    sim.release(muscle.muscle);
+    sim.command(muscle.muscle, ecu::Mode::kVoltage, 0.0);
+    if (input.imposed) {
+      sim.impose_position(muscle.muscle, input.value, 0.0);
+    } else {
+      sim.command(muscle.muscle, input.mode, input.value);
     }
   }
   sim.step(static_cast<int>(std::lround(meta_.settle_s / sim.step_length())));
-  for (const MuscleInput& input : muscles_) sim.release(input.muscle);
+  for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
 }
 
-void Replay::drive_reference(Simulation& sim, const MuscleInput& input, double time) {
-  const auto mode = input.mode.empty()
-                        ? ecu::Mode::kPosition
-                        : static_cast<ecu::Mode>(static_cast<int>(input.mode.held_at(time)));
-  sim.command(input.muscle, mode, input.reference.held_at(time));
+ecu::Mode Replay::mode_at(const MuscleInput& input, double time) {
+  return input.mode.empty() ? ecu::Mode::kPosition
+                            : static_cast<ecu::Mode>(static_cast<int>(input.mode.held_at(time)));
 }
 
 void Replay::drive(Simulation& sim, double time) const {
@@ -115,7 +135,7 @@ void Replay::drive(Simulation& sim, double time) const {
         sim.command(input.muscle, ecu::Mode::kVoltage, input.voltage.held_at(now));
       }
     } else if (!input.reference.empty() && now >= input.reference.t.front()) {
-      drive_reference(sim, input, now);
+      sim.command(input.muscle, mode_at(input, now), input.reference.held_at(now));
     }
   }
   for (const JointInput& input : joints_) {

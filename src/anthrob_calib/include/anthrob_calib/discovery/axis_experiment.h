@@ -19,7 +19,8 @@ class AxisExperiment final : public Experiment {
   AxisExperiment(const RobotModel& model, const Dataset& recording,
                  const ExperimentOptions& options);
 
-  void compare(const std::shared_ptr<const RobotModel>& model, float* out) const override;
+  void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+               float* out) const override;
 
  private:
   struct Axis {

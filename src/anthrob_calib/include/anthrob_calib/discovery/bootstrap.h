@@ -4,16 +4,20 @@
 #include <utility>
 #include <vector>
 
+#include "anthrob_calib/discovery/measured_variable.h"
 #include "anthrob_calib/discovery/model_fit.h"
 
 namespace anthrob {
 namespace discovery {
 
-/// 95 % interval of every unknown of a fit, in its own unit, by resampling blocks of time with the
-/// fit's sensitivities (block bootstrap). Deterministic by seed.
-std::vector<std::pair<double, double>> bootstrap_intervals(const Fitted& fitted,
-                                                           const Experiments& experiments,
-                                                           std::uint64_t seed);
+/// 95 % interval of every unknown of a fit, in its own unit, by resampling with the fit's
+/// sensitivities. Deterministic by seed. The wider of two, because each is blind to something:
+/// blocks of time (noise, and what happens now and then), and regimes, a channel at one level of
+/// its place's speed and load: a law of another shape pulls one way where things are slow and
+/// another way where they are fast, and every block of time holds both.
+std::vector<std::pair<double, double>> bootstrap_intervals(
+    const Fitted& fitted, const Experiments& experiments,
+    const std::vector<MeasuredVariable>& variables, std::uint64_t seed);
 
 }  // namespace discovery
 }  // namespace anthrob

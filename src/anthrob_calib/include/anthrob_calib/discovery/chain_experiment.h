@@ -13,7 +13,8 @@ class ChainExperiment final : public Experiment {
   ChainExperiment(const RobotModel& model, const Dataset& recording,
                   const ExperimentOptions& options);
 
-  void compare(const std::shared_ptr<const RobotModel>& model, float* out) const override;
+  void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+               float* out) const override;
 
  private:
   /// A quantity of the simulation that was measured.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,10 @@ class Evaluator {
       const std::vector<Variant>& variants,
       const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
 
+  /// Pieces of work that do not depend on each other, as many at once as there are threads. What
+  /// they throw comes out of here.
+  void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const;
+
   /// @throws BadInput if it cannot be built
   std::shared_ptr<const RobotModel> build(const Variant& variant) const;
 
@@ -70,6 +75,7 @@ class Evaluator {
   int jobs_;
   std::shared_ptr<const RobotModel> plain_;
   std::function<bool(double)> progress_;
+  mutable std::mutex progress_mutex_;
   std::unique_ptr<Journal> journal_;
   mutable std::atomic<std::size_t> simulated_{0};
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,10 @@ struct Channel {
   std::string name() const { return place + "/" + quantity; }
 };
 
+/// Settled states of one model, by what they depend on (Replay::start_inputs()): recordings that
+/// start alike settle once.
+using Starts = std::map<std::vector<double>, Snapshot>;
+
 /// A recording as something to compare models with. Immutable; used by many threads.
 class Experiment {
  public:
@@ -43,8 +48,9 @@ class Experiment {
   double bin_time(std::size_t bin) const { return (static_cast<double>(bin) + 0.5) * bin_; }
 
   /// Simulated minus measured, channel after channel; 0 where nothing was measured.
-  /// @param out size()   @throws NumericalFailure
-  virtual void compare(const std::shared_ptr<const RobotModel>& model, float* out) const = 0;
+  /// @param starts of this model   @param out size()   @throws NumericalFailure
+  virtual void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+                       float* out) const = 0;
 
  protected:
   std::string name_;

@@ -70,10 +70,23 @@ class ModelFit {
 
   Eigen::VectorXf residual(const Variant& variant) const;  ///< empty if it cannot be simulated
   std::vector<Eigen::VectorXf> residuals(const std::vector<Variant>& variants) const;
+  /// See Evaluator::side_by_side().
+  void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const {
+    evaluator_.side_by_side(count, work);
+  }
   const Experiments& experiments() const { return experiments_; }
   const Eigen::VectorXf& whitening() const { return whitener_; }
 
  private:
+  /// Where a step leads.
+  struct Trial {
+    Variant variant;
+    Eigen::VectorXd step;
+    Eigen::VectorXf residual;
+    double cost = 0.0;  ///< infinite if it cannot be simulated
+  };
+  Trial try_step(const Fitted& fitted, const Eigen::VectorXd& step) const;
+
   void simulate_sensitivity(Fitted& fitted, std::size_t from) const;
   double cost_of(const Fitted& fitted, const Variant& variant,
                  const Eigen::VectorXf& residual) const;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/recording/dataset.h"
@@ -29,6 +30,8 @@ class Replay {
   /// given positions, as the recording's meta.yaml says. Robots without muscles start at their
   /// first recorded joint positions. The recording's time 0 is now.
   void start(Simulation& sim) const;
+  /// What start() depends on beside the model: recordings with equal ones start in equal states.
+  std::vector<double> start_inputs() const;
 
   /// Sets the inputs of the step from `time` [s] on.
   void drive(Simulation& sim, double time) const;
@@ -46,8 +49,16 @@ class Replay {
     Series effort, load, position;
   };
 
+  /// What holds a muscle while the robot settles.
+  struct StartInput {
+    bool imposed;    ///< the actuator's position; else a command
+    ecu::Mode mode;  ///< of the command
+    double value;
+  };
+  StartInput start_input(const MuscleInput& input) const;
+
   void check_names(const Dataset& recording) const;
-  static void drive_reference(Simulation& sim, const MuscleInput& input, double time);
+  static ecu::Mode mode_at(const MuscleInput& input, double time);
   void impose(Simulation& sim, const MuscleInput& input, double time) const;
 
   std::shared_ptr<const RobotModel> model_;
