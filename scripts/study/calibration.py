@@ -37,13 +37,13 @@ AFTER = {
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
-ITERATIONS = 40  # most, of least squares
+ITERATIONS = {"statics": 40, "dynamics": 12}  # most, of least squares; dynamics start from statics' result
 
 
 def search(stage, model, options):
     """How a stage is searched: Ceres, or the thesis's evolution strategy with a share of its generations."""
     if options.optimiser == "least_squares":
-        return ["--optimiser", "least_squares", "--generations", str(ITERATIONS)]
+        return ["--optimiser", "least_squares", "--generations", str(ITERATIONS[stage.split("_")[1]])]
     return ["--optimiser", options.optimiser] + generations(stage, model, options.share)
 
 
