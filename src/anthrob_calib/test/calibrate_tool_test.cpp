@@ -148,6 +148,7 @@ TEST_F(CalibrateTool, TrajectoriesValidationAndStart) {
   EXPECT_EQ(second["drives"].size(), 3u);
   EXPECT_TRUE(second["validation"].is_object());
   const std::string html = content(path("second/report.html"));
+  EXPECT_NE(html.find("On recordings it never saw"), std::string::npos);
   EXPECT_LT(html.find("Held-out"), html.find("Recordings of the calibration"));
   EXPECT_EQ(html.find("nan"), std::string::npos);
 }

@@ -54,7 +54,7 @@ std::string error_table(const BeforeAfter& both, const RobotModel& model) {
 std::string errors_section(const BeforeAfter& both, const RobotModel& model,
                            const std::string& title) {
   std::string out = error_table(both, model);
-  out += run_error_figure(both, model, title);
+  if (both.runs.size() > 1) out += run_error_figure(both, model, title);
   out += "<p>Runs: ";
   for (std::size_t r = 0; r < both.runs.size(); ++r) {
     out += (r ? ", " : "") + std::to_string(r) + " " + escaped(both.runs[r].name);
@@ -138,6 +138,23 @@ std::string drives_section(const CalibrationOutcome& o) {
   return out + "</table>\n";
 }
 
+/// What it has brought, for a reader in a hurry: on what it never saw, if there is any.
+std::string headline(const CalibrationOutcome& o) {
+  const bool held_out = !o.validation.runs.empty();
+  const BeforeAfter& both = held_out ? o.validation : o.calibration;
+  const MeanErrors before = mean_errors(both.before, *o.model);
+  const MeanErrors after = mean_errors(both.after, *o.model);
+  std::string out =
+      held_out ? "On recordings it never saw, " : "On the recordings it was fitted to, ";
+  for (std::size_t j = 0; j < after.joints.size(); ++j) {
+    out += escaped(o.model->skeleton->joints[j].name) + " errs by <b>" +
+           text(kDegrees * after.joints[j], "%.2f") + " deg</b> instead of " +
+           text(kDegrees * before.joints[j], "%.2f") + ", ";
+  }
+  return "<p class=\"headline\">" + out + "muscle forces by <b>" + text(after.force, "%.2f") +
+         " N</b> instead of " + text(before.force, "%.2f") + ".</p>\n";
+}
+
 std::string name_of(const std::string& file) {
   return escaped(std::filesystem::path(file).filename().string());
 }
@@ -150,11 +167,13 @@ std::string report_html(const CalibrationOutcome& o) {
       "charset=\"utf-8\"><title>Calibration</title>\n"
       "<style>body{font-family:sans-serif;max-width:60em;margin:2em auto}"
       "table{border-collapse:collapse;margin:1em 0}td,th{border:1px solid #ccc;padding:2px 8px;"
-      "text-align:right}td:first-child{text-align:left}</style></head><body>\n<h1>Calibration of " +
-      name_of(o.model_file) + "</h1>\n<p>" + name_of(o.config_file) + ", " + o.optimiser.method +
-      ", seed " + std::to_string(o.optimiser.seed) + ", " + std::to_string(o.evaluations) +
-      " evaluations; " + o.reason + ". Fitness " + text(o.fitness_before) + " before, " +
-      text(o.fitness) + " after.</p>\n";
+      "text-align:right}td:first-child{text-align:left}"
+      ".headline{font-size:1.2em;border-left:6px solid #1f77b4;padding:.5em 1em;background:#f5f9fd}"
+      "</style></head><body>\n<h1>Calibration of " +
+      name_of(o.model_file) + "</h1>\n" + headline(o) + "<p>" + name_of(o.config_file) + ", " +
+      o.optimiser.method + ", seed " + std::to_string(o.optimiser.seed) + ", " +
+      std::to_string(o.evaluations) + " evaluations; " + o.reason + ". Fitness " +
+      text(o.fitness_before) + " before, " + text(o.fitness) + " after.</p>\n";
   out += "<h2>Held-out recordings</h2>\n";
   out += o.validation.runs.empty()
              ? "<p>None were given (--validation): how well the model predicts is not known.</p>\n"
