@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "anthrob_calib/discovery/regimes.h"
 #include "anthrob_sim/core/random.h"
 
 namespace anthrob {
@@ -70,6 +71,21 @@ TEST(Bootstrap, LawThatFitsNeitherSlowNorFastIsUncertain) {
   // As large as the noise of the other test, but of one mind at each speed.
   const double w = width(fit_with([](std::size_t b) { return std::sqrt(2.0) * speed_at(b); }));
   EXPECT_GT(w, 1.0);
+}
+
+TEST(RegimeGaps, ShowWhereThePlaceDisagrees) {
+  const Experiments experiments = {std::make_shared<Swing>()};
+  Eigen::VectorXf residual(200);
+  for (std::size_t b = 0; b < 200; ++b) {
+    residual[static_cast<Eigen::Index>(b)] = speed_at(b) > 0.8 ? -5.0f : 1.0f;
+  }
+  const auto rows = regime_gaps(experiments, {speed()}, residual, Eigen::VectorXf::Ones(200));
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].place, "hinge");
+  EXPECT_EQ(rows[0].word, "speed");
+  EXPECT_FLOAT_EQ(static_cast<float>(rows[0].gap[0]), 1.0f);
+  EXPECT_FLOAT_EQ(static_cast<float>(rows[0].gap[1]), 1.0f);
+  EXPECT_GT(rows[0].gap[2], 3.0);
 }
 
 }  // namespace

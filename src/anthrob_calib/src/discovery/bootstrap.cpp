@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/discovery/regimes.h"
 #include "anthrob_sim/core/random.h"
 
 namespace anthrob {
 namespace discovery {
 
 namespace {
-
-constexpr int kLevels = 3;  ///< of speed and of load
 
 /// Normal equations of some rows.
 struct Block {
@@ -49,44 +48,6 @@ std::vector<Block> blocks_of_time(const Fitted& fitted, const Experiments& exper
   return blocks;
 }
 
-/// Levels with equally many bins.
-std::vector<std::vector<int>> levels_of(const MeasuredVariable& variable) {
-  std::vector<double> sorted;
-  for (const auto& values : variable.values) {
-    sorted.insert(sorted.end(), values.begin(), values.end());
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<std::vector<int>> levels;
-  for (const auto& values : variable.values) {
-    levels.emplace_back();
-    for (const double value : values) {
-      int level = 0;
-      for (int k = 1; k < kLevels; ++k) {
-        if (value > sorted[k * sorted.size() / kLevels]) level = k;
-      }
-      levels.back().push_back(level);
-    }
-  }
-  return levels;
-}
-
-/// What a place's regimes are made of: its first speed, and its first load or else posture.
-std::vector<std::vector<std::vector<int>>> regimes_of(
-    const std::string& place, const std::vector<MeasuredVariable>& variables) {
-  const MeasuredVariable *speed = nullptr, *load = nullptr, *posture = nullptr;
-  for (const MeasuredVariable& variable : variables) {
-    if (variable.owner() != place) continue;
-    if (!speed && variable.word == "speed") speed = &variable;
-    if (!load && variable.word == "load") load = &variable;
-    if (!posture && variable.word == "posture") posture = &variable;
-  }
-  std::vector<std::vector<std::vector<int>>> regimes;
-  for (const MeasuredVariable* variable : {speed, load ? load : posture}) {
-    if (variable) regimes.push_back(levels_of(*variable));
-  }
-  return regimes;
-}
-
 std::vector<Block> blocks_of_regimes(const Fitted& fitted, const Experiments& experiments,
                                      const std::vector<MeasuredVariable>& variables) {
   std::vector<Block> blocks;
@@ -102,8 +63,8 @@ std::vector<Block> blocks_of_regimes(const Fitted& fitted, const Experiments& ex
       const Channel& channel = experiments[e]->channels()[c];
       for (std::size_t b = 0; b < channel.count; ++b) {
         std::size_t which = 0;
-        for (const auto& levels : regimes) {
-          which = kLevels * which + static_cast<std::size_t>(levels[e][b]);
+        for (const Regime& regime : regimes) {
+          which = kLevels * which + static_cast<std::size_t>(regime.levels[e][b]);
         }
         const auto at = static_cast<Eigen::Index>(offset + channel.offset + b);
         const Eigen::VectorXd row = fitted.sensitivity.row(at).cast<double>();

@@ -227,6 +227,9 @@ class Search {
     }
     answer.remaining_share =
         first_excess_ > 0.0 ? excess(test_judge_, base_test_) / first_excess_ : 0.0;
+    answer.regimes =
+        regime_gaps(laboratory_.train, measured_variables(laboratory_.train, question_.train),
+                    recalibrated_train_, train_.whitening());
     answer.dependences = find_dependences(laboratory_.train, question_.train, recalibrated_train_,
                                           train_.whitening());
     answer.remaining =

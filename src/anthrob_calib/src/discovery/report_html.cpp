@@ -120,8 +120,31 @@ std::string colour_of(double gap) {
   return text;
 }
 
+std::string heat_cell(double gap) {
+  return "<td style=\"background:" + colour_of(gap) + "\">" +
+         (gap < 0.0 ? std::string() : short_number(gap)) + "</td>";
+}
+
+/// Place x regime.
+std::string regime_map(const Answer& answer) {
+  if (answer.regimes.empty()) return "";
+  std::string html =
+      "<p>Gap of every place (recalibrated model, all its channels) when its speed, its load or "
+      "posture, or "
+      "the time is low (speed: backwards), in the middle and high; a third of the recordings "
+      "each.</p>\n<table>"
+      "<tr><th>place</th><th>by</th><th>low</th><th>middle</th><th>high</th></tr>\n";
+  for (const RegimeGap& row : answer.regimes) {
+    if (*std::max_element(row.gap.begin(), row.gap.end()) < 1.3) continue;
+    html += "<tr><th>" + escaped(row.place) + "</th>" + cell(row.word);
+    for (const double gap : row.gap) html += heat_cell(gap);
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
 /// Where x which input is fed: a gap that vanishes to the right belongs to what was cut off.
-std::string heat_map(const Answer& answer) {
+std::string seam_map(const Answer& answer) {
   if (answer.seams.empty()) return "";
   std::string html =
       "<p>Gap of every channel (recalibrated model) when the chain is fed with commands, with "
@@ -132,8 +155,7 @@ std::string heat_map(const Answer& answer) {
     if (std::max({seam.commands, seam.voltages, seam.positions}) < 1.3) continue;
     html += "<tr><th>" + escaped(seam.place + "/" + seam.channel) + "</th>";
     for (const double gap : {seam.commands, seam.voltages, seam.positions}) {
-      html += "<td style=\"background:" + colour_of(gap) + "\">" +
-              (gap < 0.0 ? std::string() : short_number(gap)) + "</td>";
+      html += heat_cell(gap);
     }
     html += "</tr>\n";
   }
@@ -233,11 +255,12 @@ std::string report_html(const Answer& answer, const Question& question, double r
          short_number(runtime) + " s</p>\n<p class=\"answer\">" + sentence(answer) + "</p>\n" +
          gap_table(answer) + example_figures(answer) + "<h2>What</h2>\n" + effects_table(answer) +
          "<h2>Where the recalibrated model disagrees</h2>\n" + where_table(answer) +
-         heat_map(answer) + dependence_figures(answer.dependences) + "<h2>What is left</h2>\n<p>" +
-         escaped(answer.remaining_description) + "</p>\n" + dependence_figures(answer.remaining) +
-         "<h2>Held-out gap by channel</h2>\n" + channel_table(answer) +
-         "<h2>What these recordings could not have shown</h2>\n" + invisible_table(answer) +
-         "<h2>Recordings</h2><ul>" + recordings + "</ul>\n</body></html>\n";
+         regime_map(answer) + seam_map(answer) + dependence_figures(answer.dependences) +
+         "<h2>What is left</h2>\n<p>" + escaped(answer.remaining_description) + "</p>\n" +
+         dependence_figures(answer.remaining) + "<h2>Held-out gap by channel</h2>\n" +
+         channel_table(answer) + "<h2>What these recordings could not have shown</h2>\n" +
+         invisible_table(answer) + "<h2>Recordings</h2><ul>" + recordings +
+         "</ul>\n</body></html>\n";
 }
 
 }  // namespace discovery

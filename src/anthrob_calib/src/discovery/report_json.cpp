@@ -121,6 +121,10 @@ std::string report_json(const Answer& answer, const Question& question, double r
     if (seam.positions >= 0.0) entry["positions"] = number(seam.positions);
     report["seams"].push_back(entry);
   }
+  report["regimes"] = Json::array();
+  for (const RegimeGap& row : answer.regimes) {
+    report["regimes"].push_back({{"place", row.place}, {"by", row.word}, {"gap", row.gap}});
+  }
   report["model"] = "model.yaml";
   report["seed"] = question.seed;
   report["runtime_s"] = number(runtime);

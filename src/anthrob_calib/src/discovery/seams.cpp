@@ -49,6 +49,7 @@ std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Question& quest
   for (const auto& [name, scale] : scales) {
     const std::size_t slash = name.rfind('/');
     SeamGap gap{name.substr(0, slash), name.substr(slash + 1)};
+    gap.of_joint = evaluator.model()->skeleton->find_joint(gap.place) >= 0;
     const auto value = [&](const std::map<std::string, double>& gaps) {
       const auto found = gaps.find(name);
       return found == gaps.end() ? -1.0 : found->second;
@@ -65,7 +66,7 @@ std::string subsystem_of(const SeamGap& gap) {
   const bool from_motors = gap.positions >= 0.0 && gap.positions < kGone * gap.commands;
   const bool from_controllers = gap.voltages >= 0.0 && gap.voltages < kGone * gap.commands;
   if (gap.channel == "voltage") return "controller, or what it measures";
-  if (gap.channel == "position" || gap.channel == "current") {
+  if (!gap.of_joint && (gap.channel == "position" || gap.channel == "current")) {
     return from_controllers ? "controller" : "power stage, motor or gear, or their load";
   }
   if (from_motors) return from_controllers ? "controller" : "power stage, motor or gear";

@@ -9,6 +9,7 @@
 #include "anthrob_calib/discovery/dependence.h"
 #include "anthrob_calib/discovery/evaluator.h"
 #include "anthrob_calib/discovery/noise_floor.h"
+#include "anthrob_calib/discovery/regimes.h"
 #include "anthrob_calib/discovery/separating_recording.h"
 
 namespace anthrob {
@@ -66,6 +67,7 @@ struct Place {
 /// that stays belongs behind the seam, one that goes belongs before it. [standard deviations]
 struct SeamGap {
   std::string place, channel;
+  bool of_joint = false;    ///< place is a joint, else a muscle
   double commands = -1.0;   ///< the whole chain replayed from its commands
   double voltages = -1.0;   ///< from measured voltages on: without controllers
   double positions = -1.0;  ///< measured motor positions imposed: without motors; -1: not compared
@@ -87,6 +89,7 @@ struct Answer {
   std::string verdict;  ///< effects_found | no_missing_effect | unexplained
   std::vector<Place> where;
   std::vector<SeamGap> seams;
+  std::vector<RegimeGap> regimes;       ///< of what the recalibrated model leaves
   std::vector<Dependence> dependences;  ///< of what the recalibrated model leaves
   std::vector<Dependence> remaining;    ///< of what the extended model leaves
   std::vector<Example> examples;
