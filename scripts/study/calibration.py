@@ -37,7 +37,7 @@ AFTER = {
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
-ITERATIONS = {"statics": 40, "dynamics": 12}  # most, of least squares; dynamics start from statics' result
+ITERATIONS = {"statics": 20, "dynamics": 12}  # most, of least squares; dynamics start from statics' result
 
 
 def search(stage, model, options):
