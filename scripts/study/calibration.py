@@ -115,7 +115,7 @@ class Robot:
             runs = []
             for k in range(1, searches(self.options) + 1):
                 more = ["--seed", str(k)] + search(stage, model, self.options)
-                runs.append(self.step(stage, model, f"run_{k}", start, more))
+                runs.append(self.step(stage, model, f"{self.options.optimiser}_{k}", start, more))
             start = min(runs, key=lambda r: load(f"{r}/result.json")["fitness"]["after"])
             with open(f"{self.folder}/{model}/{stage}/best", "w") as text:
                 text.write(os.path.basename(start) + "\n")

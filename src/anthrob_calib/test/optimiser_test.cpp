@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "anthrob_calib/optimiser/journal.h"
+#include "anthrob_calib/optimiser/least_squares_optimiser.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -180,6 +181,15 @@ TEST(LeastSquares, SolvesRosenbrockAtABound) {
   const SearchResult bounded = search(settings("least_squares", 100), v, rosenbrock);
   EXPECT_NEAR(bounded.best[0], 0.5, 1e-6);
   EXPECT_NEAR(bounded.fitness, 0.25, 1e-3);
+}
+
+TEST(LeastSquares, InvalidNeighbourTellsNothing) {
+  // Valid below 1 only.
+  Function edge([](const Point& p) { return p[0] > 1.0 ? Point{} : Point{3.0 + p[0], p[1]}; });
+  const std::vector<SearchVariable> v = {{1.0, -5.0, 5.0, 0.1}, {0.5, -5.0, 5.0, 0.1}};
+  const auto columns = derivatives(v, {1.0, 0.5}, {4.0, 0.5}, 0.02, edge);
+  EXPECT_EQ(columns[0], (Point{0.0, 0.0}));
+  EXPECT_NEAR(columns[1][1], 0.1, 1e-9);
 }
 
 class JournalTest : public testing::Test {

@@ -13,6 +13,9 @@ namespace calibration {
 
 namespace {
 
+/// Of what is compared and how: a journal of another one is no good. Counts up with every change.
+constexpr int kComparison = 2;
+
 /// FNV-1a over text and numbers.
 class Fingerprint {
  public:
@@ -142,6 +145,7 @@ std::string CalibrationInput::fingerprint() const {
                           config.simulation.motion, static_cast<double>(o.parents),
                           static_cast<double>(o.offspring), o.target, static_cast<double>(o.seed)});
   fingerprint.add(o.method);
+  fingerprint.add(&kComparison, sizeof(kComparison));
   for (const MeasuredRun& run : runs) fingerprint.add(run);
   return fingerprint.text();
 }

@@ -97,7 +97,8 @@ struct Noise {
     for (std::size_t k = 0; k < left.size(); ++k) {
       const double x = stack.weight[k] > 0.0 ? left[k] / stack.weight[k] : 0.0;
       square[stack.kind[k]] += x * x;
-      free[stack.kind[k]] += 1.0 - leverage(static_cast<Eigen::Index>(k));
+      // Where rows repeat each other a parameter follows as many of them.
+      free[stack.kind[k]] += 1.0 - stack.repetition * leverage(static_cast<Eigen::Index>(k));
     }
     constexpr double kSmallest = 1e-9;  // perfect data
     posture = std::max(kSmallest, std::sqrt(square[kPosture] / std::max(1.0, free[kPosture])));
@@ -177,7 +178,7 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   for (Eigen::Index i = 0; i < n; ++i) {
     const double prior = (variables[i].upper - variables[i].lower) / std::sqrt(12.0);
     result.parameters.push_back({0.0, prior, HUGE_VAL, false});
-    range_information(i) = scatter * std::pow(variables[i].step / prior, 2);
+    range_information(i) = scatter * stack.repetition * std::pow(variables[i].step / prior, 2);
   }
   information.diagonal() += range_information;
   const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
@@ -188,7 +189,8 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   result.force_noise = noise.force;
 
   // The fit weighs as it is told to, not as noise would have it: errors go through its gain.
-  const Eigen::MatrixXd prior = inverse * (scatter * range_information).asDiagonal() * inverse;
+  const Eigen::MatrixXd prior =
+      inverse * (scatter * stack.repetition * range_information).asDiagonal() * inverse;
   for (Eigen::Index i = 0; i < n; ++i) {
     double of_kind[2] = {0.0, 0.0};
     for (Eigen::Index k = 0; k < rows; ++k) {

@@ -52,21 +52,19 @@ std::vector<Block> blocks_of_regimes(const Fitted& fitted, const Experiments& ex
                                      const std::vector<MeasuredVariable>& variables) {
   std::vector<Block> blocks;
   const auto n = fitted.sensitivity.cols();
-  const auto& channels = experiments.front()->channels();
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    const auto regimes = regimes_of(channels[c].place, variables);
+  for (const Channel& channel : channels_of(experiments)) {
+    const auto regimes = regimes_of(channel.place, variables);
     std::vector<Block> own(kLevels * kLevels, Block(n));
     std::vector<char> used(own.size(), 0);
     std::size_t offset = 0;
     for (std::size_t e = 0; e < experiments.size(); ++e) {
-      if (c >= experiments[e]->channels().size()) break;
-      const Channel& channel = experiments[e]->channels()[c];
-      for (std::size_t b = 0; b < channel.count; ++b) {
+      const Channel* own_channel = find_channel(*experiments[e], channel);
+      for (std::size_t b = 0; own_channel && b < own_channel->count; ++b) {
         std::size_t which = 0;
         for (const Regime& regime : regimes) {
           which = kLevels * which + static_cast<std::size_t>(regime.levels[e][b]);
         }
-        const auto at = static_cast<Eigen::Index>(offset + channel.offset + b);
+        const auto at = static_cast<Eigen::Index>(offset + own_channel->offset + b);
         const Eigen::VectorXd row = fitted.sensitivity.row(at).cast<double>();
         own[which].information.selfadjointView<Eigen::Lower>().rankUpdate(row);
         own[which].gradient += static_cast<double>(fitted.residual[at]) * row;

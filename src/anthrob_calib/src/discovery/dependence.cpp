@@ -83,18 +83,16 @@ double predicted(const Steps& steps, const std::vector<Sample>& samples, bool od
   return whole > 0.0 ? 1.0 - left / whole : 0.0;
 }
 
-std::vector<Sample> samples_of(const Experiments& experiments, std::size_t channel,
+std::vector<Sample> samples_of(const Experiments& experiments, const Channel& channel,
                                const MeasuredVariable& variable, const Eigen::VectorXf& residual,
-                               const Eigen::VectorXf& whitener, bool& ok) {
+                               const Eigen::VectorXf& whitener) {
   std::vector<Sample> samples;
   std::size_t offset = 0;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const Experiment& experiment = *experiments[e];
-    ok = channel < experiment.channels().size();
-    if (!ok) return samples;
-    const Channel& c = experiment.channels()[channel];
-    for (std::size_t b = 0; b < c.count; ++b) {
-      const auto i = static_cast<Eigen::Index>(offset + c.offset + b);
+    const Channel* c = find_channel(experiment, channel);
+    for (std::size_t b = 0; c && b < c->count; ++b) {
+      const auto i = static_cast<Eigen::Index>(offset + c->offset + b);
       if (!(whitener[i] > 0.0f)) continue;
       const bool odd =
           (static_cast<std::size_t>(experiment.bin_time(b) / Judge::kBlock) + e) % 2 == 1;
@@ -113,22 +111,19 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
                                          const Eigen::VectorXf& whitener) {
   const auto variables = measured_variables(experiments, recordings);
   std::vector<Dependence> found;
-  const auto& channels = experiments.front()->channels();
-  for (std::size_t c = 0; c < channels.size(); ++c) {
+  for (const Channel& channel : channels_of(experiments)) {
     Dependence best;
-    best.channel = channels[c].name();
-    if (channels[c].quantity == "orientation") {
-      best.channel += std::string("/") + static_cast<char>('x' + channels[c].component);
+    best.channel = channel.name();
+    if (channel.quantity == "orientation") {
+      best.channel += std::string("/") + static_cast<char>('x' + channel.component);
     }
     for (const MeasuredVariable& variable : variables) {
-      const std::string owner = variable.name.substr(0, variable.name.find('/'));
       // What others do explains a muscle by accident too easily; joints move all of them.
-      const bool own = owner == channels[c].place || variable.name == "time";
+      const bool own = variable.owner() == channel.place || variable.name == "time";
       const bool muscle = variable.word == "load" || variable.word == "current";
       if (!own && muscle) continue;
-      bool ok = true;
-      const auto samples = samples_of(experiments, c, variable, residual, whitener, ok);
-      if (!ok || samples.size() < 10 * kSteps) continue;
+      const auto samples = samples_of(experiments, channel, variable, residual, whitener);
+      if (samples.size() < 10 * kSteps) continue;
       double largest = 0.0;
       for (const Sample& s : samples) largest = std::max(largest, std::abs(s.x));
       Steps steps = steps_of(samples, variable.sign, largest);

@@ -64,7 +64,7 @@ class Search {
     stage("screening " + std::to_string(candidates_.size()) + " candidates", -1);
     Screening screening(train_, base_, candidates_);
     std::vector<Score> scores = screening.scores(base_);
-    list_invisible(scores, answer);
+    list_invisible(screening, scores, answer);
     for (int round = 0; round < question_.max_effects && gap_is_real(); ++round) {
       if (round > 0) {
         stage("screening", round);
@@ -133,33 +133,35 @@ class Search {
            gained > kShareOfFirst * first_excess_;
   }
 
-  std::vector<FoundParameter> parameters_of(const Named& named) const {
-    const Candidate& candidate = candidates_[named.candidate];
-    const auto& effect = named.fit.variant.effects.back();
+  /// Values and intervals of all effects in the model as it is at the end: later ones have moved
+  /// earlier ones.
+  void measure_effects(Answer& answer) const {
     const auto variables = measured_variables(laboratory_.train, question_.train);
-    const auto ranges =
-        bootstrap_intervals(named.fit, train_.experiments(), variables, question_.seed);
-    std::vector<FoundParameter> found;
-    for (const EffectParameter& p : candidate.parameters) {
-      FoundParameter parameter{p.name, p.unit, effect.parameters.at(p.name), 0.0, 0.0};
-      parameter.low = parameter.high = parameter.value;
-      for (std::size_t i = 0; i < ranges.size(); ++i) {
-        const Unknown& u = named.fit.unknowns[i];
-        if (u.effect == static_cast<int>(named.fit.variant.effects.size()) - 1 &&
-            u.parameter == p.name) {
-          parameter.low = ranges[i].first;
-          parameter.high = ranges[i].second;
+    const auto ranges = bootstrap_intervals(base_, train_.experiments(), variables, question_.seed);
+    for (std::size_t e = 0; e < answer.effects.size(); ++e) {
+      for (const EffectParameter& p : candidates_[accepted_[e]].parameters) {
+        const double value = base_.variant.effects[e].parameters.at(p.name);
+        FoundParameter found{p.name, p.unit, value, value, value};
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+          const Unknown& u = base_.unknowns[i];
+          if (u.effect != static_cast<int>(e) || u.parameter != p.name) continue;
+          found.low = ranges[i].first;
+          found.high = ranges[i].second;
         }
+        answer.effects[e].parameters.push_back(std::move(found));
       }
-      found.push_back(parameter);
     }
-    return found;
   }
 
   void accept(ShortList& list, Answer& answer) {
     Named& best = list.named.front();
-    train_.polish(best.fit, kPolish);
-    best.test = test_.residual(best.fit.variant);
+    Fitted polished = best.fit;
+    train_.polish(polished, kPolish);
+    Eigen::VectorXf test = test_.residual(polished.variant);
+    if (test.size() > 0) {
+      best.fit = std::move(polished);
+      best.test = std::move(test);
+    }
     const Candidate& candidate = candidates_[best.candidate];
     FoundEffect effect;
     effect.id = candidate.effect->info().id;
@@ -167,7 +169,6 @@ class Search {
     effect.place = candidate.place;
     effect.probability = best.probability;
     effect.evidence = best.evidence;
-    effect.parameters = parameters_of(best);
     for (std::size_t i = 1; i < list.named.size(); ++i) {
       const Named& other = list.named[i];
       if (other.probability < kMentioned) continue;
@@ -180,6 +181,7 @@ class Search {
     base_ = best.fit;
     base_test_ = best.test;
     named_.insert(best.candidate);
+    accepted_.push_back(best.candidate);
   }
 
   void separate(const ShortList& list, FoundEffect& effect) const {
@@ -193,10 +195,10 @@ class Search {
     }
   }
 
-  void list_invisible(const std::vector<Score>& scores, Answer& answer) const {
+  void list_invisible(const Screening& screening, const std::vector<Score>& scores,
+                      Answer& answer) const {
     const double needed = kEvidence + std::log(static_cast<double>(candidates_.size()));
-    const double held_out = static_cast<double>(test_judge_.block_count()) /
-                            static_cast<double>(train_judge_.block_count());
+    const double held_out = total_duration(laboratory_.test) / screening.duration();
     for (const Score& score : scores) {
       const Candidate& candidate = candidates_[score.candidate];
       const EffectParameter& size = *candidate.sizes().front();
@@ -217,6 +219,7 @@ class Search {
 
   void conclude(Answer& answer) {
     answer.extended = base_.variant;
+    measure_effects(answer);
     answer.train = gap_of(train_judge_, given_train_, recalibrated_train_, base_.residual);
     answer.test = gap_of(test_judge_, given_test_, recalibrated_test_, base_test_);
     const auto given = test_judge_.channel_gaps(given_test_),
@@ -229,7 +232,7 @@ class Search {
         first_excess_ > 0.0 ? excess(test_judge_, base_test_) / first_excess_ : 0.0;
     answer.regimes =
         regime_gaps(laboratory_.train, measured_variables(laboratory_.train, question_.train),
-                    recalibrated_train_, train_.whitening());
+                    recalibrated_train_, train_.whitening(), scales_);
     answer.dependences = find_dependences(laboratory_.train, question_.train, recalibrated_train_,
                                           train_.whitening());
     answer.remaining =
@@ -347,7 +350,8 @@ class Search {
   Naming naming_;
   Fitted base_;
   Eigen::VectorXf base_test_, given_train_, given_test_, recalibrated_train_, recalibrated_test_;
-  std::set<std::size_t> named_;  ///< candidates that are in the model now
+  std::set<std::size_t> named_;        ///< candidates that are in the model now
+  std::vector<std::size_t> accepted_;  ///< the same in their order
   double first_excess_ = 0.0;
 };
 

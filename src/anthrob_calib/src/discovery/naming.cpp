@@ -210,7 +210,7 @@ ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
   train_.side_by_side(tried.size(), [&](std::size_t i) {
     try {
       fitted[i] = fit(base, tried[i]);
-    } catch (const std::runtime_error&) {
+    } catch (const NotSimulated&) {
       // Cannot be simulated at that size: not this one.
     }
   });

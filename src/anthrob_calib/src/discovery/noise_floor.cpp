@@ -64,6 +64,9 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
   std::map<std::string, std::vector<double>> lengths;
   for (const auto& repeat : repeats) {
     const Differences other = evaluator.compare({given}, {repeat}).front();
+    if (base.size() == 0 || other.size() == 0) {
+      throw std::runtime_error("the model cannot be simulated along " + repeat->name());
+    }
     if (repeat->channels().size() != first.channels().size()) {
       throw BadInput(repeat->name() + ": expected the channels of " + first.name() +
                      ", whose commands it repeats");

@@ -10,24 +10,26 @@ namespace {
 
 std::array<double, kLevels> gaps_of(const std::string& place, const Regime& regime,
                                     const Experiments& experiments, const Eigen::VectorXf& residual,
-                                    const Eigen::VectorXf& whitener) {
+                                    const Eigen::VectorXf& whitener, const Scales& scales) {
   std::array<double, kLevels> square{}, count{}, gap{};
   std::size_t offset = 0;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const Channel& channel : experiments[e]->channels()) {
       if (channel.place != place) continue;
+      const auto scale = scales.find(channel.name());
+      const double inflation = scale == scales.end() ? 1.0 : scale->second.inflation;
       for (std::size_t b = 0; b < channel.count; ++b) {
         const auto at = static_cast<Eigen::Index>(offset + channel.offset + b);
         if (!(whitener[at] > 0.0f)) continue;
         const auto level = static_cast<std::size_t>(regime.levels[e][b]);
-        square[level] += static_cast<double>(residual[at]) * static_cast<double>(residual[at]);
+        square[level] += inflation * std::pow(static_cast<double>(residual[at]), 2);
         count[level] += 1.0;
       }
     }
     offset += experiments[e]->size();
   }
   for (std::size_t k = 0; k < gap.size(); ++k) {
-    gap[k] = count[k] > 0.0 ? std::sqrt(square[k] / count[k]) : 0.0;
+    gap[k] = count[k] > 0.0 ? std::sqrt(square[k] / count[k]) : -1.0;
   }
   return gap;
 }
@@ -40,15 +42,12 @@ Regime regime_of(const MeasuredVariable& variable) {
     sorted.insert(sorted.end(), values.begin(), values.end());
   }
   std::sort(sorted.begin(), sorted.end());
+  const double lower = sorted[sorted.size() / kLevels], upper = sorted[2 * sorted.size() / kLevels];
   Regime regime{variable.word, {}};
   for (const auto& values : variable.values) {
     regime.levels.emplace_back();
     for (const double value : values) {
-      int level = 0;
-      for (int k = 1; k < kLevels; ++k) {
-        if (value > sorted[static_cast<std::size_t>(k) * sorted.size() / kLevels]) level = k;
-      }
-      regime.levels.back().push_back(level);
+      regime.levels.back().push_back(value > upper ? 2 : value >= lower ? 1 : 0);
     }
   }
   return regime;
@@ -72,10 +71,10 @@ std::vector<Regime> regimes_of(const std::string& place,
 
 std::vector<RegimeGap> regime_gaps(const Experiments& experiments,
                                    const std::vector<MeasuredVariable>& variables,
-                                   const Eigen::VectorXf& residual,
-                                   const Eigen::VectorXf& whitener) {
+                                   const Eigen::VectorXf& residual, const Eigen::VectorXf& whitener,
+                                   const Scales& scales) {
   std::vector<std::string> places;
-  for (const Channel& channel : experiments.front()->channels()) {
+  for (const Channel& channel : channels_of(experiments)) {
     if (std::find(places.begin(), places.end(), channel.place) == places.end()) {
       places.push_back(channel.place);
     }
@@ -87,7 +86,8 @@ std::vector<RegimeGap> regime_gaps(const Experiments& experiments,
     std::vector<Regime> regimes = regimes_of(place, variables);
     if (time != variables.end()) regimes.push_back(regime_of(*time));
     for (const Regime& regime : regimes) {
-      rows.push_back({place, regime.word, gaps_of(place, regime, experiments, residual, whitener)});
+      rows.push_back(
+          {place, regime.word, gaps_of(place, regime, experiments, residual, whitener, scales)});
     }
   }
   return rows;

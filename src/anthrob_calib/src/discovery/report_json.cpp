@@ -123,7 +123,9 @@ std::string report_json(const Answer& answer, const Question& question, double r
   }
   report["regimes"] = Json::array();
   for (const RegimeGap& row : answer.regimes) {
-    report["regimes"].push_back({{"place", row.place}, {"by", row.word}, {"gap", row.gap}});
+    Json gaps = Json::array();
+    for (const double gap : row.gap) gaps.push_back(gap < 0.0 ? Json() : number(gap));
+    report["regimes"].push_back({{"place", row.place}, {"by", row.word}, {"gap", gaps}});
   }
   report["model"] = "model.yaml";
   report["seed"] = question.seed;

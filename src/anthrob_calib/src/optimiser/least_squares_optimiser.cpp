@@ -70,8 +70,8 @@ std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& 
   }
   std::vector<std::vector<double>> columns = evaluator.residuals(neighbours);
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    columns[i].resize(residuals.size(), 0.0);
-    const bool valid = columns[i].size() == residuals.size() && !residuals.empty();
+    const bool valid = columns[i].size() == residuals.size();
+    if (!valid) columns[i].assign(residuals.size(), 0.0);
     for (std::size_t k = 0; valid && k < residuals.size(); ++k) {
       columns[i][k] = (columns[i][k] - residuals[k]) / moved[i];
     }

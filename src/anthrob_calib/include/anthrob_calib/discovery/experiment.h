@@ -60,6 +60,15 @@ class Experiment {
   std::vector<char> present_;
 };
 
+using Experiments = std::vector<std::shared_ptr<const Experiment>>;
+
+double total_duration(const Experiments& experiments);  ///< [s]
+/// Channels of all experiments, each once, in the order in which they first come. Not every
+/// recording has to have all.
+std::vector<Channel> channels_of(const Experiments& experiments);
+/// The same channel of one experiment; null if it lacks it.
+const Channel* find_channel(const Experiment& experiment, const Channel& channel);
+
 /// What a recording is replayed with.
 struct ExperimentOptions {
   double bin = 0.02;  ///< [s]

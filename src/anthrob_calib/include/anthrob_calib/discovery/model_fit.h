@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,12 @@ struct Unknown {
 
   double read(const Variant& variant) const;
   void write(double value, Variant& variant) const;
+};
+
+/// A variant that cannot be built or simulated.
+class NotSimulated : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// A variant, what is free in it, and how it fits.
@@ -53,7 +61,7 @@ class ModelFit {
         whitener_(std::move(whitener)) {}
 
   /// From a variant and its unknowns, all sensitivities simulated.
-  /// @throws std::runtime_error if the variant cannot be simulated
+  /// @throws NotSimulated
   Fitted start(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// Goes on until nothing is gained any more.
   /// @param enough relative gain that is not worth another iteration
@@ -61,6 +69,7 @@ class ModelFit {
   /// All sensitivities simulated anew, then a few more iterations.
   void polish(Fitted& fitted, int iterations) const;
   /// The same fit with more unknowns; those after the present ones are simulated.
+  /// @throws NotSimulated
   Fitted extend(const Fitted& fitted, const Variant& variant,
                 const std::vector<Unknown>& more) const;
 

@@ -20,7 +20,7 @@ struct Named {
 
 /// The short list of one round, most probable first. A law that contains a simpler one at the same
 /// place, which alone brings most of the gain, stands behind it: one step at a time. The simpler
-/// one's probability is then that of both, the other keeps its own.
+/// one's probability is then that of both, the other's is 0.
 struct ShortList {
   std::vector<Named> named;
   double none = 0.0;  ///< probability that none of them is it

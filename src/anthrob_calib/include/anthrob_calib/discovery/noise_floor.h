@@ -25,7 +25,6 @@ struct ChannelScale {
 
 /// By Channel::name().
 using Scales = std::map<std::string, ChannelScale>;
-using Experiments = std::vector<std::shared_ptr<const Experiment>>;
 
 /// Floors of all channels. With repeats: rms difference of repeats / sqrt 2. Without: a robust
 /// estimate from the third differences of neighbouring bins, which sees white noise only.

@@ -9,7 +9,8 @@
 namespace anthrob {
 namespace discovery {
 
-/// Of a measured quantity: equally many bins are low, in the middle and high.
+/// Of a measured quantity: about equally many bins are low, in the middle and high; a value that
+/// most have is in the middle.
 constexpr int kLevels = 3;
 
 /// A quantity that says how a place is used, and its level at every bin.
@@ -27,15 +28,15 @@ std::vector<Regime> regimes_of(const std::string& place,
 /// How a place's disagreement, all its channels together, depends on one of its regimes.
 struct RegimeGap {
   std::string place, word;
-  std::array<double, kLevels> gap;  ///< rms [standard deviations of the floor]
+  std::array<double, kLevels> gap;  ///< rms [standard deviations of the floor]; -1: no such bins
 };
 
 /// One row of a heat map, place x regime, for each place and for its regimes and time.
-/// @param residual whitened
+/// @param residual, whitener independent, as of whitener(..., true)
 std::vector<RegimeGap> regime_gaps(const Experiments& experiments,
                                    const std::vector<MeasuredVariable>& variables,
-                                   const Eigen::VectorXf& residual,
-                                   const Eigen::VectorXf& whitener);
+                                   const Eigen::VectorXf& residual, const Eigen::VectorXf& whitener,
+                                   const Scales& scales);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -32,6 +32,7 @@ class Screening {
 
   /// In order of falling gain. The base may have moved on since the doses were simulated.
   std::vector<Score> scores(const Fitted& base);
+  double duration() const { return total_duration(fit_.experiments()); }  ///< simulated [s]
   /// The same doses again, of some candidates only, on top of another base.
   void renew(const Fitted& base, const std::vector<Score>& best, std::size_t count);
 
