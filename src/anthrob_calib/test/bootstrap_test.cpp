@@ -14,15 +14,18 @@ namespace anthrob {
 namespace discovery {
 namespace {
 
-/// One channel of a joint that swings to and fro, 4 s; after one of a muscle, if that was measured.
+constexpr std::size_t kBins = 2000;
+
+/// One channel of a joint that swings to and fro, 40 s; after one of a muscle, if that was
+/// measured.
 class Swing final : public Experiment {
  public:
   explicit Swing(bool with_muscle = false) {
     bin_ = 0.02;
-    duration_ = 4.0;
-    if (with_muscle) channels_ = {{"flexor", "force", "N", 0, 0, 200, 0.0}};
-    channels_.push_back({"hinge", "position", "rad", 0, with_muscle ? 200u : 0u, 200, 0.0});
-    present_.assign(200 * channels_.size(), 1);
+    duration_ = 0.02 * kBins;
+    if (with_muscle) channels_ = {{"flexor", "force", "N", 0, 0, kBins, 0.0}};
+    channels_.push_back({"hinge", "position", "rad", 0, with_muscle ? kBins : 0, kBins, 0.0});
+    present_.assign(kBins * channels_.size(), 1);
   }
   void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
 };
@@ -33,7 +36,7 @@ double speed_at(std::size_t bin) {
 
 MeasuredVariable speed() {
   MeasuredVariable variable{"hinge/position", "speed", {{}}, false};
-  for (std::size_t b = 0; b < 200; ++b) variable.values[0].push_back(speed_at(b));
+  for (std::size_t b = 0; b < kBins; ++b) variable.values[0].push_back(speed_at(b));
   return variable;
 }
 
@@ -46,9 +49,9 @@ Fitted fit_with(const std::function<double(std::size_t)>& residual) {
   u.upper = 10.0;
   fitted.unknowns = {u};
   fitted.variant.nuisances = {1.0};
-  fitted.sensitivity.setOnes(200, 1);
-  fitted.residual.resize(200);
-  for (std::size_t b = 0; b < 200; ++b) {
+  fitted.sensitivity.setOnes(kBins, 1);
+  fitted.residual.resize(kBins);
+  for (std::size_t b = 0; b < kBins; ++b) {
     fitted.residual[static_cast<Eigen::Index>(b)] = static_cast<float>(residual(b));
   }
   fitted.residual.array() -= fitted.residual.mean();
@@ -63,10 +66,22 @@ double width(const Fitted& fitted) {
   return intervals[0].second - intervals[0].first;
 }
 
-TEST(Bootstrap, IntervalOfNoiseIsTheFormulaOne) {
-  const CounterRandom random(3);
-  const double w = width(fit_with([&](std::size_t b) { return random.normal(b); }));
-  EXPECT_NEAR(w, 2.0 * 1.96 / std::sqrt(200.0), 0.15);
+TEST(Bootstrap, IntervalsOfNoiseCoverTheTruth) {
+  constexpr int kRuns = 200;
+  int covered = 0;
+  double sum = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    const CounterRandom random(static_cast<std::uint64_t>(run));
+    double error = 0.0;  // of the fit: the mean of the noise
+    for (std::size_t b = 0; b < kBins; ++b) error += random.normal(b) / kBins;
+    const double w = width(fit_with([&](std::size_t b) { return random.normal(b); }));
+    covered += std::abs(error) <= 0.5 * w ? 1 : 0;
+    sum += w / kRuns;
+  }
+  EXPECT_GE(covered, 0.90 * kRuns);
+  EXPECT_LE(covered, 0.99 * kRuns);
+  const double formula = 2.0 * 1.96 / std::sqrt(kBins);
+  EXPECT_NEAR(sum / formula, 1.1, 0.2);
 }
 
 TEST(Bootstrap, LawThatFitsNeitherSlowNorFastIsUncertain) {
@@ -77,11 +92,12 @@ TEST(Bootstrap, LawThatFitsNeitherSlowNorFastIsUncertain) {
 
 TEST(RegimeGaps, RecordingsMayLackChannels) {
   const Experiments experiments = {std::make_shared<Swing>(true), std::make_shared<Swing>()};
-  Eigen::VectorXf residual = Eigen::VectorXf::Ones(600);
-  residual.head(200) *= 7.0f;  // the muscle
+  Eigen::VectorXf residual = Eigen::VectorXf::Ones(3 * kBins);
+  residual.head(kBins) *= 7.0f;  // the muscle
   MeasuredVariable both = speed();
   both.values.push_back(both.values.front());
-  const auto rows = regime_gaps(experiments, {both}, residual, Eigen::VectorXf::Ones(600), {});
+  const auto rows =
+      regime_gaps(experiments, {both}, residual, Eigen::VectorXf::Ones(3 * kBins), {});
   ASSERT_EQ(rows.size(), 1u);  // nothing says how the muscle was used
   for (const double gap : rows[0].gap) EXPECT_DOUBLE_EQ(gap, 1.0);
   ASSERT_EQ(channels_of(experiments).size(), 2u);
@@ -114,13 +130,13 @@ TEST(Judge, LastBinBelongsToTheLastBlock) {
 
 TEST(RegimeGaps, ShowWhereThePlaceDisagrees) {
   const Experiments experiments = {std::make_shared<Swing>()};
-  Eigen::VectorXf residual(200);
-  for (std::size_t b = 0; b < 200; ++b) {
+  Eigen::VectorXf residual(kBins);
+  for (std::size_t b = 0; b < kBins; ++b) {
     residual[static_cast<Eigen::Index>(b)] = speed_at(b) > 0.8 ? -5.0f : 1.0f;
   }
   ChannelScale scale;
   scale.inflation = 4.0;  // taken off by the whitener, given back here
-  const auto rows = regime_gaps(experiments, {speed()}, residual, Eigen::VectorXf::Ones(200),
+  const auto rows = regime_gaps(experiments, {speed()}, residual, Eigen::VectorXf::Ones(kBins),
                                 {{"hinge/position", scale}});
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].place, "hinge");

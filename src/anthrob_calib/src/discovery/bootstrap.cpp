@@ -81,9 +81,10 @@ std::vector<Block> blocks_of_regimes(const Fitted& fitted, const Experiments& ex
   return blocks;
 }
 
-using Intervals = std::vector<std::pair<double, double>>;
-
-Intervals resample(const Fitted& fitted, const std::vector<Block>& blocks, std::uint64_t seed) {
+/// Half of the 95 % interval of each unknown, in its unit, by resampling blocks. What resampling
+/// finds may lie beside the fit itself, which is not linear: that counts on both sides.
+std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blocks,
+                             std::uint64_t seed) {
   constexpr int kDraws = 400;
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   const Eigen::VectorXd x = fitted.scaled(), precision = fitted.precision();
@@ -110,23 +111,35 @@ Intervals resample(const Fitted& fitted, const std::vector<Block>& blocks, std::
           (x[i] + step[i]) * fitted.unknowns[static_cast<std::size_t>(i)].scale);
     }
   }
-  Intervals intervals;
+  std::vector<double> reach;
   // Resampling blocks underrates the spread of few blocks by the usual factor.
   const auto count = static_cast<double>(blocks.size());
   const double widen = std::sqrt(count / std::max(1.0, count - 1.0));
   for (Eigen::Index i = 0; i < n; ++i) {
     auto& values = draws[static_cast<std::size_t>(i)];
     std::sort(values.begin(), values.end());
-    const Unknown& u = fitted.unknowns[static_cast<std::size_t>(i)];
-    const double at = x[i] * u.scale;
-    const auto quantile = [&](double share) {
-      const double value = values[static_cast<std::size_t>(share * kDraws)];
-      return std::clamp(at + widen * (value - at), u.lower, u.upper);
-    };
-    // Where the fit is not linear its own value may lie outside what resampling finds.
-    intervals.emplace_back(std::min(at, quantile(0.025)), std::max(at, quantile(0.975)));
+    const double at = x[i] * fitted.unknowns[static_cast<std::size_t>(i)].scale;
+    const double low = values[static_cast<std::size_t>(0.025 * kDraws)];
+    const double high = values[static_cast<std::size_t>(0.975 * kDraws)];
+    reach.push_back(widen * std::max({0.0, at - low, high - at}));
   }
-  return intervals;
+  return reach;
+}
+
+/// The same if there were nothing but the floor's noise.
+std::vector<double> reach_of_noise(const Fitted& fitted) {
+  const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
+  Eigen::MatrixXd information =
+      (fitted.sensitivity.transpose() * fitted.sensitivity).cast<double>();
+  information.diagonal() += fitted.precision();
+  information.diagonal().array() += 1e-9 * (1.0 + information.diagonal().maxCoeff());
+  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  std::vector<double> reach;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    reach.push_back(1.96 * std::sqrt(std::max(0.0, covariance(i, i))) *
+                    fitted.unknowns[static_cast<std::size_t>(i)].scale);
+  }
+  return reach;
 }
 
 }  // namespace
@@ -134,14 +147,21 @@ Intervals resample(const Fitted& fitted, const std::vector<Block>& blocks, std::
 std::vector<std::pair<double, double>> bootstrap_intervals(
     const Fitted& fitted, const Experiments& experiments,
     const std::vector<MeasuredVariable>& variables, std::uint64_t seed) {
-  Intervals widest = resample(fitted, blocks_of_time(fitted, experiments), seed);
-  const Intervals regimes =
+  const std::vector<double> time = resample(fitted, blocks_of_time(fitted, experiments), seed);
+  const std::vector<double> regimes =
       resample(fitted, blocks_of_regimes(fitted, experiments, variables), seed);
-  for (std::size_t i = 0; i < widest.size(); ++i) {
-    widest[i].first = std::min(widest[i].first, regimes[i].first);
-    widest[i].second = std::max(widest[i].second, regimes[i].second);
+  const std::vector<double> noise = reach_of_noise(fitted);
+  std::vector<std::pair<double, double>> intervals;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const Unknown& u = fitted.unknowns[i];
+    const double at = u.read(fitted.variant);
+    // Noise is in both and counts once.
+    const double shape = std::sqrt(std::max(0.0, regimes[i] * regimes[i] - noise[i] * noise[i]));
+    const double reach = std::hypot(time[i], shape);
+    intervals.emplace_back(std::clamp(at - reach, u.lower, at),
+                           std::clamp(at + reach, at, u.upper));
   }
-  return widest;
+  return intervals;
 }
 
 }  // namespace discovery
