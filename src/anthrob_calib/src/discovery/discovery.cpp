@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "anthrob_calib/discovery/bootstrap.h"
 #include "anthrob_calib/discovery/naming.h"
@@ -72,7 +71,7 @@ class Search {
         scores = screening.scores(base_);
       }
       scores.erase(std::remove_if(scores.begin(), scores.end(),
-                                  [&](const Score& s) { return named_.count(s.candidate) > 0; }),
+                                  [&](const Score& s) { return is_accepted(s.candidate); }),
                    scores.end());
       stage("fitting the short list", round);
       ShortList list = naming_.weigh(base_, base_test_, scores);
@@ -89,6 +88,10 @@ class Search {
     const std::string title =
         round < 0 ? what : "effect " + std::to_string(round + 1) + ": " + what;
     if (question_.progress && !question_.progress(title)) throw Interrupted();
+  }
+
+  bool is_accepted(std::size_t candidate) const {
+    return std::find(accepted_.begin(), accepted_.end(), candidate) != accepted_.end();
   }
 
   void comment_on(const ShortList& list) const {
@@ -180,7 +183,6 @@ class Search {
     answer.effects.push_back(std::move(effect));
     base_ = best.fit;
     base_test_ = best.test;
-    named_.insert(best.candidate);
     accepted_.push_back(best.candidate);
   }
 
@@ -350,8 +352,7 @@ class Search {
   Naming naming_;
   Fitted base_;
   Eigen::VectorXf base_test_, given_train_, given_test_, recalibrated_train_, recalibrated_test_;
-  std::set<std::size_t> named_;        ///< candidates that are in the model now
-  std::vector<std::size_t> accepted_;  ///< the same in their order
+  std::vector<std::size_t> accepted_;  ///< candidates that are in the model now, in their order
   double first_excess_ = 0.0;
 };
 
