@@ -60,7 +60,8 @@ def generations(stage, model, share):
 
 
 def search_words(options):
-    return [] if options.share >= 1 else [f"({options.share} of the thesis's generations)"]
+    whole = options.share >= 1 or options.optimiser == "least_squares"
+    return [] if whole else [f"({options.share} of the thesis's generations)"]
 
 
 def searches(options):
