@@ -8,6 +8,7 @@ reports/ and sealed/ together and run with --summary.
 """
 
 import argparse
+import glob
 import json
 import os
 import shutil
@@ -66,7 +67,7 @@ class Case:
 
     def examine(self):
         command = [DISCOVER, "--model", f"{self.data}/model.yaml",
-                   "--train", f"{self.data}/train_0", f"{self.data}/train_1",
+                   "--train", *sorted(glob.glob(f"{self.data}/train_*")),
                    "--test", f"{self.data}/test_0", "--repeat", f"{self.data}/repeat_0",
                    "--out", self.report, "--jobs", str(self.options.jobs)]
         if self.kind in MOST_EFFECTS:

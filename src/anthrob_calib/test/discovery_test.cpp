@@ -13,6 +13,7 @@
 
 #include "anthrob_calib/discovery/axis_experiment.h"
 #include "anthrob_calib/discovery/chain_experiment.h"
+#include "anthrob_calib/discovery/excerpt.h"
 #include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/discovery/model_fit.h"
 #include "anthrob_calib/discovery/preparation.h"
@@ -341,6 +342,48 @@ TEST(ChainExperiment, RecordingsThatStartAlikeSettleOnce) {
   second.compare(model, starts, after.data());
   EXPECT_EQ(starts.size(), 1u);
   EXPECT_EQ(after, alone);  // to the last bit
+}
+
+TEST(Excerpt, IsTheBeginningOfTheWhole) {
+  const Arm arm;
+  const std::vector<Dataset> recordings = {arm.record({}, 1, 1), arm.record({}, 2, 2)};
+  Experiments whole;
+  for (const Dataset& data : recordings) whole.push_back(make_experiment(*arm.plain, data));
+  const Evaluator evaluator(kConfig + "/anthrob/model_I.yaml", {}, 0.001, 1);
+  const Differences all = evaluator.compare({Variant{}}, whole).front();
+  for (const double seconds : {3.0, 11.0, 1000.0}) {
+    const Excerpt part = excerpt(*arm.plain, recordings, whole, seconds);
+    EXPECT_NEAR(part.duration(), std::min(seconds, total_duration(whole)), 0.021);
+    EXPECT_EQ(evaluator.compare({Variant{}}, part.experiments).front(), part.of(all)) << seconds;
+  }
+}
+
+TEST(ModelFit, ACoarseStepTellsTheSameChanges) {
+  const Arm arm;
+  const std::vector<Dataset> recordings = {arm.record({}, 1, 1)};
+  const Experiments train = {make_experiment(*arm.plain, recordings.front())};
+  const Evaluator evaluator(kConfig + "/anthrob/model_I.yaml", {}, 0.001, 1);
+  const Scales scales = measure_scales(evaluator, train, {});
+  const double step = coarse_step(evaluator, train, scales);
+  EXPECT_EQ(step, 0.002);
+  const Eigen::VectorXf factors = whitener(train, scales, false);
+  const ModelFit fine(evaluator, train, factors), coarse(evaluator, train, factors, step);
+  const Variant base{};
+  for (const EffectInstance& effect :
+       {EffectInstance{"joint_viscous", "elbow", {{"damping", 0.02}}},
+        EffectInstance{"force_sensor_offset", "brachialis", {{"offset", 1.0}}},
+        EffectInstance{"series_resistance", "teres_major", {{"resistance", 1.0}}}}) {
+    Variant moved = base;
+    moved.effects = {effect};
+    const Eigen::VectorXf residual = fine.residual(base);
+    const Eigen::VectorXf exact = fine.changes(base, residual, {moved}).front();
+    const Eigen::VectorXf quick = coarse.changes(base, residual, {moved}).front();
+    ASSERT_GT(exact.norm(), 0.0f) << effect.id;
+    // Alike in size; edges of voltages and currents come a millisecond later.
+    EXPECT_NEAR(quick.dot(exact), exact.squaredNorm(), 0.03f * exact.squaredNorm()) << effect.id;
+    EXPECT_LT((quick - exact).norm(), 0.2f * exact.norm()) << effect.id;
+    EXPECT_EQ(exact, fine.residual(moved) - residual) << effect.id;
+  }
 }
 
 TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {

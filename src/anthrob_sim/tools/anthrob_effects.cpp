@@ -76,7 +76,8 @@ void explain(const View& view) {
   std::cout << wrapped(info.equation, "    ") << "\n";
   std::cout << "  source:     " << info.source << "\n  seam:       " << seam_name(info.seam)
             << "\n  places:     " << info.where << "\n  shows in:   " << joined(info.channels)
-            << "\n  dissipates: " << (info.dissipates ? "yes" : "no") << "\n\n";
+            << "\n  dissipates: " << (info.dissipates ? "yes" : "no")
+            << (info.slow ? "\n  builds up over minutes" : "") << "\n\n";
   const std::vector<std::string> places = view.places();
   print_parameters(places.empty() ? info.parameters
                                   : view.effect->parameters_at(*view.robot, places.front()));
@@ -101,7 +102,8 @@ Json to_json(const View& view) {
                  {"seam", seam_name(info.seam)},
                  {"where", info.where},
                  {"channels", info.channels},
-                 {"dissipates", info.dissipates}};
+                 {"dissipates", info.dissipates},
+                 {"slow", info.slow}};
   for (const EffectParameter& p : info.parameters) object["parameters"].push_back(to_json(p));
   if (!view.robot) return object;
   object["places"] = Json::array();

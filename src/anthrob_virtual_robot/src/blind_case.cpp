@@ -230,7 +230,8 @@ void record_case(const BlindCase& blind, const CaseSettings& settings, const std
   run("train_0", train, kTrain, 0);
   run("repeat_0", train, kTrain, 1);
   run("test_0", test, kTest, 3);
-  for (int k = 1; k < settings.trains; ++k) {
+  // A slow effect needs one long recording rather than two.
+  for (int k = 1; k < (blind.slow ? 1 : settings.trains); ++k) {
     const auto number = static_cast<std::uint64_t>(k);
     run("train_" + std::to_string(k), train, kTrain + 100 * number, 2 * number);
   }

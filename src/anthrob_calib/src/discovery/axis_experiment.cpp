@@ -43,7 +43,6 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
   name_ = recording.folder;
   steps_per_bin_ = static_cast<std::size_t>(std::lround(options.bin / step_));
   bin_ = static_cast<double>(steps_per_bin_) * step_;
-  fingerprint_ = Fingerprint().add(recording).add(bin_).value();
   const auto& joints = model.skeleton->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const std::string& name = joints[j].name;
@@ -54,7 +53,7 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
                      "/position' is missing: expected the measured motion of a driven joint");
     }
     if (duration_ == 0.0) {
-      duration_ = seconds(recording.end() - recording.begin());
+      duration_ = std::min(options.seconds, seconds(recording.end() - recording.begin()));
       bins_ = static_cast<std::size_t>(std::floor(duration_ / bin_ + 1e-9));
     }
     Axis axis{static_cast<int>(j),
@@ -77,6 +76,8 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
     present_.insert(present_.end(), bins_, 1);
     axes_.push_back(std::move(axis));
   }
+  fingerprint_ =
+      Fingerprint().add(recording).add(bin_).add(static_cast<std::uint64_t>(bins_)).value();
   if (bins_ < 10) {
     throw BadInput(recording.folder + ": too short: expected at least ten bins of " +
                    std::to_string(bin_) + " s");

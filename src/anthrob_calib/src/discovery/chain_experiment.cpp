@@ -26,6 +26,19 @@ ReplayMode mode_of(const RobotModel& model, const Dataset& recording) {
   return ReplayMode::kPosition;
 }
 
+/// A time between two steps.
+struct Moment {
+  std::int64_t step;  ///< that arrives at or after it
+  double share;       ///< of that step in the state at this time
+};
+
+Moment moment(double time, double step) {
+  const double steps = time / step;
+  const auto next = static_cast<std::int64_t>(std::ceil(steps - 1e-6));
+  const double share = steps - static_cast<double>(next - 1);
+  return {next, next == 0 || share > 1.0 - 1e-5 ? 1.0 : share};
+}
+
 Eigen::Vector3d rotation_vector(const std::array<double, 4>& from, const double* to) {
   const Eigen::Quaterniond a(from[0], from[1], from[2], from[3]), b(to[0], to[1], to[2], to[3]);
   const Eigen::AngleAxisd turn(a.conjugate() * b.normalized());
@@ -38,15 +51,21 @@ Eigen::Vector3d rotation_vector(const std::array<double, 4>& from, const double*
 
 ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recording,
                                  const ExperimentOptions& options)
-    : recording_(recording),
-      mode_(options.mode.value_or(mode_of(model, recording))),
-      step_(model.step) {
+    : recording_(recording), mode_(options.mode.value_or(mode_of(model, recording))) {
   name_ = recording.folder;
   bin_ = options.bin;
-  fingerprint_ =
-      Fingerprint().add(recording).add(static_cast<std::uint64_t>(mode_)).add(bin_).value();
   duration_ = Replay(std::make_shared<RobotModel>(model), recording, mode_).duration();
-  bins_ = static_cast<std::size_t>(std::floor(duration_ / bin_)) + 1;
+  bins_ = bin_of(duration_) + 1;
+  if (options.seconds < duration_) {
+    bins_ = std::max<std::size_t>(1, bin_of(options.seconds));
+    duration_ = static_cast<double>(bins_) * bin_;
+  }
+  fingerprint_ = Fingerprint()
+                     .add(recording)
+                     .add(static_cast<std::uint64_t>(mode_))
+                     .add(bin_)
+                     .add(static_cast<std::uint64_t>(bins_))
+                     .value();
 
   const std::string driven = mode_ == ReplayMode::kVoltage    ? "voltage"
                              : mode_ == ReplayMode::kPosition ? "position"
@@ -83,6 +102,10 @@ ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recordi
   }
 }
 
+std::size_t ChainExperiment::bin_of(double time) const {
+  return static_cast<std::size_t>(time / bin_ + 1e-9);
+}
+
 ChainExperiment::Sampling& ChainExperiment::sampling_of(const std::vector<double>& times) {
   for (std::size_t i = 0; i < times_.size(); ++i) {
     if (times_[i] == times) return samplings_[i];
@@ -91,15 +114,10 @@ ChainExperiment::Sampling& ChainExperiment::sampling_of(const std::vector<double
   Sampling sampling;
   sampling.per_bin.assign(bins_, 0.0);
   for (const double t : times) {
-    Sampling::Row row;
-    const double steps = t / step_;
-    row.step = static_cast<std::int64_t>(std::ceil(steps - 1e-6));
-    const double share = steps - static_cast<double>(row.step - 1);
-    row.share = row.step == 0 || share > 1.0 - 1e-5 ? 1.0 : share;
-    row.bin = static_cast<std::uint32_t>(
-        std::min<double>(std::floor(t / bin_ + 1e-9), static_cast<double>(bins_ - 1)));
-    sampling.per_bin[row.bin] += 1.0;
-    sampling.rows.push_back(row);
+    const std::size_t bin = bin_of(t);
+    if (bin >= bins_) break;
+    sampling.per_bin[bin] += 1.0;
+    sampling.rows.push_back({t, static_cast<std::uint32_t>(bin)});
   }
   for (double& count : sampling.per_bin) count = count > 0.0 ? 1.0 / count : 0.0;
   samplings_.push_back(std::move(sampling));
@@ -111,7 +129,7 @@ void ChainExperiment::add(Reader reader, const Series& series, const Channel& ch
   Sampling& sampling = sampling_of(series.t);
   reader.offset = present_.size();
   reader.mean.assign(bins_, 0.0);
-  for (std::size_t i = 0; i < series.t.size(); ++i) {
+  for (std::size_t i = 0; i < sampling.rows.size(); ++i) {
     const std::uint32_t bin = sampling.rows[i].bin;
     reader.mean[bin] += series.values[i] * sampling.per_bin[bin];
   }
@@ -136,7 +154,7 @@ void ChainExperiment::add_ball(int joint, const std::string& name, const Dataset
   }
   Sampling& sampling = sampling_of(parts[0].t);
   Reader reader{Reader::kBall, joint, present_.size(), {}, {}};
-  for (std::size_t i = 0; i < parts[0].t.size(); ++i) {
+  for (std::size_t i = 0; i < sampling.rows.size(); ++i) {
     reader.rotation.push_back(
         {parts[0].values[i], parts[1].values[i], parts[2].values[i], parts[3].values[i]});
   }
@@ -177,13 +195,13 @@ void ChainExperiment::read(const Simulation& sim, const Sampling& sampling,
   }
 }
 
-void ChainExperiment::finish_row(const Sampling& sampling, std::size_t row,
+void ChainExperiment::finish_row(const Sampling& sampling, std::size_t row, double share,
                                  const std::vector<double>& before, const std::vector<double>& now,
                                  float* out) const {
   const Sampling::Row& at = sampling.rows[row];
   const double weight = sampling.per_bin[at.bin];
   const auto value = [&](std::size_t i) {
-    return at.share == 1.0 ? now[i] : before[i] + at.share * (now[i] - before[i]);
+    return share == 1.0 ? now[i] : before[i] + share * (now[i] - before[i]);
   };
   std::size_t i = 0;
   for (const Reader& reader : sampling.readers) {
@@ -213,9 +231,6 @@ void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, St
   } else {
     sim.restore(start->second);
   }
-  // The simulated step may be a fraction of the one the rows were sorted by.
-  const auto split = static_cast<std::int64_t>(std::lround(step_ / model->step));
-
   for (const Sampling& sampling : samplings_) {
     for (const Reader& reader : sampling.readers) {
       if (reader.kind == Reader::kBall) {
@@ -228,26 +243,27 @@ void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, St
     }
   }
 
+  const double h = model->step;
   std::vector<std::size_t> row(samplings_.size(), 0);
   std::vector<std::vector<double>> before(samplings_.size()), now(samplings_.size());
-  const auto steps = static_cast<std::int64_t>(std::ceil(duration_ / step_ - 1e-6));
+  const auto steps = static_cast<std::int64_t>(std::ceil(duration_ / h - 1e-6));
   for (std::int64_t k = 0; k <= steps; ++k) {
     if (k > 0) {
-      for (std::int64_t s = 0; s < split; ++s) {
-        input.drive(sim, static_cast<double>((k - 1) * split + s) * model->step);
-        sim.step();
-      }
+      input.drive(sim, static_cast<double>(k - 1) * h);
+      sim.step();
     }
     for (std::size_t i = 0; i < samplings_.size(); ++i) {
       const auto& rows = samplings_[i].rows;
       if (row[i] == rows.size()) continue;
       // A row between two steps needs the one before, too.
-      const Sampling::Row& next = rows[row[i]];
+      const Moment next = moment(rows[row[i]].time, h);
       if (next.step > k + 1 || (next.step == k + 1 && next.share == 1.0)) continue;
       std::swap(before[i], now[i]);
       read(sim, samplings_[i], now[i]);
-      while (row[i] < rows.size() && rows[row[i]].step <= k) {
-        finish_row(samplings_[i], row[i]++, before[i], now[i], out);
+      while (row[i] < rows.size()) {
+        const Moment at = moment(rows[row[i]].time, h);
+        if (at.step > k) break;
+        finish_row(samplings_[i], row[i]++, at.share, before[i], now[i], out);
       }
     }
   }

@@ -49,7 +49,8 @@ class Search {
         question_(question),
         laboratory_(prepare(evaluator, question)),
         scales_(measure_scales(evaluator, laboratory_.train, laboratory_.repeats)),
-        train_(evaluator, laboratory_.train, whitener(laboratory_.train, scales_, true)),
+        train_(evaluator, laboratory_.train, whitener(laboratory_.train, scales_, true),
+               coarse_step(evaluator, laboratory_.train, scales_)),
         test_(evaluator, laboratory_.test, whitener(laboratory_.test, scales_, true)),
         train_judge_(laboratory_.train, train_.whitening(), scales_),
         test_judge_(laboratory_.test, test_.whitening(), scales_),
@@ -61,9 +62,9 @@ class Search {
     answer.scales = scales_;
     recalibrate(answer);
     stage("screening " + std::to_string(candidates_.size()) + " candidates", -1);
-    Screening screening(train_, base_, candidates_);
+    Screening screening(train_, base_, candidates_, laboratory_.quick, laboratory_.slow);
     std::vector<Score> scores = screening.scores(base_);
-    list_invisible(screening, scores, answer);
+    list_invisible(scores, answer);
     for (int round = 0; round < question_.max_effects && gap_is_real(); ++round) {
       if (round > 0) {
         stage("screening", round);
@@ -197,14 +198,13 @@ class Search {
     }
   }
 
-  void list_invisible(const Screening& screening, const std::vector<Score>& scores,
-                      Answer& answer) const {
+  void list_invisible(const std::vector<Score>& scores, Answer& answer) const {
     const double needed = kEvidence + std::log(static_cast<double>(candidates_.size()));
-    const double held_out = total_duration(laboratory_.test) / screening.duration();
     for (const Score& score : scores) {
       const Candidate& candidate = candidates_[score.candidate];
       const EffectParameter& size = *candidate.sizes().front();
       const double dose = std::abs(size.typical - size.neutral);
+      const double held_out = total_duration(laboratory_.test) / score.seconds;
       const double smallest = score.uncertainty * std::sqrt(2.0 * needed / held_out) * dose;
       const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
       if (smallest > largest || smallest > 5.0 * dose) {

@@ -56,6 +56,7 @@ std::vector<double> Evaluator::initial_nuisances() const {
 std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const {
   LoadOptions options;
   options.step = variant.step > 0.0 ? variant.step : step_;
+  options.slow_controllers = options.step > step_;
   if (!variant.nuisances.empty()) options.overrides = overrides_of(nuisances_, variant.nuisances);
   options.effects = variant.effects;
   return without_noise(build_robot_model(config_, options));

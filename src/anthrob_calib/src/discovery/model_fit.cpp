@@ -143,22 +143,33 @@ Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd&
   return x;
 }
 
-ModelFit ModelFit::first_recordings(double seconds) const {
-  Experiments first;
-  double length = 0.0;
-  for (const auto& experiment : experiments_) {
-    if (length >= seconds) break;
-    first.push_back(experiment);
-    length += experiment->duration();
-  }
-  const auto size = static_cast<Eigen::Index>(total_size(first));
-  return ModelFit(evaluator_, first, whitener_.head(size));
+ModelFit ModelFit::part(const Excerpt& excerpt) const {
+  return ModelFit(evaluator_, excerpt.experiments, excerpt.of(whitener_), coarse_);
 }
 
 std::vector<Eigen::VectorXf> ModelFit::residuals(const std::vector<Variant>& variants) const {
   auto results = evaluator_.compare(variants, experiments_);
   for (auto& r : results) {
     if (r.size() > 0) r.array() *= whitener_.array();
+  }
+  return results;
+}
+
+std::vector<Eigen::VectorXf> ModelFit::changes(const Variant& from, const Eigen::VectorXf& residual,
+                                               std::vector<Variant> to) const {
+  if (coarse_ > 0.0) {
+    to.push_back(from);
+    for (Variant& variant : to) variant.step = coarse_;
+  }
+  auto results = residuals(to);
+  Eigen::VectorXf base = residual;
+  if (coarse_ > 0.0) {
+    base = std::move(results.back());
+    results.pop_back();
+  }
+  for (auto& result : results) {
+    if (base.size() == 0) result.resize(0);
+    if (result.size() > 0) result -= base;
   }
   return results;
 }
@@ -189,7 +200,7 @@ void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
     size.push_back((u.read(variant) - value) / u.scale);
     moved.push_back(std::move(variant));
   }
-  const auto results = residuals(moved);
+  const auto results = changes(fitted.variant, fitted.residual, std::move(moved));
   fitted.sensitivity.conservativeResize(fitted.residual.size(),
                                         static_cast<Eigen::Index>(fitted.unknowns.size()));
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -197,7 +208,7 @@ void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
     if (results[i].size() == 0 || size[i] == 0.0) {
       column.setZero();
     } else {
-      column = (results[i] - fitted.residual) / static_cast<float>(size[i]);
+      column = results[i] / static_cast<float>(size[i]);
     }
   }
 }

@@ -76,7 +76,7 @@ std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>&
       owner.push_back(s);
     }
   }
-  const auto residuals = train_.residuals(variants);
+  const auto changes = train_.changes(base.variant, base.residual, variants);
 
   // What is left after the ordinary parameters have done what they can, in linear approximation.
   const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
@@ -88,12 +88,13 @@ std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>&
   std::vector<Score> tried(
       scores.begin(),
       scores.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(scores.size(), kTried)));
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (residuals[i].size() == 0) continue;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (changes[i].size() == 0) continue;
+    const Eigen::VectorXf residual = base.residual + changes[i];
     const Eigen::VectorXd g =
-        (base.sensitivity.transpose() * residuals[i]).cast<double>() + precision.cwiseProduct(off);
+        (base.sensitivity.transpose() * residual).cast<double>() + precision.cwiseProduct(off);
     double cost =
-        0.5 * residuals[i].cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(precision);
+        0.5 * residual.cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(precision);
     if (lower.size() > 0) {
       const Eigen::VectorXd step = bounded_minimum(A, g, lower, upper);
       cost += 0.5 * step.dot(A * step) + g.dot(step);

@@ -14,6 +14,10 @@ constexpr double kShortest = 2.0;         // [s] of all training recordings toge
 constexpr double kFinestBin = 0.02;       // [s]
 constexpr double kAxisBin = 0.025;        // [s]
 constexpr double kMostDifferences = 4e5;  // of the training recordings
+constexpr double kQuickLook = 20.0;       // [s]
+constexpr double kSlowLook = 120.0;       // [s]
+constexpr double kCoarse = 2.0;           // steps
+constexpr double kMostCoarseError = 1.0;  // rms, in standard deviations of the differences
 
 /// Largest less smallest value of a column; 0 if it is not there.
 double span(const Dataset& recording, const std::string& column) {
@@ -111,7 +115,23 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   make(question.train, laboratory.train);
   make(question.test, laboratory.test);
   make(question.repeats, laboratory.repeats);
+  // A driven axis is simulated in no time.
+  laboratory.quick = excerpt(robot, question.train, laboratory.train,
+                             robot.muscles.empty() ? kSlowLook : kQuickLook);
+  laboratory.slow = excerpt(robot, question.train, laboratory.train, kSlowLook);
   return laboratory;
+}
+
+double coarse_step(const Evaluator& evaluator, const Experiments& train, const Scales& scales) {
+  if (evaluator.model()->muscles.empty()) return 0.0;
+  Variant coarse{};
+  coarse.step = kCoarse * evaluator.model()->step;
+  const auto both = evaluator.compare({Variant{}, coarse}, train);
+  if (both[0].size() == 0 || both[1].size() == 0) return 0.0;
+  const Eigen::VectorXf factors = whitener(train, scales, false);
+  const Eigen::VectorXf error = (both[1] - both[0]).cwiseProduct(factors);
+  const auto measured = static_cast<float>((factors.array() > 0.0f).count());
+  return error.squaredNorm() < kMostCoarseError * kMostCoarseError * measured ? coarse.step : 0.0;
 }
 
 }  // namespace discovery

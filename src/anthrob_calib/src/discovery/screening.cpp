@@ -23,50 +23,59 @@ std::vector<Eigen::Index> free_unknowns(const Fitted& base) {
   return free;
 }
 
-Eigen::MatrixXf columns_of(const Eigen::MatrixXf& matrix, const std::vector<Eigen::Index>& which) {
-  Eigen::MatrixXf part(matrix.rows(), static_cast<Eigen::Index>(which.size()));
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    part.col(static_cast<Eigen::Index>(i)) = matrix.col(which[i]);
-  }
-  return part;
-}
-
 }  // namespace
 
 Screening::Screening(const ModelFit& fit, const Fitted& base,
-                     const std::vector<Candidate>& candidates)
-    : fit_(fit.first_recordings(kEnough)), candidates_(candidates) {
-  std::vector<std::size_t> all;
+                     const std::vector<Candidate>& candidates, const Excerpt& quick,
+                     const Excerpt& slow)
+    : candidates_(candidates) {
+  std::vector<std::size_t> few, many;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    first_column_.push_back(columns_.size());
-    for (const EffectParameter* size : candidates[c].sizes()) {
+    (candidates[c].effect->info().slow ? few : many).push_back(c);
+  }
+  if (!many.empty()) add_look(fit, base, quick, std::move(many));
+  if (!few.empty()) add_look(fit, base, slow, std::move(few));
+}
+
+void Screening::add_look(const ModelFit& fit, const Fitted& base, const Excerpt& excerpt,
+                         std::vector<std::size_t> candidates) {
+  Look look{fit.part(excerpt), excerpt, std::move(candidates), {}, {}, {}};
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < look.candidates.size(); ++k) {
+    look.first_column.push_back(look.columns.size());
+    for (const EffectParameter* size : candidates_[look.candidates[k]].sizes()) {
       const double dose = size->typical - size->neutral;
       double lower = (size->bounds.lo - size->neutral) / dose;
       double upper = (size->bounds.hi - size->neutral) / dose;
       if (dose < 0.0) std::swap(lower, upper);
-      all.push_back(columns_.size());
-      columns_.push_back({c, size, lower, upper, false});
+      look.columns.push_back({size, lower, upper, false});
     }
+    all.push_back(k);
   }
-  first_column_.push_back(columns_.size());
-  responses_.setZero(fit_.whitening().size(), static_cast<Eigen::Index>(columns_.size()));
-  simulate(base, all);
+  look.first_column.push_back(look.columns.size());
+  look.responses.setZero(static_cast<Eigen::Index>(excerpt.rows.size()),
+                         static_cast<Eigen::Index>(look.columns.size()));
+  simulate(look, base, all);
+  looks_.push_back(std::move(look));
 }
 
-void Screening::simulate(const Fitted& base, const std::vector<std::size_t>& columns) {
+void Screening::simulate(Look& look, const Fitted& base, const std::vector<std::size_t>& which) {
   std::vector<Variant> doses;
-  for (const std::size_t i : columns) {
-    Variant variant = base.variant;
-    variant.effects.push_back(candidates_[columns_[i].candidate].dose(*columns_[i].size));
-    doses.push_back(std::move(variant));
+  std::vector<std::size_t> columns;
+  for (const std::size_t k : which) {
+    for (std::size_t i = look.first_column[k]; i < look.first_column[k + 1]; ++i) {
+      Variant variant = base.variant;
+      variant.effects.push_back(candidates_[look.candidates[k]].dose(*look.columns[i].size));
+      doses.push_back(std::move(variant));
+      columns.push_back(i);
+    }
   }
-  const auto results = fit_.residuals(doses);
+  const auto changes = look.fit.changes(base.variant, look.excerpt.of(base.residual), doses);
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    Column& column = columns_[columns[k]];
-    column.simulated = results[k].size() > 0;
-    auto response = responses_.col(static_cast<Eigen::Index>(columns[k]));
-    if (column.simulated) {
-      response = results[k] - base.residual.head(responses_.rows());
+    look.columns[columns[k]].simulated = changes[k].size() > 0;
+    auto response = look.responses.col(static_cast<Eigen::Index>(columns[k]));
+    if (changes[k].size() > 0) {
+      response = changes[k];
     } else {
       response.setZero();
     }
@@ -74,68 +83,72 @@ void Screening::simulate(const Fitted& base, const std::vector<std::size_t>& col
 }
 
 void Screening::renew(const Fitted& base, const std::vector<Score>& best, std::size_t count) {
-  std::vector<std::size_t> columns;
-  for (std::size_t s = 0; s < best.size() && s < count; ++s) {
-    const std::size_t c = best[s].candidate;
-    for (std::size_t i = first_column_[c]; i < first_column_[c + 1]; ++i) columns.push_back(i);
+  for (Look& look : looks_) {
+    std::vector<std::size_t> which;
+    for (std::size_t s = 0; s < best.size() && s < count; ++s) {
+      const auto found =
+          std::find(look.candidates.begin(), look.candidates.end(), best[s].candidate);
+      if (found == look.candidates.end()) continue;
+      which.push_back(static_cast<std::size_t>(found - look.candidates.begin()));
+    }
+    if (!which.empty()) simulate(look, base, which);
   }
-  simulate(base, columns);
 }
 
-void Screening::project(const Fitted& base) {
-  free_ = free_unknowns(base);
-  const Eigen::MatrixXf J = columns_of(base.sensitivity.topRows(responses_.rows()), free_);
-  Eigen::MatrixXd A = (J.transpose() * J).cast<double>();
-  const Eigen::VectorXd precision = base.precision();
-  for (std::size_t i = 0; i < free_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    A(k, k) += precision[free_[i]] + 1e-9 * (1.0 + A(k, k));
-  }
-  const Eigen::MatrixXd JS = (J.transpose() * responses_).cast<double>();
-  absorbed_ =
-      free_.empty() ? Eigen::MatrixXd::Zero(0, JS.cols()).eval() : A.ldlt().solve(JS).eval();
-  gram_ = (responses_.transpose() * responses_).cast<double>();
-  if (!free_.empty()) gram_ -= JS.transpose() * absorbed_;
-}
-
-std::vector<Score> Screening::scores(const Fitted& base) {
-  project(base);
-  const Eigen::MatrixXf J = columns_of(base.sensitivity.topRows(responses_.rows()), free_);
-  const Eigen::VectorXf residual = base.residual.head(responses_.rows());
+void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& scores) const {
+  const std::vector<Eigen::Index> free = free_unknowns(base);
+  const Eigen::MatrixXf J = look.excerpt.of(base.sensitivity, free);
+  const Eigen::VectorXf residual = look.excerpt.of(base.residual);
   const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
+  Eigen::MatrixXd A = (J.transpose() * J).cast<double>();
   Eigen::VectorXd pull = (J.transpose() * residual).cast<double>();
-  for (std::size_t i = 0; i < free_.size(); ++i) {
-    pull[static_cast<Eigen::Index>(i)] += precision[free_[i]] * off[free_[i]];
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    A(k, k) += precision[free[i]] + 1e-9 * (1.0 + A(k, k));
+    pull[k] += precision[free[i]] * off[free[i]];
   }
-  Eigen::VectorXd gradient = (responses_.transpose() * residual).cast<double>();
-  if (!free_.empty()) gradient -= absorbed_.transpose() * pull;
+  const Eigen::MatrixXd JS = (J.transpose() * look.responses).cast<double>();
+  Eigen::MatrixXd absorbed = Eigen::MatrixXd::Zero(0, JS.cols());  // A^-1 J' S
+  if (!free.empty()) absorbed = A.ldlt().solve(JS);
+  const Eigen::VectorXd gradient =
+      (look.responses.transpose() * residual).cast<double>() - absorbed.transpose() * pull;
 
-  std::vector<Score> scores;
-  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+  for (std::size_t k = 0; k < look.candidates.size(); ++k) {
     Score score;
-    score.candidate = c;
+    score.candidate = look.candidates[k];
+    score.seconds = look.excerpt.duration();
     score.uncertainty = std::numeric_limits<double>::infinity();
-    const auto from = static_cast<Eigen::Index>(first_column_[c]);
-    const auto count = static_cast<Eigen::Index>(first_column_[c + 1]) - from;
-    Eigen::MatrixXd A = gram_.block(from, from, count, count);
+    const auto from = static_cast<Eigen::Index>(look.first_column[k]);
+    const auto count = static_cast<Eigen::Index>(look.first_column[k + 1]) - from;
+    const auto own = look.responses.middleCols(from, count);
+    Eigen::MatrixXd h = (own.transpose() * own).cast<double>();
+    const Eigen::VectorXd whole = h.diagonal();
+    h -= JS.middleCols(from, count).transpose() * absorbed.middleCols(from, count);
     const Eigen::VectorXd g = gradient.segment(from, count);
     Eigen::VectorXd lower(count), upper(count);
     for (Eigen::Index i = 0; i < count; ++i) {
-      const Column& column = columns_[static_cast<std::size_t>(from + i)];
-      const double own = responses_.col(from + i).squaredNorm();
-      // Less than a thousandth left: the ordinary parameters do the same.
-      const bool visible = column.simulated && A(i, i) > 1e-4 * own && A(i, i) > 1e-6;
+      const Column& column = look.columns[static_cast<std::size_t>(from + i)];
+      // Less than a hundredth left: the ordinary parameters do the same.
+      const bool visible = column.simulated && h(i, i) > 1e-4 * whole[i] && h(i, i) > 1e-6;
       lower[i] = visible ? std::max(column.lower, -100.0) : 0.0;
       upper[i] = visible ? std::min(column.upper, 100.0) : 0.0;
-      if (i == 0 && visible) score.uncertainty = 1.0 / std::sqrt(A(i, i));
-      if (!visible) A(i, i) += 1.0;
+      if (i == 0 && visible) score.uncertainty = 1.0 / std::sqrt(h(i, i));
+      if (!visible) h(i, i) += 1.0;
     }
-    A.diagonal() *= 1.0 + 1e-6;
-    const Eigen::VectorXd amount = bounded_minimum(A, g, lower, upper);
-    score.gain = -(0.5 * amount.dot(A * amount) + g.dot(amount));
+    h.diagonal() *= 1.0 + 1e-6;
+    const Eigen::VectorXd amount = bounded_minimum(h, g, lower, upper);
+    score.gain = -(0.5 * amount.dot(h * amount) + g.dot(amount));
     score.amount.assign(amount.data(), amount.data() + count);
     scores.push_back(std::move(score));
   }
+}
+
+std::vector<Score> Screening::scores(const Fitted& base) const {
+  std::vector<Score> scores;
+  for (const Look& look : looks_) score(look, base, scores);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Score& s : scores) shortest = std::min(shortest, s.seconds);
+  for (Score& s : scores) s.gain *= shortest / s.seconds;
   std::stable_sort(scores.begin(), scores.end(),
                    [](const Score& a, const Score& b) { return a.gain > b.gain; });
   return scores;

@@ -197,6 +197,7 @@ class Builder {
     muscle.limits.position = limits.number("position", Bounds::positive(), "rad");
     muscle.limits.current = limits.number("current", Bounds::positive(), "A");
     muscle.limits.force = limits.number("force", Bounds::positive(), "N");
+    if (options_.slow_controllers) c.period = std::max(c.period, options_.step);
     const double ratio = c.period / options_.step;
     muscle.steps_per_tick = static_cast<int>(std::lround(ratio));
     if (muscle.steps_per_tick < 1 || std::abs(ratio - muscle.steps_per_tick) > 1e-9 * ratio) {

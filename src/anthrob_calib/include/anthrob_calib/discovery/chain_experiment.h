@@ -28,8 +28,7 @@ class ChainExperiment final : public Experiment {
   /// Readers whose samples were taken at the same times.
   struct Sampling {
     struct Row {
-      std::int64_t step;  ///< that arrives at or after the row's time
-      double share;       ///< of that step at the row's time
+      double time;  ///< [s]
       std::uint32_t bin;
     };
     std::vector<Row> rows;
@@ -37,16 +36,18 @@ class ChainExperiment final : public Experiment {
     std::vector<Reader> readers;
   };
 
+  std::size_t bin_of(double time) const;
   Sampling& sampling_of(const std::vector<double>& times);
   void add(Reader reader, const Series& series, const Channel& channel);
   void add_ball(int joint, const std::string& name, const Dataset& recording);
-  void finish_row(const Sampling& sampling, std::size_t row, const std::vector<double>& before,
-                  const std::vector<double>& now, float* out) const;
+  /// @param share of `now`, less that of `before`, in the state at the row's time
+  void finish_row(const Sampling& sampling, std::size_t row, double share,
+                  const std::vector<double>& before, const std::vector<double>& now,
+                  float* out) const;
   static void read(const Simulation& sim, const Sampling& sampling, std::vector<double>& values);
 
   Dataset recording_;
   ReplayMode mode_;
-  double step_;
   std::size_t bins_;
   std::vector<std::vector<double>> times_;  ///< of each sampling
   std::vector<Sampling> samplings_;

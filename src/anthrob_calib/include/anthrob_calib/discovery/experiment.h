@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -74,6 +75,7 @@ struct ExperimentOptions {
   double bin = 0.02;  ///< [s]
   /// What is fed with measured values; by default the earliest input of the chain that there is.
   std::optional<ReplayMode> mode = {};
+  double seconds = std::numeric_limits<double>::infinity();  ///< no more than the first of them
 };
 
 /// Replays all of a recording's commands, the whole chain from the controllers on. Robots whose

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/excerpt.h"
 #include "anthrob_calib/discovery/noise_floor.h"
 
 namespace anthrob {
@@ -55,10 +56,13 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator);
 /// which are few and less linear, once more after the first step.
 class ModelFit {
  public:
-  ModelFit(const Evaluator& evaluator, Experiments experiments, Eigen::VectorXf whitener)
+  /// @param coarse step of the simulations that tell how the residual changes [s]; 0: as usual
+  ModelFit(const Evaluator& evaluator, Experiments experiments, Eigen::VectorXf whitener,
+           double coarse = 0.0)
       : evaluator_(evaluator),
         experiments_(std::move(experiments)),
-        whitener_(std::move(whitener)) {}
+        whitener_(std::move(whitener)),
+        coarse_(coarse) {}
 
   /// From a variant and its unknowns, all sensitivities simulated.
   /// @throws NotSimulated
@@ -73,12 +77,15 @@ class ModelFit {
   Fitted extend(const Fitted& fitted, const Variant& variant,
                 const std::vector<Unknown>& more) const;
 
-  /// The same on the first recordings, as many as last `seconds`. Their residuals are the head of
-  /// this one's.
-  ModelFit first_recordings(double seconds) const;
+  /// The same on a part of the recordings.
+  ModelFit part(const Excerpt& excerpt) const;
 
   Eigen::VectorXf residual(const Variant& variant) const;  ///< empty if it cannot be simulated
   std::vector<Eigen::VectorXf> residuals(const std::vector<Variant>& variants) const;
+  /// How the residual changes from one variant, whose residual is known, to others; with the coarse
+  /// step, whose error is in both. Empty if it cannot be simulated.
+  std::vector<Eigen::VectorXf> changes(const Variant& from, const Eigen::VectorXf& residual,
+                                       std::vector<Variant> to) const;
   /// See Evaluator::side_by_side().
   void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const {
     evaluator_.side_by_side(count, work);
@@ -103,6 +110,7 @@ class ModelFit {
   const Evaluator& evaluator_;
   Experiments experiments_;
   Eigen::VectorXf whitener_;
+  double coarse_;
 };
 
 /// Minimises 1/2 x' A x + g' x within bounds (projected active set).

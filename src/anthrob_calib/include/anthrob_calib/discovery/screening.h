@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "anthrob_calib/discovery/candidate.h"
+#include "anthrob_calib/discovery/excerpt.h"
 #include "anthrob_calib/discovery/model_fit.h"
 
 namespace anthrob {
@@ -16,45 +17,50 @@ struct Score {
   std::vector<double> amount;  ///< of each size, in doses
   /// Standard deviation of its first size, in doses; infinite if a dose changes nothing.
   double uncertainty = 0.0;
+  double seconds = 0.0;  ///< of recordings that say so; `gain` is per the shortest look at any
 };
 
 /// Every candidate's unit dose, simulated; what ordinary parameters can imitate is taken off.
 ///
 /// A score test (Lagrange multiplier): all candidates are weighed at the fit without them, in
 /// linear approximation. Sizes that begin at neutral count in one direction only. A dose is
-/// simulated along the first recordings only, as many as make kEnough seconds.
+/// simulated along the first seconds of the recordings only; one of a slow effect along more.
 class Screening {
  public:
-  static constexpr double kEnough = 20.0;  ///< [s]
-
   /// Simulates a dose of each size of each candidate on top of a fitted variant.
-  Screening(const ModelFit& fit, const Fitted& base, const std::vector<Candidate>& candidates);
+  /// @param quick, slow what is simulated of the recordings of `fit`
+  Screening(const ModelFit& fit, const Fitted& base, const std::vector<Candidate>& candidates,
+            const Excerpt& quick, const Excerpt& slow);
 
   /// In order of falling gain. The base may have moved on since the doses were simulated.
-  std::vector<Score> scores(const Fitted& base);
-  double duration() const { return total_duration(fit_.experiments()); }  ///< simulated [s]
+  std::vector<Score> scores(const Fitted& base) const;
   /// The same doses again, of some candidates only, on top of another base.
   void renew(const Fitted& base, const std::vector<Score>& best, std::size_t count);
 
  private:
+  /// A dose of one size of one candidate.
   struct Column {
-    std::size_t candidate;
     const EffectParameter* size;
     double lower, upper;  ///< of the amount, in doses
     bool simulated;
   };
+  /// Candidates that are simulated along one excerpt.
+  struct Look {
+    ModelFit fit;
+    const Excerpt& excerpt;
+    std::vector<std::size_t> candidates;
+    std::vector<std::size_t> first_column;  ///< of each, and the number of columns
+    std::vector<Column> columns;
+    Eigen::MatrixXf responses;
+  };
 
-  void simulate(const Fitted& base, const std::vector<std::size_t>& columns);
-  void project(const Fitted& base);
+  void add_look(const ModelFit& fit, const Fitted& base, const Excerpt& excerpt,
+                std::vector<std::size_t> candidates);
+  void simulate(Look& look, const Fitted& base, const std::vector<std::size_t>& which);
+  void score(const Look& look, const Fitted& base, std::vector<Score>& scores) const;
 
-  const ModelFit fit_;
   const std::vector<Candidate>& candidates_;
-  std::vector<Column> columns_;
-  std::vector<std::size_t> first_column_;  ///< by candidate
-  Eigen::MatrixXf responses_;
-  Eigen::MatrixXd gram_;      ///< of the responses, what ordinary parameters imitate taken off
-  Eigen::MatrixXd absorbed_;  ///< A^-1 J' S
-  std::vector<Eigen::Index> free_;  ///< unknowns of the base that are not at a bound
+  std::vector<Look> looks_;
 };
 
 }  // namespace discovery

@@ -58,6 +58,7 @@ struct EffectInfo {
   Seam seam = Seam::kJoints;
   Stage stage = Stage::kComponents;
   bool dissipates = false;
+  bool slow = false;                  ///< builds up over minutes
   std::vector<std::string> channels;  ///< in which it shows: position, current, force, joint, ...
   std::vector<EffectParameter> parameters;
 

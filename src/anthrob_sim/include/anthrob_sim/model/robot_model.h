@@ -78,6 +78,9 @@ struct LoadOptions {
   std::map<std::string, double> overrides = {};
   /// Effects beside those of the model file.
   std::vector<EffectInstance> effects = {};
+  /// A step may be longer than a controller's period: it acts once a step then. For derivatives,
+  /// not for results.
+  bool slow_controllers = false;
 };
 
 /// Reads a model file, what it extends, and the URDF it names.

@@ -22,6 +22,7 @@ EffectInfo describe() {
   i.seam = Seam::kMotor;
   i.stage = Stage::kParts;
   i.dissipates = true;
+  i.slow = true;
   i.channels = {"current", "velocity", "position"};
   i.parameters = {
       {"thermal_resistance", "K/W", "winding to surroundings", 0.0, 15.0, {0.0, 200.0}},

@@ -17,6 +17,7 @@ EffectInfo describe() {
   i.source = "thesis, section 7.4: re-calibrated beyond 3 degrees";
   i.where = "MUSCLE | all";
   i.seam = Seam::kSensors;
+  i.slow = true;
   i.channels = {"position", "joint", "force"};
   i.parameters = {
       {"rate", "rad/s", "drift with time", 0.0, 2e-3, {-0.1, 0.1}},

@@ -19,6 +19,7 @@ EffectInfo describe() {
   i.where = "MUSCLE | all";
   i.seam = Seam::kSpring;
   i.dissipates = true;
+  i.slow = true;
   i.channels = {"force", "joint"};
   i.parameters = {
       {"ratio", "1", "stiffness of the arm over that of the element", 0.0, 0.12, {0.0, 3.0}},

@@ -18,6 +18,7 @@ EffectInfo describe() {
   i.where = "MUSCLE | all";
   i.seam = Seam::kSpring;
   i.dissipates = true;
+  i.slow = true;
   i.channels = {"force", "joint"};
   i.parameters = {
       {"softening", "1", "share of the stiffness lost near rest", 0.0, 0.25, {0.0, 0.9}}};

@@ -20,6 +20,7 @@ EffectInfo describe() {
   i.where = "MUSCLE | all";
   i.seam = Seam::kTendon;
   i.dissipates = true;
+  i.slow = true;
   i.channels = {"force", "joint", "position"};
   i.parameters = {
       {"rate", "1/N", "strain per force and e-fold of time", 0.0, 3e-5, {0.0, 0.003}},

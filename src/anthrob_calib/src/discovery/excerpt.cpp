@@ -1,0 +1,38 @@
+#include "anthrob_calib/discovery/excerpt.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// What is left to take of the next recording; less is not worth its settling.
+constexpr double kShortest = 2.0;  // [s]
+
+}  // namespace
+
+Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
+                const Experiments& whole, double seconds) {
+  Excerpt part;
+  std::size_t offset = 0;
+  for (std::size_t e = 0; e < whole.size(); ++e) {
+    if (e > 0 && seconds < kShortest) break;
+    ExperimentOptions options;
+    options.bin = whole[e]->bin();
+    options.seconds = seconds;
+    part.experiments.push_back(
+        seconds < whole[e]->duration() ? make_experiment(model, recordings[e], options) : whole[e]);
+    const Experiment& own = *part.experiments.back();
+    for (std::size_t c = 0; c < own.channels().size(); ++c) {
+      const std::size_t from = offset + whole[e]->channels()[c].offset;
+      for (std::size_t b = 0; b < own.channels()[c].count; ++b) {
+        part.rows.push_back(static_cast<Eigen::Index>(from + b));
+      }
+    }
+    offset += whole[e]->size();
+    seconds -= own.duration();
+  }
+  return part;
+}
+
+}  // namespace discovery
+}  // namespace anthrob
