@@ -3,6 +3,7 @@
 #include <anthrob_sim/recording/dataset.h>
 #include <anthrob_sim/recording/replay.h>
 #include <anthrob_virtual_robot/recording.h>
+#include <anthrob_virtual_robot/session.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -48,6 +49,42 @@ TEST(VirtualRobotRecording, IsReadAndReplayed) {
     EXPECT_LT(rms(name + "/force"), 0.5) << name;
     EXPECT_LT(rms(name + "/position"), 0.01) << name;
   }
+}
+
+TEST(VirtualRobotSession, TheWayBackBeginsWhereTheWayThereEnded) {
+  const std::string folder = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/";
+  const auto plain = reference::Arm::load(folder + "model_I.yaml");
+  auto settings =
+      virtual_robot::CalibrationRobotSettings::load(folder + "virtual_robot_tables.yaml");
+  settings.tries = 1;
+  virtual_robot::Session session(
+      [&](std::uint64_t) {
+        return virtual_robot::Robot(virtual_robot::with_hidden(plain, settings), nullptr, 0);
+      },
+      plain, settings, true);
+  auto targets =
+      virtual_robot::load_targets(folder + "equilibria_tier2.yaml", settings.lowest_tension);
+  targets.resize(2);
+  session.find_references(targets);
+  const auto out = std::filesystem::temp_directory_path() /
+                   ("anthrob_virtual_session_" + std::to_string(getpid()));
+  session.record_trajectories({}, out.string());
+  const std::string home = targets[0].name, away = targets[1].name;
+  const Dataset there = Dataset::load((out / (home + "_to_" + away + "_run1")).string());
+  const Dataset back = Dataset::load((out / (away + "_to_" + home + "_run1")).string());
+  std::filesystem::remove_all(out);
+  // A control period lies between the two.
+  for (const Table& table : there.tables) {
+    if (table.name == "commands") continue;
+    for (const Column& column : table.columns) {
+      const double last = there.series(column.name).values.back();
+      EXPECT_NEAR(back.series(column.name).values.front(), last, 1e-3 + 0.01 * std::abs(last))
+          << column.name;
+    }
+  }
+  const std::string muscle = there.tables.front().columns.front().owner();
+  EXPECT_EQ(back.series(muscle + "/reference").values.front(),
+            there.series(muscle + "/reference").values.back());
 }
 
 }  // namespace

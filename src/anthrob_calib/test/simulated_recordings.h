@@ -40,6 +40,7 @@ inline Dataset record_simulation(const std::shared_ptr<const RobotModel>& model,
   data.folder = "simulated";
   data.meta.robot = model->name;
   data.meta.kind = plan.kind;
+  data.meta.settle_s = plan.settle;
   Table table;
   table.name = "muscles";
   const auto put = [&](const std::string& name, double value) {

@@ -97,6 +97,12 @@ Recording record(Robot* robot, const std::vector<Command>& commands, double seco
   robot->place(commands.front().references);
   const auto settling = std::lround(settings.settle / period);
   for (long k = 0; k < settling; ++k) robot->tick();
+  return follow(robot, commands, seconds, settings);
+}
+
+Recording follow(Robot* robot, const std::vector<Command>& commands, double seconds,
+                 const RecordingSettings& settings) {
+  const double period = robot->period();
   Recording recording;
   recording.commands = commands;
   const auto ticks = std::lround(seconds / period);

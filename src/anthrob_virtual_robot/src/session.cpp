@@ -34,6 +34,12 @@ void run_for(Robot* robot, double seconds) {
   for (long k = 0; k < ticks; ++k) robot->tick();
 }
 
+RecordingSettings settings_of_recordings() {
+  RecordingSettings settings;
+  settings.settle = kRest;
+  return settings;
+}
+
 }  // namespace
 
 std::vector<Target> load_targets(const std::string& file, double lowest_tension) {
@@ -111,10 +117,13 @@ void Session::record_trajectories(const std::vector<std::string>& names,
     }
     const std::string there = rest.target.name + "_to_" + one.target.name + "_run1";
     const std::string back = one.target.name + "_to_" + rest.target.name + "_run1";
-    run({{0.0, rest.references}, {kLead, one.references}}, kLead + kMove, "trajectory",
-        folder + "/" + there);
-    run({{0.0, one.references}, {kLead, rest.references}}, kLead + kMove, "trajectory",
-        folder + "/" + back);
+    Robot robot = robot_(++runs_);
+    const double seconds = kLead + kMove;
+    const auto settings = settings_of_recordings();
+    write(record(&robot, {{0.0, rest.references}, {kLead, one.references}}, seconds, settings),
+          "trajectory", folder + "/" + there);
+    write(follow(&robot, {{0.0, one.references}, {kLead, rest.references}}, seconds, settings),
+          "trajectory", folder + "/" + back);
   }
 }
 
@@ -133,13 +142,16 @@ void Session::record_tour(const std::vector<std::string>& names, double each,
 void Session::run(const std::vector<Command>& commands, double seconds, const std::string& kind,
                   const std::string& folder) {
   Robot robot = robot_(++runs_);
-  RecordingSettings settings;
-  settings.settle = kRest;
+  write(record(&robot, commands, seconds, settings_of_recordings()), kind, folder);
+}
+
+void Session::write(const Recording& recording, const std::string& kind,
+                    const std::string& folder) const {
   Meta meta;
   meta.kind = kind;
   meta.settle = kRest;
   meta.has_elbow = has_elbow_;
-  write_dataset(record(&robot, commands, seconds, settings), muscles_, settings, meta, folder);
+  write_dataset(recording, muscles_, settings_of_recordings(), meta, folder);
 }
 
 }  // namespace anthrob::virtual_robot

@@ -71,10 +71,16 @@ void take_over(const std::string& file, ConfigNode& model, std::map<std::string,
   if (taken == 0) throw BadInput(file + ": none of its numbers is in " + model.file());
 }
 
+/// Rest and motion as long as the robot's.
+SimulationOptions as_recorded() {
+  SimulationOptions options;
+  options.settle = options.motion = HUGE_VAL;
+  return options;
+}
+
 DriveErrors errors_with(Drive drive, const char* name, const Problem& problem, const Point& best,
                         const std::vector<MeasuredRun>& runs) {
-  SimulationOptions options = problem.options();
-  options.motion = HUGE_VAL;
+  SimulationOptions options = as_recorded();
   options.drive = drive;
   DriveErrors errors{name};
   const auto all = simulate_runs(problem.build(best), runs, options);
@@ -106,8 +112,7 @@ std::vector<DriveErrors> compare_drives(const Problem& problem, const Point& bes
 BeforeAfter simulate_both(const Problem& problem, const Point& best,
                           const std::vector<MeasuredRun>& runs) {
   if (runs.empty()) return {};
-  SimulationOptions options = problem.options();
-  options.motion = HUGE_VAL;
+  const SimulationOptions options = as_recorded();
   return {runs, simulate_runs(problem.build(problem.space().initial()), runs, options),
           simulate_runs(problem.build(best), runs, options)};
 }

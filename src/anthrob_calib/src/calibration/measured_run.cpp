@@ -36,6 +36,8 @@ class RunReader {
     run.name = fs::path(recording_.folder).stem().string();
     read_kind(run);
     read_commands(run);
+    run.settle = recording_.meta.settle_s;
+    run.lead = std::max(0.0, origin_);
     run.duration = end_ - origin_;
     if (run.duration < options_.shortest) {
       fail("ends " + std::to_string(run.duration) + " s after its first command; expected " +

@@ -150,7 +150,13 @@ void settle_at_start(Simulation& sim, const MeasuredRun& run, const SimulationOp
   sim.place(sim.model().skeleton->rest_configuration(), std::vector<double>(muscles, 0.0));
   const bool by_reference = options.drive == Drive::kReferences || run.before.position.cols() == 0;
   command_positions(sim, by_reference ? run.start : row_of(run.before.position, 0));
-  sim.step(static_cast<int>(std::lround(options.settle / sim.step_length())));
+  const double rest = std::min(options.settle, run.settle + run.lead);
+  sim.step(static_cast<int>(std::lround(rest / sim.step_length())));
+}
+
+void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
+  const double rest = std::min(options.settle, run.lead);
+  sim.step(static_cast<int>(std::lround(rest / sim.step_length())));
 }
 
 RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
@@ -206,7 +212,10 @@ std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel
       } else {
         settle_at_start(sim, runs[chains[c].runs.front()], options);
       }
-      for (const int r : chains[c].runs) results[r] = follow(sim, runs[r], options);
+      for (const int r : chains[c].runs) {
+        if (r != chains[c].runs.front()) wait_for_command(sim, runs[r], options);
+        results[r] = follow(sim, runs[r], options);
+      }
     } catch (...) {
       failures[c] = std::current_exception();
     }

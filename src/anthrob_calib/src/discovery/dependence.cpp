@@ -106,10 +106,9 @@ std::vector<Sample> samples_of(const Experiments& experiments, const Channel& ch
 }  // namespace
 
 std::vector<Dependence> find_dependences(const Experiments& experiments,
-                                         const std::vector<Dataset>& recordings,
+                                         const std::vector<MeasuredVariable>& variables,
                                          const Eigen::VectorXf& residual,
                                          const Eigen::VectorXf& whitener) {
-  const auto variables = measured_variables(experiments, recordings);
   std::vector<Dependence> found;
   for (const Channel& channel : channels_of(experiments)) {
     Dependence best;

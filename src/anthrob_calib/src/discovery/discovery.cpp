@@ -48,6 +48,7 @@ class Search {
       : evaluator_(evaluator),
         question_(question),
         laboratory_(prepare(evaluator, question)),
+        variables_(measured_variables(laboratory_.train, question.train)),
         scales_(measure_scales(evaluator, laboratory_.train, laboratory_.repeats)),
         train_(evaluator, laboratory_.train, whitener(laboratory_.train, scales_, true),
                coarse_step(evaluator, laboratory_.train, scales_)),
@@ -140,8 +141,8 @@ class Search {
   /// Values and intervals of all effects in the model as it is at the end: later ones have moved
   /// earlier ones.
   void measure_effects(Answer& answer) const {
-    const auto variables = measured_variables(laboratory_.train, question_.train);
-    const auto ranges = bootstrap_intervals(base_, train_.experiments(), variables, question_.seed);
+    const auto ranges =
+        bootstrap_intervals(base_, train_.experiments(), variables_, question_.seed);
     for (std::size_t e = 0; e < answer.effects.size(); ++e) {
       for (const EffectParameter& p : candidates_[accepted_[e]].parameters) {
         const double value = base_.variant.effects[e].parameters.at(p.name);
@@ -232,13 +233,12 @@ class Search {
     }
     answer.remaining_share =
         first_excess_ > 0.0 ? excess(test_judge_, base_test_) / first_excess_ : 0.0;
-    answer.regimes =
-        regime_gaps(laboratory_.train, measured_variables(laboratory_.train, question_.train),
-                    recalibrated_train_, train_.whitening(), scales_);
-    answer.dependences = find_dependences(laboratory_.train, question_.train, recalibrated_train_,
-                                          train_.whitening());
+    answer.regimes = regime_gaps(laboratory_.train, variables_, recalibrated_train_,
+                                 train_.whitening(), scales_);
+    answer.dependences =
+        find_dependences(laboratory_.train, variables_, recalibrated_train_, train_.whitening());
     answer.remaining =
-        find_dependences(laboratory_.train, question_.train, base_.residual, train_.whitening());
+        find_dependences(laboratory_.train, variables_, base_.residual, train_.whitening());
     locate(answer);
     show_examples(answer);
     pronounce(answer);
@@ -345,6 +345,7 @@ class Search {
   const Evaluator& evaluator_;
   const Question& question_;
   Laboratory laboratory_;
+  std::vector<MeasuredVariable> variables_;
   Scales scales_;
   ModelFit train_, test_;
   Judge train_judge_, test_judge_;

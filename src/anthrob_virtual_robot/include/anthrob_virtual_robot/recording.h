@@ -26,8 +26,12 @@ struct RecordingSettings {
   int mocap_divider = 20;
 };
 
-/// Settles at the first command, then follows all of them.
+/// Settles at the first command, then follows all of them as follow() does.
 Recording record(Robot* robot, const std::vector<Command>& commands, double seconds,
+                 const RecordingSettings& settings);
+
+/// Goes on from where the robot is; `t` of the commands counts from now.
+Recording follow(Robot* robot, const std::vector<Command>& commands, double seconds,
                  const RecordingSettings& settings);
 
 /// What meta.yaml says of a dataset folder.

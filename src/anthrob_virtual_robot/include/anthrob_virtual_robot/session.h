@@ -32,7 +32,8 @@ class Session final {
 
   /// E0 to every posture, "E3_run1"; a posture at the end of each.
   void record_equilibria(const std::string& folder);
-  /// "E0_to_E3_run1" and "E3_to_E0_run1", of these postures or of all.
+  /// "E0_to_E3_run1" and "E3_to_E0_run1", of these postures or of all: there and, from where that
+  /// ended, back.
   void record_trajectories(const std::vector<std::string>& names, const std::string& folder);
   /// Through these postures and back to E0, a while each.
   void record_tour(const std::vector<std::string>& names, double each, const std::string& name,
@@ -46,6 +47,7 @@ class Session final {
   const Known& known(const std::string& name) const;
   void run(const std::vector<Command>& commands, double seconds, const std::string& kind,
            const std::string& folder);
+  void write(const Recording& recording, const std::string& kind, const std::string& folder) const;
 
   std::function<Robot(std::uint64_t)> robot_;
   PostureReference reference_;

@@ -37,7 +37,9 @@ struct MeasuredRun {
   Samples before;                 ///< one row, the posture at rest; none for an equilibrium
   Samples path;                   ///< evenly spaced; none for an equilibrium
   Samples after;                  ///< one row: the posture at the end
-  double duration = 0.0;          ///< [s]
+  double settle = 5.0;            ///< at `start`, before the recording began [s]
+  double lead = 0.0;              ///< still there, from then to the first command [s]
+  double duration = 0.0;          ///< from then on [s]
 };
 
 struct SamplingOptions {

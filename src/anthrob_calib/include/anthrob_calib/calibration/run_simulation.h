@@ -18,7 +18,7 @@ enum class Drive {
 };
 
 struct SimulationOptions {
-  double settle = 2.0;  ///< at rest before the first command [s]
+  double settle = 2.0;  ///< longest simulated rest before the first command [s]
   double motion = 2.0;  ///< longest simulated part of a run [s]
   Drive drive = Drive::kReferences;
 };
@@ -34,6 +34,9 @@ std::vector<Chain> chains_of(const std::vector<MeasuredRun>& runs);
 /// Puts the simulation into its rest posture and lets it settle at the references at which a run
 /// starts.
 void settle_at_start(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
+
+/// Stands still as long as the robot did before the first command of a run that another one led to.
+void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
 
 /// Simulates one run from where the simulation is, and compares. If the simulated part is shorter
 /// than the run, what it arrives at is compared with what the robot arrived at.

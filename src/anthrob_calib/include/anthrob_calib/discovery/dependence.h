@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_calib/discovery/measured_variable.h"
 #include "anthrob_calib/discovery/noise_floor.h"
 
 namespace anthrob {
@@ -22,7 +23,7 @@ struct Dependence {
 /// steps fitted on one half of the blocks and judged on the other.
 /// @param residual in units of sigma, as whitened by `whitener`
 std::vector<Dependence> find_dependences(const Experiments& experiments,
-                                         const std::vector<Dataset>& recordings,
+                                         const std::vector<MeasuredVariable>& variables,
                                          const Eigen::VectorXf& residual,
                                          const Eigen::VectorXf& whitener);
 
