@@ -41,7 +41,7 @@ class Case:
     def __init__(self, kind, number, count, options):
         self.kind = kind
         self.number = number
-        self.name = f"{kind}_{number:02d}"
+        self.name = f"{kind}_{number:02d}" + ("" if options.seed == 1 else f"_seed_{options.seed}")
         self.turn = number / count  # kinds take turns, so that a part of the study tells of all
         self.options = options
         folder = f"{options.out}/discovery"
@@ -80,9 +80,14 @@ class Case:
         begin = time.time()
         self.make()
         made = time.time()
+        failed = f"{self.report}/failed"
         if self.examine() != 0:
             say(f"{self.name} gave no report: see {self.log}")
+            os.makedirs(self.report, exist_ok=True)
+            write(failed, "")
             return False
+        if os.path.exists(failed):
+            os.remove(failed)
         facts = {"commit": commit(), "machine": machine(), "jobs": self.options.jobs,
                  "making_s": made - begin, "discovery_s": time.time() - made}
         write(f"{self.report}/study.json", as_json(facts))
@@ -210,7 +215,7 @@ def page(result, facts):
 def summarise(cases, options):
     """Whether there was something to tell of."""
     result = score(options)
-    if result is None or not result["cases"]:
+    if result is None or not any(case.done() for case in cases):
         return False
     facts = facts_of(cases, options)
     write(f"{options.out}/discovery.json", as_json({"facts": facts, **result}))

@@ -10,7 +10,6 @@
 #include "anthrob_calib/calibration/extended_model.h"
 #include "anthrob_calib/calibration/identifiability.h"
 #include "anthrob_calib/calibration/problem.h"
-#include "anthrob_calib/optimiser/least_squares_optimiser.h"
 #include "anthrob_calib/optimiser/optimiser.h"
 #include "anthrob_calib/optimiser/problem_evaluator.h"
 #include "simulated_recordings.h"
@@ -251,39 +250,6 @@ TEST(Calibration, LeastSquaresFindsForgottenParameters) {
   EXPECT_LT(result.fitness, 1e-6);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_NEAR(result.best[i], truth[i], i < 2 ? 2e-4 : 4e-5) << i;
-  }
-}
-
-TEST(Calibration, RoughDerivativesAreNearlyTheExactOnes) {
-  const Problem problem = problem_of(runs_of(rig(), "trajectory"));
-  ProblemEvaluator rough(problem);
-  class Exact final : public Evaluator {
-   public:
-    explicit Exact(Evaluator& evaluator) : evaluator_(evaluator) {}
-    std::vector<double> fitness(const std::vector<Point>& points) override {
-      return evaluator_.fitness(points);
-    }
-    std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override {
-      return evaluator_.residuals(points);
-    }
-
-   private:
-    Evaluator& evaluator_;
-  } exact(rough);
-  const auto variables = search_variables(problem.space());
-  Point point = problem.space().initial();
-  point[0] += 0.001;
-  const std::size_t count = problem.residuals(point).size();
-  const auto quick = derivatives(variables, point, count, 0.02, rough);
-  const auto slow = derivatives(variables, point, count, 0.02, exact);
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    double difference = 0.0, size = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-      difference += std::pow(quick[i][k] - slow[i][k], 2);
-      size += std::pow(slow[i][k], 2);
-    }
-    EXPECT_GT(difference, 0.0) << i;
-    EXPECT_LT(difference, 0.01 * size) << i;  // a tenth
   }
 }
 

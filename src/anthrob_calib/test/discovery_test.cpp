@@ -351,7 +351,7 @@ TEST(Excerpt, IsTheBeginningOfTheWhole) {
   for (const Dataset& data : recordings) whole.push_back(make_experiment(*arm.plain, data));
   const Evaluator evaluator(kConfig + "/anthrob/model_I.yaml", {}, 0.001, 1);
   const Differences all = evaluator.compare({Variant{}}, whole).front();
-  for (const double seconds : {3.0, 11.0, 1000.0}) {
+  for (const double seconds : {4.0, 11.0, 1000.0}) {
     const Excerpt part = excerpt(*arm.plain, recordings, whole, seconds);
     EXPECT_NEAR(part.duration(), std::min(seconds, total_duration(whole)), 0.021);
     EXPECT_EQ(evaluator.compare({Variant{}}, part.experiments).front(), part.of(all)) << seconds;
@@ -472,6 +472,42 @@ TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
   Question untested = good;
   untested.test.clear();
   EXPECT_NE(refusal(untested).find("--test"), std::string::npos);
+  untested.test = brief.train;
+  EXPECT_NE(refusal(untested).find("to judge by"), std::string::npos) << refusal(untested);
+  untested.test = still.train;
+  EXPECT_NE(refusal(untested).find("no muscle moves"), std::string::npos) << refusal(untested);
+
+  Question repeated = good;
+  repeated.repeats = {arm.record({}, 1, 2)};
+  EXPECT_EQ(refusal(repeated), "not refused");
+  repeated.repeats = {arm.record({}, 2, 2)};
+  EXPECT_NE(refusal(repeated).find("expected a repeat of the commands"), std::string::npos)
+      << refusal(repeated);
+}
+
+TEST(MeasureScales, CountsOfAnEncoderReachTheVoltagesOfItsController) {
+  const Arm arm;
+  Dataset fine = arm.record({}, 1, 1), coarse = fine;
+  constexpr double kCount = 0.02;  // [rad]
+  for (Table& table : coarse.tables) {
+    for (Column& column : table.columns) {
+      if (column.quantity() != "position" || arm.plain->find_muscle(column.owner()) < 0) continue;
+      for (double& value : column.values) value = kCount * std::round(value / kCount);
+    }
+  }
+  const Evaluator evaluator(kConfig + "/anthrob/model_I.yaml", {}, 0.001, 1);
+  const auto scales_of = [&](const Dataset& data) {
+    return measure_scales(evaluator, {make_experiment(*arm.plain, data)}, {});
+  };
+  const std::string voltage = "biceps_brachii/voltage";
+  EXPECT_EQ(scales_of(fine).at(voltage).counts, 0.0);
+  // Proportional gain times the error of rounding.
+  const double gain =
+      arm.plain->muscles[arm.plain->find_muscle("biceps_brachii")].controller.position.proportional;
+  const double expected = gain * kCount / std::sqrt(12.0);
+  const ChannelScale scale = scales_of(coarse).at(voltage);
+  EXPECT_GT(scale.counts, 0.4 * expected);
+  EXPECT_LT(scale.counts, 1.6 * expected);
 }
 
 }  // namespace

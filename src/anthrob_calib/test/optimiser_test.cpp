@@ -187,7 +187,7 @@ TEST(LeastSquares, InvalidNeighbourTellsNothing) {
   // Valid below 1 only.
   Function edge([](const Point& p) { return p[0] > 1.0 ? Point{} : Point{3.0 + p[0], p[1]}; });
   const std::vector<SearchVariable> v = {{1.0, -5.0, 5.0, 0.1}, {0.5, -5.0, 5.0, 0.1}};
-  const auto columns = derivatives(v, {1.0, 0.5}, 2, 0.02, edge);
+  const auto columns = derivatives(v, {1.0, 0.5}, {4.0, 0.5}, 0.02, edge);
   EXPECT_EQ(columns[0], (Point{0.0, 0.0}));
   EXPECT_NEAR(columns[1][1], 0.1, 1e-9);
 }

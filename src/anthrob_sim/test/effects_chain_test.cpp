@@ -133,7 +133,10 @@ TEST(WindingHeating, ResistanceFollowsCopperAndHeatReachesItsBalance) {
 
 TEST(Cogging, FirstPushIsTheAmplitudeAndWorkOverATurnIsNone) {
   const double amplitude = 2e-3, phase = 1.0, ratio = 128.0, inertia = 4.6e-7;
-  const EffectInstance effect = {"cogging", "flexor", {{"amplitude", amplitude}, {"phase", phase}}};
+  const EffectInstance effect = {
+      "cogging",
+      "flexor",
+      {{"sine", amplitude * std::cos(phase)}, {"cosine", amplitude * std::sin(phase)}}};
   // No load, so no friction in the rig's gear: one step from rest.
   Bench bench(effect);
   const double torque = amplitude * ratio * std::sin(phase);
@@ -426,6 +429,25 @@ TEST(EyeletFriction, BringsTheThesisLawWhereThereIsNone) {
   EXPECT_NEAR(law->evaluate(1.0, nothing).mu, 0.2, 1e-12);
   EXPECT_NEAR(law->evaluate(-1.0, nothing).mu, -0.2, 1e-12);
   EXPECT_NEAR(law->level(0.0), 0.25, 1e-12);
+}
+
+TEST(EyeletFriction, ExcessAtRestIsFreeAndTheSlopeIsTheCurves) {
+  const double mu = 0.1, model = 0.156;
+  for (const double rest_ratio : {0.7, 1.0, 1.4}) {
+    const auto robot = robot_with(
+        kArm, {{"eyelet_friction", "biceps_brachii/1", {{"mu", mu}, {"rest_ratio", rest_ratio}}}});
+    const auto& obstacles = robot->muscles[robot->find_muscle("biceps_brachii")].path->obstacles();
+    const FrictionLaw &raised = *obstacles[1].friction, &own = *obstacles[2].friction;
+    EXPECT_NEAR(raised.level(1.0), model + mu, 1e-12);
+    EXPECT_NEAR(raised.level(0.0) / own.level(0.0), 1.0 + mu / model * rest_ratio, 1e-12);
+    Memory nothing(4);
+    for (const double v : {-3e-3, -4e-4, 2e-4, 1e-3, 5e-3}) {
+      const double h = 1e-9;
+      const double slope =
+          (raised.evaluate(v + h, nothing).mu - raised.evaluate(v - h, nothing).mu) / (2.0 * h);
+      EXPECT_NEAR(raised.evaluate(v, nothing).slope, slope, 1e-4 * std::abs(slope) + 1e-4) << v;
+    }
+  }
 }
 
 TEST(WrapFriction, ActsWhereTheTendonSlidesOverTheSurface) {

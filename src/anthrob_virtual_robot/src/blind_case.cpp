@@ -48,11 +48,14 @@ double train_seconds(const BlindCase& blind, const CaseSettings& settings) {
   return blind.slow ? settings.slow_train : settings.train;
 }
 
-/// The k-th place in an order that the seed shuffles.
+/// The k-th place in an order that the seed shuffles, for each law anew.
 std::string place_of(const HiddenLaw& law, const reference::ArmParameters& arm, std::uint64_t k,
                      std::uint64_t seed) {
   std::vector<std::string> places = law.places(arm);
-  Random random(seed, kPlace);
+  const auto& all = catalogue_laws();
+  const auto same = [&](const HiddenLaw& other) { return other.id == law.id; };
+  const auto number = std::find_if(all.begin(), all.end(), same) - all.begin();
+  Random random(1009 * seed + static_cast<std::uint64_t>(number), kPlace);
   for (std::size_t i = places.size(); i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
   return places[k % places.size()];
 }
@@ -210,30 +213,32 @@ BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws
 void record_case(const BlindCase& blind, const CaseSettings& settings, const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& muscle : blind.believed.muscles) names.push_back(muscle.name);
-  SensorSettings stated = blind.sensors;
-  for (SensorErrors* errors : {&stated.position, &stated.velocity, &stated.current, &stated.force,
-                               &stated.elbow, &stated.shoulder}) {
-    errors->noise *= blind.stated_noise;
+  // Scatter of a repeat by which the noise is estimated wrong.
+  SensorSettings scattered = blind.sensors;
+  const double scatter = std::sqrt(2.0 * blind.stated_noise * blind.stated_noise - 1.0);
+  for (SensorErrors* errors : {&scattered.position, &scattered.velocity, &scattered.current,
+                               &scattered.force, &scattered.elbow, &scattered.shoulder}) {
+    errors->noise *= scatter;
   }
   Meta meta;
   meta.settle = settings.recording.settle;
-  meta.sensors = stated.yaml();
+  meta.sensors = blind.sensors.yaml();
   const double train = train_seconds(blind, settings);
   const double test = blind.slow ? settings.slow_test : settings.test;
   const auto run = [&](const std::string& name, double seconds, std::uint64_t stream,
-                       std::uint64_t noise) {
-    Robot robot = robot_of(blind, blind.hidden, &blind.sensors, blind.seed * 31 + noise);
+                       std::uint64_t noise, const SensorSettings& sensors) {
+    Robot robot = robot_of(blind, blind.hidden, &sensors, blind.seed * 31 + noise);
     const std::vector<Command> commands = commands_of(blind, seconds, stream);
     write_dataset(record(&robot, commands, seconds, settings.recording), names, settings.recording,
                   meta, folder + "/" + name);
   };
-  run("train_0", train, kTrain, 0);
-  run("repeat_0", train, kTrain, 1);
-  run("test_0", test, kTest, 3);
+  run("train_0", train, kTrain, 0, blind.sensors);
+  run("repeat_0", train, kTrain, 1, scattered);
+  run("test_0", test, kTest, 3, blind.sensors);
   // A slow effect needs one long recording rather than two.
   for (int k = 1; k < (blind.slow ? 1 : settings.trains); ++k) {
     const auto number = static_cast<std::uint64_t>(k);
-    run("train_" + std::to_string(k), train, kTrain + 100 * number, 2 * number);
+    run("train_" + std::to_string(k), train, kTrain + 100 * number, 2 * number, blind.sensors);
   }
 }
 

@@ -157,7 +157,7 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   Stack stack(problem);
   const std::vector<double> left = stack.describe(best);
   const auto columns =
-      derivatives(variables, best, left.size(), LeastSquaresOptimiser::kDifference, stack);
+      derivatives(variables, best, left, LeastSquaresOptimiser::kDifference, stack);
   const auto n = static_cast<Eigen::Index>(best.size());
   const auto rows = static_cast<Eigen::Index>(left.size());
   Eigen::MatrixXd jacobian(rows, n);  // of the weighted list, by steps

@@ -18,15 +18,8 @@ Problem::Problem(ConfigNode model, ParameterSpace space, std::vector<MeasuredRun
   model_.ignore();
 }
 
-Problem Problem::with_step(double step) const {
-  Problem other = *this;
-  other.load_.step = step;
-  other.load_.slow_controllers = true;
-  return other;
-}
-
 std::shared_ptr<const RobotModel> Problem::build(const std::vector<double>& values) const {
-  LoadOptions load = load_;
+  LoadOptions load;
   load.overrides = space_.overrides(values);
   return build_robot_model(model_, load);
 }

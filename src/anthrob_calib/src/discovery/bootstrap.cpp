@@ -13,6 +13,8 @@ namespace discovery {
 
 namespace {
 
+constexpr double kAtBound = 1e-3;  ///< of an unknown's scale
+
 /// Normal equations of some rows.
 struct Block {
   Eigen::MatrixXd information;
@@ -126,18 +128,25 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
   return reach;
 }
 
-/// The same if there were nothing but the floor's noise.
+/// The same if there were nothing but the floor's noise. Ordinary parameters that cannot move, held
+/// or at a bound, take nothing from the others.
 std::vector<double> reach_of_noise(const Fitted& fitted) {
-  const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
-  Eigen::MatrixXd information =
-      (fitted.sensitivity.transpose() * fitted.sensitivity).cast<double>();
-  information.diagonal() += fitted.precision();
+  const Eigen::VectorXd lower = fitted.lower_room(), upper = fitted.upper_room();
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    const bool bound = lower[i] > -kAtBound || upper[i] < kAtBound;
+    if (!bound || fitted.unknowns[static_cast<std::size_t>(i)].effect >= 0) free.push_back(i);
+  }
+  const Eigen::MatrixXf sensitivity = fitted.sensitivity(Eigen::all, free);
+  const auto n = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd information = (sensitivity.transpose() * sensitivity).cast<double>();
+  information.diagonal() += fitted.precision()(free);
   information.diagonal().array() += 1e-9 * (1.0 + information.diagonal().maxCoeff());
   const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-  std::vector<double> reach;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    reach.push_back(1.96 * std::sqrt(std::max(0.0, covariance(i, i))) *
-                    fitted.unknowns[static_cast<std::size_t>(i)].scale);
+  std::vector<double> reach(fitted.unknowns.size(), 0.0);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(free[static_cast<std::size_t>(k)]);
+    reach[i] = 1.96 * std::sqrt(std::max(0.0, covariance(k, k))) * fitted.unknowns[i].scale;
   }
   return reach;
 }

@@ -25,6 +25,8 @@ constexpr double kShareOfFirst = 0.03;
 constexpr double kRealGap = 1.4;
 constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
+constexpr int kSettling = 5;
+constexpr double kSettled = 5e-4;     ///< share of the cost
 constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects are not the answer
 constexpr std::size_t kRenewed =
     60;                              ///< candidates whose doses are simulated again in later rounds
@@ -65,7 +67,7 @@ class Search {
     stage("screening " + std::to_string(candidates_.size()) + " candidates", -1);
     Screening screening(train_, base_, candidates_, laboratory_.quick, laboratory_.slow);
     std::vector<Score> scores = screening.scores(base_);
-    list_invisible(scores, answer);
+    fly_ahead(screening, scores, answer);
     for (int round = 0; round < question_.max_effects && gap_is_real(); ++round) {
       if (round > 0) {
         stage("screening", round);
@@ -79,6 +81,11 @@ class Search {
       ShortList list = naming_.weigh(base_, base_test_, scores);
       if (question_.comment) comment_on(list);
       if (list.named.empty() || !earns_its_place(list)) break;
+      if (base_moves_on(list)) {
+        if (accepted_.empty()) note_recalibrated(answer);
+        naming_.judge_again(base_, base_test_, list);
+        if (!earns_its_place(list)) break;
+      }
       accept(list, answer);
     }
     conclude(answer);
@@ -113,19 +120,61 @@ class Search {
     given_train_ = base_.residual;
     given_test_ = test_.residual(answer.given);
     train_.improve(base_, kRecalibrations);
+    settle(base_);
     base_test_ = test_.residual(base_.variant);
     if (given_test_.size() == 0 || base_test_.size() == 0) {
       throw std::runtime_error("the model cannot be simulated along the held-out recordings");
     }
+    note_recalibrated(answer);
+  }
+
+  void note_recalibrated(Answer& answer) {
     answer.recalibrated = base_.variant;
     recalibrated_train_ = base_.residual;
     recalibrated_test_ = base_test_;
     first_excess_ = excess(test_judge_, base_test_);
   }
 
-  /// In what was learned from and in what was held out.
+  /// Polishes as long as that brings something: friction makes valleys rugged.
+  void settle(Fitted& fitted) const {
+    for (int k = 0; k < kSettling; ++k) {
+      const double before = fitted.cost;
+      train_.polish(fitted, kPolish);
+      if (before - fitted.cost < kSettled * before) break;
+    }
+  }
+
+  /// What looks like an effect may be ordinary parameters that found a better valley on the way:
+  /// the model without it gets the same chance, from where its fit has ended.
+  bool base_moves_on(const ShortList& list) {
+    const Named& best = list.named.front();
+    Variant without = best.fit.variant;
+    const EffectInstance effect = without.effects.back();
+    without.effects.pop_back();
+    for (const int nuisance : candidates_[best.candidate].same_as) {
+      for (const EffectParameter* size : candidates_[best.candidate].sizes()) {
+        const Unknown& own = base_.unknowns[static_cast<std::size_t>(nuisance)];
+        own.write(own.expected + effect.parameters.at(size->name) - size->neutral, without);
+      }
+    }
+    Fitted moved = base_;
+    if (!train_.move(moved, without)) return false;
+    settle(moved);
+    Eigen::VectorXf test = test_.residual(moved.variant);
+    if (moved.cost >= base_.cost || test.size() == 0) return false;
+    base_ = std::move(moved);
+    base_test_ = std::move(test);
+    return true;
+  }
+
+  /// Of a channel, in what was learned from and in what was held out.
   bool gap_is_real() const {
-    return excess(train_judge_, base_.residual) > 0.0 && excess(test_judge_, base_test_) > 0.0;
+    const auto learned = train_judge_.channel_gaps(base_.residual);
+    const auto held_out = test_judge_.channel_gaps(base_test_);
+    return std::any_of(held_out.begin(), held_out.end(), [&](const auto& channel) {
+      const auto found = learned.find(channel.first);
+      return excess(channel.second) > 0.0 && found != learned.end() && excess(found->second) > 0.0;
+    });
   }
 
   bool earns_its_place(const ShortList& list) const {
@@ -199,20 +248,34 @@ class Search {
     }
   }
 
-  void list_invisible(const std::vector<Score>& scores, Answer& answer) const {
-    const double needed = kEvidence + std::log(static_cast<double>(candidates_.size()));
+  /// What these recordings can show, before any effect is named.
+  void fly_ahead(const Screening& screening, std::vector<Score> scores, Answer& answer) const {
+    std::sort(scores.begin(), scores.end(),
+              [](const Score& a, const Score& b) { return a.candidate < b.candidate; });
     for (const Score& score : scores) {
-      const Candidate& candidate = candidates_[score.candidate];
-      const EffectParameter& size = *candidate.sizes().front();
+      const EffectParameter& size = *candidates_[score.candidate].sizes()[score.size];
       const double dose = std::abs(size.typical - size.neutral);
-      const double held_out = total_duration(laboratory_.test) / score.seconds;
-      const double smallest = score.uncertainty * std::sqrt(2.0 * needed / held_out) * dose;
       const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
-      if (smallest > largest || smallest > 5.0 * dose) {
-        answer.not_visible.push_back(
-            {candidate.effect->info().id, candidate.place, size.unit, smallest});
+      const Visibility visibility = visibility_of(score);
+      const bool visible = visibility.smallest_visible <= std::min(largest, 5.0 * dose);
+      (visible ? answer.visible : answer.not_visible).push_back(visibility);
+    }
+    for (const auto& group : screening.alike(base_)) {
+      answer.alike.emplace_back();
+      for (const std::size_t candidate : group) {
+        answer.alike.back().push_back(visibility_of(scores[candidate]));
       }
     }
+  }
+
+  Visibility visibility_of(const Score& score) const {
+    const Candidate& candidate = candidates_[score.candidate];
+    const EffectParameter& size = *candidate.sizes()[score.size];
+    const double needed = kEvidence + std::log(static_cast<double>(candidates_.size()));
+    const double held_out = total_duration(laboratory_.test) / score.seconds;
+    const double dose = std::abs(size.typical - size.neutral);
+    return {candidate.effect->info().id, candidate.place, size.unit,
+            score.uncertainty * std::sqrt(2.0 * needed / held_out) * dose};
   }
 
   Gap gap_of(const Judge& judge, const Eigen::VectorXf& given, const Eigen::VectorXf& recalibrated,

@@ -12,7 +12,8 @@ namespace discovery {
 namespace {
 
 /// Sensors as the model has them, but without chance: what remains is what can be predicted.
-std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const RobotModel>& model) {
+std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const RobotModel>& model,
+                                                const Variant& variant) {
   auto quiet = std::make_shared<RobotModel>(*model);
   SensorsModel& sensors = quiet->sensors;
   for (SensorModel* sensor : {&sensors.position, &sensors.velocity, &sensors.current,
@@ -20,13 +21,16 @@ std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const Robo
     sensor->noise = 0.0;
     sensor->quantum = 0.0;
   }
+  sensors.position.quantum = variant.position_count;
+  sensors.force.quantum = variant.force_count;
   return quiet;
 }
 
 std::uint64_t key_of(const Variant& variant,
                      const std::vector<std::shared_ptr<const Experiment>>& experiments) {
   Fingerprint key;
-  key.add(variant.step).add(static_cast<std::uint64_t>(variant.nuisances.size()));
+  key.add(variant.step).add(variant.position_count).add(variant.force_count);
+  key.add(static_cast<std::uint64_t>(variant.nuisances.size()));
   for (const double value : variant.nuisances) key.add(value);
   for (const EffectInstance& effect : variant.effects) {
     key.add(effect.id).add(effect.place);
@@ -59,7 +63,7 @@ std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const
   options.slow_controllers = options.step > step_;
   if (!variant.nuisances.empty()) options.overrides = overrides_of(nuisances_, variant.nuisances);
   options.effects = variant.effects;
-  return without_noise(build_robot_model(config_, options));
+  return without_noise(build_robot_model(config_, options), variant);
 }
 
 Journal& Evaluator::keep_journal(const std::string& file) {

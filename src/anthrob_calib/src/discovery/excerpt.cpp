@@ -1,11 +1,13 @@
 #include "anthrob_calib/discovery/excerpt.h"
 
+#include <algorithm>
+
 namespace anthrob {
 namespace discovery {
 
 namespace {
 
-/// What is left to take of the next recording; less is not worth its settling.
+/// Of a recording; less is not worth its settling.
 constexpr double kShortest = 2.0;  // [s]
 
 }  // namespace
@@ -18,9 +20,10 @@ Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
     if (e > 0 && seconds < kShortest) break;
     ExperimentOptions options;
     options.bin = whole[e]->bin();
-    options.seconds = seconds;
-    part.experiments.push_back(
-        seconds < whole[e]->duration() ? make_experiment(model, recordings[e], options) : whole[e]);
+    options.seconds = std::max(kShortest, seconds / static_cast<double>(whole.size() - e));
+    part.experiments.push_back(options.seconds < whole[e]->duration()
+                                   ? make_experiment(model, recordings[e], options)
+                                   : whole[e]);
     const Experiment& own = *part.experiments.back();
     for (std::size_t c = 0; c < own.channels().size(); ++c) {
       const std::size_t from = offset + whole[e]->channels()[c].offset;

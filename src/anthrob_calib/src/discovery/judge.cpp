@@ -8,6 +8,12 @@
 namespace anthrob {
 namespace discovery {
 
+namespace {
+
+constexpr double kTelling = 1.0;  ///< gain of a block that says something [nat]
+
+}  // namespace
+
 Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales)
     : whitener_(whitener) {
   std::size_t offset = 0;
@@ -108,9 +114,14 @@ std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
 }
 
 double block_significance(const Eigen::VectorXd& gains) {
-  const auto n = static_cast<double>(gains.size());
-  if (n < 3.0) return 0.0;
-  const Eigen::ArrayXd size = gains.array().asinh();
+  std::vector<double> sizes;
+  for (const double gain : gains) {
+    if (std::abs(gain) > kTelling) sizes.push_back(std::asinh(gain));
+  }
+  if (sizes.size() < 3) return 0.0;
+  const auto n = static_cast<double>(sizes.size());
+  const Eigen::Map<const Eigen::ArrayXd> size(sizes.data(),
+                                              static_cast<Eigen::Index>(sizes.size()));
   const double mean = size.mean();
   const double variance = (size - mean).square().sum() / (n - 1.0);
   return variance > 0.0 ? mean / std::sqrt(variance / n) : 0.0;

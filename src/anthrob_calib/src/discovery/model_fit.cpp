@@ -157,19 +157,36 @@ std::vector<Eigen::VectorXf> ModelFit::residuals(const std::vector<Variant>& var
 
 std::vector<Eigen::VectorXf> ModelFit::changes(const Variant& from, const Eigen::VectorXf& residual,
                                                std::vector<Variant> to) const {
+  std::vector<Eigen::VectorXf> results(to.size());
   if (coarse_ > 0.0) {
-    to.push_back(from);
-    for (Variant& variant : to) variant.step = coarse_;
-  }
-  auto results = residuals(to);
-  Eigen::VectorXf base = residual;
-  if (coarse_ > 0.0) {
-    base = std::move(results.back());
+    std::vector<Variant> coarse = to;
+    coarse.push_back(from);
+    for (Variant& variant : coarse) variant.step = coarse_;
+    results = residuals(coarse);
+    const Eigen::VectorXf base = std::move(results.back());
     results.pop_back();
+    for (Eigen::VectorXf& result : results) {
+      if (base.size() == 0) result.resize(0);
+      if (result.size() > 0) result -= base;
+    }
   }
-  for (auto& result : results) {
-    if (base.size() == 0) result.resize(0);
-    if (result.size() > 0) result -= base;
+  std::vector<std::size_t> left;  // what the coarse step cannot tell
+  std::vector<Variant> again;
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (results[i].size() > 0) continue;
+    left.push_back(i);
+    again.push_back(std::move(to[i]));
+  }
+  auto exact = exact_changes(residual, again);
+  for (std::size_t k = 0; k < left.size(); ++k) results[left[k]] = std::move(exact[k]);
+  return results;
+}
+
+std::vector<Eigen::VectorXf> ModelFit::exact_changes(const Eigen::VectorXf& residual,
+                                                     const std::vector<Variant>& to) const {
+  auto results = residuals(to);
+  for (Eigen::VectorXf& result : results) {
+    if (result.size() > 0) result -= residual;
   }
   return results;
 }
@@ -187,7 +204,7 @@ double ModelFit::cost_of(const Fitted& fitted, const Variant& variant,
   return 0.5 * residual.cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(other.precision());
 }
 
-void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
+void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from, bool roughly) const {
   std::vector<Variant> moved;
   std::vector<double> size;
   for (std::size_t i = from; i < fitted.unknowns.size(); ++i) {
@@ -200,7 +217,8 @@ void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
     size.push_back((u.read(variant) - value) / u.scale);
     moved.push_back(std::move(variant));
   }
-  const auto results = changes(fitted.variant, fitted.residual, std::move(moved));
+  const auto results = roughly ? changes(fitted.variant, fitted.residual, std::move(moved))
+                               : exact_changes(fitted.residual, moved);
   fitted.sensitivity.conservativeResize(fitted.residual.size(),
                                         static_cast<Eigen::Index>(fitted.unknowns.size()));
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -221,7 +239,7 @@ Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) co
   if (fitted.residual.size() == 0) {
     throw NotSimulated("the model cannot be simulated along the recordings");
   }
-  simulate_sensitivity(fitted, 0);
+  simulate_sensitivity(fitted, 0, true);
   fitted.cost = cost_of(fitted, variant, fitted.residual);
   return fitted;
 }
@@ -238,6 +256,15 @@ Fitted ModelFit::extend(const Fitted& fitted, const Variant& variant,
   next.cost = cost_of(next, variant, at);
   simulate_sensitivity(next, before);
   return next;
+}
+
+bool ModelFit::move(Fitted& fitted, const Variant& variant) const {
+  Eigen::VectorXf at = residual(variant);
+  if (at.size() == 0) return false;
+  fitted.variant = variant;
+  fitted.residual = std::move(at);
+  fitted.cost = cost_of(fitted, variant, fitted.residual);
+  return true;
 }
 
 void ModelFit::polish(Fitted& fitted, int iterations) const {

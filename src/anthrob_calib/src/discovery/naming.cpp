@@ -32,9 +32,11 @@ std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstanc
     if (p.kind == EffectParameter::kSize) {
       u.scale = std::max(0.2 * std::abs(value - p.neutral), 0.03 * dose);
     } else {
+      // Where the sign is open, so is what to expect.
+      const bool either = p.bounds.lo < 0.0 && p.bounds.hi > 0.0;
       u.scale = 0.3 * dose;
-      u.expected = p.typical;
-      u.spread = 1.5 * dose;
+      u.expected = either ? p.neutral : p.typical;
+      u.spread = (either ? 3.0 : 1.5) * dose;
     }
     unknowns.push_back(u);
   }

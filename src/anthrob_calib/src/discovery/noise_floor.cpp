@@ -55,6 +55,20 @@ double white_noise(const Eigen::VectorXf& series) {
   return 1.4826 * *middle / std::sqrt(20.0);
 }
 
+/// The given model with the coarsest counts that motor positions and forces were recorded with.
+Variant with_counts(const RobotModel& robot, const Experiments& experiments) {
+  Variant variant{};
+  for (const Channel& channel : channels_of(experiments)) {
+    if (robot.find_muscle(channel.place) < 0) continue;
+    if (channel.quantity == "position") {
+      variant.position_count = std::max(variant.position_count, channel.resolution);
+    } else if (channel.quantity == "force") {
+      variant.force_count = std::max(variant.force_count, channel.resolution);
+    }
+  }
+  return variant;
+}
+
 void from_repeats(const Evaluator& evaluator, const Experiments& train, const Experiments& repeats,
                   Scales& scales) {
   const Experiment& first = *train.front();
@@ -103,7 +117,7 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
 }  // namespace
 
 double ChannelScale::sigma() const {
-  return std::hypot(floor, numerics);
+  return std::hypot(floor, numerics, counts);
 }
 
 double resolution_of(std::vector<double> values) {
@@ -141,14 +155,15 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
                       const Experiments& repeats) {
   Variant half{};
   half.step = 0.5 * evaluator.model()->step;
-  const auto both = evaluator.compare({Variant{}, half}, train);
+  const Variant counting = with_counts(*evaluator.model(), train);
+  const auto both = evaluator.compare({Variant{}, half, counting}, train);
   if (both[0].size() == 0) {
     throw std::runtime_error(
         "the given model cannot be simulated along the recordings: replay them with anthrob_replay "
         "to see where it fails");
   }
   Scales scales;
-  std::map<std::string, Moments> numerics, noise;
+  std::map<std::string, Moments> numerics, counts, noise;
   for_each_channel(
       train, [&](const Experiment& experiment, const Channel& channel, Eigen::Index offset) {
         scales[channel.name()].unit = channel.unit;
@@ -156,20 +171,28 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
         const double sigma = white_noise(own);
         noise[channel.name()].squares += sigma * sigma * static_cast<double>(own.size());
         noise[channel.name()].count += static_cast<double>(own.size());
-        if (both[1].size() == 0) return;
-        const auto finer = measured(experiment, channel, both[1], offset);
-        numerics[channel.name()].squares += (finer - own).cast<double>().squaredNorm();
-        numerics[channel.name()].count += static_cast<double>(own.size());
+        const auto add_change = [&](const Differences& other, Moments& moments) {
+          if (other.size() == 0) return;
+          const auto changed = measured(experiment, channel, other, offset);
+          moments.squares += (changed - own).cast<double>().squaredNorm();
+          moments.count += static_cast<double>(own.size());
+        };
+        add_change(both[1], numerics[channel.name()]);
+        add_change(both[2], counts[channel.name()]);
       });
   for (auto& [name, scale] : scales) {
     scale.numerics = numerics[name].rms();
+    scale.counts = counts[name].rms();
     scale.floor = noise[name].rms();
   }
   if (!repeats.empty()) from_repeats(evaluator, train, repeats, scales);
   for (const auto& experiment : train) {
     for (const Channel& channel : experiment->channels()) {
-      double& floor = scales.at(channel.name()).floor;
-      floor = std::max(floor, channel.resolution / std::sqrt(12.0));
+      ChannelScale& scale = scales.at(channel.name());
+      const double rounding = channel.resolution / std::sqrt(12.0);
+      scale.floor = std::max(scale.floor, rounding);
+      // What a sensor rounds itself is in its floor.
+      scale.counts = std::sqrt(std::max(0.0, scale.counts * scale.counts - rounding * rounding));
     }
   }
   for (auto& [name, scale] : scales) {

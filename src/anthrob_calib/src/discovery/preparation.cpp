@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_calib/discovery/judge.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -11,13 +12,14 @@ namespace discovery {
 namespace {
 
 constexpr double kShortest = 2.0;         // [s] of all training recordings together
+constexpr double kSameCommand = 0.01;     // of the range of commands
 constexpr double kFinestBin = 0.02;       // [s]
 constexpr double kAxisBin = 0.025;        // [s]
 constexpr double kMostDifferences = 4e5;  // of the training recordings
 constexpr double kQuickLook = 20.0;       // [s]
 constexpr double kSlowLook = 120.0;       // [s]
 constexpr double kCoarse = 2.0;           // steps
-constexpr double kMostCoarseError = 1.0;  // rms, in standard deviations of the differences
+constexpr double kMostCoarseError = 3.0;  // rms of a channel, in its standard deviations
 
 /// Largest less smallest value of a column; 0 if it is not there.
 double span(const Dataset& recording, const std::string& column) {
@@ -81,6 +83,43 @@ void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recor
                         "motors: expected motion over the range you care about"));
 }
 
+/// Seconds of all of them.
+double refuse_shortness(const std::vector<Dataset>& recordings, const std::string& purpose) {
+  double length = 0.0;
+  for (const Dataset& recording : recordings) {
+    length += seconds(recording.end() - recording.begin());
+  }
+  if (length < kShortest) {
+    throw BadInput(recordings.front().folder + ": too short: " + std::to_string(length) + " s " +
+                   purpose + ": expected " + std::to_string(kShortest) + " s or more");
+  }
+  return length;
+}
+
+/// Values one after the other, without those that only last.
+std::vector<double> changes_of(const Series& series) {
+  std::vector<double> values = series.values;
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// The scatter of something else is no floor.
+void refuse_other_commands(const RobotModel& robot, const Dataset& first, const Dataset& repeat) {
+  for (const MuscleModel& muscle : robot.muscles) {
+    const std::string column = muscle.name + "/reference";
+    const auto asked = changes_of(first.series(column)), again = changes_of(repeat.series(column));
+    const std::size_t both = std::min(asked.size(), again.size());
+    double range = 0.0;
+    for (const double value : asked) range = std::max(range, std::abs(value - asked.front()));
+    for (std::size_t i = 0; i < both; ++i) {
+      if (std::abs(asked[i] - again[i]) <= kSameCommand * range + 1e-6) continue;
+      throw BadInput(repeat.folder + ": " + column + ": " + std::to_string(again[i]) +
+                     " rad: expected a repeat of the commands of " + first.folder + ", " +
+                     std::to_string(asked[i]) + " rad");
+    }
+  }
+}
+
 }  // namespace
 
 Laboratory prepare(const Evaluator& evaluator, const Question& question) {
@@ -89,18 +128,16 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   if (question.test.empty()) {
     throw BadInput("--test: expected at least one recording that is not fitted");
   }
-  double length = 0.0;
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) refuse_nonsense(recording);
   }
-  for (const Dataset& recording : question.train) {
-    length += seconds(recording.end() - recording.begin());
-  }
-  if (length < kShortest) {
-    throw BadInput(question.train.front().folder + ": too short: " + std::to_string(length) +
-                   " s to learn from: expected " + std::to_string(kShortest) + " s or more");
-  }
+  const double length = refuse_shortness(question.train, "to learn from");
+  refuse_shortness(question.test, "to judge by");
   refuse_stillness(robot, question.train);
+  refuse_stillness(robot, question.test);
+  for (const Dataset& repeat : question.repeats) {
+    refuse_other_commands(robot, question.train.front(), repeat);
+  }
 
   ExperimentOptions options;
   options.bin = robot.muscles.empty() ? kAxisBin : kFinestBin;
@@ -130,8 +167,10 @@ double coarse_step(const Evaluator& evaluator, const Experiments& train, const S
   if (both[0].size() == 0 || both[1].size() == 0) return 0.0;
   const Eigen::VectorXf factors = whitener(train, scales, false);
   const Eigen::VectorXf error = (both[1] - both[0]).cwiseProduct(factors);
-  const auto measured = static_cast<float>((factors.array() > 0.0f).count());
-  return error.squaredNorm() < kMostCoarseError * kMostCoarseError * measured ? coarse.step : 0.0;
+  for (const auto& [name, gap] : Judge(train, factors, {}).channel_gaps(error)) {
+    if (gap > kMostCoarseError) return 0.0;
+  }
+  return coarse.step;
 }
 
 }  // namespace discovery

@@ -226,11 +226,10 @@ std::string channel_table(const Answer& answer) {
   return html + "</table>\n";
 }
 
-std::string invisible_table(const Answer& answer) {
-  if (answer.not_visible.empty()) return "<p>Everything in the catalogue would have shown.</p>\n";
+std::string visibility_table(const std::vector<Visibility>& effects) {
   std::string html =
       "<table><tr><th>effect</th><th>place</th><th>smallest size that would show</th></tr>\n";
-  for (const Invisible& effect : answer.not_visible) {
+  for (const Visibility& effect : effects) {
     html += "<tr>" + cell(effect.id) + cell(effect.place) +
             cell(std::isfinite(effect.smallest_visible)
                      ? short_number(effect.smallest_visible) + " " + effect.unit
@@ -238,6 +237,36 @@ std::string invisible_table(const Answer& answer) {
             "</tr>\n";
   }
   return html + "</table>\n";
+}
+
+/// A long list that is shown on demand.
+std::string folded(const std::string& title, const std::string& content) {
+  return "<details><summary>" + title + "</summary>\n" + content + "</details>\n";
+}
+
+std::string preflight(const Answer& answer) {
+  std::string html;
+  if (answer.not_visible.empty()) {
+    html += "<p>Everything in the catalogue would have shown.</p>\n";
+  } else {
+    html += folded(std::to_string(answer.not_visible.size()) +
+                       " effects and places could not have shown, or only a large one",
+                   visibility_table(answer.not_visible));
+  }
+  html += folded(std::to_string(answer.visible.size()) + " would have shown from a size on",
+                 visibility_table(answer.visible));
+  if (answer.alike.empty()) return html;
+  std::string groups = "<ul>\n";
+  for (const auto& group : answer.alike) {
+    groups += "<li>";
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      groups += (i > 0 ? ", " : "") + escaped(group[i].id + " @ " + group[i].place);
+    }
+    groups += "</li>\n";
+  }
+  return html + folded(std::to_string(answer.alike.size()) +
+                           " groups could not have been told apart, whatever the size",
+                       groups + "</ul>\n");
 }
 
 }  // namespace
@@ -258,9 +287,8 @@ std::string report_html(const Answer& answer, const Question& question, double r
          regime_map(answer) + seam_map(answer) + dependence_figures(answer.dependences) +
          "<h2>What is left</h2>\n<p>" + escaped(answer.remaining_description) + "</p>\n" +
          dependence_figures(answer.remaining) + "<h2>Held-out gap by channel</h2>\n" +
-         channel_table(answer) + "<h2>What these recordings could not have shown</h2>\n" +
-         invisible_table(answer) + "<h2>Recordings</h2><ul>" + recordings +
-         "</ul>\n</body></html>\n";
+         channel_table(answer) + "<h2>What these recordings can show</h2>\n" + preflight(answer) +
+         "<h2>Recordings</h2><ul>" + recordings + "</ul>\n</body></html>\n";
 }
 
 }  // namespace discovery

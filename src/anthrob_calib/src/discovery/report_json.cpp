@@ -71,6 +71,17 @@ Json where_json(const Answer& answer) {
   return where;
 }
 
+Json visibilities_json(const std::vector<Visibility>& effects) {
+  Json list = Json::array();
+  for (const Visibility& effect : effects) {
+    list.push_back({{"id", effect.id},
+                    {"place", effect.place},
+                    {"smallest_visible", number(effect.smallest_visible)},
+                    {"unit", effect.unit}});
+  }
+  return list;
+}
+
 Json dependences_json(const Answer& answer) {
   Json list = Json::array();
   for (const Dependence& d : answer.remaining) {
@@ -106,13 +117,10 @@ std::string report_json(const Answer& answer, const Question& question, double r
   report["gap"] = {{"train", gap_json(answer.train)},
                    {"test", gap_json(answer.test)},
                    {"per_channel", channels}};
-  report["not_visible"] = Json::array();
-  for (const Invisible& effect : answer.not_visible) {
-    report["not_visible"].push_back({{"id", effect.id},
-                                     {"place", effect.place},
-                                     {"smallest_visible", number(effect.smallest_visible)},
-                                     {"unit", effect.unit}});
-  }
+  report["not_visible"] = visibilities_json(answer.not_visible);
+  report["visible"] = visibilities_json(answer.visible);
+  report["alike"] = Json::array();
+  for (const auto& group : answer.alike) report["alike"].push_back(visibilities_json(group));
   report["seams"] = Json::array();
   for (const SeamGap& seam : answer.seams) {
     Json entry = {{"place", seam.place}, {"channel", seam.channel}};

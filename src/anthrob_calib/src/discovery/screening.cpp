@@ -10,6 +10,10 @@ namespace discovery {
 
 namespace {
 
+constexpr double kFaint = 9.0;     ///< squared change by a dose that is lost in the noise
+constexpr double kVisible = 1e-4;  ///< share of that square that ordinary parameters leave
+constexpr double kAlike = 0.95;    ///< correlation
+
 /// Unknowns that can still move.
 std::vector<Eigen::Index> free_unknowns(const Fitted& base) {
   std::vector<Eigen::Index> free;
@@ -33,8 +37,27 @@ Screening::Screening(const ModelFit& fit, const Fitted& base,
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     (candidates[c].effect->info().slow ? few : many).push_back(c);
   }
-  if (!many.empty()) add_look(fit, base, quick, std::move(many));
+  if (!many.empty()) {
+    add_look(fit, base, quick, std::move(many));
+    // What was not used in these seconds may be later.
+    if (slow.rows.size() > quick.rows.size()) {
+      const std::vector<std::size_t> faint = take_faint(looks_.back());
+      few.insert(few.end(), faint.begin(), faint.end());
+    }
+  }
   if (!few.empty()) add_look(fit, base, slow, std::move(few));
+}
+
+std::vector<std::size_t> Screening::take_faint(Look& look) const {
+  std::vector<std::size_t> faint;
+  for (std::size_t k = 0; k < look.candidates.size(); ++k) {
+    const auto from = static_cast<Eigen::Index>(look.first_column[k]);
+    const auto count = static_cast<Eigen::Index>(look.first_column[k + 1]) - from;
+    if (look.responses.middleCols(from, count).squaredNorm() > kFaint) continue;
+    faint.push_back(look.candidates[k]);
+    look.candidates[k] = kMoved;
+  }
+  return faint;
 }
 
 void Screening::add_look(const ModelFit& fit, const Fitted& base, const Excerpt& excerpt,
@@ -63,6 +86,7 @@ void Screening::simulate(Look& look, const Fitted& base, const std::vector<std::
   std::vector<Variant> doses;
   std::vector<std::size_t> columns;
   for (const std::size_t k : which) {
+    if (look.candidates[k] == kMoved) continue;
     for (std::size_t i = look.first_column[k]; i < look.first_column[k + 1]; ++i) {
       Variant variant = base.variant;
       variant.effects.push_back(candidates_[look.candidates[k]].dose(*look.columns[i].size));
@@ -95,7 +119,7 @@ void Screening::renew(const Fitted& base, const std::vector<Score>& best, std::s
   }
 }
 
-void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& scores) const {
+Screening::Projection Screening::project(const Look& look, const Fitted& base) const {
   const std::vector<Eigen::Index> free = free_unknowns(base);
   const Eigen::MatrixXf J = look.excerpt.of(base.sensitivity, free);
   const Eigen::VectorXf residual = look.excerpt.of(base.residual);
@@ -107,13 +131,19 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
     A(k, k) += precision[free[i]] + 1e-9 * (1.0 + A(k, k));
     pull[k] += precision[free[i]] * off[free[i]];
   }
-  const Eigen::MatrixXd JS = (J.transpose() * look.responses).cast<double>();
-  Eigen::MatrixXd absorbed = Eigen::MatrixXd::Zero(0, JS.cols());  // A^-1 J' S
-  if (!free.empty()) absorbed = A.ldlt().solve(JS);
-  const Eigen::VectorXd gradient =
-      (look.responses.transpose() * residual).cast<double>() - absorbed.transpose() * pull;
+  Projection p;
+  p.JS = (J.transpose() * look.responses).cast<double>();
+  p.absorbed = Eigen::MatrixXd::Zero(0, p.JS.cols());
+  if (!free.empty()) p.absorbed = A.ldlt().solve(p.JS);
+  p.gradient =
+      (look.responses.transpose() * residual).cast<double>() - p.absorbed.transpose() * pull;
+  return p;
+}
 
+void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& scores) const {
+  const Projection p = project(look, base);
   for (std::size_t k = 0; k < look.candidates.size(); ++k) {
+    if (look.candidates[k] == kMoved) continue;
     Score score;
     score.candidate = look.candidates[k];
     score.seconds = look.excerpt.duration();
@@ -123,16 +153,19 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
     const auto own = look.responses.middleCols(from, count);
     Eigen::MatrixXd h = (own.transpose() * own).cast<double>();
     const Eigen::VectorXd whole = h.diagonal();
-    h -= JS.middleCols(from, count).transpose() * absorbed.middleCols(from, count);
-    const Eigen::VectorXd g = gradient.segment(from, count);
+    h -= p.JS.middleCols(from, count).transpose() * p.absorbed.middleCols(from, count);
+    const Eigen::VectorXd g = p.gradient.segment(from, count);
     Eigen::VectorXd lower(count), upper(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const Column& column = look.columns[static_cast<std::size_t>(from + i)];
       // Less than a hundredth left: the ordinary parameters do the same.
-      const bool visible = column.simulated && h(i, i) > 1e-4 * whole[i] && h(i, i) > 1e-6;
+      const bool visible = column.simulated && h(i, i) > kVisible * whole[i] && h(i, i) > 1e-6;
       lower[i] = visible ? std::max(column.lower, -100.0) : 0.0;
       upper[i] = visible ? std::min(column.upper, 100.0) : 0.0;
-      if (i == 0 && visible) score.uncertainty = 1.0 / std::sqrt(h(i, i));
+      if (visible && 1.0 / std::sqrt(h(i, i)) < score.uncertainty) {
+        score.uncertainty = 1.0 / std::sqrt(h(i, i));
+        score.size = static_cast<std::size_t>(i);
+      }
       if (!visible) h(i, i) += 1.0;
     }
     h.diagonal() *= 1.0 + 1e-6;
@@ -141,6 +174,41 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
     score.amount.assign(amount.data(), amount.data() + count);
     scores.push_back(std::move(score));
   }
+}
+
+std::vector<std::vector<std::size_t>> Screening::alike(const Fitted& base) const {
+  std::vector<std::vector<std::size_t>> groups;
+  for (const Look& look : looks_) {
+    const Projection p = project(look, base);
+    Eigen::MatrixXd gram = (look.responses.transpose() * look.responses).cast<double>();
+    const Eigen::VectorXd whole = gram.diagonal();
+    gram -= p.JS.transpose() * p.absorbed;
+    std::vector<std::pair<std::size_t, Eigen::Index>> leaders;  // group, column
+    const std::size_t first = groups.size();
+    for (std::size_t k = 0; k < look.candidates.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(look.first_column[k]);
+      const bool alone = look.first_column[k + 1] - look.first_column[k] == 1;
+      // Several sizes make more than one shape.
+      if (look.candidates[k] == kMoved || !alone || !(gram(i, i) > kFaint) ||
+          gram(i, i) < kVisible * whole[i]) {
+        continue;
+      }
+      const auto leader = std::find_if(leaders.begin(), leaders.end(), [&](const auto& other) {
+        const Eigen::Index o = other.second;
+        return std::abs(gram(i, o)) > kAlike * std::sqrt(gram(i, i) * gram(o, o));
+      });
+      if (leader == leaders.end()) {
+        leaders.emplace_back(groups.size(), i);
+        groups.push_back({look.candidates[k]});
+      } else {
+        groups[leader->first].push_back(look.candidates[k]);
+      }
+    }
+    groups.erase(std::remove_if(groups.begin() + static_cast<std::ptrdiff_t>(first), groups.end(),
+                                [](const auto& group) { return group.size() < 2; }),
+                 groups.end());
+  }
+  return groups;
 }
 
 std::vector<Score> Screening::scores(const Fitted& base) const {

@@ -121,15 +121,6 @@ std::vector<std::vector<double>> Journal::residuals(const std::vector<Point>& po
   return residuals;
 }
 
-std::vector<std::vector<double>> Journal::rough_residuals(const std::vector<Point>& points) {
-  check_stop();
-  auto residuals = evaluator_.rough_residuals(points);
-  evaluations_ += static_cast<int>(points.size());
-  close_generation();
-  if (options_.progress) options_.progress(evaluations_);
-  return residuals;
-}
-
 void Journal::save() {
   if (options_.file.empty() || unsaved_ == 0) return;
   std::ostringstream out;

@@ -38,7 +38,7 @@ class Cost final : public ceres::CostFunction {
     std::copy(r.begin(), r.end(), residuals);
     if (!jacobians || !jacobians[0]) return true;
     const auto columns =
-        derivatives(variables_, point, r.size(), LeastSquaresOptimiser::kDifference, evaluator_);
+        derivatives(variables_, point, r, LeastSquaresOptimiser::kDifference, evaluator_);
     for (std::size_t k = 0; k < r.size(); ++k) {
       for (std::size_t i = 0; i < columns.size(); ++i) {
         jacobians[0][k * columns.size() + i] = columns[i][k];
@@ -55,7 +55,8 @@ class Cost final : public ceres::CostFunction {
 }  // namespace
 
 std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& variables,
-                                             const Point& point, std::size_t count,
+                                             const Point& point,
+                                             const std::vector<double>& residuals,
                                              double difference, Evaluator& evaluator) {
   std::vector<Point> neighbours;
   std::vector<double> moved;  // [steps]
@@ -67,15 +68,12 @@ std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& 
     neighbours.back()[i] = point[i] + sign * difference * v.step;
     moved.push_back((neighbours.back()[i] - point[i]) / v.step);
   }
-  neighbours.push_back(point);
-  std::vector<std::vector<double>> columns = evaluator.rough_residuals(neighbours);
-  const std::vector<double> here = std::move(columns.back());
-  columns.pop_back();
+  std::vector<std::vector<double>> columns = evaluator.residuals(neighbours);
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const bool valid = columns[i].size() == count && here.size() == count;
-    if (!valid) columns[i].assign(count, 0.0);
-    for (std::size_t k = 0; valid && k < count; ++k) {
-      columns[i][k] = (columns[i][k] - here[k]) / moved[i];
+    const bool valid = columns[i].size() == residuals.size();
+    if (!valid) columns[i].assign(residuals.size(), 0.0);
+    for (std::size_t k = 0; valid && k < residuals.size(); ++k) {
+      columns[i][k] = (columns[i][k] - residuals[k]) / moved[i];
     }
   }
   return columns;

@@ -73,10 +73,6 @@ std::vector<std::vector<double>> MpiEvaluator::residuals(const std::vector<Point
   return local_.residuals(points);
 }
 
-std::vector<std::vector<double>> MpiEvaluator::rough_residuals(const std::vector<Point>& points) {
-  return local_.rough_residuals(points);
-}
-
 void serve(const MpiSession& session, Evaluator& local) {
   for (;;) {
     int header[2] = {kGoHome, 0};

@@ -5,18 +5,6 @@
 namespace anthrob {
 namespace calibration {
 
-namespace {
-
-std::vector<std::vector<double>> residuals_of(const Problem& problem,
-                                              const std::vector<Point>& points) {
-  std::vector<std::vector<double>> residuals(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(),
-                    [&](std::size_t i) { residuals[i] = problem.residuals(points[i]); });
-  return residuals;
-}
-
-}  // namespace
-
 std::vector<double> ProblemEvaluator::fitness(const std::vector<Point>& points) {
   std::vector<double> fitness(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(),
@@ -25,12 +13,10 @@ std::vector<double> ProblemEvaluator::fitness(const std::vector<Point>& points) 
 }
 
 std::vector<std::vector<double>> ProblemEvaluator::residuals(const std::vector<Point>& points) {
-  return residuals_of(problem_, points);
-}
-
-std::vector<std::vector<double>> ProblemEvaluator::rough_residuals(
-    const std::vector<Point>& points) {
-  return residuals_of(rough_, points);
+  std::vector<std::vector<double>> residuals(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t i) { residuals[i] = problem_.residuals(points[i]); });
+  return residuals;
 }
 
 std::vector<SearchVariable> search_variables(const ParameterSpace& space) {

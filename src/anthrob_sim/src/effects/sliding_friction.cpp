@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "anthrob_sim/effects/friction_effect.h"
 #include "anthrob_sim/friction/smooth_stribeck.h"
 
@@ -10,31 +12,52 @@ constexpr double kFast = 1.0;
 /// Of the thesis's law, section 7.2.4.
 constexpr double kStaticOverKinetic = 1.25, kStribeckVelocity = 0.001, kSteepness = 10.0;
 
+/// A law times 1 + factor, at rest 1 + factor rest_ratio.
 class Raised final : public FrictionLaw {
  public:
-  Raised(std::shared_ptr<const FrictionLaw> law, double factor)
-      : law_(std::move(law)), factor_(factor) {}
+  Raised(std::shared_ptr<const FrictionLaw> law, double factor, double rest_ratio)
+      : law_(std::move(law)), factor_(factor), at_rest_(factor * (rest_ratio - 1.0)) {}
   std::size_t state_size() const override { return law_->state_size(); }
   Value evaluate(double v, StateView state) const override {
     const Value value = law_->evaluate(v, state);
-    return {factor_ * value.mu, factor_ * value.slope};
+    const double more = excess(std::abs(v)), raised = 1.0 + factor_ + more;
+    // mu has the sign of v.
+    const double falling = more * std::abs(value.mu) / kStribeckVelocity;
+    return {raised * value.mu, raised * value.slope - falling};
   }
-  double level(double speed) const override { return factor_ * law_->level(speed); }
+  double level(double speed) const override {
+    return (1.0 + factor_ + excess(speed)) * law_->level(speed);
+  }
   void commit(double v, StateView state) const override { law_->commit(v, state); }
 
  private:
+  double excess(double speed) const {
+    return at_rest_ == 0.0 ? 0.0 : at_rest_ * std::exp(-speed / kStribeckVelocity);
+  }
+
   std::shared_ptr<const FrictionLaw> law_;
-  double factor_;
+  double factor_, at_rest_;
 };
 
 }  // namespace
 
 std::shared_ptr<const FrictionLaw> raise_friction(const std::shared_ptr<const FrictionLaw>& law,
-                                                  double mu) {
+                                                  double mu, double rest_ratio) {
   const double kinetic = law ? law->level(kFast) : 0.0;
-  if (kinetic > 0.0) return std::make_shared<Raised>(law, 1.0 + mu / kinetic);
-  return std::make_shared<SmoothStribeck>(kStaticOverKinetic * mu, mu, kStribeckVelocity,
-                                          kSteepness);
+  if (kinetic > 0.0) return std::make_shared<Raised>(law, mu / kinetic, rest_ratio);
+  return std::make_shared<SmoothStribeck>(kStaticOverKinetic * rest_ratio * mu, mu,
+                                          kStribeckVelocity, kSteepness);
+}
+
+std::vector<EffectParameter> friction_parameters(double typical) {
+  return {{"mu", "1", "kinetic coefficient on top of the model's", 0.0, typical, {0.0, 1.0}},
+          {"rest_ratio",
+           "1",
+           "of that, static over kinetic, relative to the law's",
+           1.0,
+           1.0,
+           {0.5, 2.0},
+           EffectParameter::kShape}};
 }
 
 }  // namespace anthrob

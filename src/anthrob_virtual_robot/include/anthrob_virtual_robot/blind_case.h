@@ -40,7 +40,7 @@ struct BlindCase {
   reference::ArmParameters built;  ///< believed, with errors of calibration
   std::vector<Hidden> hidden;
   SensorSettings sensors;
-  double stated_noise = 1.0;  ///< factor on the noise that meta.yaml tells
+  double stated_noise = 1.0;  ///< factor by which the scatter of the repeat tells the noise wrong
   bool slow = false;
   /// What the hidden things change, [sensor errors] by channel, without noise.
   std::map<std::string, double> change;

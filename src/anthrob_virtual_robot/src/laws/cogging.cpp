@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "laws.h"
 
 namespace anthrob::virtual_robot {
@@ -26,16 +28,18 @@ HiddenLaw cogging() {
   HiddenLaw law;
   law.id = "cogging";
   law.law = "with a second harmonic of 20 %";
-  law.sizes = {"amplitude"};
+  law.sizes = {"sine", "cosine"};
   law.places = muscle_places_and_all;
   law.most = 20.0;
   law.draw = [](const auto&, const auto&, Random* random) -> Parameters {
-    return {{"amplitude", 5e-4}, {"periods", 12.0}, {"phase", random->uniform(-3.0, 3.0)}};
+    const double phase = random->uniform(-M_PI, M_PI);
+    return {
+        {"sine", 5e-4 * std::cos(phase)}, {"cosine", 5e-4 * std::sin(phase)}, {"periods", 12.0}};
   };
   law.build = [](const Hidden& h, Draft* draft) {
     add_to_muscles(h, draft, [&](const reference::MuscleParameters& muscle) {
-      return std::make_shared<Slots>(h["amplitude"], h["periods"], h["phase"],
-                                     muscle.motor.gear_ratio);
+      return std::make_shared<Slots>(std::hypot(h["sine"], h["cosine"]), h["periods"],
+                                     std::atan2(h["cosine"], h["sine"]), muscle.motor.gear_ratio);
     });
   };
   return law;

@@ -17,9 +17,6 @@ class Problem {
   Problem(ConfigNode model, ParameterSpace space, std::vector<MeasuredRun> runs, Weights weights,
           SimulationOptions options);
 
-  /// The same, simulated by another step [s], which may be longer than the controllers' period.
-  Problem with_step(double step) const;
-
   const ParameterSpace& space() const { return space_; }
   const std::vector<MeasuredRun>& runs() const { return runs_; }
   const Weights& weights() const { return weights_; }
@@ -43,7 +40,6 @@ class Problem {
   std::vector<MeasuredRun> runs_;
   Weights weights_;
   SimulationOptions options_;
-  LoadOptions load_;
 };
 
 }  // namespace calibration

@@ -79,10 +79,10 @@ struct Example {
   std::vector<double> t, recalibrated, after;  ///< simulated minus measured
 };
 
-/// An effect that these data could not show.
-struct Invisible {
+/// From which size on these data would show an effect.
+struct Visibility {
   std::string id, place, unit;
-  double smallest_visible = 0.0;  ///< infinite if no size is
+  double smallest_visible = 0.0;  ///< of its most visible size; infinite if no size is
 };
 
 struct Answer {
@@ -98,7 +98,8 @@ struct Answer {
   std::string remaining_description;
   Gap train, test;
   std::map<std::string, Gap> per_channel;  ///< held out, by "<place>/<channel>"
-  std::vector<Invisible> not_visible;
+  std::vector<Visibility> visible, not_visible;
+  std::vector<std::vector<Visibility>> alike;  ///< groups that these data cannot tell apart
   Scales scales;
   Variant given, recalibrated, extended;
   std::vector<std::string> asked;  ///< what the robot was recorded for in between (closed_loop.h)

@@ -21,6 +21,8 @@ struct Variant {
   std::vector<double> nuisances;  ///< values of Evaluator::nuisances(), or empty: as given
   std::vector<EffectInstance> effects = {};
   double step = 0.0;  ///< of the simulation [s]; 0: as usual
+  /// Counts of the sensors of motor positions [rad] and forces [N], which controllers pass on.
+  double position_count = 0.0, force_count = 0.0;
 };
 
 /// Differences of all experiments, one after the other; empty if the variant cannot be built or

@@ -8,7 +8,7 @@
 namespace anthrob {
 namespace discovery {
 
-/// The first seconds of recordings, and where their bins are among those of the whole ones.
+/// The first seconds of each recording, and where their bins are among those of the whole ones.
 struct Excerpt {
   Experiments experiments;
   std::vector<Eigen::Index> rows;
@@ -21,6 +21,7 @@ struct Excerpt {
   }
 };
 
+/// Of all recordings about as much.
 /// @param whole the recordings as experiments, in the same order   @param seconds in all
 Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
                 const Experiments& whole, double seconds);

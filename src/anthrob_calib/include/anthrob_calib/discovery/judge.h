@@ -53,7 +53,9 @@ std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
                                         const std::vector<double>& handicap, std::uint64_t seed);
 
 /// Mean of the blocks' gains over its standard error. Large gains count by their logarithm: what
-/// brings ten nat in one block and a thousand in the next is not doubtful for that.
+/// brings ten nat in one block and a thousand in the next is not doubtful for that. Blocks of less
+/// than a nat either way say nothing: an effect may show now and then only. 0 if fewer than three
+/// say something.
 double block_significance(const Eigen::VectorXd& gains);
 
 }  // namespace discovery

@@ -53,10 +53,11 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator);
 
 /// Least squares in the full simulation: Levenberg-Marquardt with bounds. Sensitivities are
 /// simulated once and then carried along by what each step really did (Broyden); those to effects,
-/// which are few and less linear, once more after the first step.
+/// which are few and less linear, once more after the first step. The first ones are rough: good
+/// for the first steps, but a fit ends where the exact ones let it.
 class ModelFit {
  public:
-  /// @param coarse step of the simulations that tell how the residual changes [s]; 0: as usual
+  /// @param coarse step of the simulations of changes() [s]; 0: as usual
   ModelFit(const Evaluator& evaluator, Experiments experiments, Eigen::VectorXf whitener,
            double coarse = 0.0)
       : evaluator_(evaluator),
@@ -70,6 +71,8 @@ class ModelFit {
   /// Goes on until nothing is gained any more.
   /// @param enough relative gain that is not worth another iteration
   void improve(Fitted& fitted, int iterations, double enough = 3e-3) const;
+  /// To another variant with the same unknowns; sensitivities stay. @return whether it can be
+  bool move(Fitted& fitted, const Variant& variant) const;
   /// All sensitivities simulated anew, then a few more iterations.
   void polish(Fitted& fitted, int iterations) const;
   /// The same fit with more unknowns; those after the present ones are simulated.
@@ -83,7 +86,7 @@ class ModelFit {
   Eigen::VectorXf residual(const Variant& variant) const;  ///< empty if it cannot be simulated
   std::vector<Eigen::VectorXf> residuals(const std::vector<Variant>& variants) const;
   /// How the residual changes from one variant, whose residual is known, to others; with the coarse
-  /// step, whose error is in both. Empty if it cannot be simulated.
+  /// step, whose error is in both, where it can be simulated with that. Empty if it cannot at all.
   std::vector<Eigen::VectorXf> changes(const Variant& from, const Eigen::VectorXf& residual,
                                        std::vector<Variant> to) const;
   /// See Evaluator::side_by_side().
@@ -103,7 +106,11 @@ class ModelFit {
   };
   Trial try_step(const Fitted& fitted, const Eigen::VectorXd& step) const;
 
-  void simulate_sensitivity(Fitted& fitted, std::size_t from) const;
+  /// How the residual changes to variants, by the usual step.
+  std::vector<Eigen::VectorXf> exact_changes(const Eigen::VectorXf& residual,
+                                             const std::vector<Variant>& to) const;
+  /// Of the unknowns from that one on. Roughly: by changes().
+  void simulate_sensitivity(Fitted& fitted, std::size_t from, bool roughly = false) const;
   double cost_of(const Fitted& fitted, const Variant& variant,
                  const Eigen::VectorXf& residual) const;
 

@@ -47,6 +47,11 @@ class Naming {
   /// @param base fitted without them   @param base_test its held-out residual
   ShortList weigh(const Fitted& base, const Eigen::VectorXf& base_test,
                   const std::vector<Score>& scores) const;
+  /// The same fits against another base.
+  void judge_again(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const {
+    judge(base, base_test, list);
+    prefer_simpler(base, list);
+  }
 
  private:
   EffectInstance sized(const Candidate& candidate, const std::vector<double>& amount) const;

@@ -18,6 +18,7 @@ struct ChannelScale {
   /// the sensor errs by: repeats share that, so that their scatter does not show it.
   double floor = 0.0;
   double numerics = 0.0;   ///< difference to a simulation with half the step
+  double counts = 0.0;     ///< difference to one whose controllers see the recorded sensors' counts
   double inflation = 1.0;  ///< bins that count as one, because their noise is correlated; >= 1
 
   double sigma() const;

@@ -15,8 +15,10 @@ struct Score {
   std::size_t candidate = 0;
   double gain = 0.0;           ///< of the log likelihood, ordinary parameters free [nat]
   std::vector<double> amount;  ///< of each size, in doses
-  /// Standard deviation of its first size, in doses; infinite if a dose changes nothing.
+  /// Standard deviation of its most visible size, in doses, and which it is; infinite if a dose
+  /// changes nothing.
   double uncertainty = 0.0;
+  std::size_t size = 0;
   double seconds = 0.0;  ///< of recordings that say so; `gain` is per the shortest look at any
 };
 
@@ -24,7 +26,8 @@ struct Score {
 ///
 /// A score test (Lagrange multiplier): all candidates are weighed at the fit without them, in
 /// linear approximation. Sizes that begin at neutral count in one direction only. A dose is
-/// simulated along the first seconds of the recordings only; one of a slow effect along more.
+/// simulated along the first seconds of the recordings only; one of a slow effect, or one that
+/// changes nothing there, along more.
 class Screening {
  public:
   /// Simulates a dose of each size of each candidate on top of a fitted variant.
@@ -36,6 +39,9 @@ class Screening {
   std::vector<Score> scores(const Fitted& base) const;
   /// The same doses again, of some candidates only, on top of another base.
   void renew(const Fitted& base, const std::vector<Score>& best, std::size_t count);
+  /// Groups of candidates whose doses change the data alike once ordinary parameters have done what
+  /// they can: nothing in these recordings tells them apart.
+  std::vector<std::vector<std::size_t>> alike(const Fitted& base) const;
 
  private:
   /// A dose of one size of one candidate.
@@ -48,15 +54,25 @@ class Screening {
   struct Look {
     ModelFit fit;
     const Excerpt& excerpt;
-    std::vector<std::size_t> candidates;
+    std::vector<std::size_t> candidates;    ///< kMoved: looked at elsewhere
     std::vector<std::size_t> first_column;  ///< of each, and the number of columns
     std::vector<Column> columns;
     Eigen::MatrixXf responses;
   };
 
+  static constexpr std::size_t kMoved = static_cast<std::size_t>(-1);
+
   void add_look(const ModelFit& fit, const Fitted& base, const Excerpt& excerpt,
                 std::vector<std::size_t> candidates);
+  /// Takes away those that hardly change anything.
+  std::vector<std::size_t> take_faint(Look& look) const;
   void simulate(Look& look, const Fitted& base, const std::vector<std::size_t>& which);
+  /// What ordinary parameters can imitate of a look's responses S.
+  struct Projection {
+    Eigen::MatrixXd JS, absorbed;  ///< J' S and (J'J + P)^-1 J' S
+    Eigen::VectorXd gradient;      ///< of the cost to the amounts
+  };
+  Projection project(const Look& look, const Fitted& base) const;
   void score(const Look& look, const Fitted& base, std::vector<Score>& scores) const;
 
   const std::vector<Candidate>& candidates_;

@@ -24,11 +24,6 @@ class Evaluator {
   virtual std::vector<double> fitness(const std::vector<Point>& points) = 0;
   /// Numbers whose squares add up to the fitness; an empty list for an invalid point.
   virtual std::vector<std::vector<double>> residuals(const std::vector<Point>& points) = 0;
-  /// Nearly the same in less time, for derivatives: what is wrong with them is nearly the same at
-  /// all points that are close together.
-  virtual std::vector<std::vector<double>> rough_residuals(const std::vector<Point>& points) {
-    return residuals(points);
-  }
 };
 
 }  // namespace calibration

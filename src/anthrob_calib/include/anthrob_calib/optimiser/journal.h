@@ -42,8 +42,6 @@ class Journal final : public Evaluator {
 
   std::vector<double> fitness(const std::vector<Point>& points) override;
   std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
-  /// Counted, but no point is the best by them.
-  std::vector<std::vector<double>> rough_residuals(const std::vector<Point>& points) override;
   /// Writes what has not been written yet.
   void save();
 

@@ -19,11 +19,12 @@ class LeastSquaresOptimiser final : public Optimiser {
   OptimiserSettings settings_;
 };
 
-/// Derivatives of (rough) residuals by steps of the variables, one list of them a variable;
-/// differences go the way that stays within bounds. Those by an invalid neighbour are zero.
-/// @param count of the residuals
+/// Derivatives of residuals by steps of the variables, one row a residual, one column a variable;
+/// differences go the way that stays within bounds. A column of an invalid neighbour is zero.
+/// @param residuals at `point`
 std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& variables,
-                                             const Point& point, std::size_t count,
+                                             const Point& point,
+                                             const std::vector<double>& residuals,
                                              double difference, Evaluator& evaluator);
 
 }  // namespace calibration

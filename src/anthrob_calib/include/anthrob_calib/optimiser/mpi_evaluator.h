@@ -30,7 +30,6 @@ class MpiEvaluator final : public Evaluator {
   ~MpiEvaluator() override;  ///< sends the others home
   std::vector<double> fitness(const std::vector<Point>& points) override;
   std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
-  std::vector<std::vector<double>> rough_residuals(const std::vector<Point>& points) override;
 
  private:
   const MpiSession& session_;

@@ -9,17 +9,12 @@ namespace calibration {
 /// Evaluates on the threads of this process: points side by side, and the runs of a point too.
 class ProblemEvaluator final : public Evaluator {
  public:
-  explicit ProblemEvaluator(const Problem& problem)
-      : problem_(problem), rough_(problem.with_step(kRoughStep)) {}
+  explicit ProblemEvaluator(const Problem& problem) : problem_(problem) {}
   std::vector<double> fitness(const std::vector<Point>& points) override;
   std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
-  std::vector<std::vector<double>> rough_residuals(const std::vector<Point>& points) override;
 
  private:
-  static constexpr double kRoughStep = 0.002;  ///< [s]
-
   const Problem& problem_;
-  const Problem rough_;
 };
 
 std::vector<SearchVariable> search_variables(const ParameterSpace& space);

@@ -8,8 +8,12 @@ namespace anthrob {
 
 /// A law with more friction: its own curve raised so that its kinetic coefficient grows by `mu`.
 /// Where there is no friction yet, the thesis's law (4.75) with its ratio of coefficients.
+/// @param rest_ratio of what is added, static over kinetic, relative to the law's own
 std::shared_ptr<const FrictionLaw> raise_friction(const std::shared_ptr<const FrictionLaw>& law,
-                                                  double mu);
+                                                  double mu, double rest_ratio);
+
+/// Its parameters. @param typical kinetic coefficient
+std::vector<EffectParameter> friction_parameters(double typical);
 
 /// MUSCLE/k | MUSCLE | all: more friction where tendons slide.
 class SlidingFrictionEffect : public PathEffect {
@@ -19,7 +23,7 @@ class SlidingFrictionEffect : public PathEffect {
  protected:
   void change(const EffectSetting& setting, const RobotModel&,
               PathObstacle& obstacle) const override {
-    obstacle.friction = raise_friction(obstacle.friction, setting["mu"]);
+    obstacle.friction = raise_friction(obstacle.friction, setting["mu"], setting["rest_ratio"]);
   }
 };
 

@@ -11,30 +11,31 @@ EffectInfo describe() {
   i.name = "Cogging of the motor";
   i.description =
       "The rotor's slots are drawn to the magnets: a torque that repeats with the angle of the "
-      "rotor, conservative, seen as ripple of current or speed at fixed rotor angles. Its mean "
+      "rotor, conservative, seen as ripple of current or speed at fixed rotor angles. Two sizes "
+      "make up its amplitude (the root of their squares) and its phase. Its mean "
       "over the angle that the rotor is about to turn acts in a step, so that fast turning "
       "averages it out.";
-  i.equation = "tau_shaft = amplitude sin(periods phi + phase), phi = N position";
+  i.equation = "tau_shaft = sine sin(periods phi) + cosine cos(periods phi), phi = N position";
   i.source = "known";
   i.where = "MUSCLE | all";
   i.seam = Seam::kMotor;
   i.channels = {"current", "velocity", "position"};
   i.parameters = {
-      {"amplitude", "Nm", "at the motor shaft; 1-5 % of stall", 0.0, 5e-4, {0.0, 0.05}},
+      {"sine", "Nm", "at the motor shaft; 1-5 % of stall", 0.0, 4e-4, {-0.05, 0.05}},
+      {"cosine", "Nm", "the torque at position 0", 0.0, 3e-4, {-0.05, 0.05}},
       {"periods", "1", "a turn of the rotor", 12.0, 12.0, {1.0, 200.0}, EffectParameter::kGiven},
-      {"phase", "rad", "at position 0", 0.0, 0.5, {-3.1416, 3.1416}, EffectParameter::kShape},
   };
   return i;
 }
 
 class CoggingMotor final : public MotorWrapper {
  public:
-  CoggingMotor(std::shared_ptr<const GearedMotor> motor, double amplitude, double periods,
-               double phase, double step)
+  CoggingMotor(std::shared_ptr<const GearedMotor> motor, double sine, double cosine, double periods,
+               double step)
       : MotorWrapper(std::move(motor)),
-        amplitude_(amplitude * inner().ratio()),
+        amplitude_(std::hypot(sine, cosine) * inner().ratio()),
         periods_(periods * inner().ratio()),
-        phase_(phase),
+        phase_(std::atan2(cosine, sine)),
         step_(step) {}
 
   void advance_with(double input, double load, double torque, StateView state) const override {
@@ -60,8 +61,8 @@ class Cogging final : public MotorWrappingEffect {
   std::shared_ptr<const Actuator> wrap(const EffectSetting& setting,
                                        std::shared_ptr<const GearedMotor> motor,
                                        double step) const override {
-    return std::make_shared<CoggingMotor>(std::move(motor), setting["amplitude"],
-                                          setting["periods"], setting["phase"], step);
+    return std::make_shared<CoggingMotor>(std::move(motor), setting["sine"], setting["cosine"],
+                                          setting["periods"], step);
   }
 };
 

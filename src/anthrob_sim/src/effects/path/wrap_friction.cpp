@@ -19,7 +19,7 @@ EffectInfo describe() {
   i.stage = Stage::kComponents;
   i.dissipates = true;
   i.channels = {"force", "joint", "current"};
-  i.parameters = {{"mu", "1", "kinetic coefficient on top of the model's", 0.0, 0.15, {0.0, 1.0}}};
+  i.parameters = friction_parameters(0.15);
   return i;
 }
 

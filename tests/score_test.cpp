@@ -1,0 +1,138 @@
+// The program that compares reports of discovery with sealed truths, on answers made up here.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using List = std::vector<Json>;
+
+Json hidden(const std::string& id, const std::string& place, double size) {
+  return {{"id", id}, {"place", place}, {"parameters", {{"mu", size}}}, {"sizes", {"mu"}}};
+}
+
+Json named(const std::string& id, const std::string& place, double value, double low, double high) {
+  return {{"id", id},
+          {"place", place},
+          {"probability", 0.97},
+          {"parameters", {{"mu", {{"value", value}, {"ci95", {low, high}}}}}}};
+}
+
+class Score : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_ / "sealed"); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void truth(const std::string& name, const std::string& kind, const List& effects,
+             double floors = 5.0) const {
+    std::ofstream(folder_ / "sealed" / (name + ".json"))
+        << Json{{"kind", kind}, {"effects", effects}, {"change", {{"floors", floors}}}};
+  }
+  void report(const std::string& name, const std::string& verdict, const List& effects = {},
+              const List& not_visible = {}) const {
+    fs::create_directories(folder_ / "reports" / name);
+    std::ofstream(folder_ / "reports" / name / "report.json")
+        << Json{{"verdict", verdict}, {"effects", effects}, {"not_visible", not_visible}};
+  }
+  void failed(const std::string& name) const {
+    fs::create_directories(folder_ / "reports" / name);
+    std::ofstream(folder_ / "reports" / name / "failed") << "";
+  }
+  Json score() const {
+    const std::string at = folder_.string();
+    const std::string command = std::string(ANTHROB_SCORE) + " --truths " + at +
+                                "/sealed --reports " + at + "/reports --out " + at +
+                                "/score.json >" + at + "/log 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << std::ifstream(at + "/log").rdbuf();
+    return Json::parse(std::ifstream(at + "/score.json"));
+  }
+  static double rate(const Json& score, const std::string& label, const std::string& what) {
+    for (const Json& row : score["rates"]) {
+      if (row["label"] == label) return row[what].get<double>();
+    }
+    ADD_FAILURE() << "no row " << label;
+    return -1.0;
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("anthrob_score_" + std::to_string(getpid()));
+};
+
+TEST_F(Score, OfEffects) {
+  const List rubbing = {hidden("eyelet_friction", "biceps_brachii", 0.1)};
+  for (const char* name :
+       {"right", "elsewhere", "unsure", "late", "crashed", "unasked", "unseen", "overlooked"}) {
+    truth(name, "effect", rubbing, std::string(name) == "unseen" ? 2.0 : 5.0);
+  }
+  const Json good = named("eyelet_friction", "biceps_brachii/2", 0.11, 0.09, 0.13);
+  report("right", "effects_found", {good});
+  report("elsewhere", "effects_found", {named("eyelet_friction", "brachialis", 0.13, 0.12, 0.14)});
+  report("unsure", "unexplained", {good});
+  report("late", "effects_found", {named("joint_coulomb", "elbow", 1.0, 0.0, 2.0), good});
+  failed("crashed");
+  const auto invisible = [](double size) {
+    return Json{
+        {{"id", "eyelet_friction"}, {"place", "biceps_brachii"}, {"smallest_visible", size}}};
+  };
+  report("unseen", "no_missing_effect", {}, invisible(0.2));
+  report("overlooked", "no_missing_effect", {}, invisible(0.05));
+  const Json result = score();
+  EXPECT_EQ(result["effect"]["cases"], 6);  // "unasked" has no folder, "unseen" could not be seen
+  EXPECT_EQ(result["effect"]["said_invisible"], 1);
+  EXPECT_EQ(result["effect"]["first"], 2);
+  EXPECT_EQ(result["effect"]["right_place"], 1);
+  EXPECT_EQ(rate(result, "covered by ci95", "hits"), 1);
+  EXPECT_NEAR(rate(result, "parameter error [%]", "median"), 20.0, 1e-9);
+  EXPECT_EQ(rate(result, "below 3 floors", "hits"), 1);
+}
+
+TEST_F(Score, OfPairsEachByAnAnswerOfItsOwn) {
+  const List two = {hidden("eyelet_friction", "biceps_brachii", 0.1),
+                    hidden("supply_sag", "unit_a", 0.1)};
+  const Json first = named("eyelet_friction", "biceps_brachii", 0.1, 0.0, 1.0);
+  const Json second = named("supply_sag", "unit_a", 0.1, 0.0, 1.0);
+  Json either = first;
+  either["rivals"] = List{{{"id", "supply_sag"}, {"place", "unit_a"}, {"probability", 0.3}}};
+  truth("both", "pair", two);
+  truth("one_as_two", "pair", two);
+  truth("misplaced", "pair", two);
+  report("both", "effects_found", {second, first});
+  report("one_as_two", "effects_found", {either});
+  report("misplaced", "effects_found", {first, named("supply_sag", "unit_b", 0.1, 0.0, 1.0)});
+  EXPECT_EQ(score()["pair"]["both"], 1);
+}
+
+TEST_F(Score, OfWrappedMusclesNullsAndOutsiders) {
+  const auto surface = [](const std::string& place) {
+    return Json{{"id", "wrapping_surface"},
+                {"place", place},
+                {"parameters", {{"radius", 0.02}}},
+                {"sizes", Json::array()}};
+  };
+  truth("wrapped", "wrapped", {surface("teres_major"), surface("brachialis")});
+  report("wrapped", "effects_found",
+         {Json{{"id", "wrapping_surface"},
+               {"place", "teres_major/3"},
+               {"parameters", {{"radius", {{"value", 0.018}, {"ci95", {0.01, 0.02}}}}}}}});
+  truth("quiet", "null", {});
+  report("quiet", "no_missing_effect");
+  truth("noisy", "null", {});
+  report("noisy", "unexplained");
+  truth("gusts", "outside", {hidden("gusts", "shoulder", 1.0)});
+  report("gusts", "effects_found", {named("joint_coulomb", "elbow", 1.0, 0.0, 2.0)});
+  const Json result = score();
+  EXPECT_EQ(result["wrapped"]["right"], 1);
+  EXPECT_NEAR(rate(result, "its radius [%]", "median"), 10.0, 1e-9);
+  EXPECT_EQ(result["null"]["false"], 1);
+  EXPECT_EQ(result["outside"]["confidently_wrong"], 1);
+}
+
+}  // namespace
