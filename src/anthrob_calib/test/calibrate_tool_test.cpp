@@ -122,11 +122,30 @@ TEST_F(CalibrateTool, BitsAreEqualHoweverItIsRun) {
       "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 3 ";
   EXPECT_EQ(calibrate("hosts", "--jobs 1", mpirun).status, 0);
   expect_same("one", "hosts");
+
+  // All processes stop when one of them cannot go on.
+  const Outcome unwritable =
+      calibrate("c.yaml/below", "--jobs 1", std::string("timeout 30 env ") + mpirun);
+  EXPECT_NE(unwritable.status, 0);
+  EXPECT_NE(unwritable.status, 124) << "hangs";
+  EXPECT_NE(unwritable.errors.find("c.yaml/below"), std::string::npos) << unwritable.errors;
+}
+
+TEST_F(CalibrateTool, LeastSquaresBeginsAnewOnResumeAndNothingIsOverwrittenWithoutIt) {
+  ASSERT_EQ(calibrate("squares", "--optimiser least_squares").status, 0);
+  const std::string result = content(path("squares/result.json"));
+  const Outcome again = calibrate("squares", "--optimiser least_squares");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_NE(again.errors.find("expected --resume"), std::string::npos) << again.errors;
+  EXPECT_EQ(content(path("squares/result.json")), result);
+  EXPECT_EQ(calibrate("squares", "--optimiser least_squares --resume").status, 0);
+  EXPECT_EQ(content(path("squares/result.json")), result);
 }
 
 TEST_F(CalibrateTool, InterruptedItKeepsTheBestAndGoesOn) {
   ASSERT_EQ(calibrate("whole", "--generations 40").status, 0);
-  const Outcome stopped = calibrate("stopped", "--generations 40", "timeout --preserve-status -s INT 2 ");
+  const Outcome stopped =
+      calibrate("stopped", "--generations 40", "timeout --preserve-status -s INT 2 ");
   // A machine that is fast enough to finish first shows nothing.
   if (stopped.status == 0) GTEST_SKIP();
   EXPECT_EQ(stopped.status, 130);

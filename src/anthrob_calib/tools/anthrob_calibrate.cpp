@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <thread>
 
 #include "anthrob_calib/calibration/calibrate.h"
@@ -48,23 +49,53 @@ void write(const Arguments& arguments, const CalibrationInput& input,
   identification::write_files(arguments.out, files);
 }
 
+/// An earlier search is not thrown away by a forgotten --resume.
+void keep_earlier_search(const Arguments& arguments) {
+  const fs::path journal = fs::path(arguments.out) / "journal.txt";
+  if (arguments.resume || arguments.evaluate || !fs::exists(journal)) return;
+  throw BadInput(journal.string() +
+                 ": an earlier search; expected --resume to go on with it, or another --out");
+}
+
+/// What a process needs; all stop, with one complaint, if one of them cannot.
+CalibrationInput read_together(const Arguments& arguments, const MpiSession& session) {
+  std::optional<CalibrationInput> input;
+  std::string complaint;
+  try {
+    input.emplace(CalibrationInput::read(configure(arguments), arguments.data, arguments.validation,
+                                         arguments.start));
+    if (session.rank() == 0) {
+      keep_earlier_search(arguments);
+      identification::require_writable(arguments.out);
+    }
+  } catch (const BadInput& error) {
+    complaint = error.what();
+  }
+  complaint = session.first_complaint(complaint);
+  if (!complaint.empty()) throw BadInput(complaint);
+  if (!session.all_have(input->fingerprint())) {
+    throw BadInput(arguments.config +
+                   ": the processes read different configurations, models or recordings: expected "
+                   "the same on all hosts");
+  }
+  return std::move(*input);
+}
+
 int calibrate(const Arguments& arguments, const MpiSession& session) {
-  const CalibrationInput input = CalibrationInput::read(configure(arguments), arguments.data,
-                                                        arguments.validation, arguments.start);
+  const CalibrationInput input = read_together(arguments, session);
   const Problem problem = input.problem();
   ProblemEvaluator local(problem);
   if (session.rank() > 0) {
     serve(session, local);
     return tool::kDone;
   }
-  identification::require_writable(arguments.out);
   MpiEvaluator everywhere(session, local);
   const OptimiserSettings& settings = input.config.optimiser;
   tool::Progress progress("calibrating");
   const double expected = settings.evaluations(problem.space().size());
 
   Journal::Options options;
-  options.file = (fs::path(arguments.out) / "journal.txt").string();
+  if (!arguments.evaluate) options.file = (fs::path(arguments.out) / "journal.txt").string();
   options.fingerprint = input.fingerprint();
   options.resume = arguments.resume;
   options.batch = settings.offspring;

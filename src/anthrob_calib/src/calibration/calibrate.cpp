@@ -1,5 +1,6 @@
 #include "anthrob_calib/calibration/calibrate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -100,8 +101,10 @@ std::vector<DriveErrors> compare_drives(const Problem& problem, const Point& bes
                                         const std::vector<MeasuredRun>& runs) {
   std::vector<DriveErrors> errors;
   errors.push_back(errors_with(Drive::kReferences, "commanded references", problem, best, runs));
-  const bool measured = runs.front().after.position.cols() > 0;
-  if (!measured || !runs.front().is_trajectory) return errors;
+  const bool measured = std::all_of(runs.begin(), runs.end(), [](const MeasuredRun& run) {
+    return run.is_trajectory && run.after.position.cols() > 0;
+  });
+  if (!measured) return errors;
   errors.push_back(errors_with(Drive::kFinalPositions, "final actuator positions as references",
                                problem, best, runs));
   errors.push_back(errors_with(Drive::kSampledPositions, "every sampled actuator position", problem,

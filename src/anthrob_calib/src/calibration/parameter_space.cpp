@@ -41,7 +41,11 @@ void ParameterSpace::read_share(const ConfigNode& entry, const ConfigNode& model
   p.step = entry.number("step", Bounds::positive(), p.unit);
   const Share share{parameters_.size(), entry.text("of"), number_at(model, entry.text("of"))};
   const double value = number_at(model, p.path);
-  p.initial = share.base != 0.0 ? std::clamp(value / share.base, p.lower, p.upper) : p.lower;
+  p.initial = share.base != 0.0 ? value / share.base : p.lower;
+  if (p.initial < p.lower || p.initial > p.upper || (share.base == 0.0 && value != 0.0)) {
+    entry.at("path").fail("the model's " + entry.text("of") +
+                          " has a share outside low ... high: expected a range that holds it");
+  }
   for (const ModelParameter& other : parameters_) {
     if (other.path == p.path) entry.at("path").fail("it is among the parameters already");
   }

@@ -34,7 +34,12 @@ Journal::Journal(Evaluator& evaluator, Options options)
     : evaluator_(evaluator),
       options_(std::move(options)),
       best_fitness_(std::numeric_limits<double>::infinity()) {
-  if (options_.resume && !options_.file.empty()) load();
+  if (options_.file.empty()) return;
+  if (options_.resume) {
+    load();
+  } else {
+    write();  // a search that writes down nothing can be begun anew all the same
+  }
 }
 
 void Journal::load() {
@@ -123,6 +128,11 @@ std::vector<std::vector<double>> Journal::residuals(const std::vector<Point>& po
 
 void Journal::save() {
   if (options_.file.empty() || unsaved_ == 0) return;
+  write();
+  unsaved_ = 0;
+}
+
+void Journal::write() const {
   std::ostringstream out;
   out << kTitle << options_.fingerprint << "\n";
   for (const Entry& entry : entries_) {
@@ -130,7 +140,6 @@ void Journal::save() {
         << (std::isfinite(entry.fitness) ? exact_text(entry.fitness) : "inf") << "\n";
   }
   write_file_atomically(options_.file, out.str());
-  unsaved_ = 0;
 }
 
 std::vector<Generation> Journal::history() const {

@@ -55,6 +55,33 @@ MpiSession::~MpiSession() {
   if (started_) MPI_Finalize();
 }
 
+std::string MpiSession::first_complaint(const std::string& own) const {
+  if (size_ == 1) return own;
+  constexpr std::size_t kLongest = 1024;
+  std::vector<char> mine(kLongest, '\0'), all(kLongest * static_cast<std::size_t>(size_));
+  own.copy(mine.data(), kLongest - 1);
+  MPI_Allgather(mine.data(), kLongest, MPI_CHAR, all.data(), kLongest, MPI_CHAR, MPI_COMM_WORLD);
+  for (int r = 0; r < size_; ++r) {
+    const std::string complaint(all.data() + kLongest * static_cast<std::size_t>(r));
+    if (complaint.empty()) continue;
+    return r == 0 ? complaint : complaint + " (process " + std::to_string(r) + ")";
+  }
+  return "";
+}
+
+bool MpiSession::all_have(const std::string& text) const {
+  if (size_ == 1) return true;
+  std::vector<char> first(text.size() + 1, '\0');
+  if (rank_ == 0) text.copy(first.data(), text.size());
+  auto length = static_cast<unsigned long>(text.size());
+  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, 0, MPI_COMM_WORLD);
+  first.resize(length + 1, '\0');
+  MPI_Bcast(first.data(), static_cast<int>(length), MPI_CHAR, 0, MPI_COMM_WORLD);
+  int same = std::string(first.data(), length) == text, everywhere = 0;
+  MPI_Allreduce(&same, &everywhere, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  return everywhere != 0;
+}
+
 MpiEvaluator::~MpiEvaluator() {
   int header[2] = {kGoHome, 0};
   if (session_.size() > 1) MPI_Bcast(header, 2, MPI_INT, 0, MPI_COMM_WORLD);

@@ -58,6 +58,7 @@ class Journal final : public Evaluator {
   };
 
   void load();
+  void write() const;
   void check_stop() const;
   void note(const Point& point, double fitness);
   void close_generation();

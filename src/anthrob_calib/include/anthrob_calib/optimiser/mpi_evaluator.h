@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "anthrob_calib/optimiser/evaluator.h"
 
 namespace anthrob {
@@ -16,6 +18,12 @@ class MpiSession {
 
   int rank() const { return rank_; }
   int size() const { return size_; }
+
+  /// Everybody calls it, with what went wrong here or an empty text. @return to all: the complaint
+  /// of the first process that has one, or an empty text
+  std::string first_complaint(const std::string& own) const;
+  /// Everybody calls it. @return whether all have the same text
+  bool all_have(const std::string& text) const;
 
  private:
   bool started_ = false;
