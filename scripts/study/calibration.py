@@ -6,8 +6,10 @@ interrupted goes on. Writes build/study/calibration.json and .html and docs/stud
 """
 
 import argparse
+import hashlib
 import json
 import os
+import shutil
 import statistics
 import sys
 import time
@@ -34,6 +36,7 @@ AFTER = {
     "II": [(3.7, None, 5.5), (6.6, None, 3.7), (4.1, 1.2, 3.0), (4.0, 2.5, 2.7)],
     "III": [(4.3, None, 5.2), (6.6, None, 3.6), (5.9, 1.8, 3.3), (5.0, 1.7, 2.6)],
 }
+ENOUGH = {"statics": 5.0, "dynamics": 7.0}  # [deg]
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
@@ -87,13 +90,24 @@ class Robot:
         for tier in "12":
             must([RECORDER, "--seed", str(self.seed), "--tier", tier, "--model",
                   "config/anthrob/model_II.yaml", "--out", f"{self.data}/tier{tier}"], self.log)
-        open(f"{self.data}/complete", "w").close()
+        with open(f"{self.data}/complete", "w") as text:
+            text.write(commit() + "\n")
 
     def step(self, stage, model, name, start, more):
-        """One run of anthrob_calibrate, unless it was done before."""
+        """One run of anthrob_calibrate, unless the same was done before."""
         out = f"{self.folder}/{model}/{stage}/{name}"
-        if os.path.exists(f"{out}/seconds"):
-            return out
+        key = fingerprint(more, f"{CONFIG}/{stage}_{model}.yaml", f"{self.data}/complete",
+                          f"{start}/result.json" if start else None)
+        spent = 0.0
+        if os.path.exists(f"{out}/step.json"):
+            before = load(f"{out}/step.json")
+            if before["key"] != key:
+                say(f"robot {self.seed}: model {model}, {stage}, {name}: something has changed, anew")
+                shutil.rmtree(out)
+            elif before["done"]:
+                return out
+            else:
+                spent = before["seconds"]
         os.makedirs(out, exist_ok=True)
         command = [TOOL, "--config", f"{CONFIG}/{stage}_{model}.yaml", "--data",
                    f"{self.data}/{DATA[stage]}", "--out", out, "--jobs", str(self.options.jobs)] + more
@@ -103,9 +117,18 @@ class Robot:
         if os.path.exists(f"{out}/journal.txt"):
             command.append("--resume")
         begin = time.time()
-        must(command, self.log)
-        with open(f"{out}/seconds", "w") as text:
-            text.write(f"{time.time() - begin:.1f}\n")
+
+        def note(done):
+            facts = {"key": key, "commit": commit(), "done": done,
+                     "seconds": round(spent + time.time() - begin, 1)}
+            write(f"{out}/step.json", json.dumps(facts, indent=2) + "\n")
+
+        try:
+            must(command, self.log)
+        except BaseException:
+            note(False)
+            raise
+        note(True)
         return out
 
     def calibrate(self, model):
@@ -135,10 +158,21 @@ class Robot:
             "after": errors(result["calibration"]["mean"]["after"]),
             "fitness": [result["fitness"]["before"], result["fitness"]["after"]],
             "evaluations": result["optimiser"]["evaluations"],
-            "seconds": float(open(f"{best}/seconds").read()),
+            "seconds": load(f"{best}/step.json")["seconds"],
+            "commit": load(f"{best}/step.json")["commit"],
         }
         out["validation"] = errors(result["validation"]["mean"]["after"])
         return out
+
+
+def fingerprint(more, *files):
+    """Of what a step depends on: its options, and the files it reads."""
+    digest = hashlib.sha256(" ".join(more).encode())
+    for file in files:
+        if file:
+            with open(file, "rb") as content:
+                digest.update(content.read())
+    return digest.hexdigest()[:16]
 
 
 def errors(mean):
@@ -182,7 +216,15 @@ def collect(options):
 
 def head():
     return ["model", "stage", "before", "after", "factor", "thesis before", "thesis after",
-            "thesis factor", "robots", "minutes"]
+            "thesis factor", "reached", "robots", "minutes"]
+
+
+def reached(entry):
+    """The shoulder's error falls by the thesis's factor, or to so many degrees."""
+    enough = ENOUGH[entry["stage"].split("_")[1]]
+    if entry["after"][0] <= enough:
+        return f"<= {enough:.0f} deg"
+    return "factor" if entry["factor"] >= entry["thesis"]["factor"] else "no"
 
 
 def rows(table):
@@ -190,7 +232,8 @@ def rows(table):
         minutes = statistics.median(r["seconds"] for r in e["robots"].values()) / 60
         yield [e["model"], e["stage"], text(e["before"]), text(e["after"]), f"{e['factor']:.1f}",
                text(e["thesis"]["before"]), text(e["thesis"]["after"]),
-               f"{e['thesis']['factor']:.1f}", str(len(e["robots"])), f"{minutes:.1f}"]
+               f"{e['thesis']['factor']:.1f}", reached(e), str(len(e["robots"])),
+               f"{minutes:.1f}"]
 
 
 def markdown(table, facts):
@@ -215,7 +258,7 @@ def page(table, facts):
 def summarise(options):
     table = collect(options)
     facts = {
-        "commit": commit(),
+        "commit": ", ".join(sorted({r["commit"] for e in table for r in e["robots"].values()})),
         "robots (seeds)": ", ".join(str(s) for s in options.robots),
         "optimiser": " ".join([options.optimiser] + search_words(options)),
         "searches a stage": searches(options),
