@@ -80,6 +80,7 @@ std::string gap_table(const Answer& answer) {
 }
 
 std::string effects_table(const Answer& answer) {
+  if (answer.effects.empty()) return "<p>Nothing in the catalogue earned its place.</p>\n";
   std::string html;
   std::size_t number = 0;
   for (const FoundEffect& effect : answer.effects) {
