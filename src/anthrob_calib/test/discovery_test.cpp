@@ -487,14 +487,17 @@ TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
 
 TEST(MeasureScales, CountsOfAnEncoderReachTheVoltagesOfItsController) {
   const Arm arm;
-  Dataset fine = arm.record({}, 1, 1), coarse = fine;
-  constexpr double kCount = 0.02;  // [rad]
-  for (Table& table : coarse.tables) {
-    for (Column& column : table.columns) {
-      if (column.quantity() != "position" || arm.plain->find_muscle(column.owner()) < 0) continue;
-      for (double& value : column.values) value = kCount * std::round(value / kCount);
+  const auto round_motors = [&](Dataset data, const std::string& quantity, double count) {
+    for (Table& table : data.tables) {
+      for (Column& column : table.columns) {
+        if (column.quantity() != quantity || arm.plain->find_muscle(column.owner()) < 0) continue;
+        for (double& value : column.values) value = count * std::round(value / count);
+      }
     }
-  }
+    return data;
+  };
+  constexpr double kCount = 0.02;  // [rad]
+  const Dataset fine = arm.record({}, 1, 1), coarse = round_motors(fine, "position", kCount);
   const Evaluator evaluator(kConfig + "/anthrob/model_I.yaml", {}, 0.001, 1);
   const auto scales_of = [&](const Dataset& data) {
     return measure_scales(evaluator, {make_experiment(*arm.plain, data)}, {});
@@ -508,6 +511,9 @@ TEST(MeasureScales, CountsOfAnEncoderReachTheVoltagesOfItsController) {
   const ChannelScale scale = scales_of(coarse).at(voltage);
   EXPECT_GT(scale.counts, 0.4 * expected);
   EXPECT_LT(scale.counts, 1.6 * expected);
+  // Nor does the voltage's own sensor take anything off them.
+  const Dataset both = round_motors(coarse, "voltage", expected);
+  EXPECT_NEAR(scales_of(both).at(voltage).counts, scale.counts, 1e-3 * scale.counts);
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
 constexpr int kSettling = 5;
 constexpr double kSettled = 5e-4;     ///< share of the cost
+constexpr double kOutOfReach = 0.5;   ///< share of an effect's gain that is left without it
 constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects are not the answer
 constexpr std::size_t kRenewed =
     60;                              ///< candidates whose doses are simulated again in later rounds
@@ -136,12 +137,16 @@ class Search {
   }
 
   /// Polishes as long as that brings something: friction makes valleys rugged.
-  void settle(Fitted& fitted) const {
+  void settle(Fitted& fitted, bool roughly) const {
     for (int k = 0; k < kSettling; ++k) {
       const double before = fitted.cost;
-      train_.polish(fitted, kPolish);
+      train_.polish(fitted, kPolish, roughly);
       if (before - fitted.cost < kSettled * before) break;
     }
+  }
+  void settle(Fitted& fitted) const {
+    settle(fitted, true);
+    settle(fitted, false);
   }
 
   /// What looks like an effect may be ordinary parameters that found a better valley on the way:
@@ -159,7 +164,11 @@ class Search {
     }
     Fitted moved = base_;
     if (!train_.move(moved, without)) return false;
-    settle(moved);
+    train_.improve(moved, kPolish);
+    settle(moved, true);
+    // So far off that no better derivative brings it there.
+    if (moved.cost - best.fit.cost > kOutOfReach * (base_.cost - best.fit.cost)) return false;
+    settle(moved, false);
     Eigen::VectorXf test = test_.residual(moved.variant);
     if (moved.cost >= base_.cost || test.size() == 0) return false;
     base_ = std::move(moved);

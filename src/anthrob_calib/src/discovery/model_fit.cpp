@@ -267,12 +267,12 @@ bool ModelFit::move(Fitted& fitted, const Variant& variant) const {
   return true;
 }
 
-void ModelFit::polish(Fitted& fitted, int iterations) const {
+void ModelFit::polish(Fitted& fitted, int iterations, bool roughly) const {
   for (Unknown& u : fitted.unknowns) {
     // Close to the end small changes tell more than large ones.
     if (u.effect >= 0) u.scale = std::max(0.1 * u.scale, 0.05 * std::abs(u.read(fitted.variant)));
   }
-  simulate_sensitivity(fitted, 0);
+  simulate_sensitivity(fitted, 0, roughly);
   improve(fitted, iterations, kPolished);
 }
 

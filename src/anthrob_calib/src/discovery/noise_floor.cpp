@@ -55,16 +55,19 @@ double white_noise(const Eigen::VectorXf& series) {
   return 1.4826 * *middle / std::sqrt(20.0);
 }
 
+/// Sensors whose counts controllers see; Variant has them.
+bool is_counted(const RobotModel& robot, const Channel& channel) {
+  return robot.find_muscle(channel.place) >= 0 &&
+         (channel.quantity == "position" || channel.quantity == "force");
+}
+
 /// The given model with the coarsest counts that motor positions and forces were recorded with.
 Variant with_counts(const RobotModel& robot, const Experiments& experiments) {
   Variant variant{};
   for (const Channel& channel : channels_of(experiments)) {
-    if (robot.find_muscle(channel.place) < 0) continue;
-    if (channel.quantity == "position") {
-      variant.position_count = std::max(variant.position_count, channel.resolution);
-    } else if (channel.quantity == "force") {
-      variant.force_count = std::max(variant.force_count, channel.resolution);
-    }
+    if (!is_counted(robot, channel)) continue;
+    double& count = channel.quantity == "force" ? variant.force_count : variant.position_count;
+    count = std::max(count, channel.resolution);
   }
   return variant;
 }
@@ -191,6 +194,7 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
       ChannelScale& scale = scales.at(channel.name());
       const double rounding = channel.resolution / std::sqrt(12.0);
       scale.floor = std::max(scale.floor, rounding);
+      if (!is_counted(*evaluator.model(), channel)) continue;
       // What a sensor rounds itself is in its floor.
       scale.counts = std::sqrt(std::max(0.0, scale.counts * scale.counts - rounding * rounding));
     }

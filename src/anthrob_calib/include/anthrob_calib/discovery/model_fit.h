@@ -74,7 +74,7 @@ class ModelFit {
   /// To another variant with the same unknowns; sensitivities stay. @return whether it can be
   bool move(Fitted& fitted, const Variant& variant) const;
   /// All sensitivities simulated anew, then a few more iterations.
-  void polish(Fitted& fitted, int iterations) const;
+  void polish(Fitted& fitted, int iterations, bool roughly = false) const;
   /// The same fit with more unknowns; those after the present ones are simulated.
   /// @throws NotSimulated
   Fitted extend(const Fitted& fitted, const Variant& variant,
