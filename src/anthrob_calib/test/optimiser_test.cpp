@@ -183,6 +183,17 @@ TEST(LeastSquares, SolvesRosenbrockAtABound) {
   EXPECT_NEAR(bounded.fitness, 0.25, 1e-3);
 }
 
+TEST(LeastSquares, GoesOnWhereItSeesABetterValley) {
+  Function two_valleys([](const Point& p) { return Point{p[0] * p[0] - 1.0, 0.4 * (p[0] - 1.0)}; });
+  const std::vector<SearchVariable> v = {{-1.2, -4.0, 4.0, 0.01}};
+  const SearchResult result = search(settings("least_squares", 100), v, two_valleys);
+  EXPECT_NEAR(result.best[0], 1.0, 1e-3);
+  EXPECT_EQ(result.reason, "converged");
+  // The first one, with nothing better in sight.
+  const SearchResult near =
+      search(settings("least_squares", 100), {{-1.2, -1.5, 0.0, 0.01}}, two_valleys);
+  EXPECT_LT(near.best[0], -0.8);
+}
 TEST(LeastSquares, InvalidNeighbourTellsNothing) {
   // Valid below 1 only.
   Function edge([](const Point& p) { return p[0] > 1.0 ? Point{} : Point{3.0 + p[0], p[1]}; });
@@ -194,7 +205,8 @@ TEST(LeastSquares, InvalidNeighbourTellsNothing) {
 
 class JournalTest : public testing::Test {
  protected:
-  ~JournalTest() override { std::filesystem::remove(file_); }
+  JournalTest() { std::filesystem::create_directories(folder_); }
+  ~JournalTest() override { std::filesystem::remove_all(folder_); }
 
   Journal::Options options(bool resume, int stop_after = 1 << 30) {
     Journal::Options o;
@@ -205,8 +217,9 @@ class JournalTest : public testing::Test {
     return o;
   }
 
-  std::string file_ =
-      (std::filesystem::temp_directory_path() / ("journal_" + std::to_string(getpid()))).string();
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("journal_" + std::to_string(getpid()));
+  const std::string file_ = (folder_ / "journal.txt").string();
   Function function_{sphere};
 };
 
@@ -234,6 +247,34 @@ TEST_F(JournalTest, AnyMethodResumesToTheSameBits) {
     ASSERT_EQ(journal.history().size(), whole.history().size());
     EXPECT_EQ(journal.history().back().best_ever, whole.best_fitness());
   }
+}
+
+TEST_F(JournalTest, LeastSquaresResumeWithoutAskingAgain) {
+  const auto rosenbrock = [](const Point& p) {
+    return Point{10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]};
+  };
+  const std::vector<SearchVariable> v = {{-1.2, -5.0, 5.0, 0.01}, {1.0, -5.0, 5.0, 0.01}};
+  Function plain(rosenbrock);
+  Journal whole(plain, {"", "robot"});
+  search(settings("least_squares", 30), v, whole);
+
+  function_ = Function(rosenbrock);
+  const auto lists = std::filesystem::path(file_).parent_path() / "residuals.bin";
+  {
+    Journal journal(function_, options(false, 20));
+    EXPECT_THROW(search(settings("least_squares", 30), v, journal), Interrupted);
+  }
+  EXPECT_TRUE(std::filesystem::exists(lists));
+  const std::size_t before = function_.asked.size();
+  ASSERT_LT(before, plain.asked.size());
+  Journal journal(function_, options(true));
+  search(settings("least_squares", 30), v, journal);
+  EXPECT_EQ(journal.best(), whole.best());
+  EXPECT_EQ(journal.evaluations(), whole.evaluations());
+  EXPECT_GE(journal.replayed(), static_cast<int>(before));
+  EXPECT_LE(function_.asked.size(), plain.asked.size());
+  journal.forget_residuals();
+  EXPECT_FALSE(std::filesystem::exists(lists));
 }
 
 TEST_F(JournalTest, RefusesWhatItDoesNotBelongTo) {

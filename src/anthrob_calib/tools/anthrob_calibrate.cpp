@@ -38,14 +38,28 @@ CalibrationConfig configure(const Arguments& arguments) {
   return config;
 }
 
+std::string model_text(const Arguments& arguments, const CalibrationInput& input,
+                       const std::map<std::string, double>& overrides) {
+  return extended_model_text(
+      ConfigNode::load(input.config.model_file), input.config.model_file, overrides, arguments.out,
+      "Calibrated by anthrob_calibrate; result.json and report.html say how well.");
+}
+
+/// The model alone, before anything else can go wrong.
+void keep_model(const Arguments& arguments, const CalibrationInput& input, const Problem& problem,
+                const Point& best) {
+  std::map<std::string, double> overrides = input.started;
+  for (const auto& [path, value] : problem.space().overrides(best)) overrides[path] = value;
+  identification::write_files(arguments.out,
+                              {{"model.yaml", model_text(arguments, input, overrides)}});
+}
+
 void write(const Arguments& arguments, const CalibrationInput& input,
            const CalibrationOutcome& outcome) {
   identification::OutputFiles files;
   files["result.json"] = result_json(outcome);
   files["report.html"] = report_html(outcome);
-  files["model.yaml"] = extended_model_text(
-      ConfigNode::load(input.config.model_file), input.config.model_file, outcome.overrides,
-      arguments.out, "Calibrated by anthrob_calibrate; result.json and report.html say how well.");
+  files["model.yaml"] = model_text(arguments, input, outcome.overrides);
   identification::write_files(arguments.out, files);
 }
 
@@ -116,11 +130,16 @@ int calibrate(const Arguments& arguments, const MpiSession& session) {
   } catch (const Interrupted&) {
   }
   journal.save();
+  if (!journal.best().empty()) keep_model(arguments, input, problem, journal.best());
   const bool thorough = complete && !arguments.evaluate;
   const CalibrationOutcome outcome = conclude(input, problem, journal, reason, thorough);
   write(arguments, input, outcome);
   std::cout << summary(outcome);
-  if (complete) return tool::kDone;
+  if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
+  if (complete) {
+    journal.forget_residuals();
+    return tool::kDone;
+  }
   std::cerr << "anthrob_calibrate: interrupted; what was best so far is in " << arguments.out
             << ", --resume goes on\n";
   return tool::kInterrupted;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -15,39 +15,27 @@ namespace calibration {
 namespace {
 
 /// Of what is compared and how: a journal of another one is no good. Counts up with every change.
-constexpr int kComparison = 2;
+constexpr int kComparison = 3;
 
-/// FNV-1a over text and numbers.
-class Fingerprint {
- public:
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 1099511628211ULL;
-  }
-  void add(const std::string& text) { add(text.data(), text.size()); }
-  void add(const std::vector<double>& v) { add(v.data(), v.size() * sizeof(double)); }
-  void add(const Eigen::MatrixXd& m) { add(m.data(), m.size() * sizeof(double)); }
-  void add(const Samples& samples) {
-    add(samples.t);
-    add(samples.q), add(samples.force), add(samples.position);
-  }
-  void add(const MeasuredRun& run) {
-    add(run.start);
-    for (const Command& command : run.commands) {
-      add(&command.t, sizeof(double));
-      add(command.reference);
-    }
-    add(run.before), add(run.path), add(run.after);
-  }
-  std::string text() const {
-    char digits[20];
-    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash_));
-    return digits;
-  }
+void add(const std::vector<double>& values, resume::Fingerprint& fingerprint) {
+  fingerprint.add(values.data(), values.size() * sizeof(double));
+}
 
- private:
-  std::uint64_t hash_ = 14695981039346656037ULL;
-};
+void add(const Samples& samples, resume::Fingerprint& fingerprint) {
+  add(samples.t, fingerprint);
+  for (const Eigen::MatrixXd* values : {&samples.q, &samples.force, &samples.position}) {
+    fingerprint.add(values->data(), static_cast<std::size_t>(values->size()) * sizeof(double));
+  }
+}
+
+void add(const MeasuredRun& run, resume::Fingerprint& fingerprint) {
+  add(run.start, fingerprint);
+  for (const Command& command : run.commands) {
+    fingerprint.add(command.t);
+    add(command.reference, fingerprint);
+  }
+  for (const Samples* samples : {&run.before, &run.path, &run.after}) add(*samples, fingerprint);
+}
 
 /// Numbers of an earlier calibration that this model has, too.
 void take_over(const std::string& file, ConfigNode& model, std::map<std::string, double>& numbers) {
@@ -142,20 +130,22 @@ Problem CalibrationInput::problem() const {
 }
 
 std::string CalibrationInput::fingerprint() const {
-  Fingerprint fingerprint;
+  resume::Fingerprint fingerprint;
   fingerprint.add(config.node.at("parameters").to_yaml());
   if (config.node.has("shares")) fingerprint.add(config.node.at("shares").to_yaml());
   fingerprint.add(model.to_yaml());
   const Weights& w = config.weights;
   const OptimiserSettings& o = config.optimiser;
-  fingerprint.add(
-      std::vector<double>{w.posture, w.force, w.before, w.path, w.after, config.simulation.settle,
-                          config.simulation.motion, static_cast<double>(o.parents),
-                          static_cast<double>(o.offspring), o.target, static_cast<double>(o.seed)});
-  fingerprint.add(o.method);
-  fingerprint.add(&kComparison, sizeof(kComparison));
-  for (const MeasuredRun& run : runs) fingerprint.add(run);
-  return fingerprint.text();
+  add({w.posture, w.force, w.before, w.path, w.after, config.simulation.settle,
+       config.simulation.motion, static_cast<double>(o.parents), static_cast<double>(o.offspring),
+       o.target, static_cast<double>(o.seed)},
+      fingerprint);
+  fingerprint.add(o.method).add(&kComparison, sizeof(kComparison));
+  for (const MeasuredRun& run : runs) add(run, fingerprint);
+  char digits[20];
+  std::snprintf(digits, sizeof(digits), "%016llx",
+                static_cast<unsigned long long>(fingerprint.value()));
+  return digits;
 }
 
 CalibrationOutcome conclude(const CalibrationInput& input, const Problem& problem,
@@ -188,8 +178,13 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   outcome.validation = simulate_both(problem, outcome.best, input.validation);
   if (!thorough) return outcome;
   constexpr int kProfiles = 3;
-  outcome.identifiability = examine(problem, outcome.best, kProfiles);
-  outcome.drives = compare_drives(problem, outcome.best, problem.runs());
+  try {
+    outcome.identifiability = examine(problem, outcome.best, kProfiles);
+    outcome.drives = compare_drives(problem, outcome.best, problem.runs());
+  } catch (const NumericalFailure& error) {
+    // In full length, or driven in another way; what was found is none the worse for it.
+    outcome.doubt = std::string("not all was worked out: ") + error.what();
+  }
   return outcome;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/discovery/fingerprint.h"
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/simulation.h"
 
 namespace anthrob {
@@ -77,7 +77,7 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
     axes_.push_back(std::move(axis));
   }
   fingerprint_ =
-      Fingerprint().add(recording).add(bin_).add(static_cast<std::uint64_t>(bins_)).value();
+      resume::Fingerprint().add(recording).add(bin_).add(static_cast<std::uint64_t>(bins_)).value();
   if (bins_ < 10) {
     throw BadInput(recording.folder + ": too short: expected at least ten bins of " +
                    std::to_string(bin_) + " s");

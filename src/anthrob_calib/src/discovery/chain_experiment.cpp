@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "anthrob_calib/discovery/fingerprint.h"
 #include "anthrob_calib/discovery/noise_floor.h"
+#include "anthrob_calib/resume/fingerprint.h"
 
 namespace anthrob {
 namespace discovery {
@@ -60,7 +60,7 @@ ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recordi
     bins_ = std::max<std::size_t>(1, bin_of(options.seconds));
     duration_ = static_cast<double>(bins_) * bin_;
   }
-  fingerprint_ = Fingerprint()
+  fingerprint_ = resume::Fingerprint()
                      .add(recording)
                      .add(static_cast<std::uint64_t>(mode_))
                      .add(bin_)

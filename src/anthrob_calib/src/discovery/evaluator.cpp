@@ -3,7 +3,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include "anthrob_calib/discovery/fingerprint.h"
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -28,7 +28,7 @@ std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const Robo
 
 std::uint64_t key_of(const Variant& variant,
                      const std::vector<std::shared_ptr<const Experiment>>& experiments) {
-  Fingerprint key;
+  resume::Fingerprint key;
   key.add(variant.step).add(variant.position_count).add(variant.force_count);
   key.add(static_cast<std::uint64_t>(variant.nuisances.size()));
   for (const double value : variant.nuisances) key.add(value);
@@ -67,8 +67,8 @@ std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const
 }
 
 Journal& Evaluator::keep_journal(const std::string& file) {
-  Fingerprint context;
-  context.add(program_fingerprint()).add(model_fingerprint(config_)).add(step_);
+  resume::Fingerprint context;
+  context.add(resume::program_fingerprint()).add(resume::model_fingerprint(config_)).add(step_);
   for (const ModelParameter& p : nuisances_) context.add(p.path);
   journal_ = std::make_unique<Journal>(file, context.value());
   return *journal_;

@@ -1,11 +1,12 @@
 #include "anthrob_calib/optimiser/journal.h"
 
 #include <cmath>
-#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/atomic_file.h"
 #include "anthrob_sim/recording/dataset.h"
@@ -17,15 +18,8 @@ namespace {
 
 constexpr const char* kTitle = "anthrob_calibrate journal 1 ";
 
-/// FNV-1a over the bits of the numbers.
 std::uint64_t fingerprint_of(const Point& point) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const double value : point) {
-    unsigned char bytes[sizeof(value)];
-    std::memcpy(bytes, &value, sizeof(value));
-    for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;
-  }
-  return hash;
+  return resume::Fingerprint().add(point.data(), point.size() * sizeof(double)).value();
 }
 
 }  // namespace
@@ -72,12 +66,17 @@ void Journal::note(const Point& point, double fitness) {
   if (std::isfinite(fitness)) ++open_.valid, open_sum_ += fitness;
 }
 
+Generation Journal::generation_so_far() const {
+  Generation generation = open_;
+  generation.evaluations = evaluations_;
+  generation.best_ever = best_fitness_;
+  generation.mean = generation.valid > 0 ? open_sum_ / generation.valid : HUGE_VAL;
+  return generation;
+}
+
 void Journal::close_generation() {
   if (open_count_ == 0) return;
-  open_.evaluations = evaluations_;
-  open_.best_ever = best_fitness_;
-  open_.mean = open_.valid > 0 ? open_sum_ / open_.valid : HUGE_VAL;
-  history_.push_back(open_);
+  history_.push_back(generation_so_far());
   open_ = {};
   open_sum_ = 0.0;
   open_count_ = 0;
@@ -115,7 +114,28 @@ std::vector<double> Journal::fitness(const std::vector<Point>& points) {
 
 std::vector<std::vector<double>> Journal::residuals(const std::vector<Point>& points) {
   check_stop();
-  auto residuals = evaluator_.residuals(points);
+  open_lists();
+  std::vector<std::vector<double>> residuals(points.size());
+  std::vector<std::size_t> unknown;
+  std::vector<Point> asked;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (const auto known = lists_ ? lists_->find(fingerprint_of(points[i])) : std::nullopt) {
+      residuals[i].assign(known->begin(), known->end());
+      ++replayed_;
+    } else {
+      unknown.push_back(i);
+      asked.push_back(points[i]);
+    }
+  }
+  const auto found = evaluator_.residuals(asked);
+  for (std::size_t k = 0; k < unknown.size(); ++k) {
+    residuals[unknown[k]] = found[k];
+    const auto size = static_cast<Eigen::Index>(found[k].size());
+    if (lists_) {
+      lists_->append(fingerprint_of(asked[k]),
+                     Eigen::Map<const Eigen::VectorXd>(found[k].data(), size));
+    }
+  }
   for (std::size_t i = 0; i < points.size(); ++i) {
     double square = residuals[i].empty() ? HUGE_VAL : 0.0;
     for (const double r : residuals[i]) square += r * r;
@@ -124,6 +144,15 @@ std::vector<std::vector<double>> Journal::residuals(const std::vector<Point>& po
   if (points.size() > 1 || open_count_ >= options_.batch) close_generation();
   if (options_.progress) options_.progress(evaluations_);
   return residuals;
+}
+
+void Journal::open_lists() {
+  if (lists_ || options_.file.empty()) return;
+  const auto file = std::filesystem::path(options_.file).parent_path() / "residuals.bin";
+  if (!options_.resume) std::filesystem::remove(file);
+  resume::Fingerprint context;
+  context.add(options_.fingerprint).add(resume::program_fingerprint());
+  lists_ = std::make_unique<resume::ResultFile<double>>(file.string(), context.value());
 }
 
 void Journal::save() {
@@ -143,9 +172,9 @@ void Journal::write() const {
 }
 
 std::vector<Generation> Journal::history() const {
-  Journal copy(*this);
-  copy.close_generation();
-  return copy.history_;
+  std::vector<Generation> history = history_;
+  if (open_count_ > 0) history.push_back(generation_so_far());
+  return history;
 }
 
 }  // namespace calibration

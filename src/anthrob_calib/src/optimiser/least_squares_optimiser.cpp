@@ -2,7 +2,9 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
+#include <numeric>
 
 namespace anthrob {
 namespace calibration {
@@ -11,6 +13,11 @@ namespace {
 
 /// A smaller share of the fitness is not worth another Jacobian.
 constexpr double kWorthwhile = 1e-4;
+/// Another valley has to be better by more.
+constexpr double kBetterValley = 0.02;
+constexpr double kFar = 0.2;  ///< of a range
+constexpr double kAcrossKinks =
+    0.3;  ///< differences of derivatives that see what is beyond [steps]
 
 Point unscaled(const std::vector<SearchVariable>& variables, const double* z) {
   Point point;
@@ -24,8 +31,9 @@ Point unscaled(const std::vector<SearchVariable>& variables, const double* z) {
 /// Residuals as a function of the variables in steps from their start.
 class Cost final : public ceres::CostFunction {
  public:
-  Cost(const std::vector<SearchVariable>& variables, std::size_t residuals, Evaluator& evaluator)
-      : variables_(variables), evaluator_(evaluator) {
+  Cost(const std::vector<SearchVariable>& variables, std::size_t residuals, double difference,
+       Evaluator& evaluator)
+      : variables_(variables), difference_(difference), evaluator_(evaluator) {
     set_num_residuals(static_cast<int>(residuals));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(variables.size()));
   }
@@ -37,8 +45,7 @@ class Cost final : public ceres::CostFunction {
     if (r.empty()) return false;  // an invalid point: Ceres goes back
     std::copy(r.begin(), r.end(), residuals);
     if (!jacobians || !jacobians[0]) return true;
-    const auto columns =
-        derivatives(variables_, point, r, LeastSquaresOptimiser::kDifference, evaluator_);
+    const auto columns = derivatives(variables_, point, r, difference_, evaluator_);
     for (std::size_t k = 0; k < r.size(); ++k) {
       for (std::size_t i = 0; i < columns.size(); ++i) {
         jacobians[0][k * columns.size() + i] = columns[i][k];
@@ -49,10 +56,81 @@ class Cost final : public ceres::CostFunction {
 
  private:
   const std::vector<SearchVariable>& variables_;
+  double difference_;  ///< of derivatives [steps]
   Evaluator& evaluator_;
 };
 
+double square_of(const std::vector<double>& residuals) {
+  if (residuals.empty()) return HUGE_VAL;
+  return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+}
+
+/// The best of what can be seen far along each variable; the given point if nothing is better.
+Point better_valley(const std::vector<SearchVariable>& variables, const Point& point,
+                    Evaluator& evaluator) {
+  const std::vector<double> here = evaluator.residuals({point}).front();
+  const auto columns =
+      derivatives(variables, point, here, LeastSquaresOptimiser::kDifference, evaluator);
+  const auto n = static_cast<Eigen::Index>(variables.size());
+  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(here.size()), n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    jacobian.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), jacobian.rows());
+  }
+  // Its range is what is known of a variable that residuals do not tell.
+  const double scatter = square_of(here) / static_cast<double>(here.size());
+  Eigen::MatrixXd information = jacobian.transpose() * jacobian;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const SearchVariable& v = variables[i];
+    information(i, i) += 12.0 * scatter * std::pow(v.step / (v.upper - v.lower), 2) + 1e-300;
+  }
+  std::vector<Point> far;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const SearchVariable& v = variables[i];
+    // Derivatives may promise that others help where they only spoil it: alone, too.
+    const Eigen::VectorXd together = following(information, i),
+                          alone = Eigen::VectorXd::Unit(n, static_cast<Eigen::Index>(i));
+    for (const double share : {-kFar, kFar}) {
+      for (const Eigen::VectorXd& direction : {together, alone}) {
+        far.push_back(moved(variables, point, direction, share * (v.upper - v.lower) / v.step));
+      }
+    }
+  }
+  const auto seen = evaluator.residuals(far);
+  double least = (1.0 - kBetterValley) * square_of(here);
+  Point best = point;
+  for (std::size_t k = 0; k < far.size(); ++k) {
+    const double square = square_of(seen[k]);
+    if (square >= least) continue;
+    least = square;
+    best = far[k];
+  }
+  return best;
+}
+
 }  // namespace
+
+Eigen::VectorXd following(const Eigen::MatrixXd& information, std::size_t variable) {
+  // Minus (A_oo)^-1 A_oi.
+  const auto i = static_cast<Eigen::Index>(variable);
+  Eigen::MatrixXd others = information;
+  others.row(i).setZero();
+  others.col(i).setZero();
+  others(i, i) = 1.0;
+  Eigen::VectorXd coupling = information.col(i);
+  coupling(i) = -1.0;
+  return -others.ldlt().solve(coupling);
+}
+
+Point moved(const std::vector<SearchVariable>& variables, const Point& from,
+            const Eigen::VectorXd& direction, double steps) {
+  Point point = from;
+  for (std::size_t k = 0; k < point.size(); ++k) {
+    const SearchVariable& v = variables[k];
+    const double change = steps * direction(static_cast<Eigen::Index>(k)) * v.step;
+    point[k] = std::clamp(from[k] + change, v.lower, v.upper);
+  }
+  return point;
+}
 
 std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& variables,
                                              const Point& point,
@@ -79,13 +157,21 @@ std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& 
   return columns;
 }
 
-SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& variables,
-                                             Evaluator& evaluator) const {
-  std::vector<double> z(variables.size(), 0.0);
-  const std::vector<double> start = evaluator.residuals({unscaled(variables, z.data())}).front();
-  if (start.empty()) return {unscaled(variables, z.data()), HUGE_VAL, "the start is invalid"};
-  ceres::Problem problem;
-  problem.AddResidualBlock(new Cost(variables, start.size(), evaluator), nullptr, z.data());
+namespace {
+
+/// One descent; takes what it needs of the iterations.
+ceres::TerminationType descend(const std::vector<SearchVariable>& variables, double difference,
+                               std::size_t residuals, Evaluator& evaluator, int& iterations,
+                               Point& point, double& fitness) {
+  Cost cost(variables, residuals, difference, evaluator);
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  std::vector<double> z;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    z.push_back((point[i] - variables[i].initial) / variables[i].step);
+  }
+  problem.AddResidualBlock(&cost, nullptr, z.data());
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const SearchVariable& v = variables[i];
     problem.SetParameterLowerBound(z.data(), static_cast<int>(i), (v.lower - v.initial) / v.step);
@@ -93,7 +179,7 @@ SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& 
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = settings_.generations;
+  options.max_num_iterations = iterations;
   options.function_tolerance = kWorthwhile;
   options.parameter_tolerance = 1e-4;
   options.initial_trust_region_radius = 1e2;
@@ -103,11 +189,38 @@ SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& 
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  const char* reason = summary.termination_type == ceres::CONVERGENCE ? "converged"
-                       : summary.termination_type == ceres::NO_CONVERGENCE
-                           ? "all iterations done"
-                           : "no better point found";
-  return {unscaled(variables, z.data()), 2.0 * summary.final_cost, reason};
+  iterations -= std::max(1, summary.num_successful_steps + summary.num_unsuccessful_steps - 1);
+  point = unscaled(variables, z.data());
+  fitness = 2.0 * summary.final_cost;
+  return summary.termination_type;
+}
+
+}  // namespace
+
+SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& variables,
+                                             Evaluator& evaluator) const {
+  Point point;
+  for (const SearchVariable& v : variables) point.push_back(v.initial);
+  const std::size_t residuals = evaluator.residuals({point}).front().size();
+  if (residuals == 0) return {point, HUGE_VAL, "the start is invalid"};
+  int iterations = settings_.generations;
+  double fitness = HUGE_VAL;
+  while (true) {
+    const auto end =
+        descend(variables, kDifference, residuals, evaluator, iterations, point, fitness);
+    if (end == ceres::NO_CONVERGENCE || iterations <= 0) {
+      return {point, fitness, "all iterations done"};
+    }
+    if (end != ceres::CONVERGENCE) return {point, fitness, "no better point found"};
+    Point other = better_valley(variables, point, evaluator);
+    if (other == point) {
+      double seen = fitness;
+      descend(variables, kAcrossKinks, residuals, evaluator, iterations, other, seen);
+      if (seen > (1.0 - kBetterValley) * fitness) return {point, fitness, "converged"};
+      if (iterations <= 0) return {other, seen, "all iterations done"};
+    }
+    point = std::move(other);
+  }
 }
 
 }  // namespace calibration

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "anthrob_calib/discovery/experiment.h"
-#include "anthrob_calib/discovery/journal.h"
+#include "anthrob_calib/resume/result_file.h"
 #include "anthrob_config/parameter_list.h"
 #include "anthrob_sim/effects/effect_instance.h"
 
@@ -28,6 +28,9 @@ struct Variant {
 /// Differences of all experiments, one after the other; empty if the variant cannot be built or
 /// simulated.
 using Differences = Eigen::VectorXf;
+
+/// What was simulated before an interruption.
+using Journal = resume::ResultFile<float>;
 
 /// Work was stopped from outside.
 class Interrupted : public std::exception {};

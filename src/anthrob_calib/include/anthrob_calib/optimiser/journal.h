@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "anthrob_calib/optimiser/evaluator.h"
+#include "anthrob_calib/resume/result_file.h"
 
 namespace anthrob {
 namespace calibration {
@@ -25,7 +27,7 @@ struct Generation {
 /// Stands between an optimiser and the evaluator: keeps the best point and the history, and writes
 /// down every fitness. After an interruption the optimiser simply starts again: as long as the
 /// journal has an answer it comes from there, so that every optimiser resumes to the same bits.
-/// Residuals are not written down: a least-squares search starts over.
+/// Residuals are in a file of their own beside it, which goes when the search is over.
 class Journal final : public Evaluator {
  public:
   struct Options {
@@ -44,6 +46,10 @@ class Journal final : public Evaluator {
   std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
   /// Writes what has not been written yet.
   void save();
+  /// The search is over: residuals are not asked for again.
+  void forget_residuals() {
+    if (lists_) lists_->remove();
+  }
 
   const Point& best() const { return best_; }
   double best_fitness() const { return best_fitness_; }
@@ -59,13 +65,16 @@ class Journal final : public Evaluator {
 
   void load();
   void write() const;
+  void open_lists();
   void check_stop() const;
   void note(const Point& point, double fitness);
+  Generation generation_so_far() const;  ///< the one that is not complete
   void close_generation();
 
   Evaluator& evaluator_;
   Options options_;
-  std::vector<Entry> entries_;  ///< of the file
+  std::vector<Entry> entries_;                         ///< of the file
+  std::unique_ptr<resume::ResultFile<double>> lists_;  ///< of residuals, by points
   std::size_t unsaved_ = 0;
   int evaluations_ = 0, replayed_ = 0;
   Point best_;

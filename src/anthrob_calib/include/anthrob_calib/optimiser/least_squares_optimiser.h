@@ -1,12 +1,16 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "anthrob_calib/optimiser/optimiser.h"
 
 namespace anthrob {
 namespace calibration {
 
 /// Levenberg-Marquardt within bounds from Ceres, derivatives by differences of kDifference steps.
-/// `generations` is the largest number of iterations.
+/// `generations` is the largest number of iterations. Tendons that go slack make kinks and several
+/// valleys: where it has converged it looks far along each variable, and descends once more by
+/// derivatives that reach across kinks; what is better is gone on from.
 class LeastSquaresOptimiser final : public Optimiser {
  public:
   static constexpr double kDifference = 0.02;
@@ -26,6 +30,14 @@ std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& 
                                              const Point& point,
                                              const std::vector<double>& residuals,
                                              double difference, Evaluator& evaluator);
+
+/// How the variables do best, to first order, when one of them changes by a step.
+/// @param information normal equations by steps, positive definite
+Eigen::VectorXd following(const Eigen::MatrixXd& information, std::size_t variable);
+
+/// @param direction by steps   @return within bounds
+Point moved(const std::vector<SearchVariable>& variables, const Point& from,
+            const Eigen::VectorXd& direction, double steps);
 
 }  // namespace calibration
 }  // namespace anthrob

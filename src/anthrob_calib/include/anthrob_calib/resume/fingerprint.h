@@ -6,7 +6,7 @@
 #include "anthrob_sim/recording/dataset.h"
 
 namespace anthrob {
-namespace discovery {
+namespace resume {
 
 /// Bits of what a result depends on, in one number (FNV-1a, 64 bit).
 class Fingerprint {
@@ -29,5 +29,5 @@ std::uint64_t model_fingerprint(const ConfigNode& model);
 /// Of this program and its libraries, as the linker marked them.
 std::uint64_t program_fingerprint();
 
-}  // namespace discovery
+}  // namespace resume
 }  // namespace anthrob

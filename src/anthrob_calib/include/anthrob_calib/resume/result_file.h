@@ -8,35 +8,39 @@
 #include <unordered_map>
 
 namespace anthrob {
-namespace discovery {
+namespace resume {
 
 /// Writes down every result of a simulation as it comes, so that a run that was interrupted goes on
-/// with the same bits: it starts again, and what the journal knows is not simulated.
+/// with the same bits: it starts again, and what the file knows is not simulated.
 ///
-/// A file of records: key, count, floats, and a sum over these. What follows a record that is cut
+/// A file of records: key, count, numbers, and a sum over these. What follows a record that is cut
 /// off is lost. Used by many threads, by one process at a time.
-class Journal {
+/// @tparam Scalar float or double
+template <class Scalar>
+class ResultFile {
  public:
+  using Result = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
   /// Opens the file; one of another context, or of none, is begun anew. Its folder is made, and
-  /// goes again with the journal if nothing was written.
+  /// goes again with it if nothing was written.
   /// @param context of all that results depend on beside their keys
   /// @throws BadInput if another run uses it; std::runtime_error if it cannot be written
-  Journal(std::string file, std::uint64_t context);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
+  ResultFile(std::string file, std::uint64_t context);
+  ~ResultFile();
+  ResultFile(const ResultFile&) = delete;
+  ResultFile& operator=(const ResultFile&) = delete;
 
   /// Results that were there when it was opened.
   std::size_t inherited() const { return inherited_; }
-  std::optional<Eigen::VectorXf> find(std::uint64_t key) const;
-  void append(std::uint64_t key, const Eigen::VectorXf& result);
+  std::optional<Result> find(std::uint64_t key) const;
+  void append(std::uint64_t key, const Result& result);
   /// It has served: the file goes.
   void remove();
 
  private:
   struct Place {
     std::int64_t offset;  ///< of the record
-    std::uint64_t count;  ///< of floats
+    std::uint64_t count;  ///< of numbers
   };
 
   void read_index();
@@ -50,5 +54,5 @@ class Journal {
   mutable std::mutex mutex_;
 };
 
-}  // namespace discovery
+}  // namespace resume
 }  // namespace anthrob

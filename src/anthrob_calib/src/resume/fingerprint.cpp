@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/fingerprint.h"
+#include "anthrob_calib/resume/fingerprint.h"
 
 #include <elf.h>
 #include <link.h>
@@ -9,7 +9,7 @@
 #include <iterator>
 
 namespace anthrob {
-namespace discovery {
+namespace resume {
 
 namespace {
 
@@ -95,5 +95,5 @@ std::uint64_t program_fingerprint() {
   return fingerprint.value();
 }
 
-}  // namespace discovery
+}  // namespace resume
 }  // namespace anthrob

@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/journal.h"
+#include "anthrob_calib/resume/result_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,11 +12,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "anthrob_calib/discovery/fingerprint.h"
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
-namespace discovery {
+namespace resume {
 
 namespace {
 
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 using Word = std::uint64_t;
 
-constexpr char kTitle[] = "anthrob_discover journal 1\n";
+constexpr char kTitle[] = "anthrob results 1\n";
 constexpr std::int64_t kTitleSize = sizeof(kTitle) - 1;
 constexpr std::int64_t kHeader = kTitleSize + sizeof(Word);
 constexpr std::int64_t kHead = 2 * sizeof(Word);  // key and count
@@ -51,12 +51,14 @@ bool write_all(int descriptor, const void* from, std::size_t count, std::int64_t
   return true;
 }
 
+template <class Scalar>
 std::int64_t record_size(Word count) {
-  return kHead + static_cast<std::int64_t>(count * sizeof(float) + sizeof(Word));
+  return kHead + static_cast<std::int64_t>(count * sizeof(Scalar) + sizeof(Word));
 }
 
-Word sum_of(Word key, const float* values, Word count) {
-  return Fingerprint().add(key).add(values, count * sizeof(float)).value();
+template <class Scalar>
+Word sum_of(Word key, const Scalar* values, Word count) {
+  return Fingerprint().add(key).add(values, count * sizeof(Scalar)).value();
 }
 
 [[noreturn]] void fail(const std::string& file) {
@@ -65,7 +67,8 @@ Word sum_of(Word key, const float* values, Word count) {
 
 }  // namespace
 
-Journal::Journal(std::string file, std::uint64_t context) : file_(std::move(file)) {
+template <class Scalar>
+ResultFile<Scalar>::ResultFile(std::string file, std::uint64_t context) : file_(std::move(file)) {
   std::error_code error;  // open() says what is wrong
   made_folder_ = fs::create_directories(fs::path(file_).parent_path(), error);
   descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -88,7 +91,8 @@ Journal::Journal(std::string file, std::uint64_t context) : file_(std::move(file
   }
 }
 
-Journal::~Journal() {
+template <class Scalar>
+ResultFile<Scalar>::~ResultFile() {
   // Recordings that were refused leave nothing behind.
   if (places_.empty()) remove();
   std::error_code error;
@@ -96,7 +100,8 @@ Journal::~Journal() {
   close(descriptor_);
 }
 
-void Journal::read_index() {
+template <class Scalar>
+void ResultFile<Scalar>::read_index() {
   struct stat about;
   if (fstat(descriptor_, &about) != 0) fail(file_);
   end_ = kHeader;
@@ -104,40 +109,44 @@ void Journal::read_index() {
   while (read_all(descriptor_, head, kHead, end_)) {
     const Word count = head[1];
     const auto left = static_cast<Word>(about.st_size - end_);
-    if (count > left / sizeof(float) || record_size(count) > static_cast<std::int64_t>(left)) break;
+    if (count > left / sizeof(Scalar) ||
+        record_size<Scalar>(count) > static_cast<std::int64_t>(left))
+      break;
     places_[head[0]] = {end_, count};
-    end_ += record_size(count);
+    end_ += record_size<Scalar>(count);
   }
   inherited_ = places_.size();
 }
 
-std::optional<Eigen::VectorXf> Journal::find(std::uint64_t key) const {
+template <class Scalar>
+auto ResultFile<Scalar>::find(std::uint64_t key) const -> std::optional<Result> {
   Place place;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = places_.find(key);
-    if (found == places_.end()) return {};
+    if (found == places_.end()) return std::nullopt;
     place = found->second;
   }
-  Eigen::VectorXf values(static_cast<Eigen::Index>(place.count));
-  const std::size_t bytes = place.count * sizeof(float);
+  Result values(static_cast<Eigen::Index>(place.count));
+  const std::size_t bytes = place.count * sizeof(Scalar);
   Word sum = 0;
   // A record that a failing machine left half written is no result.
   if (!read_all(descriptor_, values.data(), bytes, place.offset + kHead) ||
       !read_all(descriptor_, &sum, sizeof(sum),
                 place.offset + kHead + static_cast<std::int64_t>(bytes)) ||
       sum != sum_of(key, values.data(), place.count)) {
-    return {};
+    return std::nullopt;
   }
   return values;
 }
 
-void Journal::append(std::uint64_t key, const Eigen::VectorXf& result) {
+template <class Scalar>
+void ResultFile<Scalar>::append(std::uint64_t key, const Result& result) {
   const auto count = static_cast<Word>(result.size());
-  std::vector<char> record(static_cast<std::size_t>(record_size(count)));
+  std::vector<char> record(static_cast<std::size_t>(record_size<Scalar>(count)));
   const Word head[] = {key, count}, sum = sum_of(key, result.data(), count);
   std::memcpy(record.data(), head, kHead);
-  if (count > 0) std::memcpy(record.data() + kHead, result.data(), count * sizeof(float));
+  if (count > 0) std::memcpy(record.data() + kHead, result.data(), count * sizeof(Scalar));
   std::memcpy(record.data() + record.size() - sizeof(sum), &sum, sizeof(sum));
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!write_all(descriptor_, record.data(), record.size(), end_)) fail(file_);
@@ -145,9 +154,13 @@ void Journal::append(std::uint64_t key, const Eigen::VectorXf& result) {
   end_ += static_cast<std::int64_t>(record.size());
 }
 
-void Journal::remove() {
+template <class Scalar>
+void ResultFile<Scalar>::remove() {
   unlink(file_.c_str());
 }
 
-}  // namespace discovery
+template class ResultFile<float>;
+template class ResultFile<double>;
+
+}  // namespace resume
 }  // namespace anthrob

@@ -1,26 +1,27 @@
-#include "anthrob_calib/discovery/journal.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "anthrob_calib/discovery/fingerprint.h"
+#include "anthrob_calib/resume/fingerprint.h"
+#include "anthrob_calib/resume/result_file.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
-namespace discovery {
+namespace resume {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kContext = 7;
 
-class JournalFile : public testing::Test {
+using File = ResultFile<float>;
+
+class ResultFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    Journal journal(file_, kContext);
+    File journal(file_, kContext);
     EXPECT_EQ(journal.inherited(), 0u);
     journal.append(1, first_);
     journal.append(2, {});  // no such robot
@@ -34,8 +35,8 @@ class JournalFile : public testing::Test {
   const Eigen::VectorXf second_ = Eigen::VectorXf::Constant(50, 1e-30f);
 };
 
-TEST_F(JournalFile, KnowsWhatWasWrittenBitForBit) {
-  const Journal journal(file_, kContext);
+TEST_F(ResultFileTest, KnowsWhatWasWrittenBitForBit) {
+  const File journal(file_, kContext);
   EXPECT_EQ(journal.inherited(), 3u);
   EXPECT_EQ(journal.find(1).value(), first_);
   EXPECT_EQ(journal.find(2).value().size(), 0);
@@ -43,45 +44,45 @@ TEST_F(JournalFile, KnowsWhatWasWrittenBitForBit) {
   EXPECT_FALSE(journal.find(4).has_value());
 }
 
-TEST_F(JournalFile, LosesOnlyTheRecordThatIsCutOff) {
+TEST_F(ResultFileTest, LosesOnlyTheRecordThatIsCutOff) {
   fs::resize_file(file_, fs::file_size(file_) - 3);
   {
-    Journal journal(file_, kContext);
+    File journal(file_, kContext);
     EXPECT_EQ(journal.inherited(), 2u);
     EXPECT_FALSE(journal.find(3).has_value());
     journal.append(3, second_);
   }
-  EXPECT_EQ(Journal(file_, kContext).find(3).value(), second_);
+  EXPECT_EQ(File(file_, kContext).find(3).value(), second_);
 }
 
-TEST_F(JournalFile, DoesNotBelieveABrokenRecord) {
+TEST_F(ResultFileTest, DoesNotBelieveABrokenRecord) {
   std::fstream stream(file_, std::ios::in | std::ios::out | std::ios::binary);
   stream.seekp(120);
   stream.put('x');
   stream.close();
-  const Journal journal(file_, kContext);
+  const File journal(file_, kContext);
   EXPECT_FALSE(journal.find(1).has_value());
   EXPECT_EQ(journal.find(3).value(), second_);
 }
 
-TEST_F(JournalFile, OfAnotherContextIsBegunAnew) {
-  EXPECT_EQ(Journal(file_, kContext + 1).inherited(), 0u);
+TEST_F(ResultFileTest, OfAnotherContextIsBegunAnew) {
+  EXPECT_EQ(File(file_, kContext + 1).inherited(), 0u);
   EXPECT_FALSE(fs::exists(file_));  // an empty one stays nowhere
 }
 
-TEST_F(JournalFile, ServesOneRunAtATime) {
-  const Journal journal(file_, kContext);
-  EXPECT_THROW(Journal(file_, kContext), BadInput);
+TEST_F(ResultFileTest, ServesOneRunAtATime) {
+  const File journal(file_, kContext);
+  EXPECT_THROW(File(file_, kContext), BadInput);
 }
 
-TEST_F(JournalFile, MakesItsFolderAndLeavesNothingIfThereIsNothingToLeave) {
+TEST_F(ResultFileTest, MakesItsFolderAndLeavesNothingIfThereIsNothingToLeave) {
   const std::string folder = file_ + "_folder";
   {
-    const Journal journal(folder + "/journal.bin", kContext);
+    const File journal(folder + "/journal.bin", kContext);
     EXPECT_TRUE(fs::exists(folder));
   }
   EXPECT_FALSE(fs::exists(folder));
-  EXPECT_THROW(Journal(file_ + "/journal.bin", kContext), std::runtime_error);
+  EXPECT_THROW(File(file_ + "/journal.bin", kContext), std::runtime_error);
 }
 
 TEST(Fingerprint, TellsApartWhatResultsDependOn) {
@@ -109,5 +110,5 @@ TEST(Fingerprint, OfAModelKnowsTheFilesThatItNames) {
 }
 
 }  // namespace
-}  // namespace discovery
+}  // namespace resume
 }  // namespace anthrob
