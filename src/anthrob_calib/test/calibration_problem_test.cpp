@@ -175,6 +175,21 @@ TEST(Chains, OneRunLeadsToTheOther) {
   EXPECT_FALSE(chains[2].from_home);
 }
 
+TEST(SimulateRuns, EachRestsAsLongAsItsRobotDid) {
+  std::vector<MeasuredRun> runs;
+  for (const double settle : {0.2, 2.0, 0.7}) {  // rings go on relaxing
+    RecordingPlan p = plan(3.0, 0.0, "equilibrium");
+    p.settle = settle;
+    runs.push_back(read_run(record_simulation(rig(), p), rig()));
+  }
+  SimulationOptions options;
+  options.settle = options.motion = 5.0;
+  for (const RunDifferences& run : simulate_runs(rig(), runs, options)) {
+    EXPECT_LT(run.shown().posture.norm(), 1e-7);
+    EXPECT_LT(run.shown().force.norm(), 1e-5);
+  }
+}
+
 TEST(Problem, IsZeroAtTheTruthAndResidualsAddUp) {
   for (const char* kind : {"equilibrium", "trajectory"}) {
     const Problem problem = problem_of(runs_of(rig(), kind));
@@ -271,6 +286,48 @@ TEST(Identifiability, TellsWhatEquilibriaCannot) {
   }
   EXPECT_EQ(equilibria_needed(40, 8), 11);  // (5.13)
   EXPECT_EQ(equilibria_needed(7 * 4, 4), 8);
+}
+
+TEST(Identifiability, ATendonThatIsJustTautTellsLittle) {
+  // A flexor alone holds the arm; the extensor hangs through, however long it is.
+  std::vector<MeasuredRun> runs;
+  for (const double pull : {1.0, 2.0, 3.0}) {
+    RecordingPlan p = plan(pull, -2.5, "equilibrium");
+    p.force_noise = 0.2;
+    p.seed = static_cast<std::uint64_t>(1000.0 * pull);
+    runs.push_back(read_run(record_simulation(rig(), p), rig()));
+    ASSERT_LT(std::abs(runs.back().after.force(0, 1)), 0.2);
+  }
+  const Problem problem = problem_of(runs, R"(
+parameters:
+  - {path: "muscles.*.rest_tendon_length", unit: m, range: 0.02, step: 0.001}
+)");
+  // The shortest at which it does not yet pull with more than the noise of its sensor.
+  Point point = problem.space().initial();
+  const auto tension = [&](double length) {
+    point[1] = length;
+    double most = 0.0;
+    const auto all = simulate_runs(problem.build(point), runs, problem.options());
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      most = std::max(most, all[r].shown().force(0, 1) + runs[r].after.force(0, 1));
+    }
+    return most;
+  };
+  double taut = problem.space().parameters()[1].lower, slack = point[1];
+  ASSERT_GT(tension(taut), 1.0);
+  while (slack - taut > 1e-7 && !(tension(taut) > 0.05 && tension(taut) < 0.2)) {
+    const double middle = 0.5 * (taut + slack);
+    (tension(middle) > 0.1 ? taut : slack) = middle;
+  }
+  point[1] = taut;
+  ASSERT_GT(tension(taut), 0.05);
+  const Identifiability known = examine(problem, point, 2);
+  EXPECT_TRUE(known.parameters[0].identifiable);
+  EXPECT_FALSE(known.parameters[1].identifiable);
+  ASSERT_EQ(known.profiles.size(), 1u);
+  const Profile& profile = known.profiles.front();
+  EXPECT_EQ(profile.parameter, 1u);
+  EXPECT_LT(profile.fitness.back(), 1.2 * problem.fitness(point));  // longer: as good
 }
 
 }  // namespace

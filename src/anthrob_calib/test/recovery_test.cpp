@@ -22,7 +22,7 @@ struct Trial {
   std::string model_file, parameters;
   std::vector<double> home;
   std::vector<std::vector<double>> references;
-  double duration = 1.0;  ///< of a run, recorded and simulated alike [s]
+  double duration = 1.0;  ///< of a run after its command, recorded and simulated alike [s]
 };
 
 Trial rig_trial() {
@@ -68,8 +68,16 @@ Trial arm_trial() {
 /// Counts over seeds and parameters.
 struct Tally {
   int identifiable = 0, covered = 0, unidentifiable = 0, flat = 0;
+  int blind = 0;       ///< seeds in which what no posture tells was called identifiable
   double worst = 0.0;  ///< error of an identifiable parameter, in sigmas
 };
+
+/// Whether the fitness hardly rises on one side.
+bool is_flat(const Profile& profile) {
+  const auto& f = profile.fitness;
+  const double least = *std::min_element(f.begin(), f.end());
+  return std::min(f.front(), f.back()) < 1.2 * least;
+}
 
 void run_seed(const Trial& trial, std::uint64_t seed, Tally& tally) {
   const ConfigNode model = ConfigNode::load(trial.model_file);
@@ -80,7 +88,7 @@ void run_seed(const Trial& trial, std::uint64_t seed, Tally& tally) {
     const ModelParameter& p = space.parameters()[i];
     truth.push_back(p.lower + p.range() * (0.15 + 0.7 * random.uniform(i)));
   }
-  const SimulationOptions options{2.0, trial.duration};
+  const SimulationOptions options{2.0, 2.0};
   const Problem blank(model, space, {}, {}, options);
   const auto robot = blank.build(truth), plain = load_robot_model(trial.model_file);
   std::vector<MeasuredRun> runs;
@@ -99,10 +107,11 @@ void run_seed(const Trial& trial, std::uint64_t seed, Tally& tally) {
   ProblemEvaluator evaluator(problem);
   OptimiserSettings settings;
   settings.method = "least_squares";
-  settings.generations = 8;
+  settings.generations = 30;
   const Point best =
       make_optimiser(settings)->minimise(search_variables(problem.space()), evaluator).best;
-  const Identifiability known = examine(problem, best, 1);
+  const Identifiability known = examine(problem, best, static_cast<int>(truth.size()));
+  tally.blind += known.parameters.back().identifiable ? 1 : 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const ParameterKnowledge& k = known.parameters[i];
     if (!k.identifiable) {
@@ -115,20 +124,22 @@ void run_seed(const Trial& trial, std::uint64_t seed, Tally& tally) {
     tally.covered += estimate.lo <= truth[i] && truth[i] <= estimate.hi ? 1 : 0;
     tally.worst = std::max(tally.worst, error);
   }
-  if (known.profiles.empty()) return;
-  const auto& f = known.profiles.front().fitness;
-  const auto [least, most] = std::minmax_element(f.begin(), f.end());
-  tally.flat += *most < 1.02 * *least ? 1 : 0;
+  for (const Profile& profile : known.profiles) tally.flat += is_flat(profile) ? 1 : 0;
 }
 
 void recover(const char* name, const Trial& trial, int seeds) {
   Tally tally;
-  for (int seed = 1; seed <= seeds; ++seed) run_seed(trial, seed, tally);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    run_seed(trial, seed, tally);
+    std::printf("seed %d: covered %d of %d, worst %.1f sigma\n", seed, tally.covered,
+                tally.identifiable, tally.worst);
+    fflush(stdout);
+  }
   std::printf("| %s | %d | %d of %d (%.1f %%) | %.1f sigma | %d of %d |\n", name, seeds,
               tally.covered, tally.identifiable, 100.0 * tally.covered / tally.identifiable,
-              tally.worst, tally.flat, seeds);
-  EXPECT_EQ(tally.flat, seeds);
-  EXPECT_EQ(tally.unidentifiable, seeds);  // the inductance, each time
+              tally.worst, tally.flat, tally.unidentifiable);
+  EXPECT_EQ(tally.blind, 0);
+  EXPECT_EQ(tally.flat, tally.unidentifiable);
   EXPECT_LT(tally.worst, 5.0);
   if (seeds < 20) return;
   EXPECT_GE(tally.covered, 0.90 * tally.identifiable);

@@ -40,6 +40,9 @@ class Stack final : public Evaluator {
       kind.insert(kind.end(), d.force.size(), kForce);
       weight.insert(weight.end(), d.posture.size(), posture_weight(d));
       weight.insert(weight.end(), d.force.size(), force_weight(d));
+      describe_instants(d.posture);
+      describe_instants(d.force);
+      instants += static_cast<int>(d.posture.rows());
       const Eigen::Index rows = d.posture.rows();
       if (rows < 2) continue;
       like += d.posture.topRows(rows - 1).cwiseProduct(d.posture.bottomRows(rows - 1)).sum();
@@ -52,10 +55,17 @@ class Stack final : public Evaluator {
 
   std::vector<Kind> kind;      ///< of each row
   std::vector<double> weight;  ///< of each row
+  std::vector<int> instant;    ///< of each row, counted over all runs
+  int instants = 0;
   /// Instants of a trajectory are no independent witnesses: so many of them count as one.
   double repetition = 1.0;
 
  private:
+  void describe_instants(const Eigen::MatrixXd& differences) {
+    for (Eigen::Index k = 0; k < differences.size(); ++k) {
+      instant.push_back(instants + static_cast<int>(k % differences.rows()));
+    }
+  }
   std::vector<RunDifferences> simulate(const Point& point) const {
     return simulate_runs(problem_.build(point), problem_.runs(), problem_.options());
   }
@@ -108,6 +118,60 @@ struct Noise {
   double of(Kind kind) const { return kind == kPosture ? posture : force; }
 };
 
+/// Derivatives that hold as far as noise leaves a parameter open, not only at the point: where a
+/// step to one side changes an instant much less than they promise, they become that little. A
+/// tendon that is just taut at the best point tells a lot there, and nothing as soon as it is
+/// slack.
+/// @param columns of the list by steps
+void be_cautious(const std::vector<SearchVariable>& variables, const Point& best,
+                 const std::vector<double>& left, const Noise& noise, Stack& stack,
+                 std::vector<std::vector<double>>& columns) {
+  constexpr double kFirst = 6.0;  // standard deviations of noise, in the instant that moves most
+  constexpr double kGrowth = 4.0;
+  constexpr int kTrials = 4;
+  constexpr double kLess = 0.7, kMuchLess = 0.5;
+  constexpr double kFelt = 2.0;  // standard deviations of noise that an instant should have moved
+  // Lengths of a change in each instant, noise at 1.
+  const auto lengths = [&](const std::vector<double>& column) {
+    Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(stack.instants);
+    for (std::size_t k = 0; k < column.size(); ++k) {
+      if (!(stack.weight[k] > 0.0)) continue;
+      squares[stack.instant[k]] +=
+          std::pow(column[k] / (stack.weight[k] * noise.of(stack.kind[k])), 2);
+    }
+    return squares.sqrt().eval();
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const SearchVariable& v = variables[i];
+    const std::vector<double> local = columns[i];
+    const Eigen::ArrayXd promised = lengths(local);
+    if (!(promised.maxCoeff() > 0.0)) continue;
+    Eigen::ArrayXd least = promised;
+    for (const double side : {-1.0, 1.0}) {
+      double reach = kFirst / promised.maxCoeff();  // [steps]
+      for (int trial = 0; trial < kTrials; ++trial, reach *= kGrowth) {
+        Point point = best;
+        point[i] = std::clamp(best[i] + side * reach * v.step, v.lower, v.upper);
+        const double steps = (point[i] - best[i]) / v.step;
+        if (steps == 0.0) break;
+        std::vector<double> change = stack.residuals({point}).front();
+        if (change.empty()) break;  // no such robot
+        for (std::size_t k = 0; k < change.size(); ++k) change[k] = (change[k] - left[k]) / steps;
+        const Eigen::ArrayXd kept = lengths(change);
+        for (std::size_t k = 0; k < change.size(); ++k) {
+          const int instant = stack.instant[k];
+          if (kept[instant] < std::min(kMuchLess * promised[instant], least[instant])) {
+            columns[i][k] = change[k];
+          }
+        }
+        least = (kept < kMuchLess * promised).select(least.min(kept), least);
+        const bool faded = (kept < kLess * promised && promised * std::abs(steps) > kFelt).any();
+        if (!faded || std::abs(steps) < 0.99 * reach) break;
+      }
+    }
+  }
+}
+
 /// A variance made of two that are estimates themselves, each from its rows (Welch-Satterthwaite).
 double effective_freedom(const double (&of_kind)[2], const Noise& noise, double repetition,
                          double variance) {
@@ -121,30 +185,17 @@ double effective_freedom(const double (&of_kind)[2], const Noise& noise, double 
 Profile draw_profile(const Problem& problem, const std::vector<SearchVariable>& variables,
                      const Point& best, const Eigen::MatrixXd& information, std::size_t index,
                      double sigma) {
-  const auto n = static_cast<Eigen::Index>(best.size());
-  const auto i = static_cast<Eigen::Index>(index);
-  // Others follow a change of one by minus (A_oo)^-1 A_oi.
-  Eigen::MatrixXd others = information;
-  others.row(i).setZero();
-  others.col(i).setZero();
-  others(i, i) = 1.0;
-  Eigen::VectorXd coupling = information.col(i);
-  coupling(i) = 0.0;
-  const Eigen::VectorXd response = -others.ldlt().solve(coupling);
-
+  const Eigen::VectorXd direction = following(information, index);
   Profile profile;
   profile.parameter = index;
   for (const double share : {-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5}) {
-    const double change = share * sigma / variables[index].step;  // [steps]
-    Point point = best;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const SearchVariable& v = variables[k];
-      const double steps = k == i ? change : change * response(k);
-      point[k] = std::clamp(best[k] + steps * v.step, v.lower, v.upper);
-    }
-    if (!profile.value.empty() && point[index] == profile.value.back()) continue;  // at a bound
-    profile.value.push_back(point[index]);
-    profile.fitness.push_back(problem.fitness(point));
+    const Point together = moved(variables, best, direction, share * sigma / variables[index].step);
+    Point alone = best;
+    alone[index] = together[index];
+    if (!profile.value.empty() && alone[index] == profile.value.back()) continue;  // at a bound
+    profile.value.push_back(alone[index]);
+    // Derivatives may promise that others can help where they only spoil it.
+    profile.fitness.push_back(std::min(problem.fitness(alone), problem.fitness(together)));
   }
   return profile;
 }
@@ -156,23 +207,12 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   const std::vector<SearchVariable> variables = search_variables(problem.space());
   Stack stack(problem);
   const std::vector<double> left = stack.describe(best);
-  const auto columns =
-      derivatives(variables, best, left, LeastSquaresOptimiser::kDifference, stack);
+  auto columns = derivatives(variables, best, left, LeastSquaresOptimiser::kDifference, stack);
   const auto n = static_cast<Eigen::Index>(best.size());
   const auto rows = static_cast<Eigen::Index>(left.size());
-  Eigen::MatrixXd jacobian(rows, n);  // of the weighted list, by steps
-  for (Eigen::Index i = 0; i < n; ++i) {
-    jacobian.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), rows);
-  }
-  Eigen::MatrixXd information = jacobian.transpose() * jacobian;
   const double scatter =
       std::max(1e-30, Eigen::Map<const Eigen::VectorXd>(left.data(), rows).squaredNorm() /
                           static_cast<double>(std::max<Eigen::Index>(1, rows - n)));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information / scatter);
-  result.singular_values = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
-  const Eigen::VectorXd flattest = eigen.eigenvectors().col(0);
-  result.flattest.assign(flattest.data(), flattest.data() + n);
-
   // The range of a parameter is knowledge too; without it some would have no error at all.
   Eigen::VectorXd range_information(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -180,13 +220,28 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
     result.parameters.push_back({0.0, prior, HUGE_VAL, false});
     range_information(i) = scatter * stack.repetition * std::pow(variables[i].step / prior, 2);
   }
-  information.diagonal() += range_information;
-  const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-
-  const Eigen::MatrixXd gain = jacobian * inverse;
+  Eigen::MatrixXd jacobian(rows, n), information, inverse, gain;  // of the weighted list, by steps
+  const auto linearise = [&] {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      jacobian.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), rows);
+    }
+    information = jacobian.transpose() * jacobian;
+    information.diagonal() += range_information;
+    inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+    gain = jacobian * inverse;
+  };
+  linearise();
   const Noise noise(stack, left, gain.cwiseProduct(jacobian).rowwise().sum());
   result.posture_noise = noise.posture;
   result.force_noise = noise.force;
+  be_cautious(variables, best, left, noise, stack, columns);
+  linearise();
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobian.transpose() * jacobian /
+                                                             scatter);
+  result.singular_values = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
+  const Eigen::VectorXd flattest = eigen.eigenvectors().col(0);
+  result.flattest.assign(flattest.data(), flattest.data() + n);
 
   // The fit weighs as it is told to, not as noise would have it: errors go through its gain.
   const Eigen::MatrixXd prior =

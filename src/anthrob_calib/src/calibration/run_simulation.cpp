@@ -145,13 +145,16 @@ std::vector<Chain> chains_of(const std::vector<MeasuredRun>& runs) {
   return chains;
 }
 
-void settle_at_start(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
+void stand_at_start(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
   const std::size_t muscles = sim.muscle_count();
   sim.place(sim.model().skeleton->rest_configuration(), std::vector<double>(muscles, 0.0));
   const bool by_reference = options.drive == Drive::kReferences || run.before.position.cols() == 0;
   command_positions(sim, by_reference ? run.start : row_of(run.before.position, 0));
+}
+
+int steps_of_rest(const Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
   const double rest = std::min(options.settle, run.settle + run.lead);
-  sim.step(static_cast<int>(std::lround(rest / sim.step_length())));
+  return static_cast<int>(std::lround(rest / sim.step_length()));
 }
 
 void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
@@ -190,27 +193,48 @@ RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationO
   return result;
 }
 
+namespace {
+
+/// The robot at home after as many steps of rest as each run had: rings and friction remember.
+std::map<int, Snapshot> settle_at_home(const std::shared_ptr<const RobotModel>& model,
+                                       const std::vector<MeasuredRun>& runs,
+                                       const std::vector<Chain>& chains,
+                                       const SimulationOptions& options) {
+  std::map<int, Snapshot> homes;
+  Simulation sim(model);
+  for (const Chain& chain : chains) {
+    if (!chain.from_home) continue;
+    const MeasuredRun& first = runs[chain.runs.front()];
+    if (homes.empty()) stand_at_start(sim, first, options);
+    homes.try_emplace(steps_of_rest(sim, first, options));
+  }
+  int done = 0;
+  for (auto& [steps, home] : homes) {
+    sim.step(steps - done);
+    done = steps;
+    home = sim.snapshot();
+  }
+  return homes;
+}
+
+}  // namespace
+
 std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& model,
                                           const std::vector<MeasuredRun>& runs,
                                           const SimulationOptions& options) {
   const std::vector<Chain> chains = chains_of(runs);
-  Snapshot home;
-  const auto first = std::find_if(chains.begin(), chains.end(),
-                                  [](const Chain& chain) { return chain.from_home; });
-  if (first != chains.end()) {
-    Simulation sim(model);
-    settle_at_start(sim, runs[first->runs.front()], options);
-    home = sim.snapshot();
-  }
+  const std::map<int, Snapshot> homes = settle_at_home(model, runs, chains, options);
   std::vector<RunDifferences> results(runs.size());
   std::vector<std::exception_ptr> failures(chains.size());
   tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t c) {
     try {
       Simulation sim(model);
+      const MeasuredRun& first = runs[chains[c].runs.front()];
       if (chains[c].from_home) {
-        sim.restore(home);
+        sim.restore(homes.at(steps_of_rest(sim, first, options)));
       } else {
-        settle_at_start(sim, runs[chains[c].runs.front()], options);
+        stand_at_start(sim, first, options);
+        sim.step(steps_of_rest(sim, first, options));
       }
       for (const int r : chains[c].runs) {
         if (r != chains[c].runs.front()) wait_for_command(sim, runs[r], options);

@@ -17,13 +17,15 @@ struct ParameterKnowledge {
   bool identifiable = false;
 };
 
-/// Fitness along one parameter, the others put where they do best (to first order, within bounds).
+/// Fitness along one parameter, the others put where they do best to first order within bounds, or
+/// left where they are, whichever fits better: no more than an upper bound of the best.
 struct Profile {
   std::size_t parameter = 0;
   std::vector<double> value, fitness;  ///< fitness is infinite where the model is invalid
 };
 
-/// Which parameters the data can tell, from the derivatives of all differences at the best point.
+/// Which parameters the data can tell: from the derivatives of all differences at the best point,
+/// as far as these hold for steps that noise leaves open.
 struct Identifiability {
   std::vector<ParameterKnowledge> parameters;
   Eigen::VectorXd singular_values;  ///< of the derivatives by steps, noise at 1

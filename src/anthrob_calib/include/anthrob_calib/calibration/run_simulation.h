@@ -31,9 +31,10 @@ struct Chain {
 };
 std::vector<Chain> chains_of(const std::vector<MeasuredRun>& runs);
 
-/// Puts the simulation into its rest posture and lets it settle at the references at which a run
-/// starts.
-void settle_at_start(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
+/// Puts the simulation into its rest posture, commanded to the references at which a run starts.
+void stand_at_start(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
+/// For how long it settles there before the run's first command.
+int steps_of_rest(const Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
 
 /// Stands still as long as the robot did before the first command of a run that another one led to.
 void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
