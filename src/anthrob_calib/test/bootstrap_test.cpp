@@ -128,6 +128,20 @@ TEST(Judge, LastBinBelongsToTheLastBlock) {
   EXPECT_DOUBLE_EQ(scores(0, 0), 0.0);
 }
 
+TEST(Judge, AGapInEveryBlockIsSignificantOneInASingleBlockIsNot) {
+  const Experiments experiments = {std::make_shared<LongSwing>()};
+  const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
+  const Judge judge(experiments, factors, {});
+  Eigen::VectorXf residual(334);
+  for (Eigen::Index b = 0; b < 334; ++b) residual[b] = 2.0f + 0.5f * std::sin(0.1f * b);
+  EXPECT_GT(judge.excess_significance(residual, 1.4).at("hinge/position"), 3.0);
+  EXPECT_LT(judge.excess_significance(residual, 3.0).at("hinge/position"), -3.0);
+  residual.setZero();
+  residual.head(20).setConstant(20.0f);  // as large on the whole
+  EXPECT_GT(judge.channel_gaps(residual).at("hinge/position"), 4.0);
+  EXPECT_LT(judge.excess_significance(residual, 1.4).at("hinge/position"), 1.0);
+}
+
 TEST(RegimeGaps, ShowWhereThePlaceDisagrees) {
   const Experiments experiments = {std::make_shared<Swing>()};
   Eigen::VectorXf residual(kBins);

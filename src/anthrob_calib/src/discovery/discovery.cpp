@@ -26,7 +26,9 @@ constexpr double kRealGap = 1.4;
 constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
 constexpr int kSettling = 5;
-constexpr double kSettled = 5e-4;     ///< share of the cost
+constexpr double kSettled = 5e-4;  ///< share of the cost
+constexpr double kClearGap = 2.5;  ///< of all channels together, in floors
+constexpr double kRoughlySettled = 0.01;
 constexpr double kOutOfReach = 0.5;   ///< share of an effect's gain that is left without it
 constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects are not the answer
 constexpr std::size_t kRenewed =
@@ -136,17 +138,15 @@ class Search {
     first_excess_ = excess(test_judge_, base_test_);
   }
 
-  /// Polishes as long as that brings something: friction makes valleys rugged.
-  void settle(Fitted& fitted, bool roughly) const {
+  /// Polishes as long as that brings something: friction makes valleys rugged. Where something is
+  /// clearly missing, the last steps to a model without it are not worth their time.
+  void settle(Fitted& fitted) const {
     for (int k = 0; k < kSettling; ++k) {
       const double before = fitted.cost;
-      train_.polish(fitted, kPolish, roughly);
-      if (before - fitted.cost < kSettled * before) break;
+      train_.polish(fitted, kPolish);
+      const bool clear = train_judge_.gap(fitted.residual) > kClearGap;
+      if (before - fitted.cost < (clear ? kRoughlySettled : kSettled) * before) break;
     }
-  }
-  void settle(Fitted& fitted) const {
-    settle(fitted, true);
-    settle(fitted, false);
   }
 
   /// What looks like an effect may be ordinary parameters that found a better valley on the way:
@@ -165,10 +165,10 @@ class Search {
     Fitted moved = base_;
     if (!train_.move(moved, without)) return false;
     train_.improve(moved, kPolish);
-    settle(moved, true);
+    train_.polish(moved, kPolish, true);
     // So far off that no better derivative brings it there.
     if (moved.cost - best.fit.cost > kOutOfReach * (base_.cost - best.fit.cost)) return false;
-    settle(moved, false);
+    settle(moved);
     Eigen::VectorXf test = test_.residual(moved.variant);
     if (moved.cost >= base_.cost || test.size() == 0) return false;
     base_ = std::move(moved);
@@ -319,6 +319,7 @@ class Search {
   void locate(Answer& answer) {
     stage("locating", -1);
     const auto gaps = train_judge_.channel_gaps(recalibrated_train_);
+    const auto significance = train_judge_.excess_significance(recalibrated_train_, kRealGap);
     double whole = 0.0;
     for (const auto& [name, gap] : gaps) whole += excess(gap);
     answer.seams = seam_gaps(evaluator_, question_, laboratory_, scales_, answer.recalibrated);
@@ -329,6 +330,7 @@ class Search {
       place.rmse = gap * scale.sigma();
       place.noise_floor = scale.floor;
       place.share = whole > 0.0 ? excess(gap) / whole : 0.0;
+      if (significance.count(name)) place.significance = significance.at(name);
       for (const SeamGap& seam : answer.seams) {
         if (seam.place == place.place && seam.channel == place.channel) {
           place.subsystem = subsystem_of(seam);

@@ -91,6 +91,39 @@ std::map<std::string, double> Judge::channel_gaps(const Eigen::VectorXf& residua
   return gaps;
 }
 
+std::map<std::string, double> Judge::excess_significance(const Eigen::VectorXf& residual,
+                                                         double gap) const {
+  const auto count = static_cast<Eigen::Index>(blocks_);
+  std::map<std::string, std::pair<Eigen::ArrayXd, Eigen::ArrayXd>> sums;  // squares, bins
+  for (const Run& run : runs_) {
+    auto& [squares, bins] = sums[run.name];
+    if (squares.size() == 0) squares = bins = Eigen::ArrayXd::Zero(count);
+    for (Eigen::Index b = 0; b < run.count; ++b) {
+      if (!(whitener_[run.offset + b] > 0.0f)) continue;
+      const auto block = static_cast<Eigen::Index>(run.block[static_cast<std::size_t>(b)]);
+      const double value = residual[run.offset + b];
+      squares[block] += run.inflation * value * value;
+      bins[block] += 1.0;
+    }
+  }
+  std::map<std::string, double> significance;
+  for (const auto& [name, sum] : sums) {
+    std::vector<double> excesses;
+    for (Eigen::Index block = 0; block < count; ++block) {
+      if (sum.second[block] > 0.0) {
+        excesses.push_back(sum.first[block] / sum.second[block] - gap * gap);
+      }
+    }
+    if (excesses.size() < 3) continue;
+    const Eigen::Map<const Eigen::ArrayXd> excess(excesses.data(),
+                                                  static_cast<Eigen::Index>(excesses.size()));
+    const auto n = static_cast<double>(excesses.size());
+    const double error = std::sqrt((excess - excess.mean()).square().sum() / (n - 1.0) / n);
+    if (error > 0.0) significance[name] = excess.mean() / error;
+  }
+  return significance;
+}
+
 std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
                                         const std::vector<double>& handicap, std::uint64_t seed) {
   constexpr int kDraws = 2000;

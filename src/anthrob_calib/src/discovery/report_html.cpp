@@ -167,13 +167,14 @@ std::string where_table(const Answer& answer) {
   if (answer.where.empty()) return "<p>Nowhere beyond the floor.</p>\n";
   std::string html =
       "<table><tr><th>place</th><th>channel</th><th>rmse</th><th>floor</th><th>share</th><th>"
-      "subsystem</th><th>depends on</th></tr>\n";
+      "significance</th><th>subsystem</th><th>depends on</th></tr>\n";
   for (std::size_t i = 0; i < answer.where.size() && i < 12; ++i) {
     const Place& place = answer.where[i];
     html += "<tr>" + cell(place.place) + cell(place.channel) +
             cell(short_number(place.rmse) + " " + place.unit) +
             cell(short_number(place.noise_floor) + " " + place.unit) +
-            cell(short_number(100.0 * place.share) + " %") + cell(place.subsystem) +
+            cell(short_number(100.0 * place.share) + " %") +
+            cell(short_number(place.significance) + " sigma") + cell(place.subsystem) +
             cell(place.regime) + "</tr>\n";
   }
   return html + "</table>\n";

@@ -66,7 +66,8 @@ Json where_json(const Answer& answer) {
                      {"regime", place.regime},
                      {"rmse", number(place.rmse)},
                      {"noise_floor", number(place.noise_floor)},
-                     {"share", number(place.share)}});
+                     {"share", number(place.share)},
+                     {"significance", number(place.significance)}});
   }
   return where;
 }

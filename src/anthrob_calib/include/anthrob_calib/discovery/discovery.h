@@ -61,6 +61,7 @@ struct Place {
   std::string channel, place, subsystem, regime, unit;
   double rmse = 0.0, noise_floor = 0.0;  ///< [unit]
   double share = 0.0;                    ///< of the squared gap
+  double significance = 0.0;  ///< standard errors beyond what a wrong estimate of noise looks like
 };
 
 /// How large a channel's disagreement is, depending on what is fed with measured values: a gap

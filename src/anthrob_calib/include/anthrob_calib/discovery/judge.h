@@ -32,6 +32,10 @@ class Judge {
   double gap(const Eigen::VectorXf& residual) const;
   /// The same by channel.
   std::map<std::string, double> channel_gaps(const Eigen::VectorXf& residual) const;
+  /// By how many standard errors over blocks each channel's mean square exceeds that of a gap; of
+  /// channels that are measured in three blocks or more.
+  std::map<std::string, double> excess_significance(const Eigen::VectorXf& residual,
+                                                    double gap) const;
 
  private:
   struct Run {
