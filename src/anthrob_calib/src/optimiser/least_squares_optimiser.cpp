@@ -137,21 +137,21 @@ std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& 
                                              const std::vector<double>& residuals,
                                              double difference, Evaluator& evaluator) {
   std::vector<Point> neighbours;
-  std::vector<double> moved;  // [steps]
+  std::vector<double> steps;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const SearchVariable& v = variables[i];
     const double up = point[i] + difference * v.step;
     const double sign = up <= v.upper ? 1.0 : -1.0;
     neighbours.push_back(point);
     neighbours.back()[i] = point[i] + sign * difference * v.step;
-    moved.push_back((neighbours.back()[i] - point[i]) / v.step);
+    steps.push_back((neighbours.back()[i] - point[i]) / v.step);
   }
   std::vector<std::vector<double>> columns = evaluator.residuals(neighbours);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const bool valid = columns[i].size() == residuals.size();
     if (!valid) columns[i].assign(residuals.size(), 0.0);
     for (std::size_t k = 0; valid && k < residuals.size(); ++k) {
-      columns[i][k] = (columns[i][k] - residuals[k]) / moved[i];
+      columns[i][k] = (columns[i][k] - residuals[k]) / steps[i];
     }
   }
   return columns;
