@@ -142,9 +142,9 @@ class Search {
   /// clearly missing, the last steps to a model without it are not worth their time.
   void settle(Fitted& fitted) const {
     for (int k = 0; k < kSettling; ++k) {
-      const double before = fitted.cost;
-      train_.polish(fitted, kPolish);
       const bool clear = train_judge_.gap(fitted.residual) > kClearGap;
+      const double before = fitted.cost;
+      train_.polish(fitted, kPolish, clear);
       if (before - fitted.cost < (clear ? kRoughlySettled : kSettled) * before) break;
     }
   }
