@@ -118,6 +118,26 @@ struct Noise {
   double of(Kind kind) const { return kind == kPosture ? posture : force; }
 };
 
+constexpr double kFirst = 6.0;  ///< standard deviations of noise: what a first trial should change
+constexpr double kGrowth = 4.0;
+constexpr int kTrials = 4;
+constexpr double kLess = 0.7, kMuchLess = 0.5;
+constexpr double kBehind = 0.1;  ///< of the largest share of a promise
+constexpr int kPasses = 2;       ///< over all parameters: what one opens opens others
+constexpr double kFelt = 2.0;    ///< standard deviations of noise that an instant should have moved
+
+/// Lengths of a change of the list in each instant, noise at 1.
+template <class List>
+Eigen::ArrayXd lengths(const List& change, const Stack& stack, const Noise& noise) {
+  Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(stack.instants);
+  for (std::size_t k = 0; k < stack.kind.size(); ++k) {
+    if (!(stack.weight[k] > 0.0)) continue;
+    squares[stack.instant[k]] +=
+        std::pow(change[k] / (stack.weight[k] * noise.of(stack.kind[k])), 2);
+  }
+  return squares.sqrt();
+}
+
 /// Derivatives that hold as far as noise leaves a parameter open, not only at the point: where a
 /// step to one side changes an instant much less than they promise, they become that little. A
 /// tendon that is just taut at the best point tells a lot there, and nothing as soon as it is
@@ -126,25 +146,10 @@ struct Noise {
 void be_cautious(const std::vector<SearchVariable>& variables, const Point& best,
                  const std::vector<double>& left, const Noise& noise, Stack& stack,
                  std::vector<std::vector<double>>& columns) {
-  constexpr double kFirst = 6.0;  // standard deviations of noise, in the instant that moves most
-  constexpr double kGrowth = 4.0;
-  constexpr int kTrials = 4;
-  constexpr double kLess = 0.7, kMuchLess = 0.5;
-  constexpr double kFelt = 2.0;  // standard deviations of noise that an instant should have moved
-  // Lengths of a change in each instant, noise at 1.
-  const auto lengths = [&](const std::vector<double>& column) {
-    Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(stack.instants);
-    for (std::size_t k = 0; k < column.size(); ++k) {
-      if (!(stack.weight[k] > 0.0)) continue;
-      squares[stack.instant[k]] +=
-          std::pow(column[k] / (stack.weight[k] * noise.of(stack.kind[k])), 2);
-    }
-    return squares.sqrt().eval();
-  };
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const SearchVariable& v = variables[i];
     const std::vector<double> local = columns[i];
-    const Eigen::ArrayXd promised = lengths(local);
+    const Eigen::ArrayXd promised = lengths(local, stack, noise);
     if (!(promised.maxCoeff() > 0.0)) continue;
     Eigen::ArrayXd least = promised;
     for (const double side : {-1.0, 1.0}) {
@@ -157,7 +162,7 @@ void be_cautious(const std::vector<SearchVariable>& variables, const Point& best
         std::vector<double> change = stack.residuals({point}).front();
         if (change.empty()) break;  // no such robot
         for (std::size_t k = 0; k < change.size(); ++k) change[k] = (change[k] - left[k]) / steps;
-        const Eigen::ArrayXd kept = lengths(change);
+        const Eigen::ArrayXd kept = lengths(change, stack, noise);
         for (std::size_t k = 0; k < change.size(); ++k) {
           const int instant = stack.instant[k];
           if (kept[instant] < std::min(kMuchLess * promised[instant], least[instant])) {
@@ -168,6 +173,45 @@ void be_cautious(const std::vector<SearchVariable>& variables, const Point& best
         const bool faded = (kept < kLess * promised && promised * std::abs(steps) > kFelt).any();
         if (!faded || std::abs(steps) < 0.99 * reach) break;
       }
+    }
+  }
+}
+
+/// The same along the line that leaves one parameter most room, the others following: a tendon's
+/// length and its spindle together keep one posture and give up another one.
+/// @param sigma of the parameter [steps]   @param direction of the line, by steps
+void be_cautious_along(const std::vector<SearchVariable>& variables, const Point& best,
+                       const std::vector<double>& left, const Noise& noise, Stack& stack,
+                       double sigma, const Eigen::VectorXd& direction, Eigen::MatrixXd& jacobian) {
+  const auto here = Eigen::Map<const Eigen::VectorXd>(left.data(), jacobian.rows());
+  for (const double side : {-1.0, 1.0}) {
+    double reach = kFirst * sigma;
+    for (int trial = 0; trial < kTrials; ++trial, reach *= kGrowth) {
+      const Point point = moved(variables, best, direction, side * reach);
+      Eigen::VectorXd step(direction.size());
+      for (Eigen::Index i = 0; i < step.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        step[i] = (point[k] - best[k]) / variables[k].step;
+      }
+      const std::vector<double> list = stack.residuals({point}).front();
+      if (list.empty() || !(step.squaredNorm() > 0.0)) break;
+      const Eigen::VectorXd change =
+          Eigen::Map<const Eigen::VectorXd>(list.data(), jacobian.rows()) - here;
+      const Eigen::VectorXd promise = jacobian * step;
+      const Eigen::ArrayXd kept = lengths(change, stack, noise),
+                           promised = lengths(promise, stack, noise);
+      for (Eigen::Index k = 0; k < jacobian.rows(); ++k) {
+        const int instant = stack.instant[static_cast<std::size_t>(k)];
+        if (promised[instant] < kFelt || kept[instant] > kMuchLess * promised[instant]) continue;
+        // Only taken away, and from those that are behind the promise: nothing is learned here.
+        const Eigen::RowVectorXd parts = jacobian.row(k).cwiseProduct(step.transpose());
+        const double least = kBehind * parts.cwiseAbs().maxCoeff();
+        for (Eigen::Index i = 0; i < parts.size(); ++i) {
+          if (std::abs(parts[i]) >= least) jacobian(k, i) *= kept[instant] / promised[instant];
+        }
+      }
+      const bool faded = (kept < kLess * promised && promised > kFelt).any();
+      if (!faded || std::abs(step.norm()) < 0.5 * reach * direction.norm()) break;
     }
   }
 }
@@ -222,42 +266,56 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   }
   Eigen::MatrixXd jacobian(rows, n), information, inverse, gain;  // of the weighted list, by steps
   const auto linearise = [&] {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      jacobian.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), rows);
-    }
     information = jacobian.transpose() * jacobian;
     information.diagonal() += range_information;
     inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
     gain = jacobian * inverse;
   };
-  linearise();
+  const auto fill = [&] {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      jacobian.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), rows);
+    }
+    linearise();
+  };
+  fill();
   const Noise noise(stack, left, gain.cwiseProduct(jacobian).rowwise().sum());
   result.posture_noise = noise.posture;
   result.force_noise = noise.force;
   be_cautious(variables, best, left, noise, stack, columns);
-  linearise();
-
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobian.transpose() * jacobian /
-                                                             scatter);
-  result.singular_values = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
-  const Eigen::VectorXd flattest = eigen.eigenvectors().col(0);
-  result.flattest.assign(flattest.data(), flattest.data() + n);
+  fill();
 
   // The fit weighs as it is told to, not as noise would have it: errors go through its gain.
-  const Eigen::MatrixXd prior =
-      inverse * (scatter * stack.repetition * range_information).asDiagonal() * inverse;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  const auto work_out = [&](Eigen::Index i) {
+    const double prior =
+        scatter * stack.repetition * inverse.row(i).cwiseAbs2().dot(range_information.transpose());
     double of_kind[2] = {0.0, 0.0};
     for (Eigen::Index k = 0; k < rows; ++k) {
       const Kind kind = stack.kind[k];
       of_kind[kind] += std::pow(gain(k, i) * stack.weight[k] * noise.of(kind), 2);
     }
     ParameterKnowledge& p = result.parameters[i];
-    const double variance = stack.repetition * (of_kind[kPosture] + of_kind[kForce]) + prior(i, i);
+    const double variance = stack.repetition * (of_kind[kPosture] + of_kind[kForce]) + prior;
     p.sigma = std::sqrt(std::max(0.0, variance)) * variables[i].step;
     p.identifiable = p.sigma < kIdentifiableShare * p.prior_sigma;
     p.freedom = effective_freedom(of_kind, noise, stack.repetition, variance);
+  };
+  for (Eigen::Index i = 0; i < n; ++i) work_out(i);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!result.parameters[i].identifiable) continue;
+      be_cautious_along(variables, best, left, noise, stack,
+                        result.parameters[i].sigma / variables[i].step,
+                        following(information, static_cast<std::size_t>(i)), jacobian);
+      linearise();
+    }
+    for (Eigen::Index i = 0; i < n; ++i) work_out(i);
   }
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobian.transpose() * jacobian /
+                                                             scatter);
+  result.singular_values = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
+  const Eigen::VectorXd flattest = eigen.eigenvectors().col(0);
+  result.flattest.assign(flattest.data(), flattest.data() + n);
 
   std::vector<std::size_t> order(best.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
