@@ -185,13 +185,13 @@ TEST(LeastSquares, SolvesRosenbrockAtABound) {
 
 TEST(LeastSquares, GoesOnWhereItSeesABetterValley) {
   Function two_valleys([](const Point& p) { return Point{p[0] * p[0] - 1.0, 0.4 * (p[0] - 1.0)}; });
-  const std::vector<SearchVariable> v = {{-1.2, -4.0, 4.0, 0.01}};
+  const std::vector<SearchVariable> v = {{-1.2, -4.0, 4.0, 0.2}};
   const SearchResult result = search(settings("least_squares", 100), v, two_valleys);
   EXPECT_NEAR(result.best[0], 1.0, 1e-3);
   EXPECT_EQ(result.reason, "converged");
   // The first one, with nothing better in sight.
   const SearchResult near =
-      search(settings("least_squares", 100), {{-1.2, -1.5, 0.0, 0.01}}, two_valleys);
+      search(settings("least_squares", 100), {{-1.2, -1.5, 0.0, 0.2}}, two_valleys);
   EXPECT_LT(near.best[0], -0.8);
 }
 TEST(LeastSquares, InvalidNeighbourTellsNothing) {
@@ -272,7 +272,9 @@ TEST_F(JournalTest, LeastSquaresResumeWithoutAskingAgain) {
   EXPECT_EQ(journal.best(), whole.best());
   EXPECT_EQ(journal.evaluations(), whole.evaluations());
   EXPECT_GE(journal.replayed(), static_cast<int>(before));
-  EXPECT_LE(function_.asked.size(), plain.asked.size());
+  std::sort(function_.asked.begin(), function_.asked.end());
+  const auto twice = std::adjacent_find(function_.asked.begin(), function_.asked.end());
+  EXPECT_EQ(twice, function_.asked.end());
   journal.forget_residuals();
   EXPECT_FALSE(std::filesystem::exists(lists));
 }

@@ -139,6 +139,7 @@ void recover(const char* name, const Trial& trial, int seeds) {
               tally.covered, tally.identifiable, 100.0 * tally.covered / tally.identifiable,
               tally.worst, tally.flat, tally.unidentifiable);
   EXPECT_EQ(tally.blind, 0);
+  EXPECT_GT(tally.identifiable, 2 * tally.unidentifiable);  // caution costs little
   EXPECT_EQ(tally.flat, tally.unidentifiable);
   EXPECT_LT(tally.worst, 5.0);
   if (seeds < 20) return;

@@ -15,7 +15,7 @@ namespace calibration {
 namespace {
 
 /// Of what is compared and how: a journal of another one is no good. Counts up with every change.
-constexpr int kComparison = 3;
+constexpr int kComparison = 4;
 
 void add(const std::vector<double>& values, resume::Fingerprint& fingerprint) {
   fingerprint.add(values.data(), values.size() * sizeof(double));
@@ -30,6 +30,7 @@ void add(const Samples& samples, resume::Fingerprint& fingerprint) {
 
 void add(const MeasuredRun& run, resume::Fingerprint& fingerprint) {
   add(run.start, fingerprint);
+  fingerprint.add(run.settle).add(run.lead);
   for (const Command& command : run.commands) {
     fingerprint.add(command.t);
     add(command.reference, fingerprint);
@@ -175,15 +176,15 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   outcome.evaluations = journal.evaluations();
   outcome.history = journal.history();
   outcome.calibration = simulate_both(problem, outcome.best, problem.runs());
-  outcome.validation = simulate_both(problem, outcome.best, input.validation);
-  if (!thorough) return outcome;
   constexpr int kProfiles = 3;
   try {
+    outcome.validation = simulate_both(problem, outcome.best, input.validation);
+    if (!thorough) return outcome;
     outcome.identifiability = examine(problem, outcome.best, kProfiles);
     outcome.drives = compare_drives(problem, outcome.best, problem.runs());
   } catch (const NumericalFailure& error) {
-    // In full length, or driven in another way; what was found is none the worse for it.
-    outcome.doubt = std::string("not all was worked out: ") + error.what();
+    // On other runs, or driven in another way; what was found is none the worse for it.
+    outcome.doubt = std::string("not all could be worked out: ") + error.what();
   }
   return outcome;
 }

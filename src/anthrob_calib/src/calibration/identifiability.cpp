@@ -158,7 +158,7 @@ void be_cautious(const std::vector<SearchVariable>& variables, const Point& best
         Point point = best;
         point[i] = std::clamp(best[i] + side * reach * v.step, v.lower, v.upper);
         const double steps = (point[i] - best[i]) / v.step;
-        if (steps == 0.0) break;
+        if (std::abs(steps) < 1e-3 * reach) break;  // at a bound
         std::vector<double> change = stack.residuals({point}).front();
         if (change.empty()) break;  // no such robot
         for (std::size_t k = 0; k < change.size(); ++k) change[k] = (change[k] - left[k]) / steps;

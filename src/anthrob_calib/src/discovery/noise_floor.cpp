@@ -189,15 +189,19 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
     scale.floor = noise[name].rms();
   }
   if (!repeats.empty()) from_repeats(evaluator, train, repeats, scales);
+  std::map<std::string, double> roundings, counted;  // of its sensor; where controllers see it
   for (const auto& experiment : train) {
     for (const Channel& channel : experiment->channels()) {
-      ChannelScale& scale = scales.at(channel.name());
-      const double rounding = channel.resolution / std::sqrt(12.0);
-      scale.floor = std::max(scale.floor, rounding);
-      if (!is_counted(*evaluator.model(), channel)) continue;
-      // What a sensor rounds itself is in its floor.
-      scale.counts = std::sqrt(std::max(0.0, scale.counts * scale.counts - rounding * rounding));
+      double& largest = roundings[channel.name()];
+      largest = std::max(largest, channel.resolution / std::sqrt(12.0));
+      if (is_counted(*evaluator.model(), channel)) counted[channel.name()] = largest;
     }
+  }
+  for (auto& [name, scale] : scales) {
+    scale.floor = std::max(scale.floor, roundings[name]);
+    // What a sensor rounds itself is in its floor.
+    scale.counts =
+        std::sqrt(std::max(0.0, scale.counts * scale.counts - counted[name] * counted[name]));
   }
   for (auto& [name, scale] : scales) {
     if (!(scale.sigma() > 0.0)) scale.floor = 1e-9;

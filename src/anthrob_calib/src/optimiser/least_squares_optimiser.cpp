@@ -15,7 +15,8 @@ namespace {
 constexpr double kWorthwhile = 1e-4;
 /// Another valley has to be better by more.
 constexpr double kBetterValley = 0.02;
-constexpr double kFar = 0.2;  ///< of a range
+constexpr double kFar = 0.2;        ///< of a range
+constexpr double kFarthest = 10.0;  ///< [steps]
 constexpr double kAcrossKinks =
     0.3;  ///< differences of derivatives that see what is beyond [steps]
 
@@ -89,9 +90,10 @@ Point better_valley(const std::vector<SearchVariable>& variables, const Point& p
     // Derivatives may promise that others help where they only spoil it: alone, too.
     const Eigen::VectorXd together = following(information, i),
                           alone = Eigen::VectorXd::Unit(n, static_cast<Eigen::Index>(i));
-    for (const double share : {-kFar, kFar}) {
-      for (const Eigen::VectorXd& direction : {together, alone}) {
-        far.push_back(moved(variables, point, direction, share * (v.upper - v.lower) / v.step));
+    const double steps = std::min(kFar * (v.upper - v.lower) / v.step, kFarthest);
+    for (const Eigen::VectorXd& direction : {together, alone}) {
+      for (const double side : {-1.0, 1.0}) {
+        far.push_back(moved(variables, point, direction, side * steps));
       }
     }
   }

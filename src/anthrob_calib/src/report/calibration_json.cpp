@@ -106,6 +106,7 @@ std::string result_json(const CalibrationOutcome& o) {
                       {"stopped", o.reason}};
   out["simulated_motion_s"] = o.simulation.motion;
   out["fitness"] = {{"before", number(o.fitness_before)}, {"after", number(o.fitness)}};
+  if (!o.doubt.empty()) out["doubt"] = o.doubt;
   out["validation"] = runs_json(o.validation, *o.model);
   out["calibration"] = runs_json(o.calibration, *o.model);
   out["parameters"] = parameters_json(o);

@@ -174,6 +174,7 @@ std::string report_html(const CalibrationOutcome& o) {
       o.optimiser.method + ", seed " + std::to_string(o.optimiser.seed) + ", " +
       std::to_string(o.evaluations) + " evaluations; " + o.reason + ". Fitness " +
       text(o.fitness_before) + " before, " + text(o.fitness) + " after.</p>\n";
+  if (!o.doubt.empty()) out += "<p><b>" + escaped(o.doubt) + "</b></p>\n";
   out += "<h2>Held-out recordings</h2>\n";
   out += o.validation.runs.empty()
              ? "<p>None were given (--validation): how well the model predicts is not known.</p>\n"

@@ -54,7 +54,7 @@ class Journal final : public Evaluator {
   const Point& best() const { return best_; }
   double best_fitness() const { return best_fitness_; }
   int evaluations() const { return evaluations_; }
-  int replayed() const { return replayed_; }  ///< evaluations that came from the file
+  int replayed() const { return replayed_; }  ///< evaluations that were known already
   std::vector<Generation> history() const;
 
  private:
