@@ -40,13 +40,13 @@ ENOUGH = {"statics": 5.0, "dynamics": 7.0}  # [deg]
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
-ITERATIONS = {"statics": 20, "dynamics": 12}  # most, of least squares; dynamics start from statics' result
+JACOBIANS = {"statics": 8, "dynamics": 4}  # most, of least squares; dynamics start from statics' result
 
 
 def search(stage, model, options):
     """How a stage is searched: Ceres, or the thesis's evolution strategy with a share of its generations."""
     if options.optimiser == "least_squares":
-        return ["--optimiser", "least_squares", "--generations", str(ITERATIONS[stage.split("_")[1]])]
+        return ["--optimiser", "least_squares", "--generations", str(JACOBIANS[stage.split("_")[1]])]
     return ["--optimiser", options.optimiser] + generations(stage, model, options.share)
 
 

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 
+#include "anthrob_calib/optimiser/descent.h"
 #include "anthrob_calib/optimiser/journal.h"
 #include "anthrob_calib/optimiser/least_squares_optimiser.h"
 #include "anthrob_sim/core/errors.h"
@@ -181,6 +182,41 @@ TEST(LeastSquares, SolvesRosenbrockAtABound) {
   const SearchResult bounded = search(settings("least_squares", 100), v, rosenbrock);
   EXPECT_NEAR(bounded.best[0], 0.5, 1e-6);
   EXPECT_NEAR(bounded.fitness, 0.25, 1e-3);
+}
+
+TEST(LeastSquares, TakesFewJacobians) {
+  Function curved([](const Point& p) {
+    Point r;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const double next = p[(i + 1) % p.size()];
+      r.push_back(p[i] + 0.3 * next * next - 1.0);
+    }
+    return r;
+  });
+  std::vector<SearchVariable> v(10, {-1.0, -5.0, 5.0, 0.1});
+  int jacobians = 2;
+  EXPECT_LT(descend(v, 0.02, Point(10, -1.0), curved, jacobians).fitness, 1e-6);
+}
+
+/// The best lies behind many bounds: what a step would gain beyond them must not count.
+TEST(LeastSquares, GoesAlongBoundsWithFullTrust) {
+  constexpr std::size_t kCount = 12;
+  Function pulled([](const Point& p) {
+    Point r;
+    for (std::size_t i = 0; i + 1 < p.size(); i += 2) {
+      r.push_back(10.0 * (p[i] + p[i + 1]));  // wants beyond the first one's bound
+      r.push_back(p[i + 1] - 3.0);
+    }
+    return r;
+  });
+  std::vector<SearchVariable> v(kCount, {0.5, 0.0, 4.0, 0.1});
+  int jacobians = 3;
+  const Descent down = descend(v, 0.02, Point(kCount, 0.5), pulled, jacobians);
+  // With the first ones at 0 the second ones do best at 3 / 101.
+  for (std::size_t i = 0; i < kCount; i += 2) {
+    EXPECT_EQ(down.point[i], 0.0);
+    EXPECT_NEAR(down.point[i + 1], 3.0 / 101.0, 1e-4);
+  }
 }
 
 TEST(LeastSquares, GoesOnWhereItSeesABetterValley) {

@@ -128,15 +128,19 @@ int calibrate(const Arguments& arguments, const MpiSession& session) {
     }
     complete = true;
   } catch (const Interrupted&) {
+  } catch (...) {
+    if (!journal.best().empty()) keep_model(arguments, input, problem, journal.best());
+    throw;
   }
   journal.save();
   if (!journal.best().empty()) keep_model(arguments, input, problem, journal.best());
   const bool thorough = complete && !arguments.evaluate;
-  const CalibrationOutcome outcome = conclude(input, problem, journal, reason, thorough);
+  const CalibrationOutcome outcome =
+      conclude(input, problem, journal, reason, thorough, tool::interrupted);
   write(arguments, input, outcome);
   std::cout << summary(outcome);
   if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
-  if (complete) {
+  if (complete && !tool::interrupted()) {
     journal.forget_residuals();
     return tool::kDone;
   }

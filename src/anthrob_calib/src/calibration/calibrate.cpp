@@ -150,7 +150,8 @@ std::string CalibrationInput::fingerprint() const {
 }
 
 CalibrationOutcome conclude(const CalibrationInput& input, const Problem& problem,
-                            const Journal& journal, const std::string& reason, bool thorough) {
+                            const Journal& journal, const std::string& reason, bool thorough,
+                            const std::function<bool()>& stop) {
   CalibrationOutcome outcome;
   outcome.config_file = input.config.file;
   outcome.model_file = input.config.model_file;
@@ -180,11 +181,15 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   try {
     outcome.validation = simulate_both(problem, outcome.best, input.validation);
     if (!thorough) return outcome;
-    outcome.identifiability = examine(problem, outcome.best, kProfiles);
+    outcome.identifiability = examine(problem, outcome.best, kProfiles, [&] {
+      if (stop()) throw Interrupted();
+    });
     outcome.drives = compare_drives(problem, outcome.best, problem.runs());
   } catch (const NumericalFailure& error) {
     // On other runs, or driven in another way; what was found is none the worse for it.
     outcome.doubt = std::string("not all could be worked out: ") + error.what();
+  } catch (const Interrupted&) {
+    outcome.doubt = "interrupted before errors of the parameters were worked out";
   }
   return outcome;
 }

@@ -1,65 +1,22 @@
 #include "anthrob_calib/optimiser/least_squares_optimiser.h"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <numeric>
+
+#include "anthrob_calib/optimiser/descent.h"
 
 namespace anthrob {
 namespace calibration {
 
 namespace {
 
-/// A smaller share of the fitness is not worth another Jacobian.
-constexpr double kWorthwhile = 1e-4;
 /// Another valley has to be better by more.
 constexpr double kBetterValley = 0.02;
 constexpr double kFar = 0.2;        ///< of a range
 constexpr double kFarthest = 10.0;  ///< [steps]
 constexpr double kAcrossKinks =
     0.3;  ///< differences of derivatives that see what is beyond [steps]
-
-Point unscaled(const std::vector<SearchVariable>& variables, const double* z) {
-  Point point;
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    const SearchVariable& v = variables[i];
-    point.push_back(std::min(std::max(v.initial + z[i] * v.step, v.lower), v.upper));
-  }
-  return point;
-}
-
-/// Residuals as a function of the variables in steps from their start.
-class Cost final : public ceres::CostFunction {
- public:
-  Cost(const std::vector<SearchVariable>& variables, std::size_t residuals, double difference,
-       Evaluator& evaluator)
-      : variables_(variables), difference_(difference), evaluator_(evaluator) {
-    set_num_residuals(static_cast<int>(residuals));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(variables.size()));
-  }
-
-  bool Evaluate(const double* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const Point point = unscaled(variables_, parameters[0]);
-    const std::vector<double> r = evaluator_.residuals({point}).front();
-    if (r.empty()) return false;  // an invalid point: Ceres goes back
-    std::copy(r.begin(), r.end(), residuals);
-    if (!jacobians || !jacobians[0]) return true;
-    const auto columns = derivatives(variables_, point, r, difference_, evaluator_);
-    for (std::size_t k = 0; k < r.size(); ++k) {
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        jacobians[0][k * columns.size() + i] = columns[i][k];
-      }
-    }
-    return true;
-  }
-
- private:
-  const std::vector<SearchVariable>& variables_;
-  double difference_;  ///< of derivatives [steps]
-  Evaluator& evaluator_;
-};
 
 double square_of(const std::vector<double>& residuals) {
   if (residuals.empty()) return HUGE_VAL;
@@ -159,69 +116,29 @@ std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& 
   return columns;
 }
 
-namespace {
-
-/// One descent; takes what it needs of the iterations.
-ceres::TerminationType descend(const std::vector<SearchVariable>& variables, double difference,
-                               std::size_t residuals, Evaluator& evaluator, int& iterations,
-                               Point& point, double& fitness) {
-  Cost cost(variables, residuals, difference, evaluator);
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
-  std::vector<double> z;
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    z.push_back((point[i] - variables[i].initial) / variables[i].step);
-  }
-  problem.AddResidualBlock(&cost, nullptr, z.data());
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    const SearchVariable& v = variables[i];
-    problem.SetParameterLowerBound(z.data(), static_cast<int>(i), (v.lower - v.initial) / v.step);
-    problem.SetParameterUpperBound(z.data(), static_cast<int>(i), (v.upper - v.initial) / v.step);
-  }
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = iterations;
-  options.function_tolerance = kWorthwhile;
-  options.parameter_tolerance = 1e-4;
-  options.initial_trust_region_radius = 1e2;
-  // Between bounds Ceres also searches along the step; the default would ask for a Jacobian at each
-  // trial point.
-  options.line_search_interpolation_type = ceres::QUADRATIC;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  iterations -= std::max(1, summary.num_successful_steps + summary.num_unsuccessful_steps - 1);
-  point = unscaled(variables, z.data());
-  fitness = 2.0 * summary.final_cost;
-  return summary.termination_type;
-}
-
-}  // namespace
-
 SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& variables,
                                              Evaluator& evaluator) const {
   Point point;
   for (const SearchVariable& v : variables) point.push_back(v.initial);
   const std::size_t residuals = evaluator.residuals({point}).front().size();
   if (residuals == 0) return {point, HUGE_VAL, "the start is invalid"};
-  int iterations = settings_.generations;
-  double fitness = HUGE_VAL;
+  int jacobians = settings_.generations;
+  Descent down{point, HUGE_VAL, Descent::kMoreToGain};
   while (true) {
-    const auto end =
-        descend(variables, kDifference, residuals, evaluator, iterations, point, fitness);
-    if (end == ceres::NO_CONVERGENCE || iterations <= 0) {
-      return {point, fitness, "all iterations done"};
+    down = descend(variables, kDifference, down.point, evaluator, jacobians);
+    if (down.end == Descent::kMoreToGain) return {down.point, down.fitness, "all iterations done"};
+    if (down.end == Descent::kStuck) return {down.point, down.fitness, "no better point found"};
+    Point other = better_valley(variables, down.point, evaluator);
+    if (other == down.point) {
+      const Descent across = descend(variables, kAcrossKinks, other, evaluator, jacobians);
+      if (across.fitness > (1.0 - kBetterValley) * down.fitness) {
+        return {down.point, down.fitness, "converged"};
+      }
+      other = across.point;
     }
-    if (end != ceres::CONVERGENCE) return {point, fitness, "no better point found"};
-    Point other = better_valley(variables, point, evaluator);
-    if (other == point) {
-      double seen = fitness;
-      descend(variables, kAcrossKinks, residuals, evaluator, iterations, other, seen);
-      if (seen > (1.0 - kBetterValley) * fitness) return {point, fitness, "converged"};
-      if (iterations <= 0) return {other, seen, "all iterations done"};
-    }
-    point = std::move(other);
+    if (jacobians <= 0)
+      return {other, square_of(evaluator.residuals({other}).front()), "all iterations done"};
+    down.point = std::move(other);
   }
 }
 

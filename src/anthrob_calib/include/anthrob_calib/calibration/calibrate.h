@@ -27,9 +27,12 @@ struct CalibrationInput {
 };
 
 /// What is left to do when the search is over: both models over all runs in full length,
-/// identifiability, other drives. @param thorough false: errors only
+/// identifiability, other drives.
+/// @param thorough false: errors only   @param stop asked before each simulation for
+/// identifiability
 CalibrationOutcome conclude(const CalibrationInput& input, const Problem& problem,
-                            const Journal& journal, const std::string& reason, bool thorough);
+                            const Journal& journal, const std::string& reason, bool thorough,
+                            const std::function<bool()>& stop);
 
 }  // namespace calibration
 }  // namespace anthrob

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "anthrob_calib/calibration/problem.h"
@@ -43,8 +44,11 @@ identification::Estimate interval(const Identifiability& known, std::size_t para
                                   double value);
 
 /// @param profiles how many profiles to draw, at most
+/// @param before_each called before each simulation of all runs; may throw to end the work
 /// @throws BadInput, NumericalFailure if `best` is invalid
-Identifiability examine(const Problem& problem, const std::vector<double>& best, int profiles);
+Identifiability examine(
+    const Problem& problem, const std::vector<double>& best, int profiles,
+    const std::function<void()>& before_each = [] {});
 
 /// Equilibria needed by (5.13).
 int equilibria_needed(int unknowns, int muscles);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "anthrob_calib/optimiser/evaluator.h"
+
+namespace anthrob {
+namespace calibration {
+
+/// Where a way down ended.
+struct Descent {
+  enum End {
+    kMoreToGain,  ///< no Jacobian was left
+    kConverged,
+    kStuck,  ///< no valid or no better point was found
+  };
+  Point point;
+  double fitness;
+  End end;
+};
+
+/// Levenberg-Marquardt within bounds (Ceres) from a valid point. A Jacobian by differences costs an
+/// evaluation a variable; after a step it is brought up to date by Broyden's secant, of rank one,
+/// as long as steps by it help, and only then taken anew.
+/// @param difference of derivatives [steps]
+/// @param jacobians by differences that may be taken; counted down
+Descent descend(const std::vector<SearchVariable>& variables, double difference, const Point& from,
+                Evaluator& evaluator, int& jacobians);
+
+}  // namespace calibration
+}  // namespace anthrob
