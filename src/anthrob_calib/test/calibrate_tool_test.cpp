@@ -155,6 +155,26 @@ TEST_F(CalibrateTool, InterruptedItKeepsTheBestAndGoesOn) {
   expect_same("whole", "stopped");
 }
 
+TEST_F(CalibrateTool, InterruptedAfterTheSearchItHasTheResultButNoErrorsOfParameters) {
+  const std::string model = path("errors/model.yaml");
+  const std::string until_found = "until [ -e " + model + " ]; do sleep 0.002; done; ";
+  write(path("interrupt.sh"), "\"$@\" & pid=$!; " + until_found + "kill -INT $pid; wait $pid\n");
+  const std::string more = "--optimiser least_squares --jobs 1";
+  const Outcome stopped = calibrate("errors", more, "bash " + path("interrupt.sh") + " ");
+  if (stopped.status == 0) GTEST_SKIP() << "too fast to be interrupted";
+  EXPECT_EQ(stopped.status, 130);
+  EXPECT_NE(stopped.errors.find("before errors of the parameters"), std::string::npos)
+      << stopped.errors;
+  const auto result = nlohmann::json::parse(content(path("errors/result.json")));
+  EXPECT_LT(result["fitness"]["after"].get<double>(),
+            0.5 * result["fitness"]["before"].get<double>());
+  EXPECT_TRUE(fs::exists(path("errors/residuals.bin")));
+  EXPECT_EQ(calibrate("errors", more + " --resume").status, 0);
+  ASSERT_EQ(calibrate("errors_whole", more).status, 0);
+  expect_same("errors", "errors_whole");
+  EXPECT_FALSE(fs::exists(path("errors/residuals.bin")));
+}
+
 TEST_F(CalibrateTool, TrajectoriesValidationAndStart) {
   ASSERT_EQ(calibrate("first").status, 0);
   const Outcome outcome =
