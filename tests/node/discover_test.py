@@ -46,7 +46,8 @@ class Discover(unittest.TestCase):
         environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT, PWD=folder)
         done = subprocess.run(
             ['roslaunch', '-p', PORT, 'anthrob_bringup', 'discover.launch',
-             'model:=%s/config/driven_axis/model_I.yaml' % package, 'train:=one', 'test:=two', 'out:=found', 'jobs:=2',
+             'model:=%s/config/driven_axis/model_I.yaml' % package, 'train:=one', 'test:=two', 'out:=found', 'jobs:=2', 'seed:=3',
+             'calibration:=%s/config/driven_axis/calibration.yaml' % package,
              'effects:=joint_coulomb,joint_offset_torque'],
             cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
         report = os.path.join(folder, 'found', 'report.json')

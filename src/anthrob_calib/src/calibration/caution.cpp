@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFirst = 6.0;  ///< standard deviations of noise: what a first trial should change
 constexpr double kGrowth = 4.0;
-/// Standard deviations of all data together: a further trial that changes more is ruled out by
-/// them, and tells nothing of what they leave open.
+/// Standard deviations of all data together: what changes more is ruled out by them, and further
+/// trials tell nothing of what they leave open.
 constexpr double kExcluded = 12.0;
 constexpr int kTrials = 4;
 constexpr double kLess = 0.7, kMuchLess = 0.5;
@@ -31,6 +31,11 @@ Eigen::ArrayXd lengths(const List& change, const DifferenceStack& stack,
         std::pow(change[k] / (stack.weight[k] * noise.of(stack.kind[k])), 2);
   }
   return squares.sqrt();
+}
+
+/// @param moved lengths of a change in each instant
+bool ruled_out(const Eigen::ArrayXd& moved, const DifferenceStack& stack) {
+  return moved.matrix().norm() > kExcluded * std::sqrt(stack.repetition);
 }
 
 }  // namespace
@@ -55,7 +60,8 @@ void be_cautious(const std::vector<SearchVariable>& variables, const Point& best
         if (change.empty()) break;  // no such robot
         for (std::size_t k = 0; k < change.size(); ++k) change[k] = (change[k] - left[k]) / steps;
         const Eigen::ArrayXd kept = lengths(change, stack, noise);
-        if (trial > 0 && kept.matrix().norm() * std::abs(steps) > kExcluded) break;
+        const bool excluded = ruled_out(kept * std::abs(steps), stack);
+        if (trial > 0 && excluded) break;
         for (std::size_t k = 0; k < change.size(); ++k) {
           const int instant = stack.instant[k];
           if (kept[instant] < std::min(kMuchLess * promised[instant], least[instant])) {
@@ -64,7 +70,7 @@ void be_cautious(const std::vector<SearchVariable>& variables, const Point& best
         }
         least = (kept < kMuchLess * promised).select(least.min(kept), least);
         const bool faded = (kept < kLess * promised && promised * std::abs(steps) > kFelt).any();
-        if (!faded || std::abs(steps) < 0.99 * reach) break;
+        if (!faded || excluded || std::abs(steps) < 0.99 * reach) break;
       }
     }
   }
@@ -92,7 +98,8 @@ bool be_cautious_along(const std::vector<SearchVariable>& variables, const Point
       const Eigen::VectorXd promise = jacobian * step;
       const Eigen::ArrayXd kept = lengths(change, stack, noise),
                            promised = lengths(promise, stack, noise);
-      if (trial > 0 && kept.matrix().norm() > kExcluded) break;
+      const bool excluded = ruled_out(kept, stack);
+      if (trial > 0 && excluded) break;
       for (Eigen::Index k = 0; k < jacobian.rows(); ++k) {
         const int instant = stack.instant[static_cast<std::size_t>(k)];
         if (promised[instant] < kFelt || kept[instant] > kMuchLess * promised[instant]) continue;
@@ -106,7 +113,7 @@ bool be_cautious_along(const std::vector<SearchVariable>& variables, const Point
         }
       }
       const bool faded = (kept < kLess * promised && promised > kFelt).any();
-      if (!faded || std::abs(step.norm()) < 0.5 * reach * direction.norm()) break;
+      if (!faded || excluded || std::abs(step.norm()) < 0.5 * reach * direction.norm()) break;
     }
   }
   return less;

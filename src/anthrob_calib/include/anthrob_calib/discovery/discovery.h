@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -61,7 +62,9 @@ struct Place {
   std::string channel, place, subsystem, regime, unit;
   double rmse = 0.0, noise_floor = 0.0;  ///< [unit]
   double share = 0.0;                    ///< of the squared gap
-  double significance = 0.0;  ///< standard errors beyond what a wrong estimate of noise looks like
+  /// Standard errors beyond what a wrong estimate of noise looks like; NaN: too little data to
+  /// tell.
+  double significance = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// How large a channel's disagreement is, depending on what is fed with measured values: a gap
