@@ -262,6 +262,7 @@ def summarise(options):
         "robots (seeds)": ", ".join(str(s) for s in options.robots),
         "optimiser": " ".join([options.optimiser] + search_words(options)),
         "searches a stage": searches(options),
+        "Jacobians a search, at most": ", ".join(f"{n} ({kind})" for kind, n in JACOBIANS.items()),
         "machine": machine(),
     }
     write(f"{options.out}/calibration.json", json.dumps({"facts": facts, "table": table}, indent=2))

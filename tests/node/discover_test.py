@@ -37,24 +37,34 @@ def record(folder, second):
 
 class Discover(unittest.TestCase):
 
-    def test_from_a_folder_with_a_space(self):
-        folder = os.path.join(tempfile.mkdtemp(), 'my recordings')
-        self.addCleanup(shutil.rmtree, os.path.dirname(folder))
-        record(os.path.join(folder, 'one'), 2.9)
-        record(os.path.join(folder, 'two'), 4.3)
+    def setUp(self):
+        self.folder = os.path.join(tempfile.mkdtemp(), 'my recordings')
+        self.addCleanup(shutil.rmtree, os.path.dirname(self.folder))
+        record(os.path.join(self.folder, 'one'), 2.9)
+        record(os.path.join(self.folder, 'two'), 4.3)
+
+    def discover(self, *arguments):
         package = subprocess.check_output(['rospack', 'find', 'anthrob_bringup'], text=True).strip()
-        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT, PWD=folder)
+        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT, PWD=self.folder)
         done = subprocess.run(
             ['roslaunch', '-p', PORT, 'anthrob_bringup', 'discover.launch',
-             'model:=%s/config/driven_axis/model_I.yaml' % package, 'train:=one', 'test:=two', 'out:=found', 'jobs:=2', 'seed:=3',
-             'calibration:=%s/config/driven_axis/calibration.yaml' % package,
-             'effects:=joint_coulomb,joint_offset_torque'],
-            cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
-        report = os.path.join(folder, 'found', 'report.json')
-        self.assertTrue(os.path.exists(report), done.stdout)
+             'model:=%s/config/driven_axis/model_I.yaml' % package, 'train:=one', 'test:=two', 'out:=found', 'jobs:=2',
+             'effects:=joint_coulomb,joint_offset_torque', *arguments],
+            cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
+        return done.stdout
+
+    def test_from_a_folder_with_a_space(self):
+        said = self.discover()
+        report = os.path.join(self.folder, 'found', 'report.json')
+        self.assertTrue(os.path.exists(report), said)
         with open(report) as file:
             answer = json.load(file)
-        self.assertEqual(answer['effects'][0]['id'], 'joint_coulomb', done.stdout)
+        self.assertEqual(answer['effects'][0]['id'], 'joint_coulomb', said)
+
+    def test_options_reach_the_program(self):
+        for option, complaint in [('calibration:=nowhere.yaml', 'nowhere.yaml: '), ('seed:=many', '--seed'),
+                                  ('close_the_loop:=no_robot.yaml', 'no_robot.yaml: ')]:
+            self.assertIn(complaint, self.discover(option))
 
 
 if __name__ == '__main__':

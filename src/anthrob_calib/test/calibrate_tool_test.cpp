@@ -157,7 +157,8 @@ TEST_F(CalibrateTool, InterruptedItKeepsTheBestAndGoesOn) {
 
 TEST_F(CalibrateTool, InterruptedAfterTheSearchItHasTheResultButNoErrorsOfParameters) {
   const std::string model = path("errors/model.yaml");
-  const std::string until_found = "until [ -e " + model + " ]; do sleep 0.002; done; ";
+  const std::string until_found =
+      "while kill -0 $pid && [ ! -e " + model + " ]; do sleep 0.002; done; ";
   write(path("interrupt.sh"), "\"$@\" & pid=$!; " + until_found + "kill -INT $pid; wait $pid\n");
   const std::string more = "--optimiser least_squares --jobs 1";
   const Outcome stopped = calibrate("errors", more, "bash " + path("interrupt.sh") + " ");

@@ -185,17 +185,31 @@ TEST(LeastSquares, SolvesRosenbrockAtABound) {
 }
 
 TEST(LeastSquares, TakesFewJacobians) {
+  constexpr std::size_t kCount = 10;
   Function curved([](const Point& p) {
     Point r;
     for (std::size_t i = 0; i < p.size(); ++i) {
       const double next = p[(i + 1) % p.size()];
-      r.push_back(p[i] + 0.3 * next * next - 1.0);
+      r.push_back(p[i] + (0.15 + 0.03 * static_cast<double>(i)) * next * next - 1.0);
     }
     return r;
   });
-  std::vector<SearchVariable> v(10, {-1.0, -5.0, 5.0, 0.1});
+  const std::vector<SearchVariable> v(kCount, {0.0, -5.0, 5.0, 0.1});
+  Point start;
+  for (std::size_t i = 0; i < kCount; ++i) start.push_back(-1.0 + 0.1 * static_cast<double>(i));
   int jacobians = 2;
-  EXPECT_LT(descend(v, 0.02, Point(10, -1.0), curved, jacobians).fitness, 1e-6);
+  EXPECT_LT(descend(v, 0.02, start, curved, jacobians).fitness, 1e-6);
+  EXPECT_LT(curved.asked.size(), 5 * kCount);
+}
+
+TEST(LeastSquares, LeavesABoundThatItWasHeldAt) {
+  // At the start the first one is pushed below its bound, by what the second one is too small.
+  Function coupled([](const Point& p) { return Point{p[0] + 3.0 - p[1], 0.5 * (p[1] - 5.0)}; });
+  int jacobians = 5;
+  const Descent down = descend({{0.0, 0.0, 10.0, 0.1}, {0.0, -10.0, 10.0, 0.1}}, 0.02, {0.0, 0.0},
+                               coupled, jacobians);
+  EXPECT_NEAR(down.point[0], 2.0, 1e-3);
+  EXPECT_NEAR(down.point[1], 5.0, 1e-3);
 }
 
 /// The best lies behind many bounds: what a step would gain beyond them must not count.

@@ -107,7 +107,7 @@ void run_seed(const Trial& trial, std::uint64_t seed, Tally& tally) {
   ProblemEvaluator evaluator(problem);
   OptimiserSettings settings;
   settings.method = "least_squares";
-  settings.generations = 30;
+  settings.generations = 60;
   const Point best =
       make_optimiser(settings)->minimise(search_variables(problem.space()), evaluator).best;
   const Identifiability known = examine(problem, best, static_cast<int>(truth.size()));

@@ -128,9 +128,6 @@ int calibrate(const Arguments& arguments, const MpiSession& session) {
     }
     complete = true;
   } catch (const Interrupted&) {
-  } catch (...) {
-    if (!journal.best().empty()) keep_model(arguments, input, problem, journal.best());
-    throw;
   }
   journal.save();
   if (!journal.best().empty()) keep_model(arguments, input, problem, journal.best());
@@ -140,7 +137,7 @@ int calibrate(const Arguments& arguments, const MpiSession& session) {
   write(arguments, input, outcome);
   std::cout << summary(outcome);
   if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
-  if (complete && !tool::interrupted()) {
+  if (complete && !outcome.interrupted) {
     journal.forget_residuals();
     return tool::kDone;
   }

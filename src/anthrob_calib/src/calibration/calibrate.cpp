@@ -189,6 +189,7 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
     // On other runs, or driven in another way; what was found is none the worse for it.
     outcome.doubt = std::string("not all could be worked out: ") + error.what();
   } catch (const Interrupted&) {
+    outcome.interrupted = true;
     outcome.doubt = "interrupted before errors of the parameters were worked out";
   }
   return outcome;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFirst = 6.0;  ///< standard deviations of noise: what a first trial should change
 constexpr double kGrowth = 4.0;
-/// Standard deviations of all data together: what changes more is ruled out by them, and further
-/// trials tell nothing of what they leave open.
+/// Standard deviations of all data together: what changes more is ruled out by them, and where a
+/// trial goes beyond the first one it tells nothing of what they leave open.
 constexpr double kExcluded = 12.0;
 constexpr int kTrials = 4;
 constexpr double kLess = 0.7, kMuchLess = 0.5;

@@ -174,7 +174,7 @@ std::string where_table(const Answer& answer) {
             cell(short_number(place.rmse) + " " + place.unit) +
             cell(short_number(place.noise_floor) + " " + place.unit) +
             cell(short_number(100.0 * place.share) + " %") +
-            cell(std::isnan(place.significance) ? std::string("too short to tell")
+            cell(std::isnan(place.significance) ? std::string("cannot be told")
                                                 : short_number(place.significance) + " sigma") +
             cell(place.subsystem) + cell(place.regime) + "</tr>\n";
   }

@@ -52,6 +52,11 @@ class SecantJacobian {
   }
 
   int age() const { return age_; }  ///< secants since it was taken by differences
+  /// It will be taken by differences again.
+  void forget() {
+    jacobian_.resize(0, 0);
+    age_ = 0;
+  }
 
  private:
   void take(const Eigen::VectorXd& z, const Eigen::VectorXd& residuals) {
@@ -75,19 +80,27 @@ class SecantJacobian {
 /// Residuals as a function of the variables in steps from their start.
 class Cost final : public ceres::CostFunction {
  public:
-  Cost(const std::vector<SearchVariable>& variables, std::size_t residuals, Evaluator& evaluator,
-       SecantJacobian& jacobian)
-      : variables_(variables), evaluator_(evaluator), jacobian_(jacobian) {
-    set_num_residuals(static_cast<int>(residuals));
+  /// @param residuals at z
+  Cost(const std::vector<SearchVariable>& variables, const std::vector<double>& z,
+       const std::vector<double>& residuals, Evaluator& evaluator, SecantJacobian& jacobian)
+      : variables_(variables),
+        evaluator_(evaluator),
+        jacobian_(jacobian),
+        z_(Eigen::Map<const Eigen::VectorXd>(z.data(), static_cast<Eigen::Index>(z.size()))),
+        residuals_(Eigen::Map<const Eigen::VectorXd>(residuals.data(),
+                                                     static_cast<Eigen::Index>(residuals.size()))) {
+    set_num_residuals(static_cast<int>(residuals.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(variables.size()));
   }
+
+  double fitness() const { return residuals_.squaredNorm(); }
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
     const auto columns = static_cast<Eigen::Index>(variables_.size());
     const Eigen::Map<const Eigen::VectorXd> z(parameters[0], columns);
     // Ceres asks for the Jacobian at the point that it has just tried.
-    if (z_.size() == 0 || z != z_) {
+    if (z != z_) {
       const std::vector<double> r = evaluator_.residuals({unscaled(variables_, z.data())}).front();
       if (r.empty()) return false;  // an invalid point: Ceres goes back
       residuals_ = Eigen::Map<const Eigen::VectorXd>(r.data(), num_residuals());
@@ -145,6 +158,7 @@ ceres::Solver::Options solver_options(double radius) {
   // A step that changes nothing where much was promised is no end, only too long.
   options.function_tolerance = 1e-9;
   options.parameter_tolerance = 1e-4;
+  options.max_num_iterations = 30;  // a new Jacobian is worth more then
   options.initial_trust_region_radius = radius;
   // Between bounds Ceres also searches along the step; the default would ask for a Jacobian at each
   // trial point.
@@ -153,29 +167,32 @@ ceres::Solver::Options solver_options(double radius) {
   return options;
 }
 
-/// Of the last good step: a secant that misled says nothing of how far a new Jacobian is good for.
-double radius_after(const ceres::Solver::Summary& summary) {
-  double radius = kFirstRadius;
+/// The last good step. What Ceres calls the final cost may be that of a step not taken, and a
+/// secant that misled says nothing of how far a new Jacobian is good for.
+const ceres::IterationSummary* last_good(const ceres::Solver::Summary& summary) {
+  const ceres::IterationSummary* last = nullptr;
   for (const ceres::IterationSummary& step : summary.iterations) {
-    if (step.step_is_successful) radius = step.trust_region_radius;
+    if (step.step_is_successful) last = &step;
   }
-  return radius;
+  return summary.termination_type == ceres::FAILURE ? nullptr : last;
 }
 
 }  // namespace
 
 Descent descend(const std::vector<SearchVariable>& variables, double difference, const Point& from,
                 Evaluator& evaluator, int& jacobians) {
-  const std::size_t residuals = evaluator.residuals({from}).front().size();
+  const std::vector<double> start = evaluator.residuals({from}).front();
+  if (start.empty()) return {from, HUGE_VAL, Descent::kInvalidStart};
   std::vector<double> z;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     z.push_back((from[i] - variables[i].initial) / variables[i].step);
   }
-  Descent down{from, HUGE_VAL, Descent::kMoreToGain};
-  double radius = kFirstRadius;
-  while (jacobians > 0 && down.end == Descent::kMoreToGain) {
-    SecantJacobian jacobian(variables, difference, evaluator);
-    Cost cost(variables, residuals, evaluator, jacobian);
+  SecantJacobian jacobian(variables, difference, evaluator);
+  Cost cost(variables, z, start, evaluator, jacobian);
+  Descent down{from, cost.fitness(), Descent::kMoreToGain};
+  for (double radius = kFirstRadius; jacobians > 0 && down.end == Descent::kMoreToGain;
+       --jacobians) {
+    jacobian.forget();
     ceres::Problem::Options ownership;
     ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem problem(ownership);
@@ -190,14 +207,15 @@ Descent descend(const std::vector<SearchVariable>& variables, double difference,
     options.callbacks.push_back(&end_of_secants);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
-    --jacobians;
-    radius = radius_after(summary);
+    const ceres::IterationSummary* const last = last_good(summary);
+    if (!last) {
+      down.end = Descent::kStuck;
+      break;
+    }
+    radius = last->trust_region_radius;
+    if (2.0 * last->cost > (1.0 - kWorthwhile) * down.fitness) down.end = Descent::kConverged;
     down.point = unscaled(variables, z.data());
-    down.fitness = 2.0 * summary.final_cost;
-    if (summary.final_cost < (1.0 - kWorthwhile) * summary.initial_cost) continue;
-    const bool failed = summary.termination_type == ceres::FAILURE ||
-                        summary.termination_type == ceres::NO_CONVERGENCE;
-    down.end = failed ? Descent::kStuck : Descent::kConverged;
+    down.fitness = 2.0 * last->cost;
   }
   return down;
 }

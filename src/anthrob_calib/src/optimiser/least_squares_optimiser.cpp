@@ -1,6 +1,7 @@
 #include "anthrob_calib/optimiser/least_squares_optimiser.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -13,8 +14,10 @@ namespace {
 
 /// Another valley has to be better by more.
 constexpr double kBetterValley = 0.02;
-constexpr double kFar = 0.2;        ///< of a range
-constexpr double kFarthest = 10.0;  ///< [steps]
+constexpr std::size_t kValleys = 4;   ///< that are looked into
+constexpr int kJacobiansAValley = 2;  ///< and how far
+constexpr double kFar = 0.2;          ///< of a range
+constexpr double kFarthest = 10.0;    ///< [steps]
 constexpr double kAcrossKinks =
     0.3;  ///< differences of derivatives that see what is beyond [steps]
 
@@ -23,9 +26,16 @@ double square_of(const std::vector<double>& residuals) {
   return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
 }
 
-/// The best of what can be seen far along each variable; the given point if nothing is better.
-Point better_valley(const std::vector<SearchVariable>& variables, const Point& point,
-                    Evaluator& evaluator) {
+/// Else it is the same place for all that residuals tell.
+bool differs(const std::vector<double>& residuals, const std::vector<double>& here) {
+  double change = 0.0;
+  for (std::size_t k = 0; k < here.size(); ++k) change += std::pow(residuals[k] - here[k], 2);
+  return change > kBetterValley * square_of(here);
+}
+
+/// Where else a way down might begin: far to one side along one variable each, the best first.
+std::vector<Point> far_points(const std::vector<SearchVariable>& variables, const Point& point,
+                              Evaluator& evaluator) {
   const std::vector<double> here = evaluator.residuals({point}).front();
   const auto columns =
       derivatives(variables, point, here, LeastSquaresOptimiser::kDifference, evaluator);
@@ -41,29 +51,55 @@ Point better_valley(const std::vector<SearchVariable>& variables, const Point& p
     const SearchVariable& v = variables[i];
     information(i, i) += 12.0 * scatter * std::pow(v.step / (v.upper - v.lower), 2) + 1e-300;
   }
-  std::vector<Point> far;
+  std::vector<std::pair<double, Point>> order;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const SearchVariable& v = variables[i];
     // Derivatives may promise that others help where they only spoil it: alone, too.
     const Eigen::VectorXd together = following(information, i),
                           alone = Eigen::VectorXd::Unit(n, static_cast<Eigen::Index>(i));
     const double steps = std::min(kFar * (v.upper - v.lower) / v.step, kFarthest);
+    std::vector<Point> far;
     for (const Eigen::VectorXd& direction : {together, alone}) {
       for (const double side : {-1.0, 1.0}) {
         far.push_back(moved(variables, point, direction, side * steps));
       }
     }
+    const auto seen = evaluator.residuals(far);
+    std::pair<double, Point> best{HUGE_VAL, {}};
+    for (std::size_t k = 0; k < far.size(); ++k) {
+      const double square = square_of(seen[k]);
+      if (square < best.first && differs(seen[k], here)) best = {square, far[k]};
+    }
+    if (!best.second.empty()) order.push_back(std::move(best));
   }
-  const auto seen = evaluator.residuals(far);
-  double least = (1.0 - kBetterValley) * square_of(here);
-  Point best = point;
-  for (std::size_t k = 0; k < far.size(); ++k) {
-    const double square = square_of(seen[k]);
-    if (square >= least) continue;
-    least = square;
-    best = far[k];
+  std::sort(order.begin(), order.end());
+  if (order.size() > kValleys) order.resize(kValleys);
+  std::vector<Point> points;
+  for (auto& [square, far] : order) points.push_back(std::move(far));
+  return points;
+}
+
+bool much_better(const Descent& one, const Descent& other) {
+  return one.fitness < (1.0 - kBetterValley) * other.fitness;
+}
+
+/// Another way down that ends clearly lower; the given one if none is found.
+Descent better_valley(const std::vector<SearchVariable>& variables, const Descent& down,
+                      Evaluator& evaluator, int& jacobians) {
+  const auto begin_at = [&](const Point& point, double difference) {
+    int few = std::min(jacobians, kJacobiansAValley);
+    jacobians -= few;
+    const Descent other = descend(variables, difference, point, evaluator, few);
+    jacobians += few;
+    return other;
+  };
+  const Descent across = begin_at(down.point, kAcrossKinks);
+  if (much_better(across, down)) return across;
+  for (const Point& point : far_points(variables, down.point, evaluator)) {
+    const Descent other = begin_at(point, LeastSquaresOptimiser::kDifference);
+    if (much_better(other, down)) return other;
   }
-  return best;
+  return down;
 }
 
 }  // namespace
@@ -120,25 +156,18 @@ SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& 
                                              Evaluator& evaluator) const {
   Point point;
   for (const SearchVariable& v : variables) point.push_back(v.initial);
-  const std::size_t residuals = evaluator.residuals({point}).front().size();
-  if (residuals == 0) return {point, HUGE_VAL, "the start is invalid"};
   int jacobians = settings_.generations;
   Descent down{point, HUGE_VAL, Descent::kMoreToGain};
   while (true) {
     down = descend(variables, kDifference, down.point, evaluator, jacobians);
-    if (down.end == Descent::kMoreToGain) return {down.point, down.fitness, "all iterations done"};
+    if (down.end == Descent::kInvalidStart) return {point, HUGE_VAL, "the start is invalid"};
     if (down.end == Descent::kStuck) return {down.point, down.fitness, "no better point found"};
-    Point other = better_valley(variables, down.point, evaluator);
-    if (other == down.point) {
-      const Descent across = descend(variables, kAcrossKinks, other, evaluator, jacobians);
-      if (across.fitness > (1.0 - kBetterValley) * down.fitness) {
-        return {down.point, down.fitness, "converged"};
-      }
-      other = across.point;
+    if (jacobians <= 0) return {down.point, down.fitness, "all iterations done"};
+    const Descent other = better_valley(variables, down, evaluator, jacobians);
+    if (other.point == down.point) {
+      return {down.point, down.fitness, jacobians > 0 ? "converged" : "all iterations done"};
     }
-    if (jacobians <= 0)
-      return {other, square_of(evaluator.residuals({other}).front()), "all iterations done"};
-    down.point = std::move(other);
+    down = other;
   }
 }
 

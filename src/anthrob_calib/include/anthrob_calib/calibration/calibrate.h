@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "anthrob_calib/calibration/calibration_config.h"
 #include "anthrob_calib/report/calibration_outcome.h"
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "anthrob_calib/calibration/problem.h"

@@ -10,14 +10,15 @@ struct Descent {
   enum End {
     kMoreToGain,  ///< no Jacobian was left
     kConverged,
-    kStuck,  ///< no valid or no better point was found
+    kStuck,  ///< the solver failed
+    kInvalidStart,
   };
   Point point;
-  double fitness;
-  End end;
+  double fitness = 0.0;  ///< infinite if the start is invalid
+  End end = kMoreToGain;
 };
 
-/// Levenberg-Marquardt within bounds (Ceres) from a valid point. A Jacobian by differences costs an
+/// Levenberg-Marquardt within bounds (Ceres). A Jacobian by differences costs an
 /// evaluation a variable; after a step it is brought up to date by Broyden's secant, of rank one,
 /// as long as steps by it help, and only then taken anew.
 /// @param difference of derivatives [steps]

@@ -27,7 +27,7 @@ struct Generation {
 /// Stands between an optimiser and the evaluator: keeps the best point and the history, and writes
 /// down every fitness. After an interruption the optimiser simply starts again: as long as the
 /// journal has an answer it comes from there, so that every optimiser resumes to the same bits.
-/// Residuals are in a file of their own beside it, which goes when the search is over.
+/// Residuals are in a file of their own beside it, until forget_residuals().
 class Journal final : public Evaluator {
  public:
   struct Options {
@@ -46,7 +46,7 @@ class Journal final : public Evaluator {
   std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
   /// Writes what has not been written yet.
   void save();
-  /// The search is over: residuals are not asked for again.
+  /// The search is over and all made of it: residuals are not asked for again.
   void forget_residuals() {
     if (lists_) lists_->remove();
   }

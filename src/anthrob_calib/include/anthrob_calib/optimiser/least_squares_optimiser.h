@@ -7,11 +7,10 @@
 namespace anthrob {
 namespace calibration {
 
-/// Levenberg-Marquardt within bounds from Ceres, derivatives by differences of kDifference steps.
-/// `generations` is the largest number of Jacobians by differences; descend() says what comes of
-/// one. Tendons that go slack make kinks and several valleys: where it has converged it looks far
-/// along each variable, and descends once more by derivatives that reach across kinks; what is
-/// better is gone on from.
+/// Ways down by descend(); `generations` is the largest number of their Jacobians by differences.
+/// Tendons that go slack make kinks and several valleys: where it has converged it descends once
+/// more by derivatives that reach across kinks, and from the best of the points far along each
+/// variable (five evaluations a variable find them); what is better is gone on from.
 class LeastSquaresOptimiser final : public Optimiser {
  public:
   static constexpr double kDifference = 0.02;

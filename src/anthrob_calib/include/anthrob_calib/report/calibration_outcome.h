@@ -44,7 +44,8 @@ struct CalibrationOutcome {
   BeforeAfter calibration, validation;  ///< validation may hold no runs
   Identifiability identifiability;
   std::vector<DriveErrors> drives;
-  std::string doubt;  ///< what could not be told, and why; or empty
+  bool interrupted = false;  ///< before errors of the parameters were worked out
+  std::string doubt;         ///< what could not be told, and why; or empty
 };
 
 /// Errors of runs as Tables C.12 and D.1 have them: means over runs of each run's mean.
