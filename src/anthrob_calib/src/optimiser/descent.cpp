@@ -167,6 +167,28 @@ ceres::Solver::Options solver_options(double radius) {
   return options;
 }
 
+/// As far as one Jacobian by differences and its secants lead. @param z [steps], where it begins
+/// and ends
+ceres::Solver::Summary solve(Cost& cost, const SecantJacobian& jacobian,
+                             const std::vector<SearchVariable>& variables, double radius,
+                             std::vector<double>& z) {
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&cost, nullptr, z.data());
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const SearchVariable& v = variables[i];
+    problem.SetParameterLowerBound(z.data(), static_cast<int>(i), (v.lower - v.initial) / v.step);
+    problem.SetParameterUpperBound(z.data(), static_cast<int>(i), (v.upper - v.initial) / v.step);
+  }
+  EndOfSecants end_of_secants(jacobian);
+  ceres::Solver::Options options = solver_options(radius);
+  options.callbacks.push_back(&end_of_secants);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary;
+}
+
 /// The last good step. What Ceres calls the final cost may be that of a step not taken, and a
 /// secant that misled says nothing of how far a new Jacobian is good for.
 const ceres::IterationSummary* last_good(const ceres::Solver::Summary& summary) {
@@ -193,27 +215,14 @@ Descent descend(const std::vector<SearchVariable>& variables, double difference,
   for (double radius = kFirstRadius; jacobians > 0 && down.end == Descent::kMoreToGain;
        --jacobians) {
     jacobian.forget();
-    ceres::Problem::Options ownership;
-    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem problem(ownership);
-    problem.AddResidualBlock(&cost, nullptr, z.data());
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      const SearchVariable& v = variables[i];
-      problem.SetParameterLowerBound(z.data(), static_cast<int>(i), (v.lower - v.initial) / v.step);
-      problem.SetParameterUpperBound(z.data(), static_cast<int>(i), (v.upper - v.initial) / v.step);
-    }
-    EndOfSecants end_of_secants(jacobian);
-    ceres::Solver::Options options = solver_options(radius);
-    options.callbacks.push_back(&end_of_secants);
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
+    const ceres::Solver::Summary summary = solve(cost, jacobian, variables, radius, z);
     const ceres::IterationSummary* const last = last_good(summary);
     if (!last) {
       down.end = Descent::kStuck;
       break;
     }
     radius = last->trust_region_radius;
-    if (2.0 * last->cost > (1.0 - kWorthwhile) * down.fitness) down.end = Descent::kConverged;
+    if (2.0 * last->cost >= (1.0 - kWorthwhile) * down.fitness) down.end = Descent::kConverged;
     down.point = unscaled(variables, z.data());
     down.fitness = 2.0 * last->cost;
   }
