@@ -82,6 +82,10 @@ def commit():
     return out.stdout.strip() or "unknown"
 
 
+def several(values):
+    return ", ".join(sorted({str(value) for value in values}))
+
+
 def markdown_table(head, rows):
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     return lines + ["| " + " | ".join(row) + " |" for row in rows]

@@ -2,7 +2,8 @@
 """The study of chapter 8: models I, II, III calibrated tier by tier against virtual robots.
 
 Every step leaves its result under build/study/calibration/ and is not done again; what was
-interrupted goes on. Writes build/study/calibration.json and .html and docs/studies/calibration.md.
+interrupted goes on. Writes build/study/calibration.json and .html, docs/studies/calibration.md and, what it was made
+from, docs/studies/calibration.json: with --adopt, on another machine, the robots and models in it are done already.
 """
 
 import argparse
@@ -15,7 +16,7 @@ import sys
 import time
 
 from _study import (commit, html_page, html_table, load, machine, markdown_facts, markdown_table,
-                    must, say, start, write)
+                    must, refuse, say, several, start, write)
 
 MODELS = ["I", "II", "III"]
 STAGES = ["tier1_statics", "tier1_dynamics", "tier2_statics", "tier2_dynamics"]
@@ -40,6 +41,7 @@ ENOUGH = {"statics": 5.0, "dynamics": 7.0}  # [deg]
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
+PUBLISHED = "docs/studies/calibration.json"
 JACOBIANS = {"statics": 8, "dynamics": 4}  # most, of least squares; dynamics start from statics' result
 
 
@@ -112,6 +114,8 @@ class Robot:
         command = [TOOL, "--config", f"{CONFIG}/{stage}_{model}.yaml", "--data",
                    f"{self.data}/{DATA[stage]}", "--out", out, "--jobs", str(self.options.jobs)] + more
         command += ["--validation", f"{self.data}/{stage[:5]}/validation"]
+        if not self.options.thorough:
+            command.append("--brief")
         if start:
             command += ["--start", f"{start}/result.json"]
         if os.path.exists(f"{out}/journal.txt"):
@@ -131,7 +135,14 @@ class Robot:
         note(True)
         return out
 
+    def adopted(self, stage, model):
+        """Result from elsewhere, or None."""
+        return self.options.adopted.get(str(self.seed), {}).get(model, {}).get(stage)
+
     def calibrate(self, model):
+        if all(self.adopted(stage, model) for stage in STAGES):
+            return
+        self.record()
         start = None
         for stage in STAGES:
             say(f"robot {self.seed}: model {model}, {stage}")
@@ -149,7 +160,7 @@ class Robot:
         """Errors before and after, None if the stage has not been done."""
         folder = f"{self.folder}/{model}/{stage}"
         if not os.path.exists(f"{folder}/best"):
-            return None
+            return self.adopted(stage, model)
         best = f"{folder}/{open(f'{folder}/best').read().strip()}"
         result = load(f"{best}/result.json")
         before = load(f"{folder}/uncalibrated/result.json")["calibration"]["mean"]["after"]
@@ -160,6 +171,7 @@ class Robot:
             "evaluations": result["optimiser"]["evaluations"],
             "seconds": load(f"{best}/step.json")["seconds"],
             "commit": load(f"{best}/step.json")["commit"],
+            "machine": machine(),
         }
         out["validation"] = errors(result["validation"]["mean"]["after"])
         return out
@@ -194,7 +206,7 @@ def collect(options):
     for model in MODELS:
         for index, stage in enumerate(STAGES):
             done = {}
-            for seed in options.robots:
+            for seed in sorted({*options.robots, *map(int, options.adopted)}):
                 result = Robot(seed, options).result(stage, model)
                 if result:
                     done[seed] = result
@@ -232,14 +244,16 @@ def rows(table):
         minutes = statistics.median(r["seconds"] for r in e["robots"].values()) / 60
         yield [e["model"], e["stage"], text(e["before"]), text(e["after"]), f"{e['factor']:.1f}",
                text(e["thesis"]["before"]), text(e["thesis"]["after"]),
-               f"{e['thesis']['factor']:.1f}", reached(e), str(len(e["robots"])),
+               f"{e['thesis']['factor']:.1f}", reached(e), ", ".join(map(str, e["robots"])),
                f"{minutes:.1f}"]
 
 
 def markdown(table, facts):
     lines = ["# Study: calibration against virtual robots", "",
-             "Written by `./catkin_ws.sh study calibration`. Errors are means over runs, medians over robots: shoulder [deg] /",
-             "elbow [deg] / muscle force [N]; thesis: Tables C.12 and D.1, of the real robot.", ""]
+             "Written by `./catkin_ws.sh study calibration` from [these results](calibration.json). Errors are means",
+             "over runs, medians over robots (named by their seeds): shoulder [deg] / elbow [deg] / muscle force [N];",
+             "thesis: Tables C.12 and D.1, of the real robot. `--adopt` takes the results for done and goes on with",
+             "other robots.", ""]
     lines += markdown_facts(facts) + [""] + markdown_table(head(), rows(table))
     held_out = [[e["model"], e["stage"][4],
                  text(median([r["validation"] for r in e["robots"].values()]))]
@@ -257,18 +271,35 @@ def page(table, facts):
 
 def summarise(options):
     table = collect(options)
+    done = [result for entry in table for result in entry["robots"].values()]
     facts = {
-        "commit": ", ".join(sorted({r["commit"] for e in table for r in e["robots"].values()})),
-        "robots (seeds)": ", ".join(str(s) for s in options.robots),
+        "commit": several(result["commit"] for result in done),
         "optimiser": " ".join([options.optimiser] + search_words(options)),
         "searches a stage": searches(options),
         "Jacobians a search, at most": ", ".join(f"{n} ({kind})" for kind, n in JACOBIANS.items()),
-        "machine": machine(),
+        "machine": several(result["machine"] for result in done),
+        "notes": several(result["note"] for result in done if "note" in result) or "none",
     }
     write(f"{options.out}/calibration.json", json.dumps({"facts": facts, "table": table}, indent=2))
     write(f"{options.out}/calibration.html", page(table, facts))
     os.makedirs("docs/studies", exist_ok=True)
     write("docs/studies/calibration.md", markdown(table, facts))
+    write(PUBLISHED, json.dumps(published(table), indent=1) + "\n")
+
+
+def published(table):
+    """Results by robot, model and stage."""
+    robots = {}
+    for entry in table:
+        for seed, result in entry["robots"].items():
+            robots.setdefault(str(seed), {}).setdefault(entry["model"], {})[entry["stage"]] = result
+    return robots
+
+
+def adopt():
+    if not os.path.exists(PUBLISHED):
+        refuse(f"{PUBLISHED}: no such file; expected the results of an earlier run")
+    return load(PUBLISHED)
 
 
 def main():
@@ -279,13 +310,14 @@ def main():
     parser.add_argument("--runs", type=int, default=2, help="searches a stage by chance; the better one survives")
     parser.add_argument("--share", type=float, default=1.0, help="of the thesis's generations")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--thorough", action="store_true", help="errors of parameters, too, in each report")
+    parser.add_argument("--adopt", action="store_true", help=f"takes the results of {PUBLISHED} for done")
     parser.add_argument("--out", default="build/study")
     options = parser.parse_args()
+    options.adopted = adopt() if options.adopt else {}
     for seed in options.robots:
-        robot = Robot(seed, options)
-        robot.record()
         for model in options.models:
-            robot.calibrate(model)
+            Robot(seed, options).calibrate(model)
     summarise(options)
     say(f"done: {options.out}/calibration.html, docs/studies/calibration.md")
 

@@ -3,8 +3,9 @@
 virtual robots; discovery sees recordings and a model only, and a third program compares its reports with the truth.
 
 Every case leaves its result under build/study/discovery/ and is not done again; what was interrupted goes on. Writes
-build/study/discovery.json and .html and docs/studies/discovery.md. Slices may run on several hosts: bring their
-reports/ and sealed/ together and run with --summary.
+build/study/discovery.json and .html, docs/studies/discovery.md and, what it was made from, docs/studies/discovery.json.
+Slices may run on several hosts: bring their reports/ and sealed/ together and run with --summary, or one after the
+other, each with the docs/studies/discovery.json of the one before and --adopt.
 """
 
 import argparse
@@ -18,7 +19,7 @@ import sys
 import time
 
 from _study import (commit, html_page, html_table, load, machine, markdown_facts, markdown_table,
-                    must, refuse, run, say, start, write)
+                    must, refuse, run, say, several, start, write)
 
 MAKER = "devel/lib/anthrob_virtual_robot/anthrob_blind_case"
 DISCOVER = "devel/lib/anthrob_calib/anthrob_discover"
@@ -28,6 +29,8 @@ ROUNDS = {"effect": 2}  # each law so often, every time at another place
 COUNTS = {"null": 60, "pair": 12, "wrapped": 1}
 KINDS = ["effect", "null", "pair", "outside", "wrapped"]
 MOST_EFFECTS = {"wrapped": 12}
+PUBLISHED = "docs/studies/discovery.json"
+TOLD = ["id", "place", "probability", "parameters", "rivals"]  # of a named effect, what scoring needs
 
 
 def laws(kind):
@@ -98,6 +101,24 @@ class Case:
     def facts(self):
         return load(f"{self.report}/study.json")
 
+    def published(self):
+        """Truth, answer and circumstances, as far as scoring needs them; None before there is an answer."""
+        if not self.done():
+            return None
+        truth, report = load(self.truth), load(f"{self.report}/report.json")
+        hidden = {one["id"] for one in truth["effects"]}
+        answer = {key: report.get(key) for key in ("verdict", "runtime_s", "gap")}
+        answer["effects"] = [{key: one.get(key) for key in TOLD} for one in report.get("effects") or []]
+        answer["not_visible"] = [one for one in report.get("not_visible") or [] if one["id"] in hidden]
+        return {"truth": truth, "report": answer, "facts": self.facts()}
+
+    def adopt(self, published):
+        """Takes an answer from elsewhere for its own."""
+        for file, content in ((self.truth, published["truth"]), (f"{self.report}/report.json", published["report"]),
+                              (f"{self.report}/study.json", published["facts"])):
+            os.makedirs(os.path.dirname(file), exist_ok=True)
+            write(file, as_json(content))
+
 
 def as_json(value):
     return json.dumps(value, indent=2) + "\n"
@@ -151,10 +172,6 @@ def score(options):
     return load(f"{folder}/score.json")
 
 
-def several(values):
-    return ", ".join(sorted({str(value) for value in values}))
-
-
 def facts_of(cases, options):
     done = [case.facts() for case in cases if case.done()]
     minutes = [facts["discovery_s"] / 60 for facts in done]
@@ -196,7 +213,8 @@ CASES = ["case", "hidden", "change [floors]", "verdict", "named", "probability"]
 
 def markdown(result, facts):
     lines = ["# Study: discovery on blind cases", "",
-             "Written by `./catkin_ws.sh study discovery`; what a case is: [the virtual robot](../virtual_robot.md).", ""]
+             "Written by `./catkin_ws.sh study discovery` from [these answers](discovery.json); what a case is:",
+             "[the virtual robot](../virtual_robot.md). `--adopt` takes them for done and goes on with the others.", ""]
     lines += markdown_facts(facts)
     for title, head, rows in (("Rates", RATES, rate_rows(result)),
                               ("Confusion", CONFUSION, confusion_rows(result)),
@@ -222,7 +240,24 @@ def summarise(cases, options):
     write(f"{options.out}/discovery.html", page(result, facts))
     os.makedirs("docs/studies", exist_ok=True)
     write("docs/studies/discovery.md", markdown(result, facts))
+    publish(cases)
     return True
+
+
+def publish(cases):
+    """A line a case, so that a reader sees what is new."""
+    lines = [f"{json.dumps(case.name)}: {json.dumps(case.published())}"
+             for case in sorted(cases, key=lambda case: case.name) if case.done()]
+    write(PUBLISHED, "{\n" + ",\n".join(lines) + "\n}\n")
+
+
+def adopt(cases):
+    if not os.path.exists(PUBLISHED):
+        refuse(f"{PUBLISHED}: no such file; expected the cases of an earlier run")
+    published = load(PUBLISHED)
+    for case in cases:
+        if case.name in published and not case.done():
+            case.adopt(published[case.name])
 
 
 def a_slice(text):
@@ -241,6 +276,7 @@ def arguments():
     parser.add_argument("--case", nargs="+", metavar="NAME", help="these cases")
     parser.add_argument("--list", action="store_true", help="tells the cases and how far they are")
     parser.add_argument("--summary", action="store_true", help="only scores the reports that are there")
+    parser.add_argument("--adopt", action="store_true", help=f"takes the cases of {PUBLISHED} for done")
     parser.add_argument("--keep", action="store_true", help="keeps recordings")
     parser.add_argument("--seed", type=int, default=1, help="of everything that is drawn")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads of a case")
@@ -268,6 +304,8 @@ def main():
     options = arguments()
     everything = all_cases(options)
     cases = chosen(everything, options)
+    if options.adopt:
+        adopt(everything)
     if options.list:
         for case in cases:
             print(f"{case.name:<12} {case.state()}")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The study of discovery with programs that only pretend: what it runs, in which order, and how it goes on."""
+"""The studies with programs that only pretend: what they run, in which order, and how they go on."""
 import json
 import os
 import shutil
@@ -12,6 +12,7 @@ import rostest
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 sys.path.insert(0, os.path.join(TOP, 'scripts', 'study'))
+import calibration  # noqa: E402
 import discovery  # noqa: E402
 
 # Hides "law" everywhere; lists three laws.
@@ -32,19 +33,41 @@ echo '{"verdict": "effects_found", "runtime_s": 1, "effects": [{"id": "law", "pl
 '''
 
 
+RECORDER = '''#!/bin/sh
+echo recorded >> calls
+while [ "$1" != --out ]; do shift; done
+mkdir -p "$2"
+'''
+# 12 deg off before, 2 deg after.
+CALIBRATE = '''#!/bin/sh
+echo calibrated >> calls
+error=2
+case "$*" in *--evaluate*) error=12;; esac
+while [ "$1" != --out ]; do shift; done
+mkdir -p "$2"
+errors='{"mean": {"after": {"joints_deg": {"shoulder": '$error', "elbow": 1.0}, "force_N": 3.0}}}'
+echo '{"fitness": {"before": 9.0, "after": '$error'}, "optimiser": {"evaluations": 7}, "calibration": '$errors',
+  "validation": '$errors'}' > "$2/result.json"
+'''
+
+
 class Study(unittest.TestCase):
+    """In a folder of its own, with programs of its own."""
+
+    study_of = None
 
     def setUp(self):
         self.folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.folder)
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)
-        programs = {'MAKER': self.program('maker', MAKER), 'DISCOVER': self.program('discover', DISCOVER),
-                    'SCORE': os.path.join(TOP, discovery.SCORE)}
-        for name, value in programs.items():
-            patch = mock.patch.object(discovery, name, value)
+        for name, value in self.programs().items():
+            patch = mock.patch.object(self.study_of, name, value)
             patch.start()
             self.addCleanup(patch.stop)
+
+    def programs(self):
+        raise NotImplementedError
 
     def program(self, name, text):
         with open(name, 'w') as file:
@@ -54,11 +77,56 @@ class Study(unittest.TestCase):
 
     def study(self, *arguments):
         with mock.patch.object(sys, 'argv', ['study', '--out', 'out', *arguments]):
-            discovery.main()
+            self.study_of.main()
 
     def calls(self):
         with open('calls') as file:
             return len(file.readlines())
+
+    def told(self):
+        """What the study says in the documents."""
+        with open(f'docs/studies/{self.study_of.__name__}.md') as file:
+            return file.read()
+
+
+class CalibrationStudy(Study):
+    study_of = calibration
+
+    def programs(self):
+        return {'RECORDER': self.program('recorder', RECORDER),
+                'TOOL': self.program('calibrate', CALIBRATE),
+                'CONFIG': os.path.join(TOP, calibration.CONFIG)}
+
+    def test_every_stage_is_done_once(self):
+        self.study('--robots', '1', '--models', 'I')
+        self.assertEqual(self.calls(), 2 + 2 * 4)
+        self.study('--robots', '1', '--models', 'I')
+        self.assertEqual(self.calls(), 2 + 2 * 4)
+        self.assertIn('| I | tier1_statics | 12.0 / 1.0 / 3.0 | 2.0 / 1.0 / 3.0 | 6.0 |', self.told())
+
+    def test_goes_on_elsewhere_with_what_is_published(self):
+        self.study('--robots', '1', '--models', 'I')
+        before = self.told()
+        shutil.rmtree('out')  # another machine
+        self.study('--adopt', '--robots', '1', '--models', 'I')
+        self.assertEqual(self.calls(), 2 + 2 * 4)
+        self.assertEqual(self.told(), before)
+        self.study('--adopt', '--robots', '2', '--models', 'I')
+        self.assertEqual(self.calls(), 2 * (2 + 2 * 4))
+        self.assertIn('| <= 5 deg | 1, 2 |', self.told())
+
+    def test_nothing_published_to_adopt(self):
+        with self.assertRaises(SystemExit) as ended:
+            self.study('--adopt')
+        self.assertEqual(ended.exception.code, 2)
+
+
+class DiscoveryStudy(Study):
+    study_of = discovery
+
+    def programs(self):
+        return {'MAKER': self.program('maker', MAKER), 'DISCOVER': self.program('discover', DISCOVER),
+                'SCORE': os.path.join(TOP, discovery.SCORE)}
 
     def test_slices_are_all_cases_once_and_every_part_tells_of_all_kinds(self):
         with mock.patch.object(sys, 'argv', ['study']):
@@ -83,9 +151,24 @@ class Study(unittest.TestCase):
         self.assertEqual(result['effect']['first'], 1)
         self.assertEqual(result['null']['false'], 1)
         self.assertIn('2 of 78', result['facts']['cases'])
-        with open('docs/studies/discovery.md') as file:
-            self.assertIn('| correct | 1/1 = 100 %', file.read())
+        self.assertIn('| correct | 1/1 = 100 %', self.told())
         self.assertFalse(os.path.exists('out/discovery/cases/effect_01'))
+
+    def test_goes_on_elsewhere_with_what_is_published(self):
+        self.study('--case', 'effect_01')
+        before = self.told()
+        shutil.rmtree('out')  # another machine
+        self.study('--adopt', '--summary')
+        self.assertEqual(self.told(), before)
+        self.study('--adopt', '--case', 'effect_01', 'null_00')
+        self.assertEqual(self.calls(), 4)  # effect_01 is not made again
+        with open('docs/studies/discovery.json') as file:
+            self.assertEqual(list(json.load(file)), ['effect_01', 'null_00'])
+
+    def test_nothing_published_to_adopt(self):
+        with self.assertRaises(SystemExit) as ended:
+            self.study('--adopt', '--case', 'effect_01')
+        self.assertEqual(ended.exception.code, 2)
 
     def test_what_was_interrupted_or_failed_is_done_again(self):
         for status in '130', '1':
@@ -107,4 +190,4 @@ class Study(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rostest.rosrun('anthrob_tests', 'study', Study)
+    rostest.rosrun('anthrob_tests', 'study', '__main__')

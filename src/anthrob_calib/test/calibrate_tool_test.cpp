@@ -142,6 +142,17 @@ TEST_F(CalibrateTool, LeastSquaresBeginsAnewOnResumeAndNothingIsOverwrittenWitho
   EXPECT_EQ(content(path("squares/result.json")), result);
 }
 
+TEST_F(CalibrateTool, BriefItFindsTheSameAndLeavesOutWhatComesAfterTheSearch) {
+  ASSERT_EQ(calibrate("long").status, 0);
+  ASSERT_EQ(calibrate("brief", "--brief").status, 0);
+  EXPECT_EQ(content(path("brief/model.yaml")), content(path("long/model.yaml")));
+  const auto with = nlohmann::json::parse(content(path("long/result.json")));
+  const auto without = nlohmann::json::parse(content(path("brief/result.json")));
+  EXPECT_EQ(without["calibration"], with["calibration"]);
+  EXPECT_TRUE(with.contains("identifiability"));
+  EXPECT_FALSE(without.contains("identifiability"));
+}
+
 TEST_F(CalibrateTool, InterruptedItKeepsTheBestAndGoesOn) {
   ASSERT_EQ(calibrate("whole", "--generations 40").status, 0);
   const Outcome stopped =

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string config, data, validation, model, out, method;
   std::vector<std::string> start;
-  bool resume = false, evaluate = false;
+  bool resume = false, evaluate = false, brief = false;
   int jobs = 0, generations = 0;
   std::int64_t seed = -1;
 };
@@ -131,7 +131,7 @@ int calibrate(const Arguments& arguments, const MpiSession& session) {
   }
   journal.save();
   if (!journal.best().empty()) keep_model(arguments, input, problem, journal.best());
-  const bool thorough = complete && !arguments.evaluate;
+  const bool thorough = complete && !arguments.evaluate && !arguments.brief;
   const CalibrationOutcome outcome =
       conclude(input, problem, journal, reason, thorough, tool::interrupted);
   write(arguments, input, outcome);
@@ -156,6 +156,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--start", a.start, "result.json of earlier calibrations to start from");
   app.add_flag("--resume", a.resume, "go on after an interruption");
   app.add_flag("--evaluate", a.evaluate, "no search: the errors of the model as it is");
+  app.add_flag("--brief", a.brief, "no errors of parameters, no replays of actuator positions");
   app.add_option("--jobs", a.jobs, "threads (default: all)")->check(CLI::Range(1, 1024));
   app.add_option("--optimiser", a.method, "instead of the configuration's method");
   app.add_option("--generations", a.generations, "instead of the configuration's")
