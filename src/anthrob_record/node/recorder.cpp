@@ -31,15 +31,14 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
       link_(nh, model, options) {
   const auto record = [this](const char* topic) {
     return [this, topic](const auto& message) {
-      if (recording_ > 0) bags_[static_cast<std::size_t>(recording_ - 1)]->write(topic, message);
+      if (belongs(message.header)) current_bag().write(topic, message);
     };
   };
   link_.on_joints = record("joint_states");
   link_.on_ball_joints = record("spherical_joint_states");
   link_.on_muscles = [this, write = record("muscle_states")](const anthrob_msgs::MuscleStates& m) {
     write(m);
-    if (recording_ > 0)
-      bags_[static_cast<std::size_t>(recording_ - 1)]->note_arrival(m.header.stamp);
+    if (belongs(m.header)) current_bag().note_arrival(m.header.stamp);
   };
   if (protocol_.kind != Protocol::Kind::kZeroGravity) return;
   // The controller commands; what it says belongs to the recording.
@@ -159,8 +158,7 @@ void Recorder::follow(const Visit::Order& order, const Protocol::Target& target)
 void Recorder::send_references(const std::vector<double>& references) {
   anthrob_msgs::MuscleCommand command = make_command(*model_, ecu::Mode::kPosition, references);
   command.header.stamp = sent_ = link_.send(command);
-  if (recording_ > 0)
-    bags_[static_cast<std::size_t>(recording_ - 1)]->write("muscle_command", command);
+  if (recording_ > 0) current_bag().write("muscle_command", command);
 }
 
 void Recorder::call_controller(Visit::Aim aim, const Protocol::Target& target) {
@@ -197,8 +195,17 @@ void Recorder::switch_recording(int recording, const Protocol::Target&) {
   if (recording == recording_) return;
   recording_ = recording;
   if (recording == 0) return;
+  since_ = link_.now();
   const std::size_t i = static_cast<std::size_t>(recording - 1);
   bags_[i] = std::make_unique<BagFile>(store_.partial_bag(names_[i]), nh_.getNamespace() + "/");
+}
+
+bool Recorder::belongs(const std_msgs::Header& header) const {
+  return recording_ > 0 && header.stamp > since_;
+}
+
+BagFile& Recorder::current_bag() {
+  return *bags_[static_cast<std::size_t>(recording_ - 1)];
 }
 
 void Recorder::drop() {

@@ -35,6 +35,10 @@ class Recorder {
   void call_controller(Visit::Aim aim, const Protocol::Target& target);
   void switch_recording(int recording, const Protocol::Target& target);
   void store(const Visit& visit, const Protocol::Target& target, int repeat);
+  /// Whether a message is of the recording that runs. Not by its arrival: topics overtake each
+  /// other, and a straggler of the instant before would be in one recording and not in the next.
+  bool belongs(const std_msgs::Header& header) const;
+  BagFile& current_bag();
   void drop();
   DatasetMeta describe(const Visit& visit, const Protocol::Target& target, int repeat,
                        int recording) const;
@@ -51,6 +55,7 @@ class Recorder {
   std::vector<std::unique_ptr<BagFile>> bags_;  ///< of the visit, by recording
   std::vector<std::string> names_;
   int recording_ = 0;
+  ros::Time since_;  ///< what the recording that runs begins after
   Visit* visit_ = nullptr;
   bool aimed_ = false;
   Visit::Aim aim_ = Visit::Aim::kRest;
