@@ -39,7 +39,8 @@ void OptimiserSettings::check(const ConfigNode& node) const {
 }
 
 int OptimiserSettings::evaluations(std::size_t variables) const {
-  if (method == "least_squares") return generations * (static_cast<int>(variables) + 2);
+  // With secants, and what it looks at from where it has converged: more than are used as a rule.
+  if (method == "least_squares") return (generations + 5) * (static_cast<int>(variables) + 2);
   return generations * offspring;
 }
 
