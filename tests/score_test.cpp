@@ -37,10 +37,12 @@ class Score : public testing::Test {
         << Json{{"kind", kind}, {"effects", effects}, {"change", {{"floors", floors}}}};
   }
   void report(const std::string& name, const std::string& verdict, const List& effects = {},
-              const List& not_visible = {}) const {
+              const List& not_visible = {}, const List& visible = {}) const {
     fs::create_directories(folder_ / "reports" / name);
-    std::ofstream(folder_ / "reports" / name / "report.json")
-        << Json{{"verdict", verdict}, {"effects", effects}, {"not_visible", not_visible}};
+    std::ofstream(folder_ / "reports" / name / "report.json") << Json{{"verdict", verdict},
+                                                                      {"effects", effects},
+                                                                      {"not_visible", not_visible},
+                                                                      {"visible", visible}};
   }
   void failed(const std::string& name) const {
     fs::create_directories(folder_ / "reports" / name);
@@ -68,8 +70,8 @@ class Score : public testing::Test {
 
 TEST_F(Score, OfEffects) {
   const List rubbing = {hidden("eyelet_friction", "biceps_brachii", 0.1)};
-  for (const char* name :
-       {"right", "elsewhere", "unsure", "late", "crashed", "unasked", "unseen", "overlooked"}) {
+  for (const char* name : {"right", "elsewhere", "unsure", "late", "crashed", "unasked", "unseen",
+                           "smaller", "overlooked"}) {
     truth(name, "effect", rubbing, std::string(name) == "unseen" ? 2.0 : 5.0);
   }
   const Json good = named("eyelet_friction", "biceps_brachii/2", 0.11, 0.09, 0.13);
@@ -83,10 +85,11 @@ TEST_F(Score, OfEffects) {
         {{"id", "eyelet_friction"}, {"place", "biceps_brachii"}, {"smallest_visible", size}}};
   };
   report("unseen", "no_missing_effect", {}, invisible(0.2));
-  report("overlooked", "no_missing_effect", {}, invisible(0.05));
+  report("smaller", "no_missing_effect", {}, {}, invisible(0.2));  // a larger one would have shown
+  report("overlooked", "no_missing_effect", {}, {}, invisible(0.05));
   const Json result = score();
-  EXPECT_EQ(result["effect"]["cases"], 6);  // "unasked" has no folder, "unseen" could not be seen
-  EXPECT_EQ(result["effect"]["said_invisible"], 1);
+  EXPECT_EQ(result["effect"]["cases"], 6);  // "unasked" has no folder, two could not be seen
+  EXPECT_EQ(result["effect"]["said_invisible"], 2);
   EXPECT_EQ(result["effect"]["first"], 2);
   EXPECT_EQ(result["effect"]["right_place"], 1);
   EXPECT_EQ(rate(result, "covered by ci95", "hits"), 1);
@@ -107,7 +110,17 @@ TEST_F(Score, OfPairsEachByAnAnswerOfItsOwn) {
   report("both", "effects_found", {second, first});
   report("one_as_two", "effects_found", {either});
   report("misplaced", "effects_found", {first, named("supply_sag", "unit_b", 0.1, 0.0, 1.0)});
-  EXPECT_EQ(score()["pair"]["both"], 1);
+  truth("one_unseen", "pair", two);
+  truth("one_overlooked", "pair", two);
+  const auto seen_from = [](double size) {
+    return List{{{"id", "supply_sag"}, {"place", "unit_a"}, {"smallest_visible", size}}};
+  };
+  report("one_unseen", "effects_found", {first}, {}, seen_from(0.2));
+  report("one_overlooked", "effects_found", {first}, {}, seen_from(0.05));
+  const Json result = score();
+  EXPECT_EQ(result["pair"]["both"], 1);
+  EXPECT_EQ(result["pair"]["cases"], 4);
+  EXPECT_EQ(result["pair"]["said_invisible"], 1);
 }
 
 TEST_F(Score, OfWrappedMusclesNullsAndOutsiders) {

@@ -109,7 +109,8 @@ class Case:
         hidden = {one["id"] for one in truth["effects"]}
         answer = {key: report.get(key) for key in ("verdict", "runtime_s", "gap")}
         answer["effects"] = [{key: one.get(key) for key in TOLD} for one in report.get("effects") or []]
-        answer["not_visible"] = [one for one in report.get("not_visible") or [] if one["id"] in hidden]
+        for key in "visible", "not_visible":
+            answer[key] = [one for one in report.get(key) or [] if one["id"] in hidden]
         return {"truth": truth, "report": answer, "facts": self.facts()}
 
     def adopt(self, published):

@@ -199,6 +199,19 @@ TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {
   EXPECT_TRUE(answer.effects.empty()) << summary(answer);
 }
 
+TEST(DrivenAxis, WhatIsNamedIsLargerThanWhatIsSaidToShow) {
+  const Answer nothing = ask(axis_question(0.0, 0.0));
+  const auto friction = std::find_if(nothing.visible.begin(), nothing.visible.end(),
+                                     [](const Visibility& v) { return v.id == "joint_coulomb"; });
+  ASSERT_NE(friction, nothing.visible.end());
+  const double smallest = friction->smallest_visible;
+  const Answer less = ask(axis_question(0.6 * smallest, 0.0));
+  EXPECT_EQ(less.verdict, "no_missing_effect") << smallest << "\n" << summary(less);
+  const Answer more = ask(axis_question(1.6 * smallest, 0.0));
+  ASSERT_EQ(more.verdict, "effects_found") << smallest << "\n" << summary(more);
+  EXPECT_EQ(more.effects[0].id, "joint_coulomb") << summary(more);
+}
+
 TEST(DrivenAxis, SameBitsOnAnyNumberOfThreads) {
   const Question question = axis_question(20.4, 0.0);
   const std::string one = report_json(ask(question, 1), question, 0.0);

@@ -261,30 +261,37 @@ class Search {
   void fly_ahead(const Screening& screening, std::vector<Score> scores, Answer& answer) const {
     std::sort(scores.begin(), scores.end(),
               [](const Score& a, const Score& b) { return a.candidate < b.candidate; });
-    for (const Score& score : scores) {
+    std::vector<Visibility> all;
+    const std::vector<double> changes = screening.channel_changes(base_, scores, train_judge_);
+    for (std::size_t s = 0; s < scores.size(); ++s) {
+      const Score& score = scores[s];
       const EffectParameter& size = *candidates_[score.candidate].sizes()[score.size];
       const double dose = std::abs(size.typical - size.neutral);
       const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
-      const Visibility visibility = visibility_of(score);
-      const bool visible = visibility.smallest_visible <= std::min(largest, 5.0 * dose);
-      (visible ? answer.visible : answer.not_visible).push_back(visibility);
+      all.push_back(visibility_of(score, changes[s]));
+      const bool visible = all.back().smallest_visible <= std::min(largest, 5.0 * dose);
+      (visible ? answer.visible : answer.not_visible).push_back(all.back());
     }
     for (const auto& group : screening.alike(base_)) {
       answer.alike.emplace_back();
       for (const std::size_t candidate : group) {
-        answer.alike.back().push_back(visibility_of(scores[candidate]));
+        answer.alike.back().push_back(all[candidate]);
       }
     }
   }
 
-  Visibility visibility_of(const Score& score) const {
+  /// What is named must gain on held-out data, and some channel must show a gap without it.
+  /// @param change of the channel that a dose moves most, in standard deviations
+  Visibility visibility_of(const Score& score, double change) const {
     const Candidate& candidate = candidates_[score.candidate];
     const EffectParameter& size = *candidate.sizes()[score.size];
     const double needed = kEvidence + std::log(static_cast<double>(candidates_.size()));
     const double held_out = total_duration(laboratory_.test) / score.seconds;
     const double dose = std::abs(size.typical - size.neutral);
+    const double for_evidence = score.uncertainty * std::sqrt(2.0 * needed / held_out);
+    const double for_gap = change > 0.0 ? std::sqrt(kRealGap * kRealGap - 1.0) / change : HUGE_VAL;
     return {candidate.effect->info().id, candidate.place, size.unit,
-            score.uncertainty * std::sqrt(2.0 * needed / held_out) * dose};
+            std::max(for_evidence, for_gap) * dose};
   }
 
   Gap gap_of(const Judge& judge, const Eigen::VectorXf& given, const Eigen::VectorXf& recalibrated,

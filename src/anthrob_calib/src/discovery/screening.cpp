@@ -121,7 +121,9 @@ void Screening::renew(const Fitted& base, const std::vector<Score>& best, std::s
 
 Screening::Projection Screening::project(const Look& look, const Fitted& base) const {
   const std::vector<Eigen::Index> free = free_unknowns(base);
-  const Eigen::MatrixXf J = look.excerpt.of(base.sensitivity, free);
+  Projection p;
+  p.J = look.excerpt.of(base.sensitivity, free);
+  const Eigen::MatrixXf& J = p.J;
   const Eigen::VectorXf residual = look.excerpt.of(base.residual);
   const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
   Eigen::MatrixXd A = (J.transpose() * J).cast<double>();
@@ -131,7 +133,6 @@ Screening::Projection Screening::project(const Look& look, const Fitted& base) c
     A(k, k) += precision[free[i]] + 1e-9 * (1.0 + A(k, k));
     pull[k] += precision[free[i]] * off[free[i]];
   }
-  Projection p;
   p.JS = (J.transpose() * look.responses).cast<double>();
   p.absorbed = Eigen::MatrixXd::Zero(0, p.JS.cols());
   if (!free.empty()) p.absorbed = A.ldlt().solve(p.JS);
@@ -174,6 +175,32 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
     score.amount.assign(amount.data(), amount.data() + count);
     scores.push_back(std::move(score));
   }
+}
+
+std::vector<double> Screening::channel_changes(const Fitted& base, const std::vector<Score>& scores,
+                                               const Judge& judge) const {
+  std::vector<double> changes(scores.size(), 0.0);
+  Eigen::VectorXf whole = Eigen::VectorXf::Zero(base.residual.size());
+  for (const Look& look : looks_) {
+    const Projection p = project(look, base);
+    Eigen::MatrixXf left = look.responses;
+    if (p.J.cols() > 0) left -= p.J * p.absorbed.cast<float>();
+    const double share =
+        static_cast<double>(look.excerpt.rows.size()) / static_cast<double>(whole.size());
+    whole.setZero();
+    for (std::size_t s = 0; s < scores.size(); ++s) {
+      const auto found =
+          std::find(look.candidates.begin(), look.candidates.end(), scores[s].candidate);
+      if (found == look.candidates.end()) continue;
+      const auto k = static_cast<std::size_t>(found - look.candidates.begin());
+      whole(look.excerpt.rows) =
+          left.col(static_cast<Eigen::Index>(look.first_column[k] + scores[s].size));
+      for (const auto& [name, gap] : judge.channel_gaps(whole)) {
+        changes[s] = std::max(changes[s], gap / std::sqrt(share));
+      }
+    }
+  }
+  return changes;
 }
 
 std::vector<std::vector<std::size_t>> Screening::alike(const Fitted& base) const {

@@ -5,6 +5,7 @@
 
 #include "anthrob_calib/discovery/candidate.h"
 #include "anthrob_calib/discovery/excerpt.h"
+#include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/discovery/model_fit.h"
 
 namespace anthrob {
@@ -39,6 +40,11 @@ class Screening {
   std::vector<Score> scores(const Fitted& base) const;
   /// The same doses again, of some candidates only, on top of another base.
   void renew(const Fitted& base, const std::vector<Score>& best, std::size_t count);
+  /// By how many standard deviations (rms) a dose of each score's most visible size moves the
+  /// channel that it moves most, once ordinary parameters have done what they can.
+  /// @param judge of the recordings of the fit
+  std::vector<double> channel_changes(const Fitted& base, const std::vector<Score>& scores,
+                                      const Judge& judge) const;
   /// Groups of candidates whose doses change the data alike once ordinary parameters have done what
   /// they can: nothing in these recordings tells them apart.
   std::vector<std::vector<std::size_t>> alike(const Fitted& base) const;
@@ -69,6 +75,7 @@ class Screening {
   void simulate(Look& look, const Fitted& base, const std::vector<std::size_t>& which);
   /// What ordinary parameters can imitate of a look's responses S.
   struct Projection {
+    Eigen::MatrixXf J;             ///< of those that can still move
     Eigen::MatrixXd JS, absorbed;  ///< J' S and (J'J + P)^-1 J' S
     Eigen::VectorXd gradient;      ///< of the cost to the amounts
   };
