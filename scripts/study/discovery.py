@@ -106,12 +106,14 @@ class Case:
         if not self.done():
             return None
         truth, report = load(self.truth), load(f"{self.report}/report.json")
-        hidden = {one["id"] for one in truth["effects"]}
+        hidden = {(one["id"], one["place"].split("/")[0]) for one in truth["effects"]}
         answer = {key: report.get(key) for key in ("verdict", "runtime_s", "gap")}
         answer["effects"] = [{key: one.get(key) for key in TOLD} for one in report.get("effects") or []]
         for key in "visible", "not_visible":
-            answer[key] = [one for one in report.get(key) or [] if one["id"] in hidden]
-        return {"truth": truth, "report": answer, "facts": self.facts()}
+            answer[key] = [one for one in report.get(key) or []
+                           if (one["id"], (one.get("place") or "").split("/")[0]) in hidden]
+        truth = {key: truth.get(key) for key in ("kind", "effects", "change")}
+        return rounded({"truth": truth, "report": answer, "facts": self.facts()})
 
     def adopt(self, published):
         """Takes an answer from elsewhere for its own."""
@@ -119,6 +121,15 @@ class Case:
                               (f"{self.report}/study.json", published["facts"])):
             os.makedirs(os.path.dirname(file), exist_ok=True)
             write(file, as_json(content))
+
+
+def rounded(value):
+    """Numbers with six digits: enough to score by."""
+    if isinstance(value, dict):
+        return {key: rounded(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [rounded(one) for one in value]
+    return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
 def as_json(value):
