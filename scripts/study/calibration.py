@@ -98,6 +98,7 @@ class Robot:
     def step(self, stage, model, name, start, more):
         """One run of anthrob_calibrate, unless the same was done before."""
         out = f"{self.folder}/{model}/{stage}/{name}"
+        more = more + ([] if self.options.thorough else ["--brief"])
         key = fingerprint(more, f"{CONFIG}/{stage}_{model}.yaml", f"{self.data}/complete",
                           f"{start}/result.json" if start else None)
         spent = 0.0
@@ -114,8 +115,6 @@ class Robot:
         command = [TOOL, "--config", f"{CONFIG}/{stage}_{model}.yaml", "--data",
                    f"{self.data}/{DATA[stage]}", "--out", out, "--jobs", str(self.options.jobs)] + more
         command += ["--validation", f"{self.data}/{stage[:5]}/validation"]
-        if not self.options.thorough:
-            command.append("--brief")
         if start:
             command += ["--start", f"{start}/result.json"]
         if os.path.exists(f"{out}/journal.txt"):

@@ -102,6 +102,8 @@ class CalibrationStudy(Study):
         self.assertEqual(self.calls(), 2 + 2 * 4)
         self.study('--robots', '1', '--models', 'I')
         self.assertEqual(self.calls(), 2 + 2 * 4)
+        self.study('--robots', '1', '--models', 'I', '--thorough')  # asks for more
+        self.assertEqual(self.calls(), 2 + 2 * 2 * 4)
         self.assertIn('| I | tier1_statics | 12.0 / 1.0 / 3.0 | 2.0 / 1.0 / 3.0 | 6.0 |', self.told())
 
     def test_goes_on_elsewhere_with_what_is_published(self):
