@@ -140,8 +140,7 @@ void recover(const char* name, const Trial& trial, int seeds) {
               tally.worst, tally.flat, tally.unidentifiable);
   EXPECT_EQ(tally.blind, 0);
   EXPECT_GT(tally.identifiable, 2 * tally.unidentifiable);  // caution costs little
-  // Errors may be too cautious now and then: of 20 arms 4 of 87 were.
-  EXPECT_GE(tally.flat, 0.95 * tally.unidentifiable);
+  EXPECT_EQ(tally.flat, tally.unidentifiable);
   EXPECT_LT(tally.worst, 5.0);
   if (seeds < 20) return;
   EXPECT_GE(tally.covered, 0.90 * tally.identifiable);
