@@ -64,6 +64,13 @@ def load(file):
         return json.load(text)
 
 
+def load_published(file):
+    """What an earlier run, perhaps elsewhere, has left in the documents."""
+    if not os.path.exists(file):
+        refuse(f"{file}: no such file; expected what an earlier run has written")
+    return load(file)
+
+
 def write(file, content):
     part = f"{file}.{os.getpid()}.part"  # several slices may run beside each other
     with open(part, "w") as out:

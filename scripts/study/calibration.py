@@ -15,8 +15,8 @@ import statistics
 import sys
 import time
 
-from _study import (commit, html_page, html_table, load, machine, markdown_facts, markdown_table,
-                    must, refuse, say, several, start, write)
+from _study import (commit, html_page, html_table, load, load_published, machine, markdown_facts,
+                    markdown_table, must, say, several, start, write)
 
 MODELS = ["I", "II", "III"]
 STAGES = ["tier1_statics", "tier1_dynamics", "tier2_statics", "tier2_dynamics"]
@@ -295,12 +295,6 @@ def published(table):
     return robots
 
 
-def adopt():
-    if not os.path.exists(PUBLISHED):
-        refuse(f"{PUBLISHED}: no such file; expected the results of an earlier run")
-    return load(PUBLISHED)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--robots", type=int, nargs="+", default=[1, 2, 3], help="seeds")
@@ -313,7 +307,7 @@ def main():
     parser.add_argument("--adopt", action="store_true", help=f"takes the results of {PUBLISHED} for done")
     parser.add_argument("--out", default="build/study")
     options = parser.parse_args()
-    options.adopted = adopt() if options.adopt else {}
+    options.adopted = load_published(PUBLISHED) if options.adopt else {}
     for seed in options.robots:
         for model in options.models:
             Robot(seed, options).calibrate(model)

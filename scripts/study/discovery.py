@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-from _study import (commit, html_page, html_table, load, machine, markdown_facts, markdown_table,
+from _study import (commit, html_page, html_table, load, load_published, machine, markdown_facts, markdown_table,
                     must, refuse, run, say, several, start, write)
 
 MAKER = "devel/lib/anthrob_virtual_robot/anthrob_blind_case"
@@ -264,9 +264,7 @@ def publish(cases):
 
 
 def adopt(cases):
-    if not os.path.exists(PUBLISHED):
-        refuse(f"{PUBLISHED}: no such file; expected the cases of an earlier run")
-    published = load(PUBLISHED)
+    published = load_published(PUBLISHED)
     for case in cases:
         if case.name in published and not case.done():
             case.adopt(published[case.name])
