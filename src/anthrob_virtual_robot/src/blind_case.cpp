@@ -48,16 +48,62 @@ double train_seconds(const BlindCase& blind, const CaseSettings& settings) {
   return blind.slow ? settings.slow_train : settings.train;
 }
 
-/// The k-th place in an order that the seed shuffles, for each law anew.
-std::string place_of(const HiddenLaw& law, const reference::ArmParameters& arm, std::uint64_t k,
-                     std::uint64_t seed) {
+/// What hidden things change in train_0 without noise, by runs with and without.
+class Change {
+ public:
+  Change(const BlindCase& blind, const CaseSettings& settings)
+      : blind_(blind),
+        settings_(settings),
+        seconds_(train_seconds(blind, settings)),
+        commands_(commands_of(blind, seconds_, kTrain)),
+        plain_(run({})) {}
+  /// Of every channel [sensor errors].
+  std::map<std::string, double> of(const std::vector<Hidden>& hidden) const {
+    return difference(run(hidden), plain_, blind_.built, blind_.sensors);
+  }
+
+ private:
+  Recording run(const std::vector<Hidden>& hidden) const {
+    Robot robot = robot_of(blind_, hidden, nullptr, 0);
+    return record(&robot, commands_, seconds_, settings_.recording);
+  }
+
+  const BlindCase& blind_;
+  const CaseSettings& settings_;
+  double seconds_;
+  std::vector<Command> commands_;
+  Recording plain_;
+};
+
+/// All places of a law in an order that the seed shuffles, for each law anew.
+std::vector<std::string> shuffled_places(const HiddenLaw& law, const reference::ArmParameters& arm,
+                                         std::uint64_t seed) {
   std::vector<std::string> places = law.places(arm);
   const auto& all = catalogue_laws();
   const auto same = [&](const HiddenLaw& other) { return other.id == law.id; };
   const auto number = std::find_if(all.begin(), all.end(), same) - all.begin();
   Random random(1009 * seed + static_cast<std::uint64_t>(number), kPlace);
   for (std::size_t i = places.size(); i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
-  return places[k % places.size()];
+  return places;
+}
+
+/// The k-th of them, where a law has a size that can be drawn such that it is seen. Else the first
+/// where it changes enough as it is (a surface that no tendon touches is not a case), counted from
+/// half a round further for each k.
+std::string telling_place(const HiddenLaw& law, const CaseSettings& settings,
+                          const BlindCase& blind, const Random& random, std::uint64_t k,
+                          std::uint64_t seed) {
+  const std::vector<std::string> places = shuffled_places(law, blind.built, seed);
+  if (!law.sizes.empty()) return places[k % places.size()];
+  const Change change(blind, settings);
+  const std::size_t first = k * (places.size() / 2);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::string& place = places[(first + i) % places.size()];
+    Random own = random;
+    const Hidden hidden{law.id, place, law.draw(blind.built, place, &own)};
+    if (worst(change.of({hidden})).second >= settings.least_change) return place;
+  }
+  return places[first % places.size()];
 }
 
 /// How far an ordinary calibration may move what a hidden thing adds to, in its direction.
@@ -75,27 +121,19 @@ double correctable(const std::vector<ModelParameter>& ordinary, const Hidden& hi
 /// Sizes such that the worst channel changes by the target, one hidden thing after the other.
 void find_sizes(const CaseSettings& settings, BlindCase* blind) {
   Random random(blind->seed, kSize);
-  const double seconds = train_seconds(*blind, settings);
-  const std::vector<Command> commands = commands_of(*blind, seconds, kTrain);
-  const auto run = [&](const std::vector<Hidden>& hidden) {
-    Robot robot = robot_of(*blind, hidden, nullptr, 0);
-    return record(&robot, commands, seconds, settings.recording);
-  };
-  const Recording plain = run({});
-  const auto change = [&](const std::vector<Hidden>& hidden) {
-    return difference(run(hidden), plain, blind->built, blind->sensors);
-  };
+  const Change change(*blind, settings);
   for (Hidden& hidden : blind->hidden) {
     const HiddenLaw& law = hidden_law(hidden.id);
     const double target = random.log_uniform(settings.least_change, settings.most_change);
     if (law.sizes.empty()) continue;
     const double least = std::max(law.least, kBeyond * correctable(settings.ordinary, hidden) /
                                                  std::abs(hidden[law.sizes.front()]));
-    const double factor = dose([&](double f) { return worst(change({scaled(hidden, f)})).second; },
-                               target, least, std::max(least, law.most));
+    const double factor =
+        dose([&](double f) { return worst(change.of({scaled(hidden, f)})).second; }, target, least,
+             std::max(least, law.most));
     hidden = scaled(hidden, factor);
   }
-  if (!blind->hidden.empty()) blind->change = change(blind->hidden);
+  if (!blind->hidden.empty()) blind->change = change.of(blind->hidden);
 }
 
 /// What makes one null harder than another.
@@ -171,7 +209,7 @@ BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
   const auto& laws = kind == CaseKind::kOutside ? outside_laws() : catalogue_laws();
   const auto hide_kth = [&](std::uint64_t k) {
     const HiddenLaw& law = laws[k % laws.size()];
-    hide(law, place_of(law, blind.built, k / laws.size(), seed), &random, &blind);
+    hide(law, telling_place(law, settings, blind, random, k / laws.size(), seed), &random, &blind);
   };
   if (kind == CaseKind::kNull) vary_null(number, &blind);
   if (kind == CaseKind::kEffect || kind == CaseKind::kOutside) hide_kth(number);
@@ -181,7 +219,8 @@ BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
       const std::uint64_t k = random.below(laws.size());
       if (laws[k].slow || laws[k].sizes.empty()) continue;
       if (!blind.hidden.empty() && blind.hidden.front().id == laws[k].id) continue;
-      hide(laws[k], place_of(laws[k], blind.built, random.below(1000), seed), &random, &blind);
+      const std::vector<std::string> places = shuffled_places(laws[k], blind.built, seed);
+      hide(laws[k], places[random.below(1000) % places.size()], &random, &blind);
     }
   }
   if (kind == CaseKind::kWrapped) {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include "anthrob_virtual_robot/blind_case.h"
@@ -203,6 +205,23 @@ TEST(BlindCase, NumbersGoThroughLawsAndThenThroughPlaces) {
   EXPECT_EQ(b.hidden.at(0).id, "force_sensor_gain");
   EXPECT_NE(a.hidden[0].place, b.hidden[0].place);
   EXPECT_TRUE(draw_case(CaseKind::kNull, 0, 1, model_I(), settings()).hidden.empty());
+}
+
+TEST(BlindCase, SurfaceSitsWhereATendonTouchesIt) {
+  const auto& laws = catalogue_laws();
+  const auto is_surface = [](const HiddenLaw& law) { return law.id == "wrapping_surface"; };
+  const auto number =
+      static_cast<std::uint64_t>(std::find_if(laws.begin(), laws.end(), is_surface) - laws.begin());
+  // Without that, the first of the lateral deltoid, which changes nothing.
+  std::set<std::string> places;
+  for (const std::uint64_t round : {0u, 1u}) {
+    const BlindCase blind =
+        draw_case(CaseKind::kEffect, number + round * laws.size(), 1, model_I(), settings());
+    EXPECT_EQ(blind.hidden.front().id, "wrapping_surface");
+    EXPECT_GE(worst(blind.change).second, settings().least_change) << blind.hidden.front().place;
+    places.insert(blind.hidden.front().place);
+  }
+  EXPECT_EQ(places.size(), 2u);
 }
 
 TEST(BlindCase, RefusesPlacesThatALawCannotHave) {
