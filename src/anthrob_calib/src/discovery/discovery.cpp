@@ -17,12 +17,16 @@ namespace discovery {
 namespace {
 
 /// What an effect must do to be named. Judged on data it was not fitted to.
-constexpr double kEvidence = 3.0;        ///< [nat] beyond the logarithm of the number of candidates
-constexpr double kSignificance = 3.0;    ///< standard errors over blocks
-constexpr double kShareOfPresent = 0.1;  ///< of the squared gap above the floor
+constexpr double kEvidence = 3.0;      ///< [nat] beyond the logarithm of the number of candidates
+constexpr double kSignificance = 3.0;  ///< standard errors over blocks
+constexpr double kFaintSignificance = 6.0;  ///< where no gap is beyond doubt
+constexpr double kShareOfPresent = 0.1;     ///< of the squared gap above the floor
 constexpr double kShareOfFirst = 0.03;
-/// A channel's gap is one only beyond what a wrong estimate of the noise may look like.
+/// A channel's gap is one only beyond what a wrong estimate of the noise may look like. A fainter
+/// one is worth a look for what would explain it: evidence is judged by what is left, not by the
+/// floor.
 constexpr double kRealGap = 1.4;
+constexpr double kFaintGap = 1.15;
 constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
 constexpr int kSettling = 5;
@@ -35,15 +39,15 @@ constexpr std::size_t kRenewed =
     60;                              ///< candidates whose doses are simulated again in later rounds
 constexpr double kMentioned = 0.02;  ///< least probability of a rival
 
-/// What of a channel's squared gap is more than that.
-double excess(double gap) {
-  return std::max(0.0, gap * gap - kRealGap * kRealGap);
+/// What of a channel's squared gap is more than that of a gap.
+double excess(double gap, double least) {
+  return std::max(0.0, gap * gap - least * least);
 }
 
 /// The same over all channels.
-double excess(const Judge& judge, const Eigen::VectorXf& residual) {
+double excess(const Judge& judge, const Eigen::VectorXf& residual, double least) {
   double sum = 0.0;
-  for (const auto& [name, gap] : judge.channel_gaps(residual)) sum += excess(gap);
+  for (const auto& [name, gap] : judge.channel_gaps(residual)) sum += excess(gap, least);
   return sum;
 }
 
@@ -71,7 +75,7 @@ class Search {
     Screening screening(train_, base_, candidates_, laboratory_.quick, laboratory_.slow);
     std::vector<Score> scores = screening.scores(base_);
     fly_ahead(screening, scores, answer);
-    for (int round = 0; round < question_.max_effects && gap_is_real(); ++round) {
+    for (int round = 0; round < question_.max_effects && has_gap(kFaintGap); ++round) {
       if (round > 0) {
         stage("screening", round);
         screening.renew(base_, screening.scores(base_), kRenewed);
@@ -135,7 +139,8 @@ class Search {
     answer.recalibrated = base_.variant;
     recalibrated_train_ = base_.residual;
     recalibrated_test_ = base_test_;
-    first_excess_ = excess(test_judge_, base_test_);
+    first_excess_ = excess(test_judge_, base_test_, kRealGap);
+    first_faint_excess_ = excess(test_judge_, base_test_, kFaintGap);
   }
 
   /// Polishes as long as that brings something: friction makes valleys rugged. Where something is
@@ -177,23 +182,23 @@ class Search {
   }
 
   /// Of a channel, in what was learned from and in what was held out.
-  bool gap_is_real() const {
+  bool has_gap(double least) const {
     const auto learned = train_judge_.channel_gaps(base_.residual);
     const auto held_out = test_judge_.channel_gaps(base_test_);
     return std::any_of(held_out.begin(), held_out.end(), [&](const auto& channel) {
       const auto found = learned.find(channel.first);
-      return excess(channel.second) > 0.0 && found != learned.end() && excess(found->second) > 0.0;
+      return channel.second > least && found != learned.end() && found->second > least;
     });
   }
 
   bool earns_its_place(const ShortList& list) const {
     const Named& best = list.named.front();
-    const double before = excess(test_judge_, base_test_);
-    const double gained = before - excess(test_judge_, best.test);
+    const double before = excess(test_judge_, base_test_, kFaintGap);
+    const double gained = before - excess(test_judge_, best.test, kFaintGap);
     return best.probability > list.none &&
            best.evidence > kEvidence + std::log(static_cast<double>(candidates_.size())) &&
-           best.significance > kSignificance && gained > kShareOfPresent * before &&
-           gained > kShareOfFirst * first_excess_;
+           best.significance > (has_gap(kRealGap) ? kSignificance : kFaintSignificance) &&
+           gained > kShareOfPresent * before && gained > kShareOfFirst * first_faint_excess_;
   }
 
   /// Values and intervals of all effects in the model as it is at the end: later ones have moved
@@ -289,7 +294,8 @@ class Search {
     const double held_out = total_duration(laboratory_.test) / score.seconds;
     const double dose = std::abs(size.typical - size.neutral);
     const double for_evidence = score.uncertainty * std::sqrt(2.0 * needed / held_out);
-    const double for_gap = change > 0.0 ? std::sqrt(kRealGap * kRealGap - 1.0) / change : HUGE_VAL;
+    const double for_gap =
+        change > 0.0 ? std::sqrt(kFaintGap * kFaintGap - 1.0) / change : HUGE_VAL;
     return {candidate.effect->info().id, candidate.place, size.unit,
             std::max(for_evidence, for_gap) * dose};
   }
@@ -311,7 +317,7 @@ class Search {
       answer.per_channel[name] = {value, recalibrated.at(name), after.at(name), 1.0};
     }
     answer.remaining_share =
-        first_excess_ > 0.0 ? excess(test_judge_, base_test_) / first_excess_ : 0.0;
+        first_excess_ > 0.0 ? excess(test_judge_, base_test_, kRealGap) / first_excess_ : 0.0;
     answer.regimes = regime_gaps(laboratory_.train, variables_, recalibrated_train_,
                                  train_.whitening(), scales_);
     answer.dependences =
@@ -325,10 +331,11 @@ class Search {
 
   void locate(Answer& answer) {
     stage("locating", -1);
+    const double least = answer.effects.empty() ? kRealGap : kFaintGap;
     const auto gaps = train_judge_.channel_gaps(recalibrated_train_);
-    const auto significance = train_judge_.excess_significance(recalibrated_train_, kRealGap);
+    const auto significance = train_judge_.excess_significance(recalibrated_train_, least);
     double whole = 0.0;
-    for (const auto& [name, gap] : gaps) whole += excess(gap);
+    for (const auto& [name, gap] : gaps) whole += excess(gap, least);
     answer.seams = seam_gaps(evaluator_, question_, laboratory_, scales_, answer.recalibrated);
     for (const auto& [name, gap] : gaps) {
       const ChannelScale& scale = scales_.at(name);
@@ -336,7 +343,7 @@ class Search {
       Place place{name.substr(slash + 1), name.substr(0, slash), "", "", scale.unit};
       place.rmse = gap * scale.sigma();
       place.noise_floor = scale.floor;
-      place.share = whole > 0.0 ? excess(gap) / whole : 0.0;
+      place.share = whole > 0.0 ? excess(gap, least) / whole : 0.0;
       if (significance.count(name)) place.significance = significance.at(name);
       for (const SeamGap& seam : answer.seams) {
         if (seam.place == place.place && seam.channel == place.channel) {
@@ -350,7 +357,7 @@ class Search {
           place.regime = d.word + (d.word == "time" ? "" : " (" + d.variable + ")");
         }
       }
-      if (gap > kRealGap) answer.where.push_back(std::move(place));
+      if (gap > least) answer.where.push_back(std::move(place));
     }
     std::stable_sort(answer.where.begin(), answer.where.end(),
                      [](const Place& a, const Place& b) { return a.share > b.share; });
@@ -388,27 +395,27 @@ class Search {
     const Dependence* strongest = nullptr;
     const auto gaps = train_judge_.channel_gaps(base_.residual);
     double whole = 0.0;
-    for (const auto& [name, gap] : gaps) whole += excess(gap);
+    for (const auto& [name, gap] : gaps) whole += excess(gap, kRealGap);
     for (const Dependence& d : answer.remaining) {
       for (const auto& [name, gap] : gaps) {
         if (d.channel.rfind(name, 0) != 0 || d.share < 0.05 || !(whole > 0.0)) continue;
-        const double part = excess(gap) / whole * d.share;
+        const double part = excess(gap, kRealGap) / whole * d.share;
         if (part > structured) {
           structured = part;
           strongest = &d;
         }
       }
     }
-    const bool gap = gap_is_real();
+    const bool gap = has_gap(kRealGap);
     if (answer.effects.empty()) {
       answer.verdict = gap ? "unexplained" : "no_missing_effect";
     } else {
       const bool most = answer.remaining_share > kMostRemains && gap;
       answer.verdict = most ? "unexplained" : "effects_found";
-      // What is left shows that the law may be another one.
+      // What is left shows that the law may be another one; at kMostRemains the names go.
       if (gap) {
         for (FoundEffect& effect : answer.effects) {
-          effect.probability *= 1.0 - std::min(1.0, answer.remaining_share);
+          effect.probability *= std::max(0.0, 1.0 - answer.remaining_share / kMostRemains);
         }
       }
     }
@@ -435,7 +442,7 @@ class Search {
   Fitted base_;
   Eigen::VectorXf base_test_, given_train_, given_test_, recalibrated_train_, recalibrated_test_;
   std::vector<std::size_t> accepted_;  ///< candidates that are in the model now, in their order
-  double first_excess_ = 0.0;
+  double first_excess_ = 0.0, first_faint_excess_ = 0.0;
 };
 
 }  // namespace
