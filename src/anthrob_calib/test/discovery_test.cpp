@@ -16,9 +16,11 @@
 #include "anthrob_calib/discovery/excerpt.h"
 #include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/discovery/model_fit.h"
+#include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/preparation.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/effects/catalogue.h"
 #include "made_recording.h"
 
 namespace anthrob {
@@ -110,6 +112,26 @@ TEST(BlockSignificance, DoesNotDoubtGainsThatDifferInSize) {
   EXPECT_LT(std::abs(block_significance(noise)), 2.5);
   noise[17] = 1e6;  // one lucky block
   EXPECT_LT(block_significance(noise), 2.5);
+}
+
+TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
+  const auto candidate = [](const char* id, const char* place, std::size_t sizes) {
+    const Effect* effect = find_effect(id);
+    EffectParameter size;
+    size.kind = EffectParameter::kSize;
+    return Candidate{effect, place, std::vector<EffectParameter>(sizes, size), {}};
+  };
+  const Candidate everywhere = candidate("eyelet_friction", "biceps_brachii", 1),
+                  somewhere = candidate("eyelet_friction", "biceps_brachii/2", 1);
+  EXPECT_EQ(share_of_simpler(everywhere, somewhere), 0.98);
+  EXPECT_EQ(share_of_simpler(somewhere, everywhere), 1.0);
+  EXPECT_EQ(share_of_simpler(candidate("eyelet_friction", "biceps", 1), somewhere), 1.0);
+  EXPECT_EQ(share_of_simpler(candidate("eyelet_presliding", "biceps_brachii", 1), somewhere), 1.0);
+  const Candidate coulomb = candidate("joint_coulomb", "elbow", 1),
+                  asymmetric = candidate("joint_coulomb_asymmetric", "elbow", 2);
+  EXPECT_EQ(share_of_simpler(coulomb, asymmetric), 0.75);
+  EXPECT_EQ(share_of_simpler(asymmetric, coulomb), 1.0);
+  EXPECT_EQ(share_of_simpler(candidate("joint_coulomb", "shoulder", 1), asymmetric), 1.0);
 }
 
 // ---- a driven axis, made here by its closed equation

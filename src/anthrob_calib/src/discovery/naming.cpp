@@ -12,6 +12,7 @@ namespace {
 /// Nothing larger is believed: bounds may be infinite.
 constexpr double kLargest = 100.0;   // [doses]
 constexpr double kMostOfIt = 0.75;   ///< of a gain
+constexpr double kAllOfIt = 0.98;    ///< of a gain, but for what the shape of a law makes
 constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
 constexpr int kIterations = 6;
 
@@ -43,7 +44,21 @@ std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstanc
   return unknowns;
 }
 
+/// "MUSCLE" is everywhere on it, "MUSCLE/2" one place of it.
+bool contains(const std::string& wide, const std::string& narrow) {
+  return narrow.size() > wide.size() && narrow.compare(0, wide.size(), wide) == 0 &&
+         narrow[wide.size()] == '/';
+}
+
 }  // namespace
+
+double share_of_simpler(const Candidate& part, const Candidate& whole) {
+  const EffectInfo &a = part.effect->info(), &b = whole.effect->info();
+  if (part.place == whole.place && a.seam == b.seam && part.sizes().size() < whole.sizes().size()) {
+    return kMostOfIt;
+  }
+  return a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
+}
 
 EffectInstance Naming::sized(const Candidate& candidate, const std::vector<double>& amount) const {
   EffectInstance instance = candidate.neutral();
@@ -190,11 +205,10 @@ void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
   const Named& best = list.named.front();
   const Candidate& whole = candidates_[best.candidate];
   for (std::size_t i = 1; i < list.named.size(); ++i) {
-    const Candidate& part = candidates_[list.named[i].candidate];
-    const double gain = base.cost - list.named[i].fit.cost;
-    if (part.place != whole.place || part.effect->info().seam != whole.effect->info().seam ||
-        part.sizes().size() >= whole.sizes().size() ||
-        gain < kMostOfIt * (base.cost - best.fit.cost) || list.named[i].evidence <= 0.0) {
+    const Named& other = list.named[i];
+    const double share = share_of_simpler(candidates_[other.candidate], whole);
+    const double gain = base.cost - other.fit.cost;
+    if (share == 1.0 || gain < share * (base.cost - best.fit.cost) || other.evidence <= 0.0) {
       continue;
     }
     Named simple = std::move(list.named[i]);

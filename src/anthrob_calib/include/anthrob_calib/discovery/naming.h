@@ -18,13 +18,19 @@ struct Named {
   double probability = 0.0;   ///< among all that were fitted, and none
 };
 
-/// The short list of one round, most probable first. A law that contains a simpler one at the same
-/// place, which alone brings most of the gain, stands behind it: one step at a time. The simpler
-/// one's probability is then that of both, the other's is 0.
+/// The short list of one round, most probable first. What a simpler one nearly does as well stands
+/// behind it (share_of_simpler()). The simpler one's probability is then that of both, the other's
+/// is 0.
 struct ShortList {
   std::vector<Named> named;
   double none = 0.0;  ///< probability that none of them is it
 };
+
+/// The share of one candidate's gain that another must bring alone to be named in its stead,
+/// because it says less: a law of fewer sizes at the same place (one step at a time: whether more
+/// is needed the next round tells), or the same law everywhere on a muscle instead of at one point
+/// of it. 1: the other one is not simpler.
+double share_of_simpler(const Candidate& part, const Candidate& whole);
 
 /// Weighs candidates: the best of the linear screening are simulated at the sizes it suggests, the
 /// best of those are fitted, and all are judged on data they were fitted to and on data they were
