@@ -90,6 +90,39 @@ TEST(Bootstrap, LawThatFitsNeitherSlowNorFastIsUncertain) {
   EXPECT_GT(w, 1.0);
 }
 
+/// An effect of size 3 (nothing at 1) that an ordinary parameter imitates but for a part; no noise.
+double relative_reach(float imitated) {
+  Fitted fitted;
+  Unknown ordinary, size;
+  ordinary.nuisance = 0;
+  size.effect = 0;
+  size.parameter = "size";
+  size.neutral = 1.0;
+  size.scale = 0.5;
+  ordinary.lower = size.lower = -10.0;
+  ordinary.upper = size.upper = 10.0;
+  fitted.unknowns = {ordinary, size};
+  fitted.variant.nuisances = {0.0};
+  fitted.variant.effects = {{"friction", "hinge", {{"size", 3.0}}}};
+  fitted.sensitivity.resize(kBins, 2);
+  for (std::size_t b = 0; b < kBins; ++b) {
+    const auto row = static_cast<Eigen::Index>(b);
+    const float own = b % 2 == 0 ? 7.0f : -7.0f;
+    fitted.sensitivity(row, 0) = 5.0f;
+    fitted.sensitivity(row, 1) = imitated * 7.0f + std::sqrt(1.0f - imitated * imitated) * own;
+  }
+  fitted.residual.setZero(kBins);
+  const Experiments experiments = {std::make_shared<Swing>()};
+  const auto interval = bootstrap_intervals(fitted, experiments, {speed()}, 1)[1];
+  EXPECT_NEAR(interval.first + interval.second, 6.0, 1e-9);
+  return 0.5 * (interval.second - interval.first) / 2.0;
+}
+
+TEST(Bootstrap, WhatIsReadOffDetailsIsAsUncertainAsTheLawsShape) {
+  EXPECT_NEAR(relative_reach(0.0f), 0.05 * 1.96, 1e-4);
+  EXPECT_NEAR(relative_reach(0.8f), 0.05 * 1.96 / 0.6, 1e-4);
+}
+
 TEST(RegimeGaps, RecordingsMayLackChannels) {
   const Experiments experiments = {std::make_shared<Swing>(true), std::make_shared<Swing>()};
   Eigen::VectorXf residual = Eigen::VectorXf::Ones(3 * kBins);

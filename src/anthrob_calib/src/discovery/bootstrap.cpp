@@ -14,6 +14,9 @@ namespace discovery {
 namespace {
 
 constexpr double kAtBound = 1e-3;  ///< of an unknown's scale
+/// What the true law may do otherwise than the catalogue's of the same name, as a share of what it
+/// does.
+constexpr double kOtherLaw = 0.05;
 
 /// Normal equations of some rows.
 struct Block {
@@ -151,6 +154,30 @@ std::vector<double> reach_of_noise(const Fitted& fitted) {
   return reach;
 }
 
+/// What all sizes of an effect together do to the residual, linearly (Euclidean norm).
+double response_to(const Fitted& fitted, int effect) {
+  Eigen::VectorXf response = Eigen::VectorXf::Zero(fitted.residual.size());
+  for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
+    const Unknown& u = fitted.unknowns[i];
+    if (u.effect != effect || !u.neutral) continue;
+    const double amount = (u.read(fitted.variant) - *u.neutral) / u.scale;
+    response += static_cast<float>(amount) * fitted.sensitivity.col(static_cast<Eigen::Index>(i));
+  }
+  return static_cast<double>(response.norm());
+}
+
+/// By how much another law of the same name may move an effect's parameters: little where the
+/// effect stands alone, much where ordinary parameters imitate most of it and the rest is read off
+/// details.
+std::vector<double> reach_of_other_law(const Fitted& fitted, const std::vector<double>& noise) {
+  std::vector<double> reach(noise.size(), 0.0);
+  for (std::size_t i = 0; i < reach.size(); ++i) {
+    const int effect = fitted.unknowns[i].effect;
+    if (effect >= 0) reach[i] = kOtherLaw * response_to(fitted, effect) * noise[i];
+  }
+  return reach;
+}
+
 }  // namespace
 
 std::vector<std::pair<double, double>> bootstrap_intervals(
@@ -160,13 +187,14 @@ std::vector<std::pair<double, double>> bootstrap_intervals(
   const std::vector<double> regimes =
       resample(fitted, blocks_of_regimes(fitted, experiments, variables), seed);
   const std::vector<double> noise = reach_of_noise(fitted);
+  const std::vector<double> other_law = reach_of_other_law(fitted, noise);
   std::vector<std::pair<double, double>> intervals;
   for (std::size_t i = 0; i < time.size(); ++i) {
     const Unknown& u = fitted.unknowns[i];
     const double at = u.read(fitted.variant);
     // Noise is in both and counts once.
     const double shape = std::sqrt(std::max(0.0, regimes[i] * regimes[i] - noise[i] * noise[i]));
-    const double reach = std::hypot(time[i], shape);
+    const double reach = std::hypot(time[i], shape, other_law[i]);
     intervals.emplace_back(std::clamp(at - reach, u.lower, at),
                            std::clamp(at + reach, at, u.upper));
   }

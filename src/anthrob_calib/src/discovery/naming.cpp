@@ -31,6 +31,7 @@ std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstanc
     if (p.bounds.lo_open) u.lower += 1e-3 * dose;
     if (p.bounds.hi_open) u.upper -= 1e-3 * dose;
     if (p.kind == EffectParameter::kSize) {
+      u.neutral = p.neutral;
       u.scale = std::max(0.2 * std::abs(value - p.neutral), 0.03 * dose);
     } else {
       // Where the sign is open, so is what to expect.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,9 +20,10 @@ struct Unknown {
   int effect = -1;        ///< index among Variant::effects, and
   std::string parameter;  ///< of that effect
   double lower = 0.0, upper = 0.0;
-  double scale = 1.0;     ///< size of an ordinary change: the unit in which it is solved
-  double expected = 0.0;  ///< before any data were seen
-  double spread = 0.0;    ///< standard deviation of that expectation; 0: none
+  double scale = 1.0;             ///< size of an ordinary change: the unit in which it is solved
+  double expected = 0.0;          ///< before any data were seen
+  double spread = 0.0;            ///< standard deviation of that expectation; 0: none
+  std::optional<double> neutral;  ///< of an effect's size: the value that does nothing
 
   double read(const Variant& variant) const;
   void write(double value, Variant& variant) const;
