@@ -2,6 +2,7 @@
 
 #include "anthrob_virtual_robot/blind_case.h"
 #include "anthrob_virtual_robot/channels.h"
+#include "anthrob_virtual_robot/places.h"
 
 namespace anthrob::virtual_robot {
 
@@ -28,9 +29,12 @@ std::string truth_text(const BlindCase& blind) {
   auto& nuisances = truth["nuisances"];
   for (std::size_t i = 0; i < blind.built.muscles.size(); ++i) {
     const auto &is = blind.built.muscles[i], &believed = blind.believed.muscles[i];
+    const std::size_t last = leaving_segment(is);
+    const Eigen::Vector3d moved = is.path[last].position - believed.path[last].position;
     nuisances[is.name] = {
         {"rest_tendon_length", is.rest_tendon_length - believed.rest_tendon_length},
-        {"spindle_radius", is.spindle_radius - believed.spindle_radius}};
+        {"spindle_radius", is.spindle_radius - believed.spindle_radius},
+        {"path_point", {{"index", last}, {"moved", {moved.x(), moved.y(), moved.z()}}}}};
   }
   nuisances["shoulder"]["viscous"] = blind.built.skeleton.shoulder_friction.viscous;
   nuisances["elbow"]["viscous"] = blind.built.skeleton.elbow_friction.viscous;

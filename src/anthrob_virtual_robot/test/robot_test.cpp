@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
@@ -222,6 +223,28 @@ TEST(BlindCase, SurfaceSitsWhereATendonTouchesIt) {
     places.insert(blind.hidden.front().place);
   }
   EXPECT_EQ(places.size(), 2u);
+}
+
+TEST(BlindCase, TruthTellsAllErrorsOfCalibration) {
+  const BlindCase blind = draw_case(CaseKind::kNull, 0, 1, model_I(), settings());
+  const auto truth = nlohmann::json::parse(truth_text(blind))["nuisances"];
+  for (std::size_t i = 0; i < blind.built.muscles.size(); ++i) {
+    const auto &is = blind.built.muscles[i], &believed = blind.believed.muscles[i];
+    const auto& told = truth[is.name];
+    EXPECT_NEAR(believed.rest_tendon_length + told["rest_tendon_length"].get<double>(),
+                is.rest_tendon_length, 1e-15);
+    EXPECT_NEAR(believed.spindle_radius + told["spindle_radius"].get<double>(), is.spindle_radius,
+                1e-15);
+    for (std::size_t k = 0; k < is.path.size(); ++k) {
+      Eigen::Vector3d point = believed.path[k].position;
+      if (told["path_point"]["index"] == k) {
+        for (int axis = 0; axis < 3; ++axis) {
+          point(axis) += told["path_point"]["moved"][static_cast<std::size_t>(axis)].get<double>();
+        }
+      }
+      EXPECT_NEAR((point - is.path[k].position).norm(), 0.0, 1e-15);
+    }
+  }
 }
 
 TEST(BlindCase, RefusesPlacesThatALawCannotHave) {
