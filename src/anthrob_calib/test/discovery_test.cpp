@@ -234,6 +234,20 @@ TEST(DrivenAxis, WhatIsNamedIsLargerThanWhatIsSaidToShow) {
   EXPECT_EQ(more.effects[0].id, "joint_coulomb") << summary(more);
 }
 
+TEST(DrivenAxis, WhatACalibrationMayTakeUpIsNotSaidToShow) {
+  const Question question = axis_question(0.0, 0.0);
+  ASSERT_EQ(question.nuisances.size(), 1u);
+  const ModelParameter& viscous = question.nuisances.front();
+  const Answer answer = ask(question);
+  std::vector<Visibility> all = answer.visible;
+  all.insert(all.end(), answer.not_visible.begin(), answer.not_visible.end());
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [](const Visibility& v) { return v.id == "joint_viscous"; });
+  ASSERT_NE(found, all.end());
+  EXPECT_GT(found->smallest_visible, viscous.upper - viscous.initial);
+  EXPECT_LT(found->smallest_visible, 1.5 * (viscous.upper - viscous.initial));
+}
+
 TEST(DrivenAxis, SameBitsOnAnyNumberOfThreads) {
   const Question question = axis_question(20.4, 0.0);
   const std::string one = report_json(ask(question, 1), question, 0.0);

@@ -223,11 +223,11 @@ class Search {
 
   void accept(ShortList& list, Answer& answer) {
     Named& best = list.named.front();
-    Fitted polished = best.fit;
-    train_.polish(polished, kPolish);
-    Eigen::VectorXf test = test_.residual(polished.variant);
+    Fitted settled = best.fit;
+    settle(settled);
+    Eigen::VectorXf test = test_.residual(settled.variant);
     if (test.size() > 0) {
-      best.fit = std::move(polished);
+      best.fit = std::move(settled);
       best.test = std::move(test);
     }
     const Candidate& candidate = candidates_[best.candidate];
@@ -297,7 +297,18 @@ class Search {
     const double for_gap =
         change > 0.0 ? std::sqrt(kFaintGap * kFaintGap - 1.0) / change : HUGE_VAL;
     return {candidate.effect->info().id, candidate.place, size.unit,
-            std::max(for_evidence, for_gap) * dose};
+            std::max(for_evidence, for_gap) * dose + taken_for_ordinary(candidate)};
+  }
+
+  /// How much of an effect an ordinary parameter that is the same quantity may be, upwards.
+  double taken_for_ordinary(const Candidate& candidate) const {
+    double room = 0.0;
+    for (const Unknown& u : base_.unknowns) {
+      if (std::count(candidate.same_as.begin(), candidate.same_as.end(), u.nuisance)) {
+        room = std::max(room, u.upper - u.expected);
+      }
+    }
+    return room;
   }
 
   Gap gap_of(const Judge& judge, const Eigen::VectorXf& given, const Eigen::VectorXf& recalibrated,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace anthrob {
 namespace discovery {
@@ -25,6 +26,12 @@ std::vector<Eigen::Index> free_unknowns(const Fitted& base) {
     }
   }
   return free;
+}
+
+std::vector<Eigen::Index> all_unknowns(const Fitted& base) {
+  std::vector<Eigen::Index> all(base.unknowns.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 }  // namespace
@@ -119,30 +126,51 @@ void Screening::renew(const Fitted& base, const std::vector<Score>& best, std::s
   }
 }
 
-Screening::Projection Screening::project(const Look& look, const Fitted& base) const {
-  const std::vector<Eigen::Index> free = free_unknowns(base);
+Screening::Projection Screening::project(const Look& look, const Fitted& base,
+                                         const std::vector<Eigen::Index>& unknowns) const {
   Projection p;
-  p.J = look.excerpt.of(base.sensitivity, free);
+  p.J = look.excerpt.of(base.sensitivity, unknowns);
   const Eigen::MatrixXf& J = p.J;
   const Eigen::VectorXf residual = look.excerpt.of(base.residual);
   const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
   Eigen::MatrixXd A = (J.transpose() * J).cast<double>();
   Eigen::VectorXd pull = (J.transpose() * residual).cast<double>();
-  for (std::size_t i = 0; i < free.size(); ++i) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    A(k, k) += precision[free[i]] + 1e-9 * (1.0 + A(k, k));
-    pull[k] += precision[free[i]] * off[free[i]];
+    A(k, k) += precision[unknowns[i]] + 1e-9 * (1.0 + A(k, k));
+    pull[k] += precision[unknowns[i]] * off[unknowns[i]];
   }
+  p.covariance = A.ldlt().solve(Eigen::MatrixXd::Identity(A.rows(), A.rows()));
   p.JS = (J.transpose() * look.responses).cast<double>();
-  p.absorbed = Eigen::MatrixXd::Zero(0, p.JS.cols());
-  if (!free.empty()) p.absorbed = A.ldlt().solve(p.JS);
+  p.absorbed = p.covariance * p.JS;
   p.gradient =
       (look.responses.transpose() * residual).cast<double>() - p.absorbed.transpose() * pull;
   return p;
 }
 
+Screening::Projection Screening::project_whole(const Look& look, const Fitted& base) const {
+  Projection p = project(look, base, all_unknowns(base));
+  for (std::size_t k = 0; k < look.candidates.size(); ++k) {
+    if (look.candidates[k] == kMoved) continue;
+    for (const int nuisance : candidates_[look.candidates[k]].same_as) {
+      for (std::size_t i = 0; i < base.unknowns.size(); ++i) {
+        if (base.unknowns[i].nuisance != nuisance) continue;
+        for (std::size_t c = look.first_column[k]; c < look.first_column[k + 1]; ++c) {
+          p.hold(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
+        }
+      }
+    }
+  }
+  return p;
+}
+
+void Screening::Projection::hold(Eigen::Index unknown, Eigen::Index response) {
+  absorbed.col(response) -=
+      covariance.col(unknown) * (absorbed(unknown, response) / covariance(unknown, unknown));
+}
+
 void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& scores) const {
-  const Projection p = project(look, base);
+  const Projection p = project(look, base, free_unknowns(base)), in_all = project_whole(look, base);
   for (std::size_t k = 0; k < look.candidates.size(); ++k) {
     if (look.candidates[k] == kMoved) continue;
     Score score;
@@ -163,8 +191,9 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
       const bool visible = column.simulated && h(i, i) > kVisible * whole[i] && h(i, i) > 1e-6;
       lower[i] = visible ? std::max(column.lower, -100.0) : 0.0;
       upper[i] = visible ? std::min(column.upper, 100.0) : 0.0;
-      if (visible && 1.0 / std::sqrt(h(i, i)) < score.uncertainty) {
-        score.uncertainty = 1.0 / std::sqrt(h(i, i));
+      const double left = whole[i] - in_all.JS.col(from + i).dot(in_all.absorbed.col(from + i));
+      if (visible && left > kVisible * whole[i] && 1.0 / std::sqrt(left) < score.uncertainty) {
+        score.uncertainty = 1.0 / std::sqrt(left);
         score.size = static_cast<std::size_t>(i);
       }
       if (!visible) h(i, i) += 1.0;
@@ -182,7 +211,7 @@ std::vector<double> Screening::channel_changes(const Fitted& base, const std::ve
   std::vector<double> changes(scores.size(), 0.0);
   Eigen::VectorXf whole = Eigen::VectorXf::Zero(base.residual.size());
   for (const Look& look : looks_) {
-    const Projection p = project(look, base);
+    const Projection p = project_whole(look, base);
     Eigen::MatrixXf left = look.responses;
     if (p.J.cols() > 0) left -= p.J * p.absorbed.cast<float>();
     const double share =
@@ -206,7 +235,7 @@ std::vector<double> Screening::channel_changes(const Fitted& base, const std::ve
 std::vector<std::vector<std::size_t>> Screening::alike(const Fitted& base) const {
   std::vector<std::vector<std::size_t>> groups;
   for (const Look& look : looks_) {
-    const Projection p = project(look, base);
+    const Projection p = project_whole(look, base);
     Eigen::MatrixXd gram = (look.responses.transpose() * look.responses).cast<double>();
     const Eigen::VectorXd whole = gram.diagonal();
     gram -= p.JS.transpose() * p.absorbed;

@@ -16,8 +16,8 @@ struct Score {
   std::size_t candidate = 0;
   double gain = 0.0;           ///< of the log likelihood, ordinary parameters free [nat]
   std::vector<double> amount;  ///< of each size, in doses
-  /// Standard deviation of its most visible size, in doses, and which it is; infinite if a dose
-  /// changes nothing.
+  /// Standard deviation of its most visible size, in doses, had the fit begun with it, and which it
+  /// is; infinite if a dose changes nothing.
   double uncertainty = 0.0;
   std::size_t size = 0;
   double seconds = 0.0;  ///< of recordings that say so; `gain` is per the shortest look at any
@@ -73,13 +73,21 @@ class Screening {
   /// Takes away those that hardly change anything.
   std::vector<std::size_t> take_faint(Look& look) const;
   void simulate(Look& look, const Fitted& base, const std::vector<std::size_t>& which);
-  /// What ordinary parameters can imitate of a look's responses S.
+  /// What some ordinary parameters can imitate of a look's responses S.
   struct Projection {
-    Eigen::MatrixXf J;             ///< of those that can still move
+    Eigen::MatrixXf J;
+    Eigen::MatrixXd covariance;    ///< (J'J + P)^-1
     Eigen::MatrixXd JS, absorbed;  ///< J' S and (J'J + P)^-1 J' S
     Eigen::VectorXd gradient;      ///< of the cost to the amounts
+
+    /// Imitates one response without one of the parameters. Leaves the gradient.
+    void hold(Eigen::Index unknown, Eigen::Index response);
   };
-  Projection project(const Look& look, const Fitted& base) const;
+  Projection project(const Look& look, const Fitted& base,
+                     const std::vector<Eigen::Index>& unknowns) const;
+  /// By all of them, wherever the fit has taken them: had an effect been there, it might be their
+  /// imitation that took one to its bound. But without those that are the same quantity.
+  Projection project_whole(const Look& look, const Fitted& base) const;
   void score(const Look& look, const Fitted& base, std::vector<Score>& scores) const;
 
   const std::vector<Candidate>& candidates_;
