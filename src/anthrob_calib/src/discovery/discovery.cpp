@@ -27,6 +27,7 @@ constexpr double kShareOfFirst = 0.03;
 /// floor.
 constexpr double kRealGap = 1.4;
 constexpr double kFaintGap = 1.15;
+constexpr double kCertainGap = 2.0;  ///< no estimate of the noise is that wrong
 constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
 constexpr int kSettling = 5;
@@ -191,13 +192,32 @@ class Search {
     });
   }
 
+  /// A channel shows a gap in both that no chance makes: clearly larger than one, or in block after
+  /// block.
+  bool gap_is_certain() const {
+    const auto learned = train_judge_.channel_gaps(base_.residual);
+    const auto held_out = test_judge_.channel_gaps(base_test_);
+    const auto sure_of = train_judge_.excess_significance(base_.residual, kRealGap);
+    const auto sure_of_held_out = test_judge_.excess_significance(base_test_, kRealGap);
+    const auto in = [](const auto& map, const std::string& name) {
+      const auto found = map.find(name);
+      return found == map.end() ? 0.0 : found->second;
+    };
+    return std::any_of(held_out.begin(), held_out.end(), [&](const auto& channel) {
+      const double least = std::min(channel.second, in(learned, channel.first));
+      const double sure =
+          (in(sure_of, channel.first) + in(sure_of_held_out, channel.first)) / M_SQRT2;
+      return least > kCertainGap || (least > kRealGap && sure > kSignificance);
+    });
+  }
+
   bool earns_its_place(const ShortList& list) const {
     const Named& best = list.named.front();
     const double before = excess(test_judge_, base_test_, kFaintGap);
     const double gained = before - excess(test_judge_, best.test, kFaintGap);
     return best.probability > list.none &&
            best.evidence > kEvidence + std::log(static_cast<double>(candidates_.size())) &&
-           best.significance > (has_gap(kRealGap) ? kSignificance : kFaintSignificance) &&
+           best.significance > (gap_is_certain() ? kSignificance : kFaintSignificance) &&
            gained > kShareOfPresent * before && gained > kShareOfFirst * first_faint_excess_;
   }
 
@@ -417,7 +437,7 @@ class Search {
         }
       }
     }
-    const bool gap = has_gap(kRealGap);
+    const bool gap = gap_is_certain();
     if (answer.effects.empty()) {
       answer.verdict = gap ? "unexplained" : "no_missing_effect";
     } else {
