@@ -175,6 +175,23 @@ TEST(Judge, AGapInEveryBlockIsSignificantOneInASingleBlockIsNot) {
   EXPECT_LT(judge.excess_significance(residual, 1.4).at("hinge/position"), 1.0);
 }
 
+TEST(CertainGap, IsInBothAndInBlockAfterBlockOrClearlyLarge) {
+  const Experiments experiments = {std::make_shared<LongSwing>()};
+  const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
+  const Judge judge(experiments, factors, {});
+  const auto certain = [&](const Eigen::VectorXf& learned, const Eigen::VectorXf& held_out) {
+    return certain_gap(judge, learned, judge, held_out, 1.4);
+  };
+  Eigen::VectorXf even(334), uneven = Eigen::VectorXf::Zero(334);
+  for (Eigen::Index b = 0; b < 334; ++b) even[b] = b % 3 == 0 ? 1.7f : -1.5f;
+  uneven.head(40).setConstant(4.7f);  // 1.63 on the whole
+  EXPECT_TRUE(certain(even, even));
+  EXPECT_FALSE(certain(uneven, uneven));
+  EXPECT_TRUE(certain(1.4f * uneven, 1.4f * uneven));
+  EXPECT_FALSE(certain(0.8f * even, even));
+  EXPECT_FALSE(certain(even, 0.8f * even));
+}
+
 TEST(RegimeGaps, ShowWhereThePlaceDisagrees) {
   const Experiments experiments = {std::make_shared<Swing>()};
   Eigen::VectorXf residual(kBins);

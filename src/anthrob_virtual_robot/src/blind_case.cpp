@@ -89,7 +89,7 @@ std::vector<std::string> shuffled_places(const HiddenLaw& law, const reference::
 
 /// The k-th of them, where a law has a size that can be drawn such that it is seen. Else the first
 /// where it changes enough as it is (a surface that no tendon touches is not a case), counted from
-/// half a round further for each k.
+/// half a round further for each k; if there is none, the first.
 std::string telling_place(const HiddenLaw& law, const CaseSettings& settings,
                           const BlindCase& blind, const Random& random, std::uint64_t k,
                           std::uint64_t seed) {

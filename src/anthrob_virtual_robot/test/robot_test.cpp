@@ -213,7 +213,7 @@ TEST(BlindCase, SurfaceSitsWhereATendonTouchesIt) {
   const auto is_surface = [](const HiddenLaw& law) { return law.id == "wrapping_surface"; };
   const auto number =
       static_cast<std::uint64_t>(std::find_if(laws.begin(), laws.end(), is_surface) - laws.begin());
-  // Without that, the first of the lateral deltoid, which changes nothing.
+  // The first place would be the lateral deltoid, where a surface changes nothing.
   std::set<std::string> places;
   for (const std::uint64_t round : {0u, 1u}) {
     const BlindCase blind =
@@ -245,6 +245,8 @@ TEST(BlindCase, TruthTellsAllErrorsOfCalibration) {
       EXPECT_NEAR((point - is.path[k].position).norm(), 0.0, 1e-15);
     }
   }
+  EXPECT_EQ(truth["shoulder"]["viscous"], blind.built.skeleton.shoulder_friction.viscous);
+  EXPECT_EQ(truth["elbow"]["viscous"], blind.built.skeleton.elbow_friction.viscous);
 }
 
 TEST(BlindCase, RefusesPlacesThatALawCannotHave) {

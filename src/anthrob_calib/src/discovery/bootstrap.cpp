@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kAtBound = 1e-3;  ///< of an unknown's scale
 /// What the true law may do otherwise than the catalogue's of the same name, as a share of what it
-/// does.
+/// does: one standard deviation.
 constexpr double kOtherLaw = 0.05;
 
 /// Normal equations of some rows.

@@ -20,14 +20,13 @@ namespace {
 constexpr double kEvidence = 3.0;      ///< [nat] beyond the logarithm of the number of candidates
 constexpr double kSignificance = 3.0;  ///< standard errors over blocks
 constexpr double kFaintSignificance = 6.0;  ///< where no gap is beyond doubt
-constexpr double kShareOfPresent = 0.1;     ///< of the squared gap above the floor
+constexpr double kShareOfPresent = 0.1;     ///< of the squared gaps above faint ones
 constexpr double kShareOfFirst = 0.03;
 /// A channel's gap is one only beyond what a wrong estimate of the noise may look like. A fainter
 /// one is worth a look for what would explain it: evidence is judged by what is left, not by the
 /// floor.
 constexpr double kRealGap = 1.4;
 constexpr double kFaintGap = 1.15;
-constexpr double kCertainGap = 2.0;  ///< no estimate of the noise is that wrong
 constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
 constexpr int kSettling = 5;
@@ -76,7 +75,7 @@ class Search {
     Screening screening(train_, base_, candidates_, laboratory_.quick, laboratory_.slow);
     std::vector<Score> scores = screening.scores(base_);
     fly_ahead(screening, scores, answer);
-    for (int round = 0; round < question_.max_effects && has_gap(kFaintGap); ++round) {
+    for (int round = 0; round < question_.max_effects && has_faint_gap(); ++round) {
       if (round > 0) {
         stage("screening", round);
         screening.renew(base_, screening.scores(base_), kRenewed);
@@ -144,11 +143,15 @@ class Search {
     first_faint_excess_ = excess(test_judge_, base_test_, kFaintGap);
   }
 
+  bool clearly_misses(const Fitted& fitted) const {
+    return train_judge_.gap(fitted.residual) > kClearGap;
+  }
+
   /// Polishes as long as that brings something: friction makes valleys rugged. Where something is
   /// clearly missing, the last steps to a model without it are not worth their time.
   void settle(Fitted& fitted) const {
     for (int k = 0; k < kSettling; ++k) {
-      const bool clear = train_judge_.gap(fitted.residual) > kClearGap;
+      const bool clear = clearly_misses(fitted);
       const double before = fitted.cost;
       train_.polish(fitted, kPolish, clear);
       if (before - fitted.cost < (clear ? kRoughlySettled : kSettled) * before) break;
@@ -182,33 +185,18 @@ class Search {
     return true;
   }
 
-  /// Of a channel, in what was learned from and in what was held out.
-  bool has_gap(double least) const {
+  /// Of a channel, in what was learned from and in what was held out: worth a look.
+  bool has_faint_gap() const {
     const auto learned = train_judge_.channel_gaps(base_.residual);
     const auto held_out = test_judge_.channel_gaps(base_test_);
     return std::any_of(held_out.begin(), held_out.end(), [&](const auto& channel) {
       const auto found = learned.find(channel.first);
-      return channel.second > least && found != learned.end() && found->second > least;
+      return channel.second > kFaintGap && found != learned.end() && found->second > kFaintGap;
     });
   }
 
-  /// A channel shows a gap in both that no chance makes: clearly larger than one, or in block after
-  /// block.
   bool gap_is_certain() const {
-    const auto learned = train_judge_.channel_gaps(base_.residual);
-    const auto held_out = test_judge_.channel_gaps(base_test_);
-    const auto sure_of = train_judge_.excess_significance(base_.residual, kRealGap);
-    const auto sure_of_held_out = test_judge_.excess_significance(base_test_, kRealGap);
-    const auto in = [](const auto& map, const std::string& name) {
-      const auto found = map.find(name);
-      return found == map.end() ? 0.0 : found->second;
-    };
-    return std::any_of(held_out.begin(), held_out.end(), [&](const auto& channel) {
-      const double least = std::min(channel.second, in(learned, channel.first));
-      const double sure =
-          (in(sure_of, channel.first) + in(sure_of_held_out, channel.first)) / M_SQRT2;
-      return least > kCertainGap || (least > kRealGap && sure > kSignificance);
-    });
+    return certain_gap(train_judge_, base_.residual, test_judge_, base_test_, kRealGap);
   }
 
   bool earns_its_place(const ShortList& list) const {
@@ -245,6 +233,8 @@ class Search {
     Named& best = list.named.front();
     Fitted settled = best.fit;
     settle(settled);
+    // Values and intervals need exact sensitivities.
+    if (clearly_misses(settled)) train_.polish(settled, kPolish);
     Eigen::VectorXf test = test_.residual(settled.variant);
     if (test.size() > 0) {
       best.fit = std::move(settled);
@@ -294,7 +284,9 @@ class Search {
       const double dose = std::abs(size.typical - size.neutral);
       const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
       all.push_back(visibility_of(score, changes[s]));
-      const bool visible = all.back().smallest_visible <= std::min(largest, 5.0 * dose);
+      const double ordinary = taken_for_ordinary(candidates_[score.candidate]);
+      const double smallest = all.back().smallest_visible;
+      const bool visible = smallest <= largest && smallest - ordinary <= 5.0 * dose;
       (visible ? answer.visible : answer.not_visible).push_back(all.back());
     }
     for (const auto& group : screening.alike(base_)) {
@@ -320,13 +312,14 @@ class Search {
             std::max(for_evidence, for_gap) * dose + taken_for_ordinary(candidate)};
   }
 
-  /// How much of an effect an ordinary parameter that is the same quantity may be, upwards.
+  /// How much of an effect an ordinary parameter that is the same quantity may be.
   double taken_for_ordinary(const Candidate& candidate) const {
+    const EffectParameter& size = *candidate.sizes().front();
+    const bool either = size.bounds.lo < size.neutral;
     double room = 0.0;
     for (const Unknown& u : base_.unknowns) {
-      if (std::count(candidate.same_as.begin(), candidate.same_as.end(), u.nuisance)) {
-        room = std::max(room, u.upper - u.expected);
-      }
+      if (!std::count(candidate.same_as.begin(), candidate.same_as.end(), u.nuisance)) continue;
+      room = std::max({room, u.upper - u.expected, either ? u.expected - u.lower : 0.0});
     }
     return room;
   }
@@ -347,8 +340,9 @@ class Search {
     for (const auto& [name, value] : given) {
       answer.per_channel[name] = {value, recalibrated.at(name), after.at(name), 1.0};
     }
+    const double first = answer.effects.empty() ? first_excess_ : first_faint_excess_;
     answer.remaining_share =
-        first_excess_ > 0.0 ? excess(test_judge_, base_test_, kRealGap) / first_excess_ : 0.0;
+        first > 0.0 ? excess(test_judge_, base_test_, least_gap(answer)) / first : 0.0;
     answer.regimes = regime_gaps(laboratory_.train, variables_, recalibrated_train_,
                                  train_.whitening(), scales_);
     answer.dependences =
@@ -360,9 +354,14 @@ class Search {
     pronounce(answer);
   }
 
+  /// What was worth naming is worth counting.
+  static double least_gap(const Answer& answer) {
+    return answer.effects.empty() ? kRealGap : kFaintGap;
+  }
+
   void locate(Answer& answer) {
     stage("locating", -1);
-    const double least = answer.effects.empty() ? kRealGap : kFaintGap;
+    const double least = least_gap(answer);
     const auto gaps = train_judge_.channel_gaps(recalibrated_train_);
     const auto significance = train_judge_.excess_significance(recalibrated_train_, least);
     double whole = 0.0;
@@ -451,7 +450,7 @@ class Search {
       }
     }
     if (!gap) {
-      answer.remaining_description = "nothing beyond the floor";
+      answer.remaining_description = "no gap that is certain";
     } else if (strongest) {
       answer.remaining_description = strongest->channel + " depends on " +
                                      (strongest->word == "time" ? "" : strongest->word + " of ") +

@@ -124,6 +124,24 @@ std::map<std::string, double> Judge::excess_significance(const Eigen::VectorXf& 
   return significance;
 }
 
+bool certain_gap(const Judge& train, const Eigen::VectorXf& learned, const Judge& test,
+                 const Eigen::VectorXf& held_out, double gap) {
+  constexpr double kCertain = 2.0, kSure = 3.0;
+  const auto in = [](const std::map<std::string, double>& channels, const std::string& name) {
+    const auto found = channels.find(name);
+    return found == channels.end() ? 0.0 : found->second;
+  };
+  const auto gaps = train.channel_gaps(learned);
+  const auto sure = train.excess_significance(learned, gap);
+  const auto sure_of_held_out = test.excess_significance(held_out, gap);
+  for (const auto& [name, other] : test.channel_gaps(held_out)) {
+    const double least = std::min(other, in(gaps, name));
+    const double significance = (in(sure, name) + in(sure_of_held_out, name)) / M_SQRT2;
+    if (least > kCertain || (least > gap && significance > kSure)) return true;
+  }
+  return false;
+}
+
 std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
                                         const std::vector<double>& handicap, std::uint64_t seed) {
   constexpr int kDraws = 2000;

@@ -270,7 +270,9 @@ bool ModelFit::move(Fitted& fitted, const Variant& variant) const {
 void ModelFit::polish(Fitted& fitted, int iterations, bool roughly) const {
   for (Unknown& u : fitted.unknowns) {
     // Close to the end small changes tell more than large ones.
-    if (u.effect >= 0) u.scale = std::max(0.1 * u.scale, 0.05 * std::abs(u.read(fitted.variant)));
+    if (u.effect < 0) continue;
+    const double size = u.read(fitted.variant) - u.neutral.value_or(0.0);
+    u.scale = std::max({0.1 * u.scale, 0.05 * std::abs(size), u.finest});
   }
   simulate_sensitivity(fitted, 0, roughly);
   improve(fitted, iterations, kPolished);

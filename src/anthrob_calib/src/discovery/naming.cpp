@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "anthrob_sim/effects/placed_effects.h"
+
 namespace anthrob {
 namespace discovery {
 
@@ -33,10 +35,12 @@ std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstanc
     if (p.kind == EffectParameter::kSize) {
       u.neutral = p.neutral;
       u.scale = std::max(0.2 * std::abs(value - p.neutral), 0.03 * dose);
+      u.finest = 0.003 * dose;
     } else {
       // Where the sign is open, so is what to expect.
       const bool either = p.bounds.lo < 0.0 && p.bounds.hi > 0.0;
       u.scale = 0.3 * dose;
+      u.finest = 0.03 * dose;
       u.expected = either ? p.neutral : p.typical;
       u.spread = (either ? 3.0 : 1.5) * dose;
     }
@@ -45,7 +49,7 @@ std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstanc
   return unknowns;
 }
 
-/// "MUSCLE" is everywhere on it, "MUSCLE/2" one place of it.
+/// Of a PathEffect: "MUSCLE" is everywhere on it, "MUSCLE/2" one place of it.
 bool contains(const std::string& wide, const std::string& narrow) {
   return narrow.size() > wide.size() && narrow.compare(0, wide.size(), wide) == 0 &&
          narrow[wide.size()] == '/';
@@ -58,7 +62,8 @@ double share_of_simpler(const Candidate& part, const Candidate& whole) {
   if (part.place == whole.place && a.seam == b.seam && part.sizes().size() < whole.sizes().size()) {
     return kMostOfIt;
   }
-  return a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
+  const bool everywhere = dynamic_cast<const PathEffect*>(part.effect) != nullptr;
+  return everywhere && a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
 }
 
 EffectInstance Naming::sized(const Candidate& candidate, const std::vector<double>& amount) const {
@@ -214,7 +219,7 @@ void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
     }
     Named simple = std::move(list.named[i]);
     simple.probability += best.probability;
-    list.named.front().probability = 0.0;  // whether more is needed the next round will tell
+    list.named.front().probability = 0.0;
     list.named.erase(list.named.begin() + static_cast<std::ptrdiff_t>(i));
     list.named.insert(list.named.begin(), std::move(simple));
     return;

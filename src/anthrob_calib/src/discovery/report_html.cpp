@@ -42,7 +42,7 @@ td,th{border:1px solid #ccc;padding:.25em .6em;text-align:left}th{background:#f2
 std::string sentence(const Answer& answer) {
   if (answer.verdict == "no_missing_effect") {
     return "Nothing is missing: the model, with its ordinary parameters fitted, predicts the "
-           "held-out recordings as well as a repeat would (gap " +
+           "held-out recordings with no gap that is certain (all channels together " +
            short_number(answer.test.recalibrated) + " times the floor).";
   }
   std::string text;

@@ -192,7 +192,8 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
       lower[i] = visible ? std::max(column.lower, -100.0) : 0.0;
       upper[i] = visible ? std::min(column.upper, 100.0) : 0.0;
       const double left = whole[i] - in_all.JS.col(from + i).dot(in_all.absorbed.col(from + i));
-      if (visible && left > kVisible * whole[i] && 1.0 / std::sqrt(left) < score.uncertainty) {
+      const bool shows = column.simulated && left > kVisible * whole[i] && left > 1e-6;
+      if (shows && 1.0 / std::sqrt(left) < score.uncertainty) {
         score.uncertainty = 1.0 / std::sqrt(left);
         score.size = static_cast<std::size_t>(i);
       }
@@ -235,7 +236,7 @@ std::vector<double> Screening::channel_changes(const Fitted& base, const std::ve
 std::vector<std::vector<std::size_t>> Screening::alike(const Fitted& base) const {
   std::vector<std::vector<std::size_t>> groups;
   for (const Look& look : looks_) {
-    const Projection p = project_whole(look, base);
+    const Projection p = project(look, base, all_unknowns(base));
     Eigen::MatrixXd gram = (look.responses.transpose() * look.responses).cast<double>();
     const Eigen::VectorXd whole = gram.diagonal();
     gram -= p.JS.transpose() * p.absorbed;

@@ -62,8 +62,8 @@ struct Place {
   std::string channel, place, subsystem, regime, unit;
   double rmse = 0.0, noise_floor = 0.0;  ///< [unit]
   double share = 0.0;                    ///< of the squared gap
-  /// Standard errors beyond what a wrong estimate of noise looks like; NaN: too little data to
-  /// tell.
+  /// Standard errors beyond 1.4 floors, which a wrong estimate of noise may look like, or 1.15
+  /// where an effect was named; NaN: too little data to tell.
   double significance = std::numeric_limits<double>::quiet_NaN();
 };
 

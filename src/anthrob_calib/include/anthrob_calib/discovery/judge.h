@@ -50,6 +50,12 @@ class Judge {
   std::size_t blocks_ = 0;
 };
 
+/// Whether some channel is above a gap both in what was learned from and in what was held out, and
+/// not by chance: by three standard errors over the blocks of both, or above two floors, for no
+/// estimate of the noise is that wrong.
+bool certain_gap(const Judge& train, const Eigen::VectorXf& learned, const Judge& test,
+                 const Eigen::VectorXf& held_out, double gap);
+
 /// Share of (weighted) blocks' verdicts for each model: softmax of the total scores under the
 /// Bayesian bootstrap (pseudo-BMA+, Yao et al. 2018). Deterministic by seed.
 /// @param scores one row a model   @param handicap subtracted from each model's total [nat]

@@ -21,6 +21,7 @@ struct Unknown {
   std::string parameter;  ///< of that effect
   double lower = 0.0, upper = 0.0;
   double scale = 1.0;             ///< size of an ordinary change: the unit in which it is solved
+  double finest = 0.0;            ///< polishing makes the scale no smaller
   double expected = 0.0;          ///< before any data were seen
   double spread = 0.0;            ///< standard deviation of that expectation; 0: none
   std::optional<double> neutral;  ///< of an effect's size: the value that does nothing

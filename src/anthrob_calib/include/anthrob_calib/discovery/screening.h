@@ -16,8 +16,8 @@ struct Score {
   std::size_t candidate = 0;
   double gain = 0.0;           ///< of the log likelihood, ordinary parameters free [nat]
   std::vector<double> amount;  ///< of each size, in doses
-  /// Standard deviation of its most visible size, in doses, had the fit begun with it, and which it
-  /// is; infinite if a dose changes nothing.
+  /// Standard deviation of its most visible size, in doses, all ordinary parameters free, and which
+  /// it is; infinite if a dose changes nothing that they cannot imitate.
   double uncertainty = 0.0;
   std::size_t size = 0;
   double seconds = 0.0;  ///< of recordings that say so; `gain` is per the shortest look at any
@@ -85,8 +85,8 @@ class Screening {
   };
   Projection project(const Look& look, const Fitted& base,
                      const std::vector<Eigen::Index>& unknowns) const;
-  /// By all of them, wherever the fit has taken them: had an effect been there, it might be their
-  /// imitation that took one to its bound. But without those that are the same quantity.
+  /// By all of them, also those at a bound: it may be the imitation of an effect that took them
+  /// there. But a candidate that is the same quantity as one of them (at most one) without that.
   Projection project_whole(const Look& look, const Fitted& base) const;
   void score(const Look& look, const Fitted& base, std::vector<Score>& scores) const;
 
