@@ -84,6 +84,14 @@ TEST(Bootstrap, IntervalsOfNoiseCoverTheTruth) {
   EXPECT_NEAR(sum / formula, 1.1, 0.2);
 }
 
+TEST(Bootstrap, NothingToBeFoundHasNoIntervals) {
+  Fitted fitted = fit_with([](std::size_t b) { return speed_at(b); });
+  fitted.unknowns.clear();
+  fitted.sensitivity.resize(kBins, 0);
+  const Experiments experiments = {std::make_shared<Swing>()};
+  EXPECT_TRUE(bootstrap_intervals(fitted, experiments, {speed()}, 1).empty());
+}
+
 TEST(Bootstrap, LawThatFitsNeitherSlowNorFastIsUncertain) {
   // As large as the noise of the other test, but of one mind at each speed.
   const double w = width(fit_with([](std::size_t b) { return std::sqrt(2.0) * speed_at(b); }));

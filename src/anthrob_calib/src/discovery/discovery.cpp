@@ -19,7 +19,7 @@ namespace {
 /// What an effect must do to be named. Judged on data it was not fitted to.
 constexpr double kEvidence = 3.0;      ///< [nat] beyond the logarithm of the number of candidates
 constexpr double kSignificance = 3.0;  ///< standard errors over blocks
-constexpr double kFaintSignificance = 6.0;  ///< where no gap is beyond doubt
+constexpr double kFaintSignificance = 6.0;  ///< where no gap is above kRealGap
 constexpr double kShareOfPresent = 0.1;     ///< of the squared gaps above faint ones
 constexpr double kShareOfFirst = 0.03;
 /// A channel's gap is one only beyond what a wrong estimate of the noise may look like. A fainter
@@ -75,7 +75,7 @@ class Search {
     Screening screening(train_, base_, candidates_, laboratory_.quick, laboratory_.slow);
     std::vector<Score> scores = screening.scores(base_);
     fly_ahead(screening, scores, answer);
-    for (int round = 0; round < question_.max_effects && has_faint_gap(); ++round) {
+    for (int round = 0; round < question_.max_effects && has_gap(kFaintGap); ++round) {
       if (round > 0) {
         stage("screening", round);
         screening.renew(base_, screening.scores(base_), kRenewed);
@@ -185,13 +185,13 @@ class Search {
     return true;
   }
 
-  /// Of a channel, in what was learned from and in what was held out: worth a look.
-  bool has_faint_gap() const {
+  /// Of a channel, in what was learned from and in what was held out.
+  bool has_gap(double least) const {
     const auto learned = train_judge_.channel_gaps(base_.residual);
     const auto held_out = test_judge_.channel_gaps(base_test_);
     return std::any_of(held_out.begin(), held_out.end(), [&](const auto& channel) {
       const auto found = learned.find(channel.first);
-      return channel.second > kFaintGap && found != learned.end() && found->second > kFaintGap;
+      return channel.second > least && found != learned.end() && found->second > least;
     });
   }
 
@@ -205,7 +205,7 @@ class Search {
     const double gained = before - excess(test_judge_, best.test, kFaintGap);
     return best.probability > list.none &&
            best.evidence > kEvidence + std::log(static_cast<double>(candidates_.size())) &&
-           best.significance > (gap_is_certain() ? kSignificance : kFaintSignificance) &&
+           best.significance > (has_gap(kRealGap) ? kSignificance : kFaintSignificance) &&
            gained > kShareOfPresent * before && gained > kShareOfFirst * first_faint_excess_;
   }
 

@@ -94,6 +94,7 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator) {
 Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd& g,
                                 const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   const Eigen::Index n = g.size();
+  if (n == 0) return g;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n).cwiseMax(lower).cwiseMin(upper);
   std::vector<char> held(static_cast<std::size_t>(n), 0);
   for (int sweep = 0; sweep < 50; ++sweep) {
