@@ -17,7 +17,7 @@ PROTOCOL = '''
 protocol: %(protocol)s
 postures: %(postures)s
 rest: E0
-visit: [E1, E7]
+visit: %(visit)s
 settle: {actuator_velocity: 0.1, joint_velocity: 0.05, window: 0.3, timeout: 20.0}
 hold: 0.5
 average: 0.1
@@ -30,7 +30,7 @@ class Recorder(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp()
         package = subprocess.check_output(['rospack', 'find', 'anthrob_bringup'], text=True).strip()
-        self.values = {'protocol': 'equilibria', 'limit': 0.0524,
+        self.values = {'protocol': 'equilibria', 'limit': 0.0524, 'visit': '[E1, E7]',
                        'postures': os.path.join(package, 'config/anthrob/equilibria_tier1.yaml')}
 
     def tearDown(self):
@@ -118,7 +118,8 @@ class Recorder(unittest.TestCase):
 
     def test_motors_that_are_stopped_end_the_session(self):
         out = self.path('stopped')
-        process = self.start(out)
+        # Long enough that the stop comes before the end however slowly it is called.
+        process = self.start(out, visit=[f'E{k}' for k in range(1, 17)])
         end = time.time() + 60
         while not os.path.exists(os.path.join(out, 'E1_run1.bag.part')):
             self.assertLess(time.time(), end)
