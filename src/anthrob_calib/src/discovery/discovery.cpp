@@ -22,6 +22,8 @@ constexpr double kSignificance = 3.0;  ///< standard errors over blocks
 constexpr double kFaintSignificance = 6.0;  ///< where no gap is above kRealGap
 constexpr double kShareOfPresent = 0.1;     ///< of the squared gaps above faint ones
 constexpr double kShareOfFirst = 0.03;
+/// What is smaller beside the first gap may be what the shape of the first law leaves.
+constexpr double kSmallSignificance = 8.0;
 /// A channel's gap is one only beyond what a wrong estimate of the noise may look like. A fainter
 /// one is worth a look for what would explain it: evidence is judged by what is left, not by the
 /// floor.
@@ -29,7 +31,7 @@ constexpr double kRealGap = 1.4;
 constexpr double kFaintGap = 1.15;
 constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
-constexpr int kSettling = 5;
+constexpr int kSettling = 8;
 constexpr double kSettled = 5e-4;  ///< share of the cost
 constexpr double kClearGap = 2.5;  ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
@@ -206,7 +208,8 @@ class Search {
     return best.probability > list.none &&
            best.evidence > kEvidence + std::log(static_cast<double>(candidates_.size())) &&
            best.significance > (has_gap(kRealGap) ? kSignificance : kFaintSignificance) &&
-           gained > kShareOfPresent * before && gained > kShareOfFirst * first_faint_excess_;
+           gained > kShareOfPresent * before &&
+           (gained > kShareOfFirst * first_faint_excess_ || best.significance > kSmallSignificance);
   }
 
   /// Values and intervals of all effects in the model as it is at the end: later ones have moved
@@ -229,12 +232,27 @@ class Search {
     }
   }
 
+  /// To the end. What was missing has led ordinary parameters astray, and friction does not let
+  /// them all find back: with what is found, a fit from the given parameters mostly ends lower.
+  Fitted fitted_to_the_end(const Fitted& fitted) const {
+    Variant given = fitted.variant;
+    given.nuisances = evaluator_.initial_nuisances();
+    try {
+      Fitted fresh = train_.start(given, fitted.unknowns);
+      train_.improve(fresh, kRecalibrations);
+      settle(fresh);
+      if (fresh.cost < fitted.cost) return fresh;
+    } catch (const NotSimulated&) {
+      // Not from there.
+    }
+    Fitted settled = fitted;
+    settle(settled);
+    return settled;
+  }
+
   void accept(ShortList& list, Answer& answer) {
     Named& best = list.named.front();
-    Fitted settled = best.fit;
-    settle(settled);
-    // Values and intervals need exact sensitivities.
-    if (clearly_misses(settled)) train_.polish(settled, kPolish);
+    Fitted settled = fitted_to_the_end(best.fit);
     Eigen::VectorXf test = test_.residual(settled.variant);
     if (test.size() > 0) {
       best.fit = std::move(settled);

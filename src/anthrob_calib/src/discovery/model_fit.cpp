@@ -12,6 +12,39 @@ namespace {
 
 constexpr double kPolished = 5e-4;  ///< relative gain that is not worth another iteration
 constexpr double kKept = 0.5;       ///< share of the promised gain: as linear as can be hoped for
+/// How to step: damping, as a share of the information, and the share of that step that is taken.
+struct Way {
+  double damping, length;
+  bool last_resort;
+};
+constexpr Way kWays[] = {{1e-4, 1.0, false}, {1.0, 1.0, false}, {1e-4, 0.5, true},
+                         {1e-4, 0.25, true}, {10.0, 1.0, true}, {100.0, 1.0, true}};
+// Steps that tell a sensitivity [scales].
+constexpr double kOneSide = 0.5;
+constexpr double kBothSides = 1.0;
+
+/// Steps along single unknowns.
+struct Steps {
+  std::vector<Variant> to;
+  std::vector<float> length;  ///< [scales], as far as bounds let it be
+
+  /// To the other side where there is no room for a single step.
+  void add(const Fitted& fitted, std::size_t unknown, double step) {
+    const Unknown& u = fitted.unknowns[unknown];
+    const double value = u.read(fitted.variant);
+    double change = step * u.scale;
+    if (step == kOneSide && value + change > u.upper) change = -change;
+    Variant variant = fitted.variant;
+    u.write(value + change, variant);
+    length.push_back(static_cast<float>((u.read(variant) - value) / u.scale));
+    to.push_back(std::move(variant));
+  }
+
+  /// Whether a step led somewhere where the model can be simulated.
+  bool leads_on(std::size_t k, const std::vector<Eigen::VectorXf>& changes) const {
+    return length[k] != 0.0f && changes[k].size() > 0;
+  }
+};
 
 }  // namespace
 
@@ -205,30 +238,36 @@ double ModelFit::cost_of(const Fitted& fitted, const Variant& variant,
   return 0.5 * residual.cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(other.precision());
 }
 
-void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from, bool roughly) const {
-  std::vector<Variant> moved;
-  std::vector<double> size;
-  for (std::size_t i = from; i < fitted.unknowns.size(); ++i) {
-    const Unknown& u = fitted.unknowns[i];
-    const double value = u.read(fitted.variant);
-    double change = 0.5 * u.scale;
-    if (value + change > u.upper) change = -change;
-    Variant variant = fitted.variant;
-    u.write(value + change, variant);
-    size.push_back((u.read(variant) - value) / u.scale);
-    moved.push_back(std::move(variant));
-  }
-  const auto results = roughly ? changes(fitted.variant, fitted.residual, std::move(moved))
-                               : exact_changes(fitted.residual, moved);
+void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
+  Steps steps;
+  for (std::size_t i = from; i < fitted.unknowns.size(); ++i) steps.add(fitted, i, kOneSide);
+  const auto changes = exact_changes(fitted.residual, steps.to);
   fitted.sensitivity.conservativeResize(fitted.residual.size(),
                                         static_cast<Eigen::Index>(fitted.unknowns.size()));
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(from + i));
-    if (results[i].size() == 0 || size[i] == 0.0) {
-      column.setZero();
-    } else {
-      column = results[i] / static_cast<float>(size[i]);
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(from + k));
+    column.setZero();
+    if (steps.leads_on(k, changes)) column = changes[k] / steps.length[k];
+  }
+}
+
+void ModelFit::survey(Fitted& fitted, int sides) const {
+  const std::size_t n = fitted.unknowns.size();
+  Steps steps;
+  for (std::size_t i = 0; i < n; ++i) steps.add(fitted, i, sides == 1 ? kOneSide : kBothSides);
+  for (std::size_t i = 0; i < n && sides == 2; ++i) steps.add(fitted, i, -kBothSides);
+  const auto changes = this->changes(fitted.variant, fitted.residual, steps.to);
+  fitted.sensitivity.setZero(fitted.residual.size(), static_cast<Eigen::Index>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(i));
+    float length = 0.0f;
+    for (std::size_t k = i; k < changes.size(); k += n) {
+      if (!steps.leads_on(k, changes)) continue;
+      const float sign = steps.length[k] > 0.0f ? 1.0f : -1.0f;
+      column += sign * changes[k];
+      length += std::abs(steps.length[k]);
     }
+    if (length > 0.0f) column /= length;
   }
 }
 
@@ -240,7 +279,7 @@ Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) co
   if (fitted.residual.size() == 0) {
     throw NotSimulated("the model cannot be simulated along the recordings");
   }
-  simulate_sensitivity(fitted, 0, true);
+  survey(fitted, 1);
   fitted.cost = cost_of(fitted, variant, fitted.residual);
   return fitted;
 }
@@ -275,8 +314,21 @@ void ModelFit::polish(Fitted& fitted, int iterations, bool roughly) const {
     const double size = u.read(fitted.variant) - u.neutral.value_or(0.0);
     u.scale = std::max({0.1 * u.scale, 0.05 * std::abs(size), u.finest});
   }
-  simulate_sensitivity(fitted, 0, roughly);
+  survey(fitted, roughly ? 1 : 2);
+  const Eigen::VectorXd start = fitted.scaled();
   improve(fitted, iterations, kPolished);
+  stride(fitted, fitted.scaled() - start);
+}
+
+void ModelFit::stride(Fitted& fitted, Eigen::VectorXd step) const {
+  if (step.size() == 0 || step.isZero()) return;
+  for (;; step *= 2.0) {
+    Trial trial = try_step(fitted, step);
+    if (!(trial.cost < fitted.cost)) return;
+    fitted.variant = std::move(trial.variant);
+    fitted.residual = std::move(trial.residual);
+    fitted.cost = trial.cost;
+  }
 }
 
 ModelFit::Trial ModelFit::try_step(const Fitted& fitted, const Eigen::VectorXd& step) const {
@@ -306,18 +358,20 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
         (fitted.sensitivity.transpose() * fitted.residual).cast<double>() +
         precision.cwiseProduct(x - fitted.expected());
     const Eigen::VectorXd lower = fitted.lower_room(), upper = fitted.upper_room();
-    // Boldly first; carefully, too, if that did not bring what it promised.
+    // Boldly first; carefully, too, if that did not bring what it promised; and where neither
+    // brings anything, less far or more carefully still.
     Trial best;
     best.cost = fitted.cost;
-    for (const double damping : {1e-4, 1.0}) {
+    for (const auto& [damping, length, last_resort] : kWays) {
+      if (last_resort && best.step.size() > 0) break;
       Eigen::MatrixXd system = information;
       system.diagonal() += precision;
       system.diagonal() += damping * information.diagonal();
       system.diagonal().array() += 1e-9 * (1.0 + information.diagonal().maxCoeff());
-      Trial trial = try_step(fitted, bounded_minimum(system, gradient, lower, upper));
+      const Eigen::VectorXd step = length * bounded_minimum(system, gradient, lower, upper);
+      Trial trial = try_step(fitted, step);
       const double promised =
-          -(gradient.dot(trial.step) +
-            0.5 * trial.step.dot(information * trial.step + precision.cwiseProduct(trial.step)));
+          -(gradient.dot(step) + 0.5 * step.dot(information * step + precision.cwiseProduct(step)));
       const bool kept = fitted.cost - trial.cost > kKept * promised;
       if (trial.cost < best.cost) best = std::move(trial);
       if (kept) break;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <optional>
 
 #include "anthrob_sim/effects/placed_effects.h"
@@ -66,6 +68,18 @@ double share_of_simpler(const Candidate& part, const Candidate& whole) {
   return everywhere && a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
 }
 
+std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
+                                       std::size_t of_a_kind, std::size_t most) {
+  std::map<const Effect*, std::size_t> count;
+  std::vector<std::size_t> best, rest;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    (++count[kinds[i]] <= of_a_kind ? best : rest).push_back(i);
+  }
+  best.insert(best.end(), rest.begin(), rest.end());
+  if (best.size() > most) best.resize(most);
+  return best;
+}
+
 EffectInstance Naming::sized(const Candidate& candidate, const std::vector<double>& amount) const {
   EffectInstance instance = candidate.neutral();
   const auto sizes = candidate.sizes();
@@ -84,16 +98,23 @@ std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>&
   // several sizes around the suggested one are simulated, ordinary parameters as they are, and the
   // part that these can take up is taken off afterwards by the fit. The dose itself is among them:
   // a surface that is too small to touch does nothing.
+  std::vector<const Effect*> kinds;
+  for (std::size_t s = 0; s < scores.size() && scores[s].gain > 0.0; ++s) {
+    kinds.push_back(candidates_[scores[s].candidate].effect);
+  }
+  std::vector<Score> tried;
+  for (const std::size_t s : best_of_kinds(kinds, kTriedOfAKind, kTried)) {
+    tried.push_back(scores[s]);
+  }
   std::vector<Variant> variants;
   std::vector<std::vector<double>> amounts;
   std::vector<std::size_t> owner;
-  for (std::size_t s = 0; s < scores.size() && s < kTried; ++s) {
-    if (!(scores[s].gain > 0.0)) break;
+  for (std::size_t s = 0; s < tried.size(); ++s) {
     for (const double factor : {0.5, 1.0, 0.0}) {
-      std::vector<double> amount = scores[s].amount;
+      std::vector<double> amount = tried[s].amount;
       for (double& a : amount) a = factor > 0.0 ? factor * a : std::copysign(a != 0.0, a);
       Variant variant = base.variant;
-      variant.effects.push_back(sized(candidates_[scores[s].candidate], amount));
+      variant.effects.push_back(sized(candidates_[tried[s].candidate], amount));
       variants.push_back(std::move(variant));
       amounts.push_back(std::move(amount));
       owner.push_back(s);
@@ -107,10 +128,7 @@ std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>&
   A.diagonal() += precision;
   A.diagonal().array() += 1e-9 * (1.0 + A.diagonal().maxCoeff());
   const Eigen::VectorXd lower = base.lower_room(), upper = base.upper_room();
-  std::vector<double> left(scores.size(), base.cost);
-  std::vector<Score> tried(
-      scores.begin(),
-      scores.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(scores.size(), kTried)));
+  std::vector<double> left(tried.size(), base.cost);
   for (std::size_t i = 0; i < changes.size(); ++i) {
     if (changes[i].size() == 0) continue;
     const Eigen::VectorXf residual = base.residual + changes[i];
@@ -126,21 +144,22 @@ std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>&
     left[owner[i]] = cost;
     tried[owner[i]].amount = amounts[i];
   }
-  std::vector<std::size_t> order;
-  for (std::size_t s = 0; s < scores.size() && s < kTried; ++s) {
-    if (scores[s].gain > 0.0) order.push_back(s);
-  }
+  std::vector<std::size_t> order(tried.size());
+  std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return left[a] < left[b]; });
   // Two names of one place ("the last segment", "segment 3") give the same bits.
   const auto same = [&](std::size_t a, std::size_t b) {
     return left[a] == left[b] &&
-           candidates_[scores[a].candidate].effect == candidates_[scores[b].candidate].effect;
+           candidates_[tried[a].candidate].effect == candidates_[tried[b].candidate].effect;
   };
   order.erase(std::unique(order.begin(), order.end(), same), order.end());
-  if (order.size() > kFitted) order.resize(kFitted);
+  kinds.clear();
+  for (const std::size_t i : order) kinds.push_back(candidates_[tried[i].candidate].effect);
   std::vector<Score> best;
-  for (const std::size_t i : order) best.push_back(std::move(tried[i]));
+  for (const std::size_t k : best_of_kinds(kinds, kFittedOfAKind, kFitted)) {
+    best.push_back(std::move(tried[order[k]]));
+  }
   return best;
 }
 

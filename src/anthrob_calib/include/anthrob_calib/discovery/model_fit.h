@@ -56,8 +56,9 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator);
 
 /// Least squares in the full simulation: Levenberg-Marquardt with bounds. Sensitivities are
 /// simulated once and then carried along by what each step really did (Broyden); those to effects,
-/// which are few and less linear, once more after the first step. The first ones are rough: good
-/// for the first steps, but a fit ends where the exact ones let it.
+/// which are few and less linear, once more after the first step. The first ones are by a step to
+/// one side: good for the first steps. Where a fit ends, steps to both sides tell the slope of the
+/// valley: friction that sticks a little earlier or later makes its ground rugged.
 class ModelFit {
  public:
   /// @param coarse step of the simulations of changes() [s]; 0: as usual
@@ -77,6 +78,7 @@ class ModelFit {
   /// To another variant with the same unknowns; sensitivities stay. @return whether it can be
   bool move(Fitted& fitted, const Variant& variant) const;
   /// All sensitivities simulated anew, then a few more iterations.
+  /// @param roughly by steps to one side
   void polish(Fitted& fitted, int iterations, bool roughly = false) const;
   /// The same fit with more unknowns; those after the present ones are simulated.
   /// @throws NotSimulated
@@ -109,11 +111,16 @@ class ModelFit {
   };
   Trial try_step(const Fitted& fitted, const Eigen::VectorXd& step) const;
 
+  /// Goes on in a direction, in ever longer steps, while that leads down.
+  void stride(Fitted& fitted, Eigen::VectorXd step) const;
+
   /// How the residual changes to variants, by the usual step.
   std::vector<Eigen::VectorXf> exact_changes(const Eigen::VectorXf& residual,
                                              const std::vector<Variant>& to) const;
-  /// Of the unknowns from that one on. Roughly: by changes().
-  void simulate_sensitivity(Fitted& fitted, std::size_t from, bool roughly = false) const;
+  /// Of the unknowns from that one on, by the usual step of the simulation.
+  void simulate_sensitivity(Fitted& fitted, std::size_t from) const;
+  /// Of all unknowns, by changes(). @param sides 1 or 2
+  void survey(Fitted& fitted, int sides) const;
   double cost_of(const Fitted& fitted, const Variant& variant,
                  const Eigen::VectorXf& residual) const;
 

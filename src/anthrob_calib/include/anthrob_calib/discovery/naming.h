@@ -32,14 +32,20 @@ struct ShortList {
 /// of it. 1: the other one is not simpler.
 double share_of_simpler(const Candidate& part, const Candidate& whole);
 
+/// The first so many of a list, told by their effects; of each effect no more than so many as long
+/// as there are others: one effect at many places must not crowd out the rest.
+std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
+                                       std::size_t of_a_kind, std::size_t most);
+
 /// Weighs candidates: the best of the linear screening are simulated at the sizes it suggests, the
 /// best of those are fitted, and all are judged on data they were fitted to and on data they were
 /// not.
 class Naming {
  public:
-  static constexpr std::size_t kTried = 24;  ///< simulated at their size
+  static constexpr std::size_t kTried = 30;  ///< simulated at their size
   static constexpr std::size_t kFitted = 8;  ///< fitted, roughly
   static constexpr std::size_t kJudged = 5;  ///< fitted to the end and judged
+  static constexpr std::size_t kTriedOfAKind = 6, kFittedOfAKind = 3;
 
   Naming(const ModelFit& train, const ModelFit& test, const Judge& train_judge,
          const Judge& test_judge, const std::vector<Candidate>& candidates, std::uint64_t seed)
