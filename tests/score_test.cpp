@@ -37,12 +37,14 @@ class Score : public testing::Test {
         << Json{{"kind", kind}, {"effects", effects}, {"change", {{"floors", floors}}}};
   }
   void report(const std::string& name, const std::string& verdict, const List& effects = {},
-              const List& not_visible = {}, const List& visible = {}) const {
+              const List& not_visible = {}, const List& visible = {},
+              const Json& gap = nullptr) const {
     fs::create_directories(folder_ / "reports" / name);
     std::ofstream(folder_ / "reports" / name / "report.json") << Json{{"verdict", verdict},
                                                                       {"effects", effects},
                                                                       {"not_visible", not_visible},
-                                                                      {"visible", visible}};
+                                                                      {"visible", visible},
+                                                                      {"gap", gap}};
   }
   void failed(const std::string& name) const {
     fs::create_directories(folder_ / "reports" / name);
@@ -146,6 +148,29 @@ TEST_F(Score, OfWrappedMusclesNullsAndOutsiders) {
   EXPECT_NEAR(rate(result, "its radius [%]", "median"), 10.0, 1e-9);
   EXPECT_EQ(result["null"]["false"], 1);
   EXPECT_EQ(result["outside"]["confidently_wrong"], 1);
+}
+
+TEST_F(Score, OfChannelsThatGetWorseAndOfNamesTooMany) {
+  const auto force = [](double recalibrated, double after) {
+    return Json{{"per_channel",
+                 {{"brachialis/force", {{"recalibrated", recalibrated}, {"after", after}}},
+                  {"brachialis/position", {{"recalibrated", 1.2}, {"after", 1.2}}}}}};
+  };
+  const List rubbing = {hidden("eyelet_friction", "brachialis", 0.1)};
+  const Json good = named("eyelet_friction", "brachialis", 0.1, 0.09, 0.13);
+  const List verbose = {good, named("payload", "forearm", 0.1, 0.0, 1.0)};
+  for (const char* name : {"better", "worse", "worse_in_the_noise"}) truth(name, "effect", rubbing);
+  report("better", "effects_found", {good}, {}, {}, force(2.0, 1.1));
+  report("worse", "effects_found", verbose, {}, {}, force(1.1, 1.3));
+  report("worse_in_the_noise", "effects_found", {good}, {}, {}, force(0.6, 0.9));
+  truth("quiet", "null", {});
+  report("quiet", "effects_found", {good}, {}, {}, force(1.1, 1.3));
+  const Json result = score();
+  EXPECT_EQ(rate(result, "a channel worse", "hits"), 2.0);
+  EXPECT_EQ(rate(result, "a channel worse", "count"), 3.0);
+  EXPECT_EQ(rate(result, "and above its floor", "hits"), 1.0);
+  EXPECT_EQ(rate(result, "more named than hidden", "hits"), 1.0);
+  EXPECT_EQ(rate(result, "more named than hidden", "count"), 3.0);
 }
 
 }  // namespace
