@@ -441,6 +441,18 @@ TEST(ModelFit, ACoarseStepTellsTheSameChanges) {
   }
 }
 
+TEST(ListCandidates, EveryDoseCanBeBuilt) {
+  const std::string model = kConfig + "/anthrob/model_I.yaml";
+  const Evaluator evaluator(model, ordinary_parameters(model, ""), 0.001, 1);
+  for (const Candidate& candidate : list_candidates(evaluator, {})) {
+    for (const EffectParameter* size : candidate.sizes()) {
+      Variant variant{evaluator.initial_nuisances()};
+      variant.effects = {candidate.dose(*size)};
+      EXPECT_NO_THROW(evaluator.build(variant)) << candidate.name() << " " << size->name;
+    }
+  }
+}
+
 TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {
   const Arm arm;
   const std::vector<EffectInstance> hidden = {

@@ -29,7 +29,7 @@ EffectInfo describe() {
        "Nm",
        "torque of the tendon that the spindle resists",
        0.01,
-       0.01,
+       0.04,
        {1e-4, 1.0},
        EffectParameter::kShape},
   };

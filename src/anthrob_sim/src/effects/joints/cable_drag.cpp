@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "anthrob_sim/effects/catalogue.h"
@@ -24,7 +25,7 @@ EffectInfo describe() {
       {"stiffness", "Nm/rad", "of the cables", 0.0, 0.05, {0.0, 5.0}},
       {"rest",
        "rad",
-       "where they are free; of a ball joint 0",
+       "where they are free; not of a ball joint, there they are at rest",
        0.0,
        0.2,
        {-3.0, 3.0},
@@ -76,14 +77,24 @@ class CableDrag final : public JointEffect {
  public:
   CableDrag() : JointEffect(describe()) {}
 
+  std::vector<EffectParameter> parameters_at(const RobotModel& robot,
+                                             const std::string& place) const override {
+    std::vector<EffectParameter> list = JointEffect::parameters_at(robot, place);
+    const int joint = robot.skeleton->find_joint(place);
+    if (joint >= 0 && robot.skeleton->joints[joint].type == JointType::kBall) {
+      list.erase(std::remove_if(list.begin(), list.end(),
+                                [](const EffectParameter& p) { return p.name == "rest"; }),
+                 list.end());
+    }
+    return list;
+  }
+
  protected:
   void change(const EffectSetting& setting, ModelDraft& draft, JointModel& joint) const override {
-    if (joint.type == JointType::kBall && setting["rest"] != 0.0) {
-      setting.fail("rest", "none for a ball joint, whose cables are free at rest");
-    }
     const int index = static_cast<int>(&joint - draft.skeleton.joints.data());
+    const double rest = joint.type == JointType::kBall ? 0.0 : setting["rest"];
     draft.robot.joint_torques.push_back(
-        std::make_shared<CableTorque>(index, joint, setting["stiffness"], setting["rest"]));
+        std::make_shared<CableTorque>(index, joint, setting["stiffness"], rest));
   }
 };
 
