@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "anthrob_calib/discovery/naming.h"
+#include "anthrob_sim/effects/catalogue.h"
 
 namespace anthrob {
 namespace discovery {
@@ -81,7 +82,7 @@ TEST(ModelFit, SeesThroughRuggedGround) {
 }
 
 TEST(ModelFit, AStepThatLeadsTooFarIsTakenShorter) {
-  // Gauss-Newton from 2 on diverges, also at half the step.
+  // Gauss-Newton from 2 beside the root diverges, also at half the step.
   const Problem problem([](double x) { return std::atan(2.0 * (x - 50.0)); });
   Fitted fitted = problem.start(52.0);
   problem.fit.polish(fitted, 20);
@@ -90,7 +91,7 @@ TEST(ModelFit, AStepThatLeadsTooFarIsTakenShorter) {
 }
 
 TEST(ModelFit, GoesOnWhereItLeadsDown) {
-  // Each step promises to end where the slope is ten times smaller: a valley that goes on.
+  // Each step ends where the slope is e times smaller: a valley that goes on.
   const Problem problem([](double x) { return std::exp(-x / 10.0); });
   Fitted one = problem.start(1.0);
   problem.fit.improve(one, 1, 0.0);
@@ -101,8 +102,7 @@ TEST(ModelFit, GoesOnWhereItLeadsDown) {
 }
 
 TEST(BestOfKinds, OneEffectDoesNotCrowdOutTheOthers) {
-  const Effect* a = reinterpret_cast<const Effect*>(1);
-  const Effect* b = reinterpret_cast<const Effect*>(2);
+  const Effect *const a = all_effects()[0], *const b = all_effects()[1];
   const std::vector<const Effect*> kinds = {a, a, a, a, b, a, b};
   using Places = std::vector<std::size_t>;
   EXPECT_EQ(best_of_kinds(kinds, 2, 4), (Places{0, 1, 4, 6}));
