@@ -238,6 +238,26 @@ TEST(DrivenAxis, WhatIsNamedIsLargerThanWhatIsSaidToShow) {
   EXPECT_EQ(more.effects[0].id, "joint_coulomb") << summary(more);
 }
 
+TEST(DrivenAxis, WhatIsSaidToShowMostlyDoes) {
+  int found = 0, told = 0;
+  for (std::uint64_t seed = 10; seed < 20; ++seed) {
+    const auto with = [&](double coulomb) {
+      Question question = axis_question(coulomb, 0.0);
+      question.train = {axis_recording(coulomb, 0.0, seed)};
+      question.test = {axis_recording(coulomb, 0.0, seed + 100)};
+      return ask(question);
+    };
+    for (const Visibility& shows : with(0.0).visible) {
+      if (shows.id != "joint_coulomb") continue;
+      ++told;
+      const Answer answer = with(shows.smallest_visible);
+      found += !answer.effects.empty() && answer.effects[0].id == "joint_coulomb";
+    }
+  }
+  EXPECT_EQ(told, 10);
+  EXPECT_GE(found, 8);
+}
+
 TEST(DrivenAxis, WhatACalibrationMayTakeUpIsNotSaidToShow) {
   Question question = axis_question(0.0, 0.0);
   ASSERT_EQ(question.nuisances.size(), 1u);

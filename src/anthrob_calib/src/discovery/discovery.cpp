@@ -40,6 +40,7 @@ constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects
 constexpr std::size_t kRenewed =
     60;                              ///< candidates whose doses are simulated again in later rounds
 constexpr double kMentioned = 0.02;  ///< least probability of a rival
+constexpr double kMostlyFound = 1.645;  ///< standard deviations: nineteen times out of twenty
 
 /// What of a channel's squared gap is more than that of a gap.
 double excess(double gap, double least) {
@@ -295,13 +296,14 @@ class Search {
     std::sort(scores.begin(), scores.end(),
               [](const Score& a, const Score& b) { return a.candidate < b.candidate; });
     std::vector<Visibility> all;
-    const std::vector<double> changes = screening.channel_changes(base_, scores, train_judge_);
+    const std::vector<double> for_gap =
+        screening.doses_to_a_gap(base_, scores, train_judge_, mostly_looked_at());
     for (std::size_t s = 0; s < scores.size(); ++s) {
       const Score& score = scores[s];
       const EffectParameter& size = *candidates_[score.candidate].sizes()[score.size];
       const double dose = std::abs(size.typical - size.neutral);
       const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
-      all.push_back(visibility_of(score, changes[s]));
+      all.push_back(visibility_of(score, for_gap[s]));
       const double ordinary = taken_for_ordinary(candidates_[score.candidate]);
       const double smallest = all.back().smallest_visible;
       const bool visible = smallest <= largest && smallest - ordinary <= 5.0 * dose;
@@ -315,17 +317,30 @@ class Search {
     }
   }
 
+  /// How high a channel must stand so that it mostly is above a faint gap [floors].
+  std::map<std::string, double> mostly_looked_at() const {
+    const auto learned = train_judge_.chance_of_gaps();
+    std::map<std::string, double> levels;
+    for (const auto& [name, held_out] : test_judge_.chance_of_gaps()) {
+      const auto found = learned.find(name);
+      if (found == learned.end()) continue;
+      levels[name] = kFaintGap * (1.0 + kMostlyFound * std::max(held_out, found->second));
+    }
+    return levels;
+  }
+
   /// What is named must gain on held-out data, and some channel must show a gap without it.
-  /// @param change of the channel that a dose moves most, in standard deviations
-  Visibility visibility_of(const Score& score, double change) const {
+  /// @param for_gap of its doses
+  Visibility visibility_of(const Score& score, double for_gap) const {
     const Candidate& candidate = candidates_[score.candidate];
     const EffectParameter& size = *candidate.sizes()[score.size];
+    // Evidence E scatters by sqrt(2 E); it is to suffice in spite of that.
     const double needed = kEvidence + std::log(static_cast<double>(candidates_.size()));
+    const double root =
+        kMostlyFound / std::sqrt(2.0) + std::sqrt(0.5 * kMostlyFound * kMostlyFound + needed);
     const double held_out = total_duration(laboratory_.test) / score.seconds;
     const double dose = std::abs(size.typical - size.neutral);
-    const double for_evidence = score.uncertainty * std::sqrt(2.0 * needed / held_out);
-    const double for_gap =
-        change > 0.0 ? std::sqrt(kFaintGap * kFaintGap - 1.0) / change : HUGE_VAL;
+    const double for_evidence = score.uncertainty * root * std::sqrt(2.0 / held_out);
     return {candidate.effect->info().id, candidate.place, size.unit,
             std::max(for_evidence, for_gap) * dose + taken_for_ordinary(candidate)};
   }

@@ -91,6 +91,19 @@ std::map<std::string, double> Judge::channel_gaps(const Eigen::VectorXf& residua
   return gaps;
 }
 
+std::map<std::string, double> Judge::chance_of_gaps() const {
+  std::map<std::string, double> independent;  // bins
+  for (const Run& run : runs_) {
+    const auto measured = (whitener_.segment(run.offset, run.count).array() > 0.0f).count();
+    independent[run.name] += static_cast<double>(measured) / run.inflation;
+  }
+  std::map<std::string, double> chance;
+  for (const auto& [name, count] : independent) {
+    if (count > 0.0) chance[name] = 1.0 / std::sqrt(2.0 * count);
+  }
+  return chance;
+}
+
 std::map<std::string, double> Judge::excess_significance(const Eigen::VectorXf& residual,
                                                          double gap) const {
   const auto count = static_cast<Eigen::Index>(blocks_);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <string>
 
 namespace anthrob {
 namespace discovery {
@@ -207,9 +209,11 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
   }
 }
 
-std::vector<double> Screening::channel_changes(const Fitted& base, const std::vector<Score>& scores,
-                                               const Judge& judge) const {
-  std::vector<double> changes(scores.size(), 0.0);
+std::vector<double> Screening::doses_to_a_gap(const Fitted& base, const std::vector<Score>& scores,
+                                              const Judge& judge,
+                                              const std::map<std::string, double>& levels) const {
+  std::vector<double> doses(scores.size(), std::numeric_limits<double>::infinity());
+  const std::map<std::string, double> now = judge.channel_gaps(base.residual);
   Eigen::VectorXf whole = Eigen::VectorXf::Zero(base.residual.size());
   for (const Look& look : looks_) {
     const Projection p = project_whole(look, base);
@@ -225,12 +229,17 @@ std::vector<double> Screening::channel_changes(const Fitted& base, const std::ve
       const auto k = static_cast<std::size_t>(found - look.candidates.begin());
       whole(look.excerpt.rows) =
           left.col(static_cast<Eigen::Index>(look.first_column[k] + scores[s].size));
-      for (const auto& [name, gap] : judge.channel_gaps(whole)) {
-        changes[s] = std::max(changes[s], gap / std::sqrt(share));
+      for (const auto& [name, change] : judge.channel_gaps(whole)) {
+        // What stands there now may be the effect itself.
+        const double floor = std::min(1.0, now.at(name));
+        const auto level = levels.find(name);
+        if (level == levels.end() || change <= 0.0) continue;
+        const double missing = std::sqrt(level->second * level->second - floor * floor);
+        doses[s] = std::min(doses[s], missing * std::sqrt(share) / change);
       }
     }
   }
-  return changes;
+  return doses;
 }
 
 std::vector<std::vector<std::size_t>> Screening::alike(const Fitted& base) const {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "anthrob_calib/discovery/noise_floor.h"
@@ -32,6 +34,9 @@ class Judge {
   double gap(const Eigen::VectorXf& residual) const;
   /// The same by channel.
   std::map<std::string, double> channel_gaps(const Eigen::VectorXf& residual) const;
+  /// By what share of it chance moves each channel's gap (one standard deviation), where only noise
+  /// is.
+  std::map<std::string, double> chance_of_gaps() const;
   /// By how many standard errors over blocks each channel's mean square exceeds that of a gap; of
   /// channels that are measured in three blocks or more.
   std::map<std::string, double> excess_significance(const Eigen::VectorXf& residual,

@@ -40,11 +40,12 @@ class Screening {
   std::vector<Score> scores(const Fitted& base) const;
   /// The same doses again, of some candidates only, on top of another base.
   void renew(const Fitted& base, const std::vector<Score>& best, std::size_t count);
-  /// By how many standard deviations (rms) a dose of each score's most visible size moves the
-  /// channel that it moves most, once ordinary parameters have done what they can.
+  /// How many doses of each score's most visible size it takes until some channel stands as high as
+  /// its level [floors], once ordinary parameters have done what they can.
   /// @param judge of the recordings of the fit
-  std::vector<double> channel_changes(const Fitted& base, const std::vector<Score>& scores,
-                                      const Judge& judge) const;
+  std::vector<double> doses_to_a_gap(const Fitted& base, const std::vector<Score>& scores,
+                                     const Judge& judge,
+                                     const std::map<std::string, double>& levels) const;
   /// Groups of candidates whose doses change the data alike once ordinary parameters have done what
   /// they can: nothing in these recordings tells them apart.
   std::vector<std::vector<std::size_t>> alike(const Fitted& base) const;
