@@ -12,6 +12,8 @@ namespace discovery {
 /// On what the disagreement in one channel depends: the measured quantity that predicts it best,
 /// and how.
 struct Dependence {
+  static constexpr double kTelling = 0.05;  ///< share that says something
+
   std::string channel;   ///< "<place>/<quantity>", components of an orientation named x, y, z
   std::string variable;  ///< "biceps_brachii/force"; empty if nothing predicts it
   std::string word;      ///< "sign of velocity", "load", "posture", "time", ...

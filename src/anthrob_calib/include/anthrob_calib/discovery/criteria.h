@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace anthrob {
+namespace discovery {
+
+/// A channel's gap is one only beyond what a wrong estimate of the noise may look like [floors]. A
+/// fainter one is worth a look for what would explain it: evidence is judged by what is left, not
+/// by the floor.
+constexpr double kRealGap = 1.4;
+constexpr double kFaintGap = 1.15;
+
+/// What of a channel's squared gap is more than that of a gap.
+inline double excess(double gap, double least) {
+  return std::max(0.0, gap * gap - least * least);
+}
+
+/// Gain in held-out log score that an effect must bring to be named [nat]: the more, the more
+/// candidates were searched.
+inline double needed_evidence(std::size_t candidates) {
+  return 3.0 + std::log(static_cast<double>(candidates));
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "anthrob_calib/discovery/discovery.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// Fills in the verdict and what is to be said of what remains, and takes from the named effects'
+/// probabilities what remains speaks against them.
+/// @param left each channel's gap in what was learned from, with the named effects [floors]
+/// @param certain whether some gap that is left is none by chance
+void pronounce(const std::map<std::string, double>& left, bool certain, Answer& answer);
+
+}  // namespace discovery
+}  // namespace anthrob

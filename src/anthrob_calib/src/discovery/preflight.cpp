@@ -1,0 +1,89 @@
+#include "anthrob_calib/discovery/preflight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "anthrob_calib/discovery/criteria.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kMostly = 1.645;   ///< standard deviations: nineteen times out of twenty
+constexpr double kMostDoses = 5.0;  ///< more than that of a typical size is none that one meets
+
+/// How high each channel must stand so that it mostly is above a faint gap [floors].
+std::map<std::string, double> mostly_looked_at(const Judge& train, const Judge& test) {
+  const auto learned = train.chance_of_gaps();
+  std::map<std::string, double> levels;
+  for (const auto& [name, held_out] : test.chance_of_gaps()) {
+    const auto found = learned.find(name);
+    if (found == learned.end()) continue;
+    levels[name] = kFaintGap * (1.0 + kMostly * std::max(held_out, found->second));
+  }
+  return levels;
+}
+
+/// Evidence E scatters by sqrt(2 E).
+/// @return what must be expected so that there mostly is enough [nat]
+double mostly_enough(double evidence) {
+  const double root = kMostly / std::sqrt(2.0) + std::sqrt(0.5 * kMostly * kMostly + evidence);
+  return root * root;
+}
+
+}  // namespace
+
+PreFlight::PreFlight(const std::vector<Candidate>& candidates, const Fitted& base,
+                     const Judge& train, const Judge& test, double held_out)
+    : candidates_(candidates), base_(base), train_(train), test_(test), held_out_(held_out) {}
+
+void PreFlight::fly(const Screening& screening, std::vector<Score> scores, Answer& answer) const {
+  std::sort(scores.begin(), scores.end(),
+            [](const Score& a, const Score& b) { return a.candidate < b.candidate; });
+  std::vector<Visibility> all;
+  const std::vector<double> for_gap =
+      screening.doses_to_a_gap(base_, scores, train_, mostly_looked_at(train_, test_));
+  for (std::size_t s = 0; s < scores.size(); ++s) {
+    const Candidate& candidate = candidates_[scores[s].candidate];
+    const EffectParameter& size = *candidate.sizes()[scores[s].size];
+    const double dose = std::abs(size.typical - size.neutral);
+    const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
+    all.push_back(visibility_of(scores[s], for_gap[s]));
+    const double smallest = all.back().smallest_visible;
+    const bool met = smallest - taken_for_ordinary(candidate) <= kMostDoses * dose;
+    (smallest <= largest && met ? answer.visible : answer.not_visible).push_back(all.back());
+  }
+  for (const auto& group : screening.alike(base_)) {
+    answer.alike.emplace_back();
+    for (const std::size_t candidate : group) answer.alike.back().push_back(all[candidate]);
+  }
+}
+
+Visibility PreFlight::visibility_of(const Score& score, double doses_for_gap) const {
+  const Candidate& candidate = candidates_[score.candidate];
+  const EffectParameter& size = *candidate.sizes()[score.size];
+  const double evidence = mostly_enough(needed_evidence(candidates_.size()));
+  const double doses_for_evidence =
+      score.uncertainty * std::sqrt(2.0 * evidence * score.seconds / held_out_);
+  const double dose = std::abs(size.typical - size.neutral);
+  return {candidate.effect->info().id, candidate.place, size.unit,
+          std::max(doses_for_evidence, doses_for_gap) * dose + taken_for_ordinary(candidate)};
+}
+
+/// How much of an effect an ordinary parameter that is the same quantity may be.
+double PreFlight::taken_for_ordinary(const Candidate& candidate) const {
+  const EffectParameter& size = *candidate.sizes().front();
+  const bool either = size.bounds.lo < size.neutral;
+  double room = 0.0;
+  for (const Unknown& u : base_.unknowns) {
+    if (!std::count(candidate.same_as.begin(), candidate.same_as.end(), u.nuisance)) continue;
+    room = std::max({room, u.upper - u.expected, either ? u.expected - u.lower : 0.0});
+  }
+  return room;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,61 @@
+#include "anthrob_calib/discovery/verdict.h"
+
+#include <algorithm>
+
+#include "anthrob_calib/discovery/criteria.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects are not the answer
+
+/// The dependence that explains most of all that is left; null: none does. What depends on nothing
+/// is noise that was thought smaller, not something missing.
+const Dependence* strongest(const std::map<std::string, double>& left,
+                            const std::vector<Dependence>& dependences) {
+  double whole = 0.0;
+  for (const auto& [name, gap] : left) whole += excess(gap, kRealGap);
+  if (!(whole > 0.0)) return nullptr;
+  double most = 0.0;
+  const Dependence* strongest = nullptr;
+  for (const Dependence& d : dependences) {
+    for (const auto& [name, gap] : left) {
+      if (d.channel.rfind(name, 0) != 0 || d.share < Dependence::kTelling) continue;
+      const double part = excess(gap, kRealGap) / whole * d.share;
+      if (part > most) {
+        most = part;
+        strongest = &d;
+      }
+    }
+  }
+  return strongest;
+}
+
+}  // namespace
+
+void pronounce(const std::map<std::string, double>& left, bool certain, Answer& answer) {
+  if (answer.effects.empty()) {
+    answer.verdict = certain ? "unexplained" : "no_missing_effect";
+  } else {
+    const bool most = answer.remaining_share > kMostRemains && certain;
+    answer.verdict = most ? "unexplained" : "effects_found";
+    // What is left shows that the law may be another one; at kMostRemains the names go.
+    const double doubt = certain ? std::min(1.0, answer.remaining_share / kMostRemains) : 0.0;
+    for (FoundEffect& effect : answer.effects) effect.probability *= 1.0 - doubt;
+  }
+  const Dependence* cause = strongest(left, answer.remaining);
+  if (!certain) {
+    answer.remaining_description = "no gap that is certain";
+  } else if (cause) {
+    answer.remaining_description = cause->channel + " depends on " +
+                                   (cause->word == "time" ? "" : cause->word + " of ") +
+                                   cause->variable;
+  } else {
+    answer.remaining_description = "depends on none of the measured quantities";
+  }
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,71 @@
+#include "anthrob_calib/discovery/verdict.h"
+
+#include <gtest/gtest.h>
+
+namespace anthrob {
+namespace discovery {
+namespace {
+
+Answer named(double probability, double remaining_share) {
+  Answer answer;
+  FoundEffect effect;
+  effect.probability = probability;
+  answer.effects = {effect};
+  answer.remaining_share = remaining_share;
+  return answer;
+}
+
+Dependence dependence(const std::string& channel, const std::string& word, double share) {
+  Dependence d;
+  d.channel = channel;
+  d.variable = "elbow/position";
+  d.word = word;
+  d.share = share;
+  return d;
+}
+
+TEST(Verdict, WithoutANameItIsTheGapThatDecides) {
+  Answer clean, gap;
+  pronounce({{"elbow/position", 1.3}}, false, clean);
+  EXPECT_EQ(clean.verdict, "no_missing_effect");
+  pronounce({{"elbow/position", 2.3}}, true, gap);
+  EXPECT_EQ(gap.verdict, "unexplained");
+}
+
+TEST(Verdict, ProbabilitiesEndWhereTheNamesDo) {
+  Answer none = named(0.9, 0.0), some = named(0.9, 0.25), half = named(0.9, 0.5),
+         most = named(0.9, 0.75);
+  for (Answer* answer : {&none, &some, &half, &most}) {
+    pronounce({{"elbow/position", 2.0}}, true, *answer);
+  }
+  EXPECT_DOUBLE_EQ(none.effects[0].probability, 0.9);
+  EXPECT_DOUBLE_EQ(some.effects[0].probability, 0.45);
+  EXPECT_DOUBLE_EQ(half.effects[0].probability, 0.0);
+  EXPECT_DOUBLE_EQ(most.effects[0].probability, 0.0);
+  EXPECT_EQ(some.verdict, "effects_found");
+  EXPECT_EQ(most.verdict, "unexplained");
+}
+
+TEST(Verdict, WhatChanceMayLeaveSpeaksAgainstNoName) {
+  Answer answer = named(0.9, 0.75);
+  pronounce({{"elbow/position", 1.2}}, false, answer);
+  EXPECT_EQ(answer.verdict, "effects_found");
+  EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9);
+  EXPECT_EQ(answer.remaining_description, "no gap that is certain");
+}
+
+TEST(Verdict, NamesWhatMostOfTheRestDependsOn) {
+  Answer answer;
+  answer.remaining = {dependence("elbow/position", "load", 0.9),
+                      dependence("biceps_brachii/force", "sign of velocity", 0.5)};
+  pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
+  EXPECT_EQ(answer.remaining_description,
+            "biceps_brachii/force depends on sign of velocity of elbow/position");
+  answer.remaining = {dependence("biceps_brachii/force", "load", 0.04)};
+  pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
+  EXPECT_EQ(answer.remaining_description, "depends on none of the measured quantities");
+}
+
+}  // namespace
+}  // namespace discovery
+}  // namespace anthrob
