@@ -56,7 +56,7 @@ TEST(ModelFit, StepsToBothSidesTellTheSlopeOfACurve) {
   EXPECT_NEAR(fitted.sensitivity(0, 0), 0.205, 1e-4);  // by half a step
   problem.fit.polish(fitted, 0);
   EXPECT_NEAR(fitted.sensitivity(0, 0), 0.2, 1e-4);
-  problem.fit.polish(fitted, 0, true);
+  problem.fit.polish(fitted, 0, ModelFit::Slopes::kOneSide);
   EXPECT_NEAR(fitted.sensitivity(0, 0), 0.205, 1e-4);
 }
 

@@ -32,7 +32,9 @@ constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
 constexpr int kSettling = 8;
 constexpr double kSettled = 5e-4;  ///< share of the cost
-constexpr double kClearGap = 2.5;  ///< of all channels together, in floors
+constexpr int kFinishing = 5;
+constexpr double kFinished = 2e-4;  ///< share of the cost
+constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
 constexpr double kOutOfReach = 0.5;  ///< share of an effect's gain that is left without it
 constexpr std::size_t kRenewed =
@@ -149,7 +151,8 @@ class Search {
     for (int k = 0; k < kSettling; ++k) {
       const bool clear = clearly_misses(fitted);
       const double before = fitted.cost;
-      train_.polish(fitted, kPolish, clear);
+      train_.polish(fitted, kPolish,
+                    clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides);
       if (before - fitted.cost < (clear ? kRoughlySettled : kSettled) * before) break;
     }
   }
@@ -170,7 +173,7 @@ class Search {
     Fitted moved = base_;
     if (!train_.move(moved, without)) return false;
     train_.improve(moved, kPolish);
-    train_.polish(moved, kPolish, true);
+    train_.polish(moved, kPolish, ModelFit::Slopes::kOneSide);
     // So far off that no better derivative brings it there.
     if (moved.cost - best.fit.cost > kOutOfReach * (base_.cost - best.fit.cost)) return false;
     settle(moved);
@@ -228,19 +231,30 @@ class Search {
   /// To the end. What was missing has led ordinary parameters astray, and friction does not let
   /// them all find back: with what is found, a fit from the given parameters mostly ends lower.
   Fitted fitted_to_the_end(const Fitted& fitted) const {
+    Fitted best = fitted;
     Variant given = fitted.variant;
     given.nuisances = evaluator_.initial_nuisances();
     try {
       Fitted fresh = train_.start(given, fitted.unknowns);
       train_.improve(fresh, kRecalibrations);
       settle(fresh);
-      if (fresh.cost < fitted.cost) return fresh;
+      if (fresh.cost < fitted.cost) best = std::move(fresh);
     } catch (const NotSimulated&) {
       // Not from there.
     }
-    Fitted settled = fitted;
-    settle(settled);
-    return settled;
+    if (best.cost == fitted.cost) settle(best);
+    finish(best);
+    return best;
+  }
+
+  /// The last of it: where a fit has settled, the coarse step's slopes lead nowhere, but the
+  /// simulation's own do.
+  void finish(Fitted& fitted) const {
+    for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
+      const double before = fitted.cost;
+      train_.polish(fitted, kPolish, ModelFit::Slopes::kExact);
+      if (before - fitted.cost < kFinished * before) break;
+    }
   }
 
   void accept(ShortList& list, Answer& answer) {

@@ -11,6 +11,7 @@ namespace discovery {
 namespace {
 
 constexpr double kPolished = 5e-4;  ///< relative gain that is not worth another iteration
+constexpr double kFinished = 1e-4;  ///< the same where slopes are exact
 constexpr double kKept = 0.5;       ///< share of the promised gain: as linear as can be hoped for
 /// How to step: damping, as a share of the information, and the share of that step that is taken.
 struct Way {
@@ -251,12 +252,15 @@ void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
   }
 }
 
-void ModelFit::survey(Fitted& fitted, int sides) const {
+void ModelFit::survey(Fitted& fitted, Slopes slopes) const {
   const std::size_t n = fitted.unknowns.size();
+  const bool both = slopes != Slopes::kOneSide;
   Steps steps;
-  for (std::size_t i = 0; i < n; ++i) steps.add(fitted, i, sides == 1 ? kOneSide : kBothSides);
-  for (std::size_t i = 0; i < n && sides == 2; ++i) steps.add(fitted, i, -kBothSides);
-  const auto changes = this->changes(fitted.variant, fitted.residual, steps.to);
+  for (std::size_t i = 0; i < n; ++i) steps.add(fitted, i, both ? kBothSides : kOneSide);
+  for (std::size_t i = 0; i < n && both; ++i) steps.add(fitted, i, -kBothSides);
+  const auto changes = slopes == Slopes::kExact
+                           ? exact_changes(fitted.residual, steps.to)
+                           : this->changes(fitted.variant, fitted.residual, steps.to);
   fitted.sensitivity.setZero(fitted.residual.size(), static_cast<Eigen::Index>(n));
   for (std::size_t i = 0; i < n; ++i) {
     auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(i));
@@ -279,7 +283,7 @@ Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) co
   if (fitted.residual.size() == 0) {
     throw NotSimulated("the model cannot be simulated along the recordings");
   }
-  survey(fitted, 1);
+  survey(fitted, Slopes::kOneSide);
   fitted.cost = cost_of(fitted, variant, fitted.residual);
   return fitted;
 }
@@ -307,16 +311,16 @@ bool ModelFit::move(Fitted& fitted, const Variant& variant) const {
   return true;
 }
 
-void ModelFit::polish(Fitted& fitted, int iterations, bool roughly) const {
+void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes) const {
   for (Unknown& u : fitted.unknowns) {
     // Close to the end small changes tell more than large ones.
     if (u.effect < 0) continue;
     const double size = u.read(fitted.variant) - u.neutral.value_or(0.0);
     u.scale = std::max({0.1 * u.scale, 0.05 * std::abs(size), u.finest});
   }
-  survey(fitted, roughly ? 1 : 2);
+  survey(fitted, slopes);
   const Eigen::VectorXd start = fitted.scaled();
-  improve(fitted, iterations, kPolished);
+  improve(fitted, iterations, slopes == Slopes::kExact ? kFinished : kPolished);
   stride(fitted, fitted.scaled() - start);
 }
 

@@ -56,9 +56,7 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator);
 
 /// Least squares in the full simulation: Levenberg-Marquardt with bounds. Sensitivities are
 /// simulated once and then carried along by what each step really did (Broyden); those to effects,
-/// which are few and less linear, once more after the first step. The first ones are by a step to
-/// one side: good for the first steps. Where a fit ends, steps to both sides tell the slope of the
-/// valley: friction that sticks a little earlier or later makes its ground rugged.
+/// which are few and less linear, once more after the first step.
 class ModelFit {
  public:
   /// @param coarse step of the simulations of changes() [s]; 0: as usual
@@ -77,9 +75,12 @@ class ModelFit {
   void improve(Fitted& fitted, int iterations, double enough = 3e-3) const;
   /// To another variant with the same unknowns; sensitivities stay. @return whether it can be
   bool move(Fitted& fitted, const Variant& variant) const;
+  /// How the slopes of the valley are found: by steps to one side, good for the first steps; to
+  /// both sides, as friction that sticks a little earlier or later makes its ground rugged; to both
+  /// sides in the simulation as it is, which tells what the coarse step has wrong.
+  enum class Slopes { kOneSide, kBothSides, kExact };
   /// All sensitivities simulated anew, then a few more iterations.
-  /// @param roughly by steps to one side
-  void polish(Fitted& fitted, int iterations, bool roughly = false) const;
+  void polish(Fitted& fitted, int iterations, Slopes slopes = Slopes::kBothSides) const;
   /// The same fit with more unknowns; those after the present ones are simulated.
   /// @throws NotSimulated
   Fitted extend(const Fitted& fitted, const Variant& variant,
@@ -119,8 +120,8 @@ class ModelFit {
                                              const std::vector<Variant>& to) const;
   /// Of the unknowns from that one on, by the usual step of the simulation.
   void simulate_sensitivity(Fitted& fitted, std::size_t from) const;
-  /// Of all unknowns, by changes(). @param sides 1 or 2
-  void survey(Fitted& fitted, int sides) const;
+  /// Of all unknowns.
+  void survey(Fitted& fitted, Slopes slopes) const;
   double cost_of(const Fitted& fitted, const Variant& variant,
                  const Eigen::VectorXf& residual) const;
 
