@@ -13,15 +13,22 @@ namespace anthrob {
 namespace discovery {
 namespace {
 
-/// Differences that depend on a number of the model alone, the damping of its elbow.
+using Curve = std::function<double(double)>;
+
+constexpr double kStep = 0.001, kCoarse = 0.002;  // [s]
+
+/// Differences that depend on a number of the model alone, the damping of its elbow, and maybe
+/// otherwise with the coarse step.
 class Made final : public Experiment {
  public:
-  explicit Made(std::function<double(double)> difference) : difference_(std::move(difference)) {
+  Made(Curve difference, Curve coarse)
+      : difference_(std::move(difference)), coarse_(std::move(coarse)) {
     channels_ = {{"elbow", "position", "rad", 0, 0, 1, 0.0}};
     present_.assign(1, 1);
   }
   void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
-    out[0] = static_cast<float>(difference_(damping_of(*model)));
+    const Curve& difference = model->step == kCoarse ? coarse_ : difference_;
+    out[0] = static_cast<float>(difference(damping_of(*model)));
   }
 
  private:
@@ -30,15 +37,17 @@ class Made final : public Experiment {
     return model.skeleton->joints[elbow].friction.viscous;
   }
 
-  std::function<double(double)> difference_;
+  Curve difference_, coarse_;
 };
 
 /// That number free between 0 and 100, 1 at a time, expected anywhere.
 struct Problem {
-  explicit Problem(std::function<double(double)> difference)
+  explicit Problem(const Curve& difference) : Problem(difference, difference) {}
+  Problem(Curve difference, Curve coarse)
       : evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
-                  {{"joints.elbow.friction.viscous", "Nms/rad", 50.0, 0.0, 100.0, 1.0}}, 0.001, 1),
-        fit(evaluator, {std::make_shared<Made>(std::move(difference))}, Eigen::VectorXf::Ones(1)) {}
+                  {{"joints.elbow.friction.viscous", "Nms/rad", 50.0, 0.0, 100.0, 1.0}}, kStep, 1),
+        fit(evaluator, {std::make_shared<Made>(std::move(difference), std::move(coarse))},
+            Eigen::VectorXf::Ones(1), kCoarse) {}
 
   Fitted start(double at) const {
     auto unknowns = nuisance_unknowns(evaluator);
@@ -99,6 +108,17 @@ TEST(ModelFit, GoesOnWhereItLeadsDown) {
   problem.fit.polish(longer, 1);
   EXPECT_GT(longer.variant.nuisances[0] - 1.0, 1.9 * (one.variant.nuisances[0] - 1.0));
   EXPECT_LT(longer.cost, one.cost);
+}
+
+TEST(ModelFit, ExactSlopesLeadOnWhereThoseOfTheCoarseStepMislead) {
+  const Problem problem([](double x) { return 0.1 * (x - 20.0); },
+                        [](double x) { return -0.1 * (x - 20.0); });
+  Fitted fitted = problem.start(80.0);
+  const double cost = fitted.cost;
+  problem.fit.polish(fitted, 4);
+  EXPECT_EQ(fitted.cost, cost);
+  problem.fit.polish(fitted, 4, ModelFit::Slopes::kExact);
+  EXPECT_NEAR(fitted.variant.nuisances[0], 20.0, 0.1);
 }
 
 TEST(BestOfKinds, OneEffectDoesNotCrowdOutTheOthers) {
