@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "anthrob_calib/discovery/report.h"
@@ -26,6 +27,11 @@ std::string escaped(const std::string& text) {
 
 std::string cell(const std::string& text) {
   return "<td>" + escaped(text) + "</td>";
+}
+
+/// Not to be broken between lines.
+std::string with_unit(double value, const std::string& unit) {
+  return short_number(value) + "\u00a0" + unit;
 }
 
 const char* const kHead = R"(<!DOCTYPE html>
@@ -85,8 +91,10 @@ std::string effects_table(const Answer& answer) {
   std::size_t number = 0;
   for (const FoundEffect& effect : answer.effects) {
     ++number;
-    html += "<h3>" + escaped(effect.id) + " @ " + escaped(effect.place) + "</h3>\n<table><tr><th>" +
-            "parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>\n";
+    html += "<h3>" + escaped(effect.name) + ": " + escaped(effect.id) + " @ " +
+            escaped(effect.place) +
+            "</h3>\n<table><tr><th>parameter</th><th>value</th><th>95 % "
+            "interval</th><th>unit</th></tr>\n";
     for (const FoundParameter& p : effect.parameters) {
       html += "<tr>" + cell(p.name) + cell(short_number(p.value)) +
               cell(short_number(p.low) + " to " + short_number(p.high)) + cell(p.unit) + "</tr>\n";
@@ -106,6 +114,8 @@ std::string effects_table(const Answer& answer) {
               " nat.</p>\n";
     }
   }
+  html +=
+      "<p>The model with this is <code>model.yaml</code>, which extends the examined one.</p>\n";
   for (const std::string& asked : answer.asked) {
     html += "<p>Before: " + escaped(asked) + ".</p>\n";
   }
@@ -126,19 +136,36 @@ std::string heat_cell(double gap) {
          (gap < 0.0 ? std::string() : short_number(gap)) + "</td>";
 }
 
-/// Place x regime.
+/// Place x regime: its speed, its load or else posture, time, each in three levels.
 std::string regime_map(const Answer& answer) {
-  if (answer.regimes.empty()) return "";
+  struct Row {
+    std::string place;
+    std::array<const RegimeGap*, 3> by{};
+    double largest = 0.0;
+  };
+  std::vector<Row> rows;
+  for (const RegimeGap& gap : answer.regimes) {
+    if (rows.empty() || rows.back().place != gap.place) rows.push_back({gap.place});
+    Row& row = rows.back();
+    row.by[gap.word == "speed" ? 0 : gap.word == "time" ? 2 : 1] = &gap;
+    row.largest = std::max(row.largest, *std::max_element(gap.gap.begin(), gap.gap.end()));
+  }
+  if (rows.empty()) return "";
+  const std::string levels = "<th>low</th><th>middle</th><th>high</th>";
   std::string html =
-      "<p>Gap of every place (recalibrated model, all its channels) when its speed, its load or "
-      "posture, or "
-      "the time is low (speed: backwards), in the middle and high; a third of the recordings "
-      "each.</p>\n<table>"
-      "<tr><th>place</th><th>by</th><th>low</th><th>middle</th><th>high</th></tr>\n";
-  for (const RegimeGap& row : answer.regimes) {
-    if (*std::max_element(row.gap.begin(), row.gap.end()) < 1.3) continue;
-    html += "<tr><th>" + escaped(row.place) + "</th>" + cell(row.word);
-    for (const double gap : row.gap) html += heat_cell(gap);
+      "<p>Gap of every place (recalibrated model, all its channels) when its speed, its load (of a "
+      "joint: posture) or the time is low (speed: backwards), in the middle and high; a third of "
+      "the recordings each.</p>\n<table><tr><th rowspan=\"2\">place</th><th colspan=\"3\">speed"
+      "</th><th colspan=\"3\">load or posture</th><th colspan=\"3\">time</th></tr>\n<tr>" +
+      levels + levels + levels + "</tr>\n";
+  for (const Row& row : rows) {
+    if (row.largest < 1.3) continue;
+    html += "<tr><th>" + escaped(row.place) + "</th>";
+    for (const RegimeGap* by : row.by) {
+      for (std::size_t level = 0; level < kLevels; ++level) {
+        html += heat_cell(by ? by->gap[level] : -1.0);
+      }
+    }
     html += "</tr>\n";
   }
   return html + "</table>\n";
@@ -170,13 +197,12 @@ std::string where_table(const Answer& answer) {
       "significance</th><th>subsystem</th><th>depends on</th></tr>\n";
   for (std::size_t i = 0; i < answer.where.size() && i < 12; ++i) {
     const Place& place = answer.where[i];
-    html += "<tr>" + cell(place.place) + cell(place.channel) +
-            cell(short_number(place.rmse) + " " + place.unit) +
-            cell(short_number(place.noise_floor) + " " + place.unit) +
-            cell(short_number(100.0 * place.share) + " %") +
-            cell(std::isnan(place.significance) ? std::string("cannot be told")
-                                                : short_number(place.significance) + " sigma") +
-            cell(place.subsystem) + cell(place.regime) + "</tr>\n";
+    html +=
+        "<tr>" + cell(place.place) + cell(place.channel) + cell(with_unit(place.rmse, place.unit)) +
+        cell(with_unit(place.noise_floor, place.unit)) + cell(with_unit(100.0 * place.share, "%")) +
+        cell(std::isnan(place.significance) ? std::string("cannot be told")
+                                            : with_unit(place.significance, "sigma")) +
+        cell(place.subsystem) + cell(place.regime) + "</tr>\n";
   }
   return html + "</table>\n";
 }
