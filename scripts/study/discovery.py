@@ -29,6 +29,8 @@ ROUNDS = {"effect": 2}  # each law so often, every time at another place
 COUNTS = {"null": 60, "pair": 12, "wrapped": 1}
 KINDS = ["effect", "null", "pair", "outside", "wrapped"]
 MOST_EFFECTS = {"wrapped": 12}
+OUT = "build/study"
+DOCUMENT = "docs/studies/discovery.md"
 PUBLISHED = "docs/studies/discovery.json"
 TOLD = ["id", "place", "probability", "parameters", "rivals"]  # of a named effect, what scoring needs
 
@@ -250,10 +252,16 @@ def summarise(cases, options):
     facts = facts_of(cases, options)
     write(f"{options.out}/discovery.json", as_json({"facts": facts, **result}))
     write(f"{options.out}/discovery.html", page(result, facts))
-    os.makedirs("docs/studies", exist_ok=True)
-    write("docs/studies/discovery.md", markdown(result, facts))
-    publish(cases)
+    if of_the_study(options):
+        os.makedirs(os.path.dirname(DOCUMENT), exist_ok=True)
+        write(DOCUMENT, markdown(result, facts))
+        publish(cases)
     return True
+
+
+def of_the_study(options):
+    """Cases that are run elsewhere, for a look at them, are not what the document tells of."""
+    return options.out == OUT
 
 
 def publish(cases):
@@ -290,7 +298,7 @@ def arguments():
     parser.add_argument("--keep", action="store_true", help="keeps recordings")
     parser.add_argument("--seed", type=int, default=1, help="of everything that is drawn")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads of a case")
-    parser.add_argument("--out", default="build/study")
+    parser.add_argument("--out", default=OUT, help=f"elsewhere than in {OUT}, {DOCUMENT} stays as it is")
     return parser.parse_args()
 
 
@@ -307,7 +315,7 @@ def carry_out(cases, everything, options):
     if without:
         sys.exit(f"study: without a report: {' '.join(without)}")
     summarise(everything, options)
-    say(f"{options.out}/discovery.html, docs/studies/discovery.md")
+    say(f"{options.out}/discovery.html" + (f", {DOCUMENT}" if of_the_study(options) else ""))
 
 
 def main():

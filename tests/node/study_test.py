@@ -128,7 +128,7 @@ class DiscoveryStudy(Study):
 
     def programs(self):
         return {'MAKER': self.program('maker', MAKER), 'DISCOVER': self.program('discover', DISCOVER),
-                'SCORE': os.path.join(TOP, discovery.SCORE)}
+                'SCORE': os.path.join(TOP, discovery.SCORE), 'OUT': 'out'}
 
     def test_slices_are_all_cases_once_and_every_part_tells_of_all_kinds(self):
         with mock.patch.object(sys, 'argv', ['study']):
@@ -166,6 +166,15 @@ class DiscoveryStudy(Study):
         self.assertEqual(self.calls(), 4)  # effect_01 is not made again
         with open('docs/studies/discovery.json') as file:
             self.assertEqual(list(json.load(file)), ['effect_01', 'null_00'])
+
+    def test_cases_elsewhere_leave_the_document_alone(self):
+        self.study('--case', 'effect_01')
+        before = self.told()
+        self.study('--out', 'elsewhere', '--case', 'null_00')
+        self.assertTrue(os.path.exists('elsewhere/discovery.html'))
+        self.assertEqual(self.told(), before)
+        with open('docs/studies/discovery.json') as file:
+            self.assertEqual(list(json.load(file)), ['effect_01'])
 
     def test_nothing_published_to_adopt(self):
         with self.assertRaises(SystemExit) as ended:
