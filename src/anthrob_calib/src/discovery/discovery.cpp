@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "anthrob_calib/discovery/bootstrap.h"
 #include "anthrob_calib/discovery/criteria.h"
@@ -231,20 +232,27 @@ class Search {
   /// To the end. What was missing has led ordinary parameters astray, and friction does not let
   /// them all find back: with what is found, a fit from the given parameters mostly ends lower.
   Fitted fitted_to_the_end(const Fitted& fitted) const {
-    Fitted best = fitted;
+    std::optional<Fitted> best = fitted_from_given(fitted);
+    if (!best || best->cost >= fitted.cost) {
+      best = fitted;
+      settle(*best);
+    }
+    finish(*best);
+    return std::move(*best);
+  }
+
+  /// Nothing if the effects cannot be simulated with the given parameters.
+  std::optional<Fitted> fitted_from_given(const Fitted& fitted) const {
     Variant given = fitted.variant;
     given.nuisances = evaluator_.initial_nuisances();
     try {
       Fitted fresh = train_.start(given, fitted.unknowns);
       train_.improve(fresh, kRecalibrations);
       settle(fresh);
-      if (fresh.cost < fitted.cost) best = std::move(fresh);
+      return fresh;
     } catch (const NotSimulated&) {
-      // Not from there.
+      return std::nullopt;
     }
-    if (best.cost == fitted.cost) settle(best);
-    finish(best);
-    return best;
   }
 
   /// The last of it: where a fit has settled, the coarse step's slopes lead nowhere, but the
