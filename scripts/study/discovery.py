@@ -261,7 +261,7 @@ def summarise(cases, options):
 
 def of_the_study(options):
     """Cases that are run elsewhere, for a look at them, are not what the document tells of."""
-    return options.out == OUT
+    return os.path.normpath(options.out) == OUT
 
 
 def publish(cases):

@@ -175,6 +175,8 @@ class DiscoveryStudy(Study):
         self.assertEqual(self.told(), before)
         with open('docs/studies/discovery.json') as file:
             self.assertEqual(list(json.load(file)), ['effect_01'])
+        self.study('--out', 'out/', '--case', 'null_00')  # the same folder
+        self.assertNotEqual(self.told(), before)
 
     def test_nothing_published_to_adopt(self):
         with self.assertRaises(SystemExit) as ended:
