@@ -9,6 +9,7 @@
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/examples.h"
 #include "anthrob_calib/discovery/location.h"
+#include "anthrob_calib/discovery/merit.h"
 #include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/preflight.h"
 #include "anthrob_calib/discovery/preparation.h"
@@ -22,13 +23,6 @@ namespace discovery {
 
 namespace {
 
-/// What an effect must do to be named. Judged on data it was not fitted to.
-constexpr double kSignificance = 3.0;       ///< standard errors over blocks
-constexpr double kFaintSignificance = 6.0;  ///< where no gap is above kRealGap
-constexpr double kShareOfPresent = 0.1;     ///< of the squared gaps above faint ones
-constexpr double kShareOfFirst = 0.03;
-/// What is smaller beside the first gap may be what the shape of the first law leaves.
-constexpr double kSmallSignificance = 8.0;
 constexpr int kRecalibrations = 8;
 constexpr int kPolish = 8;
 constexpr int kSettling = 8;
@@ -86,11 +80,12 @@ class Search {
       stage("fitting the short list", round);
       ShortList list = naming_.weigh(base_, base_test_, scores);
       if (question_.comment) comment_on(list);
-      if (list.named.empty() || !earns_its_place(list)) break;
+      if (list.named.empty() || !earns_its_place(list, answer)) break;
       if (base_moves_on(list)) {
         if (accepted_.empty()) note_recalibrated(answer);
-        naming_.judge_again(base_, base_test_, list);
-        if (!earns_its_place(list)) break;
+        naming_.follow(base_, base_test_, list);
+        if (question_.comment) comment_on(list);
+        if (!earns_its_place(list, answer)) break;
       }
       accept(list, answer);
     }
@@ -199,14 +194,27 @@ class Search {
     return certain_gap(train_judge_, base_.residual, test_judge_, base_test_, kRealGap);
   }
 
-  bool earns_its_place(const ShortList& list) const {
+  /// Whether the first of a list does; if not, the answer tells why.
+  bool earns_its_place(const ShortList& list, Answer& answer) const {
     const Named& best = list.named.front();
     const double before = whole_excess(test_judge_, base_test_, kFaintGap);
     const double gained = before - whole_excess(test_judge_, best.test, kFaintGap);
-    return best.probability > list.none && best.evidence > needed_evidence(candidates_.size()) &&
-           best.significance > (has_gap(kRealGap) ? kSignificance : kFaintSignificance) &&
-           gained > kShareOfPresent * before &&
-           (gained > kShareOfFirst * first_faint_excess_ || best.significance > kSmallSignificance);
+    Merit merit;
+    merit.probability = best.probability;
+    merit.none = list.none;
+    merit.evidence = best.evidence;
+    merit.needed_evidence = needed_evidence(candidates_.size());
+    merit.significance = best.significance;
+    merit.only_faint_gaps = !has_gap(kRealGap);
+    if (before > 0.0) merit.share = gained / before;
+    if (first_faint_excess_ > 0.0) merit.share_of_first = gained / first_faint_excess_;
+    const std::string lacking = lack(merit);
+    if (lacking.empty()) return true;
+    const Candidate& candidate = candidates_[best.candidate];
+    answer.closest = {candidate.effect->info().id, candidate.place, best.probability, best.evidence,
+                      lacking};
+    if (question_.comment) question_.comment("  not named: " + lacking);
+    return false;
   }
 
   /// Values and intervals of all effects in the model as it is at the end: later ones have moved

@@ -163,10 +163,9 @@ std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>&
   return best;
 }
 
-Named Naming::fit(const Fitted& base, const Score& score) const {
-  const Candidate& candidate = candidates_[score.candidate];
+Named Naming::fit(const Fitted& base, std::size_t index, const EffectInstance& start) const {
+  const Candidate& candidate = candidates_[index];
   Variant variant = base.variant;
-  const EffectInstance start = sized(candidate, score.amount);
   variant.effects.push_back(start);
   Fitted from = base;
   for (const int nuisance : candidate.same_as) {
@@ -177,7 +176,7 @@ Named Naming::fit(const Fitted& base, const Score& score) const {
     }
   }
   Named named;
-  named.candidate = score.candidate;
+  named.candidate = index;
   named.fit = train_.extend(
       from, variant, unknowns_of(candidate, start, static_cast<int>(variant.effects.size()) - 1));
   train_.improve(named.fit, kFirstIterations);
@@ -225,6 +224,23 @@ void Naming::judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortLi
                    [](const Named& a, const Named& b) { return a.probability > b.probability; });
 }
 
+void Naming::follow(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const {
+  train_.side_by_side(list.named.size(), [&](std::size_t i) {
+    Named& named = list.named[i];
+    try {
+      Named other = fit(base, named.candidate, named.fit.variant.effects.back());
+      train_.improve(other.fit, kIterations);
+      if (other.fit.cost >= named.fit.cost) return;
+      other.test = test_.residual(other.fit.variant);
+      if (other.test.size() > 0) named = std::move(other);
+    } catch (const NotSimulated&) {
+      // Stays where it is.
+    }
+  });
+  judge(base, base_test, list);
+  prefer_simpler(base, list);
+}
+
 void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
   if (list.named.empty()) return;
   const Named& best = list.named.front();
@@ -251,7 +267,8 @@ ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
   std::vector<std::optional<Named>> fitted(tried.size());
   train_.side_by_side(tried.size(), [&](std::size_t i) {
     try {
-      fitted[i] = fit(base, tried[i]);
+      const std::size_t candidate = tried[i].candidate;
+      fitted[i] = fit(base, candidate, sized(candidates_[candidate], tried[i].amount));
     } catch (const NotSimulated&) {
       // Cannot be simulated at that size: not this one.
     }

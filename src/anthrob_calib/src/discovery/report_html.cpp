@@ -85,8 +85,19 @@ std::string gap_table(const Answer& answer) {
          "</table>\n";
 }
 
+/// What came closest last, and why it was not named.
+std::string closest(const Answer& answer) {
+  const Unnamed& closest = answer.closest;
+  if (closest.id.empty()) return "";
+  return "<p>Closest to being named" + std::string(answer.effects.empty() ? "" : " besides") +
+         ": " + escaped(closest.id) + " @ " + escaped(closest.place) + ", but " +
+         escaped(closest.lack) + ".</p>\n";
+}
+
 std::string effects_table(const Answer& answer) {
-  if (answer.effects.empty()) return "<p>Nothing in the catalogue earned its place.</p>\n";
+  if (answer.effects.empty()) {
+    return "<p>Nothing in the catalogue earned its place.</p>\n" + closest(answer);
+  }
   std::string html;
   std::size_t number = 0;
   for (const FoundEffect& effect : answer.effects) {
@@ -119,7 +130,7 @@ std::string effects_table(const Answer& answer) {
   for (const std::string& asked : answer.asked) {
     html += "<p>Before: " + escaped(asked) + ".</p>\n";
   }
-  return html;
+  return html + closest(answer);
 }
 
 std::string colour_of(double gap) {

@@ -109,6 +109,13 @@ std::string report_json(const Answer& answer, const Question& question, double r
     add_recording(answer.effects[i], i + 1, effect);
     report["effects"].push_back(std::move(effect));
   }
+  if (!answer.closest.id.empty()) {
+    report["not_named"] = {{"id", answer.closest.id},
+                           {"place", answer.closest.place},
+                           {"probability", number(answer.closest.probability)},
+                           {"evidence", number(answer.closest.evidence)},
+                           {"lack", answer.closest.lack}};
+  }
   if (!answer.asked.empty()) report["asked"] = answer.asked;
   report["remaining"] = {{"share", number(answer.remaining_share)},
                          {"description", answer.remaining_description},
@@ -162,6 +169,10 @@ std::string summary(const Answer& answer) {
       text += "    or " + rival.id + " @ " + rival.place + ", probability " +
               short_number(rival.probability) + "\n";
     }
+  }
+  if (!answer.closest.id.empty()) {
+    text += "  not " + answer.closest.id + " @ " + answer.closest.place + ": " +
+            answer.closest.lack + "\n";
   }
   text += "  held-out gap in units of the floor: " + short_number(answer.test.before) +
           " as given, " + short_number(answer.test.recalibrated) + " recalibrated, " +

@@ -52,6 +52,13 @@ struct FoundEffect {
   SeparatingRecording separating_recording;  ///< and for the recorder, where it can do it
 };
 
+/// What came closest to being named last, and why it was not.
+struct Unnamed {
+  std::string id, place;  ///< empty: nothing was asked for
+  double probability = 0.0, evidence = 0.0;
+  std::string lack;
+};
+
 /// Root mean squares in standard deviations of the floor.
 struct Gap {
   double before = 0.0, recalibrated = 0.0, after = 0.0, floor = 0.0;
@@ -98,6 +105,7 @@ struct Answer {
   std::vector<Dependence> remaining;    ///< of what the extended model leaves
   std::vector<Example> examples;
   std::vector<FoundEffect> effects;
+  Unnamed closest;
   double remaining_share = 0.0;
   std::string remaining_description;
   Gap train, test;

@@ -59,16 +59,14 @@ class Naming {
   /// @param base fitted without them   @param base_test its held-out residual
   ShortList weigh(const Fitted& base, const Eigen::VectorXf& base_test,
                   const std::vector<Score>& scores) const;
-  /// The same fits against another base.
-  void judge_again(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const {
-    judge(base, base_test, list);
-    prefer_simpler(base, list);
-  }
+  /// The base has moved to a better valley: from there each is fitted once more, for the same
+  /// chance, and all are judged against it.
+  void follow(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
 
  private:
   EffectInstance sized(const Candidate& candidate, const std::vector<double>& amount) const;
   std::vector<Score> try_out(const Fitted& base, const std::vector<Score>& scores) const;
-  Named fit(const Fitted& base, const Score& score) const;
+  Named fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
   void judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;
 
