@@ -89,15 +89,42 @@ TEST(PwmDeadZone, TakesAConstantPartOfTheVoltage) {
 
 TEST(SupplySag, SharesTheVoltageLostByTheSumOfCurrents) {
   const auto robot = robot_with(kRig, {{"supply_sag", "ecu_1", {{"resistance", 0.2}}}});
-  std::vector<PowerLine> lines = {{6.0, 1.0}, {-3.0, -0.5}};
-  robot->power_effects.at(0)->apply(lines, StateView());
-  // d = 1/2 and -1/4 of 12 V: the supply gives 0.5 + 0.125 A and loses 0.125 V.
-  const double current = 0.625, supply = 12.0 - 0.2 * current;
-  EXPECT_NEAR(lines[0].voltage, 0.5 * supply, 1e-12);
-  EXPECT_NEAR(lines[1].voltage, -0.25 * supply, 1e-12);
+  const PowerEffect& supply = *robot->power_effects.at(0);
+  Memory memory(supply.state_size());
+  const StateView before = memory;
+  std::vector<PowerLine> lines;
+  // d = 1/2 and -1/4 of 12 V: the supply gives 0.5 + 0.125 A and loses 0.125 V. Currents that go on
+  // as they are: the motors had these voltages before.
+  const double current = 0.625, left = 12.0 - 0.2 * current;
+  before[0] = 0.5 * left;
+  before[1] = -0.25 * left;
+  lines = {{6.0, 1.0}, {-3.0, -0.5}};
+  supply.apply(lines, before);
+  EXPECT_NEAR(lines[0].voltage, 0.5 * left, 1e-12);
+  EXPECT_NEAR(lines[1].voltage, -0.25 * left, 1e-12);
   // Energy: what the nominal supply gives is what the motors get and R I^2.
   const double motors = lines[0].voltage * 1.0 + lines[1].voltage * -0.5;
   EXPECT_NEAR(12.0 * current - motors, 0.2 * current * current, 1e-12);
+}
+
+TEST(SupplySag, ALargeResistanceIsADividerAndDoesNotSwing) {
+  // Both motors of the rig stalled at the same share of a supply of more resistance than theirs:
+  // their currents follow their voltages in 60 us.
+  const double supply = 8.0, motor = 4.69 + 0.12, duty = 0.9, asked = 12.0 * duty;
+  const auto robot = robot_with(kRig, {{"supply_sag", "ecu_1", {{"resistance", supply}}}});
+  const PowerEffect& sag = *robot->power_effects.at(0);
+  Memory state(sag.state_size());
+  // V = d (V_0 - R 2 d i), i = V / R_motor
+  const double expected = asked / (1.0 + 2.0 * duty * duty * supply / motor);
+  double volts = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    const double current = volts / motor;
+    std::vector<PowerLine> lines = {{asked, current}, {asked, current}};
+    sag.apply(lines, state);
+    volts = lines[0].voltage;
+    EXPECT_NEAR(volts, expected, 1e-6 * expected) << i;
+    EXPECT_EQ(lines[1].voltage, volts);
+  }
 }
 
 TEST(SeriesResistance, TakesCurrentFromAStalledMotor) {

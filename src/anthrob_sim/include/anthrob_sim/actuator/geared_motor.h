@@ -15,6 +15,8 @@ class GearedMotor : public Actuator {
     advance_with(input, load, 0.0, state);
   }
 
+  /// By how much the current follows a change of voltage within a step, the shaft held [A/V].
+  virtual double conductance() const = 0;
   /// N, and r_S at position 0 [m]
   virtual double ratio() const = 0;
   virtual double spindle_radius() const = 0;
@@ -44,6 +46,7 @@ class MotorWrapper : public GearedMotor {
   }
   double input_low() const override { return inner_->input_low(); }
   double input_high() const override { return inner_->input_high(); }
+  double conductance() const override { return inner_->conductance(); }
   double ratio() const override { return inner_->ratio(); }
   double spindle_radius() const override { return inner_->spindle_radius(); }
 

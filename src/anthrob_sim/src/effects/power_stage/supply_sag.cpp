@@ -15,7 +15,7 @@ EffectInfo describe() {
       "for, and draws that share of its motor's current.";
   i.equation =
       "V_motor = d (V_0 - resistance sum d i), d = V / V_0, V_0 the nominal voltage, sum over the "
-      "motors of the ECU or of the robot";
+      "motors of the ECU or of the robot; solved with the currents that follow V_motor in the step";
   i.source = "known: 20-200 mohm";
   i.where = "ecu_k | global";
   i.seam = Seam::kPowerStage;
@@ -25,26 +25,40 @@ EffectInfo describe() {
   return i;
 }
 
-bool has_motor(const MuscleModel& muscle) {
-  return dynamic_cast<const GearedMotor*>(muscle.actuator.get()) != nullptr;
+const GearedMotor* motor_of(const MuscleModel& muscle) {
+  return dynamic_cast<const GearedMotor*>(muscle.actuator.get());
 }
 
 class Supply final : public PowerEffect {
  public:
   struct User {
     std::size_t muscle;
-    double nominal;  ///< [V]
+    double nominal;      ///< [V]
+    double conductance;  ///< GearedMotor::conductance() [A/V]
   };
   Supply(std::vector<User> users, double resistance)
       : users_(std::move(users)), resistance_(resistance) {}
 
-  void apply(std::vector<PowerLine>& lines, StateView) const override {
-    double current = 0.0;
-    for (const User& user : users_) {
-      current += lines[user.muscle].voltage / user.nominal * lines[user.muscle].current;
+  /// Voltages of the motors in the last step.
+  std::size_t state_size() const override { return users_.size(); }
+  void reset(StateView state) const override { std::fill_n(state.data(), users_.size(), 0.0); }
+
+  /// A motor's current follows its voltage within a step. With that of the step before, a large
+  /// resistance would make the supply swing from step to step; the sum is linear in what it loses.
+  void apply(std::vector<PowerLine>& lines, StateView state) const override {
+    double drawn = 0.0, follows = 0.0;
+    for (std::size_t u = 0; u < users_.size(); ++u) {
+      const User& user = users_[u];
+      const PowerLine& line = lines[user.muscle];
+      const double duty = line.voltage / user.nominal;
+      drawn += duty * (line.current + user.conductance * (line.voltage - state[u]));
+      follows += duty * duty * user.conductance;
     }
-    for (const User& user : users_) {
-      lines[user.muscle].voltage *= std::max(0.0, 1.0 - resistance_ * current / user.nominal);
+    const double current = drawn / (1.0 + resistance_ * follows);
+    for (std::size_t u = 0; u < users_.size(); ++u) {
+      double& voltage = lines[users_[u].muscle].voltage;
+      voltage *= std::max(0.0, 1.0 - resistance_ * current / users_[u].nominal);
+      state[u] = voltage;
     }
   }
 
@@ -60,7 +74,7 @@ class SupplySag final : public Effect {
   std::vector<std::string> places(const RobotModel& robot) const override {
     std::vector<std::string> list;
     for (const MuscleModel& muscle : robot.muscles) {
-      if (!has_motor(muscle) || muscle.ecu.empty()) continue;
+      if (!motor_of(muscle) || muscle.ecu.empty()) continue;
       if (std::find(list.begin(), list.end(), muscle.ecu) == list.end()) list.push_back(muscle.ecu);
     }
     if (!list.empty()) list.push_back("global");
@@ -71,9 +85,10 @@ class SupplySag final : public Effect {
     std::vector<Supply::User> users;
     for (std::size_t i = 0; i < draft.robot.muscles.size(); ++i) {
       const MuscleModel& muscle = draft.robot.muscles[i];
-      if (!has_motor(muscle)) continue;
+      const GearedMotor* motor = motor_of(muscle);
+      if (!motor) continue;
       if (setting.place() != "global" && setting.place() != muscle.ecu) continue;
-      users.push_back({i, muscle.actuator->input_high()});
+      users.push_back({i, motor->input_high(), motor->conductance()});
     }
     draft.robot.power_effects.push_back(std::make_shared<Supply>(users, setting["resistance"]));
   }
