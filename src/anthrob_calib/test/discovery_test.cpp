@@ -12,11 +12,11 @@
 #include <set>
 
 #include "anthrob_calib/discovery/axis_experiment.h"
+#include "anthrob_calib/discovery/candidate.h"
 #include "anthrob_calib/discovery/chain_experiment.h"
 #include "anthrob_calib/discovery/excerpt.h"
 #include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/discovery/model_fit.h"
-#include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/preparation.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_sim/core/errors.h"
@@ -114,30 +114,6 @@ TEST(BlockSignificance, DoesNotDoubtGainsThatDifferInSize) {
   EXPECT_LT(block_significance(noise), 2.5);
 }
 
-TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
-  const auto candidate = [](const char* id, const char* place, std::size_t sizes) {
-    const Effect* effect = find_effect(id);
-    EffectParameter size;
-    size.kind = EffectParameter::kSize;
-    return Candidate{effect, place, std::vector<EffectParameter>(sizes, size), {}};
-  };
-  const Candidate everywhere = candidate("eyelet_friction", "biceps_brachii", 1),
-                  somewhere = candidate("eyelet_friction", "biceps_brachii/2", 1);
-  EXPECT_EQ(share_of_simpler(everywhere, somewhere), 0.98);
-  EXPECT_EQ(share_of_simpler(somewhere, everywhere), 1.0);
-  EXPECT_EQ(share_of_simpler(candidate("eyelet_friction", "biceps", 1), somewhere), 1.0);
-  EXPECT_EQ(share_of_simpler(candidate("eyelet_presliding", "biceps_brachii", 1), somewhere), 1.0);
-  // There, "MUSCLE" is its last segment.
-  EXPECT_EQ(share_of_simpler(candidate("wrapping_surface", "biceps_brachii", 1),
-                             candidate("wrapping_surface", "biceps_brachii/2", 1)),
-            1.0);
-  const Candidate coulomb = candidate("joint_coulomb", "elbow", 1),
-                  asymmetric = candidate("joint_coulomb_asymmetric", "elbow", 2);
-  EXPECT_EQ(share_of_simpler(coulomb, asymmetric), 0.75);
-  EXPECT_EQ(share_of_simpler(asymmetric, coulomb), 1.0);
-  EXPECT_EQ(share_of_simpler(candidate("joint_coulomb", "shoulder", 1), asymmetric), 1.0);
-}
-
 // ---- a driven axis, made here by its closed equation
 // -----------------------------------------------
 
@@ -217,6 +193,15 @@ TEST(DrivenAxis, OffsetAndAsymmetricFrictionAreSaidToBeAlike) {
   EXPECT_TRUE(second.count("joint_offset_torque")) << summary(answer);
   EXPECT_TRUE(second.count("joint_coulomb_asymmetric")) << summary(answer);
   EXPECT_NE(answer.effects[1].separating_experiment.find("coast"), std::string::npos);
+  // One law says what the two say.
+  for (const FoundEffect& effect : answer.effects) {
+    const auto one = std::find_if(effect.rivals.begin(), effect.rivals.end(),
+                                  [](const Rival& rival) { return rival.instead_of.size() == 2; });
+    ASSERT_NE(one, effect.rivals.end()) << summary(answer);
+    EXPECT_EQ(one->id, "joint_coulomb_asymmetric");
+    EXPECT_GT(one->probability, 0.05);
+    EXPECT_LT(one->probability, 0.95);
+  }
 }
 
 TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {

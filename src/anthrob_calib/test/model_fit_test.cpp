@@ -6,8 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "anthrob_calib/discovery/naming.h"
-#include "anthrob_sim/effects/catalogue.h"
+#include "made_experiment.h"
 
 namespace anthrob {
 namespace discovery {
@@ -15,39 +14,19 @@ namespace {
 
 using Curve = std::function<double(double)>;
 
-constexpr double kStep = 0.001, kCoarse = 0.002;  // [s]
+MadeExperiment::Law of_elbow(Curve curve) {
+  return [curve = std::move(curve)](double elbow, double) { return curve(elbow); };
+}
 
-/// Differences that depend on a number of the model alone, the damping of its elbow, and maybe
-/// otherwise with the coarse step.
-class Made final : public Experiment {
- public:
-  Made(Curve difference, Curve coarse)
-      : difference_(std::move(difference)), coarse_(std::move(coarse)) {
-    channels_ = {{"elbow", "position", "rad", 0, 0, 1, 0.0}};
-    present_.assign(1, 1);
-  }
-  void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
-    const Curve& difference = model->step == kCoarse ? coarse_ : difference_;
-    out[0] = static_cast<float>(difference(damping_of(*model)));
-  }
-
- private:
-  static double damping_of(const RobotModel& model) {
-    const auto elbow = static_cast<std::size_t>(model.skeleton->find_joint("elbow"));
-    return model.skeleton->joints[elbow].friction.viscous;
-  }
-
-  Curve difference_, coarse_;
-};
-
-/// That number free between 0 and 100, 1 at a time, expected anywhere.
+/// The elbow's damping free between 0 and 100, 1 at a time, expected anywhere.
 struct Problem {
   explicit Problem(const Curve& difference) : Problem(difference, difference) {}
-  Problem(Curve difference, Curve coarse)
+  Problem(const Curve& difference, const Curve& coarse)
       : evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
-                  {{"joints.elbow.friction.viscous", "Nms/rad", 50.0, 0.0, 100.0, 1.0}}, kStep, 1),
-        fit(evaluator, {std::make_shared<Made>(std::move(difference), std::move(coarse))},
-            Eigen::VectorXf::Ones(1), kCoarse) {}
+                  {{"joints.elbow.friction.viscous", "Nms/rad", 50.0, 0.0, 100.0, 1.0}},
+                  MadeExperiment::kStep, 1),
+        fit(evaluator, {std::make_shared<MadeExperiment>(of_elbow(difference), of_elbow(coarse))},
+            Eigen::VectorXf::Ones(1), MadeExperiment::kCoarse) {}
 
   Fitted start(double at) const {
     auto unknowns = nuisance_unknowns(evaluator);
@@ -119,16 +98,6 @@ TEST(ModelFit, ExactSlopesLeadOnWhereThoseOfTheCoarseStepMislead) {
   EXPECT_EQ(fitted.cost, cost);
   problem.fit.polish(fitted, 4, ModelFit::Slopes::kExact);
   EXPECT_NEAR(fitted.variant.nuisances[0], 20.0, 0.1);
-}
-
-TEST(BestOfKinds, OneEffectDoesNotCrowdOutTheOthers) {
-  const Effect *const a = all_effects()[0], *const b = all_effects()[1];
-  const std::vector<const Effect*> kinds = {a, a, a, a, b, a, b};
-  using Places = std::vector<std::size_t>;
-  EXPECT_EQ(best_of_kinds(kinds, 2, 4), (Places{0, 1, 4, 6}));
-  EXPECT_EQ(best_of_kinds(kinds, 2, 6), (Places{0, 1, 4, 6, 2, 3}));
-  EXPECT_EQ(best_of_kinds(kinds, 7, 3), (Places{0, 1, 2}));
-  EXPECT_EQ(best_of_kinds({}, 2, 4), Places{});
 }
 
 }  // namespace

@@ -13,9 +13,11 @@
 #include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/preflight.h"
 #include "anthrob_calib/discovery/preparation.h"
+#include "anthrob_calib/discovery/reduction.h"
 #include "anthrob_calib/discovery/screening.h"
 #include "anthrob_calib/discovery/seams.h"
 #include "anthrob_calib/discovery/separating_experiment.h"
+#include "anthrob_calib/discovery/settling.h"
 #include "anthrob_calib/discovery/verdict.h"
 
 namespace anthrob {
@@ -24,16 +26,10 @@ namespace discovery {
 namespace {
 
 constexpr int kRecalibrations = 8;
-constexpr int kPolish = 8;
-constexpr int kSettling = 8;
-constexpr double kSettled = 5e-4;  ///< share of the cost
-constexpr int kFinishing = 5;
-constexpr double kFinished = 2e-4;  ///< share of the cost
-constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
-constexpr double kRoughlySettled = 0.01;
 constexpr double kOutOfReach = 0.5;  ///< share of an effect's gain that is left without it
 constexpr std::size_t kRenewed =
     60;                              ///< candidates whose doses are simulated again in later rounds
+constexpr int kMostRounds = 2;       ///< for each effect that may be named
 constexpr double kMentioned = 0.02;  ///< least probability of a rival
 
 /// What of all channels' squared gaps is more than that of a gap.
@@ -42,6 +38,12 @@ double whole_excess(const Judge& judge, const Eigen::VectorXf& residual, double 
   for (const auto& [name, gap] : judge.channel_gaps(residual)) sum += excess(gap, least);
   return sum;
 }
+
+/// A candidate that is in the model now.
+struct Accepted {
+  std::size_t candidate = 0;
+  double gained = 0.0;  ///< of the cost, when it came in
+};
 
 class Search {
  public:
@@ -56,6 +58,7 @@ class Search {
         test_(evaluator, laboratory_.test, whitener(laboratory_.test, scales_, true)),
         train_judge_(laboratory_.train, train_.whitening(), scales_),
         test_judge_(laboratory_.test, test_.whitening(), scales_),
+        settling_(evaluator, train_, train_judge_),
         candidates_(list_candidates(evaluator, question.effects)),
         naming_(train_, test_, train_judge_, test_judge_, candidates_, question.seed) {}
 
@@ -63,21 +66,24 @@ class Search {
     Answer answer;
     answer.scales = scales_;
     recalibrate(answer);
-    stage("screening " + std::to_string(candidates_.size()) + " candidates", -1);
+    stage("screening " + std::to_string(candidates_.size()) + " candidates");
     Screening screening(train_, base_, candidates_, laboratory_.quick, laboratory_.slow);
     std::vector<Score> scores = screening.scores(base_);
     PreFlight(candidates_, base_, train_judge_, test_judge_, total_duration(laboratory_.test))
         .fly(screening, scores, answer);
-    for (int round = 0; round < question_.max_effects && has_gap(kFaintGap); ++round) {
+    // What is dropped again makes room; but not for ever.
+    for (int round = 0;
+         round < kMostRounds * question_.max_effects && has_room() && has_gap(kFaintGap); ++round) {
+      const std::string title = "effect " + std::to_string(accepted_.size() + 1) + ": ";
       if (round > 0) {
-        stage("screening", round);
+        stage(title + "screening");
         screening.renew(base_, screening.scores(base_), kRenewed);
         scores = screening.scores(base_);
       }
       scores.erase(std::remove_if(scores.begin(), scores.end(),
                                   [&](const Score& s) { return is_accepted(s.candidate); }),
                    scores.end());
-      stage("fitting the short list", round);
+      stage(title + "fitting the short list");
       ShortList list = naming_.weigh(base_, base_test_, scores);
       if (question_.comment) comment_on(list);
       if (list.named.empty() || !earns_its_place(list, answer)) break;
@@ -88,20 +94,25 @@ class Search {
         if (!earns_its_place(list, answer)) break;
       }
       accept(list, answer);
+      drop_superfluous(answer);
     }
+    find_common_laws(screening, answer);
     conclude(answer);
     return answer;
   }
 
  private:
-  void stage(const std::string& what, int round) {
-    const std::string title =
-        round < 0 ? what : "effect " + std::to_string(round + 1) + ": " + what;
-    if (question_.progress && !question_.progress(title)) throw Interrupted();
+  void stage(const std::string& what) const {
+    if (question_.progress && !question_.progress(what)) throw Interrupted();
+  }
+
+  bool has_room() const {
+    return accepted_.size() < static_cast<std::size_t>(question_.max_effects);
   }
 
   bool is_accepted(std::size_t candidate) const {
-    return std::find(accepted_.begin(), accepted_.end(), candidate) != accepted_.end();
+    return std::any_of(accepted_.begin(), accepted_.end(),
+                       [&](const Accepted& a) { return a.candidate == candidate; });
   }
 
   void comment_on(const ShortList& list) const {
@@ -115,13 +126,13 @@ class Search {
   }
 
   void recalibrate(Answer& answer) {
-    stage("fitting ordinary parameters", -1);
+    stage("fitting ordinary parameters");
     answer.given.nuisances = evaluator_.initial_nuisances();
     base_ = train_.start(answer.given, nuisance_unknowns(evaluator_));
     given_train_ = base_.residual;
     given_test_ = test_.residual(answer.given);
     train_.improve(base_, kRecalibrations);
-    settle(base_);
+    settling_.settle(base_);
     base_test_ = test_.residual(base_.variant);
     if (given_test_.size() == 0 || base_test_.size() == 0) {
       throw std::runtime_error("the model cannot be simulated along the held-out recordings");
@@ -137,53 +148,28 @@ class Search {
     first_faint_excess_ = whole_excess(test_judge_, base_test_, kFaintGap);
   }
 
-  bool clearly_misses(const Fitted& fitted) const {
-    return train_judge_.gap(fitted.residual) > kClearGap;
-  }
-
-  /// Polishes as long as that brings something: friction makes valleys rugged. Where something is
-  /// clearly missing, the last steps to a model without it are not worth their time.
-  void settle(Fitted& fitted) const {
-    for (int k = 0; k < kSettling; ++k) {
-      const bool clear = clearly_misses(fitted);
-      const double before = fitted.cost;
-      train_.polish(fitted, kPolish,
-                    clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides);
-      if (before - fitted.cost < (clear ? kRoughlySettled : kSettled) * before) break;
-    }
-  }
-
   /// What looks like an effect may be ordinary parameters that found a better valley on the way:
   /// the model without it gets the same chance, from where its fit has ended.
   bool base_moves_on(const ShortList& list) {
     const Named& best = list.named.front();
-    Variant without = best.fit.variant;
-    const EffectInstance effect = without.effects.back();
-    without.effects.pop_back();
-    for (const int nuisance : candidates_[best.candidate].same_as) {
-      for (const EffectParameter* size : candidates_[best.candidate].sizes()) {
-        const Unknown& own = base_.unknowns[static_cast<std::size_t>(nuisance)];
-        own.write(own.expected + effect.parameters.at(size->name) - size->neutral, without);
-      }
-    }
-    Fitted moved = base_;
-    if (!train_.move(moved, without)) return false;
-    train_.improve(moved, kPolish);
-    train_.polish(moved, kPolish, ModelFit::Slopes::kOneSide);
-    // So far off that no better derivative brings it there.
-    if (moved.cost - best.fit.cost > kOutOfReach * (base_.cost - best.fit.cost)) return false;
-    settle(moved);
-    Eigen::VectorXf test = test_.residual(moved.variant);
-    if (moved.cost >= base_.cost || test.size() == 0) return false;
-    base_ = std::move(moved);
+    std::optional<Fitted> moved =
+        without_effect(evaluator_, train_, best.fit, accepted_.size(), candidates_[best.candidate]);
+    if (!moved) return false;
+    const double reach = best.fit.cost + kOutOfReach * (base_.cost - best.fit.cost);
+    if (!settling_.settle_within_reach(*moved, reach)) return false;
+    Eigen::VectorXf test = test_.residual(moved->variant);
+    if (moved->cost >= base_.cost || test.size() == 0) return false;
+    base_ = std::move(*moved);
     base_test_ = std::move(test);
     return true;
   }
 
+  bool has_gap(double least) const { return has_gap(base_, base_test_, least); }
+
   /// Of a channel, in what was learned from and in what was held out.
-  bool has_gap(double least) const {
-    const auto learned = train_judge_.channel_gaps(base_.residual);
-    const auto held_out = test_judge_.channel_gaps(base_test_);
+  bool has_gap(const Fitted& fitted, const Eigen::VectorXf& test, double least) const {
+    const auto learned = train_judge_.channel_gaps(fitted.residual);
+    const auto held_out = test_judge_.channel_gaps(test);
     return std::any_of(held_out.begin(), held_out.end(), [&](const auto& channel) {
       const auto found = learned.find(channel.first);
       return channel.second > least && found != learned.end() && found->second > least;
@@ -194,10 +180,11 @@ class Search {
     return certain_gap(train_judge_, base_.residual, test_judge_, base_test_, kRealGap);
   }
 
-  /// Whether the first of a list does; if not, the answer tells why.
-  bool earns_its_place(const ShortList& list, Answer& answer) const {
+  /// Of the first of a list that was judged against a base.
+  Merit merit_of(const ShortList& list, const Fitted& base,
+                 const Eigen::VectorXf& base_test) const {
     const Named& best = list.named.front();
-    const double before = whole_excess(test_judge_, base_test_, kFaintGap);
+    const double before = whole_excess(test_judge_, base_test, kFaintGap);
     const double gained = before - whole_excess(test_judge_, best.test, kFaintGap);
     Merit merit;
     merit.probability = best.probability;
@@ -205,16 +192,110 @@ class Search {
     merit.evidence = best.evidence;
     merit.needed_evidence = needed_evidence(candidates_.size());
     merit.significance = best.significance;
-    merit.only_faint_gaps = !has_gap(kRealGap);
+    merit.only_faint_gaps = !has_gap(base, base_test, kRealGap);
     if (before > 0.0) merit.share = gained / before;
     if (first_faint_excess_ > 0.0) merit.share_of_first = gained / first_faint_excess_;
-    const std::string lacking = lack(merit);
+    return merit;
+  }
+
+  /// Whether the first of a list does; if not, the answer tells why.
+  bool earns_its_place(const ShortList& list, Answer& answer) const {
+    const std::string lacking = lack(merit_of(list, base_, base_test_));
     if (lacking.empty()) return true;
+    const Named& best = list.named.front();
     const Candidate& candidate = candidates_[best.candidate];
     answer.closest = {candidate.effect->info().id, candidate.place, best.probability, best.evidence,
                       lacking};
     if (question_.comment) question_.comment("  not named: " + lacking);
     return false;
+  }
+
+  /// What was named early may have stood in for what was named later: whatever does not earn its
+  /// place beside the others any more goes.
+  void drop_superfluous(Answer& answer) {
+    for (std::size_t e = 0; e + 1 < accepted_.size();) {
+      const std::string name = candidates_[accepted_[e].candidate].name();
+      stage("whether " + name + " is still needed");
+      if (!is_superfluous(e)) {
+        ++e;
+        continue;
+      }
+      if (question_.comment) question_.comment("  not needed any more: " + name);
+      accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(e));
+      answer.effects.erase(answer.effects.begin() + static_cast<std::ptrdiff_t>(e));
+    }
+  }
+
+  /// If it is, the base goes on without it.
+  bool is_superfluous(std::size_t index) {
+    const auto& [candidate, gained] = accepted_[index];
+    std::optional<Fitted> without =
+        without_effect(evaluator_, train_, base_, index, candidates_[candidate]);
+    if (!without || !settling_.settle_within_reach(*without, base_.cost + kOutOfReach * gained)) {
+      return false;
+    }
+    *without = settling_.to_the_end(*without);
+    Eigen::VectorXf test = test_.residual(without->variant);
+    if (test.size() == 0) return false;
+    ShortList list;
+    list.named = {{candidate, base_, base_test_}};
+    naming_.judge(*without, test, list);
+    if (lack(merit_of(list, *without, test)).empty()) return false;
+    base_ = std::move(*without);
+    base_test_ = std::move(test);
+    return true;
+  }
+
+  /// Two laws at one place may be one of more sizes: what differs by direction is friction and a
+  /// constant, too. Where that does about as well, it is a rival of both.
+  void find_common_laws(Screening& screening, Answer& answer) const {
+    for (std::size_t later = 1; later < accepted_.size(); ++later) {
+      for (std::size_t earlier = 0; earlier < later; ++earlier) {
+        for (std::size_t c = 0; c < candidates_.size(); ++c) {
+          if (says_less(candidates_[accepted_[earlier].candidate], candidates_[c]) &&
+              says_less(candidates_[accepted_[later].candidate], candidates_[c])) {
+            weigh_common_law(screening, earlier, later, c, answer);
+          }
+        }
+      }
+    }
+  }
+
+  void weigh_common_law(Screening& screening, std::size_t earlier, std::size_t later,
+                        std::size_t candidate, Answer& answer) const {
+    const Candidate &a = candidates_[accepted_[earlier].candidate],
+                    &b = candidates_[accepted_[later].candidate], &both = candidates_[candidate];
+    stage("whether " + both.name() + " says all that " + a.name() + " and " + b.name() + " say");
+    std::optional<Fitted> base = without_effect(evaluator_, train_, base_, later, b);
+    if (base) base = without_effect(evaluator_, train_, *base, earlier, a);
+    if (!base) return;
+    const Eigen::VectorXf base_test = test_.residual(base->variant);
+    if (base_test.size() == 0) return;
+    Score asked;
+    asked.candidate = candidate;
+    screening.renew(*base, {asked}, 1);
+    for (const Score& score : screening.scores(*base)) {
+      if (score.candidate != candidate) continue;
+      ShortList list = naming_.weigh(*base, base_test, {score});
+      if (list.named.empty()) return;
+      const Fitted one = settling_.to_the_end(list.named.front().fit);
+      const Eigen::VectorXf one_test = test_.residual(one.variant);
+      if (one_test.size() == 0) return;
+      const double probability = naming_.odds(one, one_test, base_, base_test_);
+      if (probability < kMentioned) return;
+      const Rival rival{both.effect->info().id,
+                        both.place,
+                        probability,
+                        list.named.front().evidence,
+                        {a.name(), b.name()}};
+      for (const std::size_t e : {earlier, later}) {
+        FoundEffect& effect = answer.effects[e];
+        effect.rivals.push_back(rival);
+        if (effect.separating_experiment.empty()) {
+          effect.separating_experiment = separating_experiment(effect.id, both.effect->info().id);
+        }
+      }
+    }
   }
 
   /// Values and intervals of all effects in the model as it is at the end: later ones have moved
@@ -223,7 +304,7 @@ class Search {
     const auto ranges =
         bootstrap_intervals(base_, train_.experiments(), variables_, question_.seed);
     for (std::size_t e = 0; e < answer.effects.size(); ++e) {
-      for (const EffectParameter& p : candidates_[accepted_[e]].parameters) {
+      for (const EffectParameter& p : candidates_[accepted_[e].candidate].parameters) {
         const double value = base_.variant.effects[e].parameters.at(p.name);
         FoundParameter found{p.name, p.unit, value, value, value};
         for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -237,45 +318,9 @@ class Search {
     }
   }
 
-  /// To the end. What was missing has led ordinary parameters astray, and friction does not let
-  /// them all find back: with what is found, a fit from the given parameters mostly ends lower.
-  Fitted fitted_to_the_end(const Fitted& fitted) const {
-    std::optional<Fitted> best = fitted_from_given(fitted);
-    if (!best || best->cost >= fitted.cost) {
-      best = fitted;
-      settle(*best);
-    }
-    finish(*best);
-    return std::move(*best);
-  }
-
-  /// Nothing if the effects cannot be simulated with the given parameters.
-  std::optional<Fitted> fitted_from_given(const Fitted& fitted) const {
-    Variant given = fitted.variant;
-    given.nuisances = evaluator_.initial_nuisances();
-    try {
-      Fitted fresh = train_.start(given, fitted.unknowns);
-      train_.improve(fresh, kRecalibrations);
-      settle(fresh);
-      return fresh;
-    } catch (const NotSimulated&) {
-      return std::nullopt;
-    }
-  }
-
-  /// The last of it: where a fit has settled, the coarse step's slopes lead nowhere, but the
-  /// simulation's own do.
-  void finish(Fitted& fitted) const {
-    for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
-      const double before = fitted.cost;
-      train_.polish(fitted, kPolish, ModelFit::Slopes::kExact);
-      if (before - fitted.cost < kFinished * before) break;
-    }
-  }
-
   void accept(ShortList& list, Answer& answer) {
     Named& best = list.named.front();
-    Fitted settled = fitted_to_the_end(best.fit);
+    Fitted settled = settling_.to_the_end(best.fit);
     Eigen::VectorXf test = test_.residual(settled.variant);
     if (test.size() > 0) {
       best.fit = std::move(settled);
@@ -293,13 +338,13 @@ class Search {
       if (other.probability < kMentioned) continue;
       const Candidate& rival = candidates_[other.candidate];
       effect.rivals.push_back(
-          {rival.effect->info().id, rival.place, other.probability, other.evidence});
+          {rival.effect->info().id, rival.place, other.probability, other.evidence, {}});
     }
     if (!effect.rivals.empty()) separate(list, effect);
     answer.effects.push_back(std::move(effect));
+    accepted_.push_back({best.candidate, base_.cost - best.fit.cost});
     base_ = best.fit;
     base_test_ = best.test;
-    accepted_.push_back(best.candidate);
   }
 
   void separate(const ShortList& list, FoundEffect& effect) const {
@@ -338,7 +383,7 @@ class Search {
         find_dependences(laboratory_.train, variables_, recalibrated_train_, train_.whitening());
     answer.remaining =
         find_dependences(laboratory_.train, variables_, base_.residual, train_.whitening());
-    stage("locating", -1);
+    stage("locating");
     answer.seams = seam_gaps(evaluator_, question_, laboratory_, scales_, answer.recalibrated);
     answer.where = locate(train_judge_, recalibrated_train_, least_gap(answer), scales_,
                           answer.seams, answer.dependences);
@@ -359,11 +404,12 @@ class Search {
   Scales scales_;
   ModelFit train_, test_;
   Judge train_judge_, test_judge_;
+  Settling settling_;
   std::vector<Candidate> candidates_;
   Naming naming_;
   Fitted base_;
   Eigen::VectorXf base_test_, given_train_, given_test_, recalibrated_train_, recalibrated_test_;
-  std::vector<std::size_t> accepted_;  ///< candidates that are in the model now, in their order
+  std::vector<Accepted> accepted_;  ///< what is in the model now, in its order
   double first_excess_ = 0.0, first_faint_excess_ = 0.0;
 };
 

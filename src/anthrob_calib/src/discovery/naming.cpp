@@ -15,6 +15,7 @@ namespace {
 
 /// Nothing larger is believed: bounds may be infinite.
 constexpr double kLargest = 100.0;   // [doses]
+constexpr double kBegun = 0.3;       ///< share of what a size would do in proportion to the dose
 constexpr double kMostOfIt = 0.75;   ///< of a gain
 constexpr double kAllOfIt = 0.98;    ///< of a gain, but for what the shape of a law makes
 constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
@@ -59,11 +60,14 @@ bool contains(const std::string& wide, const std::string& narrow) {
 
 }  // namespace
 
+bool says_less(const Candidate& part, const Candidate& whole) {
+  return part.place == whole.place && part.effect->info().seam == whole.effect->info().seam &&
+         part.sizes().size() < whole.sizes().size();
+}
+
 double share_of_simpler(const Candidate& part, const Candidate& whole) {
+  if (says_less(part, whole)) return kMostOfIt;
   const EffectInfo &a = part.effect->info(), &b = whole.effect->info();
-  if (part.place == whole.place && a.seam == b.seam && part.sizes().size() < whole.sizes().size()) {
-    return kMostOfIt;
-  }
   const bool everywhere = dynamic_cast<const PathEffect*>(part.effect) != nullptr;
   return everywhere && a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
 }
@@ -93,6 +97,37 @@ EffectInstance Naming::sized(const Candidate& candidate, const std::vector<doubl
   return instance;
 }
 
+std::vector<double> Naming::costs_at(const Fitted& base, const std::vector<Attempt>& attempts,
+                                     std::vector<double>& changed) const {
+  std::vector<Variant> variants;
+  for (const Attempt& attempt : attempts) {
+    Variant variant = base.variant;
+    variant.effects.push_back(sized(candidates_[attempt.candidate], attempt.amount));
+    variants.push_back(std::move(variant));
+  }
+  const auto changes = train_.changes(base.variant, base.residual, variants);
+  const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
+  Eigen::MatrixXd A = (base.sensitivity.transpose() * base.sensitivity).cast<double>();
+  A.diagonal() += precision;
+  A.diagonal().array() += 1e-9 * (1.0 + A.diagonal().maxCoeff());
+  const Eigen::VectorXd lower = base.lower_room(), upper = base.upper_room();
+  std::vector<double> costs(attempts.size(), HUGE_VAL);
+  changed.assign(attempts.size(), 0.0);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (changes[i].size() == 0) continue;
+    changed[i] = static_cast<double>(changes[i].norm());
+    const Eigen::VectorXf residual = base.residual + changes[i];
+    const Eigen::VectorXd g =
+        (base.sensitivity.transpose() * residual).cast<double>() + precision.cwiseProduct(off);
+    costs[i] = 0.5 * residual.cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(precision);
+    if (lower.size() > 0) {
+      const Eigen::VectorXd step = bounded_minimum(A, g, lower, upper);
+      costs[i] += 0.5 * step.dot(A * step) + g.dot(step);
+    }
+  }
+  return costs;
+}
+
 std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>& scores) const {
   // A dose says little about a size ten times smaller or larger where an effect is not linear, so
   // several sizes around the suggested one are simulated, ordinary parameters as they are, and the
@@ -106,44 +141,43 @@ std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>&
   for (const std::size_t s : best_of_kinds(kinds, kTriedOfAKind, kTried)) {
     tried.push_back(scores[s]);
   }
-  std::vector<Variant> variants;
-  std::vector<std::vector<double>> amounts;
-  std::vector<std::size_t> owner;
+  std::vector<Attempt> attempts;
   for (std::size_t s = 0; s < tried.size(); ++s) {
     for (const double factor : {0.5, 1.0, 0.0}) {
       std::vector<double> amount = tried[s].amount;
       for (double& a : amount) a = factor > 0.0 ? factor * a : std::copysign(a != 0.0, a);
-      Variant variant = base.variant;
-      variant.effects.push_back(sized(candidates_[tried[s].candidate], amount));
-      variants.push_back(std::move(variant));
-      amounts.push_back(std::move(amount));
-      owner.push_back(s);
+      attempts.push_back({s, tried[s].candidate, std::move(amount)});
     }
   }
-  const auto changes = train_.changes(base.variant, base.residual, variants);
-
-  // What is left after the ordinary parameters have done what they can, in linear approximation.
-  const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
-  Eigen::MatrixXd A = (base.sensitivity.transpose() * base.sensitivity).cast<double>();
-  A.diagonal() += precision;
-  A.diagonal().array() += 1e-9 * (1.0 + A.diagonal().maxCoeff());
-  const Eigen::VectorXd lower = base.lower_room(), upper = base.upper_room();
-  std::vector<double> left(tried.size(), base.cost);
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    if (changes[i].size() == 0) continue;
-    const Eigen::VectorXf residual = base.residual + changes[i];
-    const Eigen::VectorXd g =
-        (base.sensitivity.transpose() * residual).cast<double>() + precision.cwiseProduct(off);
-    double cost =
-        0.5 * residual.cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(precision);
-    if (lower.size() > 0) {
-      const Eigen::VectorXd step = bounded_minimum(A, g, lower, upper);
-      cost += 0.5 * step.dot(A * step) + g.dot(step);
+  std::vector<double> left(tried.size(), base.cost), changed;
+  const auto keep_best = [&] {
+    const std::vector<double> costs = costs_at(base, attempts, changed);
+    for (std::size_t i = 0; i < attempts.size(); ++i) {
+      const std::size_t s = attempts[i].owner;
+      if (costs[i] >= left[s]) continue;
+      left[s] = costs[i];
+      tried[s].amount = attempts[i].amount;
     }
-    if (cost >= left[owner[i]]) continue;
-    left[owner[i]] = cost;
-    tried[owner[i]].amount = amounts[i];
+  };
+  keep_best();
+  // What does nothing up to a size begins somewhere between it and the dose.
+  std::vector<Attempt> between;
+  for (std::size_t i = 0; i + 2 < attempts.size(); i += 3) {
+    const std::vector<double>&some = attempts[i + 1].amount, &dose = attempts[i + 2].amount;
+    const Eigen::Map<const Eigen::VectorXd> amount(some.data(),
+                                                   static_cast<Eigen::Index>(some.size()));
+    const double share = amount.cwiseAbs().maxCoeff();
+    if (share >= 1.0 || changed[i + 1] > kBegun * share * changed[i + 2]) continue;
+    for (const double way : {0.25, 0.5, 0.75}) {
+      Attempt attempt = attempts[i + 1];
+      for (std::size_t k = 0; k < some.size(); ++k) {
+        attempt.amount[k] += way * (dose[k] - some[k]);
+      }
+      between.push_back(std::move(attempt));
+    }
   }
+  attempts = std::move(between);
+  keep_best();
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -183,12 +217,8 @@ Named Naming::fit(const Fitted& base, std::size_t index, const EffectInstance& s
   return named;
 }
 
-void Naming::judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const {
-  std::vector<Eigen::VectorXf> train = {base.residual}, test = {base_test};
-  for (const Named& named : list.named) {
-    train.push_back(named.fit.residual);
-    test.push_back(named.test);
-  }
+Eigen::MatrixXd Naming::scores_of(const std::vector<Eigen::VectorXf>& train,
+                                  const std::vector<Eigen::VectorXf>& test) const {
   std::size_t best = 0;
   double least = train[0].squaredNorm() + test[0].squaredNorm();
   for (std::size_t i = 1; i < train.size(); ++i) {
@@ -202,6 +232,23 @@ void Naming::judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortLi
   const Eigen::MatrixXd on_test = test_judge_.block_scores(test, best);
   Eigen::MatrixXd all(on_train.rows(), on_train.cols() + on_test.cols());
   all << on_train, on_test;
+  return all;
+}
+
+double Naming::odds(const Fitted& one, const Eigen::VectorXf& one_test, const Fitted& other,
+                    const Eigen::VectorXf& other_test) const {
+  return model_probabilities(scores_of({one.residual, other.residual}, {one_test, other_test}),
+                             {0.0, 0.0}, seed_)[0];
+}
+
+void Naming::judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const {
+  std::vector<Eigen::VectorXf> train = {base.residual}, test = {base_test};
+  for (const Named& named : list.named) {
+    train.push_back(named.fit.residual);
+    test.push_back(named.test);
+  }
+  const Eigen::MatrixXd all = scores_of(train, test);
+  const auto on_test = all.rightCols(static_cast<Eigen::Index>(test_judge_.block_count()));
 
   // Each unknown costs half a log of the number of blocks; having looked at many candidates costs
   // the logarithm of their number.

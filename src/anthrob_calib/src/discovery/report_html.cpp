@@ -115,8 +115,7 @@ std::string effects_table(const Answer& answer) {
     if (effect.rivals.empty()) continue;
     html += "<p>These data hardly tell it apart from:</p><ul>\n";
     for (const Rival& rival : effect.rivals) {
-      html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", probability " +
-              short_number(rival.probability) + "</li>\n";
+      html += "<li>" + escaped(rival_text(rival)) + "</li>\n";
     }
     html += "</ul><p>What would: " + escaped(effect.separating_experiment) + ".</p>\n";
     if (!effect.separating_recording.targets.empty()) {

@@ -39,6 +39,7 @@ Json effect_json(const FoundEffect& effect) {
                       {"place", rival.place},
                       {"probability", number(rival.probability)},
                       {"evidence", number(rival.evidence)}});
+    if (!rival.instead_of.empty()) rivals.back()["instead_of"] = rival.instead_of;
   }
   return {{"id", effect.id},
           {"name", effect.name},
@@ -156,6 +157,14 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string rival_text(const Rival& rival) {
+  std::string text = rival.id + " @ " + rival.place;
+  for (std::size_t i = 0; i < rival.instead_of.size(); ++i) {
+    text += (i == 0 ? " instead of " : " and ") + rival.instead_of[i];
+  }
+  return text + ", probability " + short_number(rival.probability);
+}
+
 std::string summary(const Answer& answer) {
   std::string text = answer.verdict + "\n";
   for (const FoundEffect& effect : answer.effects) {
@@ -166,8 +175,7 @@ std::string summary(const Answer& answer) {
               short_number(p.high) + "] " + p.unit + "\n";
     }
     for (const Rival& rival : effect.rivals) {
-      text += "    or " + rival.id + " @ " + rival.place + ", probability " +
-              short_number(rival.probability) + "\n";
+      text += "    or " + rival_text(rival) + "\n";
     }
   }
   if (!answer.closest.id.empty()) {

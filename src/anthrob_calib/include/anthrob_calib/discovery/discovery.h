@@ -39,7 +39,8 @@ struct FoundParameter {
 struct Rival {
   std::string id, place;
   double probability = 0.0;
-  double evidence = 0.0;  ///< gain in held-out log score [nat]
+  double evidence = 0.0;                ///< gain in held-out log score [nat]
+  std::vector<std::string> instead_of;  ///< of all these together; empty: of the named one
 };
 
 /// An effect that the data ask for.

@@ -26,6 +26,9 @@ struct ShortList {
   double none = 0.0;  ///< probability that none of them is it
 };
 
+/// Whether one is a law of fewer sizes at the same place as another.
+bool says_less(const Candidate& part, const Candidate& whole);
+
 /// The share of one candidate's gain that another must bring alone to be named in its stead,
 /// because it says less: a law of fewer sizes at the same place (one step at a time: whether more
 /// is needed the next round tells), or the same law everywhere on a muscle instead of at one point
@@ -62,12 +65,30 @@ class Naming {
   /// The base has moved to a better valley: from there each is fitted once more, for the same
   /// chance, and all are judged against it.
   void follow(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
+  /// Evidence, significance and probability of each against a base; most probable first.
+  void judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
+  /// Probability that one fit and not another is right, if either may be for all that was known
+  /// before. @param ..._test held-out residuals
+  double odds(const Fitted& one, const Eigen::VectorXf& one_test, const Fitted& other,
+              const Eigen::VectorXf& other_test) const;
 
  private:
   EffectInstance sized(const Candidate& candidate, const std::vector<double>& amount) const;
+  /// A candidate at some size, in doses.
+  struct Attempt {
+    std::size_t owner = 0;  ///< among those that are tried
+    std::size_t candidate = 0;
+    std::vector<double> amount;
+  };
+  /// Cost of each after the ordinary parameters have done what they can, in linear approximation;
+  /// infinite if it cannot be simulated. @param changed by how much it changes the residual
+  std::vector<double> costs_at(const Fitted& base, const std::vector<Attempt>& attempts,
+                               std::vector<double>& changed) const;
   std::vector<Score> try_out(const Fitted& base, const std::vector<Score>& scores) const;
   Named fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
-  void judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
+  /// Log scores of blocks of all recordings, those learned from first, one row a fit.
+  Eigen::MatrixXd scores_of(const std::vector<Eigen::VectorXf>& train,
+                            const std::vector<Eigen::VectorXf>& test) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;
 
   const ModelFit &train_, &test_;

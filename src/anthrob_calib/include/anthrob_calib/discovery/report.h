@@ -26,6 +26,9 @@ std::string separating_file(std::size_t number);
 /// A few lines for the terminal.
 std::string summary(const Answer& answer);
 
+/// "gravity_tilt @ x, probability 0.3".
+std::string rival_text(const Rival& rival);
+
 /// "0.0421", three significant digits.
 std::string short_number(double value);
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/discovery/model_fit.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// How far fits are taken: friction makes valleys rugged, and no model may be judged for having
+/// been left half way down.
+class Settling {
+ public:
+  /// @param judge of what is fitted
+  Settling(const Evaluator& evaluator, const ModelFit& fit, const Judge& judge)
+      : evaluator_(evaluator), fit_(fit), judge_(judge) {}
+
+  /// Polishes as long as that brings something. Where something is clearly missing, the last steps
+  /// to a model without it are not worth their time.
+  void settle(Fitted& fitted) const;
+  /// To the end. What was missing has led ordinary parameters astray, and friction does not let
+  /// them all find back: with what is found, a fit from the given parameters mostly ends lower.
+  Fitted to_the_end(const Fitted& fitted) const;
+  /// A model that lacks something another one has, from where that one has ended: by rough
+  /// sensitivities only while it is out of reach of it.
+  /// @param level cost above which it is
+  /// @return whether it was settled
+  bool settle_within_reach(Fitted& fitted, double level) const;
+
+ private:
+  bool clearly_misses(const Fitted& fitted) const;
+  std::optional<Fitted> from_given(const Fitted& fitted) const;
+  void finish(Fitted& fitted) const;
+
+  const Evaluator& evaluator_;
+  const ModelFit& fit_;
+  const Judge& judge_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,76 @@
+#include "anthrob_calib/discovery/settling.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr int kRecalibrations = 8;  ///< iterations from the given parameters
+constexpr int kPolish = 8;          ///< iterations by the same slopes
+constexpr int kSettling = 8;        ///< times that slopes are simulated anew
+constexpr double kSettled = 5e-4;   ///< share of the cost
+constexpr int kFinishing = 5;
+constexpr double kFinished = 2e-4;  ///< share of the cost
+constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
+constexpr double kRoughlySettled = 0.01;
+
+}  // namespace
+
+bool Settling::clearly_misses(const Fitted& fitted) const {
+  return judge_.gap(fitted.residual) > kClearGap;
+}
+
+void Settling::settle(Fitted& fitted) const {
+  for (int k = 0; k < kSettling; ++k) {
+    const bool clear = clearly_misses(fitted);
+    const double before = fitted.cost;
+    fit_.polish(fitted, kPolish, clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides);
+    if (before - fitted.cost < (clear ? kRoughlySettled : kSettled) * before) break;
+  }
+}
+
+bool Settling::settle_within_reach(Fitted& fitted, double level) const {
+  fit_.improve(fitted, kPolish);
+  fit_.polish(fitted, kPolish, ModelFit::Slopes::kOneSide);
+  // So far off that no better derivative brings it there.
+  if (fitted.cost > level) return false;
+  settle(fitted);
+  return true;
+}
+
+Fitted Settling::to_the_end(const Fitted& fitted) const {
+  std::optional<Fitted> best = from_given(fitted);
+  if (!best || best->cost >= fitted.cost) {
+    best = fitted;
+    settle(*best);
+  }
+  finish(*best);
+  return std::move(*best);
+}
+
+/// Nothing if the effects cannot be simulated with the given parameters.
+std::optional<Fitted> Settling::from_given(const Fitted& fitted) const {
+  Variant given = fitted.variant;
+  given.nuisances = evaluator_.initial_nuisances();
+  try {
+    Fitted fresh = fit_.start(given, fitted.unknowns);
+    fit_.improve(fresh, kRecalibrations);
+    settle(fresh);
+    return fresh;
+  } catch (const NotSimulated&) {
+    return std::nullopt;
+  }
+}
+
+/// The last of it: where a fit has settled, the coarse step's slopes lead nowhere, but the
+/// simulation's own do.
+void Settling::finish(Fitted& fitted) const {
+  for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
+    const double before = fitted.cost;
+    fit_.polish(fitted, kPolish, ModelFit::Slopes::kExact);
+    if (before - fitted.cost < kFinished * before) break;
+  }
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/discovery/experiment.h"
+#include "anthrob_sim/core/random.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// Differences made from the damping [Nms/rad] of the model's joints, so that slopes and ends are
+/// known, and maybe otherwise with a coarse step; and noise of one unit where there are several.
+class MadeExperiment final : public Experiment {
+ public:
+  using Law = std::function<double(double elbow, double shoulder)>;
+  static constexpr double kStep = 0.001, kCoarse = 0.002;  // [s]
+
+  MadeExperiment(Law difference, Law coarse, std::size_t bins = 1, std::uint64_t seed = 0)
+      : difference_(std::move(difference)), coarse_(std::move(coarse)) {
+    channels_ = {{"elbow", "position", "rad", 0, 0, bins, 0.0}};
+    present_.assign(bins, 1);
+    bin_ = 0.02;
+    duration_ = bin_ * static_cast<double>(bins);
+    const CounterRandom random(seed, 1);
+    for (std::size_t b = 0; b < bins; ++b) noise_.push_back(bins > 1 ? random.normal(b) : 0.0);
+  }
+
+  void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
+    const Law& law = model->step == kCoarse ? coarse_ : difference_;
+    const double difference = law(damping_of(*model, "elbow"), damping_of(*model, "shoulder"));
+    for (std::size_t b = 0; b < noise_.size(); ++b) {
+      out[b] = static_cast<float>(difference + noise_[b]);
+    }
+  }
+
+ private:
+  static double damping_of(const RobotModel& model, const std::string& joint) {
+    const auto index = static_cast<std::size_t>(model.skeleton->find_joint(joint));
+    return model.skeleton->joints[index].friction.viscous;
+  }
+
+  Law difference_, coarse_;
+  std::vector<double> noise_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob
