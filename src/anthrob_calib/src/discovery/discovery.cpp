@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "anthrob_calib/discovery/bootstrap.h"
+#include "anthrob_calib/discovery/common_law.h"
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/examples.h"
 #include "anthrob_calib/discovery/location.h"
@@ -246,53 +247,27 @@ class Search {
     return true;
   }
 
-  /// Two laws at one place may be one of more sizes: what differs by direction is friction and a
-  /// constant, too. Where that does about as well, it is a rival of both.
+  /// One law that says what two say is a rival of both.
   void find_common_laws(Screening& screening, Answer& answer) const {
+    const CommonLaw common(evaluator_, train_, test_, candidates_, naming_, settling_, screening);
     for (std::size_t later = 1; later < accepted_.size(); ++later) {
       for (std::size_t earlier = 0; earlier < later; ++earlier) {
-        for (std::size_t c = 0; c < candidates_.size(); ++c) {
-          if (says_less(candidates_[accepted_[earlier].candidate], candidates_[c]) &&
-              says_less(candidates_[accepted_[later].candidate], candidates_[c])) {
-            weigh_common_law(screening, earlier, later, c, answer);
+        const CommonLaw::Part a{earlier, accepted_[earlier].candidate},
+            b{later, accepted_[later].candidate};
+        for (std::size_t law = 0; law < candidates_.size(); ++law) {
+          if (is_accepted(law) || !common.may_be(law, a.candidate, b.candidate)) continue;
+          stage("whether " + candidates_[law].name() + " says alone what " +
+                candidates_[a.candidate].name() + " and " + candidates_[b.candidate].name() +
+                " say");
+          const std::optional<Rival> rival = common.weigh(law, base_, base_test_, a, b);
+          if (!rival || rival->probability < kMentioned) continue;
+          for (const std::size_t e : {earlier, later}) {
+            FoundEffect& effect = answer.effects[e];
+            effect.rivals.push_back(*rival);
+            if (effect.separating_experiment.empty()) {
+              effect.separating_experiment = separating_experiment(effect.id, rival->id);
+            }
           }
-        }
-      }
-    }
-  }
-
-  void weigh_common_law(Screening& screening, std::size_t earlier, std::size_t later,
-                        std::size_t candidate, Answer& answer) const {
-    const Candidate &a = candidates_[accepted_[earlier].candidate],
-                    &b = candidates_[accepted_[later].candidate], &both = candidates_[candidate];
-    stage("whether " + both.name() + " says all that " + a.name() + " and " + b.name() + " say");
-    std::optional<Fitted> base = without_effect(evaluator_, train_, base_, later, b);
-    if (base) base = without_effect(evaluator_, train_, *base, earlier, a);
-    if (!base) return;
-    const Eigen::VectorXf base_test = test_.residual(base->variant);
-    if (base_test.size() == 0) return;
-    Score asked;
-    asked.candidate = candidate;
-    screening.renew(*base, {asked}, 1);
-    for (const Score& score : screening.scores(*base)) {
-      if (score.candidate != candidate) continue;
-      ShortList list = naming_.weigh(*base, base_test, {score});
-      if (list.named.empty()) return;
-      const Fitted one = settling_.to_the_end(list.named.front().fit);
-      const Eigen::VectorXf one_test = test_.residual(one.variant);
-      if (one_test.size() == 0) return;
-      const double probability = naming_.odds(one, one_test, base_, base_test_);
-      if (probability < kMentioned) return;
-      const Rival rival{both.effect->info().id,
-                        both.place,
-                        probability,
-                        list.named.front().evidence,
-                        {a.name(), b.name()}};
-      for (const std::size_t e : {earlier, later}) {
-        FoundEffect& effect = answer.effects[e];
-        effect.rivals.push_back(rival);
-        if (effect.separating_experiment.empty()) {
-          effect.separating_experiment = separating_experiment(effect.id, both.effect->info().id);
         }
       }
     }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+
+#include "anthrob_calib/discovery/discovery.h"
+#include "anthrob_calib/discovery/naming.h"
+#include "anthrob_calib/discovery/screening.h"
+#include "anthrob_calib/discovery/settling.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// Two laws at one place may be one of more sizes: friction that differs by direction is friction
+/// and a constant torque, too.
+class CommonLaw {
+ public:
+  /// An effect in a fit: its index in there, and which candidate it is.
+  struct Part {
+    std::size_t effect, candidate;
+  };
+
+  CommonLaw(const Evaluator& evaluator, const ModelFit& train, const ModelFit& test,
+            const std::vector<Candidate>& candidates, const Naming& naming,
+            const Settling& settling, Screening& screening)
+      : evaluator_(evaluator),
+        train_(train),
+        test_(test),
+        candidates_(candidates),
+        naming_(naming),
+        settling_(settling),
+        screening_(screening) {}
+
+  /// Whether a candidate may say alone what two others say.
+  bool may_be(std::size_t law, std::size_t one, std::size_t other) const;
+  /// That candidate, fitted to the end instead of two effects, and its odds against them.
+  /// @param fitted with both of them, to the end   @param held_out its residual there
+  /// @return nothing if it cannot be simulated
+  std::optional<Rival> weigh(std::size_t law, const Fitted& fitted, const Eigen::VectorXf& held_out,
+                             const Part& earlier, const Part& later) const;
+
+ private:
+  const Evaluator& evaluator_;
+  const ModelFit &train_, &test_;
+  const std::vector<Candidate>& candidates_;
+  const Naming& naming_;
+  const Settling& settling_;
+  Screening& screening_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob
