@@ -92,13 +92,12 @@ TEST(SupplySag, SharesTheVoltageLostByTheSumOfCurrents) {
   const PowerEffect& supply = *robot->power_effects.at(0);
   Memory memory(supply.state_size());
   const StateView before = memory;
-  std::vector<PowerLine> lines;
   // d = 1/2 and -1/4 of 12 V: the supply gives 0.5 + 0.125 A and loses 0.125 V. Currents that go on
   // as they are: the motors had these voltages before.
   const double current = 0.625, left = 12.0 - 0.2 * current;
   before[0] = 0.5 * left;
   before[1] = -0.25 * left;
-  lines = {{6.0, 1.0}, {-3.0, -0.5}};
+  std::vector<PowerLine> lines = {{6.0, 1.0}, {-3.0, -0.5}};
   supply.apply(lines, before);
   EXPECT_NEAR(lines[0].voltage, 0.5 * left, 1e-12);
   EXPECT_NEAR(lines[1].voltage, -0.25 * left, 1e-12);

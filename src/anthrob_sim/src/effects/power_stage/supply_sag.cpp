@@ -15,7 +15,8 @@ EffectInfo describe() {
       "for, and draws that share of its motor's current.";
   i.equation =
       "V_motor = d (V_0 - resistance sum d i), d = V / V_0, V_0 the nominal voltage, sum over the "
-      "motors of the ECU or of the robot; solved with the currents that follow V_motor in the step";
+      "motors of the ECU or of the robot; solved together with the change of the currents within "
+      "the step";
   i.source = "known: 20-200 mohm";
   i.where = "ecu_k | global";
   i.seam = Seam::kPowerStage;
