@@ -37,14 +37,12 @@ class Score : public testing::Test {
         << Json{{"kind", kind}, {"effects", effects}, {"change", {{"floors", floors}}}};
   }
   void report(const std::string& name, const std::string& verdict, const List& effects = {},
-              const List& not_visible = {}, const List& visible = {},
-              const Json& gap = nullptr) const {
+              const List& not_visible = {}, const List& visible = {}, const Json& gap = nullptr,
+              const List& alternatives = {}) const {
     fs::create_directories(folder_ / "reports" / name);
-    std::ofstream(folder_ / "reports" / name / "report.json") << Json{{"verdict", verdict},
-                                                                      {"effects", effects},
-                                                                      {"not_visible", not_visible},
-                                                                      {"visible", visible},
-                                                                      {"gap", gap}};
+    std::ofstream(folder_ / "reports" / name / "report.json")
+        << Json{{"verdict", verdict}, {"effects", effects}, {"not_visible", not_visible},
+                {"visible", visible}, {"gap", gap},         {"alternatives", alternatives}};
   }
   void failed(const std::string& name) const {
     fs::create_directories(folder_ / "reports" / name);
@@ -97,6 +95,28 @@ TEST_F(Score, OfEffects) {
   EXPECT_EQ(rate(result, "covered by ci95", "hits"), 1);
   EXPECT_NEAR(rate(result, "parameter error [%]", "median"), 20.0, 1e-9);
   EXPECT_EQ(rate(result, "below 3 floors", "hits"), 1);
+}
+
+TEST_F(Score, OneLawInsteadOfTwoIsInTheClassOfBoth) {
+  const auto alone = [](double probability, const std::string& place) {
+    return List{{{"id", "joint_coulomb_asymmetric"},
+                 {"place", place},
+                 {"probability", probability},
+                 {"instead_of", List{{{"id", "joint_coulomb"}, {"place", place}},
+                                     {{"id", "joint_offset_torque"}, {"place", place}}}}}};
+  };
+  const List two = {named("joint_coulomb", "elbow", 1.0, 0.0, 2.0),
+                    named("joint_offset_torque", "elbow", 1.0, 0.0, 2.0)};
+  for (const char* name : {"even", "unlikely", "of_others"}) {
+    truth(name, "effect", {hidden("joint_coulomb_asymmetric", "elbow", 1.0)});
+  }
+  report("even", "effects_found", two, {}, {}, nullptr, alone(0.5, "elbow"));
+  report("unlikely", "effects_found", two, {}, {}, nullptr, alone(0.03, "elbow"));
+  report("of_others", "effects_found", two, {}, {}, nullptr, alone(0.5, "wrist"));
+  const Json result = score();
+  EXPECT_EQ(result["effect"]["cases"], 3);
+  EXPECT_EQ(result["effect"]["first"], 0);
+  EXPECT_EQ(result["effect"]["in_class"], 1);
 }
 
 TEST_F(Score, OfPairsEachByAnAnswerOfItsOwn) {

@@ -194,14 +194,14 @@ TEST(DrivenAxis, OffsetAndAsymmetricFrictionAreSaidToBeAlike) {
   EXPECT_TRUE(second.count("joint_coulomb_asymmetric")) << summary(answer);
   EXPECT_NE(answer.effects[1].separating_experiment.find("coast"), std::string::npos);
   // One law says what the two say.
-  for (const FoundEffect& effect : answer.effects) {
-    const auto one = std::find_if(effect.rivals.begin(), effect.rivals.end(),
-                                  [](const Rival& rival) { return rival.instead_of.size() == 2; });
-    ASSERT_NE(one, effect.rivals.end()) << summary(answer);
-    EXPECT_EQ(one->id, "joint_coulomb_asymmetric");
-    EXPECT_GT(one->probability, 0.05);
-    EXPECT_LT(one->probability, 0.95);
-  }
+  ASSERT_EQ(answer.alternatives.size(), 1u) << summary(answer);
+  const Alternative& one = answer.alternatives[0];
+  EXPECT_EQ(one.id, "joint_coulomb_asymmetric");
+  EXPECT_EQ(one.instead_of[0], 0u);
+  EXPECT_EQ(one.instead_of[1], 1u);
+  EXPECT_GT(one.probability, 0.05);
+  EXPECT_LT(one.probability, 0.95);
+  EXPECT_NE(one.separating_experiment.find("coast"), std::string::npos);
 }
 
 TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {

@@ -28,10 +28,17 @@ TEST(Merit, EachConditionAloneDenies) {
   evidence.evidence = 9.0;
   significance.significance = 2.9;
   share.share = share.share_of_first = 0.06;
-  EXPECT_EQ(lack(none), "with probability 0.95 it is none of those that were fitted");
-  EXPECT_EQ(lack(evidence), "it gains 9.0 nat on held-out data where 9.4 are needed");
-  EXPECT_EQ(lack(significance), "its gain is 2.9 standard errors where 3 are needed");
-  EXPECT_EQ(lack(share), "it takes 6 % of the squared gap on held-out data where 10 are needed");
+  EXPECT_EQ(lack(none), "with probability 0.95 none of those that were fitted is right");
+  EXPECT_EQ(lack(evidence), "it gains 9.0 nat on held-out data where more than 9.4 are needed");
+  EXPECT_EQ(lack(significance), "its gain is 2.90 standard errors where more than 3 are needed");
+  EXPECT_EQ(lack(share),
+            "it takes 6.0 % of the squared gap on held-out data where more than 10 are needed");
+}
+
+TEST(Merit, AGapThatGrowsIsSaidToGrow) {
+  Merit merit = earned();
+  merit.share = merit.share_of_first = -0.4;
+  EXPECT_EQ(lack(merit), "the squared gap on held-out data does not fall with it");
 }
 
 TEST(Merit, FaintGapsAskForMore) {

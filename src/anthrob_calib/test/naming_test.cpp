@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
 #include "anthrob_calib/discovery/reduction.h"
+#include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/settling.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "made_experiment.h"
@@ -63,8 +69,23 @@ struct Problem {
         candidates(list_candidates(evaluator, {"joint_viscous"})),
         naming(train, test, train_judge, test_judge, candidates, 1) {}
 
-  Fitted base(double damping) const {
+  Fitted fitted(double damping) const {
     return train.start(Variant{{damping}}, nuisance_unknowns(evaluator));
+  }
+  Tested base(double damping) const { return tested(fitted(damping)); }
+  Tested tested(const Fitted& fitted) const { return {fitted, test.residual(fitted.variant)}; }
+  /// With one more effect, its damping free.
+  Fitted with(const Fitted& fitted, std::size_t candidate, double damping) const {
+    Variant variant = fitted.variant;
+    variant.effects.push_back(candidates[candidate].neutral());
+    variant.effects.back().parameters["damping"] = damping;
+    Unknown u;
+    u.effect = static_cast<int>(variant.effects.size()) - 1;
+    u.parameter = "damping";
+    u.upper = 10.0;
+    u.scale = u.finest = 0.01;
+    u.neutral = 0.0;
+    return train.extend(fitted, variant, {u});
   }
   std::size_t index(const std::string& joint) const {
     for (std::size_t c = 0; c < candidates.size(); ++c) {
@@ -72,12 +93,12 @@ struct Problem {
     }
     throw std::invalid_argument(joint);
   }
-  ShortList weigh(const Fitted& base, const std::string& joint, double amount) const {
+  ShortList weigh(const Tested& base, const std::string& joint, double amount) const {
     Score score;
     score.candidate = index(joint);
     score.gain = 1.0;
     score.amount = {amount};
-    return naming.weigh(base, test.residual(base.variant), {score});
+    return naming.weigh(base, {score});
   }
 
   static constexpr Eigen::Index kBins = 500;
@@ -91,8 +112,8 @@ struct Problem {
 constexpr double kElbow = 0.02, kDose = 0.05;  // damping in the model, of the catalogue [Nms/rad]
 
 TEST(Naming, WhatDoesNothingAtFirstIsTriedWhereItBegins) {
-  // Nothing up to seven tenths of a dose; a third of what the whole one does is asked for, so that
-  // in proportion a third of the dose would be, where the slope is none.
+  // Up to seven tenths of a dose nothing happens, and the data ask for a third of what a whole dose
+  // does. In proportion that would be a third of a dose, where the slope is zero.
   const Problem problem([](double elbow, double) {
     const double amount = (elbow - kElbow) / kDose;
     return 10.0 * (std::max(0.0, amount - 0.7) / 0.3 - 0.34);
@@ -119,39 +140,31 @@ TEST(Naming, FitsFollowABaseThatFoundABetterValley) {
   half.effects[0].parameters["damping"] = 2.0 * kDose;
   ASSERT_TRUE(problem.train.move(stuck.fit, half));
   stuck.test = problem.test.residual(half);
-  const Fitted better = problem.base(0.8);
-  const Eigen::VectorXf test = problem.test.residual(better.variant);
-  ASSERT_LT(better.cost, stuck.fit.cost);
-  problem.naming.judge(better, test, list);
+  const Tested better = problem.base(0.8);
+  ASSERT_LT(better.fit.cost, stuck.fit.cost);
+  problem.naming.judge(better, list);
   EXPECT_LT(list.named[0].probability, 0.01);
-  problem.naming.follow(better, test, list);
-  EXPECT_LT(list.named[0].fit.cost, better.cost - 100.0);
+  problem.naming.follow(better, list);
+  EXPECT_LT(list.named[0].fit.cost, better.fit.cost - 100.0);
   EXPECT_GT(list.named[0].probability, 0.99);
 }
 
-TEST(Naming, OddsAreEvenForTheSame) {
+TEST(Naming, OddsAreOfWhatWasNotLearnedFrom) {
   const Problem problem([](double, double shoulder) { return 20.0 * (shoulder - 0.15); });
-  const auto test = [&](const Fitted& fitted) { return problem.test.residual(fitted.variant); };
-  const Fitted good = problem.base(0.15), bad = problem.base(0.25);
-  EXPECT_NEAR(problem.naming.odds(good, test(good), good, test(good)), 0.5, 1e-9);
-  EXPECT_GT(problem.naming.odds(good, test(good), bad, test(bad)), 0.99);
-  EXPECT_LT(problem.naming.odds(bad, test(bad), good, test(good)), 0.01);
+  const Eigen::VectorXf good = problem.base(0.15).test, bad = problem.base(0.25).test;
+  EXPECT_NEAR(problem.naming.odds(good, good).probability, 0.5, 1e-9);
+  EXPECT_EQ(problem.naming.odds(good, good).evidence, 0.0);
+  EXPECT_GT(problem.naming.odds(good, bad).probability, 0.99);
+  EXPECT_LT(problem.naming.odds(bad, good).probability, 0.01);
+  // 2 more than none in each of 500 bins that have a noise of 1.
+  EXPECT_NEAR(problem.naming.odds(good, bad).evidence, 0.5 * 500 * 4.0, 250.0);
+  EXPECT_NEAR(problem.naming.odds(bad, good).evidence, -0.5 * 500 * 4.0, 250.0);
 }
 
 TEST(WithoutEffect, OthersStayAsTheyAre) {
   const Problem problem([](double elbow, double shoulder) { return elbow + 10.0 * shoulder; });
   const std::size_t elbow = problem.index("elbow"), shoulder = problem.index("shoulder");
-  Fitted fitted = problem.base(0.15);
-  for (const auto& [candidate, damping] : {std::pair(elbow, 0.3), std::pair(shoulder, 0.4)}) {
-    Variant variant = fitted.variant;
-    variant.effects.push_back(problem.candidates[candidate].neutral());
-    variant.effects.back().parameters["damping"] = damping;
-    Unknown u;
-    u.effect = static_cast<int>(variant.effects.size()) - 1;
-    u.parameter = "damping";
-    u.upper = 10.0;
-    fitted = problem.train.extend(fitted, variant, {u});
-  }
+  const Fitted fitted = problem.with(problem.with(problem.fitted(0.15), elbow, 0.3), shoulder, 0.4);
   const auto reduced =
       without_effect(problem.evaluator, problem.train, fitted, 0, problem.candidates[elbow]);
   ASSERT_TRUE(reduced);
@@ -165,28 +178,67 @@ TEST(WithoutEffect, OthersStayAsTheyAre) {
 }
 
 TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
-  const Problem problem([](double elbow, double) { return elbow; }, "elbow");
+  const Problem problem([](double elbow, double) { return 30.0 * elbow; }, "elbow");
   const std::size_t elbow = problem.index("elbow");
   ASSERT_EQ(problem.candidates[elbow].same_as.size(), 1u);
-  const Fitted base = problem.base(0.15);
-  const ShortList list = problem.weigh(base, "elbow", 1.0);
-  ASSERT_EQ(list.named.size(), 1u);
-  const Fitted& fitted = list.named[0].fit;
+  Fitted fitted = problem.weigh(problem.base(0.15), "elbow", 1.0).named.at(0).fit;
   EXPECT_EQ(fitted.unknowns[0].lower, fitted.unknowns[0].upper);  // held
+  problem.train.polish(fitted, 0);
+  EXPECT_EQ(fitted.sensitivity.col(0).norm(), 0.0f);
   const auto reduced =
       without_effect(problem.evaluator, problem.train, fitted, 0, problem.candidates[elbow]);
   ASSERT_TRUE(reduced);
   EXPECT_EQ(reduced->residual, fitted.residual);
   EXPECT_LT(reduced->unknowns[0].lower, reduced->unknowns[0].upper);
+  EXPECT_NEAR(reduced->sensitivity(0, 0), 30.0 * reduced->unknowns[0].scale, 1e-3);
 }
 
 TEST(Settling, WhatStaysOutOfReachIsNotSettled) {
-  const Problem problem([](double, double shoulder) { return 3.0 + 10.0 * (shoulder - 0.4); });
+  const Problem problem([](double, double shoulder) { return 5.0 + 50.0 * (shoulder - 0.8); });
   const Settling settling(problem.evaluator, problem.train, problem.train_judge);
-  Fitted far = problem.base(0.15), near = far;
-  EXPECT_FALSE(settling.settle_within_reach(far, 0.0));
-  EXPECT_TRUE(settling.settle_within_reach(near, 1000.0));
-  EXPECT_LT(near.cost, 500.0);
+  const Fitted begin = problem.fitted(0.15);
+  ASSERT_GT(begin.cost, 100.0 * Problem::kBins);
+  const auto simulated = [&](double level, bool within) {
+    Fitted fitted = begin;
+    const std::size_t before = problem.evaluator.simulated();
+    EXPECT_EQ(settling.settle_within_reach(fitted, level), within);
+    EXPECT_LT(fitted.cost, Problem::kBins);  // the noise alone: half of that
+    return problem.evaluator.simulated() - before;
+  };
+  const std::size_t rough = simulated(0.0, false);
+  EXPECT_GT(simulated(1e6, true), rough);
+}
+
+/// The elbow is asked whether it is needed beside the shoulder.
+std::optional<Tested> without_elbow(const Problem& problem, double elbow) {
+  const Settling settling(problem.evaluator, problem.train, problem.train_judge);
+  Gaps gaps(problem.train_judge, problem.test_judge, problem.candidates.size());
+  const Tested none = problem.base(0.15);
+  gaps.begin(none.test);
+  const std::size_t first = problem.index("elbow"), second = problem.index("shoulder");
+  const Tested both =
+      problem.tested(problem.with(problem.with(none.fit, first, elbow), second, 0.3));
+  const SecondThoughts thoughts(problem.evaluator, problem.train, problem.test, problem.candidates,
+                                problem.naming, gaps, settling);
+  return thoughts.without(0, first, none.fit.cost - both.fit.cost, both);
+}
+
+TEST(SecondThoughts, WhatWasNamedInAnothersSteadGoes) {
+  // The shoulder's damping is all that matters. The elbow once was taken for it.
+  const Problem problem([](double, double shoulder) { return 20.0 * (shoulder - 0.45); });
+  const auto without = without_elbow(problem, 0.2);
+  ASSERT_TRUE(without);
+  ASSERT_EQ(without->fit.variant.effects.size(), 1u);
+  EXPECT_EQ(without->fit.variant.effects[0].place, "shoulder");
+  EXPECT_EQ(without->test.size(), Problem::kBins);
+}
+
+TEST(SecondThoughts, WhatIsNeededStays) {
+  // Each has a part of its own: what one lacks the other cannot say.
+  const Problem problem([](double elbow, double shoulder) {
+    return std::abs(20.0 * (shoulder - 0.45)) + std::abs(20.0 * (elbow - kElbow - 0.2));
+  });
+  EXPECT_FALSE(without_elbow(problem, 0.2));
 }
 
 }  // namespace

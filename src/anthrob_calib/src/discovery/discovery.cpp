@@ -1,7 +1,6 @@
 #include "anthrob_calib/discovery/discovery.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -9,14 +8,15 @@
 #include "anthrob_calib/discovery/common_law.h"
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/examples.h"
+#include "anthrob_calib/discovery/gaps.h"
 #include "anthrob_calib/discovery/location.h"
-#include "anthrob_calib/discovery/merit.h"
 #include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/preflight.h"
 #include "anthrob_calib/discovery/preparation.h"
 #include "anthrob_calib/discovery/reduction.h"
 #include "anthrob_calib/discovery/screening.h"
 #include "anthrob_calib/discovery/seams.h"
+#include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/separating_experiment.h"
 #include "anthrob_calib/discovery/settling.h"
 #include "anthrob_calib/discovery/verdict.h"
@@ -26,19 +26,9 @@ namespace discovery {
 
 namespace {
 
-constexpr int kRecalibrations = 8;
-constexpr double kOutOfReach = 0.5;  ///< share of an effect's gain that is left without it
-constexpr std::size_t kRenewed =
-    60;                              ///< candidates whose doses are simulated again in later rounds
-constexpr int kMostRounds = 2;       ///< for each effect that may be named
-constexpr double kMentioned = 0.02;  ///< least probability of a rival
-
-/// What of all channels' squared gaps is more than that of a gap.
-double whole_excess(const Judge& judge, const Eigen::VectorXf& residual, double least) {
-  double sum = 0.0;
-  for (const auto& [name, gap] : judge.channel_gaps(residual)) sum += excess(gap, least);
-  return sum;
-}
+constexpr std::size_t kRenewed = 60;  ///< candidates whose doses are simulated again later
+constexpr int kMostRounds = 2;        ///< for each effect that may be named
+constexpr double kMentioned = 0.02;   ///< least probability of a rival
 
 /// A candidate that is in the model now.
 struct Accepted {
@@ -61,43 +51,45 @@ class Search {
         test_judge_(laboratory_.test, test_.whitening(), scales_),
         settling_(evaluator, train_, train_judge_),
         candidates_(list_candidates(evaluator, question.effects)),
-        naming_(train_, test_, train_judge_, test_judge_, candidates_, question.seed) {}
+        naming_(train_, test_, train_judge_, test_judge_, candidates_, question.seed),
+        gaps_(train_judge_, test_judge_, candidates_.size()) {}
 
   Answer answer() {
     Answer answer;
     answer.scales = scales_;
     recalibrate(answer);
     stage("screening " + std::to_string(candidates_.size()) + " candidates");
-    Screening screening(train_, base_, candidates_, laboratory_.quick, laboratory_.slow);
-    std::vector<Score> scores = screening.scores(base_);
-    PreFlight(candidates_, base_, train_judge_, test_judge_, total_duration(laboratory_.test))
+    Screening screening(train_, base_.fit, candidates_, laboratory_.quick, laboratory_.slow);
+    std::vector<Score> scores = screening.scores(base_.fit);
+    PreFlight(candidates_, base_.fit, train_judge_, test_judge_, total_duration(laboratory_.test))
         .fly(screening, scores, answer);
     // What is dropped again makes room; but not for ever.
     for (int round = 0;
-         round < kMostRounds * question_.max_effects && has_room() && has_gap(kFaintGap); ++round) {
+         round < kMostRounds * question_.max_effects && has_room() && gaps_.any(base_, kFaintGap);
+         ++round) {
       const std::string title = "effect " + std::to_string(accepted_.size() + 1) + ": ";
       if (round > 0) {
         stage(title + "screening");
-        screening.renew(base_, screening.scores(base_), kRenewed);
-        scores = screening.scores(base_);
+        screening.renew(base_.fit, screening.scores(base_.fit), kRenewed);
+        scores = screening.scores(base_.fit);
       }
       scores.erase(std::remove_if(scores.begin(), scores.end(),
                                   [&](const Score& s) { return is_accepted(s.candidate); }),
                    scores.end());
       stage(title + "fitting the short list");
-      ShortList list = naming_.weigh(base_, base_test_, scores);
+      ShortList list = naming_.weigh(base_, scores);
       if (question_.comment) comment_on(list);
       if (list.named.empty() || !earns_its_place(list, answer)) break;
       if (base_moves_on(list)) {
         if (accepted_.empty()) note_recalibrated(answer);
-        naming_.follow(base_, base_test_, list);
+        naming_.follow(base_, list);
         if (question_.comment) comment_on(list);
         if (!earns_its_place(list, answer)) break;
       }
       accept(list, answer);
       drop_superfluous(answer);
     }
-    find_common_laws(screening, answer);
+    find_alternatives(screening, answer);
     conclude(answer);
     return answer;
   }
@@ -129,24 +121,21 @@ class Search {
   void recalibrate(Answer& answer) {
     stage("fitting ordinary parameters");
     answer.given.nuisances = evaluator_.initial_nuisances();
-    base_ = train_.start(answer.given, nuisance_unknowns(evaluator_));
-    given_train_ = base_.residual;
+    given_train_ = train_.residual(answer.given);
     given_test_ = test_.residual(answer.given);
-    train_.improve(base_, kRecalibrations);
-    settling_.settle(base_);
-    base_test_ = test_.residual(base_.variant);
-    if (given_test_.size() == 0 || base_test_.size() == 0) {
+    base_.fit = settling_.settled(answer.given, nuisance_unknowns(evaluator_));
+    base_.test = test_.residual(base_.fit.variant);
+    if (given_test_.size() == 0 || base_.test.size() == 0) {
       throw std::runtime_error("the model cannot be simulated along the held-out recordings");
     }
     note_recalibrated(answer);
   }
 
   void note_recalibrated(Answer& answer) {
-    answer.recalibrated = base_.variant;
-    recalibrated_train_ = base_.residual;
-    recalibrated_test_ = base_test_;
-    first_excess_ = whole_excess(test_judge_, base_test_, kRealGap);
-    first_faint_excess_ = whole_excess(test_judge_, base_test_, kFaintGap);
+    answer.recalibrated = base_.fit.variant;
+    recalibrated_train_ = base_.fit.residual;
+    recalibrated_test_ = base_.test;
+    gaps_.begin(base_.test);
   }
 
   /// What looks like an effect may be ordinary parameters that found a better valley on the way:
@@ -156,99 +145,48 @@ class Search {
     std::optional<Fitted> moved =
         without_effect(evaluator_, train_, best.fit, accepted_.size(), candidates_[best.candidate]);
     if (!moved) return false;
-    const double reach = best.fit.cost + kOutOfReach * (base_.cost - best.fit.cost);
+    const double reach = best.fit.cost + kOutOfReach * (base_.fit.cost - best.fit.cost);
     if (!settling_.settle_within_reach(*moved, reach)) return false;
     Eigen::VectorXf test = test_.residual(moved->variant);
-    if (moved->cost >= base_.cost || test.size() == 0) return false;
-    base_ = std::move(*moved);
-    base_test_ = std::move(test);
+    if (moved->cost >= base_.fit.cost || test.size() == 0) return false;
+    base_ = {std::move(*moved), std::move(test)};
     return true;
   }
 
-  bool has_gap(double least) const { return has_gap(base_, base_test_, least); }
-
-  /// Of a channel, in what was learned from and in what was held out.
-  bool has_gap(const Fitted& fitted, const Eigen::VectorXf& test, double least) const {
-    const auto learned = train_judge_.channel_gaps(fitted.residual);
-    const auto held_out = test_judge_.channel_gaps(test);
-    return std::any_of(held_out.begin(), held_out.end(), [&](const auto& channel) {
-      const auto found = learned.find(channel.first);
-      return channel.second > least && found != learned.end() && found->second > least;
-    });
-  }
-
-  bool gap_is_certain() const {
-    return certain_gap(train_judge_, base_.residual, test_judge_, base_test_, kRealGap);
-  }
-
-  /// Of the first of a list that was judged against a base.
-  Merit merit_of(const ShortList& list, const Fitted& base,
-                 const Eigen::VectorXf& base_test) const {
-    const Named& best = list.named.front();
-    const double before = whole_excess(test_judge_, base_test, kFaintGap);
-    const double gained = before - whole_excess(test_judge_, best.test, kFaintGap);
-    Merit merit;
-    merit.probability = best.probability;
-    merit.none = list.none;
-    merit.evidence = best.evidence;
-    merit.needed_evidence = needed_evidence(candidates_.size());
-    merit.significance = best.significance;
-    merit.only_faint_gaps = !has_gap(base, base_test, kRealGap);
-    if (before > 0.0) merit.share = gained / before;
-    if (first_faint_excess_ > 0.0) merit.share_of_first = gained / first_faint_excess_;
-    return merit;
-  }
-
-  /// Whether the first of a list does; if not, the answer tells why.
+  /// Whether the first of a list does; if not, the answer tells what it lacks.
   bool earns_its_place(const ShortList& list, Answer& answer) const {
-    const std::string lacking = lack(merit_of(list, base_, base_test_));
+    const std::string lacking = lack(gaps_.merit_of(list, base_));
     if (lacking.empty()) return true;
     const Named& best = list.named.front();
     const Candidate& candidate = candidates_[best.candidate];
-    answer.closest = {candidate.effect->info().id, candidate.place, best.probability, best.evidence,
+    answer.refused = {candidate.effect->info().id, candidate.place, best.probability, best.evidence,
                       lacking};
     if (question_.comment) question_.comment("  not named: " + lacking);
     return false;
   }
 
-  /// What was named early may have stood in for what was named later: whatever does not earn its
-  /// place beside the others any more goes.
   void drop_superfluous(Answer& answer) {
+    const SecondThoughts second(evaluator_, train_, test_, candidates_, naming_, gaps_, settling_);
     for (std::size_t e = 0; e + 1 < accepted_.size();) {
-      const std::string name = candidates_[accepted_[e].candidate].name();
+      const auto [candidate, gained] = accepted_[e];
+      const std::string name = candidates_[candidate].name();
       stage("whether " + name + " is still needed");
-      if (!is_superfluous(e)) {
+      std::optional<Tested> without = second.without(e, candidate, gained, base_);
+      if (!without) {
         ++e;
         continue;
       }
       if (question_.comment) question_.comment("  not needed any more: " + name);
+      base_ = std::move(*without);
       accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(e));
       answer.effects.erase(answer.effects.begin() + static_cast<std::ptrdiff_t>(e));
+      answer.dropped.push_back(name);
+      // Planned with it in the model.
+      for (FoundEffect& effect : answer.effects) effect.separating_recording = {};
     }
   }
 
-  /// If it is, the base goes on without it.
-  bool is_superfluous(std::size_t index) {
-    const auto& [candidate, gained] = accepted_[index];
-    std::optional<Fitted> without =
-        without_effect(evaluator_, train_, base_, index, candidates_[candidate]);
-    if (!without || !settling_.settle_within_reach(*without, base_.cost + kOutOfReach * gained)) {
-      return false;
-    }
-    *without = settling_.to_the_end(*without);
-    Eigen::VectorXf test = test_.residual(without->variant);
-    if (test.size() == 0) return false;
-    ShortList list;
-    list.named = {{candidate, base_, base_test_}};
-    naming_.judge(*without, test, list);
-    if (lack(merit_of(list, *without, test)).empty()) return false;
-    base_ = std::move(*without);
-    base_test_ = std::move(test);
-    return true;
-  }
-
-  /// One law that says what two say is a rival of both.
-  void find_common_laws(Screening& screening, Answer& answer) const {
+  void find_alternatives(Screening& screening, Answer& answer) const {
     const CommonLaw common(evaluator_, train_, test_, candidates_, naming_, settling_, screening);
     for (std::size_t later = 1; later < accepted_.size(); ++later) {
       for (std::size_t earlier = 0; earlier < later; ++earlier) {
@@ -256,18 +194,18 @@ class Search {
             b{later, accepted_[later].candidate};
         for (std::size_t law = 0; law < candidates_.size(); ++law) {
           if (is_accepted(law) || !common.may_be(law, a.candidate, b.candidate)) continue;
-          stage("whether " + candidates_[law].name() + " says alone what " +
-                candidates_[a.candidate].name() + " and " + candidates_[b.candidate].name() +
-                " say");
-          const std::optional<Rival> rival = common.weigh(law, base_, base_test_, a, b);
-          if (!rival || rival->probability < kMentioned) continue;
-          for (const std::size_t e : {earlier, later}) {
-            FoundEffect& effect = answer.effects[e];
-            effect.rivals.push_back(*rival);
-            if (effect.separating_experiment.empty()) {
-              effect.separating_experiment = separating_experiment(effect.id, rival->id);
-            }
-          }
+          const Candidate& alone = candidates_[law];
+          stage("whether " + alone.name() + " says alone what " + candidates_[a.candidate].name() +
+                " and " + candidates_[b.candidate].name() + " say");
+          const std::optional<Naming::Odds> odds = common.odds(law, base_, a, b);
+          if (!odds || odds->probability < kMentioned) continue;
+          const std::string& id = alone.effect->info().id;
+          answer.alternatives.push_back({id,
+                                         alone.place,
+                                         {earlier, later},
+                                         odds->probability,
+                                         odds->evidence,
+                                         separating_experiment(answer.effects[earlier].id, id)});
         }
       }
     }
@@ -277,13 +215,13 @@ class Search {
   /// earlier ones.
   void measure_effects(Answer& answer) const {
     const auto ranges =
-        bootstrap_intervals(base_, train_.experiments(), variables_, question_.seed);
+        bootstrap_intervals(base_.fit, train_.experiments(), variables_, question_.seed);
     for (std::size_t e = 0; e < answer.effects.size(); ++e) {
       for (const EffectParameter& p : candidates_[accepted_[e].candidate].parameters) {
-        const double value = base_.variant.effects[e].parameters.at(p.name);
+        const double value = base_.fit.variant.effects[e].parameters.at(p.name);
         FoundParameter found{p.name, p.unit, value, value, value};
         for (std::size_t i = 0; i < ranges.size(); ++i) {
-          const Unknown& u = base_.unknowns[i];
+          const Unknown& u = base_.fit.unknowns[i];
           if (u.effect != static_cast<int>(e) || u.parameter != p.name) continue;
           found.low = ranges[i].first;
           found.high = ranges[i].second;
@@ -313,13 +251,12 @@ class Search {
       if (other.probability < kMentioned) continue;
       const Candidate& rival = candidates_[other.candidate];
       effect.rivals.push_back(
-          {rival.effect->info().id, rival.place, other.probability, other.evidence, {}});
+          {rival.effect->info().id, rival.place, other.probability, other.evidence});
     }
     if (!effect.rivals.empty()) separate(list, effect);
     answer.effects.push_back(std::move(effect));
-    accepted_.push_back({best.candidate, base_.cost - best.fit.cost});
-    base_ = best.fit;
-    base_test_ = best.test;
+    accepted_.push_back({best.candidate, base_.fit.cost - best.fit.cost});
+    base_ = best;
   }
 
   void separate(const ShortList& list, FoundEffect& effect) const {
@@ -339,32 +276,31 @@ class Search {
   }
 
   void conclude(Answer& answer) {
-    answer.extended = base_.variant;
+    answer.extended = base_.fit.variant;
     measure_effects(answer);
-    answer.train = gap_of(train_judge_, given_train_, recalibrated_train_, base_.residual);
-    answer.test = gap_of(test_judge_, given_test_, recalibrated_test_, base_test_);
+    answer.train = gap_of(train_judge_, given_train_, recalibrated_train_, base_.fit.residual);
+    answer.test = gap_of(test_judge_, given_test_, recalibrated_test_, base_.test);
     const auto given = test_judge_.channel_gaps(given_test_),
                recalibrated = test_judge_.channel_gaps(recalibrated_test_),
-               after = test_judge_.channel_gaps(base_test_);
+               after = test_judge_.channel_gaps(base_.test);
     for (const auto& [name, value] : given) {
       answer.per_channel[name] = {value, recalibrated.at(name), after.at(name), 1.0};
     }
-    const double first = answer.effects.empty() ? first_excess_ : first_faint_excess_;
-    answer.remaining_share =
-        first > 0.0 ? whole_excess(test_judge_, base_test_, least_gap(answer)) / first : 0.0;
+    const double least = least_gap(answer), first = gaps_.first_excess(least);
+    answer.remaining_share = first > 0.0 ? gaps_.excess_of(base_.test, least) / first : 0.0;
     answer.regimes = regime_gaps(laboratory_.train, variables_, recalibrated_train_,
                                  train_.whitening(), scales_);
     answer.dependences =
         find_dependences(laboratory_.train, variables_, recalibrated_train_, train_.whitening());
     answer.remaining =
-        find_dependences(laboratory_.train, variables_, base_.residual, train_.whitening());
+        find_dependences(laboratory_.train, variables_, base_.fit.residual, train_.whitening());
     stage("locating");
     answer.seams = seam_gaps(evaluator_, question_, laboratory_, scales_, answer.recalibrated);
     answer.where = locate(train_judge_, recalibrated_train_, least_gap(answer), scales_,
                           answer.seams, answer.dependences);
     answer.examples = examples_of(*laboratory_.test.front(), test_.whitening(), recalibrated_test_,
-                                  base_test_, answer.per_channel);
-    pronounce(train_judge_.channel_gaps(base_.residual), gap_is_certain(), answer);
+                                  base_.test, answer.per_channel);
+    pronounce(train_judge_.channel_gaps(base_.fit.residual), gaps_.certain(base_), answer);
   }
 
   /// What was worth naming is worth counting.
@@ -382,10 +318,10 @@ class Search {
   Settling settling_;
   std::vector<Candidate> candidates_;
   Naming naming_;
-  Fitted base_;
-  Eigen::VectorXf base_test_, given_train_, given_test_, recalibrated_train_, recalibrated_test_;
+  Gaps gaps_;
+  Tested base_;
+  Eigen::VectorXf given_train_, given_test_, recalibrated_train_, recalibrated_test_;
   std::vector<Accepted> accepted_;  ///< what is in the model now, in its order
-  double first_excess_ = 0.0, first_faint_excess_ = 0.0;
 };
 
 }  // namespace

@@ -177,7 +177,7 @@ std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>&
     }
   }
   attempts = std::move(between);
-  keep_best();
+  if (!attempts.empty()) keep_best();
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -217,8 +217,20 @@ Named Naming::fit(const Fitted& base, std::size_t index, const EffectInstance& s
   return named;
 }
 
-Eigen::MatrixXd Naming::scores_of(const std::vector<Eigen::VectorXf>& train,
-                                  const std::vector<Eigen::VectorXf>& test) const {
+Naming::Odds Naming::odds(const Eigen::VectorXf& one_test,
+                          const Eigen::VectorXf& other_test) const {
+  const bool other_is_better = other_test.squaredNorm() < one_test.squaredNorm();
+  const Eigen::MatrixXd scores =
+      test_judge_.block_scores({one_test, other_test}, other_is_better ? 1 : 0);
+  return {model_probabilities(scores, {0.0, 0.0}, seed_)[0], (scores.row(0) - scores.row(1)).sum()};
+}
+
+void Naming::judge(const Tested& base, ShortList& list) const {
+  std::vector<Eigen::VectorXf> train = {base.fit.residual}, test = {base.test};
+  for (const Named& named : list.named) {
+    train.push_back(named.fit.residual);
+    test.push_back(named.test);
+  }
   std::size_t best = 0;
   double least = train[0].squaredNorm() + test[0].squaredNorm();
   for (std::size_t i = 1; i < train.size(); ++i) {
@@ -232,29 +244,12 @@ Eigen::MatrixXd Naming::scores_of(const std::vector<Eigen::VectorXf>& train,
   const Eigen::MatrixXd on_test = test_judge_.block_scores(test, best);
   Eigen::MatrixXd all(on_train.rows(), on_train.cols() + on_test.cols());
   all << on_train, on_test;
-  return all;
-}
-
-double Naming::odds(const Fitted& one, const Eigen::VectorXf& one_test, const Fitted& other,
-                    const Eigen::VectorXf& other_test) const {
-  return model_probabilities(scores_of({one.residual, other.residual}, {one_test, other_test}),
-                             {0.0, 0.0}, seed_)[0];
-}
-
-void Naming::judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const {
-  std::vector<Eigen::VectorXf> train = {base.residual}, test = {base_test};
-  for (const Named& named : list.named) {
-    train.push_back(named.fit.residual);
-    test.push_back(named.test);
-  }
-  const Eigen::MatrixXd all = scores_of(train, test);
-  const auto on_test = all.rightCols(static_cast<Eigen::Index>(test_judge_.block_count()));
 
   // Each unknown costs half a log of the number of blocks; having looked at many candidates costs
   // the logarithm of their number.
   std::vector<double> handicap = {0.0};
   for (const Named& named : list.named) {
-    const auto more = static_cast<double>(named.fit.unknowns.size() - base.unknowns.size());
+    const auto more = static_cast<double>(named.fit.unknowns.size() - base.fit.unknowns.size());
     handicap.push_back(0.5 * more * std::log(static_cast<double>(all.cols())) +
                        std::log(static_cast<double>(candidates_.size())));
   }
@@ -271,11 +266,11 @@ void Naming::judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortLi
                    [](const Named& a, const Named& b) { return a.probability > b.probability; });
 }
 
-void Naming::follow(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const {
+void Naming::follow(const Tested& base, ShortList& list) const {
   train_.side_by_side(list.named.size(), [&](std::size_t i) {
     Named& named = list.named[i];
     try {
-      Named other = fit(base, named.candidate, named.fit.variant.effects.back());
+      Named other = fit(base.fit, named.candidate, named.fit.variant.effects.back());
       train_.improve(other.fit, kIterations);
       if (other.fit.cost >= named.fit.cost) return;
       other.test = test_.residual(other.fit.variant);
@@ -284,8 +279,8 @@ void Naming::follow(const Fitted& base, const Eigen::VectorXf& base_test, ShortL
       // Stays where it is.
     }
   });
-  judge(base, base_test, list);
-  prefer_simpler(base, list);
+  judge(base, list);
+  prefer_simpler(base.fit, list);
 }
 
 void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
@@ -308,14 +303,13 @@ void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
   }
 }
 
-ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
-                        const std::vector<Score>& scores) const {
-  const std::vector<Score> tried = try_out(base, scores);
+ShortList Naming::weigh(const Tested& base, const std::vector<Score>& scores) const {
+  const std::vector<Score> tried = try_out(base.fit, scores);
   std::vector<std::optional<Named>> fitted(tried.size());
   train_.side_by_side(tried.size(), [&](std::size_t i) {
     try {
       const std::size_t candidate = tried[i].candidate;
-      fitted[i] = fit(base, candidate, sized(candidates_[candidate], tried[i].amount));
+      fitted[i] = fit(base.fit, candidate, sized(candidates_[candidate], tried[i].amount));
     } catch (const NotSimulated&) {
       // Cannot be simulated at that size: not this one.
     }
@@ -334,8 +328,8 @@ ShortList Naming::weigh(const Fitted& base, const Eigen::VectorXf& base_test,
   list.named.erase(std::remove_if(list.named.begin(), list.named.end(),
                                   [](const Named& named) { return named.test.size() == 0; }),
                    list.named.end());
-  judge(base, base_test, list);
-  prefer_simpler(base, list);
+  judge(base, list);
+  prefer_simpler(base.fit, list);
   return list;
 }
 

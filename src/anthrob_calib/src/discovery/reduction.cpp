@@ -21,16 +21,25 @@ std::optional<Fitted> without_effect(const Evaluator& evaluator, const ModelFit&
     reduced.unknowns.push_back(u);
     kept.push_back(static_cast<Eigen::Index>(i));
   }
+  reduced.sensitivity = fitted.sensitivity(Eigen::all, kept);
   const std::vector<Unknown> ordinary = nuisance_unknowns(evaluator);
-  for (Unknown& u : reduced.unknowns) {
+  for (std::size_t i = 0; i < reduced.unknowns.size(); ++i) {
+    Unknown& u = reduced.unknowns[i];
     const auto& same = candidate.same_as;
     if (u.nuisance < 0 || std::find(same.begin(), same.end(), u.nuisance) == same.end()) continue;
     u = ordinary[static_cast<std::size_t>(u.nuisance)];
     for (const EffectParameter* size : candidate.sizes()) {
       u.write(u.expected + gone.parameters.at(size->name) - size->neutral, variant);
+      // Of what is held no slope is known; that of the size is the same.
+      for (std::size_t k = 0; k < fitted.unknowns.size(); ++k) {
+        const Unknown& of_size = fitted.unknowns[k];
+        if (of_size.effect != index || of_size.parameter != size->name) continue;
+        reduced.sensitivity.col(static_cast<Eigen::Index>(i)) =
+            static_cast<float>(u.scale / of_size.scale) *
+            fitted.sensitivity.col(static_cast<Eigen::Index>(k));
+      }
     }
   }
-  reduced.sensitivity = fitted.sensitivity(Eigen::all, kept);
   if (!fit.move(reduced, variant)) return std::nullopt;
   return reduced;
 }

@@ -85,18 +85,18 @@ std::string gap_table(const Answer& answer) {
          "</table>\n";
 }
 
-/// What came closest last, and why it was not named.
-std::string closest(const Answer& answer) {
-  const Unnamed& closest = answer.closest;
-  if (closest.id.empty()) return "";
-  return "<p>Closest to being named" + std::string(answer.effects.empty() ? "" : " besides") +
-         ": " + escaped(closest.id) + " @ " + escaped(closest.place) + ", but " +
-         escaped(closest.lack) + ".</p>\n";
+/// The last candidate that was not named, and why.
+std::string refused(const Answer& answer) {
+  const Refused& refused = answer.refused;
+  if (refused.id.empty()) return "";
+  return "<p>" + std::string(answer.effects.empty() ? "Closest to being named" : "Next in line") +
+         " was " + escaped(refused.id) + " @ " + escaped(refused.place) + ": " +
+         escaped(refused.lack) + ".</p>\n";
 }
 
 std::string effects_table(const Answer& answer) {
   if (answer.effects.empty()) {
-    return "<p>Nothing in the catalogue earned its place.</p>\n" + closest(answer);
+    return "<p>Nothing in the catalogue earned its place.</p>\n" + refused(answer);
   }
   std::string html;
   std::size_t number = 0;
@@ -115,7 +115,8 @@ std::string effects_table(const Answer& answer) {
     if (effect.rivals.empty()) continue;
     html += "<p>These data hardly tell it apart from:</p><ul>\n";
     for (const Rival& rival : effect.rivals) {
-      html += "<li>" + escaped(rival_text(rival)) + "</li>\n";
+      html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", probability " +
+              short_number(rival.probability) + "</li>\n";
     }
     html += "</ul><p>What would: " + escaped(effect.separating_experiment) + ".</p>\n";
     if (!effect.separating_recording.targets.empty()) {
@@ -124,12 +125,19 @@ std::string effects_table(const Answer& answer) {
               " nat.</p>\n";
     }
   }
+  for (const Alternative& alternative : answer.alternatives) {
+    html += "<p>Or " + escaped(alternative_text(alternative, answer)) +
+            ". What would tell: " + escaped(alternative.separating_experiment) + ".</p>\n";
+  }
+  for (const std::string& dropped : answer.dropped) {
+    html += "<p>Named at first, but not needed beside the others: " + escaped(dropped) + ".</p>\n";
+  }
   html +=
       "<p>The model with this is <code>model.yaml</code>, which extends the examined one.</p>\n";
   for (const std::string& asked : answer.asked) {
     html += "<p>Before: " + escaped(asked) + ".</p>\n";
   }
-  return html + closest(answer);
+  return html + refused(answer);
 }
 
 std::string colour_of(double gap) {

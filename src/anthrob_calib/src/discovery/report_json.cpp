@@ -39,7 +39,6 @@ Json effect_json(const FoundEffect& effect) {
                       {"place", rival.place},
                       {"probability", number(rival.probability)},
                       {"evidence", number(rival.evidence)}});
-    if (!rival.instead_of.empty()) rivals.back()["instead_of"] = rival.instead_of;
   }
   return {{"id", effect.id},
           {"name", effect.name},
@@ -49,6 +48,23 @@ Json effect_json(const FoundEffect& effect) {
           {"evidence", number(effect.evidence)},
           {"rivals", rivals},
           {"separating_experiment", effect.separating_experiment}};
+}
+
+Json alternatives_json(const Answer& answer) {
+  Json list = Json::array();
+  for (const Alternative& one : answer.alternatives) {
+    Json instead_of = Json::array();
+    for (const std::size_t e : one.instead_of) {
+      instead_of.push_back({{"id", answer.effects[e].id}, {"place", answer.effects[e].place}});
+    }
+    list.push_back({{"id", one.id},
+                    {"place", one.place},
+                    {"instead_of", instead_of},
+                    {"probability", number(one.probability)},
+                    {"evidence", number(one.evidence)},
+                    {"separating_experiment", one.separating_experiment}});
+  }
+  return list;
 }
 
 /// Names of the recorder's files, and what they are expected to tell.
@@ -110,12 +126,14 @@ std::string report_json(const Answer& answer, const Question& question, double r
     add_recording(answer.effects[i], i + 1, effect);
     report["effects"].push_back(std::move(effect));
   }
-  if (!answer.closest.id.empty()) {
-    report["not_named"] = {{"id", answer.closest.id},
-                           {"place", answer.closest.place},
-                           {"probability", number(answer.closest.probability)},
-                           {"evidence", number(answer.closest.evidence)},
-                           {"lack", answer.closest.lack}};
+  report["alternatives"] = alternatives_json(answer);
+  report["dropped"] = answer.dropped;
+  if (!answer.refused.id.empty()) {
+    report["refused"] = {{"id", answer.refused.id},
+                         {"place", answer.refused.place},
+                         {"probability", number(answer.refused.probability)},
+                         {"evidence", number(answer.refused.evidence)},
+                         {"lack", answer.refused.lack}};
   }
   if (!answer.asked.empty()) report["asked"] = answer.asked;
   report["remaining"] = {{"share", number(answer.remaining_share)},
@@ -157,12 +175,13 @@ std::string short_number(double value) {
   return text;
 }
 
-std::string rival_text(const Rival& rival) {
-  std::string text = rival.id + " @ " + rival.place;
-  for (std::size_t i = 0; i < rival.instead_of.size(); ++i) {
-    text += (i == 0 ? " instead of " : " and ") + rival.instead_of[i];
-  }
-  return text + ", probability " + short_number(rival.probability);
+std::string alternative_text(const Alternative& alternative, const Answer& answer) {
+  const auto name = [&](std::size_t e) {
+    return answer.effects[e].id + " @ " + answer.effects[e].place;
+  };
+  return alternative.id + " @ " + alternative.place + " instead of both " +
+         name(alternative.instead_of[0]) + " and " + name(alternative.instead_of[1]) +
+         ", probability " + short_number(alternative.probability);
 }
 
 std::string summary(const Answer& answer) {
@@ -175,12 +194,19 @@ std::string summary(const Answer& answer) {
               short_number(p.high) + "] " + p.unit + "\n";
     }
     for (const Rival& rival : effect.rivals) {
-      text += "    or " + rival_text(rival) + "\n";
+      text += "    or " + rival.id + " @ " + rival.place + ", probability " +
+              short_number(rival.probability) + "\n";
     }
   }
-  if (!answer.closest.id.empty()) {
-    text += "  not " + answer.closest.id + " @ " + answer.closest.place + ": " +
-            answer.closest.lack + "\n";
+  for (const Alternative& alternative : answer.alternatives) {
+    text += "  or " + alternative_text(alternative, answer) + "\n";
+  }
+  for (const std::string& dropped : answer.dropped) {
+    text += "  not needed any more: " + dropped + "\n";
+  }
+  if (!answer.refused.id.empty()) {
+    text += "  refused " + answer.refused.id + " @ " + answer.refused.place + ": " +
+            answer.refused.lack + "\n";
   }
   text += "  held-out gap in units of the floor: " + short_number(answer.test.before) +
           " as given, " + short_number(answer.test.recalibrated) + " recalibrated, " +

@@ -5,10 +5,10 @@ namespace discovery {
 
 namespace {
 
-constexpr int kRecalibrations = 8;  ///< iterations from the given parameters
-constexpr int kPolish = 8;          ///< iterations by the same slopes
-constexpr int kSettling = 8;        ///< times that slopes are simulated anew
-constexpr double kSettled = 5e-4;   ///< share of the cost
+constexpr int kRough = 8;          ///< iterations by the first slopes
+constexpr int kPolish = 8;         ///< iterations by the same slopes
+constexpr int kSettling = 8;       ///< times that slopes are simulated anew
+constexpr double kSettled = 5e-4;  ///< share of the cost
 constexpr int kFinishing = 5;
 constexpr double kFinished = 2e-4;  ///< share of the cost
 constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
@@ -20,6 +20,8 @@ bool Settling::clearly_misses(const Fitted& fitted) const {
   return judge_.gap(fitted.residual) > kClearGap;
 }
 
+/// Polishes as long as that brings something. Where something is clearly missing, the last steps to
+/// a model without it are not worth their time.
 void Settling::settle(Fitted& fitted) const {
   for (int k = 0; k < kSettling; ++k) {
     const bool clear = clearly_misses(fitted);
@@ -29,8 +31,15 @@ void Settling::settle(Fitted& fitted) const {
   }
 }
 
+Fitted Settling::settled(const Variant& variant, std::vector<Unknown> unknowns) const {
+  Fitted fitted = fit_.start(variant, std::move(unknowns));
+  fit_.improve(fitted, kRough);
+  settle(fitted);
+  return fitted;
+}
+
 bool Settling::settle_within_reach(Fitted& fitted, double level) const {
-  fit_.improve(fitted, kPolish);
+  fit_.improve(fitted, kRough);
   fit_.polish(fitted, kPolish, ModelFit::Slopes::kOneSide);
   // So far off that no better derivative brings it there.
   if (fitted.cost > level) return false;
@@ -53,10 +62,7 @@ std::optional<Fitted> Settling::from_given(const Fitted& fitted) const {
   Variant given = fitted.variant;
   given.nuisances = evaluator_.initial_nuisances();
   try {
-    Fitted fresh = fit_.start(given, fitted.unknowns);
-    fit_.improve(fresh, kRecalibrations);
-    settle(fresh);
-    return fresh;
+    return settled(given, fitted.unknowns);
   } catch (const NotSimulated&) {
     return std::nullopt;
   }

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "anthrob_calib/discovery/discovery.h"
 #include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/screening.h"
 #include "anthrob_calib/discovery/settling.h"
@@ -33,10 +32,10 @@ class CommonLaw {
   /// Whether a candidate may say alone what two others say.
   bool may_be(std::size_t law, std::size_t one, std::size_t other) const;
   /// That candidate, fitted to the end instead of two effects, and its odds against them.
-  /// @param fitted with both of them, to the end   @param held_out its residual there
-  /// @return nothing if it cannot be simulated
-  std::optional<Rival> weigh(std::size_t law, const Fitted& fitted, const Eigen::VectorXf& held_out,
-                             const Part& earlier, const Part& later) const;
+  /// @param with both of them, fitted to the end
+  /// @return nothing if it is out of reach of them
+  std::optional<Naming::Odds> odds(std::size_t law, const Tested& with, const Part& earlier,
+                                   const Part& later) const;
 
  private:
   const Evaluator& evaluator_;

@@ -13,6 +13,10 @@ namespace discovery {
 constexpr double kRealGap = 1.4;
 constexpr double kFaintGap = 1.15;
 
+/// Share of what an effect gains. A model without it that lacks more after a rough fit does not get
+/// there by a better one.
+constexpr double kOutOfReach = 0.5;
+
 /// What of a channel's squared gap is more than that of a gap.
 inline double excess(double gap, double least) {
   return std::max(0.0, gap * gap - least * least);

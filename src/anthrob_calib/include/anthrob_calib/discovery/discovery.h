@@ -39,8 +39,7 @@ struct FoundParameter {
 struct Rival {
   std::string id, place;
   double probability = 0.0;
-  double evidence = 0.0;                ///< gain in held-out log score [nat]
-  std::vector<std::string> instead_of;  ///< of all these together; empty: of the named one
+  double evidence = 0.0;  ///< gain in held-out log score [nat]
 };
 
 /// An effect that the data ask for.
@@ -53,9 +52,18 @@ struct FoundEffect {
   SeparatingRecording separating_recording;  ///< and for the recorder, where it can do it
 };
 
-/// What came closest to being named last, and why it was not.
-struct Unnamed {
-  std::string id, place;  ///< empty: nothing was asked for
+/// One law that says alone what two named effects say together.
+struct Alternative {
+  std::string id, place;
+  std::size_t instead_of[2] = {0, 0};  ///< indices of the effects
+  double probability = 0.0;            ///< if it is either this one or those two
+  double evidence = 0.0;               ///< log score on held-out data, less that of the two [nat]
+  std::string separating_experiment;   ///< from the first of them, in words
+};
+
+/// The last candidate that was not named, and why it was not.
+struct Refused {
+  std::string id, place;  ///< empty: the search did not end by refusing one
   double probability = 0.0, evidence = 0.0;
   std::string lack;
 };
@@ -106,7 +114,9 @@ struct Answer {
   std::vector<Dependence> remaining;    ///< of what the extended model leaves
   std::vector<Example> examples;
   std::vector<FoundEffect> effects;
-  Unnamed closest;
+  std::vector<Alternative> alternatives;
+  std::vector<std::string> dropped;  ///< were named first, and are not needed beside the others
+  Refused refused;
   double remaining_share = 0.0;
   std::string remaining_description;
   Gap train, test;

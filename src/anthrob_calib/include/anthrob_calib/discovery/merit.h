@@ -12,7 +12,7 @@ struct Merit {
   double needed_evidence = 0.0;          ///< by the number of candidates searched [nat]
   double significance = 0.0;             ///< of the gain over blocks [standard errors]
   bool only_faint_gaps = false;          ///< no channel is above kRealGap
-  double share = 0.0;                    ///< of the squared faint gaps that are there, what goes
+  double share = 0.0;                    ///< of the squared gaps above kFaintGap, what goes
   double share_of_first = 0.0;           ///< the same, of those that were there at first
 };
 

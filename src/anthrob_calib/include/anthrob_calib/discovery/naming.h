@@ -8,11 +8,15 @@
 namespace anthrob {
 namespace discovery {
 
+/// A fit, and how it does where it was not fitted.
+struct Tested {
+  Fitted fit;            ///< on the training recordings
+  Eigen::VectorXf test;  ///< whitened residual of the held-out recordings; empty: not simulated
+};
+
 /// A candidate, fitted in the full simulation together with the ordinary parameters.
-struct Named {
+struct Named : Tested {
   std::size_t candidate = 0;
-  Fitted fit;                 ///< on the training recordings
-  Eigen::VectorXf test;       ///< whitened residual of the held-out recordings
   double evidence = 0.0;      ///< gain in held-out log score [nat]
   double significance = 0.0;  ///< of the gain over blocks of all recordings
   double probability = 0.0;   ///< among all that were fitted, and none
@@ -26,7 +30,7 @@ struct ShortList {
   double none = 0.0;  ///< probability that none of them is it
 };
 
-/// Whether one is a law of fewer sizes at the same place as another.
+/// Whether one is a law of fewer sizes than another at the same place and seam.
 bool says_less(const Candidate& part, const Candidate& whole);
 
 /// The share of one candidate's gain that another must bring alone to be named in its stead,
@@ -59,18 +63,20 @@ class Naming {
         candidates_(candidates),
         seed_(seed) {}
 
-  /// @param base fitted without them   @param base_test its held-out residual
-  ShortList weigh(const Fitted& base, const Eigen::VectorXf& base_test,
-                  const std::vector<Score>& scores) const;
+  /// @param base fitted without them
+  ShortList weigh(const Tested& base, const std::vector<Score>& scores) const;
   /// The base has moved to a better valley: from there each is fitted once more, for the same
   /// chance, and all are judged against it.
-  void follow(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
+  void follow(const Tested& base, ShortList& list) const;
   /// Evidence, significance and probability of each against a base; most probable first.
-  void judge(const Fitted& base, const Eigen::VectorXf& base_test, ShortList& list) const;
-  /// Probability that one fit and not another is right, if either may be for all that was known
-  /// before. @param ..._test held-out residuals
-  double odds(const Fitted& one, const Eigen::VectorXf& one_test, const Fitted& other,
-              const Eigen::VectorXf& other_test) const;
+  void judge(const Tested& base, ShortList& list) const;
+  /// How likely one fit is right and not another, if only one of the two can be, and by how much
+  /// its log score is higher: both by held-out recordings alone, where neither is better for having
+  /// more unknowns.
+  struct Odds {
+    double probability, evidence;  ///< [1], [nat]
+  };
+  Odds odds(const Eigen::VectorXf& one_test, const Eigen::VectorXf& other_test) const;
 
  private:
   EffectInstance sized(const Candidate& candidate, const std::vector<double>& amount) const;
@@ -86,9 +92,6 @@ class Naming {
                                std::vector<double>& changed) const;
   std::vector<Score> try_out(const Fitted& base, const std::vector<Score>& scores) const;
   Named fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
-  /// Log scores of blocks of all recordings, those learned from first, one row a fit.
-  Eigen::MatrixXd scores_of(const std::vector<Eigen::VectorXf>& train,
-                            const std::vector<Eigen::VectorXf>& test) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;
 
   const ModelFit &train_, &test_;

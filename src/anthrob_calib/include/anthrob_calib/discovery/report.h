@@ -26,8 +26,8 @@ std::string separating_file(std::size_t number);
 /// A few lines for the terminal.
 std::string summary(const Answer& answer);
 
-/// "gravity_tilt @ x, probability 0.3".
-std::string rival_text(const Rival& rival);
+/// "payload @ hand instead of both ... and ..., probability 0.5".
+std::string alternative_text(const Alternative& alternative, const Answer& answer);
 
 /// "0.0421", three significant digits.
 std::string short_number(double value);

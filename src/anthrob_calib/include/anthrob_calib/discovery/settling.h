@@ -16,19 +16,17 @@ class Settling {
   Settling(const Evaluator& evaluator, const ModelFit& fit, const Judge& judge)
       : evaluator_(evaluator), fit_(fit), judge_(judge) {}
 
-  /// Polishes as long as that brings something. Where something is clearly missing, the last steps
-  /// to a model without it are not worth their time.
-  void settle(Fitted& fitted) const;
+  /// From a variant, rough steps first. @throws NotSimulated
+  Fitted settled(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// To the end. What was missing has led ordinary parameters astray, and friction does not let
   /// them all find back: with what is found, a fit from the given parameters mostly ends lower.
   Fitted to_the_end(const Fitted& fitted) const;
-  /// A model that lacks something another one has, from where that one has ended: by rough
-  /// sensitivities only while it is out of reach of it.
-  /// @param level cost above which it is
-  /// @return whether it was settled
+  /// From where a fit is; but only roughly, unless that brings the cost below a level.
+  /// @return whether it did
   bool settle_within_reach(Fitted& fitted, double level) const;
 
  private:
+  void settle(Fitted& fitted) const;
   bool clearly_misses(const Fitted& fitted) const;
   std::optional<Fitted> from_given(const Fitted& fitted) const;
   void finish(Fitted& fitted) const;
