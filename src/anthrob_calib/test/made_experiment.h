@@ -11,11 +11,12 @@
 namespace anthrob {
 namespace discovery {
 
-/// Differences made from the damping [Nms/rad] of the model's joints, so that slopes and ends are
-/// known, and maybe otherwise with a coarse step; and noise of one unit where there are several.
+/// Differences made from the damping of the model's joints [Nms/rad] and the dry friction of its
+/// elbow [Nm], so that slopes and ends are known, and maybe otherwise with a coarse step; and noise
+/// of one unit where there are several.
 class MadeExperiment final : public Experiment {
  public:
-  using Law = std::function<double(double elbow, double shoulder)>;
+  using Law = std::function<double(double elbow, double shoulder, double dry)>;
   static constexpr double kStep = 0.001, kCoarse = 0.002;  // [s]
 
   MadeExperiment(Law difference, Law coarse, std::size_t bins = 1, std::uint64_t seed = 0)
@@ -30,16 +31,18 @@ class MadeExperiment final : public Experiment {
 
   void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
     const Law& law = model->step == kCoarse ? coarse_ : difference_;
-    const double difference = law(damping_of(*model, "elbow"), damping_of(*model, "shoulder"));
+    const JointFrictionModel elbow = friction_of(*model, "elbow");
+    const double difference =
+        law(elbow.viscous, friction_of(*model, "shoulder").viscous, elbow.kinetic_torque);
     for (std::size_t b = 0; b < noise_.size(); ++b) {
       out[b] = static_cast<float>(difference + noise_[b]);
     }
   }
 
  private:
-  static double damping_of(const RobotModel& model, const std::string& joint) {
+  static JointFrictionModel friction_of(const RobotModel& model, const std::string& joint) {
     const auto index = static_cast<std::size_t>(model.skeleton->find_joint(joint));
-    return model.skeleton->joints[index].friction.viscous;
+    return model.skeleton->joints[index].friction;
   }
 
   Law difference_, coarse_;

@@ -15,7 +15,7 @@ namespace {
 using Curve = std::function<double(double)>;
 
 MadeExperiment::Law of_elbow(Curve curve) {
-  return [curve = std::move(curve)](double elbow, double) { return curve(elbow); };
+  return [curve = std::move(curve)](double elbow, double, double) { return curve(elbow); };
 }
 
 /// The elbow's damping free between 0 and 100, 1 at a time, expected anywhere.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "anthrob_calib/discovery/reduction.h"
+#include "anthrob_calib/discovery/run_off.h"
 #include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/settling.h"
 #include "anthrob_sim/effects/catalogue.h"
@@ -56,7 +57,8 @@ TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
 struct Problem {
   using Law = MadeExperiment::Law;
 
-  explicit Problem(const Law& law, const std::string& free = "shoulder")
+  explicit Problem(const Law& law, const std::string& free = "shoulder",
+                   const std::vector<std::string>& effects = {"joint_viscous"})
       : evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
                   {{"joints." + free + ".friction.viscous", "Nms/rad", 0.15, 0.0, 1.0, 0.01}},
                   MadeExperiment::kStep, 1),
@@ -66,7 +68,7 @@ struct Problem {
              Eigen::VectorXf::Ones(kBins)),
         train_judge(train.experiments(), train.whitening(), {}),
         test_judge(test.experiments(), test.whitening(), {}),
-        candidates(list_candidates(evaluator, {"joint_viscous"})),
+        candidates(list_candidates(evaluator, effects)),
         naming(train, test, train_judge, test_judge, candidates, 1) {}
 
   Fitted fitted(double damping) const {
@@ -87,11 +89,11 @@ struct Problem {
     u.neutral = 0.0;
     return train.extend(fitted, variant, {u});
   }
-  std::size_t index(const std::string& joint) const {
+  std::size_t index(const std::string& joint, const std::string& id = "joint_viscous") const {
     for (std::size_t c = 0; c < candidates.size(); ++c) {
-      if (candidates[c].place == joint) return c;
+      if (candidates[c].place == joint && candidates[c].effect->info().id == id) return c;
     }
-    throw std::invalid_argument(joint);
+    throw std::invalid_argument(id + " @ " + joint);
   }
   ShortList weigh(const Tested& base, const std::string& joint, double amount) const {
     Score score;
@@ -114,7 +116,7 @@ constexpr double kElbow = 0.02, kDose = 0.05;  // damping in the model, of the c
 TEST(Naming, WhatDoesNothingAtFirstIsTriedWhereItBegins) {
   // Up to seven tenths of a dose nothing happens, and the data ask for a third of what a whole dose
   // does. In proportion that would be a third of a dose, where the slope is zero.
-  const Problem problem([](double elbow, double) {
+  const Problem problem([](double elbow, double, double) {
     const double amount = (elbow - kElbow) / kDose;
     return 10.0 * (std::max(0.0, amount - 0.7) / 0.3 - 0.34);
   });
@@ -127,7 +129,7 @@ TEST(Naming, WhatDoesNothingAtFirstIsTriedWhereItBegins) {
 
 TEST(Naming, FitsFollowABaseThatFoundABetterValley) {
   // The shoulder's damping has a valley where the search begins and a deeper one.
-  const Problem problem([](double elbow, double shoulder) {
+  const Problem problem([](double elbow, double shoulder, double) {
     const double valley = shoulder < 0.5 ? 4.0 + 50.0 * std::abs(shoulder - 0.15)
                                          : 1.0 + 50.0 * std::abs(shoulder - 0.8);
     return valley - 1.0 * (elbow - kElbow) / kDose;
@@ -150,7 +152,7 @@ TEST(Naming, FitsFollowABaseThatFoundABetterValley) {
 }
 
 TEST(Naming, OddsAreOfWhatWasNotLearnedFrom) {
-  const Problem problem([](double, double shoulder) { return 20.0 * (shoulder - 0.15); });
+  const Problem problem([](double, double shoulder, double) { return 20.0 * (shoulder - 0.15); });
   const Eigen::VectorXf good = problem.base(0.15).test, bad = problem.base(0.25).test;
   EXPECT_NEAR(problem.naming.odds(good, good).probability, 0.5, 1e-9);
   EXPECT_EQ(problem.naming.odds(good, good).evidence, 0.0);
@@ -162,7 +164,8 @@ TEST(Naming, OddsAreOfWhatWasNotLearnedFrom) {
 }
 
 TEST(WithoutEffect, OthersStayAsTheyAre) {
-  const Problem problem([](double elbow, double shoulder) { return elbow + 10.0 * shoulder; });
+  const Problem problem(
+      [](double elbow, double shoulder, double) { return elbow + 10.0 * shoulder; });
   const std::size_t elbow = problem.index("elbow"), shoulder = problem.index("shoulder");
   const Fitted fitted = problem.with(problem.with(problem.fitted(0.15), elbow, 0.3), shoulder, 0.4);
   const auto reduced =
@@ -178,7 +181,7 @@ TEST(WithoutEffect, OthersStayAsTheyAre) {
 }
 
 TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
-  const Problem problem([](double elbow, double) { return 30.0 * elbow; }, "elbow");
+  const Problem problem([](double elbow, double, double) { return 30.0 * elbow; }, "elbow");
   const std::size_t elbow = problem.index("elbow");
   ASSERT_EQ(problem.candidates[elbow].same_as.size(), 1u);
   Fitted fitted = problem.weigh(problem.base(0.15), "elbow", 1.0).named.at(0).fit;
@@ -194,7 +197,8 @@ TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
 }
 
 TEST(Settling, WhatStaysOutOfReachIsNotSettled) {
-  const Problem problem([](double, double shoulder) { return 5.0 + 50.0 * (shoulder - 0.8); });
+  const Problem problem(
+      [](double, double shoulder, double) { return 5.0 + 50.0 * (shoulder - 0.8); });
   const Settling settling(problem.evaluator, problem.train, problem.train_judge);
   const Fitted begin = problem.fitted(0.15);
   ASSERT_GT(begin.cost, 100.0 * Problem::kBins);
@@ -207,6 +211,39 @@ TEST(Settling, WhatStaysOutOfReachIsNotSettled) {
   };
   const std::size_t rough = simulated(0.0, false);
   EXPECT_GT(simulated(1e6, true), rough);
+}
+
+/// Dry friction of the elbow is what is missing, and where the shoulder's damping is right it says
+/// all. In another valley, where that has gone astray, more damping of the elbow says more.
+double hides_dry_friction(double elbow, double shoulder, double dry) {
+  const double rubs = std::min(1.0, dry / 0.1), damped = std::min(1.0, (elbow - kElbow) / kDose);
+  if (shoulder < 0.4) return 50.0 * std::abs(shoulder - 0.15) + 6.0 - 6.0 * rubs;
+  return 50.0 * std::abs(shoulder - 0.7) + 6.0 - 3.0 * rubs - 4.0 * damped;
+}
+
+TEST(RunOff, WhatIsBetterInTheEndIsFirst) {
+  const Problem problem(hides_dry_friction, "shoulder", {"joint_viscous", "joint_coulomb"});
+  // Damping leaves 2 there and dry friction 3, but from the given 0.15 it leaves nothing.
+  const Tested base = problem.base(0.7);
+  ShortList list;
+  for (const auto& [id, amount] :
+       {std::pair("joint_viscous", 1.0), std::pair("joint_coulomb", 1.0)}) {
+    Score score;
+    score.candidate = problem.index("elbow", id);
+    score.gain = score.uncertainty = 1.0;
+    score.amount = {amount};
+    list.named.push_back(problem.naming.weigh(base, {score}).named.at(0));
+  }
+  problem.naming.judge(base, list);
+  ASSERT_EQ(problem.candidates[list.named[0].candidate].effect->info().id, "joint_viscous");
+  const double rough = list.named[0].probability;
+  ASSERT_GT(rough, 0.99);
+  const Settling settling(problem.evaluator, problem.train, problem.train_judge);
+  RunOff(problem.test, problem.candidates, problem.naming, settling).decide(base, list);
+  EXPECT_EQ(problem.candidates[list.named[0].candidate].effect->info().id, "joint_coulomb");
+  EXPECT_NEAR(list.named[0].probability, rough, 0.01);
+  EXPECT_LT(list.named[1].probability, 0.01);
+  EXPECT_LT(list.named[0].fit.cost, Problem::kBins);
 }
 
 /// The elbow is asked whether it is needed beside the shoulder.
@@ -225,7 +262,7 @@ std::optional<Tested> without_elbow(const Problem& problem, double elbow) {
 
 TEST(SecondThoughts, WhatWasNamedInAnothersSteadGoes) {
   // The shoulder's damping is all that matters. The elbow once was taken for it.
-  const Problem problem([](double, double shoulder) { return 20.0 * (shoulder - 0.45); });
+  const Problem problem([](double, double shoulder, double) { return 20.0 * (shoulder - 0.45); });
   const auto without = without_elbow(problem, 0.2);
   ASSERT_TRUE(without);
   ASSERT_EQ(without->fit.variant.effects.size(), 1u);
@@ -235,7 +272,7 @@ TEST(SecondThoughts, WhatWasNamedInAnothersSteadGoes) {
 
 TEST(SecondThoughts, WhatIsNeededStays) {
   // Each has a part of its own: what one lacks the other cannot say.
-  const Problem problem([](double elbow, double shoulder) {
+  const Problem problem([](double elbow, double shoulder, double) {
     return std::abs(20.0 * (shoulder - 0.45)) + std::abs(20.0 * (elbow - kElbow - 0.2));
   });
   EXPECT_FALSE(without_elbow(problem, 0.2));

@@ -14,6 +14,7 @@
 #include "anthrob_calib/discovery/preflight.h"
 #include "anthrob_calib/discovery/preparation.h"
 #include "anthrob_calib/discovery/reduction.h"
+#include "anthrob_calib/discovery/run_off.h"
 #include "anthrob_calib/discovery/screening.h"
 #include "anthrob_calib/discovery/seams.h"
 #include "anthrob_calib/discovery/second_thoughts.h"
@@ -232,13 +233,8 @@ class Search {
   }
 
   void accept(ShortList& list, Answer& answer) {
-    Named& best = list.named.front();
-    Fitted settled = settling_.to_the_end(best.fit);
-    Eigen::VectorXf test = test_.residual(settled.variant);
-    if (test.size() > 0) {
-      best.fit = std::move(settled);
-      best.test = std::move(test);
-    }
+    RunOff(test_, candidates_, naming_, settling_).decide(base_, list);
+    const Named& best = list.named.front();
     const Candidate& candidate = candidates_[best.candidate];
     FoundEffect effect;
     effect.id = candidate.effect->info().id;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "anthrob_calib/discovery/naming.h"
+#include "anthrob_calib/discovery/settling.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// The last decision between two effects. The short list was fitted roughly, from where the model
+/// without them had gone astray, and a false one may be lower there. So the first of the list is
+/// fitted to the end and, if another effect brings half of what it does, that one, too; and those
+/// two are judged against each other.
+class RunOff {
+ public:
+  RunOff(const ModelFit& test, const std::vector<Candidate>& candidates, const Naming& naming,
+         const Settling& settling)
+      : test_(test), candidates_(candidates), naming_(naming), settling_(settling) {}
+
+  /// Afterwards the first of the list is fitted to the end. If it is the other one, it has taken
+  /// over the probability of the first one's effect, at whatever place, as far as it is more
+  /// likely.
+  /// @param base fitted without them
+  void decide(const Tested& base, ShortList& list) const;
+
+ private:
+  /// Its index; 0: none.
+  std::size_t challenger(const Tested& base, const ShortList& list) const;
+  /// As it was if it cannot be simulated there.
+  void finish(Named& named) const;
+
+  const ModelFit& test_;
+  const std::vector<Candidate>& candidates_;
+  const Naming& naming_;
+  const Settling& settling_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob
