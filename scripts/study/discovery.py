@@ -109,7 +109,9 @@ class Case:
             return None
         truth, report = load(self.truth), load(f"{self.report}/report.json")
         hidden = {(one["id"], one["place"].split("/")[0]) for one in truth["effects"]}
-        answer = {key: report.get(key) for key in ("verdict", "runtime_s", "gap", "alternatives")}
+        answer = {key: report.get(key) for key in ("verdict", "runtime_s", "gap")}
+        if report.get("alternatives"):
+            answer["alternatives"] = report["alternatives"]
         answer["effects"] = [{key: one.get(key) for key in TOLD} for one in report.get("effects") or []]
         for key in "visible", "not_visible":
             answer[key] = [one for one in report.get(key) or []
