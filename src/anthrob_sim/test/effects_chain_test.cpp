@@ -1,4 +1,4 @@
-// Effects from the controller to the path, each against a closed form, and what they dissipate.
+// Effects from the motor to the path, each against a closed form, and what they dissipate.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,83 +48,8 @@ class Bench {
 
 const EffectInstance kNothing = {"gear_backlash", "flexor", {{"width", 0.0}}};
 
-// --- controller and power stage
-// -------------------------------------------------------------------
-
-TEST(CommandLatency, CommandsArriveAfterTheDelay) {
-  const auto robot = robot_with(kRig, {{"command_latency", "flexor", {{"delay", 0.0045}}}});
-  Simulation sim(robot);
-  sim.command(0, ecu::Mode::kVoltage, 2.0);
-  sim.command(1, ecu::Mode::kVoltage, 2.0);
-  std::vector<double> volts;
-  for (int i = 0; i < 7; ++i) {
-    sim.step();
-    volts.push_back(sim.muscle(0).voltage());
-    EXPECT_EQ(sim.muscle(1).voltage(), 2.0);
-  }
-  const std::vector<double> expected = {0, 0, 0, 0, 1.0, 2.0, 2.0};
-  for (std::size_t i = 0; i < volts.size(); ++i) EXPECT_NEAR(volts[i], expected[i], 1e-9) << i;
-}
-
-TEST(PwmDeadZone, TakesAConstantPartOfTheVoltage) {
-  const auto robot = robot_with(kRig, {{"pwm_dead_zone", "flexor", {{"width", 0.3}}}});
-  ASSERT_EQ(robot->power_effects.size(), 1u);
-  const auto through = [&](double volts) {
-    std::vector<PowerLine> lines = {{volts, 0.1}, {volts, 0.1}};
-    robot->power_effects[0]->apply(lines, StateView());
-    EXPECT_EQ(lines[1].voltage, volts);
-    return lines[0].voltage;
-  };
-  EXPECT_DOUBLE_EQ(through(0.2), 0.0);
-  EXPECT_DOUBLE_EQ(through(-0.2), 0.0);
-  EXPECT_DOUBLE_EQ(through(1.0), 0.7);
-  EXPECT_DOUBLE_EQ(through(-1.0), -0.7);
-  // In the chain: 1 V with the dead zone moves the motor as 0.7 V without.
-  Simulation dead(robot), plain(load_robot_model(config(kRig)));
-  dead.command(0, ecu::Mode::kVoltage, 1.0);
-  plain.command(0, ecu::Mode::kVoltage, 0.7);
-  dead.step(300), plain.step(300);
-  EXPECT_NEAR(dead.muscle(0).actuator().position, plain.muscle(0).actuator().position, 1e-9);
-}
-
-TEST(SupplySag, SharesTheVoltageLostByTheSumOfCurrents) {
-  const auto robot = robot_with(kRig, {{"supply_sag", "ecu_1", {{"resistance", 0.2}}}});
-  const PowerEffect& supply = *robot->power_effects.at(0);
-  Memory memory(supply.state_size());
-  const StateView before = memory;
-  // d = 1/2 and -1/4 of 12 V: the supply gives 0.5 + 0.125 A and loses 0.125 V. Currents that go on
-  // as they are: the motors had these voltages before.
-  const double current = 0.625, left = 12.0 - 0.2 * current;
-  before[0] = 0.5 * left;
-  before[1] = -0.25 * left;
-  std::vector<PowerLine> lines = {{6.0, 1.0}, {-3.0, -0.5}};
-  supply.apply(lines, before);
-  EXPECT_NEAR(lines[0].voltage, 0.5 * left, 1e-12);
-  EXPECT_NEAR(lines[1].voltage, -0.25 * left, 1e-12);
-  // Energy: what the nominal supply gives is what the motors get and R I^2.
-  const double motors = lines[0].voltage * 1.0 + lines[1].voltage * -0.5;
-  EXPECT_NEAR(12.0 * current - motors, 0.2 * current * current, 1e-12);
-}
-
-TEST(SupplySag, ALargeResistanceIsADividerAndDoesNotSwing) {
-  // Both motors of the rig stalled at the same share of a supply of more resistance than theirs:
-  // their currents follow their voltages in 60 us.
-  const double supply = 8.0, motor = 4.69 + 0.12, duty = 0.9, asked = 12.0 * duty;
-  const auto robot = robot_with(kRig, {{"supply_sag", "ecu_1", {{"resistance", supply}}}});
-  const PowerEffect& sag = *robot->power_effects.at(0);
-  Memory state(sag.state_size());
-  // V = d (V_0 - R 2 d i), i = V / R_motor
-  const double expected = asked / (1.0 + 2.0 * duty * duty * supply / motor);
-  double volts = 0.0;
-  for (int i = 0; i < 50; ++i) {
-    const double current = volts / motor;
-    std::vector<PowerLine> lines = {{asked, current}, {asked, current}};
-    sag.apply(lines, state);
-    volts = lines[0].voltage;
-    EXPECT_NEAR(volts, expected, 1e-6 * expected) << i;
-    EXPECT_EQ(lines[1].voltage, volts);
-  }
-}
+// --- motor
+// ----------------------------------------------------------------------------------------
 
 TEST(SeriesResistance, TakesCurrentFromAStalledMotor) {
   Bench bench({"series_resistance", "flexor", {{"resistance", 0.5}}});
@@ -133,9 +58,6 @@ TEST(SeriesResistance, TakesCurrentFromAStalledMotor) {
   bench.impose(0.0, 60.0);
   EXPECT_NEAR(bench.run(1.0, 60.0, 1).read().current, 1.0 / (4.69 + 0.12 + 0.5), 2e-3);
 }
-
-// --- motor
-// ----------------------------------------------------------------------------------------
 
 TEST(WindingHeating, ResistanceFollowsCopperAndHeatReachesItsBalance) {
   const double rise = 40.0, copper = 0.0039, winding = 4.69, stage = 0.12, volts = 1.6;
