@@ -5,8 +5,7 @@
 
 namespace anthrob {
 
-/// What to put before a command so that it is interrupted (SIGINT) when a file has something in it,
-/// however fast the machine is.
+/// What to put before a command so that it is interrupted (SIGINT) when a file has something in it.
 /// @param script written for that
 inline std::string interrupted_when(const std::string& file, const std::string& script) {
   std::ofstream(script) << "\"$@\" & pid=$!\n"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/discovery/merit.h"
 #include "anthrob_calib/discovery/naming.h"
