@@ -11,6 +11,7 @@
 #include "anthrob_calib/discovery/run_off.h"
 #include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/settling.h"
+#include "anthrob_calib/discovery/trials.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "made_experiment.h"
 
@@ -124,6 +125,19 @@ TEST(Naming, WhatDoesNothingAtFirstIsTriedWhereItBegins) {
   ASSERT_EQ(list.named.size(), 1u);
   EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"),
               (0.7 + 0.34 * 0.3) * kDose, 0.02 * kDose);
+  EXPECT_GT(list.named[0].probability, 0.99);
+}
+
+TEST(Naming, WhatIsManyDosesIsNotTakenForAWeakOne) {
+  // Half a dose is a little better than none, a few are worse; ten are what there is.
+  const Problem problem([](double elbow, double, double) {
+    const double amount = (elbow - kElbow) / kDose;
+    return amount < 3.0 ? 5.0 + std::pow(amount - 0.5, 2) : 11.25 * (10.0 - amount) / 7.0;
+  });
+  const ShortList list = problem.weigh(problem.base(0.15), "elbow", 0.5);
+  ASSERT_EQ(list.named.size(), 1u);
+  EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"), 10.0 * kDose,
+              0.1 * kDose);
   EXPECT_GT(list.named[0].probability, 0.99);
 }
 

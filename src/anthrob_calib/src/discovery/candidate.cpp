@@ -1,6 +1,7 @@
 #include "anthrob_calib/discovery/candidate.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
@@ -35,6 +36,19 @@ EffectInstance Candidate::neutral() const {
 EffectInstance Candidate::dose(const EffectParameter& size) const {
   EffectInstance instance = neutral();
   instance.parameters[size.name] = size.typical;
+  return instance;
+}
+
+EffectInstance Candidate::sized(const std::vector<double>& doses) const {
+  EffectInstance instance = neutral();
+  const auto sizes = this->sizes();
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const EffectParameter& p = *sizes[i];
+    const double dose = p.typical - p.neutral, inside = 1e-3 * std::abs(dose);
+    instance.parameters[p.name] =
+        std::clamp(p.neutral + doses[i] * dose, p.bounds.lo + (p.bounds.lo_open ? inside : 0.0),
+                   p.bounds.hi - (p.bounds.hi_open ? inside : 0.0));
+  }
   return instance;
 }
 

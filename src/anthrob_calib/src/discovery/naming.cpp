@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <optional>
 
+#include "anthrob_calib/discovery/trials.h"
 #include "anthrob_sim/effects/placed_effects.h"
 
 namespace anthrob {
@@ -15,7 +14,6 @@ namespace {
 
 /// Nothing larger is believed: bounds may be infinite.
 constexpr double kLargest = 100.0;   // [doses]
-constexpr double kBegun = 0.3;       ///< share of what a size would do in proportion to the dose
 constexpr double kMostOfIt = 0.75;   ///< of a gain
 constexpr double kAllOfIt = 0.98;    ///< of a gain, but for what the shape of a law makes
 constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
@@ -70,131 +68,6 @@ double share_of_simpler(const Candidate& part, const Candidate& whole) {
   const EffectInfo &a = part.effect->info(), &b = whole.effect->info();
   const bool everywhere = dynamic_cast<const PathEffect*>(part.effect) != nullptr;
   return everywhere && a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
-}
-
-std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
-                                       std::size_t of_a_kind, std::size_t most) {
-  std::map<const Effect*, std::size_t> count;
-  std::vector<std::size_t> best, rest;
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    (++count[kinds[i]] <= of_a_kind ? best : rest).push_back(i);
-  }
-  best.insert(best.end(), rest.begin(), rest.end());
-  if (best.size() > most) best.resize(most);
-  return best;
-}
-
-EffectInstance Naming::sized(const Candidate& candidate, const std::vector<double>& amount) const {
-  EffectInstance instance = candidate.neutral();
-  const auto sizes = candidate.sizes();
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const EffectParameter& p = *sizes[i];
-    const double value = p.neutral + amount[i] * (p.typical - p.neutral);
-    const double inside = 1e-3 * std::abs(p.typical - p.neutral);
-    instance.parameters[p.name] = std::clamp(value, p.bounds.lo + (p.bounds.lo_open ? inside : 0.0),
-                                             p.bounds.hi - (p.bounds.hi_open ? inside : 0.0));
-  }
-  return instance;
-}
-
-std::vector<double> Naming::costs_at(const Fitted& base, const std::vector<Attempt>& attempts,
-                                     std::vector<double>& changed) const {
-  std::vector<Variant> variants;
-  for (const Attempt& attempt : attempts) {
-    Variant variant = base.variant;
-    variant.effects.push_back(sized(candidates_[attempt.candidate], attempt.amount));
-    variants.push_back(std::move(variant));
-  }
-  const auto changes = train_.changes(base.variant, base.residual, variants);
-  const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
-  Eigen::MatrixXd A = (base.sensitivity.transpose() * base.sensitivity).cast<double>();
-  A.diagonal() += precision;
-  A.diagonal().array() += 1e-9 * (1.0 + A.diagonal().maxCoeff());
-  const Eigen::VectorXd lower = base.lower_room(), upper = base.upper_room();
-  std::vector<double> costs(attempts.size(), HUGE_VAL);
-  changed.assign(attempts.size(), 0.0);
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    if (changes[i].size() == 0) continue;
-    changed[i] = static_cast<double>(changes[i].norm());
-    const Eigen::VectorXf residual = base.residual + changes[i];
-    const Eigen::VectorXd g =
-        (base.sensitivity.transpose() * residual).cast<double>() + precision.cwiseProduct(off);
-    costs[i] = 0.5 * residual.cast<double>().squaredNorm() + 0.5 * off.cwiseAbs2().dot(precision);
-    if (lower.size() > 0) {
-      const Eigen::VectorXd step = bounded_minimum(A, g, lower, upper);
-      costs[i] += 0.5 * step.dot(A * step) + g.dot(step);
-    }
-  }
-  return costs;
-}
-
-std::vector<Score> Naming::try_out(const Fitted& base, const std::vector<Score>& scores) const {
-  // A dose says little about a size ten times smaller or larger where an effect is not linear, so
-  // several sizes around the suggested one are simulated, ordinary parameters as they are, and the
-  // part that these can take up is taken off afterwards by the fit. The dose itself is among them:
-  // a surface that is too small to touch does nothing.
-  std::vector<const Effect*> kinds;
-  for (std::size_t s = 0; s < scores.size() && scores[s].gain > 0.0; ++s) {
-    kinds.push_back(candidates_[scores[s].candidate].effect);
-  }
-  std::vector<Score> tried;
-  for (const std::size_t s : best_of_kinds(kinds, kTriedOfAKind, kTried)) {
-    tried.push_back(scores[s]);
-  }
-  std::vector<Attempt> attempts;
-  for (std::size_t s = 0; s < tried.size(); ++s) {
-    for (const double factor : {0.5, 1.0, 0.0}) {
-      std::vector<double> amount = tried[s].amount;
-      for (double& a : amount) a = factor > 0.0 ? factor * a : std::copysign(a != 0.0, a);
-      attempts.push_back({s, tried[s].candidate, std::move(amount)});
-    }
-  }
-  std::vector<double> left(tried.size(), base.cost), changed;
-  const auto keep_best = [&] {
-    const std::vector<double> costs = costs_at(base, attempts, changed);
-    for (std::size_t i = 0; i < attempts.size(); ++i) {
-      const std::size_t s = attempts[i].owner;
-      if (costs[i] >= left[s]) continue;
-      left[s] = costs[i];
-      tried[s].amount = attempts[i].amount;
-    }
-  };
-  keep_best();
-  // What does nothing up to a size begins somewhere between it and the dose.
-  std::vector<Attempt> between;
-  for (std::size_t i = 0; i + 2 < attempts.size(); i += 3) {
-    const std::vector<double>&some = attempts[i + 1].amount, &dose = attempts[i + 2].amount;
-    const Eigen::Map<const Eigen::VectorXd> amount(some.data(),
-                                                   static_cast<Eigen::Index>(some.size()));
-    const double share = amount.cwiseAbs().maxCoeff();
-    if (share >= 1.0 || changed[i + 1] > kBegun * share * changed[i + 2]) continue;
-    for (const double way : {0.25, 0.5, 0.75}) {
-      Attempt attempt = attempts[i + 1];
-      for (std::size_t k = 0; k < some.size(); ++k) {
-        attempt.amount[k] += way * (dose[k] - some[k]);
-      }
-      between.push_back(std::move(attempt));
-    }
-  }
-  attempts = std::move(between);
-  if (!attempts.empty()) keep_best();
-  std::vector<std::size_t> order(tried.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return left[a] < left[b]; });
-  // Two names of one place ("the last segment", "segment 3") give the same bits.
-  const auto same = [&](std::size_t a, std::size_t b) {
-    return left[a] == left[b] &&
-           candidates_[tried[a].candidate].effect == candidates_[tried[b].candidate].effect;
-  };
-  order.erase(std::unique(order.begin(), order.end(), same), order.end());
-  kinds.clear();
-  for (const std::size_t i : order) kinds.push_back(candidates_[tried[i].candidate].effect);
-  std::vector<Score> best;
-  for (const std::size_t k : best_of_kinds(kinds, kFittedOfAKind, kFitted)) {
-    best.push_back(std::move(tried[order[k]]));
-  }
-  return best;
 }
 
 Named Naming::fit(const Fitted& base, std::size_t index, const EffectInstance& start) const {
@@ -304,12 +177,12 @@ void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
 }
 
 ShortList Naming::weigh(const Tested& base, const std::vector<Score>& scores) const {
-  const std::vector<Score> tried = try_out(base.fit, scores);
+  const std::vector<Score> tried = Trials(train_, candidates_).best(base.fit, scores);
   std::vector<std::optional<Named>> fitted(tried.size());
   train_.side_by_side(tried.size(), [&](std::size_t i) {
     try {
       const std::size_t candidate = tried[i].candidate;
-      fitted[i] = fit(base.fit, candidate, sized(candidates_[candidate], tried[i].amount));
+      fitted[i] = fit(base.fit, candidate, candidates_[candidate].sized(tried[i].amount));
     } catch (const NotSimulated&) {
       // Cannot be simulated at that size: not this one.
     }

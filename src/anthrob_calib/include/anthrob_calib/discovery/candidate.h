@@ -23,6 +23,8 @@ struct Candidate {
   EffectInstance neutral() const;
   /// The same with one size at its typical value.
   EffectInstance dose(const EffectParameter& size) const;
+  /// The same with every size so many doses from neutral, within its bounds.
+  EffectInstance sized(const std::vector<double>& doses) const;
   std::vector<const EffectParameter*> sizes() const;
 };
 

@@ -39,20 +39,12 @@ bool says_less(const Candidate& part, const Candidate& whole);
 /// of it. 1: the other one is not simpler.
 double share_of_simpler(const Candidate& part, const Candidate& whole);
 
-/// The first so many of a list, told by their effects; of each effect no more than so many as long
-/// as there are others: one effect at many places must not crowd out the rest.
-std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
-                                       std::size_t of_a_kind, std::size_t most);
-
 /// Weighs candidates: the best of the linear screening are simulated at the sizes it suggests, the
 /// best of those are fitted, and all are judged on data they were fitted to and on data they were
 /// not.
 class Naming {
  public:
-  static constexpr std::size_t kTried = 30;  ///< simulated at their size
-  static constexpr std::size_t kFitted = 8;  ///< fitted, roughly
-  static constexpr std::size_t kJudged = 5;  ///< fitted to the end and judged
-  static constexpr std::size_t kTriedOfAKind = 6, kFittedOfAKind = 3;
+  static constexpr std::size_t kJudged = 5;  ///< of those that are fitted roughly
 
   Naming(const ModelFit& train, const ModelFit& test, const Judge& train_judge,
          const Judge& test_judge, const std::vector<Candidate>& candidates, std::uint64_t seed)
@@ -79,18 +71,6 @@ class Naming {
   Odds odds(const Eigen::VectorXf& one_test, const Eigen::VectorXf& other_test) const;
 
  private:
-  EffectInstance sized(const Candidate& candidate, const std::vector<double>& amount) const;
-  /// A candidate at some size, in doses.
-  struct Attempt {
-    std::size_t owner = 0;  ///< among those that are tried
-    std::size_t candidate = 0;
-    std::vector<double> amount;
-  };
-  /// Cost of each after the ordinary parameters have done what they can, in linear approximation;
-  /// infinite if it cannot be simulated. @param changed by how much it changes the residual
-  std::vector<double> costs_at(const Fitted& base, const std::vector<Attempt>& attempts,
-                               std::vector<double>& changed) const;
-  std::vector<Score> try_out(const Fitted& base, const std::vector<Score>& scores) const;
   Named fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;
 
