@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "interrupt.h"
 #include "simulated_recordings.h"
 
 namespace anthrob {
@@ -156,10 +157,9 @@ TEST_F(CalibrateTool, BriefItFindsTheSameAndLeavesOutWhatComesAfterTheSearch) {
 TEST_F(CalibrateTool, InterruptedItKeepsTheBestAndGoesOn) {
   ASSERT_EQ(calibrate("whole", "--generations 40").status, 0);
   const Outcome stopped =
-      calibrate("stopped", "--generations 40", "timeout --preserve-status -s INT 2 ");
-  // A machine that is fast enough to finish first shows nothing.
-  if (stopped.status == 0) GTEST_SKIP();
-  EXPECT_EQ(stopped.status, 130);
+      calibrate("stopped", "--generations 40",
+                interrupted_when(path("stopped/journal.txt"), path("interrupt.sh")));
+  ASSERT_EQ(stopped.status, 130) << stopped.errors;
   EXPECT_NE(stopped.errors.find("--resume goes on"), std::string::npos) << stopped.errors;
   EXPECT_TRUE(fs::exists(path("stopped/model.yaml")));
   EXPECT_EQ(calibrate("stopped", "--generations 40 --resume").status, 0);
@@ -167,14 +167,11 @@ TEST_F(CalibrateTool, InterruptedItKeepsTheBestAndGoesOn) {
 }
 
 TEST_F(CalibrateTool, InterruptedAfterTheSearchItHasTheResultButNoErrorsOfParameters) {
-  const std::string model = path("errors/model.yaml");
-  const std::string until_found =
-      "while kill -0 $pid && [ ! -e " + model + " ]; do sleep 0.002; done; ";
-  write(path("interrupt.sh"), "\"$@\" & pid=$!; " + until_found + "kill -INT $pid; wait $pid\n");
   const std::string more = "--optimiser least_squares --jobs 1";
-  const Outcome stopped = calibrate("errors", more, "bash " + path("interrupt.sh") + " ");
+  const Outcome stopped =
+      calibrate("errors", more, interrupted_when(path("errors/model.yaml"), path("interrupt.sh")));
   if (stopped.status == 0) GTEST_SKIP() << "too fast to be interrupted";
-  EXPECT_EQ(stopped.status, 130);
+  ASSERT_EQ(stopped.status, 130) << stopped.errors;
   EXPECT_NE(stopped.errors.find("before errors of the parameters"), std::string::npos)
       << stopped.errors;
   const auto result = nlohmann::json::parse(content(path("errors/result.json")));

@@ -171,10 +171,8 @@ void add_options(CLI::App& app, Arguments& a) {
 int main(int argc, char** argv) {
   using namespace anthrob;
   const MpiSession session(&argc, &argv);
-  if (session.rank() > 0) {
-    std::cerr.rdbuf(nullptr);  // one process speaks for all
-    tool::interrupted();       // rank 0 decides when to stop
-  }
+  tool::interrupted();                               // listens from now on; rank 0 decides
+  if (session.rank() > 0) std::cerr.rdbuf(nullptr);  // one process speaks for all
   CLI::App app(
       "Calibrates a model against recordings: fits parameters within their ranges so that the "
       "simulated robot does what the recorded one did. Threads by itself, hosts by mpirun.",
