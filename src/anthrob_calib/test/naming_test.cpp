@@ -7,10 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "anthrob_calib/discovery/reduction.h"
 #include "anthrob_calib/discovery/run_off.h"
 #include "anthrob_calib/discovery/second_thoughts.h"
-#include "anthrob_calib/discovery/settling.h"
 #include "anthrob_calib/discovery/trials.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "made_experiment.h"
@@ -70,13 +68,14 @@ struct Problem {
         train_judge(train.experiments(), train.whitening(), {}),
         test_judge(test.experiments(), test.whitening(), {}),
         candidates(list_candidates(evaluator, effects)),
-        naming(train, test, train_judge, test_judge, candidates, 1) {}
+        naming(train, test, train_judge, test_judge, candidates, 1),
+        settling(evaluator, train, train_judge),
+        bench{evaluator, train, test, candidates, naming, settling} {}
 
   Fitted fitted(double damping) const {
     return train.start(Variant{{damping}}, nuisance_unknowns(evaluator));
   }
-  Tested base(double damping) const { return tested(fitted(damping)); }
-  Tested tested(const Fitted& fitted) const { return {fitted, test.residual(fitted.variant)}; }
+  Tested base(double damping) const { return bench.tested(fitted(damping)); }
   /// With one more effect, its damping free.
   Fitted with(const Fitted& fitted, std::size_t candidate, double damping) const {
     Variant variant = fitted.variant;
@@ -110,6 +109,8 @@ struct Problem {
   Judge train_judge, test_judge;
   std::vector<Candidate> candidates;
   Naming naming;
+  Settling settling;
+  Workbench bench;
 };
 
 constexpr double kElbow = 0.02, kDose = 0.05;  // damping in the model, of the catalogue [Nms/rad]
@@ -182,8 +183,7 @@ TEST(WithoutEffect, OthersStayAsTheyAre) {
       [](double elbow, double shoulder, double) { return elbow + 10.0 * shoulder; });
   const std::size_t elbow = problem.index("elbow"), shoulder = problem.index("shoulder");
   const Fitted fitted = problem.with(problem.with(problem.fitted(0.15), elbow, 0.3), shoulder, 0.4);
-  const auto reduced =
-      without_effect(problem.evaluator, problem.train, fitted, 0, problem.candidates[elbow]);
+  const auto reduced = problem.bench.without(0, elbow, fitted);
   ASSERT_TRUE(reduced);
   ASSERT_EQ(reduced->variant.effects.size(), 1u);
   EXPECT_EQ(reduced->variant.effects[0].place, "shoulder");
@@ -202,8 +202,7 @@ TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
   EXPECT_EQ(fitted.unknowns[0].lower, fitted.unknowns[0].upper);  // held
   problem.train.polish(fitted, 0);
   EXPECT_EQ(fitted.sensitivity.col(0).norm(), 0.0f);
-  const auto reduced =
-      without_effect(problem.evaluator, problem.train, fitted, 0, problem.candidates[elbow]);
+  const auto reduced = problem.bench.without(0, elbow, fitted);
   ASSERT_TRUE(reduced);
   EXPECT_EQ(reduced->residual, fitted.residual);
   EXPECT_LT(reduced->unknowns[0].lower, reduced->unknowns[0].upper);
@@ -213,13 +212,12 @@ TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
 TEST(Settling, WhatStaysOutOfReachIsNotSettled) {
   const Problem problem(
       [](double, double shoulder, double) { return 5.0 + 50.0 * (shoulder - 0.8); });
-  const Settling settling(problem.evaluator, problem.train, problem.train_judge);
   const Fitted begin = problem.fitted(0.15);
   ASSERT_GT(begin.cost, 100.0 * Problem::kBins);
   const auto simulated = [&](double level, bool within) {
     Fitted fitted = begin;
     const std::size_t before = problem.evaluator.simulated();
-    EXPECT_EQ(settling.settle_within_reach(fitted, level), within);
+    EXPECT_EQ(problem.settling.settle_within_reach(fitted, level), within);
     EXPECT_LT(fitted.cost, Problem::kBins);  // the noise alone: half of that
     return problem.evaluator.simulated() - before;
   };
@@ -252,8 +250,7 @@ TEST(RunOff, WhatIsBetterInTheEndIsFirst) {
   ASSERT_EQ(problem.candidates[list.named[0].candidate].effect->info().id, "joint_viscous");
   const double rough = list.named[0].probability;
   ASSERT_GT(rough, 0.99);
-  const Settling settling(problem.evaluator, problem.train, problem.train_judge);
-  RunOff(problem.test, problem.candidates, problem.naming, settling).decide(base, list);
+  RunOff(problem.bench).decide(base, list);
   EXPECT_EQ(problem.candidates[list.named[0].candidate].effect->info().id, "joint_coulomb");
   EXPECT_NEAR(list.named[0].probability, rough, 0.01);
   EXPECT_LT(list.named[1].probability, 0.01);
@@ -262,16 +259,13 @@ TEST(RunOff, WhatIsBetterInTheEndIsFirst) {
 
 /// The elbow is asked whether it is needed beside the shoulder.
 std::optional<Tested> without_elbow(const Problem& problem, double elbow) {
-  const Settling settling(problem.evaluator, problem.train, problem.train_judge);
   Gaps gaps(problem.train_judge, problem.test_judge, problem.candidates.size());
   const Tested none = problem.base(0.15);
   gaps.begin(none.test);
   const std::size_t first = problem.index("elbow"), second = problem.index("shoulder");
   const Tested both =
-      problem.tested(problem.with(problem.with(none.fit, first, elbow), second, 0.3));
-  const SecondThoughts thoughts(problem.evaluator, problem.train, problem.test, problem.candidates,
-                                problem.naming, gaps, settling);
-  return thoughts.without(0, first, none.fit.cost - both.fit.cost, both);
+      problem.bench.tested(problem.with(problem.with(none.fit, first, elbow), second, 0.3));
+  return SecondThoughts(problem.bench, gaps).without(0, first, none.fit.cost - both.fit.cost, both);
 }
 
 TEST(SecondThoughts, WhatWasNamedInAnothersSteadGoes) {

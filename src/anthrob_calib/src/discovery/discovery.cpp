@@ -10,17 +10,15 @@
 #include "anthrob_calib/discovery/examples.h"
 #include "anthrob_calib/discovery/gaps.h"
 #include "anthrob_calib/discovery/location.h"
-#include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/preflight.h"
 #include "anthrob_calib/discovery/preparation.h"
-#include "anthrob_calib/discovery/reduction.h"
 #include "anthrob_calib/discovery/run_off.h"
 #include "anthrob_calib/discovery/screening.h"
 #include "anthrob_calib/discovery/seams.h"
 #include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/separating_experiment.h"
-#include "anthrob_calib/discovery/settling.h"
 #include "anthrob_calib/discovery/verdict.h"
+#include "anthrob_calib/discovery/workbench.h"
 
 namespace anthrob {
 namespace discovery {
@@ -53,6 +51,7 @@ class Search {
         settling_(evaluator, train_, train_judge_),
         candidates_(list_candidates(evaluator, question.effects)),
         naming_(train_, test_, train_judge_, test_judge_, candidates_, question.seed),
+        bench_{evaluator, train_, test_, candidates_, naming_, settling_},
         gaps_(train_judge_, test_judge_, candidates_.size()) {}
 
   Answer answer() {
@@ -124,8 +123,7 @@ class Search {
     answer.given.nuisances = evaluator_.initial_nuisances();
     given_train_ = train_.residual(answer.given);
     given_test_ = test_.residual(answer.given);
-    base_.fit = settling_.settled(answer.given, nuisance_unknowns(evaluator_));
-    base_.test = test_.residual(base_.fit.variant);
+    base_ = bench_.tested(settling_.settled(answer.given, nuisance_unknowns(evaluator_)));
     if (given_test_.size() == 0 || base_.test.size() == 0) {
       throw std::runtime_error("the model cannot be simulated along the held-out recordings");
     }
@@ -143,14 +141,14 @@ class Search {
   /// the model without it gets the same chance, from where its fit has ended.
   bool base_moves_on(const ShortList& list) {
     const Named& best = list.named.front();
-    std::optional<Fitted> moved =
-        without_effect(evaluator_, train_, best.fit, accepted_.size(), candidates_[best.candidate]);
+    std::optional<Fitted> moved = bench_.without(accepted_.size(), best.candidate, best.fit);
     if (!moved) return false;
     const double reach = best.fit.cost + kOutOfReach * (base_.fit.cost - best.fit.cost);
     if (!settling_.settle_within_reach(*moved, reach)) return false;
-    Eigen::VectorXf test = test_.residual(moved->variant);
-    if (moved->cost >= base_.fit.cost || test.size() == 0) return false;
-    base_ = {std::move(*moved), std::move(test)};
+    if (moved->cost >= base_.fit.cost) return false;
+    Tested there = bench_.tested(std::move(*moved));
+    if (there.test.size() == 0) return false;
+    base_ = std::move(there);
     return true;
   }
 
@@ -167,7 +165,7 @@ class Search {
   }
 
   void drop_superfluous(Answer& answer) {
-    const SecondThoughts second(evaluator_, train_, test_, candidates_, naming_, gaps_, settling_);
+    const SecondThoughts second(bench_, gaps_);
     for (std::size_t e = 0; e + 1 < accepted_.size();) {
       const auto [candidate, gained] = accepted_[e];
       const std::string name = candidates_[candidate].name();
@@ -188,7 +186,7 @@ class Search {
   }
 
   void find_alternatives(Screening& screening, Answer& answer) const {
-    const CommonLaw common(evaluator_, train_, test_, candidates_, naming_, settling_, screening);
+    const CommonLaw common(bench_, screening);
     for (std::size_t later = 1; later < accepted_.size(); ++later) {
       for (std::size_t earlier = 0; earlier < later; ++earlier) {
         const CommonLaw::Part a{earlier, accepted_[earlier].candidate},
@@ -233,7 +231,7 @@ class Search {
   }
 
   void accept(ShortList& list, Answer& answer) {
-    RunOff(test_, candidates_, naming_, settling_).decide(base_, list);
+    RunOff(bench_).decide(base_, list);
     const Named& best = list.named.front();
     const Candidate& candidate = candidates_[best.candidate];
     FoundEffect effect;
@@ -314,6 +312,7 @@ class Search {
   Settling settling_;
   std::vector<Candidate> candidates_;
   Naming naming_;
+  Workbench bench_;
   Gaps gaps_;
   Tested base_;
   Eigen::VectorXf given_train_, given_test_, recalibrated_train_, recalibrated_test_;

@@ -13,11 +13,11 @@ constexpr double kComesNear = 0.5;  ///< share of the first one's gain
 
 std::size_t RunOff::challenger(const Tested& base, const ShortList& list) const {
   const Named& first = list.named.front();
-  const Candidate& its = candidates_[first.candidate];
+  const Candidate& its = bench_.candidates[first.candidate];
   std::size_t best = 0;
   double least = base.fit.cost - kComesNear * (base.fit.cost - first.fit.cost);
   for (std::size_t i = 1; i < list.named.size(); ++i) {
-    const Candidate& other = candidates_[list.named[i].candidate];
+    const Candidate& other = bench_.candidates[list.named[i].candidate];
     // A law that says more at the same place is for the next round.
     if (other.effect == its.effect || says_less(its, other)) continue;
     if (list.named[i].fit.cost >= least) continue;
@@ -28,9 +28,7 @@ std::size_t RunOff::challenger(const Tested& base, const ShortList& list) const 
 }
 
 void RunOff::finish(Named& named) const {
-  Tested tested;
-  tested.fit = settling_.to_the_end(named.fit);
-  tested.test = test_.residual(tested.fit.variant);
+  Tested tested = bench_.tested(bench_.settling.to_the_end(named.fit));
   if (tested.test.size() > 0) static_cast<Tested&>(named) = std::move(tested);
 }
 
@@ -42,15 +40,15 @@ void RunOff::decide(const Tested& base, ShortList& list) const {
   two.named = {list.named.front(), list.named[index]};
   finish(two.named[1]);
   const std::size_t other = two.named[1].candidate;
-  naming_.judge(base, two);
+  bench_.naming.judge(base, two);
   if (two.named[0].candidate != other) return;
-  const Effect* beaten = candidates_[list.named.front().candidate].effect;
+  const Effect* beaten = bench_.candidates[list.named.front().candidate].effect;
   const double share =
       two.named[0].probability / (two.named[0].probability + two.named[1].probability);
   Named winner = std::move(two.named[0]);
   winner.probability = list.named[index].probability;
   for (Named& named : list.named) {
-    if (candidates_[named.candidate].effect != beaten) continue;
+    if (bench_.candidates[named.candidate].effect != beaten) continue;
     winner.probability += share * named.probability;
     named.probability *= 1.0 - share;
   }

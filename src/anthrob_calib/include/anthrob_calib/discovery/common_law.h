@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "anthrob_calib/discovery/naming.h"
 #include "anthrob_calib/discovery/screening.h"
-#include "anthrob_calib/discovery/settling.h"
+#include "anthrob_calib/discovery/workbench.h"
 
 namespace anthrob {
 namespace discovery {
@@ -18,16 +17,7 @@ class CommonLaw {
     std::size_t effect, candidate;
   };
 
-  CommonLaw(const Evaluator& evaluator, const ModelFit& train, const ModelFit& test,
-            const std::vector<Candidate>& candidates, const Naming& naming,
-            const Settling& settling, Screening& screening)
-      : evaluator_(evaluator),
-        train_(train),
-        test_(test),
-        candidates_(candidates),
-        naming_(naming),
-        settling_(settling),
-        screening_(screening) {}
+  CommonLaw(const Workbench& bench, Screening& screening) : bench_(bench), screening_(screening) {}
 
   /// Whether a candidate may say alone what two others say.
   bool may_be(std::size_t law, std::size_t one, std::size_t other) const;
@@ -38,11 +28,7 @@ class CommonLaw {
                                    const Part& later) const;
 
  private:
-  const Evaluator& evaluator_;
-  const ModelFit &train_, &test_;
-  const std::vector<Candidate>& candidates_;
-  const Naming& naming_;
-  const Settling& settling_;
+  const Workbench& bench_;
   Screening& screening_;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "anthrob_calib/discovery/naming.h"
-#include "anthrob_calib/discovery/settling.h"
+#include "anthrob_calib/discovery/workbench.h"
 
 namespace anthrob {
 namespace discovery {
@@ -12,9 +11,7 @@ namespace discovery {
 /// two are judged against each other.
 class RunOff {
  public:
-  RunOff(const ModelFit& test, const std::vector<Candidate>& candidates, const Naming& naming,
-         const Settling& settling)
-      : test_(test), candidates_(candidates), naming_(naming), settling_(settling) {}
+  explicit RunOff(const Workbench& bench) : bench_(bench) {}
 
   /// Afterwards the first of the list is fitted to the end. If it is the other one, it has taken
   /// over the probability of the first one's effect, at whatever place, as far as it is more
@@ -28,10 +25,7 @@ class RunOff {
   /// As it was if it cannot be simulated there.
   void finish(Named& named) const;
 
-  const ModelFit& test_;
-  const std::vector<Candidate>& candidates_;
-  const Naming& naming_;
-  const Settling& settling_;
+  const Workbench& bench_;
 };
 
 }  // namespace discovery

@@ -3,8 +3,7 @@
 #include <optional>
 
 #include "anthrob_calib/discovery/gaps.h"
-#include "anthrob_calib/discovery/naming.h"
-#include "anthrob_calib/discovery/settling.h"
+#include "anthrob_calib/discovery/workbench.h"
 
 namespace anthrob {
 namespace discovery {
@@ -13,16 +12,7 @@ namespace discovery {
 /// for them.
 class SecondThoughts {
  public:
-  SecondThoughts(const Evaluator& evaluator, const ModelFit& train, const ModelFit& test,
-                 const std::vector<Candidate>& candidates, const Naming& naming, const Gaps& gaps,
-                 const Settling& settling)
-      : evaluator_(evaluator),
-        train_(train),
-        test_(test),
-        candidates_(candidates),
-        naming_(naming),
-        gaps_(gaps),
-        settling_(settling) {}
+  SecondThoughts(const Workbench& bench, const Gaps& gaps) : bench_(bench), gaps_(gaps) {}
 
   /// Fitted to the end without it, if it does not earn its place; else nothing.
   /// @param effect its index in the model   @param candidate which it is
@@ -32,12 +22,8 @@ class SecondThoughts {
                                 const Tested& with) const;
 
  private:
-  const Evaluator& evaluator_;
-  const ModelFit &train_, &test_;
-  const std::vector<Candidate>& candidates_;
-  const Naming& naming_;
+  const Workbench& bench_;
   const Gaps& gaps_;
-  const Settling& settling_;
 };
 
 }  // namespace discovery

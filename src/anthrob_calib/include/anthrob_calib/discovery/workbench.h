@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "anthrob_calib/discovery/naming.h"
+#include "anthrob_calib/discovery/reduction.h"
+#include "anthrob_calib/discovery/settling.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// What every decision of the search works with.
+struct Workbench {
+  const Evaluator& evaluator;
+  const ModelFit &train, &test;
+  const std::vector<Candidate>& candidates;
+  const Naming& naming;
+  const Settling& settling;
+
+  /// A fit and its residual on held-out recordings.
+  Tested tested(Fitted fit) const {
+    Eigen::VectorXf residual = test.residual(fit.variant);
+    return {std::move(fit), std::move(residual)};
+  }
+  /// Without the effect of that index in the fit; see without_effect().
+  std::optional<Fitted> without(std::size_t effect, std::size_t candidate,
+                                const Fitted& fit) const {
+    return without_effect(evaluator, train, fit, effect, candidates[candidate]);
+  }
+};
+
+}  // namespace discovery
+}  // namespace anthrob
