@@ -30,6 +30,21 @@ class LaunchFiles(unittest.TestCase):
         for node in config.nodes:
             self.assertTrue(roslib.packages.find_node(node.package, node.type), node.package + '/' + node.type)
 
+    def test_hand_and_motion_capture_reach_every_back_end(self):
+        file = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch', 'robot.launch')
+        for backend in 'hardware', 'emulated', 'sim':
+            with self.subTest(backend):
+                asked = ['backend:=' + backend, 'hand:=true', 'mocap:=true']
+                config = roslaunch.config.load_config_default([(file, asked)], None, assign_machines=False)
+                self.assertIn('name="fingers"', config.params['/anthrob/robot_description'].value)
+                models = [node.args for node in config.nodes if node.package == 'anthrob_emulator']
+                models += [p.value for name, p in config.params.items() if name == '/anthrob/simulator/model']
+                for model in models:
+                    self.assertIn('model_II_hand.yaml', model)
+                self.assertEqual(len(models), backend != 'hardware')
+                seen = any(node.package == 'anthrob_mocap' for node in config.nodes)
+                self.assertEqual(seen, backend != 'emulated')
+
 
 if __name__ == '__main__':
     rostest.rosrun('anthrob_tests', 'launch_files', LaunchFiles)

@@ -138,7 +138,24 @@ ros::Time DriverNode::stamp(std::int64_t kernel_ns) const {
 void DriverNode::publish_measurements(double wait) {
   const DriverThread::Batch batch = thread_.wait(wait);
   for (const Sample& sample : batch.samples) publish(sample);
-  for (const AnalogSample& sample : batch.analogs) publish(sample);
+  anthrob_msgs::TouchStates touch;  // pads that were read together go together
+  std::int64_t read_at = 0;
+  const auto finish = [&] {
+    if (!touch.name.empty()) touch_.publish(touch);
+    touch = {};
+  };
+  for (const AnalogSample& sample : batch.analogs) {
+    if (sample.kind == AnalogSample::Kind::kJoint) {
+      publish_joint(sample);
+      continue;
+    }
+    if (sample.stamp_ns != read_at) finish();
+    if (touch.name.empty()) touch.header.stamp = stamp(sample.stamp_ns);
+    read_at = sample.stamp_ns;
+    touch.name.push_back(hardware_.touch[sample.sensor].name);
+    touch.force.push_back(sample.value);
+  }
+  finish();
 }
 
 void DriverNode::publish(const Sample& sample) {
@@ -161,21 +178,13 @@ void DriverNode::publish(const Sample& sample) {
   muscles_.publish(states);
 }
 
-void DriverNode::publish(const AnalogSample& sample) {
-  if (sample.kind == AnalogSample::Kind::kJoint) {
-    sensor_msgs::JointState state;
-    state.header.stamp = stamp(sample.stamp_ns);
-    state.name.push_back(hardware_.joints[sample.sensor].joint);
-    state.position.push_back(sample.value);
-    state.velocity.push_back(sample.rate);
-    joints_.publish(state);
-    return;
-  }
-  anthrob_msgs::TouchStates state;
+void DriverNode::publish_joint(const AnalogSample& sample) {
+  sensor_msgs::JointState state;
   state.header.stamp = stamp(sample.stamp_ns);
-  state.name.push_back(hardware_.touch[sample.sensor].name);
-  state.force.push_back(sample.value);
-  touch_.publish(state);
+  state.name.push_back(hardware_.joints[sample.sensor].joint);
+  state.position.push_back(sample.value);
+  state.velocity.push_back(sample.rate);
+  joints_.publish(state);
 }
 
 // ---- diagnostics ----

@@ -41,7 +41,7 @@ class DriverNode {
   void publish_measurements(double wait);
   ros::Time stamp(std::int64_t kernel_ns) const;
   void publish(const Sample& sample);
-  void publish(const AnalogSample& sample);
+  void publish_joint(const AnalogSample& sample);
   void publish_diagnostics();
   void log_stops();
 

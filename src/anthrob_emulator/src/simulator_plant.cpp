@@ -1,5 +1,6 @@
 #include "anthrob_emulator/simulator_plant.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace anthrob {
@@ -17,6 +18,12 @@ SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
   for (const driver::JointSensor& joint : hardware.joints) {
     joints_.push_back(simulation_.model().skeleton->find_joint(joint.joint));
   }
+  for (const driver::TouchSensor& touch : hardware.touch) {
+    const auto& pads = simulation_.model().touch_pads;
+    const auto pad = std::find_if(pads.begin(), pads.end(),
+                                  [&](const TouchPadModel& p) { return p.name == touch.name; });
+    pads_.push_back(pad == pads.end() ? -1 : static_cast<int>(pad - pads.begin()));
+  }
 }
 
 driver::Plant::Muscle SimulatorPlant::muscle(std::size_t index) const {
@@ -31,6 +38,12 @@ double SimulatorPlant::joint(std::size_t joint) const {
   if (index < 0) return 0.0;
   const JointModel& model = simulation_.model().skeleton->joints[static_cast<std::size_t>(index)];
   return simulation_.configuration()[static_cast<std::size_t>(model.position_offset)];
+}
+
+double SimulatorPlant::touch(std::size_t pad) const {
+  if (pads_[pad] < 0) return 0.0;
+  const TouchPadModel& model = simulation_.model().touch_pads[static_cast<std::size_t>(pads_[pad])];
+  return pad_force(model, simulation_.tree(), simulation_.configuration());
 }
 
 void SimulatorPlant::drive(std::size_t muscle, double voltage) {

@@ -15,6 +15,7 @@ namespace anthrob {
 namespace {
 
 const char* const kModel = ANTHROB_CONFIG_DIR "/anthrob/model_II.yaml";
+const char* const kHandModel = ANTHROB_CONFIG_DIR "/anthrob/model_II_hand.yaml";
 const char* const kHardware = ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml";
 
 using References = std::map<std::string, double>;  // [rad]
@@ -122,6 +123,27 @@ TEST(LockStep, EquilibriaAgreeWithinOneCount) {
   EXPECT_LE(std::abs(sim.q[4] - robot.q[4]), 1.28e-3);  // one count of the potentiometer
   // The arm did move.
   EXPECT_LT(std::abs(a.w()), 0.999);
+}
+
+TEST(Hand, PadsOfTheRobotFeelWhatThoseOfTheModelFeel) {
+  const driver::Hardware hardware = driver::load_hardware(kHardware, true);
+  SimulatorPlant plant(load_robot_model(kHandModel), hardware);
+  const auto& pads = plant.simulation().model().touch_pads;
+  ASSERT_EQ(hardware.touch.size(), pads.size());
+  for (std::size_t m = 0; m < hardware.muscles.size(); ++m) {
+    if (hardware.muscles[m].name == "hand_agonist") plant.drive(m, 6.0);
+    if (hardware.muscles[m].name == "hand_antagonist") plant.drive(m, -3.0);
+  }
+  for (int k = 0; k < 3000; ++k) plant.advance();
+  for (std::size_t t = 0; t < hardware.touch.size(); ++t) {
+    const auto pad = std::find_if(pads.begin(), pads.end(), [&](const TouchPadModel& p) {
+      return p.name == hardware.touch[t].name;
+    });
+    ASSERT_NE(pad, pads.end()) << hardware.touch[t].name;
+    const Simulation& sim = plant.simulation();
+    EXPECT_EQ(plant.touch(t), pad_force(*pad, sim.tree(), sim.configuration()));
+    EXPECT_GT(plant.touch(t), 0.0);  // the hand is closed
+  }
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 namespace anthrob {
 
 /// The simulator's physics behind emulated ECUs: the boards' volts drive its motors, the boards'
-/// sensors see its true state. Muscles that the model lacks (a hand) stand still.
+/// sensors see its true state. Muscles and pads that the model lacks (a hand)
+/// stand still and feel nothing.
 class SimulatorPlant final : public driver::Plant {
  public:
   /// @throws BadInput if the model's step does not divide a millisecond
@@ -18,7 +19,7 @@ class SimulatorPlant final : public driver::Plant {
 
   Muscle muscle(std::size_t muscle) const override;
   double joint(std::size_t joint) const override;
-  double touch(std::size_t) const override { return 0.0; }
+  double touch(std::size_t pad) const override;
   void drive(std::size_t muscle, double voltage) override;
   void advance() override;
 
@@ -29,7 +30,7 @@ class SimulatorPlant final : public driver::Plant {
   Simulation simulation_;
   int steps_;                 ///< of the simulation in a millisecond
   std::vector<int> muscles_;  ///< of the model, by hardware muscle; -1: none
-  std::vector<int> joints_;
+  std::vector<int> joints_, pads_;
 };
 
 }  // namespace anthrob
