@@ -15,8 +15,8 @@ import statistics
 import sys
 import time
 
-from _study import (commit, html_page, html_table, load, load_published, machine, markdown_facts,
-                    markdown_table, must, say, several, start, write)
+from _study import (OUT, commit, html_page, html_table, load, load_published, machine, markdown_facts,
+                    markdown_table, must, of_the_study, say, several, start, write)
 
 MODELS = ["I", "II", "III"]
 STAGES = ["tier1_statics", "tier1_dynamics", "tier2_statics", "tier2_dynamics"]
@@ -41,6 +41,7 @@ ENOUGH = {"statics": 5.0, "dynamics": 7.0}  # [deg]
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
+DOCUMENT = "docs/studies/calibration.md"
 PUBLISHED = "docs/studies/calibration.json"
 JACOBIANS = {"statics": 8, "dynamics": 4}  # most, of least squares; dynamics start from statics' result
 
@@ -281,9 +282,10 @@ def summarise(options):
     }
     write(f"{options.out}/calibration.json", json.dumps({"facts": facts, "table": table}, indent=2))
     write(f"{options.out}/calibration.html", page(table, facts))
-    os.makedirs("docs/studies", exist_ok=True)
-    write("docs/studies/calibration.md", markdown(table, facts))
-    write(PUBLISHED, json.dumps(published(table), indent=1) + "\n")
+    if of_the_study(options):
+        os.makedirs("docs/studies", exist_ok=True)
+        write(DOCUMENT, markdown(table, facts))
+        write(PUBLISHED, json.dumps(published(table), indent=1) + "\n")
 
 
 def published(table):
@@ -296,7 +298,8 @@ def published(table):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(prog="catkin_ws.sh study calibration", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--robots", type=int, nargs="+", default=[1, 2, 3], help="seeds")
     parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS)
     parser.add_argument("--optimiser", default="least_squares", help="or evolution_strategy, cmaes, ...")
@@ -305,14 +308,14 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--thorough", action="store_true", help="errors of parameters, too, in each report")
     parser.add_argument("--adopt", action="store_true", help=f"takes the results of {PUBLISHED} for done")
-    parser.add_argument("--out", default="build/study")
+    parser.add_argument("--out", default=OUT, help=f"elsewhere than in {OUT}, {DOCUMENT} stays as it is")
     options = parser.parse_args()
     options.adopted = load_published(PUBLISHED) if options.adopt else {}
     for seed in options.robots:
         for model in options.models:
             Robot(seed, options).calibrate(model)
     summarise(options)
-    say(f"done: {options.out}/calibration.html, docs/studies/calibration.md")
+    say(f"done: {options.out}/calibration.html" + (f", {DOCUMENT}" if of_the_study(options) else ""))
 
 
 if __name__ == "__main__":

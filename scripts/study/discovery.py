@@ -18,8 +18,8 @@ import subprocess
 import sys
 import time
 
-from _study import (commit, html_page, html_table, load, load_published, machine, markdown_facts, markdown_table,
-                    must, refuse, run, say, several, start, write)
+from _study import (OUT, commit, html_page, html_table, load, load_published, machine, markdown_facts,
+                    markdown_table, must, of_the_study, refuse, run, say, several, start, write)
 
 MAKER = "devel/lib/anthrob_virtual_robot/anthrob_blind_case"
 DISCOVER = "devel/lib/anthrob_calib/anthrob_discover"
@@ -29,7 +29,6 @@ ROUNDS = {"effect": 2}  # each law so often, every time at another place
 COUNTS = {"null": 60, "pair": 12, "wrapped": 1}
 KINDS = ["effect", "null", "pair", "outside", "wrapped"]
 MOST_EFFECTS = {"wrapped": 12}
-OUT = "build/study"
 DOCUMENT = "docs/studies/discovery.md"
 PUBLISHED = "docs/studies/discovery.json"
 TOLD = ["id", "place", "probability", "parameters", "rivals"]  # of a named effect, what scoring needs
@@ -259,11 +258,6 @@ def summarise(cases, options):
         write(DOCUMENT, markdown(result, facts))
         publish(cases)
     return True
-
-
-def of_the_study(options):
-    """Cases that are run elsewhere, for a look at them, are not what the document tells of."""
-    return os.path.normpath(options.out) == OUT
 
 
 def publish(cases):

@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
       throw std::invalid_argument("expected --model, --out and --truth");
     }
     refuse_inside(truth, out);
-    const auto model_file = std::filesystem::canonical(model);
+    const auto model_file = std::filesystem::weakly_canonical(model);
     const auto believed = anthrob::reference::Arm::load(model_file.string());
     CaseSettings settings = CaseSettings::load(
         config.empty() ? (model_file.parent_path() / "virtual_robot.yaml").string() : config);
