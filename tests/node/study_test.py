@@ -12,6 +12,7 @@ import rostest
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 sys.path.insert(0, os.path.join(TOP, 'scripts', 'study'))
+import _study  # noqa: E402
 import calibration  # noqa: E402
 import discovery  # noqa: E402
 
@@ -61,8 +62,9 @@ class Study(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)
-        for name, value in self.programs().items():
-            patch = mock.patch.object(self.study_of, name, value)
+        patches = [mock.patch.object(_study, 'OUT', 'out')]
+        patches += [mock.patch.object(self.study_of, name, value) for name, value in self.programs().items()]
+        for patch in patches:
             patch.start()
             self.addCleanup(patch.stop)
 
@@ -117,6 +119,13 @@ class CalibrationStudy(Study):
         self.assertEqual(self.calls(), 2 * (2 + 2 * 4))
         self.assertIn('| <= 5 deg | 1, 2 |', self.told())
 
+    def test_a_study_elsewhere_leaves_the_document_alone(self):
+        self.study('--robots', '1', '--models', 'I')
+        before = self.told()
+        self.study('--out', 'elsewhere', '--robots', '2', '--models', 'I')
+        self.assertTrue(os.path.exists('elsewhere/calibration.html'))
+        self.assertEqual(self.told(), before)
+
     def test_nothing_published_to_adopt(self):
         with self.assertRaises(SystemExit) as ended:
             self.study('--adopt')
@@ -128,7 +137,7 @@ class DiscoveryStudy(Study):
 
     def programs(self):
         return {'MAKER': self.program('maker', MAKER), 'DISCOVER': self.program('discover', DISCOVER),
-                'SCORE': os.path.join(TOP, discovery.SCORE), 'OUT': 'out'}
+                'SCORE': os.path.join(TOP, discovery.SCORE)}
 
     def test_slices_are_all_cases_once_and_every_part_tells_of_all_kinds(self):
         with mock.patch.object(sys, 'argv', ['study']):
