@@ -148,9 +148,9 @@ TEST(RegimeGaps, RecordingsMayLackChannels) {
 /// 19.99 s in bins of 0.06 s: the middle of the last one is at 20.01 s.
 class LongSwing final : public Experiment {
  public:
-  LongSwing() {
+  explicit LongSwing(double duration = 19.99) {
     bin_ = 0.06;
-    duration_ = 19.99;
+    duration_ = duration;
     channels_ = {{"hinge", "position", "rad", 0, 0, 334, 0.0}};
     present_.assign(334, 1);
   }
@@ -167,6 +167,13 @@ TEST(Judge, LastBinBelongsToTheLastBlock) {
   const Eigen::MatrixXd scores = judge.block_scores({residual, Eigen::VectorXf::Zero(334)}, 1);
   EXPECT_LT(scores(0, 9), -0.5);
   EXPECT_DOUBLE_EQ(scores(0, 0), 0.0);
+}
+
+TEST(Judge, ARestIsNoBlockOfItsOwn) {
+  const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
+  for (const auto& [duration, blocks] : {std::pair(20.0, 10u), {20.6, 10u}, {0.5, 1u}}) {
+    EXPECT_EQ(Judge({std::make_shared<LongSwing>(duration)}, factors, {}).block_count(), blocks);
+  }
 }
 
 TEST(Judge, AGapInEveryBlockIsSignificantOneInASingleBlockIsNot) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "anthrob_calib/discovery/bootstrap.h"
 #include "anthrob_calib/discovery/run_off.h"
 #include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/trials.h"
@@ -59,7 +60,10 @@ struct Problem {
   explicit Problem(const Law& law, const std::string& free = "shoulder",
                    const std::vector<std::string>& effects = {"joint_viscous"})
       : evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
-                  {{"joints." + free + ".friction.viscous", "Nms/rad", 0.15, 0.0, 1.0, 0.01}},
+                  free.empty()
+                      ? std::vector<ModelParameter>{}
+                      : std::vector<ModelParameter>{{"joints." + free + ".friction.viscous",
+                                                     "Nms/rad", 0.15, 0.0, 1.0, 0.01}},
                   MadeExperiment::kStep, 1),
         train(evaluator, {std::make_shared<MadeExperiment>(law, law, kBins, 1)},
               Eigen::VectorXf::Ones(kBins), MadeExperiment::kCoarse),
@@ -140,6 +144,17 @@ TEST(Naming, WhatIsManyDosesIsNotTakenForAWeakOne) {
   EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"), 10.0 * kDose,
               0.1 * kDose);
   EXPECT_GT(list.named[0].probability, 0.99);
+}
+
+TEST(Naming, WithoutOrdinaryParameters) {
+  const Problem problem(
+      [](double elbow, double, double) { return 5.0 - 10.0 * (elbow - kElbow) / kDose; }, "");
+  const Tested base = problem.bench.tested(problem.train.start(Variant{}, {}));
+  EXPECT_TRUE(bootstrap_intervals(base.fit, problem.train.experiments(), {}, 1).empty());
+  const ShortList list = problem.weigh(base, "elbow", 1.0);
+  ASSERT_EQ(list.named.size(), 1u);
+  EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"), 0.5 * kDose,
+              0.02 * kDose);
 }
 
 TEST(Naming, FitsFollowABaseThatFoundABetterValley) {
@@ -248,13 +263,17 @@ TEST(RunOff, WhatIsBetterInTheEndIsFirst) {
   }
   problem.naming.judge(base, list);
   ASSERT_EQ(problem.candidates[list.named[0].candidate].effect->info().id, "joint_viscous");
-  const double rough = list.named[0].probability;
+  const double rough = list.named[0].probability, rough_evidence = list.named[1].evidence;
   ASSERT_GT(rough, 0.99);
-  RunOff(problem.bench).decide(base, list);
+  Gaps gaps(problem.train_judge, problem.test_judge, problem.candidates.size());
+  gaps.begin(base.test);
+  RunOff(problem.bench, gaps).decide(base, list);
   EXPECT_EQ(problem.candidates[list.named[0].candidate].effect->info().id, "joint_coulomb");
   EXPECT_NEAR(list.named[0].probability, rough, 0.01);
   EXPECT_LT(list.named[1].probability, 0.01);
   EXPECT_LT(list.named[0].fit.cost, Problem::kBins);
+  // 3 more than none are left by the rough fit, nothing in the end.
+  EXPECT_GT(list.named[0].evidence, rough_evidence + 0.4 * Problem::kBins);
 }
 
 /// The elbow is asked whether it is needed beside the shoulder.

@@ -9,6 +9,7 @@ namespace anthrob {
 namespace discovery {
 namespace {
 
+constexpr double kBin = 0.02;  // [s]
 const std::string kModel = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml";
 
 std::shared_ptr<const RobotModel> robot_with(const EffectInstance& effect) {
@@ -39,7 +40,7 @@ class Separation : public ::testing::Test {
     rival.effects = {kDamping};
     // Planned once: it takes seconds.
     static const SeparatingRecording kPlan =
-        plan_separation(evaluator, named, rival, seen, scales());
+        plan_separation(evaluator, named, rival, seen, scales(), kBin);
     plan = kPlan;
   }
   Scales scales() const {
@@ -63,8 +64,17 @@ TEST_F(Separation, GoesWhereTheExplanationsDiffer) {
       EXPECT_LE(target.distance, plan.targets[i - 1].distance);
     }
   }
-  const SeparatingRecording same = plan_separation(evaluator, named, named, seen, scales());
+  const SeparatingRecording same = plan_separation(evaluator, named, named, seen, scales(), kBin);
   EXPECT_LT(same.distance(), 1e-3 * plan.distance()) << "nothing tells a model from itself";
+}
+
+TEST_F(Separation, IsPlannedForReferencesOfPositionsOnly) {
+  Dataset by_force = seen;
+  Table& table = by_force.table("commands");
+  Column& mode = table.column(evaluator.model()->muscles[2].name + "/mode");
+  mode.values.assign(table.t.size(), static_cast<double>(ecu::Mode::kForce));
+  mode.present.assign(table.t.size(), 1);
+  EXPECT_TRUE(plan_separation(evaluator, named, rival, by_force, scales(), kBin).targets.empty());
 }
 
 TEST_F(Separation, IsMadeOfEveryTargetOnce) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "anthrob_calib/discovery/seams.h"
+
 namespace anthrob {
 namespace discovery {
 namespace {
@@ -64,6 +66,20 @@ TEST(Verdict, NamesWhatMostOfTheRestDependsOn) {
   answer.remaining = {dependence("biceps_brachii/force", "load", 0.04)};
   pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
   EXPECT_EQ(answer.remaining_description, "depends on none of the measured quantities");
+}
+
+TEST(Seams, AGapThatGoesWithTheMotorsIsTheirsHoweverTheRobotWasDriven) {
+  const auto part = [](double commands, double voltages, double positions) {
+    SeamGap gap{"biceps_brachii", "force"};
+    gap.commands = commands;
+    gap.voltages = voltages;
+    gap.positions = positions;
+    return subsystem_of(gap);
+  };
+  EXPECT_EQ(part(5.0, 5.0, 0.8), "power stage, motor or gear");
+  EXPECT_EQ(part(-1.0, 5.0, 0.8), "power stage, motor or gear");
+  EXPECT_EQ(part(5.0, 1.0, 0.8), "controller");
+  EXPECT_EQ(part(-1.0, 5.0, 4.8), "spindle, tendon, spring, path or force sensor");
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace discovery {
 
 namespace {
 
-constexpr double kAtBound = 1e-3;  ///< of an unknown's scale
 /// What the true law may do otherwise than the catalogue's of the same name, as a share of what it
 /// does: one standard deviation.
 constexpr double kOtherLaw = 0.05;
@@ -109,7 +108,7 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
       gradient += blocks[pick].gradient;
     }
     information.diagonal() += precision;
-    information.diagonal().array() += 1e-9 * (1.0 + information.diagonal().maxCoeff());
+    regularise(information);
     const Eigen::VectorXd step = bounded_minimum(information, gradient, lower, upper);
     for (Eigen::Index i = 0; i < n; ++i) {
       draws[static_cast<std::size_t>(i)].push_back(
@@ -134,19 +133,19 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
 /// The same if there were nothing but the floor's noise. Ordinary parameters that cannot move, held
 /// or at a bound, take nothing from the others.
 std::vector<double> reach_of_noise(const Fitted& fitted) {
-  const Eigen::VectorXd lower = fitted.lower_room(), upper = fitted.upper_room();
   std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < lower.size(); ++i) {
-    const bool bound = lower[i] > -kAtBound || upper[i] < kAtBound;
-    if (!bound || fitted.unknowns[static_cast<std::size_t>(i)].effect >= 0) free.push_back(i);
+  for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
+    if (fitted.at_bound(i) && fitted.unknowns[i].effect < 0) continue;
+    free.push_back(static_cast<Eigen::Index>(i));
   }
+  std::vector<double> reach(fitted.unknowns.size(), 0.0);
+  if (free.empty()) return reach;
   const Eigen::MatrixXf sensitivity = fitted.sensitivity(Eigen::all, free);
   const auto n = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd information = (sensitivity.transpose() * sensitivity).cast<double>();
   information.diagonal() += fitted.precision()(free);
-  information.diagonal().array() += 1e-9 * (1.0 + information.diagonal().maxCoeff());
+  regularise(information);
   const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-  std::vector<double> reach(fitted.unknowns.size(), 0.0);
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(free[static_cast<std::size_t>(k)]);
     reach[i] = 1.96 * std::sqrt(std::max(0.0, covariance(k, k))) * fitted.unknowns[i].scale;
@@ -183,6 +182,7 @@ std::vector<double> reach_of_other_law(const Fitted& fitted, const std::vector<d
 std::vector<std::pair<double, double>> bootstrap_intervals(
     const Fitted& fitted, const Experiments& experiments,
     const std::vector<MeasuredVariable>& variables, std::uint64_t seed) {
+  if (fitted.unknowns.empty()) return {};
   const std::vector<double> time = resample(fitted, blocks_of_time(fitted, experiments), seed);
   const std::vector<double> regimes =
       resample(fitted, blocks_of_regimes(fitted, experiments, variables), seed);

@@ -1,6 +1,7 @@
 #include "anthrob_calib/discovery/closed_loop.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/discovery/simulated_recording.h"
@@ -53,10 +54,20 @@ Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
       recording.folder = "separating_" + std::to_string(number) + "_" + name;
       return recording;
     };
-    Dataset train = record(0, "train"), test = record(1, "test");
-    question.train.push_back(std::move(train));
-    question.test.push_back(std::move(test));
-    answer = discover(evaluator, question);
+    Question more = question;
+    try {
+      more.train.push_back(record(0, "train"));
+      more.test.push_back(record(1, "test"));
+      answer = discover(evaluator, more);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const std::exception& e) {
+      // What is known without that recording stays known.
+      asked.back() += ", but: " + std::string(e.what());
+      if (question.comment) question.comment(asked.back());
+      break;
+    }
+    question = std::move(more);
   }
   answer.asked = std::move(asked);
   return answer;

@@ -13,6 +13,7 @@ namespace discovery {
 namespace {
 
 constexpr std::size_t kSteps = 9;  ///< of a curve
+constexpr double kFew = 2.0;       ///< samples that are no mean yet
 constexpr double kStill = 0.02;    ///< of the largest speed: below it a sign means nothing
 
 /// One sample: a bin of the channel.
@@ -23,12 +24,21 @@ struct Sample {
 
 /// Means of y over steps of x with equal numbers of samples.
 struct Steps {
-  std::vector<double> edges;  ///< upper ones, but the last
-  std::vector<double> mean, error, centre;
+  std::vector<double> edges;                       ///< upper ones, but the last
+  std::vector<double> count, mean, error, centre;  ///< where there are a few samples at least
 
   std::size_t of(double x) const {
     return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) -
                                     edges.begin());
+  }
+
+  /// Of values of the steps, those of steps with enough samples.
+  std::vector<double> filled(const std::vector<double>& values) const {
+    std::vector<double> some;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (count[k] >= kFew) some.push_back(values[k]);
+    }
+    return some;
   }
 };
 
@@ -50,7 +60,9 @@ Steps steps_of(const std::vector<Sample>& samples, bool sign, double largest) {
 
 void fill(Steps& steps, const std::vector<Sample>& samples, bool odd) {
   const std::size_t n = steps.edges.size() + 1;
-  std::vector<double> sum(n, 0.0), square(n, 0.0), x(n, 0.0), count(n, 0.0);
+  std::vector<double> sum(n, 0.0), square(n, 0.0), x(n, 0.0);
+  std::vector<double>& count = steps.count;
+  count.assign(n, 0.0);
   for (const Sample& s : samples) {
     if (s.odd != odd) continue;
     const std::size_t k = steps.of(s.x);
@@ -63,7 +75,7 @@ void fill(Steps& steps, const std::vector<Sample>& samples, bool odd) {
   steps.error.assign(n, 0.0);
   steps.centre.assign(n, 0.0);
   for (std::size_t k = 0; k < n; ++k) {
-    if (count[k] < 2.0) continue;
+    if (count[k] < kFew) continue;
     steps.mean[k] = sum[k] / count[k];
     steps.centre[k] = x[k] / count[k];
     steps.error[k] =
@@ -134,9 +146,9 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
         best.share = share;
         best.variable = variable.name;
         best.word = variable.word;
-        best.at = steps.centre;
-        best.curve = steps.mean;
-        best.error = steps.error;
+        best.at = steps.filled(steps.centre);
+        best.curve = steps.filled(steps.mean);
+        best.error = steps.filled(steps.error);
       }
     }
     found.push_back(std::move(best));

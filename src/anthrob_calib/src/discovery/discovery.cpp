@@ -40,6 +40,7 @@ class Search {
   Search(const Evaluator& evaluator, const Question& question)
       : evaluator_(evaluator),
         question_(question),
+        candidates_(list_candidates(evaluator, question.effects)),  // a wrong one is told at once
         laboratory_(prepare(evaluator, question)),
         variables_(measured_variables(laboratory_.train, question.train)),
         scales_(measure_scales(evaluator, laboratory_.train, laboratory_.repeats)),
@@ -49,7 +50,6 @@ class Search {
         train_judge_(laboratory_.train, train_.whitening(), scales_),
         test_judge_(laboratory_.test, test_.whitening(), scales_),
         settling_(evaluator, train_, train_judge_),
-        candidates_(list_candidates(evaluator, question.effects)),
         naming_(train_, test_, train_judge_, test_judge_, candidates_, question.seed),
         bench_{evaluator, train_, test_, candidates_, naming_, settling_},
         gaps_(train_judge_, test_judge_, candidates_.size()) {}
@@ -213,6 +213,7 @@ class Search {
   /// Values and intervals of all effects in the model as it is at the end: later ones have moved
   /// earlier ones.
   void measure_effects(Answer& answer) const {
+    if (accepted_.empty()) return;
     const auto ranges =
         bootstrap_intervals(base_.fit, train_.experiments(), variables_, question_.seed);
     for (std::size_t e = 0; e < answer.effects.size(); ++e) {
@@ -231,7 +232,7 @@ class Search {
   }
 
   void accept(ShortList& list, Answer& answer) {
-    RunOff(bench_).decide(base_, list);
+    RunOff(bench_, gaps_).decide(base_, list);
     const Named& best = list.named.front();
     const Candidate& candidate = candidates_[best.candidate];
     FoundEffect effect;
@@ -248,6 +249,8 @@ class Search {
           {rival.effect->info().id, rival.place, other.probability, other.evidence});
     }
     if (!effect.rivals.empty()) separate(list, effect);
+    auto& dropped = answer.dropped;  // it may be needed again
+    dropped.erase(std::remove(dropped.begin(), dropped.end(), candidate.name()), dropped.end());
     answer.effects.push_back(std::move(effect));
     accepted_.push_back({best.candidate, base_.fit.cost - best.fit.cost});
     base_ = best;
@@ -259,7 +262,7 @@ class Search {
       if (list.named[i].probability < kMentioned) continue;
       effect.separating_recording =
           plan_separation(evaluator_, list.named.front().fit.variant, list.named[i].fit.variant,
-                          question_.train.front(), scales_);
+                          question_.train.front(), scales_, laboratory_.train.front()->bin());
       return;
     }
   }
@@ -304,13 +307,13 @@ class Search {
 
   const Evaluator& evaluator_;
   const Question& question_;
+  std::vector<Candidate> candidates_;
   Laboratory laboratory_;
   std::vector<MeasuredVariable> variables_;
   Scales scales_;
   ModelFit train_, test_;
   Judge train_judge_, test_judge_;
   Settling settling_;
-  std::vector<Candidate> candidates_;
   Naming naming_;
   Workbench bench_;
   Gaps gaps_;

@@ -18,7 +18,9 @@ Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, co
     : whitener_(whitener) {
   std::size_t offset = 0;
   for (const auto& experiment : experiments) {
-    const std::size_t own = static_cast<std::size_t>(experiment->duration() / kBlock) + 1;
+    // A shorter rest belongs to the last block.
+    const auto own =
+        static_cast<std::size_t>(std::max(1L, std::lround(experiment->duration() / kBlock)));
     for (const Channel& channel : experiment->channels()) {
       const auto scale = scales.find(channel.name());
       Run run{channel.name(),
@@ -27,7 +29,6 @@ Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, co
               scale == scales.end() ? 1.0 : scale->second.inflation,
               {}};
       for (std::size_t b = 0; b < channel.count; ++b) {
-        // The middle of the last bin may lie beyond the end.
         const auto block = static_cast<std::size_t>(experiment->bin_time(b) / kBlock);
         run.block.push_back(blocks_ + std::min(block, own - 1));
       }

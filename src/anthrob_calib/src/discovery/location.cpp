@@ -11,7 +11,7 @@ namespace discovery {
 namespace {
 
 /// What the residual of a place depends on most; empty: on nothing much.
-std::string regime_of(const std::string& channel, const std::vector<Dependence>& dependences) {
+std::string dependence_of(const std::string& channel, const std::vector<Dependence>& dependences) {
   std::string regime;
   double best = Dependence::kTelling;
   for (const Dependence& d : dependences) {
@@ -51,7 +51,7 @@ std::vector<Place> locate(const Judge& judge, const Eigen::VectorXf& residual, d
     place.share = excess(gap, least) / whole;
     if (significance.count(name)) place.significance = significance.at(name);
     place.subsystem = subsystem_of(place, seams);
-    place.regime = regime_of(name, dependences);
+    place.regime = dependence_of(name, dependences);
     places.push_back(std::move(place));
   }
   std::stable_sort(places.begin(), places.end(),

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPolished = 5e-4;  ///< relative gain that is not worth another iteration
 constexpr double kFinished = 1e-4;  ///< the same where slopes are exact
+constexpr double kAtBound = 1e-3;   ///< [scales]
 constexpr double kKept = 0.5;       ///< share of the promised gain: as linear as can be hoped for
 /// How to step: damping, as a share of the information, and the share of that step that is taken.
 struct Way {
@@ -107,6 +108,12 @@ Eigen::VectorXd Fitted::precision() const {
   return p;
 }
 
+bool Fitted::at_bound(std::size_t unknown) const {
+  const Unknown& u = unknowns[unknown];
+  const double value = u.read(variant), margin = kAtBound * u.scale;
+  return value <= u.lower + margin || value >= u.upper - margin;
+}
+
 std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator) {
   std::vector<Unknown> unknowns;
   const auto& parameters = evaluator.nuisances();
@@ -123,6 +130,11 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator) {
     unknowns.push_back(u);
   }
   return unknowns;
+}
+
+void regularise(Eigen::MatrixXd& system) {
+  if (system.rows() == 0) return;
+  system.diagonal().array() += 1e-9 * (1.0 + system.diagonal().maxCoeff());
 }
 
 Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd& g,

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_sim/report/svg_figure.h"
 
@@ -177,7 +178,7 @@ std::string regime_map(const Answer& answer) {
       "</th><th colspan=\"3\">load or posture</th><th colspan=\"3\">time</th></tr>\n<tr>" +
       levels + levels + levels + "</tr>\n";
   for (const Row& row : rows) {
-    if (row.largest < 1.3) continue;
+    if (row.largest < kFaintGap) continue;
     html += "<tr><th>" + escaped(row.place) + "</th>";
     for (const RegimeGap* by : row.by) {
       for (std::size_t level = 0; level < kLevels; ++level) {
@@ -198,7 +199,7 @@ std::string seam_map(const Answer& answer) {
       "behind the motors; what turns white belongs to the part that was cut off.</p>\n<table>"
       "<tr><th>place / channel</th><th>commands</th><th>voltages</th><th>positions</th></tr>\n";
   for (const SeamGap& seam : answer.seams) {
-    if (std::max({seam.commands, seam.voltages, seam.positions}) < 1.3) continue;
+    if (std::max({seam.commands, seam.voltages, seam.positions}) < kFaintGap) continue;
     html += "<tr><th>" + escaped(seam.place + "/" + seam.channel) + "</th>";
     for (const double gap : {seam.commands, seam.voltages, seam.positions}) {
       html += heat_cell(gap);
@@ -242,7 +243,7 @@ std::string example_figures(const Answer& answer) {
 std::string dependence_figures(const std::vector<Dependence>& dependences) {
   std::vector<const Dependence*> strongest;
   for (const Dependence& d : dependences) {
-    if (d.share > 0.1) strongest.push_back(&d);
+    if (d.share > Dependence::kTelling) strongest.push_back(&d);
   }
   std::sort(strongest.begin(), strongest.end(),
             [](const Dependence* a, const Dependence* b) { return a->share > b->share; });

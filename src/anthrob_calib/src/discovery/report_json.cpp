@@ -103,7 +103,7 @@ Json visibilities_json(const std::vector<Visibility>& effects) {
 Json dependences_json(const Answer& answer) {
   Json list = Json::array();
   for (const Dependence& d : answer.remaining) {
-    if (d.variable.empty() || d.share < 0.1) continue;
+    if (d.variable.empty() || d.share <= Dependence::kTelling) continue;
     list.push_back({{"channel", d.channel},
                     {"variable", d.variable},
                     {"how", d.word},

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "anthrob_calib/discovery/merit.h"
+
 namespace anthrob {
 namespace discovery {
 
@@ -34,19 +36,26 @@ void RunOff::finish(Named& named) const {
 
 void RunOff::decide(const Tested& base, ShortList& list) const {
   const std::size_t index = challenger(base, list);
-  finish(list.named.front());
-  if (index == 0) return;
-  ShortList two;
-  two.named = {list.named.front(), list.named[index]};
-  finish(two.named[1]);
-  const std::size_t other = two.named[1].candidate;
-  bench_.naming.judge(base, two);
-  if (two.named[0].candidate != other) return;
+  ShortList end;
+  end.named = {list.named.front()};
+  if (index > 0) end.named.push_back(list.named[index]);
+  for (Named& named : end.named) finish(named);
+  bench_.naming.judge(base, end);
+  const double first_probability = list.named.front().probability;
+  const bool kept = end.named[0].candidate == list.named.front().candidate;
+  if (kept || !lack(gaps_.merit_of(end, base)).empty()) {
+    Named& first = kept ? end.named[0] : end.named[1];
+    first.probability = first_probability;
+    list.named.front() = std::move(first);
+    return;
+  }
   const Effect* beaten = bench_.candidates[list.named.front().candidate].effect;
   const double share =
-      two.named[0].probability / (two.named[0].probability + two.named[1].probability);
-  Named winner = std::move(two.named[0]);
+      end.named[0].probability / (end.named[0].probability + end.named[1].probability);
+  Named winner = std::move(end.named[0]);
   winner.probability = list.named[index].probability;
+  list.named.front() = std::move(end.named[1]);
+  list.named.front().probability = first_probability;
   for (Named& named : list.named) {
     if (bench_.candidates[named.candidate].effect != beaten) continue;
     winner.probability += share * named.probability;

@@ -16,16 +16,13 @@ namespace {
 constexpr double kFaint = 9.0;     ///< squared change by a dose that is lost in the noise
 constexpr double kVisible = 1e-4;  ///< share of that square that ordinary parameters leave
 constexpr double kAlike = 0.95;    ///< correlation
+constexpr double kImitated = 0.1;  ///< share of that square below which doses have two sides
 
 /// Unknowns that can still move.
 std::vector<Eigen::Index> free_unknowns(const Fitted& base) {
   std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < base.unknowns.size(); ++i) {
-    const Unknown& u = base.unknowns[i];
-    const double value = u.read(base.variant), margin = 1e-3 * u.scale;
-    if (value > u.lower + margin && value < u.upper - margin) {
-      free.push_back(static_cast<Eigen::Index>(i));
-    }
+    if (!base.at_bound(i)) free.push_back(static_cast<Eigen::Index>(i));
   }
   return free;
 }
@@ -112,6 +109,37 @@ void Screening::simulate(Look& look, const Fitted& base, const std::vector<std::
     } else {
       response.setZero();
     }
+  }
+  take_both_sides(look, base, which);
+}
+
+void Screening::take_both_sides(Look& look, const Fitted& base,
+                                const std::vector<std::size_t>& which) {
+  const Projection p = project_whole(look, base);
+  std::vector<Variant> doses;
+  std::vector<std::size_t> columns;
+  for (const std::size_t k : which) {
+    if (look.candidates[k] == kMoved) continue;
+    for (std::size_t i = look.first_column[k]; i < look.first_column[k + 1]; ++i) {
+      const auto c = static_cast<Eigen::Index>(i);
+      const double whole = look.responses.col(c).cast<double>().squaredNorm();
+      const double left = whole - p.JS.col(c).dot(p.absorbed.col(c));
+      const bool imitated = whole > kFaint && left < kImitated * whole;
+      if (!imitated || look.columns[i].lower > -1.0) continue;
+      std::vector<double> amount(look.first_column[k + 1] - look.first_column[k], 0.0);
+      amount[i - look.first_column[k]] = -1.0;
+      Variant variant = base.variant;
+      variant.effects.push_back(candidates_[look.candidates[k]].sized(amount));
+      doses.push_back(std::move(variant));
+      columns.push_back(i);
+    }
+  }
+  if (doses.empty()) return;
+  const auto changes = look.fit.changes(base.variant, look.excerpt.of(base.residual), doses);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (changes[k].size() == 0) continue;
+    auto response = look.responses.col(static_cast<Eigen::Index>(columns[k]));
+    response = 0.5f * (response - changes[k]);
   }
 }
 

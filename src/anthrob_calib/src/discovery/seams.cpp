@@ -63,7 +63,8 @@ std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Question& quest
 }
 
 std::string subsystem_of(const SeamGap& gap) {
-  const bool from_motors = gap.positions >= 0.0 && gap.positions < kGone * gap.commands;
+  const double whole = gap.commands >= 0.0 ? gap.commands : gap.voltages;
+  const bool from_motors = gap.positions >= 0.0 && gap.positions < kGone * whole;
   const bool from_controllers = gap.voltages >= 0.0 && gap.voltages < kGone * gap.commands;
   if (gap.channel == "voltage") return "controller, or what it measures";
   if (!gap.of_joint && (gap.channel == "position" || gap.channel == "current")) {

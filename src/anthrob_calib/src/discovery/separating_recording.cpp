@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "anthrob_calib/discovery/simulated_recording.h"
+#include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
 namespace discovery {
@@ -24,7 +25,14 @@ double distance_between(const std::vector<double>& a, const std::vector<double>&
   return std::sqrt(sum);
 }
 
-/// References at so many moments, spread over the recording. Empty if a muscle has none.
+bool is_of_positions(const Series& mode) {
+  return std::all_of(mode.values.begin(), mode.values.end(), [](double value) {
+    return value == static_cast<double>(ecu::Mode::kPosition);
+  });
+}
+
+/// References at so many moments, spread over the recording. Empty if a muscle has none, or other
+/// ones than of its position.
 std::vector<std::vector<double>> references_in(const RobotModel& model, const Dataset& recording) {
   constexpr int kMoments = 200;
   std::vector<std::vector<double>> moments(kMoments);
@@ -32,6 +40,7 @@ std::vector<std::vector<double>> references_in(const RobotModel& model, const Da
   for (const MuscleModel& muscle : model.muscles) {
     const Series series = recording.series(muscle.name + "/reference");
     if (series.empty() && muscle.has_controller) return {};
+    if (!is_of_positions(recording.series(muscle.name + "/mode"))) return {};
     for (int i = 0; i < kMoments; ++i) {
       const double time = length * i / kMoments;
       moments[static_cast<std::size_t>(i)].push_back(series.empty() ? 0.0 : series.held_at(time));
@@ -100,7 +109,7 @@ double SeparatingRecording::distance() const {
 
 SeparatingRecording plan_separation(const Evaluator& evaluator, const Variant& named,
                                     const Variant& rival, const Dataset& recording,
-                                    const Scales& scales) {
+                                    const Scales& scales, double bin) {
   SeparatingRecording plan;
   const RobotModel& model = *evaluator.model();
   const auto moments = references_in(model, recording);
@@ -109,9 +118,15 @@ SeparatingRecording plan_separation(const Evaluator& evaluator, const Variant& n
   plan.rest = postures.front();
   for (std::size_t i = 1; i < postures.size(); ++i) add_variants(model, postures[i], plan);
 
-  const Dataset imagined =
-      simulated_recording(evaluator.build(named), separating_commands(model, plan), 1);
-  const Experiments experiments = {make_experiment(model, imagined)};
+  Dataset imagined;
+  try {
+    imagined = simulated_recording(evaluator.build(named), separating_commands(model, plan), 1);
+  } catch (const NumericalFailure&) {
+    return {};
+  }
+  ExperimentOptions options;
+  options.bin = bin;
+  const Experiments experiments = {make_experiment(model, imagined, options)};
   const auto differences = evaluator.compare({rival}, experiments).front();
   if (differences.size() == 0) return {};
   const Eigen::VectorXf whitened =

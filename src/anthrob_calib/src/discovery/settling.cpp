@@ -5,12 +5,12 @@ namespace discovery {
 
 namespace {
 
-constexpr int kRough = 8;          ///< iterations by the first slopes
-constexpr int kPolish = 8;         ///< iterations by the same slopes
-constexpr int kSettling = 8;       ///< times that slopes are simulated anew
-constexpr double kSettled = 5e-4;  ///< share of the cost
-constexpr int kFinishing = 5;
-constexpr double kFinished = 2e-4;  ///< share of the cost
+constexpr int kRough = 8;           ///< iterations by the first slopes
+constexpr int kPolish = 8;          ///< iterations by the same slopes
+constexpr int kSettling = 8;        ///< times that slopes are simulated anew
+constexpr double kSettled = 5e-4;   ///< share of the cost
+constexpr int kFinishing = 5;       ///< rounds of exact slopes
+constexpr double kAtTheEnd = 2e-4;  ///< share of the cost
 constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
 
@@ -74,7 +74,7 @@ void Settling::finish(Fitted& fitted) const {
   for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
     const double before = fitted.cost;
     fit_.polish(fitted, kPolish, ModelFit::Slopes::kExact);
-    if (before - fitted.cost < kFinished * before) break;
+    if (before - fitted.cost < kAtTheEnd * before) break;
   }
 }
 

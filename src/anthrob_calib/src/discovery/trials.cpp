@@ -80,7 +80,7 @@ std::vector<Trials::Trial> Trials::simulate(const Fitted& base, const std::vecto
   const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
   Eigen::MatrixXd A = (base.sensitivity.transpose() * base.sensitivity).cast<double>();
   A.diagonal() += precision;
-  A.diagonal().array() += 1e-9 * (1.0 + A.diagonal().maxCoeff());
+  regularise(A);
   const Eigen::VectorXd lower = base.lower_room(), upper = base.upper_room();
   for (std::size_t i = 0; i < trials.size(); ++i) {
     trials[i].cost = HUGE_VAL;

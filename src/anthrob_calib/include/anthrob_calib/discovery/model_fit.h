@@ -49,6 +49,7 @@ struct Fitted {
   Eigen::VectorXd lower_room() const;  ///< to their lower bounds, <= 0, in these units
   Eigen::VectorXd upper_room() const;  ///< to their upper bounds, >= 0
   Eigen::VectorXd precision() const;   ///< of the expectations, in these units
+  bool at_bound(std::size_t unknown) const;
 };
 
 /// Unknowns of the ordinary parameters: within their ranges, expected where the model has them.
@@ -130,6 +131,9 @@ class ModelFit {
   Eigen::VectorXf whitener_;
   double coarse_;
 };
+
+/// Adds a little of the largest to the diagonal, so that what nothing depends on has a solution.
+void regularise(Eigen::MatrixXd& system);
 
 /// Minimises 1/2 x' A x + g' x within bounds (projected active set).
 Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd& g,

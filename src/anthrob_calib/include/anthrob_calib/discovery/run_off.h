@@ -1,5 +1,6 @@
 #pragma once
 
+#include "anthrob_calib/discovery/gaps.h"
 #include "anthrob_calib/discovery/workbench.h"
 
 namespace anthrob {
@@ -11,11 +12,11 @@ namespace discovery {
 /// two are judged against each other.
 class RunOff {
  public:
-  explicit RunOff(const Workbench& bench) : bench_(bench) {}
+  RunOff(const Workbench& bench, const Gaps& gaps) : bench_(bench), gaps_(gaps) {}
 
-  /// Afterwards the first of the list is fitted to the end. If it is the other one, it has taken
-  /// over the probability of the first one's effect, at whatever place, as far as it is more
-  /// likely.
+  /// Afterwards the first of the list is fitted to the end, with the evidence of that. The other
+  /// one is first if it is more likely in the end and earns its place then; it has taken over the
+  /// probability of the first one's effect, at whatever place, as far as it is more likely.
   /// @param base fitted without them
   void decide(const Tested& base, ShortList& list) const;
 
@@ -26,6 +27,7 @@ class RunOff {
   void finish(Named& named) const;
 
   const Workbench& bench_;
+  const Gaps& gaps_;
 };
 
 }  // namespace discovery

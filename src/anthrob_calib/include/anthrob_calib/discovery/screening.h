@@ -74,6 +74,9 @@ class Screening {
   /// Takes away those that hardly change anything.
   std::vector<std::size_t> take_faint(Look& look) const;
   void simulate(Look& look, const Fitted& base, const std::vector<std::size_t>& which);
+  /// Where ordinary parameters imitate most of a dose, what they leave may be no more than what is
+  /// not linear in it: such doses are simulated to the other side, too.
+  void take_both_sides(Look& look, const Fitted& base, const std::vector<std::size_t>& which);
   /// What some ordinary parameters can imitate of a look's responses S.
   struct Projection {
     Eigen::MatrixXf J;

@@ -6,7 +6,6 @@ namespace anthrob {
 namespace discovery {
 
 /// The recording that tells two effects apart, in words; empty if none is known or needed.
-/// @param same_effect the same effect at another place
 std::string separating_experiment(const std::string& id, const std::string& rival);
 
 }  // namespace discovery

@@ -25,11 +25,12 @@ struct SeparatingRecording {
 
 /// Simulates both explanations on the way to postures of a recording: as they were, with more
 /// co-contraction, and a tenth of the way, and keeps those in which they differ most. Empty if the
-/// robot has no muscles, or the recording has no references.
-/// @param scales noise floors by channel   @throws Interrupted
+/// robot has no muscles, the recording has no references or other ones than of positions, or one of
+/// the two cannot be simulated there.
+/// @param scales noise floors by channel, of bins so long [s]   @throws Interrupted
 SeparatingRecording plan_separation(const Evaluator& evaluator, const Variant& named,
                                     const Variant& rival, const Dataset& recording,
-                                    const Scales& scales);
+                                    const Scales& scales, double bin);
 
 /// The commands of such a protocol, to every `stride`-th target beginning with `first`.
 Dataset separating_commands(const RobotModel& model, const SeparatingRecording& plan,
