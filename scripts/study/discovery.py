@@ -4,8 +4,9 @@ virtual robots; discovery sees recordings and a model only, and a third program 
 
 Every case leaves its result under build/study/discovery/ and is not done again; what was interrupted goes on. Writes
 build/study/discovery.json and .html, docs/studies/discovery.md and, what it was made from, docs/studies/discovery.json.
-Slices may run on several hosts: bring their reports/ and sealed/ together and run with --summary, or one after the
-other, each with the docs/studies/discovery.json of the one before and --adopt.
+Another --seed than 1 is another study, of other cases: discovery_seed_2 and so on in these names. Slices may run on
+several hosts: bring their reports/ and sealed/ together and run with --summary, or one after the other, each with the
+docs/studies/discovery.json of the one before and --adopt.
 """
 
 import argparse
@@ -29,9 +30,20 @@ ROUNDS = {"effect": 2}  # each law so often, every time at another place
 COUNTS = {"null": 60, "pair": 12, "wrapped": 1}
 KINDS = ["effect", "null", "pair", "outside", "wrapped"]
 MOST_EFFECTS = {"wrapped": 12}
-DOCUMENT = "docs/studies/discovery.md"
-PUBLISHED = "docs/studies/discovery.json"
+DOCUMENTS = "docs/studies"
 TOLD = ["id", "place", "probability", "parameters", "rivals"]  # of a named effect, what scoring needs
+
+
+def study_name(options):
+    return "discovery" if options.seed == 1 else f"discovery_seed_{options.seed}"
+
+
+def document(options):
+    return f"{DOCUMENTS}/{study_name(options)}.md"
+
+
+def published_file(options):
+    return f"{DOCUMENTS}/{study_name(options)}.json"
 
 
 def laws(kind):
@@ -45,10 +57,10 @@ class Case:
     def __init__(self, kind, number, count, options):
         self.kind = kind
         self.number = number
-        self.name = f"{kind}_{number:02d}" + ("" if options.seed == 1 else f"_seed_{options.seed}")
+        self.name = f"{kind}_{number:02d}"
         self.turn = number / count  # kinds take turns, so that a part of the study tells of all
         self.options = options
-        folder = f"{options.out}/discovery"
+        folder = f"{options.out}/{study_name(options)}"
         self.data = f"{folder}/cases/{self.name}"
         self.truth = f"{folder}/sealed/{self.name}.json"
         self.report = f"{folder}/reports/{self.name}"
@@ -179,7 +191,7 @@ def time_left(cases):
 
 def score(options):
     """What the third program says of all reports that are there; None if there is none."""
-    folder = f"{options.out}/discovery"
+    folder = f"{options.out}/{study_name(options)}"
     if not os.path.isdir(f"{folder}/sealed"):
         return None
     must([SCORE, "--truths", f"{folder}/sealed", "--reports", f"{folder}/reports",
@@ -226,9 +238,10 @@ CONFUSION = ["hidden", "answers"]
 CASES = ["case", "hidden", "change [floors]", "verdict", "named", "probability"]
 
 
-def markdown(result, facts):
+def markdown(result, facts, options):
     lines = ["# Study: discovery on blind cases", "",
-             "Written by `./catkin_ws.sh study discovery` from [these answers](discovery.json); what a case is:",
+             f"Written by `./catkin_ws.sh study discovery --seed {options.seed}` from",
+             f"[these answers]({study_name(options)}.json); what a case is:",
              "[the virtual robot](../virtual_robot.md). `--adopt` takes them for done and goes on with the others.", ""]
     lines += markdown_facts(facts)
     for title, head, rows in (("Rates", RATES, rate_rows(result)),
@@ -251,24 +264,24 @@ def summarise(cases, options):
     if result is None or not any(case.done() for case in cases):
         return False
     facts = facts_of(cases, options)
-    write(f"{options.out}/discovery.json", as_json({"facts": facts, **result}))
-    write(f"{options.out}/discovery.html", page(result, facts))
+    write(f"{options.out}/{study_name(options)}.json", as_json({"facts": facts, **result}))
+    write(f"{options.out}/{study_name(options)}.html", page(result, facts))
     if of_the_study(options):
-        os.makedirs(os.path.dirname(DOCUMENT), exist_ok=True)
-        write(DOCUMENT, markdown(result, facts))
-        publish(cases)
+        os.makedirs(DOCUMENTS, exist_ok=True)
+        write(document(options), markdown(result, facts, options))
+        publish(cases, options)
     return True
 
 
-def publish(cases):
+def publish(cases, options):
     """A line a case, so that a reader sees what is new."""
     lines = [f"{json.dumps(case.name)}: {json.dumps(case.published())}"
              for case in sorted(cases, key=lambda case: case.name) if case.done()]
-    write(PUBLISHED, "{\n" + ",\n".join(lines) + "\n}\n")
+    write(published_file(options), "{\n" + ",\n".join(lines) + "\n}\n")
 
 
-def adopt(cases):
-    published = load_published(PUBLISHED)
+def adopt(cases, options):
+    published = load_published(published_file(options))
     for case in cases:
         if case.name in published and not case.done():
             case.adopt(published[case.name])
@@ -290,11 +303,11 @@ def arguments():
     parser.add_argument("--case", nargs="+", metavar="NAME", help="these cases")
     parser.add_argument("--list", action="store_true", help="tells the cases and how far they are")
     parser.add_argument("--summary", action="store_true", help="only scores the reports that are there")
-    parser.add_argument("--adopt", action="store_true", help=f"takes the cases of {PUBLISHED} for done")
+    parser.add_argument("--adopt", action="store_true", help=f"takes the cases of {DOCUMENTS}/*.json for done")
     parser.add_argument("--keep", action="store_true", help="keeps recordings")
     parser.add_argument("--seed", type=int, default=1, help="of everything that is drawn")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads of a case")
-    parser.add_argument("--out", default=OUT, help=f"elsewhere than in {OUT}, {DOCUMENT} stays as it is")
+    parser.add_argument("--out", default=OUT, help=f"elsewhere than in {OUT}, {DOCUMENTS} stay as they are")
     return parser.parse_args()
 
 
@@ -311,7 +324,7 @@ def carry_out(cases, everything, options):
     if without:
         sys.exit(f"study: without a report: {' '.join(without)}")
     summarise(everything, options)
-    say(f"{options.out}/discovery.html" + (f", {DOCUMENT}" if of_the_study(options) else ""))
+    say(f"{options.out}/{study_name(options)}.html" + (f", {document(options)}" if of_the_study(options) else ""))
 
 
 def main():
@@ -319,7 +332,7 @@ def main():
     everything = all_cases(options)
     cases = chosen(everything, options)
     if options.adopt:
-        adopt(everything)
+        adopt(everything, options)
     if options.list:
         for case in cases:
             print(f"{case.name:<12} {case.state()}")

@@ -176,6 +176,19 @@ class DiscoveryStudy(Study):
         with open('docs/studies/discovery.json') as file:
             self.assertEqual(list(json.load(file)), ['effect_01', 'null_00'])
 
+    def test_another_seed_is_another_study(self):
+        self.study('--case', 'effect_01')
+        before = self.told()
+        self.study('--seed', '2', '--case', 'effect_01')
+        self.assertEqual(self.calls(), 4)
+        self.assertEqual(self.told(), before)
+        self.assertTrue(os.path.exists('out/discovery_seed_2.html'))
+        shutil.rmtree('out')
+        self.study('--seed', '2', '--adopt', '--case', 'effect_01')
+        self.assertEqual(self.calls(), 4)
+        with open('docs/studies/discovery_seed_2.md') as file:
+            self.assertIn('- seed: 2', file.read())
+
     def test_cases_elsewhere_leave_the_document_alone(self):
         self.study('--case', 'effect_01')
         before = self.told()
