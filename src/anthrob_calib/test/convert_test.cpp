@@ -185,6 +185,19 @@ TEST(Convert, RefusesWhatIsNoRecording) {
   EXPECT_THROW(read_bag(folder / "two.bag"), BadInput);
 }
 
+TEST(Convert, WhatIsBelowARobotsNamespaceIsBesideItsContract) {
+  const Folder folder;
+  {
+    rosbag::Bag bag(folder / "demo.bag", rosbag::bagmode::Write);
+    bag.write("/a/joint_states", ros::Time(1), sensor_msgs::JointState());
+    bag.write("/a/sim/joint_states", ros::Time(1), sensor_msgs::JointState());
+  }
+  const BagContents contents = read_bag(folder / "demo.bag");
+  EXPECT_EQ(contents.dataset.meta.robot, "a");
+  ASSERT_EQ(contents.not_carried.size(), 1u);
+  EXPECT_NE(contents.not_carried[0].find("/a/sim/joint_states"), std::string::npos);
+}
+
 TEST(Convert, FolderToBagKeepsTimeZero) {
   const Folder folder;
   Dataset data;

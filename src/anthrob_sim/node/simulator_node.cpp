@@ -15,6 +15,7 @@ namespace anthrob {
 namespace {
 
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
+constexpr std::uint32_t kMostSteps = 10000000;  ///< of one call: nothing else is heard meanwhile
 
 void answer(const ecu::Supervisor::Outcome& outcome, std_srvs::Trigger::Response& response) {
   response.success = outcome.accepted;
@@ -80,7 +81,7 @@ ros::Time SimulatorNode::stamp() const {
 // ---- commands
 
 void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
-  last_command_stamp_ = std::max(last_command_stamp_, command.header.stamp);
+  last_command_stamp_ = command.header.stamp;
   const auto outcome =
       supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_);
   if (!outcome.accepted) {
@@ -177,6 +178,8 @@ bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
   command_queue_.callAvailable();  // what was sent before this call counts from this step on
   if (request.steps == 0) {
     response.message = "steps: 0: expected a number > 0";
+  } else if (request.steps > kMostSteps) {
+    response.message = "steps: expected at most " + std::to_string(kMostSteps);
   } else if (!wait_for_command(request.command_stamp)) {
     response.message = "no muscle_command with the stamp asked for came within 1 s";
   } else if (!failure_.empty()) {
@@ -193,6 +196,7 @@ bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
 bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   sim_.reset();
   failure_.clear();
+  last_command_stamp_ = ros::Time();
   publish(true);
   response.success = true;
   response.message = "at rest; simulated time goes on";
@@ -275,6 +279,7 @@ bool SimulatorNode::wait_for_command(const ros::Time& stamp) {
 bool SimulatorNode::advance(int steps) {
   try {
     for (int i = 0; i < steps; ++i) {
+      if (!ros::ok()) return false;
       if (supervisor_.update(sim_.time())) {
         ROS_WARN("no fresh muscle_command for %.3f s: motors stopped",
                  options_.supervisor.command_timeout);

@@ -1,6 +1,10 @@
 // Malformed robot and model files: each is refused with one line that names file, key, value and
 // expectation.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/simulation.h"
@@ -308,6 +312,24 @@ TEST(BadFiles, EachIsRefusedWithOneLine) {
       }
     }
   }
+}
+
+TEST(BadFiles, OnlyMotorsTakeControllers) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("anthrob_hill_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string rig = std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/";
+  std::ofstream(folder / "model.yaml") << "extends: " << rig << "model_hill.yaml\nrobot: " << rig
+                                       << "robot.urdf\nmuscles:\n  flexor:\n"
+                                       << "    controller: pd\n    ecu: ecu_1\n";
+  try {
+    load_robot_model((folder / "model.yaml").string());
+    ADD_FAILURE() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("only a motor takes one"), std::string::npos)
+        << error.what();
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST(BadFiles, MissingModelFile) {

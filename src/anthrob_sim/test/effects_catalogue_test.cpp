@@ -330,6 +330,10 @@ TEST(Catalogue, BadEntriesAreRefusedWithOneLine) {
                     "  - {id: payload, place: arm, mass: 0.2}\n"),
             "model.yaml:4: effects.1.place: arm: expected every effect once at a place; this one "
             "is there already");
+  EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, place: flexor, width: 0.1}\n"
+                    "  - {id: gear_backlash, place: all, width: 0.1}\n"),
+            "model.yaml:3: effects.0.place: flexor: expected this effect once a muscle; at `all` "
+            "it is on this one already");
   EXPECT_EQ(refusal("effects:\n  - {id: payload, place: arm, mass: -3}\n"),
             "model.yaml:3: effects.0.mass: -3: expected a number that leaves the body some mass "
             "[kg]");

@@ -230,6 +230,27 @@ TEST(TendonElasticity, StretchIsForceTimesLengthOverEA) {
   EXPECT_EQ(stretched.advance(-0.001), 0.0);
 }
 
+TEST(TendonElasticity, StretchesByAllThatTheSpringAndWhatIsBesideItCarry) {
+  const EffectInstance arm = {
+      "second_maxwell_arm", "flexor", {{"ratio", 0.5}, {"relaxation_time", 0.2}}};
+  const auto both = robot_with(kRig, {arm, {"tendon_elasticity", "flexor", {{"compliance", 5e-4}}}})
+                        ->muscles[0]
+                        .spring;
+  const auto without = muscle_with(kRig, arm, "flexor").spring;
+  const double compliance =
+      (both->relaxed_expansion(10.0) - without->relaxed_expansion(10.0)) / 10.0;
+  ASSERT_GT(compliance, 1e-4);
+  Memory state(both->state_size()), other(without->state_size());
+  both->relax(0.0, state);
+  without->relax(0.0, other);
+  // Fast: the arm carries a third.
+  for (int i = 1; i <= 200; ++i) {
+    const double expansion = 5e-5 * i, force = both->advance(expansion, state);
+    const double spring = without->advance(expansion - compliance * force, other);
+    EXPECT_NEAR(spring, force, 1e-6 + 1e-4 * force) << i;
+  }
+}
+
 TEST(TendonCreep, GrowsWithTheLogarithmOfTime) {
   const double rate = 1e-4, onset = 2.0, tension = 30.0, length = 0.3652;
   Stretched stretched({"tendon_creep", "extensor", {{"rate", rate}, {"onset", onset}}}, "extensor");
@@ -517,6 +538,19 @@ TEST(ViaPointShift, MovesOnePointAlongItsAxis) {
                      before.muscle(0).path().segments().back().to_W;
   EXPECT_NEAR((moved - Vec3(0, 0, 0.01)).norm(), 0.0, 1e-12);
   EXPECT_EQ(after.muscle(1).length(), before.muscle(1).length());
+}
+
+TEST(ViaPointShift, AxesAreThoseOfTheLinkThatTheFileNames) {
+  // `base` stands turned by 45 degrees on the body that it is a part of.
+  Simulation before(load_robot_model(config(kArm)));
+  Simulation after(
+      robot_with(kArm, {{"via_point_shift", "biceps_brachii/0/x", {{"shift", 0.01}}}}));
+  const int muscle = after.model().find_muscle("biceps_brachii");
+  const Vec3 moved = after.muscle(muscle).path().segments().front().from_W -
+                     before.muscle(muscle).path().segments().front().from_W;
+  const Vec3 x = after.link_pose(after.model().skeleton->find_frame("base")).R.col(0);
+  ASSERT_LT(x.x(), 0.9);
+  EXPECT_NEAR((moved - 0.01 * x).norm(), 0.0, 1e-12);
 }
 
 }  // namespace

@@ -25,6 +25,23 @@ TEST(CommandLatency, CommandsArriveAfterTheDelay) {
   for (std::size_t i = 0; i < volts.size(); ++i) EXPECT_NEAR(volts[i], expected[i], 1e-9) << i;
 }
 
+TEST(CommandLatency, WhatStopsForgetsWhatIsOnItsWay) {
+  const auto robot = robot_with(kRig, {{"command_latency", "flexor", {{"delay", 0.1}}}});
+  Simulation sim(robot);
+  sim.command(0, ecu::Mode::kVoltage, 2.0);
+  sim.step(150);
+  ASSERT_EQ(sim.muscle(0).voltage(), 2.0);
+  sim.set_enabled(0, false);
+  sim.step(2);
+  sim.set_enabled(0, true);
+  sim.command(0, ecu::Mode::kVoltage, 0.5);
+  for (int i = 0; i < 150; ++i) {
+    sim.step();
+    EXPECT_LE(sim.muscle(0).voltage(), 0.5);
+  }
+  EXPECT_EQ(sim.muscle(0).voltage(), 0.5);
+}
+
 TEST(PwmDeadZone, TakesAConstantPartOfTheVoltage) {
   const auto robot = robot_with(kRig, {{"pwm_dead_zone", "flexor", {{"width", 0.3}}}});
   ASSERT_EQ(robot->power_effects.size(), 1u);

@@ -136,8 +136,10 @@ TEST(Dataset, BadOnesAreRefusedWithOneLine) {
   folder.write("meta.yaml", kMeta);
   EXPECT_THROW(Dataset::load(folder.path()), BadInput);  // no csv
   folder.write("m.csv", "t,a/position\n0,1\n");
-  folder.write("meta.yaml", "kind: dance\n");
-  EXPECT_THROW(Dataset::load(folder.path()), BadInput);
+  for (const char* meta : {"kind: dance\n", "start: zero\n", "start: {refrence: zero}\n"}) {
+    folder.write("meta.yaml", meta);
+    EXPECT_THROW(Dataset::load(folder.path()), BadInput) << meta;
+  }
   EXPECT_THROW(Dataset::load(folder.path() + "/nowhere"), BadInput);
 }
 
@@ -245,6 +247,27 @@ TEST(Replay, RefusesWhatTheRobotLacks) {
   table.columns.clear();
   table.column("flexor/force");
   EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), BadInput);  // no input
+}
+
+TEST(Replay, StartsMusclesWithoutControllersAtRest) {
+  const auto hill = load_robot_model(config("two_muscle_rig/model_hill.yaml"));
+  Dataset recording;
+  Table& table = recording.table("commands");
+  table.t = {0, 100000000};
+  Column& column = table.column("flexor/reference");
+  column.values = {0.1, 0.1};  // excitations
+  column.present = {1, 1};
+  for (const char* start : {"zero", "first"}) {
+    recording.meta.start = start;
+    recording.meta.settle_s = 0.5;
+    const Dataset out = replay(hill, recording, ReplayMode::kReference);
+    EXPECT_GT(out.series("flexor/force").values.back(), 1.0) << start;
+  }
+  recording.meta.start = "given";
+  recording.meta.start_position = {{"flexor", 1.0}};
+  EXPECT_THROW(replay(hill, recording, ReplayMode::kReference), BadInput);
+  recording.meta.start_position = {{"flexro", 1.0}};
+  EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), BadInput);
 }
 
 TEST(Replay, StopsWhenToldTo) {

@@ -60,6 +60,23 @@ void check_place(const EffectSetting& setting, const RobotModel& robot) {
   setting.fail("place", expectation);
 }
 
+/// In which order effects are built in. A tendon stretches by all that its spring and what lies
+/// beside the spring carry, so it is built around them.
+int place_in_chain(Seam seam) {
+  return seam == Seam::kTendon ? 2 * static_cast<int>(Seam::kSpring) + 1
+                               : 2 * static_cast<int>(seam);
+}
+
+/// At `all` and at a muscle, where two of them would not add up.
+void refuse_twice_on_a_muscle(const EffectSetting& setting,
+                              const std::vector<EffectSetting>& settings) {
+  if (!setting.effect().info().once_a_muscle || setting.place() == "all") return;
+  for (const EffectSetting& other : settings) {
+    if (other.id() != setting.id() || other.place() != "all") continue;
+    setting.fail("place", "this effect once a muscle; at `all` it is on this one already");
+  }
+}
+
 }  // namespace
 
 std::vector<const Effect*> all_effects() {
@@ -133,7 +150,7 @@ std::vector<EffectSetting> read_effects(const ConfigNode& config,
   }
   const auto order = [](const EffectSetting& s) {
     const EffectInfo& info = s.effect().info();
-    return std::make_tuple(info.stage, info.seam, s.id(), s.place());
+    return std::make_tuple(info.stage, place_in_chain(info.seam), s.id(), s.place());
   };
   std::stable_sort(
       settings.begin(), settings.end(),
@@ -143,6 +160,7 @@ std::vector<EffectSetting> read_effects(const ConfigNode& config,
       settings[i].fail("place", "every effect once at a place; this one is there already");
     }
   }
+  for (const EffectSetting& setting : settings) refuse_twice_on_a_muscle(setting, settings);
   return settings;
 }
 

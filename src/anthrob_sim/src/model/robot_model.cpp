@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "anthrob_sim/actuator/geared_motor.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 
@@ -172,6 +173,9 @@ class Builder {
 
     if (node.has("ecu")) muscle.ecu = node.text("ecu");
     if (node.has("controller")) {
+      if (!dynamic_cast<const GearedMotor*>(muscle.actuator.get())) {
+        node.at("controller").fail("only a motor takes one; null for ligaments and Hill muscles");
+      }
       muscle.has_controller = true;
       read_controller(kind("controllers", node.at("controller")), muscle);
     }
@@ -253,6 +257,7 @@ class Builder {
     obstacle.body = skeleton_->frames[frame].body;
     const Pose X_BF =
         skeleton_->bodies[obstacle.body].X_LB.inverse() * skeleton_->frames[frame].X_LF;
+    obstacle.R_BL = X_BF.R;
 
     std::string type;
     for (const auto& item : entry.entries()) {

@@ -158,7 +158,13 @@ void Muscle::control(std::uint64_t step_index) {
 void Muscle::delay_command(ecu::Mode& mode, double& reference) {
   const StateView state = store_.at(command_delay_offset_);
   const double now[] = {static_cast<double>(mode), reference};
-  command_delay_->push(now, state);
+  // What stops forgets what is still on its way, too: enabling it never makes it jump.
+  if (memory().enabled == 0.0) {
+    const double nothing[] = {static_cast<double>(ecu::Mode::kVoltage), 0.0};
+    command_delay_->fill(nothing, state);
+  } else {
+    command_delay_->push(now, state);
+  }
   mode = static_cast<ecu::Mode>(static_cast<int>(command_delay_->nearest(0, state)));
   reference = command_delay_->blended(1, state);
 }

@@ -310,6 +310,10 @@ DatasetMeta load_meta(const std::string& file) {
     } else if (key == "rate") {
       meta.rate = value.as_number(Bounds::positive(), "Hz");
     } else if (key == "start") {
+      if (!value.is_map()) value.fail_expected("a map of reference and settle_s");
+      for (const auto& [name, entry] : value.entries()) {
+        if (name != "settle_s" && name != "reference") entry.fail("expected reference or settle_s");
+      }
       if (value.has("settle_s"))
         meta.settle_s = value.number("settle_s", Bounds::nonnegative(), "s");
       if (!value.has("reference")) continue;

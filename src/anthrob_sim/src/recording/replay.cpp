@@ -18,6 +18,14 @@ const std::set<std::string> kJointQuantities = {"position", "velocity", "effort"
 Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode)
     : model_(std::move(model)), mode_(mode), meta_(recording.meta) {
   check_names(recording);
+  for (const auto& [muscle, position] : meta_.start_position) {
+    const int index = model_->find_muscle(muscle);
+    if (index < 0 || !model_->muscles[static_cast<std::size_t>(index)].has_controller) {
+      throw BadInput(recording.folder + "/meta.yaml: start.reference." + muscle +
+                     ": the robot of " + model_->file +
+                     " has no such muscle, or it holds no position");
+    }
+  }
   duration_ = seconds(recording.end() - recording.begin());
   bool any = false;
   for (std::size_t m = 0; m < model_->muscles.size(); ++m) {
@@ -67,7 +75,13 @@ void Replay::check_names(const Dataset& recording) const {
 }
 
 Replay::StartInput Replay::start_input(const MuscleInput& input) const {
-  const auto given = meta_.start_position.find(model_->muscles[input.muscle].name);
+  const MuscleModel& muscle = model_->muscles[input.muscle];
+  const auto given = meta_.start_position.find(muscle.name);
+  if (!muscle.has_controller) {
+    const bool excited = meta_.start == "first" && mode_ != ReplayMode::kPosition;
+    const Series& first = mode_ == ReplayMode::kVoltage ? input.voltage : input.reference;
+    return {false, ecu::Mode::kVoltage, excited && !first.empty() ? first.held_at(0.0) : 0.0};
+  }
   if (meta_.start == "given") {
     if (given != meta_.start_position.end()) return {false, ecu::Mode::kPosition, given->second};
   } else if (meta_.start == "zero") {
@@ -119,9 +133,13 @@ void Replay::start(Simulation& sim) const {
   for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
 }
 
-ecu::Mode Replay::mode_at(const MuscleInput& input, double time) {
-  return input.mode.empty() ? ecu::Mode::kPosition
-                            : static_cast<ecu::Mode>(static_cast<int>(input.mode.held_at(time)));
+ecu::Mode Replay::mode_at(const MuscleInput& input, double time) const {
+  if (!input.mode.empty()) {
+    return static_cast<ecu::Mode>(static_cast<int>(input.mode.held_at(time)));
+  }
+  return model_->muscles[static_cast<std::size_t>(input.muscle)].has_controller
+             ? ecu::Mode::kPosition
+             : ecu::Mode::kVoltage;
 }
 
 void Replay::drive(Simulation& sim, double time) const {

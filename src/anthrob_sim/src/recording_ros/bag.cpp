@@ -277,6 +277,10 @@ std::string parent(const std::string& topic) {
   const auto slash = topic.rfind('/');
   return slash == std::string::npos || slash == 0 ? "" : topic.substr(0, slash);
 }
+bool is_of_a_recording(const std::string& topic) {
+  return std::any_of(std::begin(kTopics), std::end(kTopics),
+                     [name = leaf(topic)](const auto& known) { return name == known.first; });
+}
 
 }  // namespace
 
@@ -299,11 +303,18 @@ BagContents read_bag(const std::string& file) {
   std::set<std::string> namespaces;
   std::map<std::string, std::string> chosen;
   for (const auto& [topic, count] : counts) {
-    const bool ours =
-        std::any_of(std::begin(kTopics), std::end(kTopics),
-                    [&, name = leaf(topic)](const auto& known) { return name == known.first; });
-    if (ours) {
-      namespaces.insert(parent(topic));
+    if (is_of_a_recording(topic)) namespaces.insert(parent(topic));
+  }
+  // What stands below a robot's namespace (sim/...) is beside its contract.
+  const std::set<std::string> all = namespaces;
+  for (const std::string& outer : all) {
+    for (const std::string& inner : all) {
+      const bool below = inner.compare(0, outer.size() + 1, outer + "/") == 0;
+      if (!outer.empty() && below) namespaces.erase(inner);
+    }
+  }
+  for (const auto& [topic, count] : counts) {
+    if (is_of_a_recording(topic) && namespaces.count(parent(topic))) {
       chosen[leaf(topic)] = topic;
     } else {
       contents.not_carried.push_back(topic + " (" + std::to_string(count) + " messages)");

@@ -59,6 +59,7 @@ struct EffectInfo {
   Stage stage = Stage::kComponents;
   bool dissipates = false;
   bool slow = false;                  ///< builds up over minutes
+  bool once_a_muscle = false;         ///< two of them would not add up
   std::vector<std::string> channels;  ///< in which it shows: position, current, force, joint, ...
   std::vector<EffectParameter> parameters;
 

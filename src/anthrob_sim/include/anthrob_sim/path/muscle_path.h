@@ -14,7 +14,8 @@ namespace anthrob {
 /// which it may run. The first and the last entry are points: origin and insertion.
 struct PathObstacle {
   int body = 0;
-  Vec3 point_B = Vec3::Zero();  ///< in the body's principal frame [m]; of a point
+  Vec3 point_B = Vec3::Zero();   ///< in the body's principal frame [m]; of a point
+  Mat3 R_BL = Mat3::Identity();  ///< the axes of the link that the model file names
   std::shared_ptr<const WrappingSurface> surface;  ///< null: a point
   std::shared_ptr<const FrictionLaw> friction;     ///< null: frictionless
   int entry = -1;  ///< number in the model file's path; -1: put there by an effect

@@ -58,7 +58,7 @@ class Replay {
   StartInput start_input(const MuscleInput& input) const;
 
   void check_names(const Dataset& recording) const;
-  static ecu::Mode mode_at(const MuscleInput& input, double time);
+  ecu::Mode mode_at(const MuscleInput& input, double time) const;
   void impose(Simulation& sim, const MuscleInput& input, double time) const;
 
   std::shared_ptr<const RobotModel> model_;

@@ -20,6 +20,7 @@ EffectInfo describe() {
       "(drag 0.1 s)";
   i.source = "play operator with a dry bearing; ours, because a tendon only pulls";
   i.where = "MUSCLE | all";
+  i.once_a_muscle = true;
   i.seam = Seam::kGear;
   i.dissipates = true;
   i.channels = {"position", "force", "current"};

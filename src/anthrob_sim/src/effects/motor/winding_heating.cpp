@@ -19,6 +19,7 @@ EffectInfo describe() {
       "K = K_0 (1 - magnet dT)";
   i.source = "known: copper 0.0039 1/K; data sheets of small motors";
   i.where = "MUSCLE | all";
+  i.once_a_muscle = true;
   i.seam = Seam::kMotor;
   i.stage = Stage::kParts;
   i.dissipates = true;

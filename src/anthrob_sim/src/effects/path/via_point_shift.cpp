@@ -44,8 +44,7 @@ class ViaPointShift final : public Effect {
     std::vector<PathObstacle> obstacles = muscle.path->obstacles();
     for (PathObstacle& obstacle : obstacles) {
       if (std::to_string(obstacle.entry) != place[1]) continue;
-      const Pose& X_LB = draft.skeleton.bodies[obstacle.body].X_LB;
-      obstacle.point_B += X_LB.R.transpose() * (setting["shift"] * Vec3::Unit(place[2][0] - 'x'));
+      obstacle.point_B += obstacle.R_BL * (setting["shift"] * Vec3::Unit(place[2][0] - 'x'));
     }
     muscle.path = std::make_shared<PathModel>(draft.skeleton, std::move(obstacles));
   }

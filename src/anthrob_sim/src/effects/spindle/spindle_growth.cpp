@@ -19,6 +19,7 @@ EffectInfo describe() {
   i.equation = "r = r_S + growth position / (2 pi), dl_T/dposition = -r";
   i.source = "known: + tendon diameter a layer";
   i.where = "MUSCLE | all";
+  i.once_a_muscle = true;
   i.seam = Seam::kSpindle;
   i.channels = {"force", "current", "position"};
   i.parameters = {{"growth", "m", "of the radius, a turn", 0.0, 3e-4, {0.0, 0.003}}};
