@@ -13,9 +13,4 @@ BagFile::BagFile(const std::string& file, const std::string& prefix) : prefix_(p
   bag_.setCompression(rosbag::compression::LZ4);
 }
 
-void BagFile::note_arrival(const ros::Time& stamp) {
-  if (!last_.isZero()) largest_gap_ = std::max(largest_gap_, (stamp - last_).toSec());
-  last_ = stamp;
-}
-
 }  // namespace anthrob

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "anthrob_record/gap_watch.h"
+
 namespace anthrob {
 
 /// A bag while it is written: messages at their own stamps, so that the same run gives the same
@@ -20,16 +22,13 @@ class BagFile {
     const ros::Time stamp = std::max(message.header.stamp, ros::TIME_MIN);
     bag_.write(prefix_ + topic, stamp, message);
   }
-  /// For the topic that tells whether anything was lost: the largest time between two messages [s].
-  void note_arrival(const ros::Time& stamp);
-  double largest_gap() const { return largest_gap_; }
   void close() { bag_.close(); }
+
+  GapWatch gaps;  ///< of what is measured while the bag is written
 
  private:
   rosbag::Bag bag_;
   std::string prefix_;
-  ros::Time last_;
-  double largest_gap_ = 0.0;
 };
 
 }  // namespace anthrob

@@ -14,7 +14,8 @@ constexpr double kCommandPeriod = 0.02;
 /// Silence after which a measurement counts as old and the robot as gone, and gap after which a
 /// recording counts as broken [s].
 constexpr double kSilence = 1.0, kLargestGap = 0.05;
-constexpr double kUndriven = 0.5;  // motors may start with the first commands
+constexpr double kUnderWay = 0.05;  ///< a measurement may be so late [s]
+constexpr double kUndriven = 0.5;   // motors may start with the first commands
 /// How long a robot may take to appear, of wall time [s].
 constexpr double kPatience = 30.0;
 constexpr double kDegree = 0.017453292519943295;
@@ -34,12 +35,18 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
       if (belongs(message.header)) current_bag().write(topic, message);
     };
   };
-  link_.on_joints = record("joint_states");
-  link_.on_ball_joints = record("spherical_joint_states");
-  link_.on_muscles = [this, write = record("muscle_states")](const anthrob_msgs::MuscleStates& m) {
-    write(m);
-    if (belongs(m.header)) current_bag().note_arrival(m.header.stamp);
+  const auto measure = [this, record](const char* topic) {
+    return [this, write = record(topic)](const auto& message) {
+      write(message);
+      if (!belongs(message.header)) return;
+      for (const auto& name : message.name) {
+        current_bag().gaps.see(name, message.header.stamp.toSec());
+      }
+    };
   };
+  link_.on_joints = measure("joint_states");
+  link_.on_ball_joints = measure("spherical_joint_states");
+  link_.on_muscles = measure("muscle_states");
   if (protocol_.kind != Protocol::Kind::kZeroGravity) return;
   // The controller commands; what it says belongs to the recording.
   subscribers_ = {nh_.subscribe<anthrob_msgs::MuscleCommand>(
@@ -102,8 +109,9 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
   }
   std::string trouble = visit.reason();
   for (const auto& bag : bags_) {
-    if (trouble.empty() && bag && bag->largest_gap() > kLargestGap)
-      trouble = "states were missing for " + std::to_string(bag->largest_gap()) + " s";
+    if (!trouble.empty() || !bag || bag->gaps.largest() <= kLargestGap) continue;
+    trouble =
+        bag->gaps.longest() + " was not measured for " + std::to_string(bag->gaps.largest()) + " s";
   }
   if (trouble.empty()) {
     store(visit, target, repeat);
@@ -193,11 +201,18 @@ void Recorder::call_controller(Visit::Aim aim, const Protocol::Target& target) {
 
 void Recorder::switch_recording(int recording, const Protocol::Target&) {
   if (recording == recording_) return;
+  if (recording_ > 0) current_bag().gaps.finish(link_.now().toSec() - kUnderWay);
   recording_ = recording;
   if (recording == 0) return;
   since_ = link_.now();
   const std::size_t i = static_cast<std::size_t>(recording - 1);
   bags_[i] = std::make_unique<BagFile>(store_.partial_bag(names_[i]), nh_.getNamespace() + "/");
+  for (const MuscleModel& muscle : model_->muscles) {
+    current_bag().gaps.expect(muscle.name, since_.toSec());
+  }
+  for (const JointModel& joint : model_->skeleton->joints) {
+    current_bag().gaps.expect(joint.name, since_.toSec());
+  }
 }
 
 bool Recorder::belongs(const std_msgs::Header& header) const {
@@ -226,7 +241,7 @@ DatasetMeta Recorder::describe(const Visit& visit, const Protocol::Target& targe
   meta.other["run"] = std::to_string(repeat) + "\n";
   meta.other["hold"] = exact_text(protocol_.hold) + "\n";
   const BagFile& bag = *bags_[static_cast<std::size_t>(recording - 1)];
-  meta.other["largest_gap"] = exact_text(bag.largest_gap()) + "\n";
+  meta.other["largest_gap"] = exact_text(bag.gaps.largest()) + "\n";
   if (protocol_.by_hand) return meta;
   meta.other["rest_drift"] = exact_text(visit.drift()) + "\n";
   meta.other["rest"] = sample_yaml(*model_, visit.rest_before()) + "\n";
