@@ -9,15 +9,19 @@ namespace anthrob {
 
 namespace {
 
+/// What clocks of two computers, or of two topics, may differ [s].
+constexpr double kAhead = 0.5;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 std::string check_age(const std::string& who, double stamp, double now, double stale_after) {
   if (stamp == kNever) return who + ": not measured yet";
   const double age = now - stamp;
-  if (age <= stale_after) return "";
+  const bool from_ahead = age < -std::max(stale_after, kAhead);
+  if (age <= stale_after && !from_ahead) return "";
   char text[32];
-  std::snprintf(text, sizeof(text), "%.3f", age);
-  return who + ": the last measurement is " + text + " s old";
+  std::snprintf(text, sizeof(text), "%.3f", std::abs(age));
+  return who + ": the last measurement is " + text +
+         (from_ahead ? " s ahead of time: clocks differ, or time was set back" : " s old");
 }
 
 }  // namespace

@@ -33,6 +33,14 @@ TEST_F(RobotStateTest, NamesWhatIsMissingOrOld) {
   EXPECT_FALSE(state.complaint(1.2, 0.1).empty());
 }
 
+TEST_F(RobotStateTest, WhatIsStampedAheadOfTimeIsNotFresh) {
+  see_all(1.0);
+  EXPECT_EQ(state.complaint(0.9, 0.1), "");  // clocks are never quite the same
+  EXPECT_EQ(state.complaint(0.0, 0.1),
+            "joint shoulder: the last measurement is 1.000 s ahead of time: clocks differ, or time "
+            "was set back");
+}
+
 TEST_F(RobotStateTest, WhatIsNoMeasurementDoesNotCount) {
   see_all(1.0);
   state.see_joint("elbow", NAN, 0.0, 2.0);
