@@ -33,11 +33,18 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
+/// The matcher's own: it knows how large a marker is.
+MatchingOptions matching_of(const TargetSet& set, const TrackerOptions& options) {
+  MatchingOptions matching = options.matching;
+  matching.marker_diameter = set.marker_diameter;
+  return matching;
+}
+
 }  // namespace
 
 Status::Status(const std::string& name, const StereoRig& rig, const TargetSet& set,
                const TrackerOptions& options)
-    : name_(name), health_(rig, options.matching) {
+    : name_(name), health_(rig, matching_of(set, options)) {
   for (const MarkerTarget& target : set.targets) targets_.push_back(target.name);
   for (const Stage& stage : tracking_stages(rig, set, options)) stages_.push_back(stage.name);
   clear();
