@@ -190,6 +190,22 @@ TEST(SimulateRuns, EachRestsAsLongAsItsRobotDid) {
   }
 }
 
+TEST(SimulateRuns, AReturnBeginsWhereImposedPositionsEnded) {
+  RecordingPlan out = plan(4.0, -1.0, "trajectory"), other = plan(2.0, 0.0, "trajectory");
+  RecordingPlan back = out;
+  std::swap(back.from, back.to);
+  std::vector<MeasuredRun> runs;
+  for (const RecordingPlan& p : {out, other, back}) {
+    runs.push_back(read_run(record_simulation(rig(), p), rig()));
+  }
+  SimulationOptions options;
+  options.settle = options.motion = 5.0;
+  options.drive = Drive::kSampledPositions;
+  const auto differences = simulate_runs(rig(), runs, options);
+  ASSERT_GT(differences[2].before.posture.size(), 0);
+  EXPECT_LT(differences[2].before.posture.norm(), 0.02);
+}
+
 TEST(Problem, IsZeroAtTheTruthAndResidualsAddUp) {
   for (const char* kind : {"equilibrium", "trajectory"}) {
     const Problem problem = problem_of(runs_of(rig(), kind));

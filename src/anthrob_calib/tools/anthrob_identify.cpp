@@ -1,9 +1,13 @@
 // Parameters of components from recordings of the rigs.
+#include <filesystem>
 #include <iostream>
+#include <set>
+#include <type_traits>
 
 #include "anthrob_calib/identification/ecu_report.h"
 #include "anthrob_calib/identification/eyelet_report.h"
 #include "anthrob_calib/identification/ring_report.h"
+#include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/tool/tool.h"
 
@@ -20,7 +24,15 @@ struct Arguments {
 template <class Recording>
 std::vector<Recording> read_all(const std::vector<std::string>& paths) {
   std::vector<Recording> list;
-  for (const std::string& path : paths) list.push_back(Recording::read(load_recording(path)));
+  std::set<std::filesystem::path> taken;
+  for (const std::string& path : paths) {
+    // Rings are told apart by what they are, wherever their recordings lie.
+    const bool known = !taken.insert(std::filesystem::weakly_canonical(path)).second;
+    if (known && !std::is_same_v<Recording, RingRecording>) {
+      throw BadInput(path + ": given twice; expected each recording once");
+    }
+    list.push_back(Recording::read(load_recording(path)));
+  }
   return list;
 }
 

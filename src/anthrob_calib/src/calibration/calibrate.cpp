@@ -134,7 +134,7 @@ std::string CalibrationInput::fingerprint() const {
   resume::Fingerprint fingerprint;
   fingerprint.add(config.node.at("parameters").to_yaml());
   if (config.node.has("shares")) fingerprint.add(config.node.at("shares").to_yaml());
-  fingerprint.add(model.to_yaml());
+  fingerprint.add(resume::model_fingerprint(model));
   const Weights& w = config.weights;
   const OptimiserSettings& o = config.optimiser;
   add({w.posture, w.force, w.before, w.path, w.after, config.simulation.settle,
@@ -176,9 +176,9 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   outcome.reason = reason;
   outcome.evaluations = journal.evaluations();
   outcome.history = journal.history();
-  outcome.calibration = simulate_both(problem, outcome.best, problem.runs());
   constexpr int kProfiles = 3;
   try {
+    outcome.calibration = simulate_both(problem, outcome.best, problem.runs());
     outcome.validation = simulate_both(problem, outcome.best, input.validation);
     if (!thorough) return outcome;
     outcome.identifiability = examine(problem, outcome.best, kProfiles, [&] {
@@ -186,7 +186,8 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
     });
     outcome.drives = compare_drives(problem, outcome.best, problem.runs());
   } catch (const NumericalFailure& error) {
-    // On other runs, or driven in another way; what was found is none the worse for it.
+    // By the start, over the whole length, on other runs, or driven in another way; what was found
+    // is none the worse for it.
     outcome.doubt = std::string("not all could be worked out: ") + error.what();
   } catch (const Interrupted&) {
     outcome.interrupted = true;

@@ -189,6 +189,10 @@ RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationO
   }
   if (rows > 0) result.path = path.take();
   result.after = after.take();
+  // What follows begins where this ended.
+  if (options.drive == Drive::kSampledPositions) {
+    command_positions(sim, row_of(run.after.position, 0));
+  }
   for (std::size_t m = 0; m < sim.muscle_count(); ++m) sim.release(static_cast<int>(m));
   return result;
 }

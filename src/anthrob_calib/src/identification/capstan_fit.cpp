@@ -81,7 +81,9 @@ CapstanFit fit_capstan(const std::vector<SlidingPoint>& points, double turning_s
   const Fit fit = solve(problem);
 
   CapstanFit result;
-  const double angle_error = turning_sigma / points.front().turning;
+  double least_turning = points.front().turning;
+  for (const SlidingPoint& point : points) least_turning = std::min(least_turning, point.turning);
+  const double angle_error = turning_sigma / least_turning;  // that of the others is smaller
   const auto take = [&](int index) {
     return with_angle_error(fit.estimate(static_cast<std::size_t>(index)), angle_error);
   };

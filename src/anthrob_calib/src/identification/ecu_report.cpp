@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "anthrob_calib/identification/number_text.h"
+#include "anthrob_calib/identification/rig_recording.h"
 #include "anthrob_sim/report/svg_figure.h"
 
 namespace anthrob {
@@ -74,6 +75,7 @@ ordered_json report_json(const EcuResult& result) {
 
 EcuResult identify_ecu(std::vector<LoadRecording> recordings) {
   EcuResult result;
+  sort_by_specimen(recordings);
   int first = recordings.front().specimen;
   for (const LoadRecording& recording : recordings) first = std::min(first, recording.specimen);
   for (LoadRecording& recording : recordings) {

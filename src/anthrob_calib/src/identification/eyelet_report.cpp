@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anthrob_calib/identification/number_text.h"
+#include "anthrob_calib/identification/rig_recording.h"
 #include "anthrob_sim/report/svg_figure.h"
 
 namespace anthrob {
@@ -136,6 +137,7 @@ ordered_json report_json(const EyeletResult& result) {
 EyeletResult identify_eyelet(std::vector<EyeletRecording> recordings) {
   EyeletResult result;
   result.recordings = std::move(recordings);
+  sort_by_specimen(result.recordings);
   int& first = result.specimen;
   first = result.recordings.front().specimen;
   double turning_sigma = 0.0;

@@ -142,6 +142,7 @@ std::string drives_section(const CalibrationOutcome& o) {
 std::string headline(const CalibrationOutcome& o) {
   const bool held_out = !o.validation.runs.empty();
   const BeforeAfter& both = held_out ? o.validation : o.calibration;
+  if (both.runs.empty()) return "";  // they could not be simulated; the doubt says why
   const MeanErrors before = mean_errors(both.before, *o.model);
   const MeanErrors after = mean_errors(both.after, *o.model);
   std::string out =
@@ -179,8 +180,10 @@ std::string report_html(const CalibrationOutcome& o) {
   out += o.validation.runs.empty()
              ? "<p>None were given (--validation): how well the model predicts is not known.</p>\n"
              : errors_section(o.validation, *o.model, "Errors of held-out runs");
-  out += "<h2>Recordings of the calibration</h2>\n" +
-         errors_section(o.calibration, *o.model, "Errors of calibration runs");
+  if (!o.calibration.runs.empty()) {
+    out += "<h2>Recordings of the calibration</h2>\n" +
+           errors_section(o.calibration, *o.model, "Errors of calibration runs");
+  }
   out += "<h2>Search</h2>\n" + fitness_figure(o.history);
   out += o.identifiability.parameters.empty() ? "<h2>Parameters</h2>\n" + parameter_table(o)
                                               : identifiability_section(o);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "anthrob_sim/model/config_node.h"
@@ -28,6 +30,14 @@ ConfigNode rig_meta(const Dataset& recording);
 
 /// Name of a recording in messages and reports.
 std::string recording_name(const Dataset& recording);
+
+/// By specimen and name, so that the order in which recordings are given does not matter.
+template <class Recording>
+void sort_by_specimen(std::vector<Recording>& recordings) {
+  std::stable_sort(recordings.begin(), recordings.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.specimen, a.name) < std::tie(b.specimen, b.name);
+  });
+}
 
 }  // namespace identification
 }  // namespace anthrob
