@@ -23,6 +23,7 @@ void EcuLink::start_cycle(std::uint8_t counter, double now) {
   started_ = true;
   counter_ = static_cast<std::uint8_t>(counter & 0xF);
   got_ = 0;
+  got_analog_ = false;
 }
 
 void EcuLink::receive(const ecu::Frame& frame, double now) {
@@ -31,18 +32,24 @@ void EcuLink::receive(const ecu::Frame& frame, double now) {
     case Function::kMotionB: {
       const int channel = ecu::function_of(frame) == static_cast<int>(Function::kMotionB);
       const ecu::Motion motion = ecu::decode_motion(frame);
+      if (!take_part(kMotionPart[channel], motion.counter, now)) break;
       incoming_.motion[channel] = motion;
-      on_status(frame, kMotionPart[channel], motion.counter, now);
+      finish_answer(now);
       break;
     }
-    case Function::kEffort:
-      incoming_.effort = ecu::decode_effort(frame);
-      on_status(frame, kEffortPart, incoming_.effort.counter, now);
+    case Function::kEffort: {
+      const ecu::Effort effort = ecu::decode_effort(frame);
+      if (!take_part(kEffortPart, effort.counter, now)) break;
+      incoming_.effort = effort;
+      finish_answer(now);
       break;
+    }
     case Function::kAnalog: {
       const ecu::Analog analog = ecu::decode_analog(frame);
-      analog_new_ = analog.counter == counter_;
-      if (analog_new_) analog_ = analog;
+      // Given out twice it would be two measurements at one instant.
+      if (!started_ || got_analog_ || analog.counter != counter_) break;
+      analog_ = analog;
+      got_analog_ = analog_new_ = true;
       break;
     }
     case Function::kState:
@@ -59,13 +66,17 @@ void EcuLink::receive(const ecu::Frame& frame, double now) {
   }
 }
 
-void EcuLink::on_status(const ecu::Frame&, unsigned part, std::uint8_t counter, double now) {
+bool EcuLink::take_part(unsigned part, std::uint8_t counter, double now) {
   // An answer to another SYNC is old, or comes a second time: it must not pass for new.
   if (!started_ || counter != counter_ || (got_ & part) != 0 || (wanted_ & part) == 0) {
     findings_.add(Finding::kRepeatedFrame, index_, now);
-    return;
+    return false;
   }
   got_ |= part;
+  return true;
+}
+
+void EcuLink::finish_answer(double now) {
   if (!complete()) return;
   sample_ = incoming_;
   sampled_ = true;

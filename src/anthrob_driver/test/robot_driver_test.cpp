@@ -165,6 +165,56 @@ TEST(RobotDriver, AnalogSensorsAreCalibrated) {
   EXPECT_EQ(pads, 10);
 }
 
+TEST(RobotDriver, ASecondNodeWithTheSameNumberDoesNotGetItsValuesIn) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  constexpr std::size_t kEcu = 2;
+  const EcuHardware& ecu = rig.hardware.ecus[kEcu];
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const int function = ecu::function_of(f);
+    if (ecu::node_of(f) != ecu.node || function < 4 || function > 6) {
+      return std::vector<ecu::Frame>{f};
+    }
+    if (function == static_cast<int>(ecu::Function::kEffort)) {
+      ecu::Effort other = ecu::decode_effort(f);
+      for (double& force : other.force) force += 50.0;
+      return std::vector<ecu::Frame>{f, ecu::encode(other, ecu.node)};
+    }
+    ecu::Motion other = ecu::decode_motion(f);
+    other.position += 1.0;
+    return std::vector<ecu::Frame>{f, ecu::encode(other, ecu.node, function - 4)};
+  };
+  rig.run(1000);
+  EXPECT_GT(rig.driver().findings().count(Finding::kRepeatedFrame), 0u);
+  const Sample& sample = rig.samples.back();
+  for (const int muscle : ecu.muscles) {
+    const auto m = static_cast<std::size_t>(muscle);
+    EXPECT_NEAR(sample.muscles[m].position, rig.plant.muscle(m).position, 0.01);
+    EXPECT_NEAR(sample.muscles[m].force, rig.plant.muscle(m).force, 0.5);
+  }
+}
+
+TEST(RobotDriver, ADoubledAnalogFrameIsOneMeasurement) {
+  Rig rig;
+  rig.run(1500);
+  rig.bus.tamper = [](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool analog = ecu::function_of(f) == static_cast<int>(ecu::Function::kAnalog);
+    return analog ? std::vector<ecu::Frame>{f, f} : std::vector<ecu::Frame>{f};
+  };
+  rig.analogs.clear();
+  rig.run(100);
+  std::int64_t last = 0;
+  int joints = 0;
+  for (const AnalogSample& a : rig.analogs) {
+    if (a.kind != AnalogSample::Kind::kJoint) continue;
+    ++joints;
+    EXPECT_GT(a.stamp_ns, last);
+    EXPECT_FALSE(std::isnan(a.rate));
+    last = a.stamp_ns;
+  }
+  EXPECT_EQ(joints, 10);
+}
+
 TEST(RobotDriver, BusLoadIsAsCalculated) {
   Rig rig;
   ASSERT_TRUE(rig.start());

@@ -59,7 +59,9 @@ class EcuLink {
     ecu::Effort effort;
   };
 
-  void on_status(const ecu::Frame& frame, unsigned part, std::uint8_t counter, double now);
+  /// Whether this part of the answer is the current SYNC's first; only then its values count.
+  bool take_part(unsigned part, std::uint8_t counter, double now);
+  void finish_answer(double now);
   void on_report(const ecu::StateReport& report, double now);
   void on_reply(const ecu::ParameterMessage& reply, double now);
   float wanted_value() const;
@@ -74,7 +76,7 @@ class EcuLink {
   bool started_ = false;
   Sample incoming_, sample_;
   ecu::Analog analog_;
-  bool analog_new_ = false;
+  bool analog_new_ = false, got_analog_ = false;
   ecu::StateReport report_;
   ecu::Health health_;
   ecu::State state_ = ecu::State::kBoot;
