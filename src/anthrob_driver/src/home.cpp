@@ -29,9 +29,38 @@ void Home::abort(const std::string& reason) {
   failure_ = reason;
 }
 
+bool Home::pulls(std::size_t muscle) const {
+  return hardware_.muscles[muscle].parameters.has_force_sensor();
+}
+
+std::string Home::unknown(const std::vector<Reading>& readings) const {
+  std::string names;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const bool known = std::isfinite(readings[i].position) && std::isfinite(readings[i].force);
+    if (!pulls(i) || known) continue;
+    names += (names.empty() ? "" : ", ") + hardware_.muscles[i].name;
+  }
+  return names;
+}
+
+bool Home::begin(const std::vector<Reading>& readings, double now) {
+  // A muscle whose answer is missing would wind from nowhere, and no travel could be measured.
+  const std::string missing = unknown(readings);
+  if (!missing.empty()) {
+    if (now - started_ > hardware_.home.time_limit) abort(missing + ": no measurement to start at");
+    return false;
+  }
+  begun_ = true;
+  started_ = settled_ = now;
+  tendons_.assign(readings.size(), Tendon{});
+  for (std::size_t i = 0; i < readings.size(); ++i) tendons_[i].start = readings[i].position;
+  return true;
+}
+
 std::string Home::check(const Reading& reading, Tendon& tendon) const {
   const HomeRoutine& limits = hardware_.home;
   const double pretension = limits.pretension;
+  if (!std::isfinite(reading.force)) return "its force is no longer measured";
   if (reading.force > limits.force_limit) {
     return text("%.1f N, more than %.1f N: unwind it by hand", reading.force, limits.force_limit);
   }
@@ -51,7 +80,7 @@ std::string Home::check(const Reading& reading, Tendon& tendon) const {
 
 ecu::MuscleReference Home::command(std::size_t muscle, double now) const {
   const int index = static_cast<int>(muscle);
-  if (!begun_ || !hardware_.muscles[muscle].parameters.has_force_sensor()) {
+  if (!begun_ || !pulls(muscle)) {
     return {index, ecu::Mode::kVoltage, 0.0};
   }
   // Force control from slack on would race through the slack and overshoot.
@@ -62,15 +91,12 @@ ecu::MuscleReference Home::command(std::size_t muscle, double now) const {
 
 void Home::step(const std::vector<Reading>& readings, double now) {
   if (state_ != State::kRunning) return;
-  if (!begun_) {
-    begun_ = true;
-    tendons_.assign(readings.size(), Tendon{});
-    for (std::size_t i = 0; i < readings.size(); ++i) tendons_[i].start = readings[i].position;
-  }
+  if (!begun_ && !begin(readings, now)) return;
   bool all_tight = true;
   std::string slack;
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    if (std::isnan(readings[i].force)) continue;
+    // One answer may be missing; an ECU that is lost ends homing elsewhere.
+    if (!pulls(i) || !std::isfinite(readings[i].position)) continue;
     const std::string& name = hardware_.muscles[i].name;
     const std::string wrong = check(readings[i], tendons_[i]);
     if (!wrong.empty()) return abort(name + ": " + wrong);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "rig.h"
 
 namespace anthrob {
@@ -84,6 +86,60 @@ TEST_F(HomeTest, AnEmergencyStopEndsIt) {
   EXPECT_FALSE(rig.driver().home().running());
   rig.run(1000);
   EXPECT_EQ(rig.moving(), 0);
+}
+
+TEST_F(HomeTest, AnAnswerMissingAtTheStartDoesNotDriveAMuscleElsewhere) {
+  const EcuHardware& ecu = rig.hardware.ecus[1];
+  const auto muscle = static_cast<std::size_t>(ecu.muscles[0]);
+  // Far from position 0, where a reference that is not a number would send it.
+  rig.plant.slacken(muscle, 1e3);
+  rig.driver().command({rig.hardware.muscles[muscle].name}, {0}, {5.0}, rig.now());
+  rig.run(400);
+  rig.driver().disable();
+  rig.run(200);
+  const double start = rig.plant.muscle(muscle).position;
+  ASSERT_GT(start, 1.0);
+  rig.plant.slacken(muscle, start + 1.0);
+  ASSERT_TRUE(rig.enable());
+  while (rig.ms % rig.period_ms != 1) rig.step();
+  int drop = 1;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool motion = ecu::function_of(f) == static_cast<int>(ecu::Function::kMotionA) &&
+                        ecu::node_of(f) == ecu.node;
+    return motion && drop-- > 0 ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+  while (drop > 0) rig.step();
+  rig.run(rig.period_ms - 1);
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  double lowest = start;
+  for (int ms = 0; ms < 30000 && rig.driver().home().running(); ++ms) {
+    rig.step();
+    lowest = std::min(lowest, rig.plant.muscle(muscle).position);
+  }
+  EXPECT_EQ(failure(), "");
+  EXPECT_GT(lowest, start - 0.1);
+}
+
+TEST_F(HomeTest, NamesAMuscleThatIsNeverMeasured) {
+  Home home(rig.hardware);
+  std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.0, 0.0});
+  readings[3] = {std::nan(""), std::nan("")};
+  home.start(0.0);
+  for (double t = 0.0; home.running() && t < 60.0; t += 0.005) {
+    home.step(readings, t);
+    EXPECT_EQ(home.command(3, t).mode, ecu::Mode::kVoltage);
+  }
+  EXPECT_EQ(home.failure(), "supraspinatus: no measurement to start at");
+}
+
+TEST_F(HomeTest, NamesAMuscleWhoseForceIsNoLongerMeasured) {
+  Home home(rig.hardware);
+  std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.0, 0.0});
+  home.start(0.0);
+  home.step(readings, 0.0);
+  readings[3].force = std::nan("");
+  home.step(readings, 0.005);
+  EXPECT_EQ(home.failure(), "supraspinatus: its force is no longer measured");
 }
 
 TEST_F(HomeTest, CommandsAreRefusedMeanwhile) {

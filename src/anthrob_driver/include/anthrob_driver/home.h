@@ -14,7 +14,7 @@ namespace driver {
 class Home {
  public:
   struct Reading {
-    double position, force;  ///< force NaN: no sensor
+    double position, force;  ///< NaN: no answer to this SYNC; force alone: no sensor
   };
   enum class State { kIdle, kRunning, kReached, kFailed };
 
@@ -40,13 +40,17 @@ class Home {
     bool gripped = false;  ///< was seen at half the pretension
     bool held = false;     ///< was seen near the pretension
   };
+  bool pulls(std::size_t muscle) const;
+  /// Names of the muscles that pull and have no measurement in this cycle.
+  std::string unknown(const std::vector<Reading>& readings) const;
+  bool begin(const std::vector<Reading>& readings, double now);
   std::string check(const Reading& reading, Tendon& tendon) const;
 
   const Hardware& hardware_;
   State state_ = State::kIdle;
   std::string failure_;
   std::vector<Tendon> tendons_;
-  bool begun_ = false;
+  bool begun_ = false;  ///< with a measurement of every tendon
   double started_ = 0.0, settled_ = 0.0;
 };
 
