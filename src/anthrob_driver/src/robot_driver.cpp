@@ -184,6 +184,8 @@ RobotDriver::Outcome RobotDriver::start_enable(double now) {
     return last_outcome_ = {false, reason};
   }
   phase_ = Phase::kEnabling;
+  // What stays if somebody disables meanwhile.
+  last_outcome_ = {false, "disabled before every ECU confirmed"};
   disable_repeats_ = clear_repeats_ = 0;
   enabling_.deadline = now + kEnableTimeout;
   enabling_.retry = now;

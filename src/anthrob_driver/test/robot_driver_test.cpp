@@ -93,6 +93,20 @@ TEST(RobotDriver, AStopWinsOverAnEnableUnderWay) {
   EXPECT_EQ(rig.moving(), 0);
 }
 
+TEST(RobotDriver, AnEnableThatIsDisabledUnderWayDidNotSucceed) {
+  Rig rig;
+  rig.run(1000);
+  ASSERT_TRUE(rig.driver().start_enable(rig.now()).accepted);
+  rig.run(1);
+  rig.driver().disable();
+  rig.run(500);
+  EXPECT_EQ(rig.driver().phase(), Phase::kDisabled);
+  EXPECT_FALSE(rig.driver().last_outcome().accepted);
+  EXPECT_EQ(rig.driver().last_outcome().reason, "disabled before every ECU confirmed");
+  EXPECT_TRUE(rig.enable());
+  EXPECT_TRUE(rig.driver().last_outcome().accepted);
+}
+
 TEST(RobotDriver, OneEcuMissingAndNoneIsEnabled) {
   Rig rig;
   rig.rack.board(5).set_power(false);
