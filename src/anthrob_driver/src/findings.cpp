@@ -23,7 +23,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kLostFrame, "lost_frame", false, "an ECU did not answer a SYNC", "look at the bus load and error counters"},
     {Finding::kEcuSilent, "ecu_silent", false, "an ECU that is configured was never heard", "switch it on; check its node number"},
     {Finding::kEcuLost, "ecu_lost", true, "no complete answer of an ECU to two SYNCs in a row", "check its power and cable; clear_faults, enable"},
-    {Finding::kEcuRestarted, "ecu_restarted", true, "an ECU started anew: its zero is lost", "check its power; clear_faults, home, enable"},
+    {Finding::kEcuRestarted, "ecu_restarted", true, "an ECU started anew: its zero is lost", "check its power; clear_faults, enable, home"},
     {Finding::kEcuFault, "ecu_fault", true, "an ECU reports a fault, named in its diagnostics", "see the ECU's fault codes; clear_faults, enable"},
     {Finding::kEcuStopped, "ecu_stopped", true, "an ECU stopped by itself while enabled", "see its reason in diagnostics; enable again"},
     {Finding::kStopLatched, "stop_latched", true, "an ECU holds an emergency stop that did not come from here", "find who sent it; clear_faults, enable"},
@@ -32,7 +32,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kEnableRefused, "enable_refused", false, "enable did not succeed on every ECU; all were disabled", "the reply of the service says which and why"},
     {Finding::kLateCycle, "late_cycle", false, "a cycle of the driver came more than a period late", "use `realtime:=true`; look for a busy machine"},
     {Finding::kCommandTimeout, "command_timeout", true, "no fresh muscle_command in time", "keep commands coming; enable again"},
-    {Finding::kHomeFailed, "home_failed", true, "homing met a limit: tendon broken, slack or slipped", "look at the tendon that is named; repair, home again"},
+    {Finding::kHomeFailed, "home_failed", true, "homing met a limit: tendon broken, slack or slipped", "look at the tendon that is named; repair, enable, home"},
 };
 // clang-format on
 

@@ -310,7 +310,11 @@ void RobotDriver::check_ecus(double now) {
   for (std::size_t e = 0; e < links_.size(); ++e) {
     EcuLink& link = links_[e];
     const int index = static_cast<int>(e);
-    if (link.take_restart()) stop(Finding::kEcuRestarted, index);
+    if (link.take_restart()) {
+      stop(Finding::kEcuRestarted, index);
+      // While nothing runs too: its zero is lost, and the user must know before enabling.
+      supervisor_.fault(link.own().name);
+    }
     if (!link.heard()) {
       if (now - started_ > kSilence) findings_.add(Finding::kEcuSilent, index, now);
       continue;

@@ -119,6 +119,29 @@ TEST(RobotDriver, OneEcuMissingAndNoneIsEnabled) {
   EXPECT_EQ(rig.moving(), 0);
 }
 
+TEST(RobotDriver, AnEcuThatRestartsWhileDisabledMustBeCleared) {
+  Rig rig;
+  // Switched on after the driver: that is no restart.
+  rig.rack.board(5).set_power(false);
+  rig.run(1000);
+  rig.rack.board(5).set_power(true);
+  rig.run(1000);
+  ASSERT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+  rig.driver().disable();
+  rig.run(100);
+  rig.rack.board(5).set_power(false);
+  rig.run(100);
+  rig.rack.board(5).set_power(true);
+  rig.run(1000);
+  ASSERT_TRUE(rig.driver().link(5).configured());
+  const auto outcome = rig.driver().start_enable(rig.now());
+  EXPECT_FALSE(outcome.accepted);
+  EXPECT_EQ(outcome.reason, "ecu_6: is in FAULT: call clear_faults first");
+  rig.driver().clear_faults(rig.now());
+  rig.run(100);
+  EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+}
+
 TEST(RobotDriver, OneEcuRefusesAndAllAreDisabled) {
   Rig rig;
   rig.run(1000);
