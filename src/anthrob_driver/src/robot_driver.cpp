@@ -396,6 +396,8 @@ void RobotDriver::cycle(double now) {
   ++counter_;
   for (EcuLink& link : links_) link.start_cycle(counter_, now);
   check_ecus(now);
+  // While homing no command is taken: their age says nothing then.
+  if (home_.running()) supervisor_.restart_watch(now);
   if (supervisor_.update(now)) {
     findings_.add(Finding::kCommandTimeout, -1, now);
     // STOPPING is what the ECUs report then, as on the simulator.

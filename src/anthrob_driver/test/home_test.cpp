@@ -142,6 +142,20 @@ TEST_F(HomeTest, NamesAMuscleWhoseForceIsNoLongerMeasured) {
   EXPECT_EQ(home.failure(), "supraspinatus: its force is no longer measured");
 }
 
+TEST_F(HomeTest, CommandsThatWereSentBeforeDoNotTimeOutMeanwhile) {
+  rig.command();
+  rig.run(100);
+  home();
+  EXPECT_EQ(failure(), "");
+  EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kEnabled);
+  // From its end on they are watched again.
+  rig.run(400);
+  EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kEnabled);
+  rig.run(200);
+  EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kCommandTimeout), 1u);
+}
+
 TEST_F(HomeTest, CommandsAreRefusedMeanwhile) {
   ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
   const auto outcome = rig.driver().command({"brachialis"}, {0}, {1.0}, rig.now());

@@ -145,6 +145,15 @@ TEST(Supervisor, ZeroTimeoutNeverStops) {
   EXPECT_FALSE(f.supervisor.update(1e6));
 }
 
+TEST(Supervisor, TheWatchStartsAnewOnRequest) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  f.command(0.0);
+  f.supervisor.restart_watch(2.0);
+  EXPECT_FALSE(f.supervisor.update(2.4));
+  EXPECT_TRUE(f.supervisor.update(2.6));
+}
+
 TEST(Supervisor, SurvivesTimeJumpingBack) {
   Fixture f;
   f.supervisor.enable(100.0);
