@@ -39,8 +39,10 @@ DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
       interface_(interface),
       pace_(options.pace),
       nh_(nh),
-      stop_nh_(nh) {
+      stop_nh_(nh),
+      command_nh_(nh) {
   stop_nh_.setCallbackQueue(&stop_queue_);
+  command_nh_.setCallbackQueue(&command_queue_);
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
   joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
   if (!hardware_.touch.empty()) touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);
@@ -58,12 +60,29 @@ void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   RobotDriver::Outcome outcome;
   double time = 0.0;
   thread_.call([&](RobotDriver& driver, double now) {
-    outcome = driver.command(command.name, command.mode, command.reference, now);
+    outcome = dropping_ ? RobotDriver::Outcome{false, "sent before the robot was ready for it"}
+                        : driver.command(command.name, command.mode, command.reference, now);
     time = now;
   });
   if (outcome.accepted || time - warning_time_ < 1.0) return;
   warning_time_ = time;
   ROS_WARN_STREAM("muscle_command refused: " << outcome.reason);
+}
+
+void DriverNode::wait_while(const std::function<bool(RobotDriver&, double now)>& pending) {
+  for (bool waiting = true; waiting && ros::ok();) {
+    publish_measurements(0.002);
+    publish_diagnostics();
+    command_queue_.callAvailable();
+    thread_.call([&](RobotDriver& driver, double now) { waiting = pending(driver, now); });
+  }
+}
+
+void DriverNode::drop_waiting_commands() {
+  // Taking them out of the queue would leave their messages in the subscription, for the next call.
+  dropping_ = true;
+  command_queue_.callAvailable();
+  dropping_ = false;
 }
 
 bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
@@ -73,12 +92,12 @@ bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
     outcome = driver.start_enable(now);
     waiting = driver.phase() == RobotDriver::Phase::kEnabling;
   });
-  while (waiting && ros::ok()) {
-    publish_measurements(0.002);
-    thread_.call([&](RobotDriver& driver, double) {
-      waiting = driver.phase() == RobotDriver::Phase::kEnabling;
+  if (waiting) {
+    wait_while([&](RobotDriver& driver, double) {
       outcome = driver.last_outcome();
+      return driver.phase() == RobotDriver::Phase::kEnabling;
     });
+    drop_waiting_commands();
   }
   answer(outcome, response);
   return true;
@@ -87,14 +106,12 @@ bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
 bool DriverNode::on_home(Trigger::Request&, Trigger::Response& response) {
   RobotDriver::Outcome outcome;
   thread_.call([&](RobotDriver& driver, double now) { outcome = driver.start_home(now); });
-  bool waiting = outcome.accepted;
-  while (waiting && ros::ok()) {
-    publish_measurements(0.002);
-    publish_diagnostics();
-    thread_.call([&](RobotDriver& driver, double) {
-      waiting = driver.home().running();
+  if (outcome.accepted) {
+    wait_while([&](RobotDriver& driver, double) {
       outcome = {driver.home().failure().empty(), driver.home().failure()};
+      return driver.home().running();
     });
+    drop_waiting_commands();
   }
   answer(outcome, response);
   return true;
@@ -114,10 +131,7 @@ bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response)
   thread_.call(
       [&](RobotDriver& driver, double now) { answer(driver.clear_faults(now), response); });
   // Until the ECUs have cleared too: enable may follow at once.
-  for (bool waiting = true; waiting && ros::ok();) {
-    publish_measurements(0.002);
-    thread_.call([&](RobotDriver& driver, double now) { waiting = driver.clearing(now); });
-  }
+  wait_while([](RobotDriver& driver, double now) { return driver.clearing(now); });
   return true;
 }
 
@@ -227,7 +241,7 @@ void DriverNode::log_stops() {
 
 void DriverNode::run() {
   subscribers_ = {
-      nh_.subscribe("muscle_command", 100, &DriverNode::on_command, this, kNoDelay),
+      command_nh_.subscribe("muscle_command", 100, &DriverNode::on_command, this, kNoDelay),
       stop_nh_.subscribe<std_msgs::Empty>(
           "emergency_stop", 1,
           [this](const std_msgs::EmptyConstPtr&) {
@@ -248,6 +262,7 @@ void DriverNode::run() {
   while (ros::ok()) {
     publish_measurements(0.002);
     ros::getGlobalCallbackQueue()->callAvailable();
+    command_queue_.callAvailable();
     publish_diagnostics();
     log_stops();
   }

@@ -7,6 +7,7 @@
 #include <std_msgs/Empty.h>
 #include <std_srvs/Trigger.h>
 
+#include <functional>
 #include <vector>
 
 #include "anthrob_driver/driver_thread.h"
@@ -32,6 +33,10 @@ class DriverNode {
   using Trigger = std_srvs::Trigger;
 
   void on_command(const anthrob_msgs::MuscleCommand& command);
+  /// Within a service: measurements, diagnostics and commands go on until `pending` says no.
+  void wait_while(const std::function<bool(RobotDriver&, double now)>& pending);
+  /// Commands that wait were sent for a state that is past.
+  void drop_waiting_commands();
   bool on_enable(Trigger::Request& request, Trigger::Response& response);
   bool on_home(Trigger::Request& request, Trigger::Response& response);
   bool on_disable(Trigger::Request& request, Trigger::Response& response);
@@ -49,8 +54,9 @@ class DriverNode {
   Hardware hardware_;
   std::string interface_;
   double pace_;
-  ros::NodeHandle nh_, stop_nh_;
-  ros::CallbackQueue stop_queue_;
+  ros::NodeHandle nh_, stop_nh_, command_nh_;
+  ros::CallbackQueue stop_queue_, command_queue_;
+  bool dropping_ = false;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher muscles_, joints_, touch_, diagnostics_;
