@@ -5,9 +5,10 @@
 #include <sensor_msgs/JointState.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
+#include <limits>
 
+#include "anthrob_driver/measurement_age.h"
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_ros/single_backend.h"
 #include "driver_diagnostics.h"
@@ -137,46 +138,53 @@ bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response)
 
 // ---- measurements ----
 
-ros::Time DriverNode::stamp(std::int64_t kernel_ns) const {
-  // The kernel stamps with the wall clock, ROS time may be another: what carries over is the age.
-  // A clock that was set in between gives a senseless age; then the measurement is just now.
-  constexpr std::int64_t kOldest = 500000000;
-  std::int64_t age = kernel_ns == 0 ? 0 : wall_clock_ns() - kernel_ns;
-  if (age < 0 || age > kOldest) age = 0;
-  age = std::llround(pace_ * static_cast<double>(age));
+double DriverNode::age(double time, std::int64_t kernel_ns) const {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  // The wall clock first: read later it would make the wire's age longer than sending's.
+  const double since_wire =
+      kernel_ns == 0 ? nan : 1e-9 * pace_ * static_cast<double>(wall_clock_ns() - kernel_ns);
+  return measurement_age(pace_ * monotonic_now() - time, since_wire);
+}
+
+ros::Time DriverNode::stamp(double age) const {
+  // ROS time may be another than both clocks of the driver: what carries over is the age.
   const ros::Time now = ros::Time::now();
-  const ros::Duration back = ros::Duration().fromNSec(age);
-  return now.toNSec() > static_cast<std::uint64_t>(age) ? now - back : now;
+  return now.toSec() > age ? now - ros::Duration(age) : now;
 }
 
 void DriverNode::publish_measurements(double wait) {
   const DriverThread::Batch batch = thread_.wait(wait);
-  for (const Sample& sample : batch.samples) publish(sample);
+  for (const Sample& sample : batch.samples) {
+    const double old = age(sample.time, sample.stamp_ns);
+    if (old <= kOldestMeasurement) publish(sample, stamp(old));
+  }
   anthrob_msgs::TouchStates touch;  // pads that were read together go together
-  std::int64_t read_at = 0;
+  double read_at = 0.0;
   const auto finish = [&] {
     if (!touch.name.empty()) touch_.publish(touch);
     touch = {};
   };
   for (const AnalogSample& sample : batch.analogs) {
+    const double old = age(sample.time, sample.stamp_ns);
+    if (old > kOldestMeasurement) continue;
     if (sample.kind == AnalogSample::Kind::kJoint) {
-      publish_joint(sample);
+      publish_joint(sample, stamp(old));
       continue;
     }
-    if (sample.stamp_ns != read_at) finish();
-    if (touch.name.empty()) touch.header.stamp = stamp(sample.stamp_ns);
-    read_at = sample.stamp_ns;
+    if (sample.time != read_at) finish();
+    if (touch.name.empty()) touch.header.stamp = stamp(old);
+    read_at = sample.time;
     touch.name.push_back(hardware_.touch[sample.sensor].name);
     touch.force.push_back(sample.value);
   }
   finish();
 }
 
-void DriverNode::publish(const Sample& sample) {
+void DriverNode::publish(const Sample& sample, const ros::Time& stamp) {
   ++samples_;
   longest_round_trip_ = std::max(longest_round_trip_, sample.round_trip);
   anthrob_msgs::MuscleStates states;
-  states.header.stamp = stamp(sample.stamp_ns);
+  states.header.stamp = stamp;
   for (std::size_t m = 0; m < sample.muscles.size(); ++m) {
     const MuscleSample& muscle = sample.muscles[m];
     states.name.push_back(hardware_.muscles[m].name);
@@ -192,9 +200,9 @@ void DriverNode::publish(const Sample& sample) {
   muscles_.publish(states);
 }
 
-void DriverNode::publish_joint(const AnalogSample& sample) {
+void DriverNode::publish_joint(const AnalogSample& sample, const ros::Time& stamp) {
   sensor_msgs::JointState state;
-  state.header.stamp = stamp(sample.stamp_ns);
+  state.header.stamp = stamp;
   state.name.push_back(hardware_.joints[sample.sensor].joint);
   state.position.push_back(sample.value);
   state.velocity.push_back(sample.rate);

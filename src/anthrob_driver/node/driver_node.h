@@ -44,9 +44,11 @@ class DriverNode {
   bool on_clear_faults(Trigger::Request& request, Trigger::Response& response);
 
   void publish_measurements(double wait);
-  ros::Time stamp(std::int64_t kernel_ns) const;
-  void publish(const Sample& sample);
-  void publish_joint(const AnalogSample& sample);
+  /// [s] of the driver's time. @param time, kernel_ns of a Sample
+  double age(double time, std::int64_t kernel_ns) const;
+  ros::Time stamp(double age) const;
+  void publish(const Sample& sample, const ros::Time& stamp);
+  void publish_joint(const AnalogSample& sample, const ros::Time& stamp);
   void publish_diagnostics();
   void log_stops();
 

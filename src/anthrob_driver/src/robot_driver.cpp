@@ -114,13 +114,13 @@ void RobotDriver::keep_analog(EcuLink& link, int ecu) {
     const double angle = joint.sensor.value(count[joint.input]);
     joint_slopes_[j].add(sample_.time, angle);
     analogs_.push_back(
-        {sync_stamp_, AnalogSample::Kind::kJoint, j, angle, joint_slopes_[j].rate()});
+        {sync_stamp_, sample_.time, AnalogSample::Kind::kJoint, j, angle, joint_slopes_[j].rate()});
   }
   for (std::size_t t = 0; t < hardware_.touch.size(); ++t) {
     const TouchSensor& touch = hardware_.touch[t];
     if (touch.ecu != ecu) continue;
-    analogs_.push_back(
-        {sync_stamp_, AnalogSample::Kind::kTouch, t, touch.sensor.force(count[touch.input]), 0.0});
+    analogs_.push_back({sync_stamp_, sample_.time, AnalogSample::Kind::kTouch, t,
+                        touch.sensor.force(count[touch.input]), 0.0});
   }
   // Nobody takes them: the newest are worth most.
   while (analogs_.size() > 64) analogs_.pop_front();

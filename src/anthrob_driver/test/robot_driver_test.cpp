@@ -246,6 +246,8 @@ TEST(RobotDriver, ADoubledAnalogFrameIsOneMeasurement) {
     if (a.kind != AnalogSample::Kind::kJoint) continue;
     ++joints;
     EXPECT_GT(a.stamp_ns, last);
+    // Both clocks tell of the same SYNC.
+    EXPECT_NEAR(a.time, 1e-9 * static_cast<double>(a.stamp_ns) - 1000.0, 0.001);
     EXPECT_FALSE(std::isnan(a.rate));
     last = a.stamp_ns;
   }

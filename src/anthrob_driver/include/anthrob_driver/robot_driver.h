@@ -34,7 +34,8 @@ struct Sample {
 /// What an analogue sensor said to one SYNC.
 struct AnalogSample {
   enum class Kind { kJoint, kTouch };
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;  ///< as Sample's
+  double time = 0.0;          ///< as Sample's
   Kind kind = Kind::kJoint;
   std::size_t sensor = 0;  ///< index in Hardware::joints or touch
   double value = 0.0;      ///< [rad] or [N]
