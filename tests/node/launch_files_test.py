@@ -7,6 +7,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 import roslaunch.config
+import roslaunch.core
 import rospkg
 import roslib.packages
 import rostest
@@ -44,6 +45,17 @@ class LaunchFiles(unittest.TestCase):
                 self.assertEqual(len(models), backend != 'hardware')
                 seen = any(node.package == 'anthrob_mocap' for node in config.nodes)
                 self.assertEqual(seen, backend != 'emulated')
+
+    def test_parameters_of_the_driver_have_their_type(self):
+        file = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch', 'robot.launch')
+        asked = ['command_timeout:=1e-1', 'rate:=250', 'realtime:=true']
+        config = roslaunch.config.load_config_default([(file, asked)], None, assign_machines=False)
+        for name, value in {'command_timeout': 0.1, 'rate': 250.0, 'realtime': True, 'hand': False}.items():
+            found = config.params['/anthrob/driver/' + name].value
+            self.assertEqual((found, type(found)), (value, type(value)))
+        for wrong in 'command_timeout:=soon', 'realtime:=perhaps':
+            with self.assertRaises(roslaunch.core.RLException):
+                roslaunch.config.load_config_default([(file, [wrong])], None, assign_machines=False)
 
 
 if __name__ == '__main__':

@@ -2,29 +2,42 @@
 
 #include "anthrob_config/errors.h"
 #include "driver_node.h"
+#include "parameters.h"
+
+namespace {
+
+/// Takes a parameter over if it is there.
+template <typename T, typename Read>
+void take(const ros::NodeHandle& settings, const std::string& key, Read read, T& to) {
+  XmlRpc::XmlRpcValue value;
+  if (settings.getParam(key, value)) to = read(key, value);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "driver");
   ros::NodeHandle nh, settings("~");
   try {
-    std::string file, can;
-    if (!settings.getParam("hardware", file)) {
+    using namespace anthrob::driver;
+    std::string file, can = "can0";
+    take(settings, "hardware", text_of, file);
+    if (file.empty()) {
       throw anthrob::BadInput("parameter ~hardware: missing; expected the path of hardware.yaml");
     }
-    settings.param<std::string>("can", can, "can0");
+    take(settings, "can", text_of, can);
     bool hand = false;
-    settings.param("hand", hand, hand);
-    anthrob::driver::DriverThread::Options options;
-    settings.param("rate", options.driver.rate, options.driver.rate);
-    settings.param("command_timeout", options.driver.command_timeout,
-                   options.driver.command_timeout);
-    settings.param("realtime", options.realtime, options.realtime);
-    settings.param("pace", options.pace, options.pace);
+    take(settings, "hand", truth_of, hand);
+    DriverThread::Options options;
+    take(settings, "rate", number_of, options.driver.rate);
+    take(settings, "command_timeout", number_of, options.driver.command_timeout);
+    take(settings, "realtime", truth_of, options.realtime);
+    take(settings, "pace", number_of, options.pace);
     const bool in_memory = can.rfind("vcan", 0) == 0;
     if (!(options.pace > 0.0 && options.pace <= 1.0) || (options.pace < 1.0 && !in_memory)) {
       throw anthrob::BadInput("parameter ~pace: expected 1, or a number in (0, 1] on a vcan");
     }
-    anthrob::driver::DriverNode node(anthrob::driver::load_hardware(file, hand), options, can, nh);
+    DriverNode node(load_hardware(file, hand), options, can, nh);
     const std::string other = node.other_backend();
     if (!other.empty()) {
       throw anthrob::BadInput(nh.resolveName("muscle_states") + ": " + other +
