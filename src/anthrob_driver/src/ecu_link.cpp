@@ -145,9 +145,38 @@ bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
   return true;
 }
 
+void EcuLink::start_zero() {
+  zero_ = 0;
+  zero_refused_ = waiting_ = false;
+}
+
+const MuscleHardware& EcuLink::zeroing() const {
+  return hardware_.muscles[static_cast<std::size_t>(own().muscles[zero_])];
+}
+
+bool EcuLink::next_zero(double now, ecu::Frame& frame) {
+  if (zeroed() || (waiting_ && now - sent_ < kReplyTimeout)) return false;
+  ecu::ParameterMessage message;
+  message.write = true;
+  message.muscle = static_cast<std::uint8_t>(zero_);
+  message.index = ecu::kPresentPosition;
+  message.sequence = ++sequence_;
+  message.value = static_cast<float>(zeroing().home_position);
+  frame = ecu::encode_parameter_request(message, own().node);
+  waiting_ = true;
+  sent_ = now;
+  return true;
+}
+
 void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
   if (!waiting_ || reply.sequence != sequence_) return;
   waiting_ = false;
+  if (reply.index == ecu::kPresentPosition) {
+    const bool taken = reply.result == ecu::ParameterResult::kOk && reply.muscle == zero_;
+    if (taken) ++zero_;
+    zero_refused_ = !taken;
+    return;
+  }
   const int index = next_ % ecu::kParameterCount;
   if (reply.result == ecu::ParameterResult::kOk && reply.index == index &&
       reply.value == wanted_value()) {

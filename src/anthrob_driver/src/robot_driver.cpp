@@ -342,6 +342,7 @@ void RobotDriver::check_ecus(double now) {
 }
 
 void RobotDriver::continue_home(double now) {
+  if (home_.state() == Home::State::kReached) return continue_zero(now);
   if (home_.state() != Home::State::kRunning) return;
   std::vector<Home::Reading> readings;
   for (const MuscleSample& muscle : finished_.muscles) {
@@ -351,21 +352,31 @@ void RobotDriver::continue_home(double now) {
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
     references_[m] = home_.command(m, now);
   }
-  if (home_.state() == Home::State::kFailed) {
-    findings_.add(Finding::kHomeFailed, -1, now, home_.failure());
-    disable();
-  } else if (home_.state() == Home::State::kReached) {
-    for (const MuscleHardware& muscle : hardware_.muscles) {
-      ecu::ParameterMessage zero;
-      zero.write = true;
-      zero.muscle = static_cast<std::uint8_t>(muscle.channel);
-      zero.index = ecu::kPresentPosition;
-      zero.value = static_cast<float>(muscle.home_position);
-      const EcuHardware& ecu = hardware_.ecus[static_cast<std::size_t>(muscle.ecu)];
-      send(ecu::encode_parameter_request(zero, ecu.node));
+  if (home_.state() == Home::State::kFailed) return fail_home(now);
+  if (home_.state() != Home::State::kReached) return;
+  zero_deadline_ = now + kZeroTimeout;
+  for (EcuLink& link : links_) link.start_zero();
+}
+
+void RobotDriver::continue_zero(double now) {
+  // The tendons are held meanwhile. The zero counts only if every ECU confirms it.
+  bool all = true;
+  for (EcuLink& link : links_) {
+    if (link.zeroed()) continue;
+    all = false;
+    if (link.zero_refused() || now > zero_deadline_) {
+      home_.abort(link.zeroing().name + ": " + link.own().name + " does not take the zero");
+      return fail_home(now);
     }
-    home_.finish();
+    ecu::Frame frame;
+    if (link.next_zero(now, frame)) send(frame);
   }
+  if (all) home_.finish();
+}
+
+void RobotDriver::fail_home(double now) {
+  findings_.add(Finding::kHomeFailed, -1, now, home_.failure());
+  disable();
 }
 
 // ---- out ----

@@ -89,6 +89,7 @@ TEST(Docs, HaveEveryTimeOut) {
   EXPECT_EQ(EcuLink::kLostSyncs, 2);
   expect("two SYNCs", "EcuLink::kLostSyncs");
   expect(ms(RobotDriver::kEnableTimeout), "RobotDriver::kEnableTimeout");
+  expect(ms(RobotDriver::kZeroTimeout), "RobotDriver::kZeroTimeout");
   expect(number(RobotDriver::kSilence) + " s", "RobotDriver::kSilence");
   expect(ms(EcuLink::kReplyTimeout), "EcuLink::kReplyTimeout");
   expect(number(EcuLink::kRetryPause) + " s", "EcuLink::kRetryPause");

@@ -10,6 +10,12 @@ namespace anthrob {
 namespace driver {
 namespace {
 
+/// Whether a frame writes the present position at this node.
+bool zero_of(const ecu::Frame& f, int node) {
+  return ecu::function_of(f) == static_cast<int>(ecu::Function::kParameterRequest) &&
+         ecu::node_of(f) == node && ecu::decode_parameter(f).index == ecu::kPresentPosition;
+}
+
 /// An enabled robot whose tendons get tight a little after the start.
 class HomeTest : public testing::Test {
  protected:
@@ -47,6 +53,46 @@ TEST_F(HomeTest, TensionsAllAndSetsZero) {
   EXPECT_LT(highest, 20.0);
   // The hand has no force sensors and stays as it is.
   EXPECT_EQ(rig.plant.voltage(12), 0.0);
+}
+
+TEST_F(HomeTest, SendsAZeroAgainThatWasLost) {
+  int drop = 3;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool lost = zero_of(f, rig.hardware.ecus[2].node) && drop-- > 0;
+    return lost ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+  home();
+  EXPECT_LE(drop, 0);
+  EXPECT_EQ(failure(), "");
+  rig.run(50);
+  for (std::size_t m = 0; m < 11; ++m) {
+    EXPECT_NEAR(rig.samples.back().muscles[m].position, 0.0, 0.05);
+  }
+}
+
+TEST_F(HomeTest, NamesAMuscleWhoseZeroIsNotTaken) {
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    return zero_of(f, rig.hardware.ecus[2].node) ? std::vector<ecu::Frame>{}
+                                                 : std::vector<ecu::Frame>{f};
+  };
+  home();
+  const auto muscle = static_cast<std::size_t>(rig.hardware.ecus[2].muscles[0]);
+  EXPECT_EQ(failure(), rig.hardware.muscles[muscle].name + ": ecu_3 does not take the zero");
+  rig.run(20);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
+}
+
+TEST_F(HomeTest, NamesAMuscleWhoseEcuRefusesTheZero) {
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    if (!zero_of(f, rig.hardware.ecus[2].node)) return std::vector<ecu::Frame>{f};
+    ecu::ParameterMessage message = ecu::decode_parameter(f);
+    message.value = 1e3f;
+    return std::vector<ecu::Frame>{
+        ecu::encode_parameter_request(message, rig.hardware.ecus[2].node)};
+  };
+  home();
+  EXPECT_NE(failure().find("ecu_3 does not take the zero"), std::string::npos) << failure();
 }
 
 TEST_F(HomeTest, NamesABrokenTendonAndStops) {

@@ -30,6 +30,16 @@ class EcuLink {
   /// @return the next parameter frame to send, if there is one to send now
   bool next_parameter(double now, ecu::Frame& frame);
 
+  /// The positions of its muscles are to become their home_position from now on.
+  void start_zero();
+  /// @return whether `frame` is the next write of a position, to be sent now
+  bool next_zero(double now, ecu::Frame& frame);
+  /// All of them were confirmed.
+  bool zeroed() const { return zero_ == own().muscles.size(); }
+  bool zero_refused() const { return zero_refused_; }
+  /// The muscle whose zero is not confirmed yet; not if zeroed().
+  const MuscleHardware& zeroing() const;
+
   bool heard() const { return heard_; }
   /// Whether it answers.
   bool alive() const { return sampled_ && unanswered_ < kLostSyncs; }
@@ -89,6 +99,8 @@ class EcuLink {
   std::uint8_t sequence_ = 0;
   bool waiting_ = false;
   double sent_ = 0.0, resume_ = 0.0;
+  std::size_t zero_ = 0;  ///< channel
+  bool zero_refused_ = false;
 };
 
 }  // namespace driver

@@ -94,6 +94,7 @@ class RobotDriver {
   const std::string& last_stop() const { return last_stop_; }
 
   static constexpr double kEnableTimeout = 0.25;  ///< [s]
+  static constexpr double kZeroTimeout = 0.5;     ///< [s] for all ECUs to take over home's zero
   static constexpr double kSilence = 1.0;         ///< [s] before an unheard ECU is reported
 
  private:
@@ -105,6 +106,8 @@ class RobotDriver {
   void check_ecus(double now);
   void continue_enable(double now);
   void continue_home(double now);
+  void continue_zero(double now);
+  void fail_home(double now);
   void finish_enable(bool success, const std::string& reason);
   void stop(Finding finding, int ecu);
   void send_cycle(double now);
@@ -136,6 +139,7 @@ class RobotDriver {
   std::string last_stop_;
   std::uint8_t counter_ = 0, sequence_ = 0;
   double last_cycle_ = 0.0, started_ = 0.0, cleared_ = -1.0;
+  double zero_deadline_ = 0.0;
   int disable_repeats_ = 0, clear_repeats_ = 0;
   Sample sample_, finished_;
   bool sample_open_ = false, sample_ready_ = false;
