@@ -21,7 +21,7 @@ constexpr double kBegun = 0.3;  ///< share of what a size would do in proportion
 constexpr std::size_t kAsSuggested = 1, kTheDose = 2;
 
 /// The dose itself is among them: a surface that is too small to touch does nothing. So are
-/// multiples of it: a strong cogging catches the rotor where a weak one only slows it.
+/// multiples of it: a strong effect need not look like a weak one.
 std::vector<Amount> sizes_to_try(const Amount& suggested) {
   std::vector<Amount> sizes;
   for (const double share : kSuggested) {
