@@ -93,11 +93,12 @@ Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
     last_rejection_ = reason;
     return {false, reason};
   }
-  if (options_.auto_enable && commanded_) {
-    // After a time-out only: a latched stop or a fault refuses this event.
+  if (options_.auto_enable && timed_out_) {
+    // What was disabled stays so; a latched stop or a fault refuses this event.
     for (StateMachine& machine : machines_) {
       if (machine.state() == State::kStopping) machine.handle(Event::kEnable);
     }
+    timed_out_ = false;
   }
   commanded_ = true;
   last_command_ = time;
@@ -114,20 +115,20 @@ Supervisor::Outcome Supervisor::enable(double time) {
   }
   handle_all(Event::kEnable);
   // The watch starts with the first command after enabling.
-  commanded_ = false;
+  commanded_ = timed_out_ = false;
   last_command_ = time;
   return {true, ""};
 }
 
 Supervisor::Outcome Supervisor::disable() {
   handle_all(Event::kDisable);
-  commanded_ = false;
+  commanded_ = timed_out_ = false;
   return {true, ""};
 }
 
 Supervisor::Outcome Supervisor::emergency_stop() {
   handle_all(Event::kEmergencyStop);
-  commanded_ = false;
+  commanded_ = timed_out_ = false;
   return {true, ""};
 }
 
@@ -156,6 +157,7 @@ bool Supervisor::update(double time) {
   bool stopped = false;
   for (StateMachine& machine : machines_)
     stopped = machine.handle(Event::kCommandTimeout) || stopped;
+  timed_out_ = timed_out_ || stopped;
   return stopped;
 }
 

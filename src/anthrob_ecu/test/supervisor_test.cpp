@@ -134,8 +134,25 @@ TEST(Supervisor, AutoEnableDoesNotEndADeliberateDisable) {
   Fixture f({0.5, true});
   f.command(0.0);
   f.supervisor.disable();
-  f.command(0.1);
-  EXPECT_FALSE(f.supervisor.follows_references(0));
+  for (const double time : {0.1, 0.2, 0.3}) {
+    f.command(time);
+    f.supervisor.update(time);
+    EXPECT_FALSE(f.supervisor.follows_references(0)) << time;
+  }
+  EXPECT_TRUE(f.supervisor.enable(0.4).accepted);
+  f.command(0.4);
+  EXPECT_TRUE(f.supervisor.follows_references(0));
+}
+
+TEST(Supervisor, AutoEnableDoesNotEndADisableAfterATimeout) {
+  Fixture f({0.5, true});
+  f.command(0.0);
+  EXPECT_TRUE(f.supervisor.update(1.0));
+  f.supervisor.disable();
+  for (const double time : {1.1, 1.2}) {
+    f.command(time);
+    EXPECT_FALSE(f.supervisor.follows_references(0)) << time;
+  }
 }
 
 TEST(Supervisor, ZeroTimeoutNeverStops) {

@@ -37,7 +37,7 @@ class Supervisor {
   struct Options {
     double command_timeout = 0.5;  ///< [s]; 0: never (simulator only)
     /// Simulator only: enabled from the start, and again by the next command after a time-out.
-    /// Never after an emergency stop or a fault.
+    /// Never after a disable, an emergency stop or a fault.
     bool auto_enable = false;
   };
   /// Outcome of a request, with a reason if it was refused.
@@ -94,6 +94,7 @@ class Supervisor {
   std::vector<std::size_t> ecu_of_;
   std::vector<StateMachine> machines_;
   bool commanded_ = false;  ///< since the last enable
+  bool timed_out_ = false;  ///< what stopped, stopped for want of commands
   double last_command_ = 0.0;
   std::size_t rejected_ = 0;
   std::string last_rejection_;
