@@ -119,9 +119,36 @@ void Simulation::set_enabled(int muscle, bool enabled) {
   muscles_[muscle].set_enabled(enabled);
 }
 
+void Simulation::apply_voltage(int muscle, double voltage) {
+  check_muscle(muscle);
+  muscles_[muscle].apply_voltage(voltage);
+}
+
 void Simulation::impose_position(int muscle, double position, double velocity) {
   check_muscle(muscle);
   muscles_[muscle].impose(position, velocity);
+}
+
+void Simulation::impose_reading(int muscle, double from, double to) {
+  check_muscle(muscle);
+  const auto m = static_cast<std::size_t>(muscle);
+  for (std::size_t i = model_->reading_effects.size(); i-- > 0;) {
+    const StateView state = store_.at(reading_offsets_[i]);
+    from = model_->reading_effects[i]->undone(m, from, state);
+    to = model_->reading_effects[i]->undone(m, to, state);
+  }
+  // What is undone now may be undone otherwise by another step; the actuator knows where it was.
+  const bool goes_on = !model_->reading_effects.empty() && muscles_[m].drive() == Drive::kImposed;
+  if (goes_on) from = muscles_[m].actuator().position;
+  muscles_[m].impose(to, (to - from) / step_length());
+}
+
+double Simulation::position_lateness(int muscle) const {
+  double lateness = 0.0;
+  for (const auto& effect : model_->reading_effects) {
+    lateness += effect->lateness(static_cast<std::size_t>(muscle));
+  }
+  return lateness;
 }
 
 void Simulation::release(int muscle) {

@@ -42,6 +42,20 @@ TEST(CommandLatency, WhatStopsForgetsWhatIsOnItsWay) {
   EXPECT_EQ(sim.muscle(0).voltage(), 0.5);
 }
 
+TEST(CommandLatency, AChangeOfModeIsNoBlendOfTwoQuantities) {
+  const auto robot = robot_with(kRig, {{"command_latency", "flexor", {{"delay", 0.0044}}}});
+  Simulation sim(robot);
+  sim.command(0, ecu::Mode::kPosition, 20.0);
+  sim.step(20);
+  sim.command(0, ecu::Mode::kVoltage, 1.0);
+  sim.step(4);
+  ASSERT_EQ(sim.muscle(0).voltage(), 12.0) << "not there yet";
+  for (int i = 0; i < 3; ++i) {
+    sim.step();
+    EXPECT_EQ(sim.muscle(0).voltage(), 1.0) << i;
+  }
+}
+
 TEST(PwmDeadZone, TakesAConstantPartOfTheVoltage) {
   const auto robot = robot_with(kRig, {{"pwm_dead_zone", "flexor", {{"width", 0.3}}}});
   ASSERT_EQ(robot->power_effects.size(), 1u);

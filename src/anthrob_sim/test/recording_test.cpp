@@ -210,6 +210,85 @@ TEST(Replay, ImposedPositionsAreFollowedExactly) {
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], flexor.values[i], 1e-12);
 }
 
+/// What a rig with effects of both muscles records: position, voltage and force at every step.
+Dataset recording_of(const std::shared_ptr<const RobotModel>& model) {
+  Dataset recording;
+  recording.meta.start = "zero";
+  recording.meta.settle_s = 0.0;
+  Table& table = recording.table("muscles");
+  const std::vector<std::string> quantities = {"position", "voltage", "force"};
+  for (const MuscleModel& muscle : model->muscles) {
+    for (const auto& quantity : quantities) {
+      table.columns.push_back({muscle.name + "/" + quantity, {}, {}});
+    }
+  }
+  Simulation sim(model);
+  for (int i = 0; i <= 1500; ++i) {
+    table.t.push_back(Nanoseconds{1000000} * i);
+    std::size_t column = 0;
+    for (int m = 0; m < 2; ++m) {
+      const ecu::Measurement reading = sim.reading(m);
+      for (const double value : {reading.position, sim.muscle(m).voltage(), reading.force}) {
+        table.columns[column].values.push_back(value);
+        table.columns[column++].present.push_back(1);
+      }
+    }
+    sim.command(0, ecu::Mode::kPosition, 1.5 + std::sin(0.006 * i));
+    sim.command(1, ecu::Mode::kPosition, 1.5 - std::sin(0.006 * i));
+    sim.step();
+  }
+  return recording;
+}
+
+/// Largest difference of a replay in a quantity of both muscles.
+double worst(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
+             ReplayMode mode, const std::string& quantity, std::size_t from = 0) {
+  const Dataset replayed = replay(model, recording, mode);
+  double worst = 0.0;
+  for (const MuscleModel& muscle : model->muscles) {
+    const auto& was = recording.find_table("muscles")->find(muscle.name + "/" + quantity)->values;
+    const auto& is = replayed.find_table("muscles")->find(muscle.name + "/" + quantity)->values;
+    for (std::size_t i = from; i < was.size(); ++i) {
+      const double difference = std::abs(is[i] - was[i]);
+      if (!(difference <= worst)) worst = difference;
+    }
+  }
+  return worst;
+}
+
+std::shared_ptr<const RobotModel> rig_with(const EffectInstance& effect) {
+  LoadOptions options;
+  options.step = 1e-3;
+  options.effects = {effect};
+  return load_robot_model(config("two_muscle_rig/model_I.yaml"), options);
+}
+
+TEST(Replay, RecordedVoltagesAreNotDelayedAgain) {
+  // A recorded voltage acted during the step before its row: that error the plain rig has, too.
+  const double plain = worst(rig(), recording_of(rig()), ReplayMode::kVoltage, "position");
+  const auto late = rig_with({"command_latency", "all", {{"delay", 0.02}}});
+  const double delayed = worst(late, recording_of(late), ReplayMode::kVoltage, "position");
+  EXPECT_GT(plain, 0.0);
+  EXPECT_LT(delayed, 2.0 * plain);
+}
+
+TEST(Replay, ImposedPositionsAreWhatWasReadNotWhatWas) {
+  const double force = 20.0;
+  EXPECT_LT(worst(rig(), recording_of(rig()), ReplayMode::kPosition, "force"), 1e-9 * force);
+  for (const EffectInstance& effect :
+       {EffectInstance{"encoder_drift", "all", {{"rate", 0.05}, {"missed", 0.0}}},
+        EffectInstance{"encoder_drift", "all", {{"rate", 0.0}, {"missed", 0.1}}}}) {
+    const auto robot = rig_with(effect);
+    const Dataset recording = recording_of(robot);
+    EXPECT_LT(worst(robot, recording, ReplayMode::kPosition, "force"), 1e-6 * force);
+    EXPECT_LT(worst(robot, recording, ReplayMode::kPosition, "position"), 1e-9);
+  }
+  // The last 20 ms were not read any more; readings between two steps are blends of them.
+  const auto late = rig_with({"sensing_latency", "all", {{"delay", 0.02}}});
+  Dataset recording = recording_of(late);
+  EXPECT_LT(worst(late, recording, ReplayMode::kPosition, "force"), 0.01 * force);
+}
+
 TEST(Replay, RowsBetweenStepsAreInterpolated) {
   Dataset recording;
   recording.meta.settle_s = 0.1;

@@ -99,12 +99,17 @@ class Driver {
     const Samples& path = run_.path;
     if (path.count() < 2) return;
     const double rate = 1.0 / (path.t[1] - path.t[0]);
-    const double place = std::min(time * rate, static_cast<double>(path.count() - 1) - 1e-9);
-    const auto row = static_cast<Eigen::Index>(place);
-    for (Eigen::Index m = 0; m < path.position.cols(); ++m) {
+    const auto last = static_cast<double>(path.count() - 1);
+    const auto at = [&](Eigen::Index m, double t) {
+      const double place = std::clamp(t * rate, 0.0, last - 1e-9);
+      const auto row = static_cast<Eigen::Index>(place);
       const double from = path.position(row, m), to = path.position(row + 1, m);
-      const double share = place - static_cast<double>(row);
-      sim.impose_position(static_cast<int>(m), from + share * (to - from), rate * (to - from));
+      return from + (place - static_cast<double>(row)) * (to - from);
+    };
+    for (Eigen::Index m = 0; m < path.position.cols(); ++m) {
+      const auto muscle = static_cast<int>(m);
+      const double due = time + sim.position_lateness(muscle);
+      sim.impose_reading(muscle, at(m, due - sim.step_length()), at(m, due));
     }
   }
 

@@ -42,8 +42,16 @@ class Simulation {
   /// lacks
   void command(int muscle, ecu::Mode mode, double reference);
   void set_enabled(int muscle, bool enabled);
+  /// The power stage gets this voltage [V], past the control law and what delays its commands,
+  /// until release().
+  void apply_voltage(int muscle, double voltage);
   /// The actuator arrives at `position` [rad] with `velocity` at the end of every step from now on.
   void impose_position(int muscle, double position, double velocity);
+  /// The same, so that sensors will read `to` [rad] when they have read `from` a step before, as in
+  /// a recording; late readings must be taken from later in it by position_lateness().
+  void impose_reading(int muscle, double from, double to);
+  /// By how much the position of a muscle is read late [s], an effect of sensors.
+  double position_lateness(int muscle) const;
   void release(int muscle);
   /// Effort applied to a driven joint from now on [Nm, N].
   /// @throws BadInput if the joint is not driven

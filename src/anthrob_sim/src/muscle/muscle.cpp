@@ -112,6 +112,11 @@ void Muscle::set_enabled(bool enabled) {
   memory().enabled = enabled ? 1.0 : 0.0;
 }
 
+void Muscle::apply_voltage(double voltage) {
+  command(ecu::Mode::kVoltage, voltage);
+  memory().drive = static_cast<double>(Drive::kVoltage);
+}
+
 void Muscle::impose(double position, double velocity) {
   Control& c = memory();
   c.drive = static_cast<double>(Drive::kImposed);
@@ -143,7 +148,7 @@ void Muscle::control(std::uint64_t step_index) {
   Control& c = memory();
   ecu::Mode heard_mode = mode();
   double heard = c.reference;
-  if (command_delay_) delay_command(heard_mode, heard);
+  if (command_delay_ && drive() != Drive::kVoltage) delay_command(heard_mode, heard);
   if (step_index % static_cast<std::uint64_t>(model_.steps_per_tick) != 0) return;
   if (c.enabled == 0.0) {
     c.voltage = 0.0;
@@ -166,7 +171,9 @@ void Muscle::delay_command(ecu::Mode& mode, double& reference) {
     command_delay_->push(now, state);
   }
   mode = static_cast<ecu::Mode>(static_cast<int>(command_delay_->nearest(0, state)));
-  reference = command_delay_->blended(1, state);
+  // Between a voltage and an angle there is nothing.
+  reference = command_delay_->between_equals(0, state) ? command_delay_->blended(1, state)
+                                                       : command_delay_->nearest(1, state);
 }
 
 void Muscle::prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau) {
@@ -209,7 +216,7 @@ void Muscle::finish_sliding() {
 
 void Muscle::advance_actuator(double input) {
   const Control& c = memory();
-  if (c.drive == static_cast<double>(Drive::kImposed)) {
+  if (drive() == Drive::kImposed) {
     model_.actuator->impose(c.imposed_position, c.imposed_velocity, tension(0), actuator_state());
   } else {
     model_.actuator->advance(input, tension(0), actuator_state());

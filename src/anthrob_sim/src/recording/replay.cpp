@@ -119,17 +119,22 @@ void Replay::start(Simulation& sim) const {
   sim.place(q, std::vector<double>(model_->muscles.size(), 0.0));
   if (muscles_.empty()) return;
 
+  std::vector<std::pair<int, double>> imposed;
   for (const MuscleInput& muscle : muscles_) {
     const StartInput input = start_input(muscle);
     sim.release(muscle.muscle);
     sim.command(muscle.muscle, ecu::Mode::kVoltage, 0.0);
     if (input.imposed) {
-      sim.impose_position(muscle.muscle, input.value, 0.0);
+      imposed.emplace_back(muscle.muscle, input.value);
     } else {
       sim.command(muscle.muscle, input.mode, input.value);
     }
   }
-  sim.step(static_cast<int>(std::lround(meta_.settle_s / sim.step_length())));
+  const auto steps = std::lround(meta_.settle_s / sim.step_length());
+  for (long i = 0; i < steps; ++i) {
+    for (const auto& [muscle, position] : imposed) sim.impose_reading(muscle, position, position);
+    sim.step();
+  }
   for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
 }
 
@@ -150,7 +155,7 @@ void Replay::drive(Simulation& sim, double time) const {
       impose(sim, input, time);
     } else if (mode_ == ReplayMode::kVoltage) {
       if (!input.voltage.empty()) {
-        sim.command(input.muscle, ecu::Mode::kVoltage, input.voltage.held_at(now));
+        sim.apply_voltage(input.muscle, input.voltage.held_at(now));
       }
     } else if (!input.reference.empty() && now >= input.reference.t.front()) {
       sim.command(input.muscle, mode_at(input, now), input.reference.held_at(now));
@@ -166,9 +171,8 @@ void Replay::drive(Simulation& sim, double time) const {
 
 void Replay::impose(Simulation& sim, const MuscleInput& input, double time) const {
   if (input.position.empty()) return;
-  const double h = model_->step;
-  const double next = input.position.at(time + h);
-  sim.impose_position(input.muscle, next, (next - input.position.at(time)) / h);
+  const double due = time + sim.position_lateness(input.muscle);
+  sim.impose_reading(input.muscle, input.position.at(due), input.position.at(due + model_->step));
 }
 
 namespace {

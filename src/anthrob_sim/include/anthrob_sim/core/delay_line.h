@@ -32,6 +32,10 @@ class DelayLine {
   double blended(std::size_t i, StateView state) const {
     return (1.0 - part_) * past(whole_, i, state) + part_ * past(whole_ + 1, i, state);
   }
+  /// Whether a signal is the same in the samples on both sides of `delay` ago.
+  bool between_equals(std::size_t i, StateView state) const {
+    return past(whole_, i, state) == past(whole_ + 1, i, state);
+  }
   /// The nearest sample, for signals that are no quantities.
   double nearest(std::size_t i, StateView state) const {
     return past(part_ < 0.5 ? whole_ : whole_ + 1, i, state);

@@ -16,6 +16,7 @@ namespace anthrob {
 /// How a muscle is driven for the next steps.
 enum class Drive {
   kController,  ///< its ECU follows a reference
+  kVoltage,     ///< its power stage gets a voltage from outside, as recorded
   kImposed,     ///< its actuator is moved from outside, as recorded
 };
 
@@ -39,9 +40,12 @@ class Muscle {
   void command(ecu::Mode mode, double reference);
   /// Whether the ECU follows its reference; if not, its output is zero volts.
   void set_enabled(bool enabled);
+  /// What comes from behind the ECU's control law until release(): no command, which could be late.
+  void apply_voltage(double voltage);
   /// The actuator arrives at `position` at the end of the next step.
   void impose(double position, double velocity);
   void release();
+  Drive drive() const { return static_cast<Drive>(static_cast<int>(memory().drive)); }
 
   /// What the ECU's sensors would measure if they were ideal.
   ecu::Measurement truth() const;

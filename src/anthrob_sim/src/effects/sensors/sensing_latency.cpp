@@ -25,7 +25,7 @@ EffectInfo describe() {
 class Latency final : public ReadingEffect {
  public:
   Latency(std::size_t muscle, double delay, double step)
-      : muscle_(muscle), line_(delay, state_size_of<ecu::Measurement>(), step) {}
+      : muscle_(muscle), delay_(delay), line_(delay, state_size_of<ecu::Measurement>(), step) {}
 
   std::size_t state_size() const override { return line_.state_size(); }
   void reset(const Readings& readings, StateView state) const override {
@@ -37,11 +37,13 @@ class Latency final : public ReadingEffect {
       signals(readings)[i] = line_.blended(i, state);
     }
   }
+  double lateness(std::size_t muscle) const override { return muscle == muscle_ ? delay_ : 0.0; }
 
  private:
   double* signals(const Readings& readings) const { return &readings.muscles[muscle_].position; }
 
   std::size_t muscle_;
+  double delay_;
   DelayLine line_;
 };
 
