@@ -26,7 +26,8 @@ struct Arguments {
   double rate = 100.0, pace = 1.0;
 };
 
-/// Stands in for motion capture: ball joints of the simulated robot, as the simulator has them.
+/// Stands in for motion capture: ball joints of the simulated robot, as the simulator's
+/// sensors see them.
 class BallJoints {
  public:
   explicit BallJoints(const Simulation& simulation) : simulation_(simulation) {
@@ -40,8 +41,8 @@ class BallJoints {
     const auto& joints = simulation_.model().skeleton->joints;
     for (std::size_t j = 0; j < joints.size(); ++j) {
       if (joints[j].type != JointType::kBall) continue;
-      const double* q = &simulation_.configuration()[joints[j].position_offset];
-      const Vec3 w = simulation_.tree().ball_velocity(static_cast<int>(j));
+      const double* q = simulation_.read_positions() + joints[j].position_offset;
+      const Vec3 w = simulation_.read_ball_velocity(static_cast<int>(j));
       geometry_msgs::Quaternion orientation;
       orientation.w = q[0], orientation.x = q[1], orientation.y = q[2], orientation.z = q[3];
       geometry_msgs::Vector3 velocity;

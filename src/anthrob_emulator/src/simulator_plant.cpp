@@ -15,6 +15,13 @@ SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
   for (const driver::MuscleHardware& muscle : hardware.muscles) {
     muscles_.push_back(simulation_.model().find_muscle(muscle.name));
   }
+  for (const MuscleModel& muscle : simulation_.model().muscles) {
+    if (muscle.command_delay > 0.0) {
+      throw BadInput(
+          simulation_.model().file + ": effects: command_latency of muscle " + muscle.name +
+          ": emulated ECUs get their commands over the bus; expected a model without it");
+    }
+  }
   for (const driver::JointSensor& joint : hardware.joints) {
     joints_.push_back(simulation_.model().skeleton->find_joint(joint.joint));
   }
@@ -28,16 +35,15 @@ SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
 
 driver::Plant::Muscle SimulatorPlant::muscle(std::size_t index) const {
   if (muscles_[index] < 0) return {};
-  const anthrob::Muscle& muscle = simulation_.muscle(muscles_[index]);
-  const Actuator::Readout actuator = muscle.actuator();
-  return {actuator.position, actuator.current, muscle.force()};
+  const ecu::Measurement reading = simulation_.reading(muscles_[index]);
+  return {reading.position, reading.current, reading.force};
 }
 
 double SimulatorPlant::joint(std::size_t joint) const {
   const int index = joints_[joint];
   if (index < 0) return 0.0;
   const JointModel& model = simulation_.model().skeleton->joints[static_cast<std::size_t>(index)];
-  return simulation_.configuration()[static_cast<std::size_t>(model.position_offset)];
+  return simulation_.read_positions()[model.position_offset];
 }
 
 double SimulatorPlant::touch(std::size_t pad) const {
@@ -47,7 +53,7 @@ double SimulatorPlant::touch(std::size_t pad) const {
 }
 
 void SimulatorPlant::drive(std::size_t muscle, double voltage) {
-  if (muscles_[muscle] >= 0) simulation_.command(muscles_[muscle], ecu::Mode::kVoltage, voltage);
+  if (muscles_[muscle] >= 0) simulation_.apply_voltage(muscles_[muscle], voltage);
 }
 
 void SimulatorPlant::advance() {

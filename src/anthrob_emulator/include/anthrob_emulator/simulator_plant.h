@@ -10,11 +10,12 @@
 namespace anthrob {
 
 /// The simulator's physics behind emulated ECUs: the boards' volts drive its motors, the boards'
-/// sensors see its true state. Muscles and pads that the model lacks (a hand)
-/// stand still and feel nothing.
+/// sensors see its state, or what the model's effects let sensors see. Muscles and pads that the
+/// model lacks (a hand) stand still and feel nothing.
 class SimulatorPlant final : public driver::Plant {
  public:
-  /// @throws BadInput if the model's step does not divide a millisecond
+  /// @throws BadInput if the model's step does not divide a millisecond, or if an effect of the
+  /// model delays commands, which come from the boards' firmware here
   SimulatorPlant(std::shared_ptr<const RobotModel> model, const driver::Hardware& hardware);
 
   Muscle muscle(std::size_t muscle) const override;
