@@ -5,8 +5,8 @@ set -u -o pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 cd "$here" || exit 1
 
-# Where ROS 1 is part of the distribution: Debian 12 (bookworm).
-debian_ros_packages=(
+# Of Debian 12 (bookworm), of which ROS 1 is part.
+needed_packages=(
   catkin ros-core-dev rosbash
   python3-roslaunch python3-rostopic python3-rosservice python3-rosnode python3-rosbag python3-rosparam
   python3-rospy python3-rostest python3-rosunit librostest-dev
@@ -17,21 +17,20 @@ debian_ros_packages=(
   libstd-srvs-dev libvisualization-msgs-dev
   ros-robot-state-publisher rviz
   libimage-transport-dev
-  libmujoco-dev  # a peer in benchmarks
-)
-# Ubuntu with /opt/ros/noetic.
-noetic_packages=(ros-noetic-desktop)
-# Everything else, named alike on both.
-common_packages=(
   build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libpagmo-dev libopenmpi-dev openmpi-bin
   libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libusb-1.0-0-dev
-  libdc1394-dev pkg-config opencv-doc
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libdc1394-dev pkg-config
+  libgtest-dev libgmock-dev
+)
+# Wanted by tests, benchmarks and the demo's pictures only; what cannot be had is left out of them.
+extra_packages=(
+  libbenchmark-dev libmujoco-dev  # the second is a peer in benchmarks
+  opencv-doc                      # stereo pictures of a real checkerboard
   xvfb xauth imagemagick libgl1-mesa-dri
-  user-mode-linux kmod iproute2  # CAN where the kernel has none
+  user-mode-linux kmod iproute2   # CAN where the kernel has none
 )
 
 say() { printf '\033[1m%s\033[0m\n' "$*"; }
@@ -79,11 +78,7 @@ source_file() {
 }
 
 ros_environment() {
-  if [ -f devel/setup.bash ]; then
-    source_file devel/setup.bash
-  elif [ -f /opt/ros/noetic/setup.bash ]; then
-    source_file /opt/ros/noetic/setup.bash
-  fi
+  [ ! -f devel/setup.bash ] || source_file devel/setup.bash
 }
 
 as_root() {
@@ -96,23 +91,47 @@ as_root() {
   fi
 }
 
+# Those of the packages named that are not installed.
+lacking() {
+  local package
+  for package in "$@"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || printf '%s ' "$package"
+  done
+}
+
+update_lists() {
+  as_root apt-get update -q || die "apt-get update failed: check the network and /etc/apt/sources.list"
+}
+
+install_packages() {
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
+}
+
 deps() {
   command -v dpkg-query >/dev/null || die "this is no Debian: install the packages listed in catkin_ws.sh by hand"
-  local wanted=("${common_packages[@]}")
-  if [ -f /opt/ros/noetic/setup.bash ]; then
-    wanted+=("${noetic_packages[@]}")
-  else
-    wanted+=("${debian_ros_packages[@]}")
-  fi
-  local missing=() package
-  for package in "${wanted[@]}"; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
-  done
-  [ "${#missing[@]}" -eq 0 ] && return 0
-  say "installing ${#missing[@]} packages"
-  as_root apt-get update -q || die "apt-get update failed: check the network and /etc/apt/sources.list"
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" ||
+  local missing
+  missing="$(lacking "${needed_packages[@]}")"
+  [ -z "$missing" ] && return 0
+  say "installing $(wc -w <<<"$missing") packages"
+  update_lists
+  # shellcheck disable=SC2086
+  install_packages $missing ||
     die "apt-get install failed: see above; on other systems than Debian 12 the package names may differ"
+}
+
+extras() {
+  deps
+  local missing package
+  missing="$(lacking "${extra_packages[@]}")"
+  [ -z "$missing" ] && return 0
+  say "installing $(wc -w <<<"$missing") more packages"
+  update_lists
+  # shellcheck disable=SC2086
+  install_packages $missing && return 0
+  # One that is not there must not keep the others away.
+  for package in $missing; do
+    install_packages "$package" >/dev/null || say "cannot be installed here: $package; what needs it is left out"
+  done
 }
 
 build() {
@@ -136,6 +155,7 @@ sim() {
 }
 
 demo() {
+  extras
   build
   local out="$here/build/demo" rviz=false
   have_display && rviz=true
@@ -155,6 +175,7 @@ demo() {
 }
 
 tests() {
+  extras
   build
   say "building the tests (log: build/build.log)"
   catkin_make -j"$(nproc)" tests >>build/build.log 2>&1 ||
@@ -177,6 +198,7 @@ measure() {
 }
 
 bench() {
+  extras
   build
   say "building the benchmarks"
   catkin_make -j"$(nproc)" step_benchmark scaling_benchmark mesh_benchmark mocap_benchmark >>build/build.log 2>&1 ||
