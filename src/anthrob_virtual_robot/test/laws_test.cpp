@@ -168,5 +168,73 @@ TEST(BallJointLoadFriction, IsMuTimesRadiusTimesLoad) {
   EXPECT_LT(law->torque(state).dot(state.velocity), 0.0);
 }
 
+TEST(ShoulderHardening, IsTheSquareOfTheTurnBeyondTheLooseOneAndPullsBack) {
+  Draft draft;
+  draft.arm = model_I();
+  build_in({"shoulder_hardening", "shoulder", {{"stiffness", 5.0}, {"loose", 0.4}}}, &draft);
+  const auto& law = draft.joint_laws.at(0);
+  const Eigen::Vector3d axis = Eigen::Vector3d(1.0, -2.0, 2.0) / 3.0;
+  reference::JointState state;
+  const auto torque_at = [&](double turn) {
+    state.shoulder = Eigen::AngleAxisd(turn, axis);
+    return law->torque(state);
+  };
+  EXPECT_TRUE(torque_at(0.39).isZero(0.0));
+  for (const double turn : {0.5, 0.9, 1.4}) {
+    const reference::Vector4 torque = torque_at(turn);
+    EXPECT_NEAR((torque.head<3>() + 5.0 * std::pow(turn - 0.4, 2) * axis).norm(), 0.0, 1e-12);
+    EXPECT_EQ(torque(3), 0.0);
+  }
+}
+
+TEST(WeakAboveAngle, TakesItsShareOfTheVoltageOfOneMuscleBeyondTheAngle) {
+  Draft draft;
+  draft.arm = model_I();
+  build_in({"weak_above_angle", kMuscle, {{"loss", 0.3}, {"angle", 1.2}}}, &draft);
+  const std::size_t muscle = draft.muscle(kMuscle), other = muscle + 1;
+  Readings now;
+  now.muscles.resize(draft.arm.muscles.size());
+  for (const double position : {-2.0, 1.19, 1.21, 3.0}) {
+    now.muscles[muscle].position = position;
+    now.muscles[other].position = 3.0;
+    std::vector<double> voltages(now.muscles.size(), -2.0);
+    draft.power_laws.at(0)->apply(1e-3, now, &voltages);
+    EXPECT_NEAR(voltages[muscle], position > 1.2 ? -1.4 : -2.0, 1e-12) << position;
+    EXPECT_EQ(voltages[other], -2.0);
+  }
+}
+
+TEST(SlippingKnot, SlipsExponentiallyWhileTheTensionIsTooHighAndNeverComesBack) {
+  const double slip = 0.003, h = 1e-4;
+  const auto law = muscle_law({"slipping_knot", kMuscle, {{"slip", slip}, {"holds", 15.0}}});
+  const auto pull = [&](double force, double duration) {
+    for (int k = 0; k < std::lround(duration / h); ++k) {
+      law->settle(h, {}, solution_of(0.1, force));
+    }
+    return law->elongation();
+  };
+  EXPECT_EQ(pull(14.9, 1.0), 0.0);
+  const double half_a_second = slip * (1.0 - std::exp(-1.0));  // its time constant
+  EXPECT_NEAR(pull(15.1, 0.5), half_a_second, 1e-3 * slip);
+  EXPECT_NEAR(pull(5.0, 1.0), half_a_second, 1e-3 * slip);
+  EXPECT_NEAR(pull(80.0, 10.0), slip, 1e-6 * slip) << "only once";
+}
+
+TEST(ForceCompression, LosesItsShareOfWhatIsBeyondTheKnee) {
+  Draft draft;
+  draft.arm = model_I();
+  build_in({"force_compression", kMuscle, {{"share", 0.3}, {"knee", 10.0}}}, &draft);
+  const std::size_t muscle = draft.muscle(kMuscle), other = muscle + 1;
+  for (const double force : {0.0, 9.9, 10.0, 20.0, 60.0}) {
+    Readings readings;
+    readings.muscles.resize(draft.arm.muscles.size());
+    readings.muscles[muscle].force = readings.muscles[other].force = force;
+    draft.reading_laws.at(0)->apply(&readings);
+    const double seen = force < 10.0 ? force : 10.0 + 0.7 * (force - 10.0);
+    EXPECT_NEAR(readings.muscles[muscle].force, seen, 1e-12) << force;
+    EXPECT_EQ(readings.muscles[other].force, force);
+  }
+}
+
 }  // namespace
 }  // namespace anthrob::virtual_robot

@@ -38,7 +38,8 @@ TEST(Neutral, NothingOfALawLeavesTheArmBitForBit) {
 TEST(Neutral, ATypicalOneChangesReadings) {
   for (const auto* laws : {&catalogue_laws(), &outside_laws()}) {
     for (const HiddenLaw& law : *laws) {
-      // Some want a posture, a turn or a force that this motion lacks.
+      // Some want a posture, a turn or a force that this motion lacks: see their closed forms in
+      // laws_test.cpp, and the surface in robot_test.cpp.
       if (law.id == "shoulder_hardening" || law.id == "weak_above_angle" ||
           law.id == "slipping_knot" || law.id == "force_compression" ||
           law.id == "wrapping_surface" || law.id == "gear_backlash") {
