@@ -118,6 +118,54 @@ TEST(ClosedLoop, AsksTheRobotNothingWhereNothingIsUndecided) {
   EXPECT_EQ(question.train.size(), 1u);
 }
 
+/// A force sensor that reads too much by a gain, recorded where its muscle's tension hardly
+/// changes: an offset explains that as well.
+struct OneTension {
+  OneTension() {
+    LoadOptions options;
+    options.effects = {{"force_sensor_gain", "flexor", {{"gain", 1.2}}}};
+    robot = build_robot_model(ConfigNode::load(model_file), options);
+  }
+  Dataset recording(std::uint64_t noise) const {
+    constexpr double kShare = 0.01;  // of the made recording's motion
+    MadeRecording made;
+    made.length = 4.0;
+    made.noise = noise;
+    made.force_noise = 0.5;
+    Dataset commands = made.commands(load_robot_model(model_file));
+    for (Column& column : commands.table("commands").columns) {
+      const double rest = column.values.front();
+      for (double& value : column.values) value = rest + kShare * (value - rest);
+    }
+    return made.measure(robot, commands);
+  }
+
+  const std::string model_file = std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/model_I.yaml";
+  std::shared_ptr<const RobotModel> robot;
+};
+
+TEST(ClosedLoop, AsksTheRobotWhatTellsRivalsApart) {
+  const OneTension made;
+  Question question;
+  question.model_file = made.model_file;
+  question.train = {made.recording(5)};
+  question.test = {made.recording(6)};
+  question.effects = {"force_sensor_gain", "force_sensor_offset"};
+  question.max_effects = 1;
+  const Evaluator evaluator(made.model_file, {}, 0.001, 2);
+  const Answer answer = discover_in_a_loop(evaluator, question, made.robot);
+  ASSERT_GE(answer.asked.size(), 1u) << summary(answer);
+  EXPECT_NE(answer.asked[0].find("force_sensor_offset @ flexor"), std::string::npos);
+  EXPECT_EQ(question.train.size(), 1 + answer.asked.size());
+  EXPECT_EQ(question.test.size(), 1 + answer.asked.size());
+  ASSERT_EQ(answer.effects.size(), 1u) << summary(answer);
+  const FoundEffect& effect = answer.effects[0];
+  EXPECT_EQ(effect.id, "force_sensor_gain");
+  EXPECT_EQ(effect.place, "flexor");
+  EXPECT_NEAR(effect.parameters.at(0).value, 1.2, 0.02);
+  EXPECT_TRUE(effect.rivals.empty() || effect.rivals[0].probability < 0.05) << summary(answer);
+}
+
 TEST(SeparatingFiles, AreWrittenForTheRecorder) {
   const auto model = load_robot_model(kModel);
   Answer answer;
