@@ -27,7 +27,8 @@ struct Recovery {
     ++count;
     covered += estimate.lo <= truth && truth <= estimate.hi ? 1 : 0;
     squares += error * error;
-    worst = std::max(worst, std::abs(error));
+    // NaN stays: it would pass for small.
+    if (std::abs(error) > worst || std::isnan(error)) worst = std::abs(error);
   }
   double rms() const { return std::sqrt(squares / count); }
   /// A row of the table in docs/identification.md.

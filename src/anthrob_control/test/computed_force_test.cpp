@@ -66,7 +66,10 @@ double drift(ClosedLoop& loop, const std::vector<double>& q) {
   double most = 0.0;
   for (int i = 0; i < 50; ++i) {
     loop.run(0.2);
-    most = std::max({most, loop.distance(q, 0), loop.distance(q, 1)});
+    for (const int joint : {0, 1}) {
+      const double moved = loop.distance(q, joint);
+      if (moved > most || std::isnan(moved)) most = moved;  // NaN stays
+    }
   }
   return most;
 }

@@ -30,6 +30,11 @@ void command_smoothly(Arm* arm) {
   }
 }
 
+// Once NaN, it stays NaN; std::max would forget it.
+void raise(double* worst, double value) {
+  if (value > *worst || std::isnan(value)) *worst = value;
+}
+
 Difference compare(Arm* a, Arm* b, double seconds) {
   Difference worst;
   while (a->time() < seconds) {
@@ -39,9 +44,9 @@ Difference compare(Arm* a, Arm* b, double seconds) {
     }
     const double joints =
         a->shoulder().angularDistance(b->shoulder()) + std::abs(a->elbow() - b->elbow());
-    worst.joints = std::max(worst.joints, joints);
+    raise(&worst.joints, joints);
     for (std::size_t i = 0; i < a->muscle_count(); ++i) {
-      worst.force = std::max(worst.force, std::abs(a->muscle(i).force - b->muscle(i).force));
+      raise(&worst.force, std::abs(a->muscle(i).force - b->muscle(i).force));
     }
   }
   return worst;

@@ -75,7 +75,10 @@ std::vector<double> outcome(const std::shared_ptr<const RobotModel>& robot, int 
 
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double apart = std::abs(a[i] - b[i]);
+    if (apart > largest || std::isnan(apart)) largest = apart;  // NaN stays
+  }
   return largest;
 }
 

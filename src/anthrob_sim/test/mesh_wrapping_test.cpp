@@ -48,6 +48,7 @@ struct Tally {
     if (!contact.touching) return;
     ++wrapped;
     leaning += contact.entry == p;
+    EXPECT_TRUE(contact.direction_in.allFinite() && contact.direction_out.allFinite()) << what;
     const double direction = std::max((contact.direction_in - way.direction_in).norm(),
                                       (contact.direction_out - way.direction_out).norm());
     if (direction < kSameDirection) {

@@ -126,6 +126,7 @@ TEST(SelectedMesh, JumpsOnlyWhereTheUpperSideChanges) {
       const double before = tendon.length();
       tendon.move(next, q);
       const double excess = std::abs(tendon.length() - before) - 1e-4;
+      ASSERT_TRUE(std::isfinite(excess)) << sweep << " " << i;
       const auto side = upper_side(points, p, q, chi);
       if (!side.empty() && side == upper_side(points, next, q, chi)) {
         ++steady;
