@@ -152,6 +152,69 @@ TEST(GearBacklash, WhatTheTendonDoesInThePlayIsLost) {
   EXPECT_NEAR(work, load * kSpindleRadius * width, 1e-12);
 }
 
+TEST(GearBacklash, FreeSpindleSlidesAsFastAsTheExcessOverTheDrag) {
+  const double width = 0.05, drag = 0.01, load = 3.0;
+  Bench bench({"gear_backlash", "flexor", {{"width", width}, {"drag", drag}}});
+  bench.impose(1.0, 0.5);
+  bench.impose(1.0 - width, 0.5);
+  const double speed = (load * kSpindleRadius - drag) / (drag * 0.1);  // [rad/s]
+  ASSERT_GT(width, 4.0 * speed * kStep);
+  const double start = bench.length();
+  for (int i = 1; i <= 4; ++i) {
+    bench.impose(1.0 - width, load);
+    EXPECT_NEAR(bench.length() - start, kSpindleRadius * speed * kStep * i, 1e-12);
+    EXPECT_NEAR(bench.winding_speed(), -kSpindleRadius * speed, 1e-9);
+  }
+}
+
+/// Motors at the flank by which they take the spindle along when they turn back: of the arm, whose
+/// gear has no friction of its own, and of the rig.
+std::vector<Bench> motors_at_the_far_flank(double width, double drag, double load) {
+  std::vector<Bench> benches;
+  for (const auto& [file, muscle] : {std::pair{kArm, "brachialis"}, std::pair{kRig, "flexor"}}) {
+    Bench bench({"gear_backlash", muscle, {{"width", width}, {"drag", drag}}}, file, muscle);
+    bench.impose(1.0, load).impose(1.0 - width, load).impose(1.0 - width, load);
+    benches.push_back(bench);
+  }
+  return benches;
+}
+
+TEST(GearBacklash, FarFlankDoesNotPull) {
+  const double drag = 0.04, load = 5.0;
+  ASSERT_LT(load * kSpindleRadius, drag);
+  for (Bench& bench : motors_at_the_far_flank(0.02, drag, load)) {
+    const double position = bench.read().position, length = bench.length();
+    bench.run(0.0, load, 1000);
+    EXPECT_EQ(bench.read().position, position);
+    EXPECT_EQ(bench.length(), length);
+  }
+  // Nor does it hold a motor that winds in.
+  Bench rig = motors_at_the_far_flank(0.02, drag, load)[1], plain(kNothing);
+  plain.impose(0.98, 0.0).impose(0.98, 0.0);
+  EXPECT_NEAR(rig.run(2.0, load, 1).read().velocity, plain.run(2.0, 0.0, 1).read().velocity, 1e-9);
+}
+
+TEST(GearBacklash, FarFlankTakesTheDragThatTheTendonLeaves) {
+  const double width = 0.02, drag = 0.9, load = 20.0, ratio = 128.0;
+  Bench bench = motors_at_the_far_flank(width, drag, load)[0];
+  const auto motor = std::static_pointer_cast<const DcMotor>(
+      muscle_with(kArm, {"gear_backlash", "brachialis", {{"width", 0.0}}}, "brachialis").actuator);
+  const DcMotor::Parameters& p = motor->parameters();
+  const double torque = drag - load * p.spindle_radius;
+  const double current = torque / (ratio * p.torque_constant);
+  ASSERT_GT(torque, 0.5);
+  // Too little voltage to overcome it: the motor stands.
+  const double start = bench.read().position;
+  bench.run(-0.98 * p.resistance * current, load, 2000);
+  EXPECT_EQ(bench.read().position, start);
+  // More: the rest of the voltage is back-EMF, and the tendon pays out with the motor.
+  const double volts = p.resistance * current + 1.0;
+  bench.run(-volts, load, 2000);
+  EXPECT_NEAR(bench.read().current, -current, 1e-6 * current);
+  EXPECT_NEAR(bench.read().velocity, -1.0 / (ratio * p.back_emf_constant), 1e-6);
+  EXPECT_NEAR(bench.winding_speed(), p.spindle_radius * bench.read().velocity, 1e-9);
+}
+
 TEST(GearBacklash, BetweenTheFlanksTheMotorCarriesNothing) {
   Bench bench({"gear_backlash", "flexor", {{"width", 0.05}, {"drag", 0.01}}}), plain(kNothing);
   bench.impose(1.0, 0.5);

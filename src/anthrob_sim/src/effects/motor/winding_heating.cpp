@@ -80,15 +80,16 @@ class HeatedMotor final : public MotorWrapper {
     own(state)[0] = 0.0;
   }
 
-  void advance_with(double input, double load, double torque, StateView state) const override {
+  void advance_with(double input, double load, const Inside& inside,
+                    StateView state) const override {
     double& warmth = own(state)[0];
     const auto cool = std::min(static_cast<std::size_t>(warmth / kSpacing), motors_.size() - 2);
     const double share = warmth / kSpacing - static_cast<double>(cool);
     const double before = inner().read(state).current;
     double warmer[kMotorState];
     for (std::size_t i = 0; i < kMotorState; ++i) warmer[i] = state[i];
-    motors_[cool].advance_with(input, load, torque, state);
-    motors_[cool + 1].advance_with(input, load, torque, StateView(warmer));
+    motors_[cool].advance_with(input, load, inside, state);
+    motors_[cool + 1].advance_with(input, load, inside, StateView(warmer));
     for (std::size_t i = 0; i < kMotorState; ++i) state[i] += share * (warmer[i] - state[i]);
 
     const double after = inner().read(state).current;
