@@ -96,9 +96,15 @@ void Simulation::reset_effects() {
     model_->power_effects[i]->reset(store_.at(power_offsets_[i]));
   }
   if (model_->reading_effects.empty()) return;
-  const Readings readings = true_readings();
+  Readings readings = true_readings();
   for (std::size_t i = 0; i < model_->reading_effects.size(); ++i) {
-    model_->reading_effects[i]->reset(readings, store_.at(reading_offsets_[i]));
+    const ReadingEffect& effect = *model_->reading_effects[i];
+    const StateView state = store_.at(reading_offsets_[i]);
+    effect.reset(readings, state);
+    // Those behind it begin with what it reads; its own time has not begun.
+    const std::vector<double> begun(state.data(), state.data() + effect.state_size());
+    effect.apply(readings, state);
+    std::copy(begun.begin(), begun.end(), state.data());
   }
 }
 
@@ -203,11 +209,15 @@ void Simulation::settle_in(const std::vector<BodyState>& bodies) {
   skeleton_.set_bodies(bodies);
   tree_.update(skeleton_.bodies(), q_);
   joint_dissipation_ = 0.0;
+  reset_effects();
+  for (std::size_t m = 0; m < muscles_.size(); ++m) {
+    muscles_[m].reset_sensors(reading(static_cast<int>(m)));
+  }
   for (const JointModel& joint : model_->skeleton->joints) {
     const std::size_t i = &joint - model_->skeleton->joints.data();
-    joint_sensors_[i].reset(q_[joint.position_offset], store_.at(joint_sensor_offsets_[i]));
+    joint_sensors_[i].reset(read_positions()[joint.position_offset],
+                            store_.at(joint_sensor_offsets_[i]));
   }
-  reset_effects();
   sense();
 }
 

@@ -11,6 +11,7 @@ namespace {
 using namespace testing_support;
 
 const char* const kAxis = "driven_axis/model_I.yaml";
+const char* const kRig = "two_muscle_rig/model_I.yaml";
 const char* const kArm = "anthrob/model_II.yaml";
 constexpr double kViscous = 203.5, kMass = 95.1;  // of the driven axis [Ns/m, kg]
 
@@ -266,6 +267,46 @@ TEST(SensingLatency, ReadsThePast) {
   }
   for (std::size_t i = 10; i < truth.size(); ++i) {
     EXPECT_NEAR(read[i], 0.5 * (truth[i - 4] + truth[i - 5]), 1e-12);
+  }
+}
+
+TEST(ReadingEffects, BeginAsIfThoseBeforeThemHadAlwaysBeenThere) {
+  Simulation sim(robot_with(kRig, {{"force_sensor_offset", "flexor", {{"offset", 5.0}}},
+                                   {"force_sensor_offset", "extensor", {{"drift", 1.0}}},
+                                   {"force_sensor_gain", "flexor", {{"gain", 1.1}}},
+                                   {"encoder_drift", "flexor", {{"missed", 0.2}}},
+                                   {"sensing_latency", "all", {{"delay", 0.1}}}}));
+  sim.place({0.0}, {3.0, 2.0});
+  const double force = sim.muscle(0).force(), other = sim.muscle(1).force();
+  ASSERT_GT(force, 1.0);
+  for (int i = 0; i <= 100; ++i) {
+    ASSERT_NEAR(sim.reading(0).force, 1.1 * force + 5.0, 1e-12) << i;
+    ASSERT_NEAR(sim.reading(0).position, 3.0, 1e-12) << i;
+    ASSERT_NEAR(sim.reading(1).force, other, 1e-12) << i;
+    sim.step();
+  }
+  // Drift goes by the time since then.
+  const double then = sim.muscle(1).force();
+  sim.step(100);
+  EXPECT_NEAR(sim.reading(1).force, then + 0.101, 1e-12);
+}
+
+TEST(ReadingEffects, SensorsWithADelayBeginWithWhatTheyWouldHaveRead) {
+  const TemporaryRobot robot("", "extends: " + config(kArm) + R"(
+sensors:
+  force: {delay: 0.05}
+  joint_position: {delay: 0.05}
+effects:
+  - {id: force_sensor_offset, place: brachialis, offset: 5.0}
+  - {id: mocap_misalignment, place: y, angle: 0.2}
+)");
+  Simulation sim(robot.load());
+  const int m = sim.model().find_muscle("brachialis");
+  const double force = sim.muscle(m).force();
+  for (int i = 0; i <= 50; ++i) {
+    ASSERT_NEAR(sim.muscle(m).measured().force, force + 5.0, 1e-12) << i;
+    ASSERT_NEAR(sim.measured_joint_position(0), std::cos(0.1), 1e-12) << i;
+    sim.step();
   }
 }
 

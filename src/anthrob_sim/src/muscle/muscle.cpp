@@ -89,10 +89,6 @@ void Muscle::relax() {
   model_.spring->relax(c.expansion, spring_state());
   const double tension = model_.spring->relaxed_tension(c.expansion);
   for (std::size_t i = 0; i < model_.path->segment_count(); ++i) tension_slot(i) = tension;
-  const ecu::Measurement now = truth();
-  const double values[] = {now.position, now.velocity, now.current, now.force};
-  for (int i = 0; i < kSensorCount; ++i)
-    sensors_[i].reset(values[i], store_.at(sensor_offsets_[i]));
   const double command[] = {c.mode, c.reference};
   if (command_delay_) command_delay_->fill(command, store_.at(command_delay_offset_));
 }
@@ -131,6 +127,12 @@ void Muscle::release() {
 ecu::Measurement Muscle::truth() const {
   const Actuator::Readout actuator = model_.actuator->read(actuator_state());
   return {actuator.position, actuator.velocity, actuator.current, force()};
+}
+
+void Muscle::reset_sensors(const ecu::Measurement& seen) {
+  const double values[] = {seen.position, seen.velocity, seen.current, seen.force};
+  for (int i = 0; i < kSensorCount; ++i)
+    sensors_[i].reset(values[i], store_.at(sensor_offsets_[i]));
 }
 
 void Muscle::sense(std::uint64_t step_index, const ecu::Measurement& seen) {

@@ -49,6 +49,8 @@ class Muscle {
 
   /// What the ECU's sensors would measure if they were ideal.
   ecu::Measurement truth() const;
+  /// As if the sensors had always been given this.
+  void reset_sensors(const ecu::Measurement& seen);
   /// Sensors sample what they are given: the truth, unless an effect lies between.
   void sense(std::uint64_t step_index, const ecu::Measurement& seen);
   /// The controller ticks if it is due.

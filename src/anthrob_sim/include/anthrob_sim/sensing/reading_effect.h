@@ -21,7 +21,8 @@ class ReadingEffect {
  public:
   virtual ~ReadingEffect() = default;
   virtual std::size_t state_size() const { return 0; }
-  /// The robot is put somewhere: as if it had always been there.
+  /// The robot is put somewhere: as if it had always been there, and the effects before this one
+  /// had always read what they read now.
   virtual void reset(const Readings&, StateView) const {}
   /// Once a step.
   virtual void apply(Readings& readings, StateView state) const = 0;
