@@ -539,6 +539,27 @@ TEST(EyeletPresliding, FrictionFollowsDisplacementAndStaysAtRest) {
   EXPECT_NEAR(law->evaluate(speed, state).slope, slope, 1e-4 * slope);
 }
 
+TEST(EyeletPresliding, DistancesOfSeveralPlacesAddUp) {
+  const auto law_of = [](const std::vector<EffectInstance>& effects) {
+    const auto robot = robot_with(kArm, effects);
+    return robot->muscles[robot->find_muscle("brachialis")].path->obstacles()[1].friction;
+  };
+  const EffectInstance all = {"eyelet_presliding", "all", {{"distance", 1e-3}}};
+  const EffectInstance muscle = {"eyelet_presliding", "brachialis", {{"distance", 1e-4}}};
+  const EffectInstance eyelet = {"eyelet_presliding", "brachialis/1", {{"distance", 4e-4}}};
+  const std::pair<std::vector<EffectInstance>, double> cases[] = {
+      {{all, muscle}, 1.1e-3}, {{muscle, eyelet}, 5e-4}, {{all, muscle, eyelet}, 1.5e-3}};
+  for (const auto& [effects, distance] : cases) {
+    const auto law = law_of(effects);
+    ASSERT_EQ(law->state_size(), 1u);
+    Memory state(1);
+    const double back = 0.5, level = 0.156;  // fast, at the kinetic level
+    for (int i = 0; i < 2000; ++i) law->commit(0.05, state);
+    const double mu = law->evaluate(-back, state).mu;
+    EXPECT_NEAR(mu, level * (2.0 * std::exp(-back * kStep / distance) - 1.0), 1e-9) << distance;
+  }
+}
+
 TEST(SlidingFriction, NeverGivesEnergyOverACycle) {
   const EffectInstance effects[] = {{"eyelet_friction", "flexor", {{"mu", 0.2}}},
                                     {"eyelet_presliding", "flexor", {{"distance", 5e-4}}}};

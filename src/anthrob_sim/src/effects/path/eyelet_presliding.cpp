@@ -42,6 +42,9 @@ class Dahl final : public FrictionLaw {
   double level(double speed) const override { return law_->level(speed); }
   void commit(double v, StateView state) const override { state[0] = bristle(v, state[0]); }
 
+  const std::shared_ptr<const FrictionLaw>& law() const { return law_; }
+  double distance() const { return distance_; }
+
  private:
   /// z after a step with speed v.
   double bristle(double v, double z) const {
@@ -63,7 +66,11 @@ class EyeletPresliding final : public PathEffect {
   }
   void change(const EffectSetting& setting, const RobotModel& robot,
               PathObstacle& obstacle) const override {
-    obstacle.friction = std::make_shared<Dahl>(obstacle.friction, setting["distance"], robot.step);
+    // Fibres on fibres bend one after the other: one law, and the distances add up.
+    const auto there = std::dynamic_pointer_cast<const Dahl>(obstacle.friction);
+    obstacle.friction =
+        std::make_shared<Dahl>(there ? there->law() : obstacle.friction,
+                               setting["distance"] + (there ? there->distance() : 0.0), robot.step);
   }
 };
 
