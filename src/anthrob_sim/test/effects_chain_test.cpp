@@ -482,6 +482,28 @@ TEST(EyeletFriction, ExcessAtRestIsFreeAndTheSlopeIsTheCurves) {
   }
 }
 
+TEST(EyeletFriction, SlopeOfABristleIsTheCurvesWhereItGivesBackToo) {
+  for (const double rest_ratio : {0.5, 1.4, 2.0}) {
+    const auto law =
+        muscle_with(kRig,
+                    {"eyelet_friction", "flexor/1", {{"mu", 0.1}, {"rest_ratio", rest_ratio}}},
+                    "flexor")
+            .path->obstacles()[1]
+            .friction;
+    for (const double bend : {-9e-6, -5e-6, 0.0, 5e-6}) {  // [m]; the model's law slides at 1e-5
+      Memory memory(law->state_size());
+      memory.at(0) = bend;
+      for (const double v : {-2e-2, -2e-3, -5e-4, 1e-4, 5e-4, 3e-3, 2e-2}) {
+        const double h = 1e-8;
+        const double slope =
+            (law->evaluate(v + h, memory).mu - law->evaluate(v - h, memory).mu) / (2.0 * h);
+        EXPECT_NEAR(law->evaluate(v, memory).slope, slope, 1e-4 * std::abs(slope) + 1e-3)
+            << rest_ratio << " " << bend << " " << v;
+      }
+    }
+  }
+}
+
 TEST(WrapFriction, ActsWhereTheTendonSlidesOverTheSurface) {
   // The rig with a surface on the base, over which the flexor slides to its insertion on the arm.
   const TemporaryRobot robot("", "extends: " + config(kRig) + R"(

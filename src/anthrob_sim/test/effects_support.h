@@ -44,6 +44,7 @@ class Memory {
  public:
   explicit Memory(std::size_t size) : data_(size + 1, 0.0) {}
   operator StateView() { return StateView(data_.data()); }
+  double& at(std::size_t i) { return data_.at(i); }
 
  private:
   std::vector<double> data_;

@@ -21,8 +21,8 @@ class Raised final : public FrictionLaw {
   Value evaluate(double v, StateView state) const override {
     const Value value = law_->evaluate(v, state);
     const double more = excess(std::abs(v)), raised = 1.0 + factor_ + more;
-    // mu has the sign of v.
-    const double falling = more * std::abs(value.mu) / kStribeckVelocity;
+    // The excess falls with the speed; mu has the sign of v or, of bristles, that of their bend.
+    const double falling = more * std::copysign(1.0, v) * value.mu / kStribeckVelocity;
     return {raised * value.mu, raised * value.slope - falling};
   }
   double level(double speed) const override {
