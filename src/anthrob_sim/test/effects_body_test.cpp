@@ -1,6 +1,7 @@
 // Effects on bodies, joints and sensors, each against a closed form, and what they dissipate.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "effects_support.h"
@@ -241,6 +242,42 @@ TEST(ForceCrosstalk, AddsAShareOfTheNeighbour) {
   EXPECT_GT(sim.muscle(from).force(), 1.0);
   EXPECT_NEAR(sim.reading(to).force, sim.muscle(to).force() + 0.05 * sim.muscle(from).force(),
               1e-12);
+}
+
+TEST(ForceCrosstalk, WhatOnePicksUpItDoesNotPassOn) {
+  const std::vector<std::string> names = {"brachialis", "teres_minor", "biceps_brachii"};
+  const auto talk = [&names](int to, int from, double share) {
+    return EffectInstance{"force_crosstalk", names[to] + "/" + names[from], {{"share", share}}};
+  };
+  // Both directions of a pair; a chain along the alphabet and one against it; all, with a gain.
+  const std::vector<std::vector<std::array<double, 3>>> cases = {
+      {{0, 1, 0.3}, {1, 0, 0.2}},
+      {{1, 0, 0.3}, {2, 1, 0.2}},
+      {{0, 2, 0.3}, {1, 0, -0.2}},
+      {{0, 1, 0.1}, {0, 2, 0.2}, {1, 0, 0.3}, {1, 2, 0.4}, {2, 0, 0.5}, {2, 1, 0.15}}};
+  for (const auto& pairs : cases) {
+    std::vector<EffectInstance> effects = {{"force_sensor_gain", names[0], {{"gain", 1.5}}}};
+    for (const auto& p : pairs) {
+      effects.push_back(talk(static_cast<int>(p[0]), static_cast<int>(p[1]), p[2]));
+    }
+    Simulation sim(robot_with(kArm, effects));
+    int muscle[3];
+    for (int i = 0; i < 3; ++i) muscle[i] = sim.model().find_muscle(names[i]);
+    for (int i = 1; i <= 200; ++i) {
+      for (const int m : muscle) sim.impose_position(m, 0.01 * i, 10.0);
+      sim.step();
+    }
+    double expected[3];
+    for (int i = 0; i < 3; ++i) expected[i] = sim.muscle(muscle[i]).force();
+    for (const auto& p : pairs) {
+      expected[static_cast<int>(p[0])] += p[2] * sim.muscle(muscle[static_cast<int>(p[1])]).force();
+    }
+    expected[0] *= 1.5;
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_GT(sim.muscle(muscle[i]).force(), 1.0);
+      EXPECT_NEAR(sim.reading(muscle[i]).force, expected[i], 1e-12) << names[i];
+    }
+  }
 }
 
 TEST(EncoderDrift, FollowsTimeAndTravel) {

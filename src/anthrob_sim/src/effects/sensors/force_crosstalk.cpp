@@ -10,8 +10,9 @@ EffectInfo describe() {
   i.name = "Cross-talk between force sensors";
   i.description =
       "The channel of one force sensor picks up a share of another's: a resting muscle's force "
-      "moves with its neighbour's. The controller sees it too.";
-  i.equation = "f_read(TO) = f(TO) + share f(FROM)";
+      "moves with its neighbour's. What one picks up it does not pass on. The controller sees it "
+      "too.";
+  i.equation = "f_read(TO) = f(TO) + sum over FROM of share f(FROM)";
   i.source = "known: 0.5-3 %";
   i.where = "TO/FROM (muscles)";
   i.seam = Seam::kSensors;
@@ -20,16 +21,29 @@ EffectInfo describe() {
   return i;
 }
 
+/// All of a robot's: each pair takes the force as it is before any cross-talk.
 class Crosstalk final : public ReadingEffect {
  public:
-  Crosstalk(int to, int from, double share) : to_(to), from_(from), share_(share) {}
-  void apply(Readings& readings, StateView) const override {
-    readings.muscles[to_].force += share_ * readings.muscles[from_].force;
+  struct Pair {
+    int to, from;
+    double share;
+  };
+  explicit Crosstalk(std::vector<Pair> pairs) : pairs_(std::move(pairs)) {}
+
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  /// What each pair picks up [N].
+  std::size_t state_size() const override { return pairs_.size(); }
+  void apply(Readings& readings, StateView state) const override {
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      state[i] = pairs_[i].share * readings.muscles[pairs_[i].from].force;
+    }
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      readings.muscles[pairs_[i].to].force += state[i];
+    }
   }
 
  private:
-  int to_, from_;
-  double share_;
+  std::vector<Pair> pairs_;
 };
 
 class ForceCrosstalk final : public Effect {
@@ -48,8 +62,18 @@ class ForceCrosstalk final : public Effect {
 
   void build_in(const EffectSetting& setting, ModelDraft& draft) const override {
     const std::vector<std::string> place = split_place(setting.place());
-    draft.robot.reading_effects.push_back(std::make_shared<Crosstalk>(
-        draft.robot.find_muscle(place[0]), draft.robot.find_muscle(place[1]), setting["share"]));
+    std::vector<Crosstalk::Pair> pairs;
+    auto& effects = draft.robot.reading_effects;
+    // Effects of one kind follow each other.
+    if (!effects.empty()) {
+      if (const auto* before = dynamic_cast<const Crosstalk*>(effects.back().get())) {
+        pairs = before->pairs();
+        effects.pop_back();
+      }
+    }
+    pairs.push_back(
+        {draft.robot.find_muscle(place[0]), draft.robot.find_muscle(place[1]), setting["share"]});
+    effects.push_back(std::make_shared<Crosstalk>(std::move(pairs)));
   }
 };
 
