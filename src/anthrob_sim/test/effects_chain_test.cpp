@@ -101,6 +101,30 @@ TEST(Cogging, FirstPushIsTheAmplitudeAndWorkOverATurnIsNone) {
   EXPECT_NEAR(cogged.read().position, plain.read().position, 2e-3 * plain.read().position);
 }
 
+TEST(Cogging, ComesToRestUpToTheLimitAndIsRefusedBeyond) {
+  const double inertia = 4.6e-7, periods = 100.0, limit = 1.5 * inertia / (kStep * kStep * periods);
+  Bench bench({"cogging", "flexor", {{"sine", 0.98 * limit}, {"periods", periods}}});
+  for (double start = 0.1; start < 2.0 * M_PI; start += 0.2) {
+    bench.place(start / (periods * 128.0));
+    bench.run(0.0, 0.0, 10000);
+    EXPECT_LT(std::abs(bench.read().velocity), 1e-5) << start;
+  }
+  const EffectInstance beyond = {
+      "cogging", "flexor", {{"cosine", -1.01 * limit}, {"periods", periods}}};
+  try {
+    robot_with(kRig, {beyond});
+    FAIL() << "accepted";
+  } catch (const BadInput& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("effect cogging at flexor: cosine: -0.006969: expected an amplitude below "
+                        "0.0069 Nm with so many periods and this step"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+  EXPECT_NO_THROW(robot_with(kRig, {beyond}, 0.5 * kStep));
+}
+
 TEST(GearEfficiency, ChangesTheLoadByDirection) {
   const MuscleModel muscle =
       muscle_with(kRig, {"gear_efficiency", "flexor", {{"loss", 0.2}}}, "flexor");

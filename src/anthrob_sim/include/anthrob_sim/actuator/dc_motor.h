@@ -50,6 +50,7 @@ class DcMotor final : public GearedMotor {
   const Parameters& parameters() const { return p_; }
   const std::shared_ptr<const GearLaw>& gear() const { return gear_; }
   double conductance() const override { return stuck_gain_; }
+  double inertia() const override { return p_.inertia; }
   double ratio() const override { return p_.ratio; }
   double spindle_radius() const override { return p_.spindle_radius; }
 

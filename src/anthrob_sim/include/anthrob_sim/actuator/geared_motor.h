@@ -23,6 +23,8 @@ class GearedMotor : public Actuator {
 
   /// By how much the current follows a change of voltage within a step, the shaft held [A/V].
   virtual double conductance() const = 0;
+  /// Of rotor and gear, at the motor shaft [kg m^2].
+  virtual double inertia() const = 0;
   /// N, and r_S at position 0 [m]
   virtual double ratio() const = 0;
   virtual double spindle_radius() const = 0;
@@ -54,6 +56,7 @@ class MotorWrapper : public GearedMotor {
   double input_low() const override { return inner_->input_low(); }
   double input_high() const override { return inner_->input_high(); }
   double conductance() const override { return inner_->conductance(); }
+  double inertia() const override { return inner_->inertia(); }
   double ratio() const override { return inner_->ratio(); }
   double spindle_radius() const override { return inner_->spindle_radius(); }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <sstream>
 
 #include "anthrob_sim/effects/motor_effect.h"
 
@@ -14,7 +15,8 @@ EffectInfo describe() {
       "rotor, conservative, seen as ripple of current or speed at fixed rotor angles. Two sizes "
       "make up its amplitude (the root of their squares) and its phase. Its mean "
       "over the angle that the rotor is about to turn acts in a step, so that fast turning "
-      "averages it out.";
+      "averages it out. Refused where it would swing the rotor across a good part of a period in "
+      "a step.";
   i.equation = "tau_shaft = sine sin(periods phi) + cosine cos(periods phi), phi = N position";
   i.source = "known";
   i.where = "MUSCLE | all";
@@ -27,6 +29,11 @@ EffectInfo describe() {
   };
   return i;
 }
+
+/// Largest stiffness against the rotor, in units of inertia over the square of the step. Small
+/// swings grow from step to step beyond 4, where the map of a step has determinant 1 and trace
+/// 2 - stiffness; large ones go on for ever from 1.55 on, found by trying many starts.
+constexpr double kSteepest = 1.5;
 
 class CoggingMotor final : public MotorWrapper {
  public:
@@ -62,8 +69,14 @@ class Cogging final : public MotorWrappingEffect {
   std::shared_ptr<const Actuator> wrap(const EffectSetting& setting,
                                        std::shared_ptr<const GearedMotor> motor,
                                        double step) const override {
-    return std::make_shared<CoggingMotor>(std::move(motor), setting["sine"], setting["cosine"],
-                                          setting["periods"], step);
+    const double sine = setting["sine"], cosine = setting["cosine"], periods = setting["periods"];
+    const double largest = kSteepest * motor->inertia() / (step * step * periods);
+    if (std::hypot(sine, cosine) >= largest) {
+      std::ostringstream limit;
+      limit << "an amplitude below " << largest << " Nm with so many periods and this step";
+      setting.fail(std::abs(sine) >= std::abs(cosine) ? "sine" : "cosine", limit.str());
+    }
+    return std::make_shared<CoggingMotor>(std::move(motor), sine, cosine, periods, step);
   }
 };
 
