@@ -179,6 +179,28 @@ TEST(Payload, MassCentreAndInertiaAreThoseOfBoth) {
   }
 }
 
+TEST(Payload, WhatNoBodyCanLackIsRefused) {
+  // The forearm's mass lies less than a centimetre (rms) from its long axis: a fifth of it cannot
+  // be 20 mm aside; without it the largest moment would exceed the sum of the other two.
+  const auto lacking = [](double share) {
+    const double mass = -share * load_robot_model(config(kArm))->skeleton->bodies[2].mass;
+    const EffectInstance payload = {
+        "payload", "forearm", {{"mass", mass}, {"x", 0.02}, {"y", 0.0}, {"z", 0.0}}};
+    try {
+      const Vec3 left = robot_with(kArm, {payload})->skeleton->bodies[2].principal;
+      EXPECT_LE(left.maxCoeff(), 0.5 * left.sum());
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("(accepted)");
+  };
+  EXPECT_EQ(lacking(0.1), "(accepted)");
+  EXPECT_NE(lacking(0.2).find("expected a number that leaves the body principal moments of inertia "
+                              "> 0, none larger than the other two together [kg]"),
+            std::string::npos)
+      << lacking(0.2);
+}
+
 TEST(BallJointLoadFriction, PendulumLosesTheSameAmplitudeEveryHalfSwing) {
   // A small mass on a ball joint swings in one plane: 2 mu r / l less every half period.
   const double length = 0.5, mu = 0.2, radius = 0.01;

@@ -1,5 +1,6 @@
 #include "anthrob_sim/skeleton/skeleton_model.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace anthrob {
@@ -12,6 +13,16 @@ int find_by_name(const std::vector<T>& list, const std::string& name) {
   return it == list.end() ? -1 : static_cast<int>(it - list.begin());
 }
 }  // namespace
+
+bool BodyModel::find_principal_axes() {
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(inertia_L);
+  Mat3 axes = eigen.eigenvectors();
+  if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
+  X_LB = {axes, com_L};
+  principal = eigen.eigenvalues();
+  const double slack = 1e-6 * principal.sum();
+  return principal.minCoeff() > 0.0 && principal[2] <= principal[0] + principal[1] + slack;
+}
 
 int SkeletonModel::find_frame(const std::string& name) const {
   return find_by_name(frames, name);

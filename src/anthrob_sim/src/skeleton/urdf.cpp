@@ -2,7 +2,6 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -197,19 +196,12 @@ class Builder {
       fail("link " + body.name +
            ": inertial: missing or without mass; a body that moves needs mass > 0 [kg]");
     }
-    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(body.inertia_L);
-    Mat3 axes = eigen.eigenvectors();
-    if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
-    body.principal = eigen.eigenvalues();
-    const double slack = 1e-6 * body.principal.sum();
-    if (!(body.principal.minCoeff() > 0.0) ||
-        body.principal[2] > body.principal[0] + body.principal[1] + slack) {
+    if (!body.find_principal_axes()) {
       std::ostringstream value;
       value << body.principal.transpose();
       fail("link " + body.name + ": inertia: principal moments " + value.str() +
            ": expected three numbers > 0, none larger than the other two together [kg m^2]");
     }
-    body.X_LB = {axes, body.com_L};
   }
 
   CollisionModel shape(const std::string& link, const urdf::Collision& collision,

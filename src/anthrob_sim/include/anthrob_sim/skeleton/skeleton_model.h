@@ -71,6 +71,10 @@ struct BodyModel {
   Pose X_LB;                      ///< principal frame: origin at the centre of mass, axes principal
   Vec3 principal = Vec3::Zero();  ///< principal moments of inertia [kg m^2]
   std::vector<CollisionModel> collisions;
+
+  /// Sets the principal frame and moments that belong to centre of mass and inertia.
+  /// @return whether matter can have such moments: all > 0, none larger than the other two together
+  bool find_principal_axes();
 };
 
 /// A named link; several may belong to one body.

@@ -1,5 +1,3 @@
-#include <Eigen/Eigenvalues>
-
 #include "anthrob_sim/effects/catalogue.h"
 
 namespace anthrob {
@@ -63,15 +61,11 @@ class Payload final : public Effect {
     body.inertia_L += reduced * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
     body.com_L += mass / total * d;
     body.mass = total;
-
-    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(body.inertia_L);
-    Mat3 axes = eigen.eigenvectors();
-    if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
-    body.principal = eigen.eigenvalues();
-    if (!(body.principal.minCoeff() > 0.0)) {
-      setting.fail("mass", "a number that leaves the body some inertia [kg]");
+    if (!body.find_principal_axes()) {
+      setting.fail("mass",
+                   "a number that leaves the body principal moments of inertia > 0, none larger "
+                   "than the other two together [kg]");
     }
-    body.X_LB = {axes, body.com_L};
   }
 };
 
