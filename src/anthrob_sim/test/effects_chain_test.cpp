@@ -79,6 +79,85 @@ TEST(WindingHeating, ResistanceFollowsCopperAndHeatReachesItsBalance) {
   EXPECT_LT(warm, 0.97 * cold);
 }
 
+/// A winding of the rig's motor, stalled: what its current says of its temperature.
+struct Winding {
+  static constexpr double kCopper = 0.0039, kCold = 4.69, kStage = 0.12;
+  static constexpr double kHold = 50.0;  // [N] at 1.6 V the shaft stands
+
+  static double hot(double warmth) { return kCold * (1.0 + kCopper * warmth); }
+  static double warmth(double current, double volts) {
+    return ((volts / current - kStage) / kCold - 1.0) / kCopper;
+  }
+  /// The equation for a stall at a voltage, in small steps.
+  static double warmed(double rise, double time_constant, double volts, double seconds) {
+    constexpr double kSmall = 1e-4;
+    double warmth = 0.0;
+    for (double t = 0.0; t < seconds; t += kSmall) {
+      const double current = volts / (hot(warmth) + kStage);
+      warmth += kSmall / time_constant * (rise * hot(warmth) * current * current - warmth);
+    }
+    return warmth;
+  }
+};
+
+TEST(WindingHeating, WarmsByItsTimeConstant) {
+  const double rise = 60.0, volts = 1.6;
+  for (const double time_constant : {1.0, 4.0}) {
+    Bench bench({"winding_heating",
+                 "flexor",
+                 {{"thermal_resistance", rise}, {"time_constant", time_constant}}});
+    const double current = bench.run(volts, Winding::kHold, 2000).read().current;
+    ASSERT_EQ(bench.read().velocity, 0.0);
+    const double expected = Winding::warmed(rise, time_constant, volts, 2.0);
+    EXPECT_GT(expected, 8.0);
+    EXPECT_NEAR(Winding::warmth(current, volts), expected, 0.02 * expected);
+  }
+}
+
+TEST(WindingHeating, GoesOnWhereTheMotorIsMovedFromOutside) {
+  const double rise = 60.0, volts = 1.6, hold = Winding::kHold;
+  const EffectInstance effect = {
+      "winding_heating", "flexor", {{"thermal_resistance", rise}, {"time_constant", 1.0}}};
+  // Its current stays the one it had: dT' = (R_th R(dT) i^2 - dT) / time_constant, linear in dT.
+  Bench heated(effect);
+  const double current = heated.run(volts, hold, 1).read().current;
+  for (int i = 0; i < 1500; ++i) heated.impose(0.0, hold);
+  EXPECT_EQ(heated.read().current, current);
+  const double power = rise * Winding::kCold * current * current;
+  const double pace = 1.0 - Winding::kCopper * power;
+  const double expected = power / pace * -std::expm1(-1.5 * pace);
+  EXPECT_GT(expected, 15.0);
+  const double found = Winding::warmth(heated.run(volts, hold, 1).read().current, volts);
+  EXPECT_NEAR(found, expected, 0.02 * expected);
+  // Without current it cools.
+  Bench cooled(effect);
+  const double warm = Winding::warmth(cooled.run(volts, hold, 5000).read().current, volts);
+  cooled.run(0.0, 0.0, 1);
+  ASSERT_NEAR(cooled.read().current, 0.0, 1e-3);
+  for (int i = 0; i < 700; ++i) cooled.impose(0.0, hold);
+  EXPECT_NEAR(Winding::warmth(cooled.run(volts, hold, 1).read().current, volts),
+              warm * std::exp(-0.7), 0.02 * warm);
+}
+
+TEST(WindingHeating, WeakensTheMagnets) {
+  const double magnet = 0.003, ratio = 128.0, constant = 0.00973, efficiency = 0.59;
+  Bench bench({"winding_heating",
+               "flexor",
+               {{"thermal_resistance", 200.0}, {"time_constant", 100.0}, {"magnet", magnet}}});
+  const double stalled = bench.run(12.0, 400.0, 1000).read().current;
+  ASSERT_EQ(bench.read().velocity, 0.0);
+  const double warmth = Winding::warmth(stalled, 12.0);
+  ASSERT_GT(warmth, 30.0);
+  // Winding in: the current carries the load, the rest of the voltage is back-EMF.
+  const double load = 20.0, volts = 8.0;
+  const Actuator::Readout motor = bench.run(volts, load, 300).read();
+  const double weak = constant * (1.0 - magnet * warmth);
+  const double current = load * kSpindleRadius / (efficiency * ratio * weak);
+  EXPECT_NEAR(motor.current, current, 1e-2 * current);
+  const double emf = volts - (Winding::hot(warmth) + Winding::kStage) * motor.current;
+  EXPECT_NEAR(motor.velocity, emf / (ratio * weak), 1e-2 * motor.velocity);
+}
+
 TEST(Cogging, FirstPushIsTheAmplitudeAndWorkOverATurnIsNone) {
   const double amplitude = 2e-3, phase = 1.0, ratio = 128.0, inertia = 4.6e-7;
   const EffectInstance effect = {

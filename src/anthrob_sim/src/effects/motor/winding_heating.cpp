@@ -80,9 +80,14 @@ class HeatedMotor final : public MotorWrapper {
     own(state)[0] = 0.0;
   }
 
+  void impose(double position, double velocity, double load, StateView state) const override {
+    inner().impose(position, velocity, load, state);
+    const double current = inner().read(state).current;
+    warm(current, current, state);
+  }
   void advance_with(double input, double load, const Inside& inside,
                     StateView state) const override {
-    double& warmth = own(state)[0];
+    const double warmth = own(state)[0];
     const auto cool = std::min(static_cast<std::size_t>(warmth / kSpacing), motors_.size() - 2);
     const double share = warmth / kSpacing - static_cast<double>(cool);
     const double before = inner().read(state).current;
@@ -92,14 +97,19 @@ class HeatedMotor final : public MotorWrapper {
     motors_[cool + 1].advance_with(input, load, inside, StateView(warmer));
     for (std::size_t i = 0; i < kMotorState; ++i) state[i] += share * (warmer[i] - state[i]);
 
-    const double after = inner().read(state).current;
+    warm(before, inner().read(state).current, state);
+  }
+
+ private:
+  /// @param before, after currents at the ends of the step [A]
+  void warm(double before, double after, StateView state) const {
+    double& warmth = own(state)[0];
     const double power =
         winding_ * (1.0 + thermal_.copper * warmth) * 0.5 * (before * before + after * after);
     const double target = thermal_.resistance * power;
     warmth = std::min(target + keep_ * (warmth - target), kHottest);
   }
 
- private:
   static constexpr double kSpacing = 10.0, kHottest = 150.0;  // [K]
   static constexpr std::size_t kMotorState = 3;
 
