@@ -353,6 +353,39 @@ TEST(SpindleGrowth, LengthIsAParabolaAndPowerIsKept) {
   EXPECT_NEAR(bench.winding_speed(), (last - bench.length()) / kStep, 1e-4 * bench.winding_speed());
 }
 
+TEST(SpindleGrowth, PositionForALengthIsItsInverseDownToTheThinnest) {
+  const double growth = 0.003, thinnest = -0.9 * 2.0 * M_PI * kSpindleRadius / growth;
+  Bench bench({"spindle_growth", "flexor", {{"growth", growth}}});
+  for (const double position : {5.0, 0.0, -8.0, -9.6, -11.0, 0.999 * thinnest, 1.001 * thinnest,
+                                1.1 * thinnest, 2.0 * thinnest}) {
+    bench.place(position);
+    EXPECT_NEAR(bench.actuator().position_for(bench.length()), position, 1e-9);
+    const double length = bench.length();
+    bench.place(position + 1e-4);
+    const double radius = std::max(0.1, 1.0 - 0.9 * position / thinnest) * kSpindleRadius;
+    EXPECT_NEAR((length - bench.length()) / 1e-4, radius, 1e-6) << position;
+  }
+}
+
+TEST(SpindleGrowth, MotorCarriesTheLoadOnTheRadiusThatIsThere) {
+  const double growth = 5e-4, load = 20.0;
+  for (const double position : {12.0, -8.0}) {
+    Bench bench({"spindle_growth", "flexor", {{"growth", growth}}}), plain(kNothing);
+    bench.place(position), plain.place(position);
+    for (int i = 0; i < 100; ++i) {
+      const double turns = bench.read().position / (2.0 * M_PI);
+      const double thickness = 1.0 + growth * turns / kSpindleRadius;
+      bench.run(6.0, load, 1), plain.run(6.0, load * thickness, 1);
+      ASSERT_NEAR(bench.read().velocity, plain.read().velocity, 1e-9) << i;
+      ASSERT_NEAR(bench.read().current, plain.read().current, 1e-9) << i;
+    }
+    // What the shaft gives, the tendon takes.
+    ASSERT_GT(bench.read().velocity, 1.0);
+    const double thickness = 1.0 + growth * bench.read().position / (2.0 * M_PI * kSpindleRadius);
+    EXPECT_NEAR(bench.winding_speed(), kSpindleRadius * thickness * bench.read().velocity, 1e-12);
+  }
+}
+
 // --- tendon and spring
 // ----------------------------------------------------------------------------
 

@@ -47,7 +47,11 @@ class GrowingSpindle final : public MotorWrapper {
   }
   double position_for(double tendon_length) const override {
     const double turns = inner().position_for(tendon_length);
-    return 2.0 * turns / (1.0 + std::sqrt(std::max(kThinnest, 1.0 + 2.0 * rate_ * turns)));
+    const double square = 1.0 + 2.0 * rate_ * turns;  // of the thickness
+    if (square < kThinnest * kThinnest) {
+      return (kThinnest - 1.0 + 0.5 * (square / kThinnest - kThinnest)) / rate_;
+    }
+    return 2.0 * turns / (1.0 + std::sqrt(square));
   }
   double holding_input(double position, double load) const override {
     return inner().holding_input(position, load * thickness(position));
