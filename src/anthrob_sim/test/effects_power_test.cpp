@@ -96,6 +96,40 @@ TEST(SupplySag, SharesTheVoltageLostByTheSumOfCurrents) {
   EXPECT_NEAR(12.0 * current - motors, 0.2 * current * current, 1e-12);
 }
 
+TEST(SupplySag, CountsTheMotorsOfItsEcuOrAllOfThem) {
+  for (const char* place : {"ecu_1", "ecu_3", "global"}) {
+    const auto robot =
+        robot_with("anthrob/model_II.yaml", {{"supply_sag", place, {{"resistance", 0.2}}}});
+    const PowerEffect& supply = *robot->power_effects.at(0);
+    const std::size_t count = robot->muscles.size();
+    std::vector<PowerLine> lines(count);
+    std::vector<bool> counts(count);
+    double current = 0.0;
+    std::size_t users = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double duty = 0.1 + 0.07 * static_cast<double>(i);
+      lines[i] = {12.0 * duty, 0.3 + 0.1 * static_cast<double>(i)};
+      counts[i] = place == std::string("global") || place == robot->muscles[i].ecu;
+      if (counts[i]) current += duty * lines[i].current, ++users;
+    }
+    ASSERT_GT(users, 1u) << place;
+    ASSERT_EQ(users == count, place == std::string("global"));
+    // Currents that go on as they are: the motors had these voltages before.
+    const double left = 1.0 - 0.2 * current / 12.0;
+    ASSERT_EQ(supply.state_size(), users);
+    Memory memory(users);
+    for (std::size_t i = 0, user = 0; i < count; ++i) {
+      if (counts[i]) memory.at(user++) = left * lines[i].voltage;
+    }
+    const std::vector<PowerLine> asked = lines;
+    supply.apply(lines, memory);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_NEAR(lines[i].voltage, (counts[i] ? left : 1.0) * asked[i].voltage, 1e-12)
+          << robot->muscles[i].name << " " << place;
+    }
+  }
+}
+
 TEST(SupplySag, ALargeResistanceIsADividerAndDoesNotSwing) {
   // Both motors of the rig stalled at the same share of a supply of more resistance than theirs:
   // their currents follow their voltages in 60 us.

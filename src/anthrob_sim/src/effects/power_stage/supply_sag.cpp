@@ -22,7 +22,7 @@ EffectInfo describe() {
   i.seam = Seam::kPowerStage;
   i.dissipates = true;
   i.channels = {"current", "velocity", "position"};
-  i.parameters = {{"resistance", "ohm", "of supply and cables", 0.0, 0.3, {0.0, 10.0}}};
+  i.parameters = {{"resistance", "ohm", "of supply and cables", 0.0, 0.2, {0.0, 10.0}}};
   return i;
 }
 
