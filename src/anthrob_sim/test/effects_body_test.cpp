@@ -315,17 +315,26 @@ TEST(EncoderDrift, FollowsTimeAndTravel) {
   EXPECT_NEAR(sim.reading(m).position, 0.4 + 0.01 * 1.0 - 0.1 * 2.0, 1e-9);
 }
 
-TEST(SensingLatency, ReadsThePast) {
+TEST(SensingLatency, ReadsThePastOfAllChannels) {
+  using Channel = double ecu::Measurement::*;
+  const Channel channels[] = {&ecu::Measurement::position, &ecu::Measurement::velocity,
+                              &ecu::Measurement::current, &ecu::Measurement::force};
   const double delay = 0.0045;
   Simulation sim(robot_with(kArm, {{"sensing_latency", "all", {{"delay", delay}}}}));
-  std::vector<double> truth, read;
+  std::vector<ecu::Measurement> truth, read;
   for (int i = 0; i < 300; ++i) {
     run(sim, 1);
-    truth.push_back(sim.muscle(3).truth().position);
-    read.push_back(sim.reading(3).position);
+    truth.push_back(sim.muscle(3).truth());
+    read.push_back(sim.reading(3));
   }
-  for (std::size_t i = 10; i < truth.size(); ++i) {
-    EXPECT_NEAR(read[i], 0.5 * (truth[i - 4] + truth[i - 5]), 1e-12);
+  for (const Channel channel : channels) {
+    double moved = 0.0;
+    for (std::size_t i = 10; i < truth.size(); ++i) {
+      const double past = 0.5 * (truth[i - 4].*channel + truth[i - 5].*channel);
+      EXPECT_NEAR(read[i].*channel, past, 1e-12);
+      moved = std::max(moved, std::abs(truth[i].*channel - past));
+    }
+    EXPECT_GT(moved, 1e-3);
   }
 }
 
@@ -372,13 +381,24 @@ effects:
 TEST(MocapDelay, ReadsThePastOfAllJoints) {
   Simulation sim(robot_with(kArm, {{"mocap_delay", "global", {{"delay", 0.02}}}}));
   std::vector<std::vector<double>> truth;
+  std::vector<double> elbow;
+  std::vector<Vec3> shoulder;
+  double elbow_moved = 0.0, shoulder_moved = 0.0;
   for (int i = 0; i < 300; ++i) {
     run(sim, 1);
     truth.push_back(sim.configuration());
+    elbow.push_back(sim.tree().velocities()[3]);
+    shoulder.push_back(sim.tree().ball_velocity(0));
     if (i < 30) continue;
     const double* read = sim.read_positions();
     for (int k = 0; k < 5; ++k) EXPECT_NEAR(read[k], truth[i - 20][k], 1e-9);
+    EXPECT_NEAR(sim.read_velocity(1), elbow[i - 20], 1e-9);
+    EXPECT_NEAR((sim.read_ball_velocity(0) - shoulder[i - 20]).norm(), 0.0, 1e-9);
+    elbow_moved = std::max(elbow_moved, std::abs(elbow[i] - elbow[i - 20]));
+    shoulder_moved = std::max(shoulder_moved, (shoulder[i] - shoulder[i - 20]).norm());
   }
+  EXPECT_GT(elbow_moved, 1e-3);
+  EXPECT_GT(shoulder_moved, 1e-3);
 }
 
 TEST(MocapMisalignment, TurnsReadingsAboutAnAxisOfTheWorld) {

@@ -215,6 +215,32 @@ TEST(GearEfficiency, ChangesTheLoadByDirection) {
   EXPECT_NEAR(load.torque - load.friction, eta, 1e-12);        // running down
 }
 
+TEST(GearEfficiency, ChangesTheLoadByTheSignOfTheCurrent) {
+  for (const double loss : {0.2, -0.2}) {
+    const MuscleModel muscle =
+        muscle_with(kArm, {"gear_efficiency", "brachialis", {{"loss", loss}}}, "brachialis");
+    const auto& gear = *static_cast<const DcMotor&>(*muscle.actuator).gear();
+    const double eta = 0.59 * (1.0 - loss);
+    EXPECT_NEAR(gear.efficiency(), eta, 1e-15);
+    for (const double velocity : {2.0, -2.0}) {
+      for (const double current : {1.0, -1.0}) {
+        const double torque = velocity * current > 0.0 ? 1.0 / eta : eta;  // driving, driven
+        const GearLaw::Load load = gear.load(1.0, velocity, current);
+        EXPECT_NEAR(load.torque, torque, 1e-9);
+        EXPECT_EQ(load.friction, 0.0);
+      }
+    }
+  }
+  // Winding in under a load, the motor's current pays for it.
+  const double load = 20.0;
+  Bench lossy({"gear_efficiency", "brachialis", {{"loss", 0.2}}}, kArm, "brachialis");
+  Bench plain({"gear_efficiency", "brachialis", {{"loss", 0.0}}}, kArm, "brachialis");
+  const double more =
+      lossy.run(8.0, load, 1000).read().current / plain.run(8.0, load, 1000).read().current;
+  ASSERT_GT(lossy.read().velocity, 1.0);
+  EXPECT_NEAR(more, 1.0 / 0.8, 1e-6);
+}
+
 TEST(GearBacklash, UnloadedTheTendonStandsWhileTheMotorCrossesTheWidth) {
   const double width = 0.02;
   Bench bench({"gear_backlash", "flexor", {{"width", width}, {"drag", 0.01}}});
@@ -506,6 +532,27 @@ TEST(SeeHysteresis, LoopIsTwiceTheForceAtAnyRate) {
     stretched.go(0.008, 0.004);
     const double up = stretched.go(0.004, 0.008);
     EXPECT_NEAR(up - down - 2.0 * up_rate, 2.0 * force, 0.02 * force) << step;
+  }
+}
+
+TEST(SeeHysteresis, TurnsRoundWithinTheTurn) {
+  const double share = 0.2, length = 0.015, damping = 5.0;
+  const double force = share * kSteel * 0.3 * length;
+  for (const double turn : {0.03, 0.1}) {
+    Stretched stretched({"see_hysteresis", "extensor", {{"share", share}, {"turn", turn}}},
+                        "extensor");
+    double at = 0.03;
+    stretched.go(0.0, at);
+    // Back by x: z = -1 + 2 exp(-x / (turn l_0)); then forth again from what is left of it.
+    double z = 1.0;
+    for (const double x : {-0.2, -0.5, -1.0, 0.4, 1.5}) {
+      const double to = at + x * turn * length, side = x > 0.0 ? 1.0 : -1.0;
+      z = side + (z - side) * std::exp(-std::abs(x));
+      const double rate = to - at;  // within a second
+      EXPECT_NEAR(stretched.go(at, to), kSteel * to + damping * rate + force * z, 1e-6 * force)
+          << turn << " " << x;
+      at = to;
+    }
   }
 }
 
