@@ -765,20 +765,78 @@ TEST(EyeletPresliding, DistancesOfSeveralPlacesAddUp) {
   }
 }
 
+/// Work that a law takes over three periods of a motion, the first of which only bends it, per
+/// tension and angle.  @param speed of the phase, 0 to 1 [m/s]
+double work_taken(const FrictionLaw& law, const std::function<double(double)>& speed) {
+  Memory state(law.state_size());
+  double work = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    const double v = speed(i % 1000 / 1000.0);
+    if (i >= 1000) work += law.evaluate(v, state).mu * v * kStep;
+    law.commit(v, state);
+  }
+  return work;
+}
+
+/// The same for strokes between -reach and reach, slow while friction gives back what has bent and
+/// fast while it takes: the least work of all motions where friction falls with speed.
+double least_work(const FrictionLaw& law, double reach) {
+  const double slow = 1e-4, fast = 0.05;
+  Memory state(law.state_size());
+  double work = 0.0, at = 0.0;
+  for (int stroke = 0; stroke < 12; ++stroke) {
+    const double side = stroke % 2 == 0 ? 1.0 : -1.0;
+    while ((reach - side * at) > 1e-12) {
+      const double most = side * law.evaluate(0.0, state).mu < 0.0 ? slow : fast;
+      const double v = side * std::min(most, (reach - side * at) / kStep);
+      if (stroke >= 2) work += law.evaluate(v, state).mu * v * kStep;
+      law.commit(v, state);
+      at += v * kStep;
+    }
+  }
+  return work;
+}
+
 TEST(SlidingFriction, NeverGivesEnergyOverACycle) {
-  const EffectInstance effects[] = {{"eyelet_friction", "flexor", {{"mu", 0.2}}},
-                                    {"eyelet_presliding", "flexor", {{"distance", 5e-4}}}};
-  for (const EffectInstance& effect : effects) {
-    const auto law = muscle_with(kRig, effect, "flexor").path->obstacles()[1].friction;
-    Memory state(law->state_size());
-    for (const double reach : {1e-4, 1e-3, 1e-2}) {
-      double work = 0.0;
-      for (int i = 0; i < 3000; ++i) {
-        const double v = reach * 2.0 * M_PI * std::cos(2.0 * M_PI * i / 1000.0);
-        if (i >= 1000) work += law->evaluate(v, state).mu * v * kStep;
-        law->commit(v, state);
+  const double distance = 5e-4;
+  const EffectInstance raised = {"eyelet_friction", "all", {{"mu", 0.2}, {"rest_ratio", 2.0}}};
+  const std::vector<EffectInstance> cases[] = {
+      {{"eyelet_friction", "all", {{"mu", 0.2}}}},
+      {raised},
+      {{"eyelet_presliding", "all", {{"distance", distance}}}},
+      {{"eyelet_presliding", "all", {{"distance", distance}}}, raised}};
+  for (const auto& effects : cases) {
+    for (const char* file : {kRig, kArm}) {
+      const auto law = robot_with(file, effects)->muscles[0].path->obstacles()[1].friction;
+      for (const double reach : {1e-4, 1e-3, 1e-2}) {
+        SCOPED_TRACE(effects.back().id + " " + file + " " + std::to_string(reach));
+        EXPECT_GT(work_taken(*law,
+                             [&](double phase) {
+                               return 2.0 * M_PI * reach * std::cos(2.0 * M_PI * phase);
+                             }),
+                  0.0);
+        // There fast and back slowly, and the other way round.
+        for (const double there : {0.1, 0.9}) {
+          EXPECT_GT(work_taken(*law,
+                               [&](double phase) {
+                                 return phase < there ? 2.0 * reach / there
+                                                      : -2.0 * reach / (1.0 - there);
+                               }),
+                    0.0);
+        }
+        // Small reversals on the way.
+        EXPECT_GT(work_taken(*law,
+                             [&](double phase) {
+                               return 2.0 * M_PI * reach *
+                                      (std::cos(2.0 * M_PI * phase) +
+                                       2.0 * std::cos(14.0 * M_PI * phase + 1.0));
+                             }),
+                  0.0);
       }
-      EXPECT_GT(work, 0.0) << effect.id << " " << reach;
+      // Presliding with less of a stroke than half the distance may give some: docs/effects.md.
+      for (const double reach : {0.5 * distance, distance, 4.0 * distance}) {
+        EXPECT_GT(least_work(*law, reach), 0.0) << effects.back().id << " " << file << " " << reach;
+      }
     }
   }
 }
