@@ -314,6 +314,19 @@ TEST(BadFiles, EachIsRefusedWithOneLine) {
   }
 }
 
+TEST(BadFiles, APointInsideASurfaceIsRemarkedOnWhereTheTendonRunsClearOfIt) {
+  std::string text = kModel;
+  const std::string end = "[0.03, 0, -0.05]";
+  text.replace(text.find(end), end.size(), "[0.01, 0, 0.005]");
+  const auto model = TemporaryRobot(kUrdf, text).load();
+  ASSERT_FALSE(Simulation(model).muscle(0).path().obstacles()[2].touching);
+  ASSERT_EQ(model->remarks.size(), 1u);
+  for (const char* word : {"model.yaml", "muscles.biceps.path.2", "8.82 mm inside"}) {
+    EXPECT_NE(model->remarks[0].find(word), std::string::npos) << model->remarks[0];
+  }
+  EXPECT_TRUE(TemporaryRobot(kUrdf, kModel).load()->remarks.empty());
+}
+
 TEST(BadFiles, OnlyMotorsTakeControllers) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("anthrob_hill_" + std::to_string(getpid()));

@@ -163,7 +163,7 @@ TEST(Cylinder, StartStatesOfTheThesis) {
   EXPECT_EQ(wound.contact().half_turns, 2);
 }
 
-TEST(Cylinder, PointsOnAndInsideTheSurfaceAreClamped) {
+TEST(Cylinder, PointsOnAndJustInsideTheSurfaceCountAsOnIt) {
   const double r = 0.0173;
   for (const double l : {r, r - 1.1e-5, r * (1 + 1e-12)}) {
     Tendon tendon(cylinder_z(r));
@@ -193,6 +193,85 @@ TEST(Wrapping, DegenerateInputsStayFinite) {
       EXPECT_NEAR(tendon.contact().direction_in.norm(), 1.0, 1e-9) << surface->type();
     }
   }
+}
+
+/// The pulls are the gradient of the length, and bounded, where points are inside, however deep,
+/// and whether the tendon touches or not.
+void expect_no_work_of_its_own(bool use_cylinder, unsigned seed) {
+  Random random(seed);
+  int wrapped = 0, straight = 0;
+  const double r = 0.02, h = 1e-7;
+  for (int i = 0; i < 20000; ++i) {
+    const Pose pose = random.pose(0.1);
+    std::shared_ptr<const WrappingSurface> surface;
+    const CircleWrap circle(r, WrapStart::kNotWrapping, 0);
+    if (use_cylinder) surface = std::make_shared<Cylinder>(pose, circle);
+    if (!use_cylinder) surface = std::make_shared<Sphere>(pose.p, circle);
+    const auto somewhere = [&](double farthest) {
+      return Vec3(pose * (random.uniform(0.05, farthest) * r * random.direction()));
+    };
+    const Vec3 p = somewhere(0.99), q = somewhere(i % 2 == 0 ? 0.99 : 4.0);
+    Tendon tendon(surface);
+    const WrapContact contact = tendon.start(p, q);
+    ASSERT_GT(contact.penetration, 0.0);
+    const Vec3 dp = random.direction(), dq = random.direction();
+    const auto length_at = [&](double step) {
+      Tendon moved = tendon;
+      moved.move(p + step * dp, q + step * dq);
+      return moved.length();
+    };
+    const double back = (tendon.length() - length_at(-h)) / h,
+                 ahead = (length_at(h) - tendon.length()) / h;
+    const double expected = -contact.pull_in.dot(dp) + contact.pull_out.dot(dq);
+    // Between the slopes of both sides: they differ by curvature, and by kinks where both points
+    // are equally deep.
+    ASSERT_GE(expected, std::min(ahead, back) - 2e-5) << i << " " << contact.touching;
+    ASSERT_LE(expected, std::max(ahead, back) + 2e-5) << i << " " << contact.touching;
+    // Up to 2 along the way and 2 alpha along the ray.
+    ASSERT_LE(contact.pull_in.norm(), 2.0 * std::hypot(1.0, M_PI) + 1e-9);
+    ++(contact.touching ? wrapped : straight);
+  }
+  EXPECT_GT(wrapped, 1000);
+  EXPECT_GT(straight, 100);
+}
+
+TEST(Cylinder, PointsInsideDoNoWork) {
+  expect_no_work_of_its_own(true, 11);
+}
+TEST(Sphere, PointsInsideDoNoWork) {
+  expect_no_work_of_its_own(false, 12);
+}
+
+/// A point 10 mm from the axis of a surface of 15 mm and one that turns about it at 100 mm.
+void expect_smooth_touch_down(const std::shared_ptr<const WrappingSurface>& surface) {
+  const double step = 1e-4;
+  const Vec3 fixed(0.010, 0, 0);
+  const auto moving = [](double q) { return Vec3(0.1 * std::cos(q), 0.1 * std::sin(q), 0.0); };
+  const auto arm = [&](const WrapContact& contact, double q) {
+    return contact.pull_out.dot(Vec3::UnitZ().cross(moving(q)));
+  };
+  Tendon tendon(surface);
+  tendon.start(fixed, moving(1.3));
+  EXPECT_FALSE(tendon.contact().touching);
+  EXPECT_NEAR(tendon.contact().penetration, 0.005, 1e-12);
+  double length = tendon.length(), last_arm = arm(tendon.contact(), 1.3);
+  for (int i = 1; i <= 4000; ++i) {
+    const double q = 1.3 + step * i;
+    tendon.move(fixed, moving(q));
+    const double now = arm(tendon.contact(), q);
+    ASSERT_NEAR(tendon.length() - length, 0.5 * step * (now + last_arm), 1e-11) << q;
+    ASSERT_NEAR(now, last_arm, 2e-3 * step) << q;
+    length = tendon.length(), last_arm = now;
+  }
+  EXPECT_TRUE(tendon.contact().touching);
+  EXPECT_NEAR(tendon.contact().penetration, 0.005, 1e-12);
+}
+
+TEST(Cylinder, TouchesDownSmoothlyFromAPointInside) {
+  expect_smooth_touch_down(cylinder_z(0.015));
+}
+TEST(Sphere, TouchesDownSmoothlyFromAPointInside) {
+  expect_smooth_touch_down(sphere(0.015));
 }
 
 /// The drawn path is the solved path: on the surface, from entry to exit, as long as the arc.

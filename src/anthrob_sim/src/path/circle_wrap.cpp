@@ -9,21 +9,21 @@ namespace {
 
 constexpr double kPi = 3.141592653589793;
 constexpr double kTwoPi = 6.283185307179586;
-/// Deeper than half the radius the model is wrong anyway; forces must stay bounded.
-constexpr double kMaxGain = 2.0;
-
-/// Angle at the centre between a point and its tangent point. Points inside count as on the circle.
-double tangent_angle(double radius, double distance) {
-  return std::acos(std::min(1.0, radius / distance));
-}
-
 }  // namespace
 
 CircleWrap::CircleWrap(double radius, WrapStart start, int half_turns)
     : radius_(radius), start_(start), half_turns_(half_turns) {}
 
+CircleWrap::Lift CircleWrap::lift(double distance) const {
+  if (distance >= radius_) return {distance, 1.0, 1.0};
+  const double share = distance / radius_;
+  return {distance * (2.0 - share), 2.0 - share, 2.0 * (1.0 - share)};
+}
+
 void CircleWrap::initialise(double angle, double l1, double l2, State& state) const {
-  const double reach = tangent_angle(radius_, l1) + tangent_angle(radius_, l2);
+  const double d1 = lift(l1).distance, d2 = lift(l2).distance;
+  const double radius = std::min({radius_, d1, d2});
+  const double reach = std::acos(radius / d1) + std::acos(radius / d2);
   const double shorter = angle < 0 ? -1.0 : 1.0;
   state = {angle, 0.0};
   if (start_ == WrapStart::kNegative) {
@@ -41,7 +41,11 @@ void CircleWrap::initialise(double angle, double l1, double l2, State& state) co
 
 CircleWrap::Result CircleWrap::update(double angle, double l1, double l2, State& state) const {
   Result result;
-  const double c1 = std::min(1.0, radius_ / l1), c2 = std::min(1.0, radius_ / l2);
+  result.lift1 = lift(l1), result.lift2 = lift(l2);
+  result.penetration = std::max({0.0, radius_ - l1, radius_ - l2});
+  const double d1 = result.lift1.distance, d2 = result.lift2.distance;
+  const double radius = std::min({radius_, d1, d2});
+  const double c1 = radius / d1, c2 = radius / d2;
   const double reach = std::acos(c1) + std::acos(c2);
   if (state.side == 0.0) {
     state.theta = angle;
@@ -56,16 +60,16 @@ CircleWrap::Result CircleWrap::update(double angle, double l1, double l2, State&
   }
   result.touching = true;
   result.side = state.side;
+  result.radius = radius;
   result.alpha = alpha;
   result.cos1 = c1;
   result.sin1 = std::sqrt((1.0 - c1) * (1.0 + c1));
   result.cos2 = c2;
   result.sin2 = std::sqrt((1.0 - c2) * (1.0 + c2));
-  result.b1 = l1 > radius_ ? l1 * result.sin1 : 0.0;
-  result.b2 = l2 > radius_ ? l2 * result.sin2 : 0.0;
-  result.penetration = std::max({0.0, radius_ - l1, radius_ - l2});
-  result.gain1 = std::clamp(radius_ / l1, 1.0, kMaxGain);
-  result.gain2 = std::clamp(radius_ / l2, 1.0, kMaxGain);
+  result.b1 = d1 * result.sin1;
+  result.b2 = d2 * result.sin2;
+  // The circle follows the nearer point; where it lies deeper, the way round is shorter.
+  if (radius < radius_) (d1 <= d2 ? result.follows1 : result.follows2) = true;
   return result;
 }
 
@@ -76,6 +80,21 @@ bool CircleWrap::segment_is_clear(double x1, double y1, double x2, double y2) co
   const double s = length2 > 0 ? std::clamp(-(x1 * dx + y1 * dy) / length2, 0.0, 1.0) : 0.0;
   const double x = x1 + s * dx, y = y1 + s * dy;
   return x * x + y * y > radius_ * radius_;
+}
+
+void pull_inside(const CircleWrap::Result& wrap, const Vec3& ray1, const Vec3& ray2,
+                 const Vec3& axis, const Vec3& before, const Vec3& after, WrapContact& contact) {
+  const auto unlifted = [&axis](const CircleWrap::Lift& lift, const Vec3& ray,
+                                const Vec3& gradient) -> Vec3 {
+    return lift.around * gradient + (lift.outward - lift.around) * ray.dot(gradient) * ray +
+           (1.0 - lift.around) * axis.dot(gradient) * axis;
+  };
+  const Vec3 shrink1 = wrap.follows1 ? Vec3(contact.turning * ray1) : Vec3(Vec3::Zero());
+  const Vec3 shrink2 = wrap.follows2 ? Vec3(contact.turning * ray2) : Vec3(Vec3::Zero());
+  contact.pull_in = unlifted(wrap.lift1, ray1, contact.direction_in - shrink1);
+  contact.pull_out = unlifted(wrap.lift2, ray2, contact.direction_out + shrink2);
+  if (wrap.lift1.around > 1.0) contact.entry = before;
+  if (wrap.lift2.around > 1.0) contact.exit = after;
 }
 
 CircleWrap read_circle_wrap(const ConfigNode& node) {

@@ -61,7 +61,7 @@ struct RobotModel {
   SensorsModel sensors;
   std::vector<TouchPadModel> touch_pads;
   std::vector<std::string>
-      remarks;  ///< on what is odd in the files but was put right, one line each
+      remarks;  ///< on what is odd in the files but was put right or does no harm, one line each
   std::vector<EffectInstance> effects;  ///< as asked for; what they change is in the rest already
   std::vector<std::shared_ptr<const PowerEffect>> power_effects;
   std::vector<std::shared_ptr<const ReadingEffect>> reading_effects;

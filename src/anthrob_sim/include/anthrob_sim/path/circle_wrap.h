@@ -2,6 +2,7 @@
 
 #include "anthrob_sim/core/state.h"
 #include "anthrob_sim/model/config_node.h"
+#include "anthrob_sim/path/wrapping_surface.h"
 
 namespace anthrob {
 
@@ -22,16 +23,24 @@ class CircleWrap {
     double side;   ///< +1, -1: sense of rotation about the normal while touching; 0: off the circle
   };
 
+  /// Where a point counts as lying: outside where it is, inside lifted along its own ray.
+  struct Lift {
+    double distance;  ///< from the centre [m]
+    double around;    ///< gain of motions round the centre, in [1, 2]; 1 outside
+    double outward;   ///< gain of motions along the ray, in [0, 2]; 1 outside
+  };
+
   struct Result {
     bool touching = false;
+    Lift lift1, lift2;         ///< of the preceding and the succeeding point
+    double penetration = 0.0;  ///< depth of the deeper point, whether touching or not [m]
+    double radius = 0.0;       ///< of the circle that the tendon follows, see lift() [m]
+    bool follows1 = false, follows2 = false;  ///< whether that circle runs through a lifted point
     double side = 0.0;
     double alpha = 0.0;             ///< wrapping angle, >= 0 [rad]
     double b1 = 0.0, b2 = 0.0;      ///< lengths of the straight parts in the plane [m]
     double cos1 = 1.0, sin1 = 0.0;  ///< of the angle from the preceding point to its tangent point
     double cos2 = 1.0, sin2 = 0.0;  ///< of the angle from the succeeding point to its tangent point
-    double penetration = 0.0;       ///< [m]
-    double gain1 = 1.0;  ///< radius over distance of a point inside, at most 2; 1 outside
-    double gain2 = 1.0;
   };
 
   /// @param radius [m], > 0
@@ -39,6 +48,13 @@ class CircleWrap {
   CircleWrap(double radius, WrapStart start, int half_turns);
 
   double radius() const { return radius_; }
+
+  /// A point inside, at share s of the radius, counts as lying at share s (2 - s): nearly on the
+  /// circle if it is a little inside, at the centre if it is there. The tendon follows the circle
+  /// through the nearer point then. So the length has one value and a bounded gradient everywhere.
+  /// It has a kink only where a point crosses the circle while the tendon does not touch.
+  /// @param distance from the centre [m]
+  Lift lift(double distance) const;
 
   /// @param angle from the preceding to the succeeding point about the normal, in (-pi, pi]
   /// @param l1,l2 their distances from the centre [m]
@@ -55,6 +71,12 @@ class CircleWrap {
   WrapStart start_;
   int half_turns_;
 };
+
+/// Completes the contact of a tendon with a point inside: pulls are the gradient of the length by
+/// the points themselves, and act there. Directions and turning are those of the lifted points.
+/// @param ray1,ray2 unit, from axis or centre to the points   @param axis unit; zero for a sphere
+void pull_inside(const CircleWrap::Result& wrap, const Vec3& ray1, const Vec3& ray2,
+                 const Vec3& axis, const Vec3& before, const Vec3& after, WrapContact& contact);
 
 /// Reads `radius`, `start` and `half_turns` of a sphere or cylinder.
 CircleWrap read_circle_wrap(const ConfigNode& node);

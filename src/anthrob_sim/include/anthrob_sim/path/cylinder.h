@@ -27,6 +27,11 @@ class Cylinder final : public WrappingSurface {
   static std::shared_ptr<const WrappingSurface> load(const ConfigNode& node, const Pose& X_BL);
 
  private:
+  struct Polar;  ///< a point as seen along the axis
+
+  void follow(const CircleWrap::Result& wrap, const Polar& p1, const Polar& p2,
+              WrapContact& contact) const;
+
   Pose X_BC_;
   CircleWrap circle_;
 };

@@ -30,6 +30,10 @@ class Sphere final : public WrappingSurface {
     CircleWrap::State circle;
     double normal[3];  ///< last normal of the plane, unit, body frame
   };
+  struct Arm;  ///< a point as seen from the centre
+
+  void follow(const CircleWrap::Result& wrap, const Vec3& normal, const Arm& j1, const Arm& j2,
+              WrapContact& contact) const;
 
   Vec3 center_;
   CircleWrap circle_;

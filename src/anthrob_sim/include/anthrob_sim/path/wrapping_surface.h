@@ -24,8 +24,8 @@ struct WrapContact {
   double turning = 0.0;               ///< angle by which the surface turns the tendon [rad]
   double wrap_angle = 0.0;            ///< angle about the surface's axis or centre [rad]
   int half_turns = 0;  ///< multiples of pi in wrap_angle: the revolution counter of (4.26)
-  /// Depth of the deeper end point inside the surface, >= 0 [m]. Such a point counts as lying on
-  /// the surface.
+  /// Depth of the deeper end point inside the surface, touching or not, >= 0 [m]. Such a point
+  /// counts as lying on the surface of a mesh, and nearer to that of a sphere or cylinder.
   double penetration = 0.0;
   /// Force on the preceding point, and on the surface from the succeeding one, per unit of tension:
   /// the directions, except where a point lies inside. There they are the gradient of the length,
