@@ -272,5 +272,42 @@ TEST(Friction, StickingLawNeverAddsEnergyInRandomRuns) {
   expect_friction_dissipates(kSticking, 500);
 }
 
+const char* const kPulleyUrdf = R"(<robot name="pulley">
+  <link name="world"/>
+  <joint name="hinge" type="continuous"><parent link="world"/><child link="arm"/>
+    <origin xyz="0.31 0.17 0.53" rpy="0.3 -0.8 1.1"/><axis xyz="0.48 0.6 0.64"/></joint>
+  <link name="arm"><inertial><mass value="0.5"/><origin xyz="0.1 0 0"/>
+    <inertia ixx="1e-3" ixy="0" ixz="0" iyy="1e-3" iyz="0" izz="1e-3"/></inertial></link>
+</robot>)";
+
+/// Two eyelets of different bodies in one place, on the hinge's axis: the tendon turns there by
+/// what the pieces beside them turn, whatever rounding says about the piece between them.
+TEST(FrictionChain, APieceWithoutLengthHasNoTurningOfItsOwn) {
+  std::string text = hoist(kSmooth, 0);
+  const auto path = text.find("    path:");
+  text = text.substr(0, path) +
+         "    path:\n"
+         "      - {point: [-0.4, 0.1, 0.5], body: world}\n"
+         "      - {point: [0.31, 0.17, 0.53], body: world}\n"
+         "      - {point: [0, 0, 0], body: arm}\n"
+         "      - {point: [0.2, 0.05, 0.1], body: arm}\n";
+  const auto joint = text.find("  slide:"), springs = text.find("springs:");
+  text = text.substr(0, joint) +
+         "  hinge:\n    friction: {static: 0, kinetic: 0, viscous: 0.01, stribeck_velocity: 1}\n" +
+         text.substr(springs);
+  const TemporaryRobot robot(kPulleyUrdf, text);
+  Simulation sim(robot.load());
+  Random random(4);
+  for (int i = 0; i < 200; ++i) {
+    sim.place({random.uniform(-3.0, 3.0)}, {0.0});
+    const MusclePath& path_now = sim.muscle(0).path();
+    ASSERT_LT(path_now.segments()[1].length, 1e-9);
+    const Vec3 in = path_now.segments()[0].direction_W, out = path_now.segments()[2].direction_W;
+    EXPECT_NEAR(path_now.obstacles()[1].turning + path_now.obstacles()[2].turning,
+                std::acos(in.dot(out)), 1e-7);
+    EXPECT_EQ(path_now.segments()[1].direction_W, in);
+  }
+}
+
 }  // namespace
 }  // namespace anthrob

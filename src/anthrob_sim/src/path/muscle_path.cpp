@@ -7,6 +7,10 @@ namespace anthrob {
 
 namespace {
 
+/// Shorter pieces of a path have no direction of their own: rounding of world coordinates is 1e-16
+/// m, and no motion comes this close but for points that lie in one place on purpose.
+constexpr double kNoLength = 1e-9;  // [m]
+
 /// Angle between two unit vectors, accurate for small angles too [rad].
 double angle_between(const Vec3& a, const Vec3& b) {
   const double cosine = a.dot(b);
@@ -73,9 +77,12 @@ void MusclePath::update(const std::vector<BodyState>& bodies, StateView state) {
     }
   }
   length_ = 0.0;
+  bool all_long = true;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     length_ += segments_[i].length + obstacles_[i].length_on;
+    all_long = all_long && segments_[i].length > kNoLength;
   }
+  if (!all_long) direct_short_segments();
   for (std::size_t i = 1; i + 1 < list.size(); ++i) {
     if (list[i].surface ||
         (model_.is_static(i - 1) && model_.is_static(i) && obstacles_[i].turning > 0)) {
@@ -95,6 +102,34 @@ void MusclePath::update_point_segment(const std::vector<BodyState>& bodies, std:
   // Coincident points pull nowhere; any direction serves.
   segment.direction_W = segment.length > 0.0 ? Vec3(line / segment.length) : Vec3(Vec3::UnitX());
   segment.pull_W = segment.direction_W;
+}
+
+/// Whether both ends of the piece between two points, to which a segment belongs, are one place.
+bool MusclePath::has_no_length(std::size_t i) const {
+  const auto& list = model_.obstacles();
+  double length = segments_[i].length;
+  for (const std::size_t end : {i, i + 1}) {
+    if (!list[end].surface) continue;
+    if (obstacles_[end].touching) return false;
+    length += segments_[end == i ? i - 1 : i + 1].length;
+  }
+  return length <= kNoLength;
+}
+
+/// Segments without length take their neighbour's direction, so that the tendon turns there once,
+/// by what the segments beside them turn.
+void MusclePath::direct_short_segments() {
+  const std::size_t count = segments_.size();
+  std::size_t first = 0;
+  while (first < count && has_no_length(first)) ++first;
+  if (first == count) return;
+  const auto follow = [this](std::size_t i, std::size_t neighbour) {
+    segments_[i].direction_W = segments_[i].pull_W = segments_[neighbour].direction_W;
+  };
+  for (std::size_t i = 0; i < first; ++i) follow(i, first);
+  for (std::size_t i = first + 1; i < count; ++i) {
+    if (has_no_length(i)) follow(i, i - 1);
+  }
 }
 
 void MusclePath::update_surface(const std::vector<BodyState>& bodies, StateView state,

@@ -91,6 +91,8 @@ class MusclePath {
  private:
   void update_point_segment(const std::vector<BodyState>& bodies, std::size_t i);
   void update_surface(const std::vector<BodyState>& bodies, StateView state, std::size_t i);
+  bool has_no_length(std::size_t segment) const;
+  void direct_short_segments();
 
   const PathModel& model_;
   std::vector<PathSegment> segments_;
