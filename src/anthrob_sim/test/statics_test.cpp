@@ -117,5 +117,26 @@ TEST(Equilibrium, TheSimulationTakesIt) {
   }
 }
 
+/// Nothing chooses a ligament's tension: slack it has none, taut what its stretch gives, and the
+/// muscles carry the rest.
+TEST(Equilibrium, LigamentsPullAsTheirStretchSays) {
+  const auto model = load_robot_model(config("two_muscle_rig/model_hill.yaml"),
+                                      {1e-3, {{"muscles.capsule.rest_tendon_length", 0.168}}});
+  const int capsule = model->find_muscle("capsule");
+  Simulation scratch(model);
+  int taut = 0, slack = 0;
+  for (const double angle : {-0.6, -0.2, -0.1, 0.0, 0.1, 0.2, 0.6}) {
+    const Equilibrium e = find_equilibrium(scratch, {angle}, {1.0, 200.0});
+    const double stretch = scratch.muscle(capsule).length() - 0.168 - 0.02;
+    ++(stretch > 0.0 ? taut : slack);
+    EXPECT_NEAR(e.tension[capsule], 8000.0 * std::max(0.0, stretch), 1e-9) << angle;
+    if (e.shortfall.norm() > 1e-6) continue;
+    const Eigen::VectorXd tension = Eigen::Map<const Eigen::VectorXd>(e.tension.data(), 3);
+    EXPECT_NEAR((moment_arm_matrix(scratch) * tension - gravity_load(scratch)).norm(), 0.0, 1e-6);
+  }
+  EXPECT_GT(taut, 0);
+  EXPECT_GT(slack, 0);
+}
+
 }  // namespace
 }  // namespace anthrob

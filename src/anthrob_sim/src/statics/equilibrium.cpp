@@ -52,8 +52,13 @@ Equilibrium find_equilibrium(Simulation& sim, const std::vector<double>& q,
                              const EquilibriumOptions& options) {
   const Eigen::Index count = static_cast<Eigen::Index>(sim.muscle_count());
   sim.place(q, std::vector<double>(sim.muscle_count(), 0.0));
-  const Eigen::VectorXd lowest = Eigen::VectorXd::Constant(count, options.lowest_tension);
-  const Eigen::VectorXd highest = Eigen::VectorXd::Constant(count, options.highest_tension);
+  Eigen::VectorXd lowest = Eigen::VectorXd::Constant(count, options.lowest_tension);
+  Eigen::VectorXd highest = Eigen::VectorXd::Constant(count, options.highest_tension);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const Muscle& muscle = sim.muscle(static_cast<int>(m));
+    if (muscle.model().actuator->takes_input()) continue;
+    lowest[m] = highest[m] = muscle.model().spring->relaxed_tension(muscle.expansion());
+  }
   const LeastEffort split =
       least_effort(moment_arm_matrix(sim), gravity_load(sim), lowest, highest);
 

@@ -47,6 +47,8 @@ class Actuator {
   /// Range of useful inputs: [-limit, limit] volts, or [0, limit].
   virtual double input_low() const = 0;
   virtual double input_high() const = 0;
+  /// Whether there is anything to choose; not for a ligament.
+  bool takes_input() const { return input_high() > input_low(); }
 };
 
 /// Builds the actuator of one muscle.

@@ -9,7 +9,8 @@ namespace anthrob {
 
 /// How to hold a posture at rest, derived from the model without friction.
 struct Equilibrium {
-  std::vector<double> tension;   ///< least-effort tension by muscle [N]
+  /// Least-effort tension by muscle; of one without an input (ligament) what its stretch gives [N].
+  std::vector<double> tension;
   std::vector<double> position;  ///< actuator position by muscle [rad]
   /// Reference of the ECU's position controller that leaves the actuator at `position`: its
   /// proportional control needs a standing error for the voltage that carries the load. For a
@@ -19,7 +20,7 @@ struct Equilibrium {
 };
 
 struct EquilibriumOptions {
-  double lowest_tension = 1.0;     ///< keeps tendons from going slack [N]
+  double lowest_tension = 1.0;     ///< keeps driven tendons from going slack [N]
   double highest_tension = 120.0;  ///< [N]
 };
 

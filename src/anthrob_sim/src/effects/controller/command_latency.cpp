@@ -26,9 +26,7 @@ class CommandLatency final : public MuscleEffect {
   CommandLatency() : MuscleEffect(describe()) {}
 
  protected:
-  bool fits(const MuscleModel& muscle) const override {
-    return muscle.actuator->input_high() > muscle.actuator->input_low();
-  }
+  bool fits(const MuscleModel& muscle) const override { return muscle.actuator->takes_input(); }
   void change(const EffectSetting& setting, ModelDraft& draft, std::size_t muscle) const override {
     draft.robot.muscles[muscle].command_delay += setting["delay"];
   }
