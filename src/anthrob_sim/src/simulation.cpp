@@ -62,6 +62,7 @@ Simulation::Simulation(std::shared_ptr<const RobotModel> model)
   for (Muscle& muscle : muscles_) {
     if (!muscle.sliding().contacts.empty()) sliding_.push_back(&muscle.sliding());
   }
+  dissipation_offset_ = store_.reserve(1);
   measured_offset_ = store_.reserve(skeleton.joints.size());
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
     joint_sensors_.emplace_back(model_->sensors.joint_position, model_->sensors.seed,
@@ -208,7 +209,7 @@ void Simulation::place(const std::vector<double>& q, const std::vector<double>& 
 void Simulation::settle_in(const std::vector<BodyState>& bodies) {
   skeleton_.set_bodies(bodies);
   tree_.update(skeleton_.bodies(), q_);
-  joint_dissipation_ = 0.0;
+  store_.at(dissipation_offset_)[0] = 0.0;
   reset_effects();
   for (std::size_t m = 0; m < muscles_.size(); ++m) {
     muscles_[m].reset_sensors(reading(static_cast<int>(m)));
@@ -250,7 +251,8 @@ void Simulation::step_once() {
                     joint_loads_.wanted() ? store_.at(loads_offset_).data() : nullptr);
   // Work within the step goes with the mean of the velocities at its ends.
   const Eigen::Map<const Eigen::VectorXd> start(tree_.velocities().data(), tau_.size());
-  joint_dissipation_ = -0.5 * resistance_.joint_torque().dot(start + resistance_.velocity());
+  store_.at(dissipation_offset_)[0] =
+      -0.5 * resistance_.joint_torque().dot(start + resistance_.velocity());
   for (Muscle& muscle : muscles_) muscle.finish_sliding();
 
   apply_wrenches();

@@ -219,6 +219,30 @@ TEST(Simulation, SnapshotInMidFlightContinuesWithTheSameBits) {
   expect_same_bits(original, fresh);
 }
 
+TEST(Simulation, RestoringAndPlacingBringTheLastStepsLossesToo) {
+  const auto losses = [](const Simulation& sim) {
+    std::vector<double> powers{sim.joint_dissipation()};
+    for (std::size_t m = 0; m < sim.muscle_count(); ++m)
+      powers.push_back(sim.muscle(m).friction_power());
+    return powers;
+  };
+  Simulation original(anthrob_model("II"));
+  excite(original);
+  original.step(457);
+  const Snapshot snapshot = original.snapshot();
+  const std::vector<double> then = losses(original);
+  EXPECT_GT(then[0], 0.0);
+  EXPECT_NE(then[1], 0.0);
+  original.step(200);
+  original.restore(snapshot);
+  EXPECT_EQ(losses(original), then);
+  Simulation fresh(anthrob_model("II"));
+  fresh.restore(snapshot);
+  EXPECT_EQ(losses(fresh), then);
+  fresh.place(fresh.configuration(), std::vector<double>(11, 0.0));
+  EXPECT_EQ(losses(fresh), std::vector<double>(12, 0.0));
+}
+
 TEST(Simulation, SnapshotOfAnotherModelIsRefused) {
   Simulation one(anthrob_model("I")), two(anthrob_model("II"));
   EXPECT_THROW(one.restore(two.snapshot()), BadInput);

@@ -97,7 +97,7 @@ class Simulation {
   double kinetic_energy() const;
   double potential_energy() const;
   /// Power that joint friction and stops take out of the last step [W].
-  double joint_dissipation() const { return joint_dissipation_; }
+  double joint_dissipation() const { return store_.at(dissipation_offset_)[0]; }
   int solver_iterations() const { return resistance_.iterations(); }
 
   Snapshot snapshot() const;
@@ -135,7 +135,7 @@ class Simulation {
   std::vector<PowerLine> lines_;  ///< scratch of power_effects
   std::size_t readings_offset_ = 0, loads_offset_ = 0;
   std::vector<std::size_t> power_offsets_, reading_offsets_;
-  double joint_dissipation_ = 0.0;
+  std::size_t dissipation_offset_ = 0;
   std::uint64_t step_index_ = 0;
 };
 

@@ -84,6 +84,7 @@ void Muscle::relax() {
   c.expansion = expansion();
   c.expansion_rate = 0.0;
   c.friction_power = 0.0;
+  c.sliding_power = 0.0;
   c.voltage = 0.0;
   c.controller = {};
   model_.spring->relax(c.expansion, spring_state());
@@ -214,6 +215,7 @@ void Muscle::finish_sliding() {
     }
     tension_slot(i) = tension;
   }
+  memory().sliding_power = sliding_power();
 }
 
 void Muscle::advance_actuator(double input) {
@@ -292,7 +294,12 @@ double Muscle::tension(std::size_t segment) const {
 }
 
 double Muscle::friction_power() const {
-  double power = memory().friction_power, before = sliding_.tension;
+  return memory().friction_power + memory().sliding_power;
+}
+
+/// As the solver left it: scratch memory, of no use after a restore.
+double Muscle::sliding_power() const {
+  double power = 0.0, before = sliding_.tension;
   for (std::size_t j = 0; j < sliding_.contacts.size(); ++j) {
     const double speed = 0.5 * (sliding_.start_speed[j] + sliding_.slide_speed[j]);
     power += (before - sliding_.tension_after[j]) * speed;

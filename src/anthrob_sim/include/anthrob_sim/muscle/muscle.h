@@ -100,6 +100,7 @@ class Muscle {
     double expansion;       ///< [m]
     double expansion_rate;  ///< over the last step [m/s]
     double friction_power;  ///< before the spring, over the last step [W]
+    double sliding_power;   ///< of friction beyond the spring, over the last step [W]
     ecu::ControllerMemory controller;
     ecu::Measurement measured;
   };
@@ -114,6 +115,7 @@ class Muscle {
   /// Rate at which the path from the origin to an obstacle gets longer [m/s].
   double path_rate(std::size_t obstacle, const KinematicTree& tree) const;
   void relax();
+  double sliding_power() const;
   /// The command that arrives at the controller in this step.
   void delay_command(ecu::Mode& mode, double& reference);
 
