@@ -66,7 +66,7 @@ Simulation::Simulation(std::shared_ptr<const RobotModel> model)
   measured_offset_ = store_.reserve(skeleton.joints.size());
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
     joint_sensors_.emplace_back(model_->sensors.joint_position, model_->sensors.seed,
-                                kJointStreams + i, model_->step);
+                                kJointStreams + i, model_->step, model_->sensors.steps_per_tick);
     joint_sensor_offsets_.push_back(store_.reserve(joint_sensors_.back().state_size()));
   }
   tau_.setZero(skeleton.velocity_count);

@@ -6,13 +6,16 @@
 #include <cmath>
 #include <vector>
 
+#include "anthrob_sim/simulation.h"
+#include "support.h"
+
 namespace anthrob {
 namespace {
 
 class Instrument {
  public:
-  explicit Instrument(const SensorModel& model, std::uint64_t stream = 0)
-      : sensor_(model, 7, stream, 1e-3), memory_(sensor_.state_size() + 1, 0.0) {
+  explicit Instrument(const SensorModel& model, std::uint64_t stream = 0, int steps_per_tick = 1)
+      : sensor_(model, 7, stream, 1e-3, steps_per_tick), memory_(sensor_.state_size() + 1, 0.0) {
     sensor_.reset(0.0, StateView(memory_.data()));
   }
   double measure(double value) {
@@ -84,6 +87,37 @@ TEST(Sensor, AverageIsAMovingMean) {
   sensor.measure(0.0);
   EXPECT_DOUBLE_EQ(sensor.measure(0.0), 3.0);
   EXPECT_DOUBLE_EQ(sensor.measure(0.0), 2.0);
+}
+
+TEST(Sensor, AverageCountsTicksWhateverTheStep) {
+  SensorModel model;
+  model.average = 4;
+  Instrument coarse(model), fine(model, 0, 5);
+  for (int tick = 0; tick < 30; ++tick) {
+    const double seen = coarse.measure(tick * tick);
+    for (int step = 0; step < 5; ++step) {
+      // What comes between the ticks is not seen.
+      EXPECT_EQ(fine.measure(step == 0 ? tick * tick : -1e6), seen) << tick << " " << step;
+    }
+  }
+}
+
+/// What the ECU reads while a motor turns at 1 rad/s, 9.5 ticks behind: half of the 20 averaged.
+TEST(Sensor, AveragesOfAModelLagByTheSameTimeAtAnyStep) {
+  const std::string rig = testing_support::config("two_muscle_rig/");
+  const testing_support::TemporaryRobot robot(
+      "", "extends: " + rig + "model_I.yaml\nrobot: " + rig +
+              "robot.urdf\nsensors:\n  position: {average: 20}\n");
+  for (const double step : {1e-3, 5e-4, 1e-4}) {
+    Simulation sim(robot.load(step));
+    const int steps = static_cast<int>(std::lround(0.1 / step));
+    for (int i = 1; i <= steps; ++i) {
+      sim.impose_position(0, i * step, 1.0);
+      sim.step();
+    }
+    EXPECT_NEAR(sim.muscle(0).actuator().position, 0.1, 1e-9);
+    EXPECT_NEAR(sim.muscle(0).measured().position, 0.1 - 0.0095, 1e-9) << step;
+  }
 }
 
 }  // namespace

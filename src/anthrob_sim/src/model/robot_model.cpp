@@ -282,6 +282,12 @@ class Builder {
   }
 
   void read_sensors() {
+    int fastest = 0;
+    for (const MuscleModel& muscle : model_->muscles) {
+      if (!muscle.has_controller) continue;
+      fastest = fastest == 0 ? muscle.steps_per_tick : std::min(fastest, muscle.steps_per_tick);
+    }
+    model_->sensors.steps_per_tick = std::max(1, fastest);
     if (!config_.has("sensors")) return;
     const ConfigNode node = config_.at("sensors");
     const auto read = [&](const std::string& key, const std::string& unit, SensorModel& model) {

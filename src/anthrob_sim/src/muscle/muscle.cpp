@@ -22,9 +22,10 @@ Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const Se
   path_offset_ = store.reserve(path.state_size());
   control_offset_ = store.reserve(state_size_of<Control>());
   tension_offset_ = store.reserve(path.segment_count());
+  const int tick = model.has_controller ? model.steps_per_tick : sensors.steps_per_tick;
   for (int i = 0; i < kSensorCount; ++i) {
     sensors_.emplace_back(*kinds[i], sensors.seed,
-                          static_cast<std::uint64_t>(index) * kSensorCount + i, step);
+                          static_cast<std::uint64_t>(index) * kSensorCount + i, step, tick);
     sensor_offsets_[i] = store.reserve(sensors_[i].state_size());
   }
   if (model.command_delay > 0.0) {

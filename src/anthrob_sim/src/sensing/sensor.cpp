@@ -26,10 +26,12 @@ SensorModel SensorModel::load(const ConfigNode& node, const std::string& unit) {
   return model;
 }
 
-Sensor::Sensor(const SensorModel& model, std::uint64_t seed, std::uint64_t stream, double step)
+Sensor::Sensor(const SensorModel& model, std::uint64_t seed, std::uint64_t stream, double step,
+               int steps_per_tick)
     : model_(model),
       random_(seed, stream),
-      delay_steps_(static_cast<std::size_t>(std::lround(model.delay / step))) {}
+      delay_steps_(static_cast<std::size_t>(std::lround(model.delay / step))),
+      steps_per_tick_(static_cast<std::uint64_t>(steps_per_tick)) {}
 
 void Sensor::reset(double value, StateView state) const {
   if (model_.ideal()) return;
@@ -46,7 +48,12 @@ double Sensor::measure(double value, std::uint64_t index, StateView state) const
   }
   if (model_.noise > 0.0) value += model_.noise * random_.normal(index);
   if (model_.quantum > 0.0) value = model_.quantum * std::round(value / model_.quantum);
-  if (model_.average > 1) {
+  return model_.average > 1 ? averaged(value, index % steps_per_tick_ == 0, state) : value;
+}
+
+double Sensor::averaged(double value, bool tick, StateView state) const {
+  // The first value after a reset counts whenever it comes: there is no other.
+  if (tick || state[kAverageCount] == 0.0) {
     const std::size_t size = static_cast<std::size_t>(model_.average);
     double& slot = state[kLines + delay_steps_ +
                          static_cast<std::size_t>(take_turn(state[kAverageNext], size))];
@@ -57,9 +64,8 @@ double Sensor::measure(double value, std::uint64_t index, StateView state) const
     }
     slot = value;
     state[kAverageSum] += value;
-    value = state[kAverageSum] / state[kAverageCount];
   }
-  return value;
+  return state[kAverageSum] / state[kAverageCount];
 }
 
 }  // namespace anthrob

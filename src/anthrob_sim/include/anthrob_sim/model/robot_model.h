@@ -45,6 +45,8 @@ struct MuscleModel {
 struct SensorsModel {
   SensorModel position, velocity, current, force;  ///< of every muscle
   SensorModel joint_position;                      ///< of hinge and prismatic joints
+  /// Of the robot's fastest controller, for sensors that belong to none; 1 without controllers.
+  int steps_per_tick = 1;
   std::uint64_t seed = 1;
 };
 

@@ -14,7 +14,7 @@ struct SensorModel {
   double noise = 0.0;    ///< standard deviation of white noise [unit of the quantity]
   double quantum = 0.0;  ///< size of one count [unit of the quantity]
   double delay = 0.0;    ///< [s]
-  int average = 1;       ///< samples in the moving average (the ECU's FIR filter); 1: none
+  int average = 1;       ///< ECU ticks in the moving average (its FIR filter); 1: none
 
   bool ideal() const { return noise == 0.0 && quantum == 0.0 && delay == 0.0 && average == 1; }
 
@@ -22,22 +22,29 @@ struct SensorModel {
   static SensorModel load(const ConfigNode& node, const std::string& unit);
 };
 
-/// One measured quantity: delay, then noise, then rounding to counts, then moving average.
+/// One measured quantity: delay, then noise, then rounding to counts, then moving average over what
+/// the ECU's ticks find.
 class Sensor {
  public:
   /// @param stream different for every sensor of a robot   @param step [s]
-  Sensor(const SensorModel& model, std::uint64_t seed, std::uint64_t stream, double step);
+  /// @param steps_per_tick simulation steps from one sample of the average to the next, >= 1
+  Sensor(const SensorModel& model, std::uint64_t seed, std::uint64_t stream, double step,
+         int steps_per_tick);
 
   std::size_t state_size() const { return model_.ideal() ? 0 : 4 + delay_steps_ + model_.average; }
   /// As if the quantity had always had this value.
   void reset(double value, StateView state) const;
-  /// To be called once every step with the true value; `index` counts the steps.
+  /// To be called once every step with the true value; `index` counts the steps. An average changes
+  /// where it is a multiple of `steps_per_tick`, and holds in between.
   double measure(double value, std::uint64_t index, StateView state) const;
 
  private:
+  double averaged(double value, bool tick, StateView state) const;
+
   SensorModel model_;
   CounterRandom random_;
   std::size_t delay_steps_;
+  std::uint64_t steps_per_tick_;
 };
 
 }  // namespace anthrob
