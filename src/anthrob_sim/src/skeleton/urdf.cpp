@@ -165,19 +165,10 @@ class Builder {
         fail("joint " + joint.name + ": axis: expected a vector that is not zero");
       model.axis_C /= norm;
     }
-    if (joint.dynamics) {
-      model.friction.viscous = joint.dynamics->damping;
-      model.friction.static_torque = model.friction.kinetic_torque = joint.dynamics->friction;
-    }
+    if (joint.dynamics) read_dynamics(joint, model);
     if (joint.limits &&
         (joint.type == urdf::Joint::REVOLUTE || model.type == JointType::kPrismatic)) {
-      if (!(joint.limits->lower < joint.limits->upper)) {
-        fail("joint " + joint.name + ": limit: lower " + std::to_string(joint.limits->lower) +
-             ", upper " + std::to_string(joint.limits->upper) + ": expected lower < upper");
-      }
-      model.stop.enabled = true;
-      model.stop.lower = joint.limits->lower;
-      model.stop.upper = joint.limits->upper;
+      read_limits(joint, model);
     }
     model.position_offset = model_.position_count;
     model.velocity_offset = model_.velocity_count;
@@ -189,6 +180,29 @@ class Builder {
     child_body.name = child->name;
     model_.bodies.push_back(child_body);
     add_link(*child, model.child, Pose());
+  }
+
+  void read_dynamics(const urdf::Joint& joint, JointModel& model) const {
+    const auto nonnegative = [&](const char* what, double value) {
+      if (value >= 0.0 && std::isfinite(value)) return value;
+      fail("joint " + joint.name + ": dynamics: " + what + ": " + std::to_string(value) +
+           ": expected a number >= 0");
+    };
+    model.friction.viscous = nonnegative("damping", joint.dynamics->damping);
+    model.friction.static_torque = model.friction.kinetic_torque =
+        nonnegative("friction", joint.dynamics->friction);
+  }
+
+  void read_limits(const urdf::Joint& joint, JointModel& model) const {
+    const double lower = joint.limits->lower, upper = joint.limits->upper;
+    const std::string values = "joint " + joint.name + ": limit: lower " + std::to_string(lower) +
+                               ", upper " + std::to_string(upper);
+    if (!(lower < upper)) fail(values + ": expected lower < upper");
+    // At rest every joint stands at zero.
+    if (!(lower <= 0.0 && upper >= 0.0)) fail(values + ": expected lower <= 0 <= upper");
+    model.stop.enabled = true;
+    model.stop.lower = lower;
+    model.stop.upper = upper;
   }
 
   void finish_body(BodyModel& body) {
