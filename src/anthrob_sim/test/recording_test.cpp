@@ -328,6 +328,56 @@ TEST(Replay, RefusesWhatTheRobotLacks) {
   EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), BadInput);  // no input
 }
 
+/// One row of a recording of the rig is bad; what a replay says to that, empty if it takes it.
+std::string verdict(const std::string& bad, double value, ReplayMode mode,
+                    const std::string& without = "") {
+  Dataset recording;
+  recording.folder = "run";
+  recording.meta.settle_s = 0.01;
+  Table& table = recording.table("muscles");
+  table.t = {0, 1000000, 2000000};
+  for (const char* name : {"flexor/reference", "flexor/mode", "flexor/voltage", "flexor/position",
+                           "flexor/force", "hinge/position", "hinge/effort", "hinge/load"}) {
+    if (name == without) continue;
+    Column& column = table.column(name);
+    column.values = {0.0, name == bad ? value : 0.0, 0.0};
+    if (!without.empty() && name == bad) column.values[0] = value;
+    column.present = {1, 1, 1};
+  }
+  try {
+    replay(rig(), recording, mode);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Replay, RefusesInputsThatAreNotNumbersAndLeavesMeasurementsAlone) {
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  const ReplayMode reference = ReplayMode::kReference, voltage = ReplayMode::kVoltage,
+                   position = ReplayMode::kPosition;
+  EXPECT_EQ(verdict("flexor/position", nan, position),
+            "run/muscles.csv: row 2: flexor/position: nan: expected a finite number: it drives the "
+            "replay");
+  EXPECT_EQ(verdict("flexor/mode", 7.0, reference),
+            "run/muscles.csv: row 2: flexor/mode: 7: expected VOLTAGE, POSITION, CURRENT or FORCE");
+  EXPECT_NE(verdict("flexor/reference", nan, reference), "");
+  EXPECT_NE(verdict("flexor/reference", inf, reference), "");
+  EXPECT_NE(verdict("flexor/voltage", -inf, voltage), "");
+  EXPECT_NE(verdict("hinge/load", nan, position), "");
+  // A start without references is at the first positions.
+  EXPECT_NE(verdict("flexor/position", nan, voltage, "flexor/reference"), "");
+
+  EXPECT_EQ(verdict("flexor/position", nan, reference), "");
+  EXPECT_EQ(verdict("flexor/voltage", nan, reference), "");
+  EXPECT_EQ(verdict("flexor/reference", nan, position), "");
+  for (const ReplayMode mode : {reference, voltage, position}) {
+    EXPECT_EQ(verdict("flexor/force", nan, mode), "");
+    EXPECT_EQ(verdict("hinge/position", nan, mode), "");
+    EXPECT_EQ(verdict("hinge/effort", nan, mode), "");  // the hinge is not driven
+  }
+}
+
 TEST(Replay, StartsMusclesWithoutControllersAtRest) {
   const auto hill = load_robot_model(config("two_muscle_rig/model_hill.yaml"));
   Dataset recording;

@@ -18,6 +18,7 @@ const std::set<std::string> kJointQuantities = {"position", "velocity", "effort"
 Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode)
     : model_(std::move(model)), mode_(mode), meta_(recording.meta) {
   check_names(recording);
+  check_inputs(recording);
   for (const auto& [muscle, position] : meta_.start_position) {
     const int index = model_->find_muscle(muscle);
     if (index < 0 || !model_->muscles[static_cast<std::size_t>(index)].has_controller) {
@@ -69,6 +70,44 @@ void Replay::check_names(const Dataset& recording) const {
       if (!known) {
         throw BadInput(recording.folder + "/" + table.name + ".csv: column '" + column.name +
                        "': the robot of " + model_->file + " has no such quantity");
+      }
+    }
+  }
+}
+
+Replay::Use Replay::use_of(const Dataset& recording, const Column& column) const {
+  const std::string owner = column.owner(), quantity = column.quantity();
+  if (model_->find_muscle(owner) >= 0) {
+    if (quantity == "position" && mode_ != ReplayMode::kPosition) {
+      return recording.series(owner + "/reference").empty() ? Use::kStart : Use::kNone;
+    }
+    const bool driving = mode_ == ReplayMode::kPosition
+                             ? quantity == "position"
+                             : quantity == "mode" || quantity == "reference" ||
+                                   (quantity == "voltage" && mode_ == ReplayMode::kVoltage);
+    return driving ? Use::kAll : Use::kNone;
+  }
+  const JointModel& joint = model_->skeleton->joints[model_->skeleton->find_joint(owner)];
+  if (quantity == "load" || (quantity == "effort" && joint.driven)) return Use::kAll;
+  return quantity == "position" && model_->muscles.empty() ? Use::kStart : Use::kNone;
+}
+
+void Replay::check_inputs(const Dataset& recording) const {
+  for (const Table& table : recording.tables) {
+    for (const Column& column : table.columns) {
+      const Use use = use_of(recording, column);
+      const bool mode = column.quantity() == "mode";
+      for (std::size_t i = 0; use != Use::kNone && i < column.values.size(); ++i) {
+        if (!column.present[i]) continue;
+        const double value = column.values[i];
+        if (!std::isfinite(value) || (mode && (value < 0.0 || value > 3.0))) {
+          throw BadInput(recording.folder + "/" + table.name + ".csv: row " +
+                         std::to_string(i + 1) + ": " + column.name + ": " + exact_text(value) +
+                         ": expected " +
+                         (mode ? "VOLTAGE, POSITION, CURRENT or FORCE"
+                               : "a finite number: it drives the replay"));
+        }
+        if (use == Use::kStart) break;
       }
     }
   }

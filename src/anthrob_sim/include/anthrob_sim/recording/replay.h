@@ -23,7 +23,7 @@ enum class ReplayMode {
 class Replay {
  public:
   /// @throws BadInput if the recording names muscles or joints that the robot lacks, or has no
-  /// input
+  /// input, or one that is not a finite number or a known mode. What was only measured may be NaN.
   Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode);
 
   /// Puts the simulation where the recording starts: settled at the first reference, at zero, or at
@@ -58,6 +58,10 @@ class Replay {
   StartInput start_input(const MuscleInput& input) const;
 
   void check_names(const Dataset& recording) const;
+  void check_inputs(const Dataset& recording) const;
+  /// How much of a column drives the simulation.
+  enum class Use { kNone, kStart, kAll };
+  Use use_of(const Dataset& recording, const Column& column) const;
   ecu::Mode mode_at(const MuscleInput& input, double time) const;
   void impose(Simulation& sim, const MuscleInput& input, double time) const;
 
