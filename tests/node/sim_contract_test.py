@@ -148,6 +148,20 @@ class SimContract(unittest.TestCase):
         values = {v.key for v in self.diagnostics.last().status[0].values}
         self.assertTrue({'real_time_factor', 'late_cycles', 'rejected_commands'} <= values)
 
+    def test_a_path_point_inside_a_surface_is_reported(self):
+        def paths():
+            last = self.diagnostics.last()
+            return next((s for s in last.status if s.name == '/anthrob: muscle paths'), None) if last else None
+        wait_for(lambda: paths() is not None and paths().level == 0, 5, 'paths that are as they should be')
+        # Flexed by 90 degrees, drawn across the chest by 34.
+        self.assertTrue(self.set_state(
+            ball_joint_name=['shoulder'],
+            ball_joint_orientation=[Quaternion(w=0.6762, x=-0.6504, y=0.2067, z=-0.2775)]).success)
+        wait_for(lambda: paths().level == 1 and paths().message ==
+                 'posterior_deltoid: a path point lies 12.4 mm inside the cylinder on humerus (path.4)', 5, 'warning')
+        self.reset()
+        wait_for(lambda: paths().level == 0, 5, 'the warning to end')
+
     # ---- commands ----
 
     def test_a_command_moves_the_arm(self):

@@ -167,6 +167,7 @@ anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& s
       message.length = contact.length;
       message.tension_in = contact.tension_in;
       message.tension_out = contact.tension_out;
+      message.penetration = contact.penetration;
       path.contacts.push_back(message);
     }
     paths.muscles.push_back(path);

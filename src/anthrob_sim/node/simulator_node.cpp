@@ -306,6 +306,8 @@ void SimulatorNode::cycle() {
 
 void SimulatorNode::publish(bool all) {
   const ros::Time now = stamp();
+  Penetration found = deepest_penetration(sim_);
+  if (found.depth > deepest_.depth) deepest_ = std::move(found);
   rosgraph_msgs::Clock clock;
   clock.clock = now;
   clock_.publish(clock);
@@ -363,6 +365,16 @@ void SimulatorNode::publish_diagnostics() {
     unit.values = {key_value("stop_latched", supervisor_.stop_latched() ? "true" : "false")};
     array.status.push_back(unit);
   }
+  diagnostic_msgs::DiagnosticStatus paths;
+  paths.name = nh_.getNamespace() + ": muscle paths";
+  paths.hardware_id = sim_.model().file;
+  const bool inside = deepest_.depth > kRoundingDepth;
+  paths.level =
+      inside ? diagnostic_msgs::DiagnosticStatus::WARN : diagnostic_msgs::DiagnosticStatus::OK;
+  paths.message = inside ? deepest_.text() : "no path point inside a surface";
+  paths.values = {key_value("deepest_penetration", text(deepest_.depth))};
+  array.status.push_back(paths);
+  deepest_ = deepest_penetration(sim_);
   diagnostics_.publish(array);
   report_time_ = wall;
   report_sim_time_ = sim_.time();

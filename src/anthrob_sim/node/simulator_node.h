@@ -14,6 +14,7 @@
 #include <chrono>
 
 #include "anthrob_ecu/supervisor.h"
+#include "anthrob_sim/report/solved_path.h"
 #include "anthrob_sim/simulation.h"
 
 namespace anthrob {
@@ -87,6 +88,7 @@ class SimulatorNode {
   Clock::time_point deadline_, report_time_, marker_time_;
   double report_sim_time_ = 0.0;
   int late_cycles_ = 0;
+  Penetration deepest_;  ///< of a path point into a surface since the last report
 };
 
 }  // namespace anthrob

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "anthrob_sim/path/cylinder.h"
 #include "anthrob_sim/report/muscle_sweep.h"
 #include "anthrob_sim/report/solved_path.h"
 #include "support.h"
@@ -98,6 +99,40 @@ TEST(SolvedPath, AgreesWithTheMotion) {
     }
   }
   EXPECT_GT(touching, 500u);
+}
+
+/// Flexed by 90 degrees and drawn across the chest, the posterior deltoid's last point on the base
+/// comes inside the humerus's cylinder, which has no ends.
+TEST(SolvedPath, SaysWhichPathPointIsInsideWhatAndHowDeep) {
+  const auto model = load_robot_model(config("anthrob/model_II.yaml"));
+  Simulation sim(model);
+  EXPECT_LT(deepest_penetration(sim).depth, kRoundingDepth);
+  const Mat3 R = sim.tree().joint(0).R_WC;
+  const Vec3 flexion = R.transpose() * Vec3(1, -1, 0).normalized();
+  const Vec3 up = R.transpose() * Vec3::UnitZ();
+  const Quat turn =
+      Quat(Eigen::AngleAxisd(34 * M_PI / 180, up)) * Quat(Eigen::AngleAxisd(M_PI / 2, flexion));
+  sim.place({turn.w(), turn.x(), turn.y(), turn.z(), 0.0}, std::vector<double>(11, 0.0));
+
+  const int index = model->find_muscle("posterior_deltoid");
+  const auto& obstacles = model->muscles[index].path->obstacles();
+  const auto& cylinder = dynamic_cast<const Cylinder&>(*obstacles[4].surface);
+  const auto place = [&](std::size_t i) -> Vec3 {
+    return sim.bodies()[obstacles[i].body].X_WB * obstacles[i].point_B;
+  };
+  const Vec3 p = cylinder.pose().to_local(sim.bodies()[obstacles[4].body].X_WB.to_local(place(3)));
+  const double depth = cylinder.radius() - std::hypot(p.x(), p.z());
+  ASSERT_GT(depth, 0.5 * cylinder.radius());
+
+  const Penetration deepest = deepest_penetration(sim);
+  EXPECT_EQ(deepest.muscle, "posterior_deltoid");
+  EXPECT_EQ(deepest.obstacle, 4u);
+  EXPECT_NEAR(deepest.depth, depth, 1e-12);
+  char millimetres[16];
+  std::snprintf(millimetres, sizeof(millimetres), "%.1f", 1e3 * depth);
+  EXPECT_EQ(deepest.text(), std::string("posterior_deltoid: a path point lies ") + millimetres +
+                                " mm inside the cylinder on humerus (path.4)");
+  EXPECT_NEAR(solved_path(sim, index).contacts[0].penetration, depth, 1e-12);
 }
 
 }  // namespace

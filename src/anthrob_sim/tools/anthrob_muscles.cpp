@@ -68,11 +68,12 @@ void add_surfaces(const Muscle& muscle, std::size_t columns, Row& row) {
       row.push_back(state.touching ? number(key + "exit_" + "xyz"[k], exit[k])
                                    : empty(key + "exit_" + "xyz"[k]));
     }
+    row.push_back(number(key + "penetration", state.penetration));
   }
   for (++n; n <= columns; ++n) {
     const std::string key = "wrap" + std::to_string(n) + "_";
     for (const char* name : {"type", "state", "angle", "entry_x", "entry_y", "entry_z", "exit_x",
-                             "exit_y", "exit_z"}) {
+                             "exit_y", "exit_z", "penetration"}) {
       row.push_back(empty(key + name));
     }
   }
@@ -148,9 +149,11 @@ void print_table(const Simulation& sim) {
     const auto& obstacles = muscle.model().path->obstacles();
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
       const ObstacleState& state = muscle.path().obstacles()[i];
-      if (!obstacles[i].surface || !state.touching) continue;
-      std::cout << "  " << obstacles[i].surface->type() << " " << std::setprecision(1)
-                << state.wrap_angle * 180.0 / M_PI << " deg";
+      const bool inside = state.penetration > kRoundingDepth;
+      if (!obstacles[i].surface || !(state.touching || inside)) continue;
+      std::cout << "  " << obstacles[i].surface->type() << std::setprecision(1);
+      if (state.touching) std::cout << " " << state.wrap_angle * 180.0 / M_PI << " deg";
+      if (inside) std::cout << " (a path point " << 1e3 * state.penetration << " mm inside)";
     }
     std::cout << "\n";
   }

@@ -13,9 +13,7 @@ namespace anthrob {
 
 namespace {
 
-/// How deep a path point may lie inside the surface next to it: table rounding, not a mistake [m].
-constexpr double kAllowedPenetration = 0.0002;
-/// The same where an effect may have moved points or surfaces.
+/// How deep a path point may lie inside where an effect may have moved points or surfaces [m].
 constexpr double kAllowedByEffects = 0.003;
 
 void require_snake_case(const ConfigNode& node, const std::string& name) {
@@ -323,7 +321,7 @@ class Builder {
     KinematicTree(*skeleton_).place(skeleton_->rest_configuration(), {}, bodies);
     if (!config_.has("muscles")) return;
     const auto nodes = config_.at("muscles").entries();
-    const double allowed = model_->effects.empty() ? kAllowedPenetration : kAllowedByEffects;
+    const double allowed = model_->effects.empty() ? kRoundingDepth : kAllowedByEffects;
     for (std::size_t m = 0; m < nodes.size(); ++m) {
       const PathModel& path = *model_->muscles[m].path;
       std::vector<double> memory(path.state_size() + 1, 0.0);

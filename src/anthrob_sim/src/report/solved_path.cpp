@@ -1,5 +1,7 @@
 #include "anthrob_sim/report/solved_path.h"
 
+#include <cstdio>
+
 namespace anthrob {
 
 namespace {
@@ -33,9 +35,38 @@ SolvedPath solved_path(const Simulation& sim, int index) {
                                sim.model().skeleton->bodies[obstacles[i].body].name, state.touching,
                                path.segments()[i - 1].to_W, path.segments()[i].from_W,
                                state.touching ? state.wrap_angle : 0.0, state.length_on,
-                               muscle.tension(i - 1), muscle.tension(i)});
+                               muscle.tension(i - 1), muscle.tension(i), state.penetration});
   }
   return solved;
+}
+
+std::string Penetration::text() const {
+  char millimetres[32];
+  std::snprintf(millimetres, sizeof(millimetres), "%.1f", 1e3 * depth);
+  return muscle + ": a path point lies " + millimetres + " mm inside the " + surface + " on " +
+         body + " (path." + std::to_string(obstacle) + ")";
+}
+
+Penetration deepest_penetration(const Muscle& muscle, const SkeletonModel& skeleton) {
+  const auto& obstacles = muscle.path().model().obstacles();
+  Penetration deepest;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const double depth = muscle.path().obstacles()[i].penetration;
+    if (depth > deepest.depth) deepest.depth = depth, at = i;
+  }
+  if (deepest.depth == 0.0) return deepest;
+  return {muscle.model().name, at, obstacles[at].surface->type(),
+          skeleton.bodies[obstacles[at].body].name, deepest.depth};
+}
+
+Penetration deepest_penetration(const Simulation& sim) {
+  Penetration deepest;
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+    Penetration found = deepest_penetration(sim.muscle(static_cast<int>(m)), *sim.model().skeleton);
+    if (found.depth > deepest.depth) deepest = std::move(found);
+  }
+  return deepest;
 }
 
 }  // namespace anthrob

@@ -10,6 +10,9 @@
 
 namespace anthrob {
 
+/// Path points no deeper inside a surface than this lie on it, but for rounding in a table [m].
+constexpr double kRoundingDepth = 0.0002;
+
 /// How a muscle runs over one surface, in the frame in which it was asked for.
 /// Off the surface, entry and exit coincide on the straight line.
 struct WrapContact {

@@ -20,6 +20,7 @@ struct SolvedContact {
   double length = 0.0;          ///< along the surface [m]
   double tension_in = 0.0;      ///< on the origin's side [N]
   double tension_out = 0.0;     ///< on the insertion's side [N]
+  double penetration = 0.0;     ///< depth of the deeper neighbouring path point inside, >= 0 [m]
 };
 
 struct SolvedPath {
@@ -33,5 +34,21 @@ struct SolvedPath {
 
 /// How a muscle runs in the simulation's present state.
 SolvedPath solved_path(const Simulation& sim, int muscle);
+
+/// A path point inside a surface beside it, where a real tendon could not be.
+struct Penetration {
+  std::string muscle;
+  std::size_t obstacle = 0;  ///< place of the surface in the path, origin 0
+  std::string surface;       ///< type
+  std::string body;          ///< that carries the surface
+  double depth = 0.0;        ///< [m]; 0: nothing lies inside anything
+
+  /// "posterior_deltoid: a path point lies 3.2 mm inside the cylinder on humerus (path.4)"
+  std::string text() const;
+};
+
+/// The deepest one in the simulation's present posture.
+Penetration deepest_penetration(const Simulation& sim);
+Penetration deepest_penetration(const Muscle& muscle, const SkeletonModel& skeleton);
 
 }  // namespace anthrob
