@@ -10,7 +10,7 @@ namespace anthrob {
 
 namespace {
 
-/// Muscles without a controller (ligaments) are left alone: their bounds are zero.
+/// Muscles without a controller are left alone: their bounds are zero.
 Eigen::VectorXd bounds(const RobotModel& model, double tension) {
   Eigen::VectorXd bound = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.muscles.size()));
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
@@ -32,12 +32,26 @@ ComputedForce::ComputedForce(std::shared_ptr<const RobotModel> model,
       motion_(*model->skeleton),
       split_(model->skeleton->velocity_count, bounds(*model, settings.lowest_tension),
              bounds(*model, settings.highest_tension)),
+      ligaments_(ligaments_of(*model)),
       voltage_memory_(model->muscles.size()),
       held_(model->skeleton->rest_configuration()) {
-  zero_ = command_.torque = command_.shortfall =
+  zero_ = wanted_ = command_.torque = command_.shortfall =
       Eigen::VectorXd::Zero(model->skeleton->velocity_count);
   command_.tension = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model->muscles.size()));
   command_.reference.assign(model->muscles.size(), 0.0);
+}
+
+std::vector<ComputedForce::Ligament> ComputedForce::ligaments_of(const RobotModel& model) {
+  std::vector<Ligament> ligaments;
+  for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+    const MuscleModel& muscle = model.muscles[m];
+    if (muscle.actuator->takes_input()) continue;
+    std::vector<double> state(muscle.actuator->state_size() + 1, 0.0);
+    muscle.actuator->place(0.0, StateView(state.data()));
+    ligaments.push_back({m, muscle.actuator->tendon_length(StateView(state.data())) +
+                                muscle.spring->rest_length()});
+  }
+  return ligaments;
 }
 
 void ComputedForce::reset() {
@@ -100,10 +114,23 @@ void ComputedForce::compute_torque(double dt) {
 }
 
 void ComputedForce::split() {
-  const TensionSplit::Result& result = split_.solve(posture_.moment_arms(), command_.torque);
+  wanted_ = command_.torque;
+  for (const Ligament& ligament : ligaments_) {
+    const Eigen::Index m = static_cast<Eigen::Index>(ligament.muscle);
+    wanted_ -= posture_.moment_arms().col(m) * tension_of(ligament);
+  }
+  const TensionSplit::Result& result = split_.solve(posture_.moment_arms(), wanted_);
   command_.tension = result.tension;
+  for (const Ligament& ligament : ligaments_) {
+    command_.tension[static_cast<Eigen::Index>(ligament.muscle)] = tension_of(ligament);
+  }
   command_.shortfall = result.shortfall;
   command_.converged = result.converged;
+}
+
+double ComputedForce::tension_of(const Ligament& ligament) const {
+  return model().muscles[ligament.muscle].spring->relaxed_tension(
+      posture_.muscle_length(ligament.muscle) - ligament.slack_length);
 }
 
 double ComputedForce::reference_for(std::size_t muscle, const ecu::Measurement& measured,

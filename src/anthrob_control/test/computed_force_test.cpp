@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 
+#include "anthrob_sim/statics/equilibrium.h"
 #include "anthrob_sim/statics/least_effort.h"
 #include "closed_loop.h"
 
@@ -101,6 +102,32 @@ TEST(ComputedForce, EveryOutputHoldsThePosture) {
       EXPECT_LT(drift(loop, q), 2.0 * kDegree) << static_cast<int>(mode);
     }
   }
+}
+
+/// A ligament beside teres minor, slack up to `length`.
+std::shared_ptr<const RobotModel> with_ligament(double length) {
+  return extended("model_I.yaml",
+                  "springs: {band: {type: spring_damper, rest_length: 0.02, stiffness: 2000, "
+                  "damping: 5}}\nactuators: {ligament: {type: ligament}}\n"
+                  "muscles:\n  capsule:\n    actuator: ligament\n    rest_tendon_length: " +
+                      std::to_string(length - 0.02) +
+                      "\n    spring: {kind: band, segment: 0}\n    force_sensor_segment: 0\n"
+                      "    path:\n"
+                      "      - {point: [-0.0402, -0.1710, 0.3485], body: base}\n"
+                      "      - {point: [-0.0091, 0.1702, -0.0147], body: humerus}\n");
+}
+
+TEST(ComputedForce, MusclesHoldWhatALigamentPulls) {
+  const double at_rest = Simulation(with_ligament(0.05)).muscle(11).length();
+  const auto plant = with_ligament(at_rest - 0.006);
+  const auto settings = ControlSettings::load(kAnthrob + "control.yaml", *plant);
+  ClosedLoop loop(plant, plant, settings);
+  const std::vector<double> q{1.0, 0.0, 0.0, 0.0, 0.2};
+  EXPECT_LT(drift(loop, q), 0.5 * kDegree);
+  const ForceCommand& command = *loop.command;
+  EXPECT_GT(command.tension[11], 5.0);
+  EXPECT_NEAR(command.tension[11], loop.sim.muscle(11).force(), 0.1);
+  EXPECT_NEAR((moment_arm_matrix(loop.sim) * command.tension - command.torque).norm(), 0.0, 1e-3);
 }
 
 TEST(ComputedForce, ForcesAreTheLeastEffortOnesAndTheMusclesDeliverThem) {

@@ -26,7 +26,7 @@ struct ForceCommand {
   std::vector<double> reference;  ///< by muscle: N, rad or V as the mode says
   Eigen::VectorXd torque;         ///< that was asked of the muscles [Nm]
   Eigen::VectorXd shortfall;      ///< what of it they cannot deliver [Nm]
-  Eigen::VectorXd tension;        ///< least-effort tensions [N]
+  Eigen::VectorXd tension;        ///< least-effort tensions; of ligaments their own [N]
   bool converged = true;          ///< whether the split is the least-effort one
 };
 
@@ -60,8 +60,16 @@ class ComputedForce {
   const RobotModel& model() const { return posture_.model(); }
 
  private:
+  /// A muscle without an input: its stretch says how it pulls.
+  struct Ligament {
+    std::size_t muscle;
+    double slack_length;  ///< of tendon and spring [m]
+  };
+
+  static std::vector<Ligament> ligaments_of(const RobotModel& model);
   void compute_torque(double dt);
   void split();
+  double tension_of(const Ligament& ligament) const;
   double reference_for(std::size_t muscle, const ecu::Measurement& measured, double dt);
 
   ControlSettings settings_;
@@ -70,6 +78,8 @@ class ComputedForce {
   PostureServo servo_;
   PostureMotion motion_;
   TensionSplit split_;
+  std::vector<Ligament> ligaments_;
+  Eigen::VectorXd wanted_;  ///< torque that is left to the muscles with controllers [Nm]
   std::vector<ecu::ControllerMemory> voltage_memory_;
   std::vector<double> held_;
   Eigen::VectorXd zero_;
