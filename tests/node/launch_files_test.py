@@ -46,16 +46,25 @@ class LaunchFiles(unittest.TestCase):
                 seen = any(node.package == 'anthrob_mocap' for node in config.nodes)
                 self.assertEqual(seen, backend != 'emulated')
 
-    def test_parameters_of_the_driver_have_their_type(self):
-        file = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch', 'robot.launch')
-        asked = ['command_timeout:=1e-1', 'rate:=250', 'realtime:=true']
+    def check_types(self, launch, asked, node, expected, wrong):
+        file = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch', launch)
         config = roslaunch.config.load_config_default([(file, asked)], None, assign_machines=False)
-        for name, value in {'command_timeout': 0.1, 'rate': 250.0, 'realtime': True, 'hand': False}.items():
-            found = config.params['/anthrob/driver/' + name].value
+        for name, value in expected.items():
+            found = config.params[node + '/' + name].value
             self.assertEqual((found, type(found)), (value, type(value)))
-        for wrong in 'command_timeout:=soon', 'realtime:=perhaps':
+        for argument in wrong:
             with self.assertRaises(roslaunch.core.RLException):
-                roslaunch.config.load_config_default([(file, [wrong])], None, assign_machines=False)
+                roslaunch.config.load_config_default([(file, [argument])], None, assign_machines=False)
+
+    def test_parameters_of_the_driver_have_their_type(self):
+        self.check_types('robot.launch', ['command_timeout:=1e-1', 'rate:=250', 'realtime:=true'], '/anthrob/driver',
+                         {'command_timeout': 0.1, 'rate': 250.0, 'realtime': True, 'hand': False},
+                         ['command_timeout:=soon', 'realtime:=perhaps'])
+
+    def test_parameters_of_the_simulator_have_their_type(self):
+        self.check_types('sim.launch', ['auto_enable:=0', 'paused:=1', 'step:=5e-4', 'rate:=2'], '/anthrob/simulator',
+                         {'auto_enable': False, 'paused': True, 'step': 0.0005, 'rate': 2.0},
+                         ['auto_enable:=no', 'paused:=please', 'rate:=fast'])
 
 
 if __name__ == '__main__':

@@ -4,6 +4,7 @@
 #include <std_srvs/Trigger.h>
 
 #include "anthrob_control/ros/robot_link.h"
+#include "anthrob_ros/parameters.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace {
@@ -162,15 +163,14 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "computed_force");
   ros::NodeHandle nh, settings("~");
   try {
-    std::string model_file, settings_file;
-    if (!settings.getParam("model", model_file) || !settings.getParam("settings", settings_file))
-      throw BadInput("parameters ~model and ~settings: expected a model file and a settings file");
-    const auto model = anthrob::load_robot_model(model_file);
-    const auto control = anthrob::ControlSettings::load(settings_file, *model);
+    const auto model =
+        anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
+    const auto control = anthrob::ControlSettings::load(
+        anthrob::required(settings, "settings", "a settings file"), *model);
     anthrob::RobotLink::Options options;
     options.period = 1.0 / control.rate;
-    settings.param("lock_step", options.lock_step, false);
-    settings.param("steps", options.steps, options.steps);
+    anthrob::take(settings, "lock_step", anthrob::truth_of, options.lock_step);
+    anthrob::take(settings, "steps", anthrob::whole_number_of, options.steps);
     if (options.steps < 1) throw BadInput("parameter ~steps: expected a number >= 1");
     ComputedForceNode(nh, model, control, options).run();
   } catch (const BadInput& error) {

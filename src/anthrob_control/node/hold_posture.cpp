@@ -7,6 +7,7 @@
 
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
+#include "anthrob_ros/parameters.h"
 
 namespace {
 
@@ -33,10 +34,11 @@ anthrob_msgs::SetState state_of(const anthrob::RobotModel& model, const std::vec
 }
 
 void hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
-  const std::string wanted = settings.param<std::string>("posture", "");
-  const auto model = anthrob::load_robot_model(settings.param<std::string>("model", ""));
-  const auto sequence =
-      anthrob::PostureSequence::load(settings.param<std::string>("postures", ""), *model);
+  const std::string wanted = anthrob::required(settings, "posture", "the name of a posture");
+  const auto model =
+      anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
+  const auto sequence = anthrob::PostureSequence::load(
+      anthrob::required(settings, "postures", "a posture file"), *model);
   const auto step = std::find_if(sequence.steps.begin(), sequence.steps.end(),
                                  [&](const anthrob::PostureStep& s) { return s.name == wanted; });
   if (step == sequence.steps.end())

@@ -4,6 +4,7 @@
 
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
+#include "anthrob_ros/parameters.h"
 
 namespace {
 
@@ -11,13 +12,10 @@ namespace {
 constexpr double kCommandRate = 50.0;  // [Hz]
 
 void play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
-  std::string model_file, sequence_file;
-  if (!settings.getParam("model", model_file) || !settings.getParam("postures", sequence_file)) {
-    throw anthrob::BadInput(
-        "parameters ~model and ~postures: expected a model file and a posture file");
-  }
-  const auto model = anthrob::load_robot_model(model_file);
-  const auto sequence = anthrob::PostureSequence::load(sequence_file, *model);
+  const auto model =
+      anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
+  const auto sequence = anthrob::PostureSequence::load(
+      anthrob::required(settings, "postures", "a posture file"), *model);
   const auto references = sequence.references(model);
 
   ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 10);

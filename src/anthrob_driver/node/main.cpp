@@ -1,30 +1,17 @@
 #include <ros/ros.h>
 
 #include "anthrob_config/errors.h"
+#include "anthrob_ros/parameters.h"
 #include "driver_node.h"
-#include "parameters.h"
-
-namespace {
-
-/// Takes a parameter over if it is there.
-template <typename T, typename Read>
-void take(const ros::NodeHandle& settings, const std::string& key, Read read, T& to) {
-  XmlRpc::XmlRpcValue value;
-  if (settings.getParam(key, value)) to = read(key, value);
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "driver");
   ros::NodeHandle nh, settings("~");
   try {
+    using namespace anthrob;
     using namespace anthrob::driver;
-    std::string file, can = "can0";
-    take(settings, "hardware", text_of, file);
-    if (file.empty()) {
-      throw anthrob::BadInput("parameter ~hardware: missing; expected the path of hardware.yaml");
-    }
+    const std::string file = required(settings, "hardware", "the path of hardware.yaml");
+    std::string can = "can0";
     take(settings, "can", text_of, can);
     bool hand = false;
     take(settings, "hand", truth_of, hand);
@@ -35,13 +22,13 @@ int main(int argc, char** argv) {
     take(settings, "pace", number_of, options.pace);
     const bool in_memory = can.rfind("vcan", 0) == 0;
     if (!(options.pace > 0.0 && options.pace <= 1.0) || (options.pace < 1.0 && !in_memory)) {
-      throw anthrob::BadInput("parameter ~pace: expected 1, or a number in (0, 1] on a vcan");
+      throw BadInput("parameter ~pace: expected 1, or a number in (0, 1] on a vcan");
     }
     DriverNode node(load_hardware(file, hand), options, can, nh);
     const std::string other = node.other_backend();
     if (!other.empty()) {
-      throw anthrob::BadInput(nh.resolveName("muscle_states") + ": " + other +
-                              " publishes it already; stop that back end first");
+      throw BadInput(nh.resolveName("muscle_states") + ": " + other +
+                     " publishes it already; stop that back end first");
     }
     node.run();
   } catch (const anthrob::BadInput& error) {

@@ -1,20 +1,28 @@
 #include "anthrob_mocap/pipeline/tracker_file.h"
+#include "anthrob_ros/parameters.h"
 #include "mocap_node.h"
 #include "open_source.h"
-#include "parameters.h"
+#include "run_node.h"
 
 namespace mocap = anthrob::mocap;
 
 namespace {
 
+/// @param text if it is not there
+std::string optional_text(const ros::NodeHandle& settings, const std::string& key,
+                          std::string text = "") {
+  anthrob::take(settings, key, anthrob::text_of, text);
+  return text;
+}
+
 mocap::MocapNode::Options read_options(const ros::NodeHandle& settings) {
   mocap::MocapNode::Options options;
-  const std::string tracker = settings.param<std::string>("settings", "");
+  const std::string tracker = optional_text(settings, "settings");
   if (!tracker.empty()) options.tracker = mocap::load_tracker_options(tracker);
-  options.mode = mocap::pipeline_mode(settings.param<std::string>("pipeline", "sequential"));
-  settings.param("camera_frame", options.camera_frame, options.camera_frame);
-  settings.param("sync_tolerance", options.sync_tolerance, options.sync_tolerance);
-  settings.param("joint_tf", options.joint_tf, options.joint_tf);
+  options.mode = mocap::pipeline_mode(optional_text(settings, "pipeline", "sequential"));
+  anthrob::take(settings, "camera_frame", anthrob::text_of, options.camera_frame);
+  anthrob::take(settings, "sync_tolerance", anthrob::number_of, options.sync_tolerance);
+  anthrob::take(settings, "joint_tf", anthrob::truth_of, options.joint_tf);
   if (!(options.sync_tolerance >= 0.0)) {
     throw mocap::BadInput("parameter ~sync_tolerance: expected a number >= 0 [s]");
   }
@@ -24,13 +32,13 @@ mocap::MocapNode::Options read_options(const ros::NodeHandle& settings) {
 void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const auto options = read_options(settings);
   const auto set =
-      mocap::TargetSet::load(mocap::required(settings, "targets", "the path of targets.yaml"),
+      mocap::TargetSet::load(anthrob::required(settings, "targets", "the path of targets.yaml"),
                              options.tracker.labelling.edge_tolerance);
   std::optional<mocap::Setup> setup;
-  const std::string rig_file = settings.param<std::string>("rig", "");
+  const std::string rig_file = optional_text(settings, "rig");
   if (!rig_file.empty()) setup = mocap::Setup::load(rig_file, set);
-  const std::string calibration = settings.param<std::string>("calibration", "");
-  const std::string source = settings.param<std::string>("source", "topics");
+  const std::string calibration = optional_text(settings, "calibration");
+  const std::string source = optional_text(settings, "source", "topics");
   if (source != "topics" && calibration.empty()) {
     throw mocap::BadInput(
         "parameter ~calibration: missing; expected a folder with left.yaml and "

@@ -1,9 +1,10 @@
 #include "open_source.h"
 
+#include "anthrob_mocap/core/errors.h"
 #include "anthrob_mocap/source/aravis_source.h"
 #include "anthrob_mocap/source/folder_source.h"
+#include "anthrob_ros/parameters.h"
 #include "bag_source.h"
-#include "parameters.h"
 #ifdef ANTHROB_HAVE_DC1394
 #include "anthrob_mocap/source/dc1394_source.h"
 #endif
@@ -13,15 +14,22 @@ namespace mocap {
 
 namespace {
 
+/// 0 if it is not there
+double sync_tolerance(const ros::NodeHandle& settings) {
+  double tolerance = 0.0;
+  take(settings, "sync_tolerance", number_of, tolerance);
+  return tolerance;
+}
+
 CameraOptions camera_options(const StereoRig& rig, const ros::NodeHandle& settings) {
   CameraOptions options;
   options.name[kLeft] = required(settings, "left", "the name of the left camera");
   options.name[kRight] = required(settings, "right", "the name of the right camera");
   options.width = rig.width(), options.height = rig.height();
-  settings.param("rate", options.rate, options.rate);
-  settings.param("exposure", options.exposure, options.exposure);
-  settings.param("trigger", options.trigger, options.trigger);
-  const double tolerance = settings.param("sync_tolerance", 0.0);
+  take(settings, "rate", number_of, options.rate);
+  take(settings, "exposure", number_of, options.exposure);
+  take(settings, "trigger", text_of, options.trigger);
+  const double tolerance = sync_tolerance(settings);
   if (tolerance > 0.0) options.sync_tolerance = tolerance;
   return options;
 }
@@ -32,7 +40,7 @@ std::unique_ptr<FrameSource> open_source(const std::string& kind, const StereoRi
                                          const ros::NodeHandle& settings) {
   if (kind == "folder") {
     FolderSource::Options options;
-    settings.param("rate", options.rate, options.rate);
+    take(settings, "rate", number_of, options.rate);
     return std::make_unique<FolderSource>(required(settings, "left", "a folder of images"),
                                           required(settings, "right", "a folder of images"),
                                           options);
@@ -40,7 +48,7 @@ std::unique_ptr<FrameSource> open_source(const std::string& kind, const StereoRi
   if (kind == "bag") {
     return std::make_unique<BagSource>(
         required(settings, "bag", "a bag file"), required(settings, "left", "an image topic"),
-        required(settings, "right", "an image topic"), settings.param("sync_tolerance", 0.0));
+        required(settings, "right", "an image topic"), sync_tolerance(settings));
   }
   if (kind == "aravis") return std::make_unique<AravisSource>(camera_options(rig, settings));
 #ifdef ANTHROB_HAVE_DC1394

@@ -1,11 +1,11 @@
-#include "virtual_rig.h"
-
 #include <sensor_msgs/image_encodings.h>
 
 #include <cmath>
 
+#include "anthrob_ros/parameters.h"
 #include "conversions.h"
-#include "parameters.h"
+#include "run_node.h"
+#include "virtual_rig.h"
 
 namespace anthrob {
 namespace mocap {
@@ -125,12 +125,12 @@ int main(int argc, char** argv) {
   return mocap::run_node([] {
     ros::NodeHandle nh("mocap"), settings("~");
     const auto rig = mocap::StereoRig::load(
-        mocap::required(settings, "calibration", "a folder with left.yaml and right.yaml"));
+        anthrob::required(settings, "calibration", "a folder with left.yaml and right.yaml"));
     const auto set =
-        mocap::TargetSet::load(mocap::required(settings, "targets", "the path of targets.yaml"),
+        mocap::TargetSet::load(anthrob::required(settings, "targets", "the path of targets.yaml"),
                                mocap::LabellingOptions().edge_tolerance);
     const auto setup =
-        mocap::Setup::load(mocap::required(settings, "rig", "the path of rig.yaml"), set);
+        mocap::Setup::load(anthrob::required(settings, "rig", "the path of rig.yaml"), set);
     mocap::VirtualRig(nh, rig, set, setup).run();
   });
 }

@@ -1,16 +1,9 @@
 // Records a robot by protocol; interrupted, the same command goes on.
+#include "anthrob_ros/parameters.h"
 #include "anthrob_sim/core/errors.h"
 #include "recorder.h"
 
 namespace {
-
-std::string required(const ros::NodeHandle& settings, const std::string& name,
-                     const std::string& what) {
-  std::string value;
-  if (!settings.getParam(name, value) || value.empty())
-    throw anthrob::BadInput("parameter ~" + name + ": missing; expected " + what);
-  return value;
-}
 
 void enable(ros::NodeHandle& nh) {
   std_srvs::Trigger call;
@@ -26,20 +19,23 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "recorder");
   ros::NodeHandle nh, settings("~");
   try {
-    const auto model = anthrob::load_robot_model(required(settings, "model", "a model file"));
+    const auto model =
+        anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
     const auto protocol =
-        anthrob::Protocol::load(required(settings, "protocol", "a protocol file"), model);
-    const std::string folder = required(settings, "out", "a folder to record into");
+        anthrob::Protocol::load(anthrob::required(settings, "protocol", "a protocol file"), model);
+    const std::string folder = anthrob::required(settings, "out", "a folder to record into");
     anthrob::RobotLink::Options options;
-    settings.param("lock_step", options.lock_step, false);
-    settings.param("steps", options.steps, options.steps);
+    anthrob::take(settings, "lock_step", anthrob::truth_of, options.lock_step);
+    anthrob::take(settings, "steps", anthrob::whole_number_of, options.steps);
+    bool enable_first = false;
+    anthrob::take(settings, "enable", anthrob::truth_of, enable_first);
     if (options.steps < 1) throw anthrob::BadInput("parameter ~steps: expected a number >= 1");
     if (options.lock_step && protocol.kind == anthrob::Protocol::Kind::kZeroGravity) {
       throw anthrob::BadInput(
           "parameter ~lock_step: in zero gravity it is the controller that may step the simulator");
     }
     anthrob::Recorder recorder(nh, settings, model, protocol, folder, options);
-    if (settings.param("enable", false)) enable(nh);
+    if (enable_first) enable(nh);
     return recorder.run() ? 0 : 130;
   } catch (const anthrob::BadInput& error) {
     ROS_FATAL_STREAM(error.what());

@@ -1,5 +1,6 @@
 #include <ros/ros.h>
 
+#include "anthrob_ros/parameters.h"
 #include "anthrob_sim/core/errors.h"
 #include "simulator_node.h"
 
@@ -7,31 +8,30 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "simulator");
   ros::NodeHandle nh, settings("~");
   try {
-    std::string file;
-    if (!settings.getParam("model", file)) {
-      throw anthrob::BadInput("parameter ~model: missing; expected the path of a model file");
-    }
-    anthrob::LoadOptions load;
-    settings.param("step", load.step, load.step);
-    anthrob::SimulatorNode::Options options;
-    settings.param("rate", options.rate, options.rate);
-    settings.param("state_rate", options.state_rate, options.state_rate);
-    settings.param("paused", options.paused, options.paused);
-    settings.param("auto_enable", options.supervisor.auto_enable, true);
-    settings.param("command_timeout", options.supervisor.command_timeout, 0.5);
-    if (!(options.rate >= 0.0)) throw anthrob::BadInput("parameter ~rate: expected a number >= 0");
+    using namespace anthrob;
+    const std::string file = required(settings, "model", "the path of a model file");
+    LoadOptions load;
+    take(settings, "step", number_of, load.step);
+    SimulatorNode::Options options;
+    take(settings, "rate", number_of, options.rate);
+    take(settings, "state_rate", number_of, options.state_rate);
+    take(settings, "paused", truth_of, options.paused);
+    options.supervisor.auto_enable = true;
+    take(settings, "auto_enable", truth_of, options.supervisor.auto_enable);
+    take(settings, "command_timeout", number_of, options.supervisor.command_timeout);
+    if (!(options.rate >= 0.0)) throw BadInput("parameter ~rate: expected a number >= 0");
     if (!(options.state_rate >= 1.0))
-      throw anthrob::BadInput("parameter ~state_rate: expected a number >= 1 [Hz]");
+      throw BadInput("parameter ~state_rate: expected a number >= 1 [Hz]");
     if (!(options.supervisor.command_timeout >= 0.0)) {
-      throw anthrob::BadInput("parameter ~command_timeout: expected a number >= 0 [s]");
+      throw BadInput("parameter ~command_timeout: expected a number >= 0 [s]");
     }
-    const auto model = anthrob::load_robot_model(file, load);
+    const auto model = load_robot_model(file, load);
     for (const std::string& remark : model->remarks) ROS_WARN_STREAM(remark);
-    anthrob::SimulatorNode node(model, options, nh);
+    SimulatorNode node(model, options, nh);
     const std::string other = node.other_backend();
     if (!other.empty()) {
-      throw anthrob::BadInput(nh.resolveName("muscle_states") + ": " + other +
-                              " publishes it already; stop that back end first");
+      throw BadInput(nh.resolveName("muscle_states") + ": " + other +
+                     " publishes it already; stop that back end first");
     }
     node.run();
   } catch (const anthrob::BadInput& error) {

@@ -1,9 +1,10 @@
-#include "parameters.h"
+#include "anthrob_ros/parameters.h"
+
+#include <cmath>
 
 #include "anthrob_config/errors.h"
 
 namespace anthrob {
-namespace driver {
 
 namespace {
 
@@ -18,7 +19,14 @@ using Value = XmlRpc::XmlRpcValue;
 double number_of(const std::string& key, Value value) {
   if (value.getType() == Value::TypeInt) return static_cast<int&>(value);
   if (value.getType() != Value::TypeDouble) refuse(key, "a number");
-  return static_cast<double&>(value);
+  const double number = static_cast<double&>(value);
+  if (!std::isfinite(number)) refuse(key, "a finite number");
+  return number;
+}
+
+int whole_number_of(const std::string& key, Value value) {
+  if (value.getType() != Value::TypeInt) refuse(key, "a whole number");
+  return static_cast<int&>(value);
 }
 
 bool truth_of(const std::string& key, Value value) {
@@ -31,5 +39,12 @@ std::string text_of(const std::string& key, Value value) {
   return static_cast<std::string&>(value);
 }
 
-}  // namespace driver
+std::string required(const ros::NodeHandle& settings, const std::string& key,
+                     const std::string& what) {
+  std::string value;
+  take(settings, key, text_of, value);
+  if (value.empty()) throw BadInput("parameter ~" + key + ": missing; expected " + what);
+  return value;
+}
+
 }  // namespace anthrob
