@@ -10,6 +10,19 @@ namespace {
 /// Largest change of a joint between two postures that muscles follow on the way to a placed
 /// posture.
 constexpr double kPlaceStep = 0.03;  // [rad]; a prismatic joint counts 10 rad a metre
+/// Beyond some fifty turns the steps get larger, so that placing takes no longer than a second.
+constexpr double kMostPostures = 10000;
+
+/// What is larger, in SI units, is no motion of a robot.
+constexpr double kSensible = 1e9;
+
+bool is_sensible(double value) {
+  return std::abs(value) < kSensible;  // false if it is not a number
+}
+
+void expect_sensible(double value, const std::string& what) {
+  if (!is_sensible(value)) throw BadInput(what + ": expected a finite number below 1e9");
+}
 
 /// Streams of random numbers of joint sensors begin here; muscles come before.
 constexpr std::uint64_t kJointStreams = 1u << 20;
@@ -133,6 +146,9 @@ void Simulation::apply_voltage(int muscle, double voltage) {
 
 void Simulation::impose_position(int muscle, double position, double velocity) {
   check_muscle(muscle);
+  const std::string who = "muscle " + muscles_[muscle].model().name;
+  expect_sensible(position, who + ": position");
+  expect_sensible(velocity, who + ": velocity");
   muscles_[muscle].impose(position, velocity);
 }
 
@@ -168,6 +184,7 @@ void Simulation::apply_effort(int joint, double effort) {
     throw BadInput("joint " + model_->skeleton->joints[joint].name +
                    ": takes no effort; expected 'driven: true' in " + model_->file);
   }
+  expect_sensible(effort, "joint " + model_->skeleton->joints[joint].name + ": effort");
   effort_[joint] = effort;
 }
 
@@ -176,16 +193,37 @@ void Simulation::apply_load(int joint, double load) {
     throw BadInput("joint " + model_->skeleton->joints[joint].name +
                    ": load: expected a hinge or prismatic joint");
   }
+  expect_sensible(load, "joint " + model_->skeleton->joints[joint].name + ": load");
   load_[joint] = load;
 }
 
-void Simulation::place(const std::vector<double>& q, const std::vector<double>& positions) {
+void Simulation::check_place(const std::vector<double>& q,
+                             const std::vector<double>& positions) const {
   const SkeletonModel& skeleton = *model_->skeleton;
   if (q.size() != static_cast<std::size_t>(skeleton.position_count) ||
       positions.size() != muscles_.size()) {
     throw BadInput("place: expected " + std::to_string(skeleton.position_count) +
                    " joint numbers and " + std::to_string(muscles_.size()) + " muscle positions");
   }
+  for (const JointModel& joint : skeleton.joints) {
+    const double* p = &q[joint.position_offset];
+    double squares = 0.0;
+    for (int k = 0; k < joint.position_size(); ++k) {
+      expect_sensible(p[k], "place: joint " + joint.name);
+      squares += p[k] * p[k];
+    }
+    if (joint.type == JointType::kBall && squares < 1e-12) {
+      throw BadInput("place: joint " + joint.name + ": expected a quaternion that is not zero");
+    }
+  }
+  for (std::size_t i = 0; i < muscles_.size(); ++i) {
+    expect_sensible(positions[i], "place: muscle " + muscles_[i].model().name);
+  }
+}
+
+void Simulation::place(const std::vector<double>& q, const std::vector<double>& positions) {
+  check_place(q, positions);
+  const SkeletonModel& skeleton = *model_->skeleton;
   const std::vector<double> rest = skeleton.rest_configuration();
   std::vector<BodyState> bodies;
   tree_.place(rest, {}, bodies);
@@ -196,7 +234,7 @@ void Simulation::place(const std::vector<double>& q, const std::vector<double>& 
     change = std::max(change,
                       slot_change(joint, &rest[joint.position_offset], &q[joint.position_offset]));
   }
-  const int count = static_cast<int>(std::ceil(change / kPlaceStep));
+  const int count = static_cast<int>(std::min(std::ceil(change / kPlaceStep), kMostPostures));
   for (int i = 1; i <= count; ++i) {
     tree_.place(i == count ? q : between(skeleton, rest, q, static_cast<double>(i) / count), {},
                 bodies);
@@ -394,19 +432,33 @@ Vec3 Simulation::read_ball_velocity(int joint) const {
 }
 
 void Simulation::check_finite() const {
-  constexpr double kSensible = 1e9;
   for (std::size_t i = 1; i < bodies().size(); ++i) {
     const BodyState& body = bodies()[i];
     const double size =
         body.v_W.cwiseAbs().sum() + body.w_W.cwiseAbs().sum() + body.X_WB.p.cwiseAbs().sum();
-    if (!(size < kSensible)) {
+    if (!is_sensible(size)) {
       throw NumericalFailure(time(), "body " + model_->skeleton->bodies[i].name,
                              "its motion is not finite");
     }
   }
+  // A body's orientation shows in its joint.
+  for (const JointModel& joint : model_->skeleton->joints) {
+    for (int k = 0; k < joint.position_size(); ++k) {
+      if (is_sensible(q_[joint.position_offset + k])) continue;
+      throw NumericalFailure(time(), "joint " + joint.name, "its position is not finite");
+    }
+  }
   for (const Muscle& muscle : muscles_) {
-    if (!(std::abs(muscle.tension(0)) + std::abs(muscle.spring_tension()) < kSensible)) {
-      throw NumericalFailure(time(), "muscle " + muscle.model().name, "its tension is not finite");
+    const std::string& name = muscle.model().name;
+    if (!is_sensible(muscle.actuator().position)) {
+      throw NumericalFailure(time(), "muscle " + name, "its actuator's position is not finite");
+    }
+    // A spring may take an expansion that is no number for none.
+    if (!is_sensible(muscle.expansion())) {
+      throw NumericalFailure(time(), "muscle " + name, "its length is not finite");
+    }
+    if (!is_sensible(std::abs(muscle.tension(0)) + std::abs(muscle.spring_tension()))) {
+      throw NumericalFailure(time(), "muscle " + name, "its tension is not finite");
     }
   }
 }

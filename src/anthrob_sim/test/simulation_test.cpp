@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <new>
 
@@ -319,6 +321,89 @@ TEST(Simulation, ExplodingModelIsReportedNotContinued) {
                 text.find("muscle ") != std::string::npos)
         << text;
   }
+}
+
+TEST(Simulation, NumbersThatAreNotFiniteAreRefused) {
+  Simulation sim(anthrob_model("I"));
+  const std::vector<double> rest = {1, 0, 0, 0, 0}, zero(11, 0.0);
+  const std::vector<double> before = sim.configuration();
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e9}) {
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      std::vector<double> q = rest;
+      q[i] = bad;
+      EXPECT_THROW(sim.place(q, zero), BadInput);
+    }
+    std::vector<double> positions = zero;
+    positions[3] = bad;
+    EXPECT_THROW(sim.place(rest, positions), BadInput);
+    EXPECT_THROW(sim.impose_position(0, bad, 0.0), BadInput);
+    EXPECT_THROW(sim.impose_position(0, 0.0, bad), BadInput);
+    EXPECT_THROW(sim.apply_load(1, bad), BadInput);
+  }
+  EXPECT_THROW(sim.place({0, 0, 0, 0, 0}, zero), BadInput);
+  EXPECT_EQ(sim.configuration(), before);
+  sim.step(10);
+}
+
+/// What is left of a simulation in which one number of its state was broken.
+std::string failure_of(const std::function<void(Snapshot&)>& change) {
+  Simulation sim(anthrob_model("I"));
+  sim.step(5);
+  Snapshot snapshot = sim.snapshot();
+  change(snapshot);
+  sim.restore(snapshot);
+  try {
+    sim.step();
+  } catch (const NumericalFailure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(Simulation, EveryKindOfBrokenNumberIsNoticed) {
+  const double nan = std::nan("");
+  EXPECT_NE(failure_of([&](Snapshot& s) { s.bodies[2].v_W.x() = nan; }), "");
+  EXPECT_NE(failure_of([&](Snapshot& s) { s.bodies[2].X_WB.p.x() = nan; }), "");
+  EXPECT_NE(failure_of([&](Snapshot& s) { s.bodies[2].X_WB.R(0, 0) = nan; }), "");
+  EXPECT_NE(failure_of([&](Snapshot& s) { s.q[4] = nan; }), "");
+  // All that an actuator remembers: rubber takes a length that is no number for slack.
+  const std::size_t memory = anthrob_model("I")->muscles[0].actuator->state_size();
+  for (std::size_t i = 0; i < memory; ++i) {
+    EXPECT_NE(failure_of([&](Snapshot& s) { s.state[i] = nan; }), "") << i;
+  }
+}
+
+TEST(Simulation, ResetBringsBackWhatFailed) {
+  const auto model = anthrob_model("I");
+  Simulation sim(model), fresh(model);
+  Snapshot broken = sim.snapshot();
+  broken.bodies[1].w_W.y() = std::nan("");
+  sim.restore(broken);
+  EXPECT_THROW(sim.step(), NumericalFailure);
+  sim.reset();
+  fresh.step();  // the same time for both: that of the step that failed
+  fresh.reset();
+  for (Simulation* s : {&sim, &fresh}) s->command(0, ecu::Mode::kPosition, 3.0);
+  sim.step(500);
+  fresh.step(500);
+  EXPECT_EQ(sim.configuration(), fresh.configuration());
+  EXPECT_EQ(sim.snapshot().state, fresh.snapshot().state);
+}
+
+TEST(Simulation, PlacingManyTurnsAwayTakesNoLongerThanFifty) {
+  const testing_support::TemporaryRobot wheel(
+      R"(<robot name="wheel"><link name="base"/>
+      <joint name="axle" type="continuous"><parent link="base"/><child link="disc"/><axis xyz="0 1 0"/></joint>
+      <link name="disc"><inertial><mass value="1"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>)",
+      "robot: robot.urdf\ngravity: [0, 0, -9.81]\njoints:\n  axle: {driven: true}\n");
+  Simulation sim(wheel.load());
+  const auto start = std::chrono::steady_clock::now();
+  sim.place({9e8}, {});
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  EXPECT_EQ(sim.configuration()[0], 9e8);
+  sim.step();
+  EXPECT_NEAR(sim.configuration()[0], 9e8, 1e-6);
 }
 
 TEST(Simulation, RobotWithoutJointsRuns) {

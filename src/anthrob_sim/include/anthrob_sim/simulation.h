@@ -46,6 +46,7 @@ class Simulation {
   /// until release().
   void apply_voltage(int muscle, double voltage);
   /// The actuator arrives at `position` [rad] with `velocity` at the end of every step from now on.
+  /// @throws BadInput for numbers that are not finite
   void impose_position(int muscle, double position, double velocity);
   /// The same, so that sensors will read `to` [rad] when they have read `from` a step before, as in
   /// a recording; late readings must be taken from later in it by position_lateness().
@@ -54,15 +55,17 @@ class Simulation {
   double position_lateness(int muscle) const;
   void release(int muscle);
   /// Effort applied to a driven joint from now on [Nm, N].
-  /// @throws BadInput if the joint is not driven
+  /// @throws BadInput if the joint is not driven, or the effort is not finite
   void apply_effort(int joint, double effort);
   /// Outside load on a hinge or prismatic joint from now on [Nm, N].
+  /// @throws BadInput for another joint or a load that is not finite
   void apply_load(int joint, double load);
 
   /// Puts the robot at rest into a posture with its actuators at given positions; springs are
   /// relaxed. Muscles get there from the rest posture in small steps, so that wrapping states are
   /// those of a continuous motion. Commands, time and noise go on.
   /// @param q size position_count   @param positions one a muscle
+  /// @throws BadInput for other sizes or numbers that are not finite; nothing has changed then
   void place(const std::vector<double>& q, const std::vector<double>& positions);
   /// Back to the start, but time goes on.
   void reset();
@@ -115,6 +118,7 @@ class Simulation {
   void sense();
   void apply_joint_efforts();
   void check_finite() const;
+  void check_place(const std::vector<double>& q, const std::vector<double>& positions) const;
   void check_muscle(int muscle) const;
 
   std::shared_ptr<const RobotModel> model_;
