@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "anthrob_ros/diagnostics.h"
 #include "anthrob_sim/path/cylinder.h"
 #include "anthrob_sim/path/sphere.h"
 #include "anthrob_sim/report/solved_path.h"
@@ -93,6 +94,24 @@ anthrob_msgs::TouchStates touch_states(const Simulation& sim, const ros::Time& s
     states.force.push_back(pad_force(pad, sim.tree(), sim.configuration()));
   }
   return states;
+}
+
+std::vector<diagnostic_msgs::DiagnosticStatus> ecu_statuses(const ecu::Supervisor& supervisor,
+                                                            const std::string& ns) {
+  std::vector<diagnostic_msgs::DiagnosticStatus> statuses;
+  for (std::size_t e = 0; e < supervisor.ecus().size(); ++e) {
+    diagnostic_msgs::DiagnosticStatus unit;
+    const ecu::State state = supervisor.ecu_state(e);
+    unit.name = ns + ": " + supervisor.ecus()[e];
+    unit.hardware_id = supervisor.ecus()[e];
+    unit.level = state == ecu::State::kFault      ? diagnostic_msgs::DiagnosticStatus::ERROR
+                 : state == ecu::State::kStopping ? diagnostic_msgs::DiagnosticStatus::WARN
+                                                  : diagnostic_msgs::DiagnosticStatus::OK;
+    unit.message = ecu::name(state);
+    unit.values = {key_value("stop_latched", supervisor.stop_latched() ? "true" : "false")};
+    statuses.push_back(unit);
+  }
+  return statuses;
 }
 
 std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulation& sim,

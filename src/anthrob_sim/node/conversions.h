@@ -4,6 +4,7 @@
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SphericalJointStates.h>
 #include <anthrob_msgs/TouchStates.h>
+#include <diagnostic_msgs/DiagnosticStatus.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/JointState.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -24,6 +25,11 @@ sensor_msgs::JointState joint_states(const Simulation& sim, const ros::Time& sta
 anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
                                                           const ros::Time& stamp);
 anthrob_msgs::TouchStates touch_states(const Simulation& sim, const ros::Time& stamp);
+
+/// State of every ECU.
+/// @param ns begins their names
+std::vector<diagnostic_msgs::DiagnosticStatus> ecu_statuses(const ecu::Supervisor& supervisor,
+                                                            const std::string& ns);
 
 /// Ball joints, parent link to child link; the rest of the tree is robot_state_publisher's.
 std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulation& sim,

@@ -17,11 +17,6 @@ namespace {
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 constexpr std::uint32_t kMostSteps = 10000000;  ///< of one call: nothing else is heard meanwhile
 
-void answer(const ecu::Supervisor::Outcome& outcome, std_srvs::Trigger::Response& response) {
-  response.success = outcome.accepted;
-  response.message = outcome.reason;
-}
-
 }  // namespace
 
 SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Options& options,
@@ -29,6 +24,7 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
     : options_(options),
       sim_(std::move(model)),
       supervisor_(muscle_channels(sim_.model()), options.supervisor),
+      driven_(*sim_.model().skeleton, options.supervisor),
       steps_per_cycle_(std::max(
           1, static_cast<int>(std::lround(1.0 / (options.state_rate * sim_.step_length()))))),
       nh_(nh) {
@@ -53,8 +49,7 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       nh_.subscribe<std_msgs::Empty>(
           "emergency_stop", 1,
           [this](const std_msgs::EmptyConstPtr&) {
-            supervisor_.emergency_stop();
-            apply_supervision();
+            supervise([](ecu::Supervisor& all) { return all.emergency_stop(); });
           },
           ros::VoidConstPtr(), kNoDelay),
   };
@@ -84,15 +79,7 @@ void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   last_command_stamp_ = command.header.stamp;
   const auto outcome =
       supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_);
-  if (!outcome.accepted) {
-    // Wall time: simulated time may stand still.
-    static ros::WallTime last_warning;
-    const ros::WallTime now = ros::WallTime::now();
-    if ((now - last_warning).toSec() < 1.0) return;
-    last_warning = now;
-    ROS_WARN_STREAM("muscle_command refused: " << outcome.reason);
-    return;
-  }
+  if (!outcome.accepted) return warn_of_refusal("muscle_command", outcome.reason);
   apply_supervision();
   for (const ecu::MuscleReference& reference : accepted_) {
     if (supervisor_.follows_references(reference.muscle)) {
@@ -102,25 +89,16 @@ void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
 }
 
 void SimulatorNode::on_effort(const sensor_msgs::JointState& command) {
-  try {
-    if (command.effort.size() != command.name.size()) {
-      throw BadInput(std::to_string(command.name.size()) + " names, " +
-                     std::to_string(command.effort.size()) + " efforts: expected equal numbers");
-    }
-    std::vector<int> joints;
-    for (std::size_t i = 0; i < command.name.size(); ++i) {
-      const int joint = sim_.model().skeleton->find_joint(command.name[i]);
-      if (joint < 0 || !sim_.model().skeleton->joints[joint].driven) {
-        throw BadInput("joint '" + command.name[i] + "': no driven joint of that name");
-      }
-      if (!std::isfinite(command.effort[i]))
-        throw BadInput("joint '" + command.name[i] + "': effort is not finite");
-      joints.push_back(joint);
-    }
-    for (std::size_t i = 0; i < joints.size(); ++i) sim_.apply_effort(joints[i], command.effort[i]);
-  } catch (const BadInput& error) {
-    ROS_WARN_STREAM("joint_effort_command refused: " << error.what());
-  }
+  const auto outcome = driven_.command(command.name, command.effort, sim_);
+  if (!outcome.accepted) warn_of_refusal("joint_effort_command", outcome.reason);
+}
+
+void SimulatorNode::warn_of_refusal(const char* topic, const std::string& reason) {
+  // Wall time: simulated time may stand still.
+  const ros::WallTime now = ros::WallTime::now();
+  if ((now - last_warning_).toSec() < 1.0) return;
+  last_warning_ = now;
+  ROS_WARN_STREAM(topic << " refused: " << reason);
 }
 
 void SimulatorNode::apply_supervision() {
@@ -133,33 +111,40 @@ void SimulatorNode::apply_supervision() {
     }
     sim_.set_enabled(muscle, follows);
   }
+  driven_.apply(sim_);
+}
+
+template <typename Request>
+void SimulatorNode::supervise(Request request, std_srvs::Trigger::Response* response) {
+  const auto muscles = request(supervisor_);
+  const auto joints = request(driven_.supervisor());
+  apply_supervision();
+  if (response == nullptr) return;
+  response->success = muscles.accepted && joints.accepted;
+  response->message = muscles.reason.empty() ? joints.reason : muscles.reason;
 }
 
 // ---- services
 
 bool SimulatorNode::on_enable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  answer(supervisor_.enable(sim_.time()), response);
-  apply_supervision();
+  supervise([this](ecu::Supervisor& all) { return all.enable(sim_.time()); }, &response);
   return true;
 }
 
 bool SimulatorNode::on_disable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  answer(supervisor_.disable(), response);
-  apply_supervision();
+  supervise([](ecu::Supervisor& all) { return all.disable(); }, &response);
   return true;
 }
 
 bool SimulatorNode::on_emergency_stop(std_srvs::Trigger::Request&,
                                       std_srvs::Trigger::Response& response) {
-  answer(supervisor_.emergency_stop(), response);
-  apply_supervision();
+  supervise([](ecu::Supervisor& all) { return all.emergency_stop(); }, &response);
   return true;
 }
 
 bool SimulatorNode::on_clear_faults(std_srvs::Trigger::Request&,
                                     std_srvs::Trigger::Response& response) {
-  answer(supervisor_.clear_faults(), response);
-  apply_supervision();
+  supervise([](ecu::Supervisor& all) { return all.clear_faults(); }, &response);
   return true;
 }
 
@@ -276,15 +261,20 @@ bool SimulatorNode::wait_for_command(const ros::Time& stamp) {
   return true;
 }
 
+void SimulatorNode::watch_commands() {
+  const double limit = options_.supervisor.command_timeout;
+  const bool muscles = supervisor_.update(sim_.time());
+  const bool joints = driven_.supervisor().update(sim_.time());
+  if (muscles) ROS_WARN("no fresh muscle_command for %.3f s: motors stopped", limit);
+  if (joints) ROS_WARN("no fresh joint_effort_command for %.3f s: joints stopped", limit);
+  if (muscles || joints) apply_supervision();
+}
+
 bool SimulatorNode::advance(int steps) {
   try {
     for (int i = 0; i < steps; ++i) {
       if (!ros::ok()) return false;
-      if (supervisor_.update(sim_.time())) {
-        ROS_WARN("no fresh muscle_command for %.3f s: motors stopped",
-                 options_.supervisor.command_timeout);
-        apply_supervision();
-      }
+      watch_commands();
       sim_.step();
     }
     return true;
@@ -352,18 +342,15 @@ void SimulatorNode::publish_diagnostics() {
                       key_value("rejected_commands", std::to_string(supervisor_.rejected_count())),
                       key_value("last_rejection", supervisor_.last_rejection()),
                       key_value("command_age", text(supervisor_.command_age(sim_.time())))};
+  if (!driven_.supervisor().muscles().empty()) {
+    simulator.values.push_back(
+        key_value("rejected_efforts", std::to_string(driven_.rejected_count())));
+    simulator.values.push_back(key_value("last_effort_rejection", driven_.last_rejection()));
+  }
   array.status.push_back(simulator);
-  for (std::size_t e = 0; e < supervisor_.ecus().size(); ++e) {
-    diagnostic_msgs::DiagnosticStatus unit;
-    const ecu::State state = supervisor_.ecu_state(e);
-    unit.name = nh_.getNamespace() + ": " + supervisor_.ecus()[e];
-    unit.hardware_id = supervisor_.ecus()[e];
-    unit.level = state == ecu::State::kFault      ? diagnostic_msgs::DiagnosticStatus::ERROR
-                 : state == ecu::State::kStopping ? diagnostic_msgs::DiagnosticStatus::WARN
-                                                  : diagnostic_msgs::DiagnosticStatus::OK;
-    unit.message = ecu::name(state);
-    unit.values = {key_value("stop_latched", supervisor_.stop_latched() ? "true" : "false")};
-    array.status.push_back(unit);
+  for (const ecu::Supervisor* units : {&supervisor_, &driven_.supervisor()}) {
+    const auto statuses = ecu_statuses(*units, nh_.getNamespace());
+    array.status.insert(array.status.end(), statuses.begin(), statuses.end());
   }
   diagnostic_msgs::DiagnosticStatus paths;
   paths.name = nh_.getNamespace() + ": muscle paths";

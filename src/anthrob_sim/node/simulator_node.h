@@ -14,6 +14,7 @@
 #include <chrono>
 
 #include "anthrob_ecu/supervisor.h"
+#include "anthrob_sim/driven_joints.h"
 #include "anthrob_sim/report/solved_path.h"
 #include "anthrob_sim/simulation.h"
 
@@ -46,6 +47,10 @@ class SimulatorNode {
 
   void on_command(const anthrob_msgs::MuscleCommand& command);
   void on_effort(const sensor_msgs::JointState& command);
+  void warn_of_refusal(const char* topic, const std::string& reason);
+  /// Puts a request to muscles and driven joints.
+  template <typename Request>
+  void supervise(Request request, std_srvs::Trigger::Response* response = nullptr);
   bool on_enable(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_disable(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_emergency_stop(std_srvs::Trigger::Request& request,
@@ -59,6 +64,8 @@ class SimulatorNode {
 
   /// Serves commands until one stamped `stamp` or later has been in; false if none comes.
   bool wait_for_command(const ros::Time& stamp);
+  /// Stops what nobody commands any more.
+  void watch_commands();
   /// @return false if the numbers broke down; the simulation is paused then
   bool advance(int steps);
   void apply_supervision();
@@ -70,7 +77,8 @@ class SimulatorNode {
 
   Options options_;
   Simulation sim_;
-  ecu::Supervisor supervisor_;
+  ecu::Supervisor supervisor_;  ///< of muscles
+  DrivenJoints driven_;
   std::vector<ecu::MuscleReference> accepted_;
   int steps_per_cycle_;
   std::uint64_t cycles_ = 0;
@@ -79,6 +87,7 @@ class SimulatorNode {
   ros::NodeHandle nh_;
   ros::CallbackQueue command_queue_;  ///< of its own, so that sim/step can wait for a command
   ros::Time last_command_stamp_;
+  ros::WallTime last_warning_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher clock_, muscles_, joints_, spherical_joints_, efforts_, muscle_paths_, touch_,

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_ecu/supervisor.h"
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// Driven joints under the contract of muscles: no effort before enable, none after a stop that was
+/// not cleared, none that nobody renews. Each joint stands for an ECU of its own. A stopped joint
+/// forgets its effort.
+class DrivenJoints {
+ public:
+  DrivenJoints(const SkeletonModel& skeleton, const ecu::Supervisor::Options& options);
+
+  /// Applies a whole command, or refuses it with a reason: an unknown joint, unequal numbers,
+  /// efforts that are not finite, a joint that is stopped.
+  ecu::Supervisor::Outcome command(const std::vector<std::string>& names,
+                                   const std::vector<double>& efforts, Simulation& sim);
+  /// Takes their effort from joints that are stopped; after every request to the supervisor.
+  void apply(Simulation& sim) const;
+
+  /// Takes enable, disable, stops, and the time.
+  ecu::Supervisor& supervisor() { return supervisor_; }
+  const ecu::Supervisor& supervisor() const { return supervisor_; }
+  /// Of commands that were refused; empty if none ever was.
+  const std::string& last_rejection() const { return last_rejection_; }
+  std::size_t rejected_count() const { return rejected_; }
+
+ private:
+  std::string check(const std::vector<std::string>& names,
+                    const std::vector<double>& efforts) const;
+  /// Index in the supervisor, or -1.
+  int find(const std::string& name) const;
+  ecu::Supervisor::Outcome refuse(const std::string& reason);
+
+  std::vector<int> joints_;  ///< of the skeleton
+  ecu::Supervisor supervisor_;
+  std::size_t rejected_ = 0;
+  std::string last_rejection_;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""Stops, disable and the command time-out reach joints that are driven by efforts, on a robot without muscles."""
+import time
+import unittest
+
+import rospy
+import rostest
+from anthrob_msgs.srv import Step
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Empty
+from std_srvs.srv import Trigger
+
+
+class DrivenAxis(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.states, cls.reports = [], []
+        cls.subscribers = [rospy.Subscriber('joint_states', JointState, cls.states.append, queue_size=1000),
+                           rospy.Subscriber('/diagnostics', DiagnosticArray, cls.reports.append)]
+        cls.effort = rospy.Publisher('joint_effort_command', JointState, queue_size=10, tcp_nodelay=True)
+        cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
+        rospy.wait_for_service('sim/step', 30)
+        for name in ['enable', 'disable', 'emergency_stop', 'clear_faults', 'sim/reset']:
+            setattr(cls, name.split('/')[-1], staticmethod(rospy.ServiceProxy(name, Trigger)))
+        cls.step = staticmethod(rospy.ServiceProxy('sim/step', Step))
+
+    def setUp(self):
+        self.wait_until(lambda: self.effort.get_num_connections() > 0 and self.stop_topic.get_num_connections() > 0)
+        self.clear_faults()
+        self.enable()
+        self.reset()
+
+    def wait_until(self, condition):
+        end = time.time() + 20
+        while not condition():
+            self.assertLess(time.time(), end)
+            time.sleep(0.005)
+
+    def push(self, newtons):
+        self.effort.publish(JointState(name=['axis'], effort=[newtons]))
+        time.sleep(0.1)
+
+    def effort_after(self, steps):
+        stamp = self.step(steps=steps).stamp
+        self.wait_until(lambda: self.states and self.states[-1].header.stamp >= stamp)
+        return self.states[-1].effort[0]
+
+    def check_stop_is_latched(self):
+        self.assertEqual(self.effort_after(2), 0.0)
+        self.push(50.0)
+        self.assertEqual(self.effort_after(2), 0.0)
+        answer = self.enable()
+        self.assertFalse(answer.success)
+        self.assertIn('clear_faults', answer.message)
+        self.assertTrue(self.clear_faults().success)
+        self.push(50.0)
+        self.assertEqual(self.effort_after(2), 0.0)
+        self.assertTrue(self.enable().success)
+        self.assertEqual(self.effort_after(2), 0.0)
+        self.push(50.0)
+        self.assertEqual(self.effort_after(2), 50.0)
+
+    def test_emergency_stop_service_is_latched(self):
+        self.push(50.0)
+        self.assertEqual(self.effort_after(10), 50.0)
+        self.assertTrue(self.emergency_stop().success)
+        self.check_stop_is_latched()
+
+    def test_emergency_stop_topic_is_latched(self):
+        self.push(50.0)
+        self.assertEqual(self.effort_after(10), 50.0)
+        self.stop_topic.publish(Empty())
+        time.sleep(0.1)
+        self.check_stop_is_latched()
+
+    def test_disable(self):
+        self.push(50.0)
+        self.assertEqual(self.effort_after(10), 50.0)
+        self.assertTrue(self.disable().success)
+        self.assertEqual(self.effort_after(2), 0.0)
+        self.push(50.0)
+        self.assertEqual(self.effort_after(2), 0.0)
+
+    def test_timeout_stops_and_a_fresh_command_resumes(self):
+        self.push(50.0)
+        self.assertEqual(self.effort_after(450), 50.0)
+        self.assertEqual(self.effort_after(100), 0.0)
+        self.push(20.0)
+        self.assertEqual(self.effort_after(10), 20.0)
+
+    def test_diagnostics_name_the_joint_and_what_was_refused(self):
+        self.effort.publish(JointState(name=['nobody'], effort=[1.0]))
+        time.sleep(0.1)
+        self.emergency_stop()
+
+        def told():
+            statuses = {s.name: s for s in self.reports[-1].status} if self.reports else {}
+            if '/driven_axis: axis' not in statuses:
+                return False
+            values = {v.key: v.value for v in statuses['/driven_axis: simulator'].values}
+            return statuses['/driven_axis: axis'].message == 'STOPPING' and 'nobody' in values['last_effort_rejection']
+
+        self.wait_until(told)
+
+
+if __name__ == '__main__':
+    rospy.init_node('driven_axis_test')
+    rostest.rosrun('anthrob_tests', 'driven_axis', DrivenAxis)
