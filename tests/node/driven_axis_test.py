@@ -5,7 +5,7 @@ import unittest
 
 import rospy
 import rostest
-from anthrob_msgs.srv import Step
+from anthrob_msgs.srv import SetState, SetStateRequest, Step
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
@@ -24,6 +24,7 @@ class DrivenAxis(unittest.TestCase):
         rospy.wait_for_service('sim/step', 30)
         for name in ['enable', 'disable', 'emergency_stop', 'clear_faults', 'sim/reset']:
             setattr(cls, name.split('/')[-1], staticmethod(rospy.ServiceProxy(name, Trigger)))
+        cls.set_state = staticmethod(rospy.ServiceProxy('sim/set_state', SetState))
         cls.step = staticmethod(rospy.ServiceProxy('sim/step', Step))
 
     def setUp(self):
@@ -89,6 +90,31 @@ class DrivenAxis(unittest.TestCase):
         self.assertEqual(self.effort_after(100), 0.0)
         self.push(20.0)
         self.assertEqual(self.effort_after(10), 20.0)
+
+    def test_nothing_of_a_state_that_broke_down_is_shown_or_lives_on(self):
+        # No axis bears that: the numbers leave all sense within a step or two.
+        self.push(1e300)
+        shown = len(self.states)
+        answer = self.step(steps=10)
+        self.assertFalse(answer.success)
+        self.assertIn('numerical failure', answer.message)
+        self.wait_until(lambda: self.reports and 'numerical failure' in self.reports[-1].status[0].message)
+        time.sleep(0.3)
+        self.assertEqual(len(self.states), shown)
+        for request in SetStateRequest(), SetStateRequest(joint_name=['axis'], joint_position=[0.2]):
+            answer = self.set_state(request)
+            self.assertTrue(answer.success, answer.message)
+            self.assertTrue(self.step(steps=10).success)
+            where = request.joint_position[0] if request.joint_position else 0.0
+            self.wait_until(lambda: self.states and abs(self.states[-1].position[0] - where) < 1e-12)
+            self.assertEqual((self.states[-1].velocity[0], self.states[-1].effort[0]), (0.0, 0.0))
+            # Again, for the other request.
+            self.push(1e300)
+            self.assertFalse(self.step(steps=10).success)
+        self.assertFalse(self.set_state(SetStateRequest(joint_name=['axis'], joint_position=[1.0])).success)
+        self.assertFalse(self.step(steps=1).success)  # a refused posture does not hide the failure
+        self.assertTrue(self.reset().success)
+        self.assertTrue(self.step(steps=1).success)
 
     def test_diagnostics_name_the_joint_and_what_was_refused(self):
         self.effort.publish(JointState(name=['nobody'], effort=[1.0]))

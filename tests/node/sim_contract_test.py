@@ -331,16 +331,21 @@ class SimContract(unittest.TestCase):
         wait_for(lambda: abs(self.balls.last().orientation[0].w - math.cos(0.2)) < 1e-9, 2, 'the shoulder')
         wait_for(lambda: self.states.last().position[MUSCLES.index('biceps_brachii')] == 2.0, 2, 'the biceps')
 
+    def test_set_state_restores_what_sank_into_a_stop(self):
+        answer = self.set_state(SetStateRequest(joint_name=['elbow'], joint_position=[-0.0003]))
+        self.assertTrue(answer.success, answer.message)
+
     def test_set_state_refuses_nonsense(self):
         cases = [
             (dict(joint_name=['knee'], joint_position=[0.0]), 'knee'),
             (dict(joint_name=['elbow'], joint_position=[9.0]), 'limits'),
-            (dict(joint_name=['elbow'], joint_position=[NAN]), 'limits'),
+            (dict(joint_name=['elbow'], joint_position=[NAN]), 'finite'),
             (dict(joint_name=['elbow'], joint_position=[]), 'differ'),
             (dict(joint_name=['shoulder'], joint_position=[0.0]), 'shoulder'),
             (dict(ball_joint_name=['shoulder'], ball_joint_orientation=[Quaternion()]), 'unit quaternion'),
             (dict(muscle_name=['nobody'], muscle_position=[0.0]), 'nobody'),
             (dict(muscle_name=['brachialis'], muscle_position=[NAN]), 'finite'),
+            (dict(muscle_name=['brachialis'], muscle_position=[1e6]), 'limits'),
         ]
         for fields, word in cases:
             answer = self.set_state(SetStateRequest(**fields))

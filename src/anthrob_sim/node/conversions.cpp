@@ -32,6 +32,24 @@ std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model) {
   return channels;
 }
 
+void read_state(const anthrob_msgs::SetState::Request& request, Placement& placement) {
+  if (request.joint_name.size() != request.joint_position.size() ||
+      request.ball_joint_name.size() != request.ball_joint_orientation.size() ||
+      request.muscle_name.size() != request.muscle_position.size()) {
+    throw BadInput("names and values differ in number");
+  }
+  for (std::size_t i = 0; i < request.joint_name.size(); ++i) {
+    placement.set_joint(request.joint_name[i], request.joint_position[i]);
+  }
+  for (std::size_t i = 0; i < request.ball_joint_name.size(); ++i) {
+    const auto& o = request.ball_joint_orientation[i];
+    placement.set_ball_joint(request.ball_joint_name[i], Quat(o.w, o.x, o.y, o.z));
+  }
+  for (std::size_t i = 0; i < request.muscle_name.size(); ++i) {
+    placement.set_muscle(request.muscle_name[i], request.muscle_position[i]);
+  }
+}
+
 anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Supervisor& supervisor,
                                          const ros::Time& stamp) {
   anthrob_msgs::MuscleStates states;

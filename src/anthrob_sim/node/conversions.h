@@ -2,6 +2,7 @@
 
 #include <anthrob_msgs/MusclePaths.h>
 #include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/SetState.h>
 #include <anthrob_msgs/SphericalJointStates.h>
 #include <anthrob_msgs/TouchStates.h>
 #include <diagnostic_msgs/DiagnosticStatus.h>
@@ -12,12 +13,16 @@
 #include <vector>
 
 #include "anthrob_ecu/supervisor.h"
+#include "anthrob_sim/placement.h"
 #include "anthrob_sim/simulation.h"
 
 namespace anthrob {
 
 /// What the supervisor must know of the robot's muscles.
 std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model);
+
+/// @throws BadInput if names and values differ in number, or the robot cannot get there
+void read_state(const anthrob_msgs::SetState::Request& request, Placement& placement);
 
 anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Supervisor& supervisor,
                                          const ros::Time& stamp);

@@ -8,6 +8,7 @@
 
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_ros/single_backend.h"
+#include "anthrob_sim/placement.h"
 #include "conversions.h"
 
 namespace anthrob {
@@ -179,8 +180,7 @@ bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
 }
 
 bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  sim_.reset();
-  failure_.clear();
+  start_anew();
   last_command_stamp_ = ros::Time();
   publish(true);
   response.success = true;
@@ -188,60 +188,19 @@ bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   return true;
 }
 
+void SimulatorNode::start_anew() {
+  sim_.reset();
+  failure_.clear();
+}
+
 bool SimulatorNode::on_set_state(anthrob_msgs::SetState::Request& request,
                                  anthrob_msgs::SetState::Response& response) {
-  const SkeletonModel& skeleton = *sim_.model().skeleton;
-  std::vector<double> q = sim_.configuration(), positions;
-  for (std::size_t i = 0; i < sim_.muscle_count(); ++i) {
-    positions.push_back(sim_.muscle(static_cast<int>(i)).actuator().position);
-  }
   try {
-    if (request.joint_name.size() != request.joint_position.size() ||
-        request.ball_joint_name.size() != request.ball_joint_orientation.size() ||
-        request.muscle_name.size() != request.muscle_position.size()) {
-      throw BadInput("names and values differ in number");
-    }
-    for (std::size_t i = 0; i < request.joint_name.size(); ++i) {
-      const int index = skeleton.find_joint(request.joint_name[i]);
-      const double value = request.joint_position[i];
-      if (index < 0 || skeleton.joints[index].type == JointType::kBall) {
-        throw BadInput("joint '" + request.joint_name[i] +
-                       "': no hinge or prismatic joint of that name");
-      }
-      const JointModel& joint = skeleton.joints[index];
-      if (!std::isfinite(value) ||
-          (joint.stop.enabled && (value < joint.stop.lower || value > joint.stop.upper))) {
-        throw BadInput("joint '" + joint.name + "': " + text(value) +
-                       ": expected a position within its limits");
-      }
-      q[joint.position_offset] = value;
-    }
-    for (std::size_t i = 0; i < request.ball_joint_name.size(); ++i) {
-      const int index = skeleton.find_joint(request.ball_joint_name[i]);
-      const auto& o = request.ball_joint_orientation[i];
-      const Quat turn(o.w, o.x, o.y, o.z);
-      if (index < 0 || skeleton.joints[index].type != JointType::kBall) {
-        throw BadInput("ball joint '" + request.ball_joint_name[i] +
-                       "': no ball joint of that name");
-      }
-      if (!(std::abs(turn.norm() - 1.0) < 1e-3)) {
-        throw BadInput("ball joint '" + request.ball_joint_name[i] +
-                       "': expected a unit quaternion");
-      }
-      const Quat unit = canonical(turn.normalized());
-      double* p = &q[skeleton.joints[index].position_offset];
-      p[0] = unit.w(), p[1] = unit.x(), p[2] = unit.y(), p[3] = unit.z();
-    }
-    for (std::size_t i = 0; i < request.muscle_name.size(); ++i) {
-      const int index = sim_.model().find_muscle(request.muscle_name[i]);
-      if (index < 0) throw BadInput("muscle '" + request.muscle_name[i] + "': no such muscle");
-      if (!std::isfinite(request.muscle_position[i])) {
-        throw BadInput("muscle '" + request.muscle_name[i] + "': position is not finite");
-      }
-      positions[index] = request.muscle_position[i];
-    }
-    sim_.place(q, positions);
-    failure_.clear();
+    // Nothing of a state that broke down may live on.
+    Placement placement = failure_.empty() ? Placement(sim_) : Placement(sim_.model());
+    read_state(request, placement);
+    if (!failure_.empty()) start_anew();
+    sim_.place(placement.q(), placement.positions());
     publish(true);
     response.success = true;
   } catch (const BadInput& error) {
@@ -294,13 +253,18 @@ void SimulatorNode::cycle() {
   }
 }
 
+void SimulatorNode::publish_clock() {
+  rosgraph_msgs::Clock clock;
+  clock.clock = stamp();
+  clock_.publish(clock);
+}
+
 void SimulatorNode::publish(bool all) {
+  publish_clock();
+  if (!failure_.empty()) return;  // nobody must take what broke down for a state
   const ros::Time now = stamp();
   Penetration found = deepest_penetration(sim_);
   if (found.depth > deepest_.depth) deepest_ = std::move(found);
-  rosgraph_msgs::Clock clock;
-  clock.clock = now;
-  clock_.publish(clock);
   muscles_.publish(muscle_states(sim_, supervisor_, now));
   joints_.publish(joint_states(sim_, now));
   spherical_joints_.publish(spherical_joint_states(sim_, now));

@@ -70,7 +70,10 @@ class SimulatorNode {
   bool advance(int steps);
   void apply_supervision();
   void cycle();
+  /// Rest; what failed is forgotten.
+  void start_anew();
   void publish(bool all);
+  void publish_clock();
   void publish_diagnostics();
   void pace();
   ros::Time stamp() const;

@@ -20,6 +20,10 @@ bool is_sensible(double value) {
   return std::abs(value) < kSensible;  // false if it is not a number
 }
 
+void expect_finite(double value, const std::string& what) {
+  if (!std::isfinite(value)) throw BadInput(what + ": expected a finite number");
+}
+
 void expect_sensible(double value, const std::string& what) {
   if (!is_sensible(value)) throw BadInput(what + ": expected a finite number below 1e9");
 }
@@ -184,7 +188,7 @@ void Simulation::apply_effort(int joint, double effort) {
     throw BadInput("joint " + model_->skeleton->joints[joint].name +
                    ": takes no effort; expected 'driven: true' in " + model_->file);
   }
-  expect_sensible(effort, "joint " + model_->skeleton->joints[joint].name + ": effort");
+  expect_finite(effort, "joint " + model_->skeleton->joints[joint].name + ": effort");
   effort_[joint] = effort;
 }
 
@@ -193,7 +197,7 @@ void Simulation::apply_load(int joint, double load) {
     throw BadInput("joint " + model_->skeleton->joints[joint].name +
                    ": load: expected a hinge or prismatic joint");
   }
-  expect_sensible(load, "joint " + model_->skeleton->joints[joint].name + ": load");
+  expect_finite(load, "joint " + model_->skeleton->joints[joint].name + ": load");
   load_[joint] = load;
 }
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/model/robot_model.h"
+
+namespace anthrob {
+
+class Simulation;
+
+/// A posture into which somebody asks to put a simulation, for Simulation::place: checked name by
+/// name against what the robot can reach. All setters throw BadInput, naming joint or muscle.
+class Placement {
+ public:
+  /// Beyond a soft stop, which gives way a little, so that a posture that was recorded can be
+  /// restored. A prismatic joint counts 10 rad a metre.
+  static constexpr double kGive = 0.05;  // [rad]
+
+  /// Starts from rest, with all actuators at 0.   @param model must outlive the object
+  explicit Placement(const RobotModel& model);
+  /// Starts from where a simulation is.
+  explicit Placement(const Simulation& sim);
+
+  /// @param position of a hinge [rad] or prismatic joint [m], within its stop
+  void set_joint(const std::string& name, double position);
+  /// @param turn from rest, in the child's axes; unit within 1e-3, within the joint's stop
+  void set_ball_joint(const std::string& name, const Quat& turn);
+  /// @param position [rad] within the limits of commands
+  void set_muscle(const std::string& name, double position);
+
+  const std::vector<double>& q() const { return q_; }
+  const std::vector<double>& positions() const { return positions_; }
+
+ private:
+  const RobotModel& model_;
+  std::vector<double> q_, positions_;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,80 @@
+#include "anthrob_sim/placement.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+namespace {
+
+constexpr double kUnit = 1e-3;  // how far a quaternion may be from unit length
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), "%g", value);
+  return buffer;
+}
+
+[[noreturn]] void refuse(const std::string& who, double value, double lowest, double highest) {
+  throw BadInput(who + ": " + text(value) + ": expected a position within its limits, " +
+                 text(lowest) + " to " + text(highest));
+}
+
+}  // namespace
+
+Placement::Placement(const RobotModel& model)
+    : model_(model), q_(model.skeleton->rest_configuration()), positions_(model.muscles.size()) {}
+
+Placement::Placement(const Simulation& sim) : model_(sim.model()), q_(sim.configuration()) {
+  for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
+    positions_.push_back(sim.muscle(static_cast<int>(i)).actuator().position);
+  }
+}
+
+void Placement::set_joint(const std::string& name, double position) {
+  const std::string who = "joint '" + name + "'";
+  const int index = model_.skeleton->find_joint(name);
+  if (index < 0 || model_.skeleton->joints[index].type == JointType::kBall) {
+    throw BadInput(who + ": no hinge or prismatic joint of that name");
+  }
+  const JointModel& joint = model_.skeleton->joints[index];
+  if (!std::isfinite(position)) throw BadInput(who + ": position is not finite");
+  const double give = joint.type == JointType::kPrismatic ? 0.1 * kGive : kGive;
+  if (joint.stop.enabled &&
+      (position < joint.stop.lower - give || position > joint.stop.upper + give)) {
+    refuse(who, position, joint.stop.lower, joint.stop.upper);
+  }
+  q_[joint.position_offset] = position;
+}
+
+void Placement::set_ball_joint(const std::string& name, const Quat& turn) {
+  const std::string who = "ball joint '" + name + "'";
+  const int index = model_.skeleton->find_joint(name);
+  if (index < 0 || model_.skeleton->joints[index].type != JointType::kBall) {
+    throw BadInput(who + ": no ball joint of that name");
+  }
+  if (!(std::abs(turn.norm() - 1.0) < kUnit)) throw BadInput(who + ": expected a unit quaternion");
+  const JointModel& joint = model_.skeleton->joints[index];
+  const Quat unit = canonical(turn.normalized());
+  const double angle = angular_distance(unit, Quat::Identity());
+  if (joint.stop.enabled && angle > joint.stop.upper + kGive) {
+    refuse(who, angle, 0.0, joint.stop.upper);
+  }
+  double* p = &q_[joint.position_offset];
+  p[0] = unit.w(), p[1] = unit.x(), p[2] = unit.y(), p[3] = unit.z();
+}
+
+void Placement::set_muscle(const std::string& name, double position) {
+  const std::string who = "muscle '" + name + "'";
+  const int index = model_.find_muscle(name);
+  if (index < 0) throw BadInput(who + ": no such muscle");
+  if (!std::isfinite(position)) throw BadInput(who + ": position is not finite");
+  const double limit = model_.muscles[index].limits.position;
+  if (std::abs(position) > limit + kGive) refuse(who, position, -limit, limit);
+  positions_[index] = position;
+}
+
+}  // namespace anthrob
