@@ -305,6 +305,39 @@ class SimContract(unittest.TestCase):
         time.sleep(0.3)
         self.assertEqual(self.step(1).stamp - stamp, rospy.Duration(0, 1000000))
 
+    def shown_in_tf(self, child):
+        """As tf2 keeps it: the newest stamp, and of equal stamps what came first."""
+        newest = None
+        for message in list(self.tf.messages):
+            for transform in message.transforms:
+                if transform.child_frame_id == child and (newest is None
+                                                          or transform.header.stamp > newest.header.stamp):
+                    newest = transform
+        return newest.transform.rotation
+
+    def test_what_is_placed_while_paused_shows_in_tf(self):
+        def turned(child, rest, angle):
+            turn = self.shown_in_tf(child)
+            cosine = abs(turn.w * rest.w + turn.x * rest.x + turn.y * rest.y + turn.z * rest.z)
+            return abs(2.0 * math.acos(min(1.0, cosine)) - angle) < 1e-3
+
+        self.advance(100)
+        self.reset()
+        time.sleep(0.5)
+        rest = {child: self.shown_in_tf(child) for child in ['humerus', 'forearm']}
+        for elbow, shoulder in [(1.0, 0.4), (0.0, 0.0), (0.5, 0.2)]:
+            before = self.clock.last().clock
+            ball = Quaternion(w=math.cos(shoulder / 2), x=math.sin(shoulder / 2), y=0, z=0)
+            answer = self.set_state(SetStateRequest(joint_name=['elbow'], joint_position=[elbow],
+                                                    ball_joint_name=['shoulder'], ball_joint_orientation=[ball]))
+            self.assertTrue(answer.success, answer.message)
+            wait_for(lambda: turned('humerus', rest['humerus'], shoulder), 3, 'the shoulder in tf')
+            wait_for(lambda: turned('forearm', rest['forearm'], elbow), 3, 'the elbow in tf')
+            self.assertGreater(self.clock.last().clock, before)
+        self.reset()
+        for child in rest:
+            wait_for(lambda: turned(child, rest[child], 0.0), 3, child + ' at rest in tf')
+
     def test_reset_keeps_time_going(self):
         for _ in range(5):
             self.send(['lateral_deltoid'], [1], [6.0])

@@ -17,6 +17,9 @@ namespace {
 
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 constexpr std::uint32_t kMostSteps = 10000000;  ///< of one call: nothing else is heard meanwhile
+/// Between two postures without a motion from one to the other: tf keeps one an instant, and
+/// robot_state_publisher looks at joints 50 times a second.
+constexpr double kNewInstant = 0.02;  // [s]
 
 }  // namespace
 
@@ -188,7 +191,12 @@ bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   return true;
 }
 
+void SimulatorNode::skip_to_new_instant() {
+  sim_.skip(static_cast<int>(std::ceil(kNewInstant / sim_.step_length() - 1e-9)));
+}
+
 void SimulatorNode::start_anew() {
+  skip_to_new_instant();
   sim_.reset();
   failure_.clear();
 }
@@ -199,7 +207,11 @@ bool SimulatorNode::on_set_state(anthrob_msgs::SetState::Request& request,
     // Nothing of a state that broke down may live on.
     Placement placement = failure_.empty() ? Placement(sim_) : Placement(sim_.model());
     read_state(request, placement);
-    if (!failure_.empty()) start_anew();
+    if (failure_.empty()) {
+      skip_to_new_instant();
+    } else {
+      start_anew();
+    }
     sim_.place(placement.q(), placement.positions());
     publish(true);
     response.success = true;

@@ -70,7 +70,9 @@ class SimulatorNode {
   bool advance(int steps);
   void apply_supervision();
   void cycle();
-  /// Rest; what failed is forgotten.
+  /// So that tf shows what is placed next.
+  void skip_to_new_instant();
+  /// Rest, at an instant of its own; what failed is forgotten.
   void start_anew();
   void publish(bool all);
   void publish_clock();

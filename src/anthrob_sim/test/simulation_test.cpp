@@ -406,6 +406,18 @@ TEST(Simulation, PlacingManyTurnsAwayTakesNoLongerThanFifty) {
   EXPECT_NEAR(sim.configuration()[0], 9e8, 1e-6);
 }
 
+TEST(Simulation, SkippedStepsMoveNothingButTime) {
+  Simulation sim(anthrob_model("I"));
+  sim.place({1, 0, 0, 0, 1.0}, std::vector<double>(11, 0.0));
+  sim.step(3);
+  const Snapshot before = sim.snapshot();
+  sim.skip(20);
+  const Snapshot after = sim.snapshot();
+  EXPECT_DOUBLE_EQ(sim.time(), 0.023);
+  EXPECT_EQ(after.q, before.q);
+  EXPECT_EQ(after.state, before.state);
+}
+
 TEST(Simulation, RobotWithoutJointsRuns) {
   // A motor pulls a rubber ring at a wall; 3 N at rest, some 20 N a radian.
   Simulation sim(load_robot_model(config("rig_oring_stretcher/model_I.yaml"), {0.002, {}}));

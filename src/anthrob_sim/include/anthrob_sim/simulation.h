@@ -69,6 +69,8 @@ class Simulation {
   void place(const std::vector<double>& q, const std::vector<double>& positions);
   /// Back to the start, but time goes on.
   void reset();
+  /// Time in which nothing moves: what is placed next gets an instant of its own.
+  void skip(int steps) { step_index_ += static_cast<std::uint64_t>(steps); }
 
   /// @throws NumericalFailure naming time and place; the simulation stays in the failed state
   void step(int count = 1);
