@@ -305,6 +305,13 @@ class SimContract(unittest.TestCase):
         time.sleep(0.3)
         self.assertEqual(self.step(1).stamp - stamp, rospy.Duration(0, 1000000))
 
+    def test_paused_clock_is_repeated(self):
+        stamp = self.step(1).stamp
+        late = Collector('/clock', Clock)
+        wait_for(lambda: len(late.messages) >= 2, 5, 'the clock of a simulator that is paused')
+        self.assertEqual({m.clock for m in late.messages}, {stamp})
+        late.subscriber.unregister()
+
     def shown_in_tf(self, child):
         """As tf2 keeps it: the newest stamp, and of equal stamps what came first."""
         newest = None

@@ -20,6 +20,8 @@ constexpr std::uint32_t kMostSteps = 10000000;  ///< of one call: nothing else i
 /// Between two postures without a motion from one to the other: tf keeps one an instant, and
 /// robot_state_publisher looks at joints 50 times a second.
 constexpr double kNewInstant = 0.02;  // [s]
+/// While paused, so that who starts then knows the time.
+constexpr std::chrono::milliseconds kClockRepeat(200);
 
 }  // namespace
 
@@ -269,6 +271,11 @@ void SimulatorNode::publish_clock() {
   rosgraph_msgs::Clock clock;
   clock.clock = stamp();
   clock_.publish(clock);
+  clock_time_ = Clock::now();
+}
+
+void SimulatorNode::repeat_clock() {
+  if (options_.paused && Clock::now() - clock_time_ > kClockRepeat) publish_clock();
 }
 
 void SimulatorNode::publish(bool all) {
@@ -374,6 +381,7 @@ void SimulatorNode::run() {
     command_queue_.callAvailable();
     ros::getGlobalCallbackQueue()->callAvailable();
     cycle();
+    repeat_clock();
     publish_diagnostics();
     pace();
   }

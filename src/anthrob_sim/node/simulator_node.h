@@ -76,6 +76,7 @@ class SimulatorNode {
   void start_anew();
   void publish(bool all);
   void publish_clock();
+  void repeat_clock();
   void publish_diagnostics();
   void pace();
   ros::Time stamp() const;
@@ -99,7 +100,7 @@ class SimulatorNode {
       solved_paths_, surfaces_, diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
 
-  Clock::time_point deadline_, report_time_, marker_time_;
+  Clock::time_point deadline_, report_time_, marker_time_, clock_time_;
   double report_sim_time_ = 0.0;
   int late_cycles_ = 0;
   Penetration deepest_;  ///< of a path point into a surface since the last report
