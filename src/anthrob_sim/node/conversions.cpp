@@ -4,6 +4,7 @@
 
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_sim/path/cylinder.h"
+#include "anthrob_sim/path/mesh_surface.h"
 #include "anthrob_sim/path/sphere.h"
 #include "anthrob_sim/report/solved_path.h"
 
@@ -231,6 +232,42 @@ visualization_msgs::MarkerArray muscle_markers(const Simulation& sim, const ros:
   return markers;
 }
 
+namespace {
+
+/// The facets of a hull, in its body's frame.
+void add_facets(const ConvexHull& hull, visualization_msgs::Marker& marker) {
+  marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  for (int h = 0; h < hull.half_edge_count(); ++h) marker.points.push_back(to_point(hull.from(h)));
+}
+
+/// Gives a marker the shape of a surface.
+/// @param X_LS where the marker sits; the pose of the surface's body on entry
+/// @return false for a surface that has no shape to show
+bool take_shape(const WrappingSurface& surface, visualization_msgs::Marker& marker, Pose& X_LS) {
+  if (const auto* cylinder = dynamic_cast<const Cylinder*>(&surface)) {
+    // RViz's cylinders stand on z, ours turn about y. Infinite ones are shown 80 mm long.
+    Mat3 R;
+    R << Vec3::UnitX(), -Vec3::UnitZ(), Vec3::UnitY();
+    X_LS = X_LS * cylinder->pose() * Pose{R, Vec3::Zero()};
+    marker.type = visualization_msgs::Marker::CYLINDER;
+    marker.scale.x = marker.scale.y = 2.0 * cylinder->radius();
+    marker.scale.z = 0.08;
+  } else if (const auto* sphere = dynamic_cast<const Sphere*>(&surface)) {
+    X_LS.p = X_LS * sphere->center();
+    marker.type = visualization_msgs::Marker::SPHERE;
+    marker.scale.x = marker.scale.y = marker.scale.z = 2.0 * sphere->radius();
+  } else if (const auto* mesh = dynamic_cast<const MeshSurface*>(&surface)) {
+    add_facets(mesh->hull(), marker);
+  } else {
+    // The surface of the thesis's selection is another one in every posture.
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 visualization_msgs::MarkerArray surface_markers(const RobotModel& model) {
   visualization_msgs::MarkerArray markers;
   for (const MuscleModel& muscle : model.muscles) {
@@ -238,25 +275,13 @@ visualization_msgs::MarkerArray surface_markers(const RobotModel& model) {
       if (!obstacle.surface) continue;
       const BodyModel& body = model.skeleton->bodies[obstacle.body];
       visualization_msgs::Marker marker;
+      Pose X_LS = body.X_LB;
+      if (!take_shape(*obstacle.surface, marker, X_LS)) continue;
       marker.header.frame_id = body.name;
       marker.frame_locked = true;
       marker.ns = muscle.name;
       marker.id = static_cast<int>(markers.markers.size());
       marker.color.r = 0.3f, marker.color.g = 0.6f, marker.color.b = 0.9f, marker.color.a = 0.08f;
-      Pose X_LS = body.X_LB;
-      if (const auto* cylinder = dynamic_cast<const Cylinder*>(obstacle.surface.get())) {
-        // RViz's cylinders stand on z, ours turn about y. Infinite ones are shown 80 mm long.
-        Mat3 R;
-        R << Vec3::UnitX(), -Vec3::UnitZ(), Vec3::UnitY();
-        X_LS = body.X_LB * cylinder->pose() * Pose{R, Vec3::Zero()};
-        marker.type = visualization_msgs::Marker::CYLINDER;
-        marker.scale.x = marker.scale.y = 2.0 * cylinder->radius();
-        marker.scale.z = 0.08;
-      } else if (const auto* sphere = dynamic_cast<const Sphere*>(obstacle.surface.get())) {
-        X_LS.p = body.X_LB * sphere->center();
-        marker.type = visualization_msgs::Marker::SPHERE;
-        marker.scale.x = marker.scale.y = marker.scale.z = 2.0 * sphere->radius();
-      }
       const Quat q(X_LS.R);
       marker.pose.position = to_point(X_LS.p);
       marker.pose.orientation.w = q.w(), marker.pose.orientation.x = q.x();
