@@ -3,6 +3,7 @@
 package of files that are links.)"""
 import glob
 import os
+import re
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -13,30 +14,63 @@ import roslib.packages
 import rostest
 
 
+def launch_folder():
+    return os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch')
+
+
+def load(name, *asked):
+    return roslaunch.config.load_config_default([(os.path.join(launch_folder(), name), list(asked))], None, assign_machines=False)
+
+
 class LaunchFiles(unittest.TestCase):
 
     def test_name_programs_that_are_there(self):
-        files = glob.glob(os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch', '*.launch'))
-        self.assertGreater(len(files), 6)
-        for file in files:
+        self.assertGreater(len(self.files()), 6)
+        for file in self.files():
             with self.subTest(os.path.basename(file)):
                 self.check(file)
+
+    def files(self):
+        return glob.glob(os.path.join(launch_folder(), '*.launch'))
 
     def check(self, file):
         asked = ['%s:=tier1' % arg.get('name') for arg in ElementTree.parse(file).getroot().findall('arg')
                  if arg.get('default') is None and arg.get('value') is None]
-        config = roslaunch.config.load_config_default([(file, asked)], None, assign_machines=False)
+        config = load(os.path.basename(file), *asked)
         self.assertFalse(config.config_errors)
         self.assertTrue(config.nodes)
         for node in config.nodes:
             self.assertTrue(roslib.packages.find_node(node.package, node.type), node.package + '/' + node.type)
 
+    def test_every_argument_explains_itself(self):
+        for file in self.files():
+            for arg in ElementTree.parse(file).getroot().findall('arg'):
+                with self.subTest(os.path.basename(file) + ' ' + arg.get('name')):
+                    self.assertTrue(arg.get('value') or arg.get('doc'))
+
+    def test_unknown_words_are_refused(self):
+        for asked in ['robot.launch', 'backend:=emulate'], ['robot.launch', 'backend:=Sim'], ['robot.launch', 'backend:=true'], \
+                ['robot.launch', 'mocap:=yes'], ['robot.launch', 'mocap:=virtual'], ['sim.launch', 'mocap:=cameras'], \
+                ['demo.launch', 'mocap:=cameras'], ['robot.launch', 'backend:=sim', 'mocap:=cameras']:
+            with self.subTest(' '.join(asked)):
+                wrong = asked[-1]
+                with self.assertRaisesRegex(roslaunch.core.RLException, re.escape(wrong).replace('true', 'True') + '.*: expected '):
+                    load(*asked)
+
+    def test_motion_capture_is_asked_for_by_the_same_words(self):
+        for file in ['sim.launch'], ['demo.launch'], ['robot.launch', 'backend:=sim']:
+            for word, wanted in {'true': True, 'virtual': True, 'false': False, 'none': False}.items():
+                with self.subTest(' '.join(file) + ' mocap:=' + word):
+                    nodes = [node.type for node in load(*file, 'mocap:=' + word).nodes]
+                    self.assertEqual('anthrob_virtual_cameras' in nodes, wanted)
+        for word, wanted in {'true': True, 'false': False, 'none': False}.items():
+            nodes = [node.type for node in load('robot.launch', 'mocap:=' + word).nodes]
+            self.assertEqual('anthrob_mocap' in nodes, wanted)
+
     def test_hand_and_motion_capture_reach_every_back_end(self):
-        file = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch', 'robot.launch')
         for backend in 'hardware', 'emulated', 'sim':
             with self.subTest(backend):
-                asked = ['backend:=' + backend, 'hand:=true', 'mocap:=true']
-                config = roslaunch.config.load_config_default([(file, asked)], None, assign_machines=False)
+                config = load('robot.launch', 'backend:=' + backend, 'hand:=true', 'mocap:=true')
                 self.assertIn('name="fingers"', config.params['/anthrob/robot_description'].value)
                 models = [node.args for node in config.nodes if node.package == 'anthrob_emulator']
                 models += [p.value for name, p in config.params.items() if name == '/anthrob/simulator/model']
@@ -47,14 +81,13 @@ class LaunchFiles(unittest.TestCase):
                 self.assertEqual(seen, backend != 'emulated')
 
     def check_types(self, launch, asked, node, expected, wrong):
-        file = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'launch', launch)
-        config = roslaunch.config.load_config_default([(file, asked)], None, assign_machines=False)
+        config = load(launch, *asked)
         for name, value in expected.items():
             found = config.params[node + '/' + name].value
             self.assertEqual((found, type(found)), (value, type(value)))
         for argument in wrong:
             with self.assertRaises(roslaunch.core.RLException):
-                roslaunch.config.load_config_default([(file, [argument])], None, assign_machines=False)
+                load(launch, argument)
 
     def test_parameters_of_the_driver_have_their_type(self):
         self.check_types('robot.launch', ['command_timeout:=1e-1', 'rate:=250', 'realtime:=true'], '/anthrob/driver',
