@@ -344,6 +344,35 @@ TEST(GearBacklash, FarFlankTakesTheDragThatTheTendonLeaves) {
   EXPECT_NEAR(bench.winding_speed(), p.spindle_radius * bench.read().velocity, 1e-9);
 }
 
+TEST(GearBacklash, TheBearingTakesItsDragOverTheWayBackAndNothingElse) {
+  const double drag = 0.04, load = 5.0, step = 1e-4, ratio = 128.0, constant = 0.00973;
+  const auto robot = robot_with(kRig,
+                                {{"gear_backlash", "flexor", {{"width", 0.02}, {"drag", drag}}},
+                                 {"gear_efficiency", "flexor", {{"loss", 1.0 - 1.0 / 0.59}}}},
+                                step);  // a gear without losses
+  const Actuator& actuator = *robot->muscles[0].actuator;
+  Memory state(actuator.state_size());
+  actuator.place(0.0, state);
+  double shaft = 0.0, back = 0.0;
+  const auto cycle = [&] {
+    shaft = back = 0.0;
+    for (int i = 0; i < 10000; ++i) {
+      const double speed = actuator.read(state).velocity, length = actuator.tendon_length(state);
+      actuator.advance(4.0 * std::sin(2.0 * M_PI * i * step), load, state);
+      const Actuator::Readout now = actuator.read(state);
+      shaft += ratio * constant * now.current * 0.5 * (speed + now.velocity) * step;
+      back += std::max(0.0, actuator.tendon_length(state) - length) / kSpindleRadius;
+    }
+  };
+  cycle(), cycle(), cycle();
+  const double length = actuator.tendon_length(state), speed = actuator.read(state).velocity;
+  cycle();
+  const double tendon = load * (actuator.tendon_length(state) - length);
+  EXPECT_NEAR(actuator.read(state).velocity, speed, 1e-3 * std::abs(speed));
+  ASSERT_GT(back, 0.5);
+  EXPECT_NEAR(shaft + tendon, drag * back, 0.02 * drag * back);
+}
+
 TEST(GearBacklash, BetweenTheFlanksTheMotorCarriesNothing) {
   Bench bench({"gear_backlash", "flexor", {{"width", 0.05}, {"drag", 0.01}}}), plain(kNothing);
   bench.impose(1.0, 0.5);
