@@ -40,6 +40,16 @@ EyeletResult eyelet(std::uint64_t seed, const std::vector<int>& specimens) {
   return identify_eyelet(std::move(recordings));
 }
 
+/// Close to the truth, and with as much doubt as there is reason for.
+void expect_recovered(const Recovery& recovery) {
+  recovery.print();
+  EXPECT_LT(recovery.worst, recovery.allowed) << recovery.name;
+  EXPECT_LT(recovery.mean_reach(), recovery.allowed) << recovery.name;
+  EXPECT_GT(recovery.score(), 0.33) << recovery.name;
+  EXPECT_LT(recovery.score(), 2.0) << recovery.name;
+  EXPECT_GE(recovery.covered, 0.7 * recovery.count) << recovery.name;
+}
+
 TEST(EyeletIdentification, FindsFrictionOfBothDirections) {
   Recovery pulling{"mu_k pulling", kPulling, 0.014}, relaxing{"mu_k relaxing", kRelaxing, 0.014};
   Recovery both{"mu_k", 0.5 * (kPulling + kRelaxing), 0.014};
@@ -51,10 +61,7 @@ TEST(EyeletIdentification, FindsFrictionOfBothDirections) {
     relaxing.add(*result.fit.relaxing);
     both.add(result.fit.both);
   }
-  for (const Recovery* recovery : {&both, &pulling, &relaxing}) {
-    recovery->print();
-    EXPECT_LT(recovery->worst, recovery->allowed) << recovery->name;
-  }
+  for (const Recovery* recovery : {&both, &pulling, &relaxing}) expect_recovered(*recovery);
 }
 
 TEST(EyeletIdentification, ValidatesOnTheSecondSpecimen) {
@@ -132,8 +139,7 @@ TEST(EcuIdentification, FindsTheSeriesResistance) {
     EXPECT_EQ(result.fitted[0].points.size(), 17u);
     resistance.add(result.fit.resistance);
   }
-  resistance.print();
-  EXPECT_LT(resistance.worst, resistance.allowed);
+  expect_recovered(resistance);
 }
 
 TEST(EcuIdentification, ValidatesOnTheSecondSpecimen) {

@@ -68,8 +68,9 @@ Trial arm_trial() {
 /// Counts over seeds and parameters.
 struct Tally {
   int identifiable = 0, covered = 0, unidentifiable = 0, flat = 0;
-  int blind = 0;       ///< seeds in which what no posture tells was called identifiable
-  double worst = 0.0;  ///< error of an identifiable parameter, in sigmas
+  int blind = 0;         ///< seeds in which what no posture tells was called identifiable
+  double worst = 0.0;    ///< error of an identifiable parameter, in sigmas
+  double squares = 0.0;  ///< of those errors
 };
 
 /// Whether the fitness hardly rises on one side.
@@ -118,12 +119,13 @@ void run_seed(const Trial& trial, std::uint64_t seed, Tally& tally) {
       ++tally.unidentifiable;
       continue;
     }
-    const double error = std::abs(best[i] - truth[i]) / k.sigma;
     ++tally.identifiable;
     const identification::Estimate estimate = interval(known, i, best[i]);
+    const double error = std::abs(best[i] - truth[i]) / estimate.sigma;
     tally.covered += estimate.lo <= truth[i] && truth[i] <= estimate.hi ? 1 : 0;
     EXPECT_LT(error, 5.0) << i;
     tally.worst = std::max(tally.worst, error);
+    tally.squares += error * error;
   }
   for (const Profile& profile : known.profiles) tally.flat += is_flat(profile) ? 1 : 0;
 }
@@ -142,6 +144,12 @@ void recover(const char* name, const Trial& trial, int seeds) {
   EXPECT_EQ(tally.blind, 0);
   EXPECT_GT(tally.identifiable, 2 * tally.unidentifiable);  // caution costs little
   EXPECT_EQ(tally.flat, tally.unidentifiable);
+  // Intervals are as wide as they have to be, and no wider; a few parameters scatter.
+  const double score = std::sqrt(tally.squares / tally.identifiable);
+  std::printf("errors in sigmas, root mean square: %.2f\n", score);
+  EXPECT_GT(score, seeds < 20 ? 0.3 : 0.6);
+  EXPECT_LT(score, seeds < 20 ? 2.0 : 1.5);
+  EXPECT_GE(tally.covered, 0.75 * tally.identifiable);
   if (seeds < 20) return;
   EXPECT_GE(tally.covered, 0.90 * tally.identifiable);
   EXPECT_LE(tally.covered, 0.99 * tally.identifiable);
