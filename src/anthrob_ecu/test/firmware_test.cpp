@@ -253,10 +253,22 @@ TEST_F(Desk, SupplyHigh) {
   readings.supply = 25.0;
   expect_fault(Fault::kSupplyHigh, 10);
 }
-TEST_F(Desk, ForceSensor) {
+TEST_F(Desk, ForceSensorAtItsLowStop) {
   start();
-  readings.muscle[0].force = 4095;
-  readings.muscle[0].force = 0;
+  readings.muscle[0].force = kLowestCount;
+  run(100);
+  EXPECT_EQ(firmware.fault(), Fault::kNone);
+  readings.muscle[0].force = kLowestCount - 1;
+  expect_fault(Fault::kForceSensor, 20);
+}
+TEST_F(Desk, ForceSensorAtItsHighStop) {
+  // Else that would be too much force before it lasted long enough for a broken sensor.
+  configuration[static_cast<int>(Parameter::kForceLimit)] = 300.0f;
+  start();
+  readings.muscle[0].force = kHighestCount;
+  run(100);
+  EXPECT_EQ(firmware.fault(), Fault::kNone);
+  readings.muscle[0].force = kHighestCount + 1;
   expect_fault(Fault::kForceSensor, 20);
 }
 TEST_F(Desk, Encoder) {
