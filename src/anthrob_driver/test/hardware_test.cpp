@@ -1,6 +1,7 @@
 #include "anthrob_driver/hardware.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -45,8 +46,8 @@ TEST(Hardware, GainsAndLimitsAreTheModels) {
 
 /// Anthrob's files with one text replaced.
 std::string error_of(const std::string& file, const std::string& from, const std::string& to) {
-  const fs::path folder = fs::temp_directory_path() / "anthrob_hardware_test";
-  fs::remove_all(folder);
+  const fs::path folder =
+      fs::temp_directory_path() / ("anthrob_hardware_" + std::to_string(getpid()));
   fs::create_directories(folder);
   for (const char* name : {"hardware.yaml", "sensors.yaml", "model_I.yaml", "model_II.yaml"}) {
     std::ifstream in(kConfig / name);
@@ -60,12 +61,14 @@ std::string error_of(const std::string& file, const std::string& from, const std
     }
     std::ofstream(folder / name) << content;
   }
+  std::string result = "no error";
   try {
     load_hardware(folder / "hardware.yaml", true);
   } catch (const BadInput& error) {
-    return error.what();
+    result = error.what();
   }
-  return "no error";
+  fs::remove_all(folder);
+  return result;
 }
 
 TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {

@@ -1,6 +1,7 @@
 #include "anthrob_reference/load.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -14,7 +15,8 @@ namespace {
 class ModelFile : public testing::Test {
  protected:
   ModelFile()
-      : file_(std::filesystem::temp_directory_path() / "anthrob_reference_load_test.yaml") {}
+      : file_(std::filesystem::temp_directory_path() /
+              ("anthrob_reference_" + std::to_string(getpid()) + ".yaml")) {}
   ~ModelFile() override { std::filesystem::remove(file_); }
 
   // Model I with these lines on top of it.
