@@ -296,7 +296,9 @@ TEST_P(FaultCampaign, StopsNamesAndStaysDisabled) {
     EXPECT_LE(result.victim_ms, 20 + kind.grace);
     EXPECT_EQ(rig.moving(), 0);
   }
-  if (kind.finding != kNone) {
+  if (kind.finding == kNone) {
+    EXPECT_EQ(result.named, "");
+  } else {
     const auto finding = static_cast<Finding>(kind.finding);
     EXPECT_GT(rig.driver().findings().count(finding), 0u)
         << "named: " << result.named << "; expected " << info(finding).name;
