@@ -250,9 +250,9 @@ TEST(MeshSurface, PosturesOfModelThreeAgreeWithCgal) {
   warm_tally.report("warm", compared);
 }
 
-/// Model III through its work space for 60 s: the length moves no more than the ends do, and
+/// Model III through its work space for 30 s: the length moves no more than the ends do, and
 /// where directions turn fast, a solution from nothing turns as fast.
-TEST(MeshSurface, SixtySecondsOfModelThreeAreContinuous) {
+TEST(MeshSurface, HalfAMinuteOfModelThreeIsContinuous) {
   const auto model = load_robot_model(testing_support::config("anthrob/model_III.yaml"));
   const std::vector<MeshOnPath> meshes = meshes_of(*model);
   std::vector<Tendon> tendons;
