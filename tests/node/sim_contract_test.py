@@ -65,26 +65,29 @@ class SimContract(unittest.TestCase):
         cls.clear_faults = rospy.ServiceProxy('clear_faults', Trigger)
         cls.pause = rospy.ServiceProxy('sim/pause', SetBool)
         step = rospy.ServiceProxy('sim/step', Step)
-        cls.step = staticmethod(lambda count: step(steps=count))
+        cls.step = staticmethod(lambda count, command=rospy.Time(): step(steps=count, command_stamp=command))
         cls.reset = rospy.ServiceProxy('sim/reset', Trigger)
         cls.set_state = rospy.ServiceProxy('sim/set_state', SetState)
         wait_for(lambda: cls.states.messages and cls.command.get_num_connections() > 0
                  and cls.stop_topic.get_num_connections() > 0, 30, 'connections')
 
     def setUp(self):
+        self.unstepped = rospy.Time()
         self.pause(True)
         self.clear_faults()
         self.reset()
         self.enable()
 
     def send(self, names, modes, references):
-        """Publishes a command and waits until the node, paused, has served it."""
-        self.command.publish(MuscleCommand(name=names, mode=modes, reference=references))
-        time.sleep(0.1)
+        """Publishes a command; the node has it before it advances, or else does not advance."""
+        self.unstepped += rospy.Duration(0, 1)
+        command = MuscleCommand(name=names, mode=modes, reference=references)
+        command.header.stamp = self.unstepped
+        self.command.publish(command)
 
     def advance(self, steps):
         """Lock-step; returns the states after it."""
-        answer = self.step(steps)
+        answer = self.step(steps, self.unstepped)
         self.assertTrue(answer.success, answer.message)
         wait_for(lambda: self.states.last().header.stamp >= answer.stamp, 5, 'states after the step')
         return self.states.last()
@@ -277,7 +280,8 @@ class SimContract(unittest.TestCase):
         self.send(['lateral_deltoid'], [0], [4.0])
         self.advance(10)
         self.stop_topic.publish(Empty())
-        time.sleep(0.1)
+        # Long before the command would time out.
+        wait_for(lambda: set(self.advance(1).ecu_state) == {MuscleStates.STOPPING}, 2, 'the stop')
         self.check_stop_is_latched()
 
     def test_disable(self):
