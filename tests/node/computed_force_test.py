@@ -35,14 +35,16 @@ class ComputedForce(unittest.TestCase):
         rospy.wait_for_service('controller/go_to', 30)
         cls.go_to = rospy.ServiceProxy('controller/go_to', GoTo)
         cls.zero_gravity = rospy.ServiceProxy('controller/zero_gravity', Trigger)
-        cls.wait_for(lambda: cls.shoulder and cls.elbow and cls.muscles)
+        cls.wait_for(lambda: cls.shoulder and cls.elbow and cls.muscles, 'measurements')
         enable = rospy.ServiceProxy('enable', Trigger)
-        cls.wait_for(lambda: enable().success)
+        cls.wait_for(lambda: enable().success, 'enable')
 
     @classmethod
-    def wait_for(cls, condition):
+    def wait_for(cls, condition, what):
         end = time.time() + cls.patience
-        while not condition() and time.time() < end:
+        while not condition():
+            if time.time() > end:
+                raise AssertionError('waited %.0f s for: %s' % (cls.patience, what))
             time.sleep(0.05)
 
     @classmethod
