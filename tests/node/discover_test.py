@@ -9,8 +9,8 @@ import tempfile
 import unittest
 
 import rostest
+from free_port import free_port
 
-PORT = '11612'
 MASS, VISCOUS, COULOMB = 95.1089, 203.5, 20.4  # of config/driven_axis, and what its model lacks
 
 
@@ -45,9 +45,10 @@ class Discover(unittest.TestCase):
 
     def discover(self, *arguments):
         package = subprocess.check_output(['rospack', 'find', 'anthrob_bringup'], text=True).strip()
-        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT, PWD=self.folder)
+        port = free_port()
+        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + port, PWD=self.folder)
         done = subprocess.run(
-            ['roslaunch', '-p', PORT, 'anthrob_bringup', 'discover.launch',
+            ['roslaunch', '-p', port, 'anthrob_bringup', 'discover.launch',
              'model:=%s/config/driven_axis/model_I.yaml' % package, 'train:=one', 'test:=two', 'out:=found', 'jobs:=2',
              'effects:=joint_coulomb,joint_offset_torque', *arguments],
             cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)

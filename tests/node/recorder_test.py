@@ -11,8 +11,8 @@ import unittest
 import rosbag
 import rostest
 import yaml
+from free_port import free_port
 
-PORT = '11611'
 PROTOCOL = '''
 protocol: %(protocol)s
 postures: %(postures)s
@@ -28,7 +28,7 @@ drift: {limit: %(limit)s, redo: 0}
 class Recorder(unittest.TestCase):
 
     def setUp(self):
-        self.folder = tempfile.mkdtemp()
+        self.folder, self.port = tempfile.mkdtemp(), free_port()
         package = subprocess.check_output(['rospack', 'find', 'anthrob_bringup'], text=True).strip()
         self.values = {'protocol': 'equilibria', 'limit': 0.0524, 'visit': '[E1, E7]',
                        'postures': os.path.join(package, 'config/anthrob/equilibria_tier1.yaml')}
@@ -43,9 +43,9 @@ class Recorder(unittest.TestCase):
         """roslaunch with a roscore of its own."""
         with open(self.path('protocol.yaml'), 'w') as file:
             file.write(PROTOCOL % dict(self.values, **values))
-        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT)
+        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + self.port)
         return subprocess.Popen(
-            ['roslaunch', '-p', PORT, 'anthrob_bringup', launch, 'protocol:=tier1', 'out:=' + out,
+            ['roslaunch', '-p', self.port, 'anthrob_bringup', launch, 'protocol:=tier1', 'out:=' + out,
              'protocol_file:=' + self.path('protocol.yaml')],
             env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
@@ -125,7 +125,7 @@ class Recorder(unittest.TestCase):
             self.assertLess(time.time(), end)
             time.sleep(0.02)
         subprocess.check_call(['rosservice', 'call', '/anthrob/emergency_stop'], stdout=subprocess.DEVNULL,
-                              env=dict(os.environ, ROS_MASTER_URI='http://localhost:' + PORT))
+                              env=dict(os.environ, ROS_MASTER_URI='http://localhost:' + self.port))
         self.assertIn('is not enabled', process.communicate(timeout=60)[0])
         names = os.listdir(out)
         self.assertFalse([name for name in names if name.endswith('.part')])
