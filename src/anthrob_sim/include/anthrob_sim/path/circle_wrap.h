@@ -52,7 +52,8 @@ class CircleWrap {
   /// A point inside, at share s of the radius, counts as lying at share s (2 - s): nearly on the
   /// circle if it is a little inside, at the centre if it is there. The tendon follows the circle
   /// through the nearer point then. So the length has one value and a bounded gradient everywhere.
-  /// It has a kink only where a point crosses the circle while the tendon does not touch.
+  /// It has a kink only where a point crosses the circle while the tendon does not touch, and where
+  /// both points are equally deep inside.
   /// @param distance from the centre [m]
   Lift lift(double distance) const;
 
