@@ -41,7 +41,9 @@ void Placement::set_joint(const std::string& name, double position) {
     throw BadInput(who + ": no hinge or prismatic joint of that name");
   }
   const JointModel& joint = model_.skeleton->joints[index];
-  if (!std::isfinite(position)) throw BadInput(who + ": position is not finite");
+  if (!(std::abs(position) < Simulation::kSensible)) {
+    throw BadInput(who + ": expected a finite position below 1e9");
+  }
   const double give = joint.type == JointType::kPrismatic ? 0.1 * kGive : kGive;
   if (joint.stop.enabled &&
       (position < joint.stop.lower - give || position > joint.stop.upper + give)) {

@@ -13,11 +13,8 @@ constexpr double kPlaceStep = 0.03;  // [rad]; a prismatic joint counts 10 rad a
 /// Beyond some fifty turns the steps get larger, so that placing takes no longer than a second.
 constexpr double kMostPostures = 10000;
 
-/// What is larger, in SI units, is no motion of a robot.
-constexpr double kSensible = 1e9;
-
 bool is_sensible(double value) {
-  return std::abs(value) < kSensible;  // false if it is not a number
+  return std::abs(value) < Simulation::kSensible;  // false if it is not a number
 }
 
 void expect_finite(double value, const std::string& what) {

@@ -61,6 +61,22 @@ TEST(Placement, HingesStayWithinTheirStopAndWhatItGives) {
   EXPECT_NE(refusal([&] { placement.set_joint("knee", 0.0); }), "");
 }
 
+TEST(Placement, JointsWithoutAStopGoAsFarAsNumbersMakeSense) {
+  const testing_support::TemporaryRobot wheel(
+      R"(<robot name="wheel"><link name="base"/>
+      <joint name="axle" type="continuous"><parent link="base"/><child link="disc"/><axis xyz="0 1 0"/></joint>
+      <link name="disc"><inertial><mass value="1"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>)",
+      "robot: robot.urdf\ngravity: [0, 0, -9.81]\n");
+  const auto model = wheel.load();
+  Placement placement(*model);
+  placement.set_joint("axle", -1e6);
+  for (const double bad : {1e9, -1e9, HUGE_VAL, std::nan("")}) {
+    EXPECT_NE(refusal([&] { placement.set_joint("axle", bad); }), "");
+  }
+  Simulation(model).place(placement.q(), placement.positions());
+}
+
 TEST(Placement, BallJointsStayWithinTheirStop) {
   const auto model = load_robot_model(config("torso_100/model_II.yaml"));
   Placement placement(*model);

@@ -29,6 +29,9 @@ struct Snapshot {
 ///   follow.
 class Simulation {
  public:
+  /// What is larger, in SI units, is no motion of a robot.
+  static constexpr double kSensible = 1e9;
+
   /// Starts in the rest posture with all actuators at 0, controllers enabled, no reference: 0 V.
   explicit Simulation(std::shared_ptr<const RobotModel> model);
 
