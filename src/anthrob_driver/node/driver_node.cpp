@@ -146,9 +146,12 @@ double DriverNode::age(double time, std::int64_t kernel_ns) const {
   return measurement_age(pace_ * monotonic_now() - time, since_wire);
 }
 
-ros::Time DriverNode::stamp(double age) const {
+ros::Time DriverNode::stamp(double age) {
   // ROS time may be another than both clocks of the driver: what carries over is the age.
-  const ros::Time now = ros::Time::now();
+  ros::Time now = ros::Time::now();
+  if (ros::Time::isSimTime()) {
+    now.fromSec(stamp_clock_.now(now.toSec(), pace_ * monotonic_now()));
+  }
   return now.toSec() > age ? now - ros::Duration(age) : now;
 }
 

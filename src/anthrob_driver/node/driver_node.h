@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "anthrob_driver/driver_thread.h"
+#include "anthrob_driver/stamp_clock.h"
 
 namespace anthrob {
 namespace driver {
@@ -46,7 +47,7 @@ class DriverNode {
   void publish_measurements(double wait);
   /// [s] of the driver's time. @param time, kernel_ns of a Sample
   double age(double time, std::int64_t kernel_ns) const;
-  ros::Time stamp(double age) const;
+  ros::Time stamp(double age);
   void publish(const Sample& sample, const ros::Time& stamp);
   void publish_joint(const AnalogSample& sample, const ros::Time& stamp);
   void publish_diagnostics();
@@ -56,6 +57,7 @@ class DriverNode {
   Hardware hardware_;
   std::string interface_;
   double pace_;
+  StampClock stamp_clock_;
   ros::NodeHandle nh_, stop_nh_, command_nh_;
   ros::CallbackQueue stop_queue_, command_queue_;
   bool dropping_ = false;
