@@ -229,7 +229,7 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
                    const std::size_t cell = text.find(',', line) + 1;
                    return text.replace(cell, text.find(',', cell) - cell, "nan");
                  }),
-         "not a finite number");
+         "expected a finite number");
   expect(altered("x",
                  [](const std::string& text) {
                    const std::size_t row = text.find('\n') + 1, next = text.find('\n', row) + 1;
