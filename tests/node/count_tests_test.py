@@ -25,10 +25,10 @@ class Count(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, 'package', name)
 
-    def result(self, name, *cases):
+    def result(self, name, *cases, suite=''):
         os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
         with open(self.path(name), 'w') as file:
-            file.write('<testsuites><testsuite>%s</testsuite></testsuites>' % ''.join(cases))
+            file.write('<testsuites><testsuite %s>%s</testsuite></testsuites>' % (suite, ''.join(cases)))
 
     def register(self, *names):
         """As ctest lists tests that catkin runs."""
@@ -45,6 +45,13 @@ class Count(unittest.TestCase):
         for line in lines:
             self.assertIn(line, said)
         self.assertEqual(run.returncode, 0 if last.endswith(' 0 failed') else 1)
+
+    def test_a_subtest_that_failed_counts(self):
+        """rosunit tells of it in the suite's count only."""
+        self.result('rosunit-one.xml', GOOD, GOOD, suite='failures="1" errors="0"')
+        self.expect('2 passed, 1 failed', 'FAILED: rosunit-one: a subtest: failed: see build/test.log')
+        self.result('rosunit-one.xml', GOOD, BAD, suite='failures="1" errors="0"')
+        self.expect('1 passed, 1 failed', 'FAILED: rosunit-one: Suite.bad: 1 is not 2')
 
     def test_adds_up_all_files(self):
         self.result('gtest-one.xml', GOOD, GOOD, SKIPPED)
