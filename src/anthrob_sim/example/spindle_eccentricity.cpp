@@ -31,9 +31,8 @@ class EccentricSpindle final : public MotorWrapper {
   EccentricSpindle(std::shared_ptr<const GearedMotor> motor, double offset)
       : MotorWrapper(std::move(motor)), offset_(offset) {}
 
-  void advance_with(double input, double load, const Inside& inside,
-                    StateView state) const override {
-    inner().advance_with(input, load * lever(state) / spindle_radius(), inside, state);
+  void advance_with(double input, double load, double torque, StateView state) const override {
+    inner().advance_with(input, load * lever(state) / spindle_radius(), torque, state);
   }
   double tendon_length(StateView state) const override {
     return inner().tendon_length(state) - offset_ * (1.0 - std::cos(read(state).position));

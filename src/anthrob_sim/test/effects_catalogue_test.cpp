@@ -200,9 +200,8 @@ TEST(Catalogue, ADoseShowsAndAThousandthOfItHardly) {
     const double change = difference(dosed, expected);
     EXPECT_TRUE(std::isfinite(change));
     if (change > 1e-6) visible.insert(effect.info().id);
-    // A presliding distance on its way to zero still sticks at rest, and a spindle with hardly any
-    // play still has the drag that holds a slack tendon.
-    if (effect.info().id != "eyelet_presliding" && effect.info().id != "gear_backlash") {
+    // A presliding distance on its way to zero still sticks at rest.
+    if (effect.info().id != "eyelet_presliding") {
       EXPECT_LT(difference(trace, expected), 0.1 * change + 1e-9);
     }
   });

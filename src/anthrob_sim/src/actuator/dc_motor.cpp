@@ -37,11 +37,11 @@ void DcMotor::impose(double position, double velocity, double, StateView state) 
   s.position = position;
 }
 
-void DcMotor::advance_with(double input, double load, const Inside& inside, StateView state) const {
+void DcMotor::advance_with(double input, double load, double torque, StateView state) const {
   auto& s = state.as<State>();
   GearLaw::Load at_gear = gear_->load(load * p_.spindle_radius, s.velocity, s.current);
-  at_gear.torque -= inside.torque;
-  at_gear.friction += p_.ratio * p_.friction_torque + inside.friction;
+  at_gear.torque -= torque;
+  at_gear.friction += p_.ratio * p_.friction_torque;
   if (at_gear.friction > 0.0) {
     advance_with_friction(input, at_gear, s);
   } else {

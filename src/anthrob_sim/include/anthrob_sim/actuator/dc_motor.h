@@ -35,10 +35,9 @@ class DcMotor final : public GearedMotor {
   void place(double position, StateView state) const override;
   void impose(double position, double velocity, double load, StateView state) const override;
   void advance(double input, double load, StateView state) const override {
-    advance_with(input, load, Inside(), state);
+    advance_with(input, load, 0.0, state);
   }
-  void advance_with(double input, double load, const Inside& inside,
-                    StateView state) const override;
+  void advance_with(double input, double load, double torque, StateView state) const override;
   Readout read(StateView state) const override;
   double tendon_length(StateView state) const override;
   double winding_speed(StateView state) const override;

@@ -8,17 +8,11 @@ namespace anthrob {
 /// override, the rest they pass on. Their own state follows that of what they wrap.
 class GearedMotor : public Actuator {
  public:
-  /// What acts on the shaft besides the load of the tendon: at the gear output, past the losses of
-  /// the gear [Nm].
-  struct Inside {
-    double torque = 0.0;    ///< winding in positive
-    double friction = 0.0;  ///< >= 0: opposes motion, holds at rest
-  };
-  /// One step with that.
-  virtual void advance_with(double input, double load, const Inside& inside,
-                            StateView state) const = 0;
+  /// One step, with a torque from inside besides the load of the tendon.
+  /// @param torque at the gear output, past the losses of the gear, winding in positive [Nm]
+  virtual void advance_with(double input, double load, double torque, StateView state) const = 0;
   void advance(double input, double load, StateView state) const override {
-    advance_with(input, load, Inside(), state);
+    advance_with(input, load, 0.0, state);
   }
 
   /// By how much the current follows a change of voltage within a step, the shaft held [A/V].
@@ -40,9 +34,8 @@ class MotorWrapper : public GearedMotor {
   void impose(double position, double velocity, double load, StateView state) const override {
     inner_->impose(position, velocity, load, state);
   }
-  void advance_with(double input, double load, const Inside& inside,
-                    StateView state) const override {
-    inner_->advance_with(input, load, inside, state);
+  void advance_with(double input, double load, double torque, StateView state) const override {
+    inner_->advance_with(input, load, torque, state);
   }
   Readout read(StateView state) const override { return inner_->read(state); }
   double tendon_length(StateView state) const override { return inner_->tendon_length(state); }

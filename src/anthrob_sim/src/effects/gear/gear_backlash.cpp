@@ -13,12 +13,14 @@ EffectInfo describe() {
       "The spindle has play against the gear's output, where the encoder sits. The tendon pulls it "
       "against the flank that winds in, where the plain model has it all the time; below a small "
       "torque the spindle's own drag holds it, and when the motor turns back the encoder moves and "
-      "the tendon does not, until the other flank takes it along against that drag. Between the "
-      "flanks the motor carries nothing. Under pretension the play vanishes.";
+      "the tendon does not, until the other flank takes it along. Between the flanks the motor "
+      "carries nothing. At both flanks all is as in the plain model, whose friction of motor and "
+      "gear is taken to hold the drag: where it is less, a motor at the other flank runs down "
+      "under "
+      "the tendon as the plain one does. Under pretension the play vanishes.";
   i.equation =
       "position <= spindle <= position + width; free: d spindle/dt = -max(0, f r_S - drag) / "
-      "(drag 0.1 s); motor at the first flank: load f r_S, at the other: 0 to max(0, drag - f r_S) "
-      "against turning back";
+      "(drag 0.1 s)";
   i.source = "play operator with a dry bearing; ours, because a tendon only pulls";
   i.where = "MUSCLE | all";
   i.once_a_muscle = true;
@@ -53,16 +55,11 @@ class LooseSpindle final : public MotorWrapper {
     inner().impose(position, velocity, load, state);
     follow(before, load, state);
   }
-  void advance_with(double input, double load, const Inside& inside,
-                    StateView state) const override {
+  void advance_with(double input, double load, double torque, StateView state) const override {
     const double before = inner().read(state).position;
     const double lead = own(state).as<Own>().lead;
-    if (lead == 0.0) {
-      inner().advance_with(input, load, inside, state);
-    } else {
-      const double half = lead < width_ ? 0.0 : 0.5 * dragged(load);
-      inner().advance_with(input, 0.0, {inside.torque + half, inside.friction + half}, state);
-    }
+    const bool free = lead > 0.0 && lead < width_;
+    inner().advance_with(input, free ? 0.0 : load, torque, state);
     follow(before, load, state);
   }
   double tendon_length(StateView state) const override {
@@ -71,11 +68,6 @@ class LooseSpindle final : public MotorWrapper {
   double winding_speed(StateView state) const override { return own(state).as<Own>().speed; }
 
  private:
-  /// What a motor that turns back has to add to the tendon's pull to take the spindle along. One
-  /// that stands meets anything from nothing to this, one that winds in nothing: a steady half of
-  /// it, and half of it as friction. [Nm]
-  double dragged(double load) const { return std::max(0.0, drag_ - load * spindle_radius()); }
-
   struct Own {
     double lead;   ///< of the spindle before the flank that winds in, 0 to width [rad]
     double speed;  ///< at which the tendon is wound in [m/s]

@@ -45,14 +45,13 @@ class CoggingMotor final : public MotorWrapper {
         phase_(std::atan2(cosine, sine)),
         step_(step) {}
 
-  void advance_with(double input, double load, const Inside& inside,
-                    StateView state) const override {
+  void advance_with(double input, double load, double torque, StateView state) const override {
     const Readout motor = inner().read(state);
     const double angle = periods_ * motor.position + phase_;
     const double turn = periods_ * motor.velocity * step_;
     const double mean =
         std::abs(turn) < 1e-6 ? std::sin(angle) : (std::cos(angle) - std::cos(angle + turn)) / turn;
-    inner().advance_with(input, load, {inside.torque + amplitude_ * mean, inside.friction}, state);
+    inner().advance_with(input, load, torque + amplitude_ * mean, state);
   }
 
  private:

@@ -85,16 +85,15 @@ class HeatedMotor final : public MotorWrapper {
     const double current = inner().read(state).current;
     warm(current, current, state);
   }
-  void advance_with(double input, double load, const Inside& inside,
-                    StateView state) const override {
+  void advance_with(double input, double load, double torque, StateView state) const override {
     const double warmth = own(state)[0];
     const auto cool = std::min(static_cast<std::size_t>(warmth / kSpacing), motors_.size() - 2);
     const double share = warmth / kSpacing - static_cast<double>(cool);
     const double before = inner().read(state).current;
     double warmer[kMotorState];
     for (std::size_t i = 0; i < kMotorState; ++i) warmer[i] = state[i];
-    motors_[cool].advance_with(input, load, inside, state);
-    motors_[cool + 1].advance_with(input, load, inside, StateView(warmer));
+    motors_[cool].advance_with(input, load, torque, state);
+    motors_[cool + 1].advance_with(input, load, torque, StateView(warmer));
     for (std::size_t i = 0; i < kMotorState; ++i) state[i] += share * (warmer[i] - state[i]);
 
     warm(before, inner().read(state).current, state);

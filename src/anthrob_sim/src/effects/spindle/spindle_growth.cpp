@@ -31,9 +31,8 @@ class GrowingSpindle final : public MotorWrapper {
   GrowingSpindle(std::shared_ptr<const GearedMotor> motor, double growth)
       : MotorWrapper(std::move(motor)), rate_(growth / (kTwoPi * inner().spindle_radius())) {}
 
-  void advance_with(double input, double load, const Inside& inside,
-                    StateView state) const override {
-    inner().advance_with(input, load * thickness(spindle_angle(state)), inside, state);
+  void advance_with(double input, double load, double torque, StateView state) const override {
+    inner().advance_with(input, load * thickness(spindle_angle(state)), torque, state);
   }
   void impose(double position, double velocity, double load, StateView state) const override {
     inner().impose(position, velocity, load * thickness(spindle_angle(state)), state);
