@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace anthrob {
 namespace driver {
 
@@ -9,19 +11,25 @@ namespace driver {
 class StampClock {
  public:
   /// @param ros_now [s] what /clock said last   @param robot_now [s] of the driver's clock
-  /// @return [s] ROS time now; never goes back unless ROS time was set back
+  /// @return [s] ROS time now; goes back only where ROS time does, stands still where it does
   double now(double ros_now, double robot_now) {
-    const double apart = ros_now - robot_now;
-    if (!known_ || apart > apart_ || apart < apart_ - kSetBack) apart_ = apart;
+    const bool fresh = ros_now > heard_, set_back = ros_now < heard_;
+    if (!known_ || set_back || (stands_ && fresh)) apart_ = ros_now - robot_now;
+    if (!known_ || set_back) last_ = ros_now;
+    apart_ = std::max(apart_, ros_now - robot_now);
+    if (fresh) stands_ = false;
+    stands_ = stands_ || robot_now + apart_ > ros_now + kLatest;
     known_ = true;
-    return robot_now + apart_;
+    heard_ = ros_now;
+    last_ = std::max(last_, stands_ ? ros_now + kLatest : robot_now + apart_);
+    return last_;
   }
 
  private:
-  static constexpr double kSetBack = 0.5;  ///< [s]; no message is that late
+  static constexpr double kLatest = 0.1;  ///< [s]; no tick is that late
 
-  double apart_ = 0.0;
-  bool known_ = false;
+  double apart_ = 0.0, heard_ = 0.0, last_ = 0.0;
+  bool known_ = false, stands_ = false;
 };
 
 }  // namespace driver
