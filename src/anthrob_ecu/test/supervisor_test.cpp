@@ -171,6 +171,15 @@ TEST(Supervisor, TheWatchStartsAnewOnRequest) {
   EXPECT_TRUE(f.supervisor.update(2.6));
 }
 
+TEST(Supervisor, SkippedTimeMakesNoCommandOld) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  f.command(0.0);
+  f.supervisor.skip(1.0);
+  EXPECT_FALSE(f.supervisor.update(1.4));
+  EXPECT_TRUE(f.supervisor.update(1.6));
+}
+
 TEST(Supervisor, SurvivesTimeJumpingBack) {
   Fixture f;
   f.supervisor.enable(100.0);

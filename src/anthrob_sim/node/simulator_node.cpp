@@ -102,8 +102,9 @@ void SimulatorNode::on_effort(const sensor_msgs::JointState& command) {
 void SimulatorNode::warn_of_refusal(const char* topic, const std::string& reason) {
   // Wall time: simulated time may stand still.
   const ros::WallTime now = ros::WallTime::now();
-  if ((now - last_warning_).toSec() < 1.0) return;
-  last_warning_ = now;
+  ros::WallTime& last = last_warnings_[topic];
+  if ((now - last).toSec() < 1.0) return;
+  last = now;
   ROS_WARN_STREAM(topic << " refused: " << reason);
 }
 
@@ -127,7 +128,14 @@ void SimulatorNode::supervise(Request request, std_srvs::Trigger::Response* resp
   apply_supervision();
   if (response == nullptr) return;
   response->success = muscles.accepted && joints.accepted;
-  response->message = muscles.reason.empty() ? joints.reason : muscles.reason;
+  // A robot with one of the two only hears of that one; "nothing to clear" must hold for both.
+  if (supervisor_.muscles().empty()) {
+    response->message = joints.reason;
+  } else if (driven_.supervisor().muscles().empty() || !muscles.accepted) {
+    response->message = muscles.reason;
+  } else if (!joints.accepted || joints.reason == muscles.reason) {
+    response->message = joints.reason;
+  }
 }
 
 // ---- services
@@ -194,7 +202,11 @@ bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
 }
 
 void SimulatorNode::skip_to_new_instant() {
-  sim_.skip(static_cast<int>(std::ceil(kNewInstant / sim_.step_length() - 1e-9)));
+  const int steps = static_cast<int>(std::ceil(kNewInstant / sim_.step_length() - 1e-9));
+  sim_.skip(steps);
+  for (ecu::Supervisor* watch : {&supervisor_, &driven_.supervisor()}) {
+    watch->skip(steps * sim_.step_length());
+  }
 }
 
 void SimulatorNode::start_anew() {

@@ -12,6 +12,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <chrono>
+#include <map>
 
 #include "anthrob_ecu/supervisor.h"
 #include "anthrob_sim/driven_joints.h"
@@ -93,7 +94,7 @@ class SimulatorNode {
   ros::NodeHandle nh_;
   ros::CallbackQueue command_queue_;  ///< of its own, so that sim/step can wait for a command
   ros::Time last_command_stamp_;
-  ros::WallTime last_warning_;
+  std::map<std::string, ros::WallTime> last_warnings_;  ///< by topic
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher clock_, muscles_, joints_, spherical_joints_, efforts_, muscle_paths_, touch_,

@@ -74,7 +74,8 @@ ecu::Supervisor::Outcome DrivenJoints::command(const std::vector<std::string>& n
   if (!outcome.accepted) return refuse(outcome.reason);
   for (const ecu::MuscleReference& effort : accepted) {
     if (supervisor_.follows_references(effort.muscle)) continue;
-    return refuse("joint '" + names.front() + "': it is stopped: call " +
+    return refuse("joint '" + supervisor_.muscles()[effort.muscle].name +
+                  "': it is stopped: call " +
                   (supervisor_.stop_latched() ? "clear_faults, then enable" : "enable"));
   }
   for (const ecu::MuscleReference& effort : accepted) {

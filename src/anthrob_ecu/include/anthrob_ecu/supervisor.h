@@ -61,6 +61,8 @@ class Supervisor {
 
   /// The back end moves muscles itself just now: the watch over commands starts anew at `time`.
   void restart_watch(double time) { last_command_ = time; }
+  /// Simulated time was put on by `seconds` in which nothing happened: no command gets older by it.
+  void skip(double seconds) { last_command_ += seconds; }
   /// To be called often: handles the command time-out.
   /// @return whether motors were stopped by it just now
   bool update(double time);
