@@ -125,12 +125,12 @@ extras() {
   missing="$(lacking "${extra_packages[@]}")"
   [ -z "$missing" ] && return 0
   say "installing $(wc -w <<<"$missing") more packages"
-  update_lists
+  # In shells of their own: what fails here must not end us.
   # shellcheck disable=SC2086
-  install_packages $missing && return 0
+  (update_lists && install_packages $missing) && return 0
   # One that is not there must not keep the others away.
   for package in $missing; do
-    install_packages "$package" >/dev/null || say "cannot be installed here: $package; what needs it is left out"
+    (install_packages "$package" >/dev/null) || say "cannot be installed here: $package; what needs it is left out"
   done
 }
 

@@ -56,6 +56,23 @@ TEST(CommandLatency, AChangeOfModeIsNoBlendOfTwoQuantities) {
   }
 }
 
+TEST(CommandLatency, AVoltagePastItIsThereAtOnceAndNoOlderCommandComesAfterIt) {
+  const auto robot = robot_with(kRig, {{"command_latency", "flexor", {{"delay", 0.05}}}});
+  Simulation sim(robot);
+  sim.command(0, ecu::Mode::kPosition, 1.0);
+  sim.step(200);
+  sim.apply_voltage(0, 3.0);
+  sim.step();
+  EXPECT_EQ(sim.muscle(0).voltage(), 3.0);
+  sim.step(300);
+  sim.release(0);
+  sim.command(0, ecu::Mode::kVoltage, 1.0);
+  for (int i = 0; i < 100; ++i) {
+    sim.step();
+    EXPECT_EQ(sim.muscle(0).voltage(), i < 50 ? 3.0 : 1.0) << i;
+  }
+}
+
 TEST(PwmDeadZone, TakesAConstantPartOfTheVoltage) {
   const auto robot = robot_with(kRig, {{"pwm_dead_zone", "flexor", {{"width", 0.3}}}});
   ASSERT_EQ(robot->power_effects.size(), 1u);

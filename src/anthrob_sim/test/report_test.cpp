@@ -126,7 +126,7 @@ TEST(SolvedPath, SaysWhichPathPointIsInsideWhatAndHowDeep) {
 
   const Penetration deepest = deepest_penetration(sim);
   EXPECT_EQ(deepest.muscle, "posterior_deltoid");
-  EXPECT_EQ(deepest.obstacle, 4u);
+  EXPECT_EQ(deepest.entry, 4);
   EXPECT_NEAR(deepest.depth, depth, 1e-12);
   char millimetres[16];
   std::snprintf(millimetres, sizeof(millimetres), "%.1f", 1e3 * depth);

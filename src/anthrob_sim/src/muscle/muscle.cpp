@@ -152,7 +152,7 @@ void Muscle::control(std::uint64_t step_index) {
   Control& c = memory();
   ecu::Mode heard_mode = mode();
   double heard = c.reference;
-  if (command_delay_ && drive() != Drive::kVoltage) delay_command(heard_mode, heard);
+  if (command_delay_) delay_command(heard_mode, heard);
   if (step_index % static_cast<std::uint64_t>(model_.steps_per_tick) != 0) return;
   if (c.enabled == 0.0) {
     c.voltage = 0.0;
@@ -171,6 +171,8 @@ void Muscle::delay_command(ecu::Mode& mode, double& reference) {
   if (memory().enabled == 0.0) {
     const double nothing[] = {static_cast<double>(ecu::Mode::kVoltage), 0.0};
     command_delay_->fill(nothing, state);
+  } else if (drive() == Drive::kVoltage) {
+    command_delay_->fill(now, state);  // not on its way but there
   } else {
     command_delay_->push(now, state);
   }

@@ -44,7 +44,7 @@ std::string Penetration::text() const {
   char millimetres[32];
   std::snprintf(millimetres, sizeof(millimetres), "%.1f", 1e3 * depth);
   return muscle + ": a path point lies " + millimetres + " mm inside the " + surface + " on " +
-         body + " (path." + std::to_string(obstacle) + ")";
+         body + (entry < 0 ? " that an effect put there" : " (path." + std::to_string(entry) + ")");
 }
 
 Penetration deepest_penetration(const Muscle& muscle, const SkeletonModel& skeleton) {
@@ -56,7 +56,7 @@ Penetration deepest_penetration(const Muscle& muscle, const SkeletonModel& skele
     if (depth > deepest.depth) deepest.depth = depth, at = i;
   }
   if (deepest.depth == 0.0) return deepest;
-  return {muscle.model().name, at, obstacles[at].surface->type(),
+  return {muscle.model().name, obstacles[at].entry, obstacles[at].surface->type(),
           skeleton.bodies[obstacles[at].body].name, deepest.depth};
 }
 

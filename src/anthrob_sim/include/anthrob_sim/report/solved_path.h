@@ -38,10 +38,10 @@ SolvedPath solved_path(const Simulation& sim, int muscle);
 /// A path point inside a surface beside it, where a real tendon could not be.
 struct Penetration {
   std::string muscle;
-  std::size_t obstacle = 0;  ///< place of the surface in the path, origin 0
-  std::string surface;       ///< type
-  std::string body;          ///< that carries the surface
-  double depth = 0.0;        ///< [m]; 0: nothing lies inside anything
+  int entry = -1;       ///< of the surface in the path of the file; -1: an effect put it there
+  std::string surface;  ///< type
+  std::string body;     ///< that carries the surface
+  double depth = 0.0;   ///< [m]; 0: nothing lies inside anything
 
   /// "posterior_deltoid: a path point lies 3.2 mm inside the cylinder on humerus (path.4)"
   std::string text() const;
