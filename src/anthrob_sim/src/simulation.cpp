@@ -17,12 +17,15 @@ bool is_sensible(double value) {
   return std::abs(value) < Simulation::kSensible;  // false if it is not a number
 }
 
-void expect_finite(double value, const std::string& what) {
-  if (!std::isfinite(value)) throw BadInput(what + ": expected a finite number");
+// Called in every step: text is made of the names only where there is something to say.
+void expect_finite(double value, const char* kind, const std::string& name, const char* what) {
+  if (std::isfinite(value)) return;
+  throw BadInput(std::string(kind) + name + what + ": expected a finite number");
 }
 
-void expect_sensible(double value, const std::string& what) {
-  if (!is_sensible(value)) throw BadInput(what + ": expected a finite number below 1e9");
+void expect_sensible(double value, const char* kind, const std::string& name, const char* what) {
+  if (is_sensible(value)) return;
+  throw BadInput(std::string(kind) + name + what + ": expected a finite number below 1e9");
 }
 
 /// Streams of random numbers of joint sensors begin here; muscles come before.
@@ -147,9 +150,9 @@ void Simulation::apply_voltage(int muscle, double voltage) {
 
 void Simulation::impose_position(int muscle, double position, double velocity) {
   check_muscle(muscle);
-  const std::string who = "muscle " + muscles_[muscle].model().name;
-  expect_sensible(position, who + ": position");
-  expect_sensible(velocity, who + ": velocity");
+  const std::string& name = muscles_[muscle].model().name;
+  expect_sensible(position, "muscle ", name, ": position");
+  expect_sensible(velocity, "muscle ", name, ": velocity");
   muscles_[muscle].impose(position, velocity);
 }
 
@@ -164,7 +167,7 @@ void Simulation::impose_reading(int muscle, double from, double to) {
   // What is undone now may be undone otherwise by another step; the actuator knows where it was.
   const bool goes_on = !model_->reading_effects.empty() && muscles_[m].drive() == Drive::kImposed;
   if (goes_on) from = muscles_[m].actuator().position;
-  muscles_[m].impose(to, (to - from) / step_length());
+  impose_position(muscle, to, (to - from) / step_length());
 }
 
 double Simulation::position_lateness(int muscle) const {
@@ -185,7 +188,7 @@ void Simulation::apply_effort(int joint, double effort) {
     throw BadInput("joint " + model_->skeleton->joints[joint].name +
                    ": takes no effort; expected 'driven: true' in " + model_->file);
   }
-  expect_finite(effort, "joint " + model_->skeleton->joints[joint].name + ": effort");
+  expect_finite(effort, "joint ", model_->skeleton->joints[joint].name, ": effort");
   effort_[joint] = effort;
 }
 
@@ -194,7 +197,7 @@ void Simulation::apply_load(int joint, double load) {
     throw BadInput("joint " + model_->skeleton->joints[joint].name +
                    ": load: expected a hinge or prismatic joint");
   }
-  expect_finite(load, "joint " + model_->skeleton->joints[joint].name + ": load");
+  expect_finite(load, "joint ", model_->skeleton->joints[joint].name, ": load");
   load_[joint] = load;
 }
 
@@ -210,7 +213,7 @@ void Simulation::check_place(const std::vector<double>& q,
     const double* p = &q[joint.position_offset];
     double squares = 0.0;
     for (int k = 0; k < joint.position_size(); ++k) {
-      expect_sensible(p[k], "place: joint " + joint.name);
+      expect_sensible(p[k], "place: joint ", joint.name, "");
       squares += p[k] * p[k];
     }
     if (joint.type == JointType::kBall && squares < 1e-12) {
@@ -218,7 +221,7 @@ void Simulation::check_place(const std::vector<double>& q,
     }
   }
   for (std::size_t i = 0; i < muscles_.size(); ++i) {
-    expect_sensible(positions[i], "place: muscle " + muscles_[i].model().name);
+    expect_sensible(positions[i], "place: muscle ", muscles_[i].model().name, "");
   }
 }
 

@@ -16,8 +16,7 @@ EffectInfo describe() {
       "the tendon does not, until the other flank takes it along. Between the flanks the motor "
       "carries nothing. At both flanks all is as in the plain model, whose friction of motor and "
       "gear is taken to hold the drag: where it is less, a motor at the other flank runs down "
-      "under "
-      "the tendon as the plain one does. Under pretension the play vanishes.";
+      "under the tendon as the plain one does. Under pretension the play vanishes.";
   i.equation =
       "position <= spindle <= position + width; free: d spindle/dt = -max(0, f r_S - drag) / "
       "(drag 0.1 s)";
