@@ -140,7 +140,8 @@ build() {
   mkdir -p build
   say "building (log: build/build.log)"
   catkin_make -DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3 \
-    -DPython3_EXECUTABLE=/usr/bin/python3 -j"$(nproc)" "$@" >build/build.log 2>&1 ||
+    -DPython3_EXECUTABLE=/usr/bin/python3 -j"$(nproc)" \
+    ${ANTHROB_WERROR:+-DCMAKE_COMPILE_WARNING_AS_ERROR="$ANTHROB_WERROR"} "$@" >build/build.log 2>&1 ||
     { grep -m5 -E 'error|Error' build/build.log >&2; die "the build failed: see build/build.log"; }
   source_file devel/setup.bash
 }
