@@ -77,6 +77,14 @@ TEST(ParameterList, RefusesWhatCannotBeMeant) {
             std::string::npos);
   EXPECT_NE(error_of("- {path: muscles.*.spindle_radius, unit: m, range: -1, step: 1}").find("-1"),
             std::string::npos);
+  const std::string entry = "- {path: muscles.*.spindle_radius, unit: m, step: 1, ";
+  for (const char* end : {"range: 1, low: 0}", "range: 1, high: 2}"}) {
+    EXPECT_EQ(error_of(entry + end),
+              "calibration.yaml:1: 0.range: beside low or high: expected one or the other");
+  }
+  EXPECT_EQ(error_of(entry + "range: 1, lower: 0}"), "calibration.yaml:1: 0.lower: unknown key");
+  EXPECT_EQ(error_of("- {path: nowhere, if_presnt: true, unit: m, range: 1, step: 1}"),
+            "calibration.yaml:1: 0.if_presnt: unknown key");
 }
 
 TEST(ParameterList, OverridesReachTheModel) {

@@ -47,7 +47,16 @@ using DataPtr = std::shared_ptr<Data>;
   throw BadInput(file + ":" + std::to_string(line) + ": " + message);
 }
 
-DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>& file) {
+/// No file is meant to be nested so deep; an alias inside its own anchor is without end.
+constexpr int kDeepest = 100;
+
+DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>& file,
+                int depth = 0) {
+  if (depth > kDeepest) {
+    fail_at(*file, node.Mark().line + 1,
+            "nested more than " + std::to_string(kDeepest) +
+                " deep; expected less, and no alias inside what it stands for");
+  }
   auto data = std::make_shared<Data>();
   data->file = file;
   data->line = node.Mark().line + 1;
@@ -58,7 +67,9 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
       break;
     case YAML::NodeType::Sequence:
       data->kind = Kind::kSequence;
-      for (const auto& item : node) data->items.push_back(convert(item, file));
+      for (const auto& item : node) {
+        data->items.push_back(convert(item, file, depth + 1));
+      }
       break;
     case YAML::NodeType::Map:
       data->kind = Kind::kMap;
@@ -67,7 +78,7 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
         if (data->find(key)) {
           fail_at(*file, entry.first.Mark().line + 1, key + ": appears twice in the same map");
         }
-        data->entries.emplace_back(key, convert(entry.second, file));
+        data->entries.emplace_back(key, convert(entry.second, file, depth + 1));
         // An empty value has no mark of its own.
         data->entries.back().second->line = entry.first.Mark().line + 1;
       }

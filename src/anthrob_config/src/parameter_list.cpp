@@ -60,6 +60,18 @@ void expand(const ConfigNode& node, const std::vector<std::string>& words, std::
   }
 }
 
+/// The list may be marked as read where it belongs to a larger file: each key is looked at here.
+void check_keys(const ConfigNode& entry) {
+  static const std::set<std::string> kKnown = {"path", "unit", "range",     "low",
+                                               "high", "step", "if_present"};
+  for (const auto& [key, value] : entry.entries()) {
+    if (!kKnown.count(key)) value.fail("unknown key");
+  }
+  if (entry.has("range") && (entry.has("low") || entry.has("high"))) {
+    entry.at("range").fail("beside low or high: expected one or the other");
+  }
+}
+
 ModelParameter read_parameter(const ConfigNode& entry, const ConfigNode& number) {
   ModelParameter p;
   p.path = number.path();
@@ -104,6 +116,7 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
   std::vector<ModelParameter> parameters;
   std::set<std::string> taken;
   for (const ConfigNode& entry : list.items()) {
+    check_keys(entry);
     const std::string pattern = entry.text("path");
     std::vector<ConfigNode> numbers;
     expand(model, split(pattern, '.'), 0, numbers);
