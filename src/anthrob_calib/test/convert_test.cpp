@@ -6,9 +6,11 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -209,6 +211,107 @@ TEST(Convert, FolderToBagKeepsTimeZero) {
   const Dataset back = read_bag(folder / "zero.bag").dataset;
   EXPECT_EQ(back.tables[0].t, table.t);
   EXPECT_EQ(back.tables[0].find("hinge/position")->values, table.columns[0].values);
+}
+
+Dataset hinge() {
+  Dataset data;
+  data.meta.robot = "rig";
+  data.table("joints").t = {0, 5000000};
+  data.table("joints").columns.push_back({"hinge/position", {0.25, 0.5}, {1, 1}});
+  return data;
+}
+
+TEST(Convert, FolderToBagKeepsWhatTheMetaSays) {
+  const Folder folder;
+  std::ofstream(folder / "a.yaml") << "kind: rig\nnotes: of another recording\n";
+  Dataset data = hinge();
+  data.meta.kind = "equilibrium";
+  data.meta.start = "given";
+  data.meta.start_position = {{"flexor", 0.3}};
+  data.meta.settle_s = 2.5;
+  data.meta.other["posture"] = "E7\n";
+  write_bag(data, folder / "a.bag");
+  const DatasetMeta back = read_bag(folder / "a.bag").dataset.meta;
+  EXPECT_EQ(meta_text(back), meta_text(data.meta));
+  EXPECT_EQ(back.settle_s, 2.5);
+}
+
+TEST(Convert, ACommandHasAReference) {
+  const Folder folder;
+  Dataset data = hinge();
+  Table& table = data.table("commands");
+  table.t = {0, 5000000};
+  table.columns.push_back({"flexor/mode", {1, 1}, {1, 1}});
+  table.columns.push_back({"flexor/reference", {0.5, 0.0}, {1, 0}});
+  EXPECT_THROW(write_bag(data, folder / "a.bag"), BadInput);
+  table.columns[1].present[1] = 1;
+  EXPECT_NO_THROW(write_bag(data, folder / "a.bag"));
+}
+
+TEST(Convert, AnOrientationIsWholeOrNotThere) {
+  const Folder folder;
+  for (const char* missing : {"w", "x", "z", "wy"}) {
+    Dataset data = hinge();
+    Table& table = data.table("spherical_joints");
+    table.t = {0};
+    for (const char* axis : {"w", "x", "y", "z", "wx", "wy", "wz"}) {
+      if (std::string(axis) != missing) {
+        table.columns.push_back({std::string("shoulder/") + axis, {0.5}, {1}});
+      }
+    }
+    EXPECT_THROW(write_bag(data, folder / "a.bag"), BadInput) << missing;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.bag"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.yaml"));
+  }
+}
+
+TEST(Plot, AnOrientationIsWhole) {
+  const Folder folder;
+  for (const char* missing : {"none", "w", "y", "z"}) {
+    Dataset data = hinge();
+    Table& table = data.table("spherical_joints");
+    table.t = {0, 5000000};
+    for (const char* axis : {"w", "x", "y", "z"}) {
+      table.columns.push_back(
+          {std::string("shoulder/") + axis, {0.5, 0.5}, {1, axis != std::string(missing)}});
+    }
+    data.save(folder / "set");
+    const std::string command = std::string(ANTHROB_PLOT) + " " + (folder / "set") + " --out " +
+                                (folder / "figures") + " 2>" + (folder / "errors.txt");
+    const int status = std::system(command.c_str());
+    ASSERT_TRUE(WIFEXITED(status)) << missing;
+    EXPECT_EQ(WEXITSTATUS(status), missing == std::string("none") ? 0 : 2) << missing;
+  }
+  std::ifstream in(folder / "errors.txt");
+  std::string line;
+  std::getline(in, line);
+  EXPECT_NE(line.find("shoulder: expected w, x, y and z in the same rows"), std::string::npos)
+      << line;
+}
+
+TEST(Convert, ABrokenBagIsNamed) {
+  const Folder folder;
+  write_original(folder / "a.bag");
+  std::ifstream in(folder / "a.bag", std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  int refused = 0;
+  const auto expect_named = [&](const std::string& bytes) {
+    std::ofstream(folder / "b.bag", std::ios::binary) << bytes;
+    try {
+      read_bag(folder / "b.bag");
+    } catch (const BadInput& error) {
+      ++refused;
+      EXPECT_NE(std::string(error.what()).find("b.bag"), std::string::npos) << error.what();
+    }
+  };
+  for (int i = 1; i < 40; ++i) {
+    expect_named(whole.substr(0, whole.size() * static_cast<std::size_t>(i) / 40));
+    std::string altered = whole;
+    const std::size_t at = 14 + (whole.size() - 14) * static_cast<std::size_t>(i) / 40;
+    altered.replace(at, 300, 300, static_cast<char>(i % 2 ? 0 : 255));
+    expect_named(altered.substr(0, whole.size()));
+  }
+  EXPECT_GT(refused, 39);
 }
 
 TEST(Convert, UnwritableBagLeavesNothing) {

@@ -50,6 +50,9 @@ SvgFigure::Line line(const std::string& label, const Series& series, double scal
 void add_ball_joint(const Dataset& data, const std::string& joint, SvgFigure& figure) {
   const Series w = data.series(joint + "/w"), x = data.series(joint + "/x"),
                y = data.series(joint + "/y"), z = data.series(joint + "/z");
+  if (x.t != w.t || y.t != w.t || z.t != w.t) {
+    throw BadInput(data.folder + ": " + joint + ": expected w, x, y and z in the same rows");
+  }
   Series axes[3], angle;
   for (std::size_t i = 0; i < w.t.size(); ++i) {
     const double v[] = {x.values[i], y.values[i], z.values[i]};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -66,7 +67,6 @@ class TableReader {
   }
 
   Table read() {
-    if (!in_) throw BadInput(file_ + ": cannot be read");
     read_header();
     std::string line;
     for (row_ = 2; std::getline(in_, line); ++row_) {
@@ -76,12 +76,9 @@ class TableReader {
     return std::move(table_);
   }
 
- private:
-  [[noreturn]] void fail(const std::string& message) const {
-    throw BadInput(file_ + ":" + std::to_string(row_) + ": " + message);
-  }
-
+  /// @throws BadInput if the file is no table
   void read_header() {
+    if (!in_) throw BadInput(file_ + ": cannot be read");
     std::string line;
     if (!std::getline(in_, line) || trimmed(line).empty()) {
       throw BadInput(file_ + ": empty; expected a header line 't,<name>/<quantity>,...'");
@@ -104,6 +101,11 @@ class TableReader {
       header_.push_back(column.name);
       if (!bookkeeping(column.name)) table_.columns.push_back(column);
     }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw BadInput(file_ + ":" + std::to_string(row_) + ": " + message);
   }
 
   void read_row(const std::vector<std::string>& cells) {
@@ -390,6 +392,46 @@ std::string table_text(const Table& table) {
   return out;
 }
 
+std::vector<fs::path> csv_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Which of the two would be meant?
+void refuse_measured_twice(const Dataset& dataset) {
+  std::map<std::string, std::string> places;
+  for (const Table& table : dataset.tables) {
+    if (table.name == "commands") continue;  // what was asked for stands beside what was done
+    for (const Column& column : table.columns) {
+      const auto [place, is_new] = places.emplace(column.name, table.name);
+      if (is_new) continue;
+      throw BadInput(dataset.folder + ": column '" + column.name + "' is in " + place->second +
+                     ".csv and in " + table.name + ".csv; expected it in one of them");
+    }
+  }
+}
+
+/// Tables of the recording that stands in a folder, which the one to come has not.
+/// @throws BadInput for CSV files that are no part of a recording: they are somebody else's
+std::vector<fs::path> tables_to_go(const fs::path& folder, const Dataset& to_come) {
+  std::vector<fs::path> tables;
+  for (const fs::path& file : csv_files(folder)) {
+    if (!fs::exists(folder / "meta.yaml")) {
+      throw BadInput(file.string() +
+                     ": in a folder without meta.yaml, which is no recording to "
+                     "replace; expected an empty or a new folder");
+    }
+    if (to_come.find_table(file.stem().string())) continue;
+    TableReader(file).read_header();
+    tables.push_back(file);
+  }
+  return tables;
+}
+
 }  // namespace
 
 Dataset Dataset::load(const std::string& folder) {
@@ -400,13 +442,10 @@ Dataset Dataset::load(const std::string& folder) {
   if (!fs::exists(meta))
     throw BadInput(folder + ": meta.yaml is missing; expected one in a dataset folder");
   dataset.meta = load_meta(meta.string());
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".csv") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
+  const std::vector<fs::path> files = csv_files(folder);
   if (files.empty()) throw BadInput(folder + ": expected at least one .csv file beside meta.yaml");
   for (const auto& file : files) dataset.tables.push_back(TableReader(file).read());
+  refuse_measured_twice(dataset);
   return dataset;
 }
 
@@ -415,10 +454,14 @@ void Dataset::save(const std::string& target) const {
   fs::create_directories(target, error);
   if (!fs::is_directory(target))
     throw std::runtime_error(target + ": cannot be created as a folder");
+  const std::vector<fs::path> replaced = tables_to_go(target, *this);
+  std::vector<std::pair<std::string, std::string>> files;
   for (const Table& table : tables) {
-    write_file_atomically((fs::path(target) / (table.name + ".csv")).string(), table_text(table));
+    files.emplace_back((fs::path(target) / (table.name + ".csv")).string(), table_text(table));
   }
-  write_file_atomically((fs::path(target) / "meta.yaml").string(), meta_text(meta));
+  files.emplace_back((fs::path(target) / "meta.yaml").string(), meta_text(meta));
+  write_files_atomically(files);
+  for (const fs::path& file : replaced) fs::remove(file);
 }
 
 }  // namespace anthrob

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/atomic_file.h"
 #include "anthrob_sim/recording/load_recording.h"
 
 namespace anthrob {
@@ -127,9 +128,12 @@ class RowView {
       }
     }
     if (!numbers.empty() && numbers.size() != owners_.size()) {
-      throw BadInput(table_.name + ".csv: row at t = " + time_text(table_.t[row_]) + ": '" +
-                     quantity + "' for some names only; a message needs it for all or none");
+      fail("'" + quantity + "' for some names only; a message needs it for all or none");
     }
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw BadInput(table_.name + ".csv: row at t = " + time_text(table_.t[row_]) + ": " + message);
   }
 
  private:
@@ -142,6 +146,7 @@ void from_row(const RowView& row, MuscleCommand& m) {
   m.name = row.owners();
   row.get("mode", m.mode);
   row.get("reference", m.reference);
+  if (m.reference.empty()) row.fail("a command without a reference");
   if (m.mode.empty()) m.mode.assign(m.name.size(), MuscleCommand::POSITION);
 }
 
@@ -169,6 +174,12 @@ void from_row(const RowView& row, SphericalJointStates& m) {
   std::vector<double> w, x, y, z, wx, wy, wz;
   row.get("w", w), row.get("x", x), row.get("y", y), row.get("z", z);
   row.get("wx", wx), row.get("wy", wy), row.get("wz", wz);
+  if (x.size() != w.size() || y.size() != w.size() || z.size() != w.size()) {
+    row.fail("an orientation without all of w, x, y and z");
+  }
+  if (wy.size() != wx.size() || wz.size() != wx.size()) {
+    row.fail("an angular velocity without all of wx, wy and wz");
+  }
   m.orientation.resize(w.size());
   m.angular_velocity.resize(wx.size());
   for (std::size_t i = 0; i < w.size(); ++i) {
@@ -221,7 +232,8 @@ class TableBuilder {
     }
     if (table_.t.empty()) return;
     if (!std::is_sorted(table_.t.begin(), table_.t.end())) {
-      throw BadInput(topic + ": time goes backwards; expected a recording of one run");
+      throw BadInput(contents.dataset.folder + ": " + topic +
+                     ": time goes backwards; expected a recording of one run");
     }
     for (Column& column : table_.columns) {
       column.values.resize(table_.t.size(), 0.0);
@@ -270,6 +282,10 @@ void add_all(rosbag::Bag& bag, const std::string& topic, TableBuilder& builder) 
   }
 }
 
+std::string meta_beside(const std::string& bag) {
+  return std::filesystem::path(bag).replace_extension(".yaml").string();
+}
+
 std::string leaf(const std::string& topic) {
   return topic.substr(topic.rfind('/') + 1);
 }
@@ -282,15 +298,8 @@ bool is_of_a_recording(const std::string& topic) {
                      [name = leaf(topic)](const auto& known) { return name == known.first; });
 }
 
-}  // namespace
-
-BagContents read_bag(const std::string& file) {
-  rosbag::Bag bag;
-  try {
-    bag.open(file, rosbag::bagmode::Read);
-  } catch (const rosbag::BagException& e) {
-    throw BadInput(file + ": cannot be read as a bag: " + e.what());
-  }
+BagContents contents_of(const std::string& file) {
+  rosbag::Bag bag(file, rosbag::bagmode::Read);
   BagContents contents;
   contents.dataset.folder = file;
 
@@ -331,7 +340,7 @@ BagContents read_bag(const std::string& file) {
                    *std::next(namespaces.begin()) + "; expected one robot a bag");
   }
   const std::string robot = *namespaces.begin();
-  const std::string beside = std::filesystem::path(file).replace_extension(".yaml").string();
+  const std::string beside = meta_beside(file);
   if (std::filesystem::exists(beside)) contents.dataset.meta = load_meta(beside);
   contents.dataset.meta.robot = robot.empty() ? "" : robot.substr(1);
   for (const auto& [topic, table] : kTopics) {
@@ -346,6 +355,19 @@ BagContents read_bag(const std::string& file) {
   }
   if (contents.dataset.tables.empty()) throw BadInput(file + ": its topics hold no messages");
   return contents;
+}
+
+}  // namespace
+
+BagContents read_bag(const std::string& file) {
+  try {
+    return contents_of(file);
+  } catch (const BadInput&) {
+    throw;
+  } catch (const std::exception& e) {
+    // A broken one shows itself anywhere, by sizes that cannot be and types that do not fit.
+    throw BadInput(file + ": cannot be read as a bag: " + e.what());
+  }
 }
 
 // ---- dataset to bag -----------------------------------------------------------------------------
@@ -439,6 +461,8 @@ void write_bag(const Dataset& dataset, const std::string& file) {
       }
     }
     bag.close();
+    // First: a meta.yaml that waits for its bag misleads nobody, a bag with none or another's does.
+    write_file_atomically(meta_beside(file), meta_text(dataset.meta));
     std::filesystem::rename(temporary, file);
   } catch (const rosbag::BagException& e) {
     std::filesystem::remove(temporary);

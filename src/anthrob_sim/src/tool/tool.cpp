@@ -82,9 +82,10 @@ std::string find_model_file(const std::string& robot, const std::string& model) 
     const char* config = std::getenv("ANTHROB_CONFIG");
     const std::string bringup = config ? "" : ros::package::getPath("anthrob_bringup");
     if (!config && bringup.empty()) {
-      throw BadInput("--robot " + robot +
-                     ": the package anthrob_bringup is not found; source devel/setup.bash or set "
-                     "ANTHROB_CONFIG to the folder of robots");
+      throw BadInput(
+          "--robot " + robot +
+          ": the package anthrob_bringup is not found; source the workspace's setup.bash or set "
+          "ANTHROB_CONFIG to the folder of robots");
     }
     folder = (config ? fs::path(config) : fs::path(bringup) / "config") / robot;
   }

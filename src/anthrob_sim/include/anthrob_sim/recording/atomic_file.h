@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace anthrob {
 
@@ -8,5 +10,10 @@ namespace anthrob {
 /// file.
 /// @throws std::runtime_error naming the file and the reason
 void write_file_atomically(const std::string& file, const std::string& content);
+
+/// Files that belong together, by name and content: all are complete beside their targets before
+/// the first is renamed, so that a full disk replaces none of them.
+/// @throws std::runtime_error naming the file and the reason
+void write_files_atomically(const std::vector<std::pair<std::string, std::string>>& files);
 
 }  // namespace anthrob

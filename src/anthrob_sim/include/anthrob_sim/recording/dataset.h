@@ -76,8 +76,10 @@ struct Dataset {
 
   /// @throws BadInput with one line: file, line or row, value, what was expected
   static Dataset load(const std::string& folder);
-  /// Every file is written beside its place and moved there when it is complete.
+  /// All files are written beside their places and moved there when they are complete. Tables of a
+  /// recording that stood there go.
   /// @throws std::runtime_error naming the file that cannot be written
+  /// @throws BadInput if the folder holds CSV files that are no part of a recording
   void save(const std::string& folder) const;
 
   const Table* find_table(const std::string& name) const;
