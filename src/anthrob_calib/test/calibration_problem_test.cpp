@@ -100,8 +100,16 @@ TEST(MeasuredRun, RefusesBadRecordingsWithOneLine) {
     EXPECT_EQ(error.find('\n'), std::string::npos);
   };
   expect("holds less than two rows", [](Dataset& d) { d.tables.clear(); });
-  expect("flexor/force: not a finite number",
-         [](Dataset& d) { d.tables[0].column("flexor/force").values[7] = NAN; });
+  const auto lose = [](Dataset& d, const char* column, std::size_t from, std::size_t count) {
+    auto& values = d.tables[0].column(column).values;
+    std::fill_n(values.begin() + static_cast<long>(from), count, NAN);
+  };
+  const std::size_t rows = good.tables[0].t.size();  // 5 ms apart
+  expect("flexor/force: not a finite number", [&](Dataset& d) { lose(d, "flexor/force", 7, 10); });
+  expect("hinge/position: not a finite number",
+         [&](Dataset& d) { lose(d, "hinge/position", rows - 11, 11); });
+  expect("flexor/reference: nan: expected a finite number",
+         [&](Dataset& d) { lose(d, "flexor/reference", 7, 1); });
   expect("'hinge/position' is missing", [](Dataset& d) {
     auto& present = d.tables[0].column("hinge/position").present;
     std::fill(present.begin(), present.end(), 0);
@@ -119,6 +127,32 @@ TEST(MeasuredRun, RefusesBadRecordingsWithOneLine) {
     mode.values.assign(d.tables[0].t.size(), 3.0);
     mode.present.assign(d.tables[0].t.size(), 1);
   });
+  expect("flexor/ecu_state: STOPPING at t = 1.5", [](Dataset& d) {
+    Column& state = d.tables[0].column("flexor/ecu_state");
+    state.values.assign(d.tables[0].t.size(), 2.0);
+    state.present.assign(d.tables[0].t.size(), 1);
+    state.values[300] = 3.0;
+  });
+}
+
+TEST(MeasuredRun, BridgesSamplesThatWereLost) {
+  const Dataset whole = record_simulation(rig(), plan(3.0, 0.0, "trajectory"));
+  const MeasuredRun run = read_run(whole, rig());
+  Dataset with_losses = whole;
+  const std::size_t rows = whole.tables[0].t.size();
+  for (const char* column : {"flexor/force", "flexor/position", "hinge/position"}) {
+    auto& values = with_losses.tables[0].column(column).values;
+    for (const std::size_t first : {std::size_t{0}, std::size_t{150}, rows - 9}) {
+      std::fill_n(values.begin() + static_cast<long>(first), 9, NAN);
+    }
+  }
+  const MeasuredRun bridged = read_run(with_losses, rig());
+  EXPECT_NEAR(bridged.duration, run.duration, 0.05);
+  ASSERT_GT(bridged.path.count(), 190);
+  const auto count = bridged.path.count();
+  EXPECT_TRUE(bridged.path.q.allFinite() && bridged.path.force.allFinite());
+  EXPECT_LT((bridged.path.q - run.path.q.topRows(count)).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_EQ(bridged.path.q.row(20), run.path.q.row(20));
 }
 
 TEST(RunDifferences, AreMeansOfSquares) {
@@ -173,6 +207,16 @@ TEST(Chains, OneRunLeadsToTheOther) {
   EXPECT_EQ(chains[2].runs, (std::vector<int>{3}));
   EXPECT_TRUE(chains[0].from_home);
   EXPECT_FALSE(chains[2].from_home);
+}
+
+TEST(Chains, APairBeginsWithTheRunThatComesFirst) {
+  MeasuredRun out, back;
+  out.start = {1.0}, out.commands = {{0.0, {0.0}}};
+  back.start = {0.0}, back.commands = {{0.0, {1.0}}};
+  const auto chains = chains_of({out, back});
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_EQ(chains[0].runs, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(chains[0].from_home);
 }
 
 TEST(SimulateRuns, EachRestsAsLongAsItsRobotDid) {
@@ -245,6 +289,23 @@ shares: [{path: joints.hinge.friction.kinetic, of: joints.hinge.friction.static,
   EXPECT_DOUBLE_EQ(overrides.at("joints.hinge.friction.kinetic"), 0.02);
 }
 
+TEST(ParameterSpace, SharesHaveNoOtherKeys) {
+  const ConfigNode config = ConfigNode::parse(R"(
+parameters: [{path: joints.hinge.friction.static, unit: Nm, low: 0.0, high: 0.2, step: 0.01}]
+shares:
+  - {path: joints.hinge.friction.kinetic, of: joints.hinge.friction.static, low: 0.0, high: 1.0,
+     step: 0.1, range: 0.1}
+)",
+                                              "c.yaml");
+  config.ignore();  // as a configuration does before
+  try {
+    ParameterSpace(config, ConfigNode::load(kModelFile));
+    ADD_FAILURE() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_STREQ(error.what(), "c.yaml:5: shares.0.range: unknown key");
+  }
+}
+
 TEST(ExtendedModel, ReadsBackAsTheSameRobot) {
   const std::string folder =
       (std::filesystem::temp_directory_path() / ("extended_" + std::to_string(getpid()))).string();
@@ -266,6 +327,24 @@ TEST(ExtendedModel, ReadsBackAsTheSameRobot) {
     EXPECT_NO_THROW(build_robot_model(extended));
   }
   std::filesystem::remove_all(folder);
+}
+
+TEST(ExtendedModel, NamesFilesWhateverTheirFoldersAreCalled) {
+  namespace fs = std::filesystem;
+  const fs::path root = fs::temp_directory_path() / ("named_" + std::to_string(getpid()));
+  for (const char* name : {"run #2: a", "[one], 'two' & \"three\"", "back\\slash", "- {x}"}) {
+    const fs::path robot = root / name;
+    fs::create_directories(robot);
+    fs::copy(ANTHROB_CONFIG_DIR "/anthrob", robot, fs::copy_options::recursive);
+    const std::string base = (robot / "model_III_tier1.yaml").string();
+    fs::create_directories(root / "out");
+    const std::string file = (root / "out/model.yaml").string();
+    std::ofstream(file) << extended_model_text(
+        ConfigNode::load(base), base, {{"muscles.posterior_deltoid.path.3.mesh.offset.1", 0.0003}},
+        (root / "out").string(), "By a test.");
+    EXPECT_NO_THROW(load_robot_model(file)) << name;
+    fs::remove_all(root);
+  }
 }
 
 TEST(Calibration, LeastSquaresFindsForgottenParameters) {

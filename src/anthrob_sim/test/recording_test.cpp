@@ -102,6 +102,74 @@ TEST(Dataset, SaveAndLoadKeepEveryBit) {
   EXPECT_EQ(back.meta.other.at("notes"), data.meta.other.at("notes"));
 }
 
+Dataset one_column(const std::string& table, const std::string& column) {
+  Dataset data;
+  data.table(table).t = {0, 1000000};
+  data.table(table).columns.push_back({column, {0.5, 0.75}, {1, 1}});
+  return data;
+}
+
+TEST(Dataset, ARecordingReplacesAnotherAsAWhole) {
+  const TemporaryFolder folder;
+  one_column("measured", "a/position").save(folder.path());
+  one_column("joints", "a/position").save(folder.path());
+  const Dataset back = Dataset::load(folder.path());
+  ASSERT_EQ(back.tables.size(), 1u);
+  EXPECT_EQ(back.tables[0].name, "joints");
+}
+
+TEST(Dataset, WhatIsNotOfARecordingStays) {
+  const auto refused = [](const TemporaryFolder& folder, const std::string& file,
+                          const std::string& before) {
+    try {
+      one_column("joints", "a/position").save(folder.path());
+      ADD_FAILURE() << "saved";
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+    }
+    std::ifstream in(folder.path() + "/" + file);
+    std::string line;
+    std::getline(in, line);
+    EXPECT_EQ(line, before);
+  };
+  const TemporaryFolder raw, mixed;
+  raw.write("joints.csv", "time [ms];angle\n");
+  refused(raw, "joints.csv", "time [ms];angle");
+  one_column("joints", "a/position").save(mixed.path());
+  mixed.write("raw.csv", "time [ms];angle\n");
+  refused(mixed, "raw.csv", "time [ms];angle");
+}
+
+TEST(Dataset, AFailureToWriteOneTableReplacesNone) {
+  const TemporaryFolder folder;
+  one_column("joints", "a/position").save(folder.path());
+  Dataset next = one_column("joints", "b/position");
+  next.tables.push_back(one_column("muscles", "c/force").tables[0]);
+  // Where the second table is to be completed there is a folder.
+  const std::string part = folder.path() + "/muscles.csv.part" + std::to_string(getpid());
+  std::filesystem::create_directories(part + "/x");
+  EXPECT_THROW(next.save(folder.path()), std::runtime_error);
+  std::filesystem::remove_all(part);
+  EXPECT_NE(Dataset::load(folder.path()).tables[0].find("a/position"), nullptr);
+}
+
+TEST(Dataset, AColumnIsMeasuredOnce) {
+  const TemporaryFolder folder;
+  folder.write("meta.yaml", kMeta);
+  folder.write("commands.csv", "t,a/mode,a/reference\n0,POSITION,1\n");
+  folder.write("muscles.csv", "t,a/mode,a/reference,a/force\n0,POSITION,1,7\n");
+  EXPECT_NO_THROW(Dataset::load(folder.path()));
+  folder.write("more.csv", "t,a/force\n0,8\n");
+  try {
+    Dataset::load(folder.path());
+    ADD_FAILURE() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("'a/force' is in more.csv and in muscles.csv"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Dataset, BadOnesAreRefusedWithOneLine) {
   const struct {
     const char* csv;
@@ -193,6 +261,130 @@ TEST(Replay, ReproducesTheSimulationThatWasRecorded) {
   EXPECT_NE(replayed.find_table("joints")->find("hinge/velocity"), nullptr);
   EXPECT_EQ(replayed.find_table("commands")->find("flexor/reference")->values, flexor.values);
   EXPECT_EQ(replayed.find_table("muscles")->t, joints.t);
+}
+
+/// A robot's node in short: takes or refuses commands for the rig's flexor, records what it is told
+/// and what it says of itself.
+class Session {
+ public:
+  Session() : sim_(rig()) {
+    recording.meta.settle_s = 1.0;
+    recording.table("commands");
+    recording.table("muscles");
+  }
+  Simulation& sim() { return sim_; }
+
+  void command(ecu::Mode mode, double reference) {
+    Table& commands = recording.table("commands");
+    commands.t.push_back(now_);
+    add(commands, "flexor/mode", static_cast<double>(mode));
+    add(commands, "flexor/reference", reference);
+    if (sim_.muscle(0).enabled() && reference <= 30.0) sim_.command(0, mode, reference);
+  }
+  void enable(bool enabled) {
+    if (!enabled) sim_.command(0, ecu::Mode::kVoltage, 0.0);
+    sim_.set_enabled(0, enabled);
+  }
+  void run(double time) {
+    for (const auto end = now_ + std::llround(time * 1e9); now_ < end; now_ += 1000000) {
+      Table& muscles = recording.table("muscles");
+      muscles.t.push_back(now_);
+      const Muscle& flexor = sim_.muscle(0);
+      add(muscles, "flexor/position", flexor.actuator().position);
+      add(muscles, "flexor/mode", static_cast<double>(flexor.mode()));
+      add(muscles, "flexor/reference", flexor.reference());
+      add(muscles, "flexor/ecu_state", flexor.enabled() ? 2.0 : 3.0);
+      add(muscles, "flexor/voltage", flexor.voltage());
+      sim_.step();
+    }
+  }
+  /// Largest difference of a replay from what the motor did [rad].
+  double replay_error() const {
+    const Dataset replayed = replay(rig(), recording, ReplayMode::kReference);
+    const auto& is = replayed.find_table("muscles")->find("flexor/position")->values;
+    const auto& was = recording.find_table("muscles")->find("flexor/position")->values;
+    double most = 0.0;
+    for (std::size_t i = 0; i < is.size(); ++i) most = std::max(most, std::abs(is[i] - was[i]));
+    return most;
+  }
+
+  Dataset recording;
+
+ private:
+  static void add(Table& table, const std::string& name, double value) {
+    Column& column = table.column(name);
+    column.values.resize(table.t.size()), column.present.resize(table.t.size());
+    column.values.back() = value, column.present.back() = 1;
+  }
+
+  Simulation sim_;
+  Nanoseconds now_ = 0;
+};
+
+TEST(Replay, StartsWhereARobotStandsThatNobodyCommandsYet) {
+  Session session;
+  for (int i = 0; i < 2000; ++i) {  // Left somewhere, before the recording begins.
+    session.sim().impose_position(0, 2.0, 0.0);
+    session.sim().step();
+  }
+  session.sim().release(0);
+  session.run(0.3);
+  session.command(ecu::Mode::kPosition, 5.0);
+  session.run(0.7);
+  EXPECT_LT(session.replay_error(), 0.05);
+}
+
+TEST(Replay, StopsWhereItsUnitWasStopped) {
+  Session session;
+  session.command(ecu::Mode::kPosition, 0.0);
+  session.run(0.2);
+  session.command(ecu::Mode::kPosition, 4.0);
+  session.run(0.05);  // under way
+  session.enable(false);
+  session.run(0.3);
+  session.command(ecu::Mode::kPosition, 6.0);  // not heard
+  session.run(0.3);
+  session.enable(true);
+  session.run(0.3);
+  session.command(ecu::Mode::kPosition, 1.0);
+  session.run(0.4);
+  EXPECT_LT(session.replay_error(), 0.05);
+  const Dataset replayed = replay(rig(), session.recording, ReplayMode::kReference);
+  const auto& is = replayed.find_table("muscles")->find("flexor/ecu_state")->values;
+  EXPECT_EQ(is[300], 3.0);
+  EXPECT_EQ(is.back(), 2.0);
+}
+
+TEST(Replay, LeavesOutCommandsThatWereRefused) {
+  Session session;
+  session.command(ecu::Mode::kPosition, 0.0);
+  session.run(0.3);
+  for (int i = 0; i < 5; ++i) {
+    session.command(ecu::Mode::kPosition, 60.0);
+    session.run(0.1);
+  }
+  for (int i = 1; i <= 50; ++i) {  // faster than a state could show each
+    session.command(ecu::Mode::kPosition, 0.02 * i);
+    session.run(0.01);
+  }
+  EXPECT_LT(session.replay_error(), 0.02);
+}
+
+TEST(Replay, RefusesWhatNobodyCommanded) {
+  Session session;
+  session.command(ecu::Mode::kPosition, 1.0);
+  session.run(0.3);
+  session.sim().command(0, ecu::Mode::kForce, 5.0);  // past the topic, as homing does
+  session.run(0.3);
+  try {
+    session.replay_error();
+    FAIL();
+  } catch (const BadInput& e) {
+    EXPECT_NE(std::string(e.what()).find("flexor: at 0.3"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("followed FORCE 5"), std::string::npos) << e.what();
+  }
+  // As the message advises.
+  EXPECT_NO_THROW(replay(rig(), session.recording, ReplayMode::kVoltage));
 }
 
 TEST(Replay, ImposedPositionsAreFollowedExactly) {

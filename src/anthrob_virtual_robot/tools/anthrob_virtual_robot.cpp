@@ -22,12 +22,12 @@ int main(int argc, char** argv) {
                  "settings; default: virtual_robot_tables.yaml beside the model");
   app.add_option("--out", out, "folder for equilibria, trajectories, validation")->required();
   return run_tool(app, argc, argv, [&] {
+    const auto plain = anthrob::reference::Arm::load(model);
     const auto folder = std::filesystem::weakly_canonical(model).parent_path();
     const auto settings = CalibrationRobotSettings::load(
         config.empty() ? (folder / "virtual_robot_tables.yaml").string() : config);
     const SensorSettings sensors =
         CaseSettings::load((folder / "virtual_robot.yaml").string()).sensors;
-    const auto plain = anthrob::reference::Arm::load(model);
     const auto arm_of = [&](const auto& arm) { return tier == 1 ? detached(arm) : arm; };
     const auto built = arm_of(with_table_errors(plain, settings, seed));
     Session session(

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "anthrob_ecu/state_machine.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/replay.h"
@@ -15,6 +16,9 @@ namespace calibration {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// What is lost for no longer is bridged [s]; the recorder accepts as much.
+constexpr double kLongestLoss = 0.05;
 
 /// The columns of a recording that calibration needs, checked.
 class RunReader {
@@ -36,6 +40,7 @@ class RunReader {
     run.name = fs::path(recording_.folder).stem().string();
     read_kind(run);
     read_commands(run);
+    check_states();
     run.settle = recording_.meta.settle_s;
     run.lead = std::max(0.0, origin_);
     run.duration = end_ - origin_;
@@ -58,21 +63,42 @@ class RunReader {
     throw BadInput(recording_.folder + ": " + message);
   }
 
-  Series column(const std::string& name, bool required = true) {
+  Series column(const std::string& name, bool required = true) const {
     Series series = recording_.series(name);
     if (series.empty() && required) fail("column '" + name + "' is missing or empty");
     for (std::size_t i = 0; i < series.values.size(); ++i) {
-      if (!std::isfinite(series.values[i])) {
-        fail(name + ": not a finite number at t = " + std::to_string(series.t[i]) + " s");
-      }
+      if (!std::isfinite(series.values[i])) fail_not_finite(name, series.t[i]);
     }
     return series;
   }
 
+  [[noreturn]] void fail_not_finite(const std::string& name, double t) const {
+    fail(name + ": not a finite number at t = " + std::to_string(t) + " s");
+  }
+
   Series measured(const std::string& name, bool required = true) {
-    Series series = column(name, required);
+    const Series all = recording_.series(name);
+    if (all.empty() && required) fail("column '" + name + "' is missing or empty");
+    Series series = without_lost(name, all);
     if (!series.empty()) end_ = std::min(end_, series.t.back());
     return series;
+  }
+
+  /// An ECU that did not answer in time is NaN: as good as a cell that is empty, but not for long.
+  Series without_lost(const std::string& name, const Series& all) const {
+    Series known;
+    double since = all.empty() ? 0.0 : all.t.front();
+    for (std::size_t i = 0; i < all.t.size(); ++i) {
+      const bool is_known = std::isfinite(all.values[i]);
+      const bool was_lost = !is_known || (i > 0 && !std::isfinite(all.values[i - 1]));
+      if (was_lost && all.t[i] - since > kLongestLoss + 1e-9) fail_not_finite(name, all.t[i]);
+      if (!is_known) continue;
+      since = all.t[i];
+      known.t.push_back(all.t[i]);
+      known.values.push_back(all.values[i]);
+    }
+    if (known.empty() && !all.empty()) fail_not_finite(name, all.t.front());
+    return known;
   }
 
   void read_muscle(const std::string& name) {
@@ -133,6 +159,21 @@ class RunReader {
       Command command{t - origin_, {}};
       for (const Series& reference : references_) command.reference.push_back(reference.held_at(t));
       run.commands.push_back(command);
+    }
+  }
+
+  /// Motors that are stopped do not follow the references that a simulated run follows.
+  void check_states() const {
+    constexpr auto kEnabled = static_cast<double>(ecu::State::kEnabled);
+    for (const MuscleModel& muscle : model_.muscles) {
+      const Series states = recording_.series(muscle.name + "/ecu_state");
+      for (std::size_t i = 0; i < states.t.size(); ++i) {
+        if (states.t[i] <= origin_ || states.t[i] > end_ || states.values[i] == kEnabled) continue;
+        fail(muscle.name +
+             "/ecu_state: " + word_of("ecu_state", static_cast<int>(states.values[i])) +
+             " at t = " + std::to_string(states.t[i]) +
+             " s: expected ENABLED from the first command to the end; cut the recording before it");
+      }
     }
   }
 

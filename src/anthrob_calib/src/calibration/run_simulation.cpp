@@ -124,10 +124,10 @@ std::vector<Chain> chains_of(const std::vector<MeasuredRun>& runs) {
   std::map<std::vector<double>, int> starts;
   for (const MeasuredRun& run : runs) ++starts[run.start];
   if (runs.empty()) return {};
-  const auto& home =
-      std::max_element(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
-        return a.second < b.second;
-      })->first;
+  // Of several at which as many start, the first run's: one goes there before one comes back.
+  const auto& home = std::max_element(runs.begin(), runs.end(), [&](const auto& a, const auto& b) {
+                       return starts.at(a.start) < starts.at(b.start);
+                     })->start;
   std::vector<Chain> chains;
   std::vector<int> returns;
   for (std::size_t r = 0; r < runs.size(); ++r) {

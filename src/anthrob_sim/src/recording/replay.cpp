@@ -4,6 +4,9 @@
 #include <cmath>
 #include <set>
 
+#include "anthrob_ecu/state_machine.h"
+#include "anthrob_sim/recording/followed_commands.h"
+
 namespace anthrob {
 
 namespace {
@@ -31,9 +34,14 @@ Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording
   bool any = false;
   for (std::size_t m = 0; m < model_->muscles.size(); ++m) {
     const std::string& name = model_->muscles[m].name;
-    MuscleInput input{static_cast<int>(m), recording.series(name + "/mode"),
-                      recording.series(name + "/reference"), recording.series(name + "/voltage"),
-                      recording.series(name + "/position")};
+    CommandSeries told = followed_commands(recording, name, unsaid_mode(m));
+    if (mode == ReplayMode::kReference) require_commanded(recording, name, told);
+    MuscleInput input{static_cast<int>(m),
+                      std::move(told.mode),
+                      std::move(told.reference),
+                      recording.series(name + "/voltage"),
+                      recording.series(name + "/position"),
+                      recording.series(name + "/ecu_state")};
     any = any || !(mode == ReplayMode::kReference ? input.reference
                    : mode == ReplayMode::kVoltage ? input.voltage
                                                   : input.position)
@@ -126,8 +134,14 @@ Replay::StartInput Replay::start_input(const MuscleInput& input) const {
   } else if (meta_.start == "zero") {
     return {false, ecu::Mode::kPosition, 0.0};
   } else if (mode_ != ReplayMode::kPosition && !input.reference.empty()) {
-    return {false, mode_at(input, 0.0), input.reference.held_at(0.0)};
-  } else if (!input.position.empty()) {
+    const ecu::Mode mode = mode_at(input, 0.0);
+    const double reference = input.reference.held_at(0.0);
+    // A motor without voltage stands where it was left, which its reference does not tell.
+    const bool left = mode == ecu::Mode::kVoltage && reference == 0.0;
+    if (!left) return {false, mode, reference};
+  }
+  if (meta_.start == "first" && !input.position.empty() &&
+      std::isfinite(input.position.values.front())) {
     return {true, ecu::Mode::kPosition, input.position.values.front()};
   }
   return {false, ecu::Mode::kVoltage, 0.0};
@@ -181,9 +195,11 @@ ecu::Mode Replay::mode_at(const MuscleInput& input, double time) const {
   if (!input.mode.empty()) {
     return static_cast<ecu::Mode>(static_cast<int>(input.mode.held_at(time)));
   }
-  return model_->muscles[static_cast<std::size_t>(input.muscle)].has_controller
-             ? ecu::Mode::kPosition
-             : ecu::Mode::kVoltage;
+  return unsaid_mode(static_cast<std::size_t>(input.muscle));
+}
+
+ecu::Mode Replay::unsaid_mode(std::size_t muscle) const {
+  return model_->muscles[muscle].has_controller ? ecu::Mode::kPosition : ecu::Mode::kVoltage;
 }
 
 void Replay::drive(Simulation& sim, double time) const {
@@ -196,8 +212,8 @@ void Replay::drive(Simulation& sim, double time) const {
       if (!input.voltage.empty()) {
         sim.apply_voltage(input.muscle, input.voltage.held_at(now));
       }
-    } else if (!input.reference.empty() && now >= input.reference.t.front()) {
-      sim.command(input.muscle, mode_at(input, now), input.reference.held_at(now));
+    } else {
+      command(sim, input, now);
     }
   }
   for (const JointInput& input : joints_) {
@@ -205,6 +221,16 @@ void Replay::drive(Simulation& sim, double time) const {
       sim.apply_effort(input.joint, input.effort.held_at(now));
     }
     if (!input.load.empty()) sim.apply_load(input.joint, input.load.held_at(now));
+  }
+}
+
+void Replay::command(Simulation& sim, const MuscleInput& input, double now) const {
+  if (!input.ecu_state.empty()) {
+    sim.set_enabled(input.muscle,
+                    input.ecu_state.held_at(now) == static_cast<double>(ecu::State::kEnabled));
+  }
+  if (!input.reference.empty() && now >= input.reference.t.front()) {
+    sim.command(input.muscle, mode_at(input, now), input.reference.held_at(now));
   }
 }
 
@@ -244,7 +270,8 @@ class Probe {
     if (quantity_ == "force") return reading.force;
     if (quantity_ == "reference") return muscle.reference();
     if (quantity_ == "mode") return static_cast<double>(muscle.mode());
-    return 2.0;  // ecu_state: ENABLED
+    const ecu::State state = muscle.enabled() ? ecu::State::kEnabled : ecu::State::kStopping;
+    return static_cast<double>(state);
   }
 
   double read_joint(const Simulation& sim) const {

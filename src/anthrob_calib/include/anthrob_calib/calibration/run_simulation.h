@@ -27,7 +27,7 @@ struct SimulationOptions {
 /// settles from its rest posture, each further one where the one before has ended.
 struct Chain {
   std::vector<int> runs;
-  bool from_home = true;  ///< starts at the references at which most runs start
+  bool from_home = true;  ///< starts at the references at which most runs start, or the first
 };
 std::vector<Chain> chains_of(const std::vector<MeasuredRun>& runs);
 

@@ -12,7 +12,7 @@ namespace anthrob {
 
 /// What of a recording drives the simulation.
 enum class ReplayMode {
-  kReference,  ///< commands: the ECU's references
+  kReference,  ///< commands, as followed_commands has them: the ECU's references
   kVoltage,    ///< recorded voltages, past the control law
   kPosition,   ///< recorded actuator positions are imposed
 };
@@ -23,11 +23,13 @@ enum class ReplayMode {
 class Replay {
  public:
   /// @throws BadInput if the recording names muscles or joints that the robot lacks, or has no
-  /// input, or one that is not a finite number or a known mode. What was only measured may be NaN.
+  /// input, or one that is not a finite number or a known mode, or a unit followed what nobody
+  /// commanded. What was only measured may be NaN.
   Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode);
 
-  /// Puts the simulation where the recording starts: settled at the first reference, at zero, or at
-  /// given positions, as the recording's meta.yaml says. Robots without muscles start at their
+  /// Puts the simulation where the recording starts: settled at the references in force then, with
+  /// motors that had none where they were measured; at zero; or at given positions, as the
+  /// recording's meta.yaml says. Robots without muscles start at their
   /// first recorded joint positions. The recording's time 0 is now.
   void start(Simulation& sim) const;
   /// What start() depends on beside the model: recordings with equal ones start in equal states.
@@ -42,7 +44,8 @@ class Replay {
  private:
   struct MuscleInput {
     int muscle;
-    Series mode, reference, voltage, position;
+    Series mode, reference;  ///< as its unit followed them
+    Series voltage, position, ecu_state;
   };
   struct JointInput {
     int joint;
@@ -62,6 +65,8 @@ class Replay {
   /// How much of a column drives the simulation.
   enum class Use { kNone, kStart, kAll };
   Use use_of(const Dataset& recording, const Column& column) const;
+  ecu::Mode unsaid_mode(std::size_t muscle) const;
+  void command(Simulation& sim, const MuscleInput& input, double now) const;
   ecu::Mode mode_at(const MuscleInput& input, double time) const;
   void impose(Simulation& sim, const MuscleInput& input, double time) const;
 
