@@ -85,15 +85,22 @@ const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, doub
   if (fresh_) {
     fresh_ = false;
     held_ = filter_.configuration();
-    std::fill(voltage_memory_.begin(), voltage_memory_.end(), ecu::ControllerMemory{});
+    forget_voltages();
   }
   compute_torque(dt);
   split();
-  command_.mode = moving_ ? settings_.move_output : settings_.hold_output;
+  const ecu::Mode mode = moving_ ? settings_.move_output : settings_.hold_output;
+  // What was integrated for another posture would come as a jolt.
+  if (mode != command_.mode) forget_voltages();
+  command_.mode = mode;
   if (command_.mode == ecu::Mode::kPosition) target_posture_.update(target(), zero_);
   for (std::size_t m = 0; m < command_.reference.size(); ++m)
     command_.reference[m] = reference_for(m, measured.muscles[m], dt);
   return command_;
+}
+
+void ComputedForce::forget_voltages() {
+  std::fill(voltage_memory_.begin(), voltage_memory_.end(), ecu::ControllerMemory{});
 }
 
 void ComputedForce::compute_torque(double dt) {

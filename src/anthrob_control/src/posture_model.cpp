@@ -77,7 +77,9 @@ void PostureModel::update(const std::vector<double>& q, const Eigen::VectorXd& u
       paths_[m].add_moment_arms(i, 1.0, tree_, arms_.col(static_cast<Eigen::Index>(m)).data());
   }
   mass_ = tree_.mass_matrix();
-  load_ = tree_.bias();
+  load_ = -tree_.bias();
+  for (const auto& torque : model_->joint_torques) torque->add(tree_, q_, load_.data());
+  load_ = -load_;
   turn_into_child_axes();
 }
 

@@ -130,6 +130,19 @@ TEST(ComputedForce, MusclesHoldWhatALigamentPulls) {
   EXPECT_NEAR((moment_arm_matrix(loop.sim) * command.tension - command.torque).norm(), 0.0, 1e-3);
 }
 
+TEST(ComputedForce, CarriesWhatEffectsPutOnTheJoints) {
+  const auto plant = extended("model_II.yaml",
+                              "effects:\n  - {id: cable_drag, place: shoulder, stiffness: 0.8}\n"
+                              "  - {id: joint_offset_torque, place: elbow, torque: 0.3}\n");
+  for (const auto& q : reachable_postures(plant, 3)) {
+    Simulation sim(plant);
+    sim.place(q, std::vector<double>(11, 0.0));
+    PostureModel posture(plant);
+    posture.update(q, Eigen::VectorXd::Zero(4));
+    EXPECT_NEAR((posture.load() - holding_load(sim)).norm(), 0.0, 1e-9);
+  }
+}
+
 TEST(ComputedForce, ForcesAreTheLeastEffortOnesAndTheMusclesDeliverThem) {
   const auto plant = load_robot_model(kAnthrob + "model_II.yaml");
   const auto settings = ControlSettings::load(kAnthrob + "control.yaml", *plant);
@@ -146,7 +159,7 @@ TEST(ComputedForce, ForcesAreTheLeastEffortOnesAndTheMusclesDeliverThem) {
       EXPECT_NEAR(loop.command->tension[m], reference.tension[m], 0.05) << m;
       EXPECT_NEAR(loop.sim.muscle(m).force(), loop.command->tension[m], 0.5) << m;
     }
-    EXPECT_LT((loop.command->torque - gravity_load(loop.sim)).norm(), 0.02);
+    EXPECT_LT((loop.command->torque - holding_load(loop.sim)).norm(), 0.02);
   }
 }
 
@@ -169,6 +182,32 @@ TEST(ComputedForce, GoesToAPostureAndStays) {
   const auto left_at = loop.sim.configuration();
   loop.run(5.0);
   EXPECT_LT(loop.distance(left_at, 0), 2.0 * kDegree);
+}
+
+TEST(ComputedForce, VoltagesForgetWhatTheyIntegratedBeforeAMove) {
+  const auto model = load_robot_model(kAnthrob + "model_I.yaml");
+  auto settings = ControlSettings::load(kAnthrob + "control.yaml", *model);
+  settings.hold_output = ecu::Mode::kVoltage;
+  settings.move_output = ecu::Mode::kPosition;
+  ComputedForce controller(model, settings);
+  RobotMeasurement measured{model->skeleton->rest_configuration(),
+                            Eigen::VectorXd::Zero(model->skeleton->velocity_count),
+                            std::vector<ecu::Measurement>(model->muscles.size())};
+  const auto update = [&] { return controller.update(measured, 0.005); };
+  // All tendons 1 N slacker than they should be.
+  const Eigen::VectorXd tension = update().tension;
+  for (std::size_t m = 0; m < measured.muscles.size(); ++m) {
+    measured.muscles[m].force = tension[static_cast<Eigen::Index>(m)] - 1.0;
+  }
+  controller.reset();
+  const std::vector<double> first = update().reference;
+  for (int i = 0; i < 100; ++i) update();
+  ASSERT_GT(update().reference[0], first[0] + 0.1);
+  controller.go_to(measured.q, 0.1);
+  for (int i = 0; i < 100; ++i) update();
+  controller.zero_gravity();
+  const std::vector<double> again = update().reference;
+  for (std::size_t m = 0; m < first.size(); ++m) EXPECT_NEAR(again[m], first[m], 1e-3) << m;
 }
 
 TEST(ComputedForce, StaysNearThePostureWithAWrongModel) {

@@ -256,6 +256,22 @@ TEST(HillMuscle, IsometricForceIsActivationTimesForceLength) {
   EXPECT_NEAR(muscle.read(state).velocity, 0.0, 1e-6);
 }
 
+TEST(HillMuscle, StandsAtItsShortest) {
+  const HillMuscle muscle({1000.0, 0.1, 10.0, 0.015, 0.05, 0.1, 0.3}, kStep);
+  std::vector<double> memory(muscle.state_size());
+  const StateView state(memory.data());
+  muscle.place(0.0, state);
+  double last = muscle.read(state).position;
+  for (int i = 0; i < 1000; ++i) {
+    muscle.advance(1.0, 0.0, state);
+    const Actuator::Readout now = muscle.read(state);
+    ASSERT_NEAR(now.velocity, (now.position - last) / kStep, 1e-9) << i;
+    last = now.position;
+  }
+  EXPECT_EQ(last, 0.8);
+  EXPECT_EQ(muscle.winding_speed(state), 0.0);
+}
+
 TEST(HillMuscle, ConcentricSpeedFollowsHillsHyperbola) {
   // Constant load below the isometric force: (F + a)(v + b) = const, up to the damping term.
   const double beta = 1e-4;

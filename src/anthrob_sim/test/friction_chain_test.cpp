@@ -163,6 +163,23 @@ TEST(Joint, StaticFrictionHoldsBelowItsLimitForAMinute) {
   EXPECT_LT(sim.configuration()[0], -1e-3);
 }
 
+TEST(Joint, StaticFrictionHoldsAgainstATendonThatPullsHarderAndHarder) {
+  // Weight 19.6 N, friction 25 N, the tendon to 30 N, over an eyelet without friction.
+  for (const int segment : {0, 1}) {
+    const TemporaryRobot robot(kHoistUrdf, hoist("{law: none}", segment, 25.0));
+    Simulation sim(robot.load());
+    sim.step(1000);
+    const double before = sim.configuration()[0];
+    const double speed = 30.0 / 2000.0 / 0.0065;
+    for (int i = 1; i <= 1000; ++i) {
+      sim.impose_position(0, 1e-3 * i * speed, speed);
+      sim.step();
+    }
+    EXPECT_GT(sim.muscle(0).spring_tension(), 29.0) << segment;
+    EXPECT_NEAR(sim.configuration()[0], before, 1e-9) << segment;
+  }
+}
+
 TEST(Joint, StribeckFrictionAtConstantSpeed) {
   // Terminal speed: load - weight = kinetic + (static - kinetic) exp(-v / v_s) + viscous v.
   const TemporaryRobot robot(kHoistUrdf, hoist("{law: none}", 0, 25.0));

@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "anthrob_config/errors.h"
 #include "anthrob_sim/statics/equilibrium.h"
 #include "anthrob_sim/statics/least_effort.h"
+#include "effects_support.h"
 #include "support.h"
 
 namespace anthrob {
@@ -136,10 +138,36 @@ TEST(Equilibrium, LigamentsPullAsTheirStretchSays) {
     EXPECT_NEAR(e.tension[capsule], 8000.0 * std::max(0.0, stretch), 1e-9) << angle;
     if (e.shortfall.norm() > 1e-6) continue;
     const Eigen::VectorXd tension = Eigen::Map<const Eigen::VectorXd>(e.tension.data(), 3);
-    EXPECT_NEAR((moment_arm_matrix(scratch) * tension - gravity_load(scratch)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((moment_arm_matrix(scratch) * tension - holding_load(scratch)).norm(), 0.0, 1e-6);
   }
   EXPECT_GT(taut, 0);
   EXPECT_GT(slack, 0);
+}
+
+TEST(Equilibrium, SaysThatNoReferenceHoldsWithoutAGain) {
+  MuscleModel muscle = load_robot_model(config("anthrob/model_II.yaml"))->muscles[0];
+  muscle.controller.position.proportional = 0.0;
+  try {
+    position_reference(muscle, 0.4, 10.0);
+    FAIL();
+  } catch (const BadInput& e) {
+    EXPECT_NE(std::string(e.what()).find(muscle.name + ": position.proportional"),
+              std::string::npos);
+  }
+}
+
+TEST(Equilibrium, HoldsWhatEffectsPutOnTheJoints) {
+  const double stiffness = 0.8, torque = 0.6;
+  const auto with = testing_support::robot_with(
+      "anthrob/model_II.yaml", {{"cable_drag", "shoulder", {{"stiffness", stiffness}}},
+                                {"joint_offset_torque", "elbow", {{"torque", torque}}}});
+  const Quat lift(Eigen::AngleAxisd(0.5, Vec3(-0.6, 0.0, 0.8)));
+  const std::vector<double> q{lift.w(), lift.x(), lift.y(), lift.z(), 1.05};
+  Simulation bent(with), plain(load_robot_model(config("anthrob/model_II.yaml")));
+  for (Simulation* sim : {&bent, &plain}) sim->place(q, std::vector<double>(11, 0.0));
+  const Eigen::VectorXd more = holding_load(bent) - holding_load(plain);
+  EXPECT_NEAR((more.head<3>() - stiffness * 0.5 * Vec3(-0.6, 0.0, 0.8)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(more[3], -torque, 1e-12);
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ class ComputedForce {
   };
 
   static std::vector<Ligament> ligaments_of(const RobotModel& model);
+  void forget_voltages();
   void compute_torque(double dt);
   void split();
   double tension_of(const Ligament& ligament) const;

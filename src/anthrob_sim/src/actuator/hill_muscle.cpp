@@ -13,6 +13,7 @@ constexpr double kPassiveShape = 4.0;
 constexpr double kCurvature = 0.25;   // A_f of the force-velocity hyperbola
 constexpr double kLengthening = 1.4;  // largest force when lengthened, in F_0
 constexpr double kMinActivation = 0.01;
+constexpr double kShortest = 0.2;  // of the optimal length
 }  // namespace
 
 double HillMuscle::force_length(double length) {
@@ -76,9 +77,10 @@ void HillMuscle::advance(double input, double load, StateView state) const {
       excitation > s.activation ? p_.activation_time * pace : p_.deactivation_time / pace;
   s.activation = std::max(kMinActivation,
                           s.activation + (excitation - s.activation) * -std::expm1(-step_ / time));
-  s.velocity = solve_velocity(load, s);
-  // An element shortened to a fifth of its optimal length has nothing left to pull with.
-  s.length = std::max(0.2, s.length + step_ * p_.max_velocity * s.velocity);
+  const double way = step_ * p_.max_velocity;
+  // An element shortened to a fifth of its optimal length has nothing left to pull with and stands.
+  s.velocity = std::max(solve_velocity(load, s), (kShortest - s.length) / way);
+  s.length = std::max(kShortest, s.length + way * s.velocity);
 }
 
 Actuator::Readout HillMuscle::read(StateView state) const {

@@ -185,7 +185,12 @@ void Muscle::delay_command(ecu::Mode& mode, double& reference) {
 void Muscle::prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau) {
   const std::size_t first =
       sliding_obstacles_.empty() ? model_.path->segment_count() : sliding_obstacles_.front();
-  for (std::size_t i = 0; i < first; ++i) path_.add_moment_arms(i, tension(i), tree, tau.data());
+  for (std::size_t i = 0; i < first; ++i) {
+    // Slots beyond the spring still hold the step before.
+    const double pull =
+        i <= static_cast<std::size_t>(model_.spring_segment) ? tension(i) : spring_tension();
+    path_.add_moment_arms(i, pull, tree, tau.data());
+  }
   if (sliding_obstacles_.empty()) return;
 
   sliding_.tension = spring_tension();

@@ -1,5 +1,6 @@
 #include "anthrob_sim/statics/equilibrium.h"
 
+#include "anthrob_config/errors.h"
 #include "anthrob_sim/statics/least_effort.h"
 
 namespace anthrob {
@@ -17,6 +18,11 @@ double holding_position(const MuscleModel& muscle, double length, double tension
 double position_reference(const MuscleModel& muscle, double length, double tension) {
   const double position = holding_position(muscle, length, tension);
   const ecu::PositionGains& gains = muscle.controller.position;
+  if (!(gains.proportional > 0.0)) {
+    throw BadInput(
+        "muscle " + muscle.name +
+        ": position.proportional is 0; expected a gain with which a position can be held");
+  }
   const double input = muscle.actuator->holding_input(position, tension);
   return position + (input - gains.force_feedforward * tension) / gains.proportional;
 }
@@ -31,7 +37,7 @@ Eigen::MatrixXd moment_arm_matrix(const Simulation& sim) {
   return A;
 }
 
-Eigen::VectorXd gravity_load(const Simulation& sim) {
+Eigen::VectorXd holding_load(const Simulation& sim) {
   const SkeletonModel& skeleton = *sim.model().skeleton;
   std::vector<BodyState> bodies = sim.bodies();
   for (BodyState& body : bodies) body.v_W.setZero(), body.w_W.setZero();
@@ -39,7 +45,9 @@ Eigen::VectorXd gravity_load(const Simulation& sim) {
   std::vector<double> q = sim.configuration();
   tree.update(bodies, q);
   tree.update_dynamics(bodies, sim.model().gravity);
-  Eigen::VectorXd load = tree.bias();
+  Eigen::VectorXd acting = -tree.bias();
+  for (const auto& torque : sim.model().joint_torques) torque->add(tree, q, acting.data());
+  Eigen::VectorXd load = -acting;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     if (skeleton.joints[j].type != JointType::kBall) continue;
     auto torque = load.segment<3>(skeleton.joints[j].velocity_offset);
@@ -60,7 +68,7 @@ Equilibrium find_equilibrium(Simulation& sim, const std::vector<double>& q,
     lowest[m] = highest[m] = muscle.model().spring->relaxed_tension(muscle.expansion());
   }
   const LeastEffort split =
-      least_effort(moment_arm_matrix(sim), gravity_load(sim), lowest, highest);
+      least_effort(moment_arm_matrix(sim), holding_load(sim), lowest, highest);
 
   Equilibrium result;
   result.shortfall = split.shortfall;

@@ -44,7 +44,8 @@ class CircleWrap {
   };
 
   /// @param radius [m], > 0
-  /// @param half_turns initial revolution counter Lambda of (4.26), >= 0
+  /// @param half_turns initial revolution counter Lambda of (4.26), >= 0: a tendon that touches at
+  /// the start is wound on by whole turns until it has at least so many
   CircleWrap(double radius, WrapStart start, int half_turns);
 
   double radius() const { return radius_; }

@@ -14,7 +14,8 @@ namespace anthrob {
 constexpr double kRoundingDepth = 0.0002;
 
 /// How a muscle runs over one surface, in the frame in which it was asked for.
-/// Off the surface, entry and exit coincide on the straight line.
+/// Off the surface, entry and exit coincide on the straight line. Where pulls are not along the
+/// tendon (it leans on the border of a mesh's side), they are the end points.
 struct WrapContact {
   bool touching = false;
   Vec3 entry = Vec3::Zero();  ///< where the tendon, seen from the origin, meets the surface [m]

@@ -28,12 +28,13 @@ struct EquilibriumOptions {
 /// joints in the child's axes), one column a muscle [m].
 Eigen::MatrixXd moment_arm_matrix(const Simulation& sim);
 
-/// Generalised forces that hold the posture against gravity (ball joints in the child's axes) [Nm,
-/// N].
-Eigen::VectorXd gravity_load(const Simulation& sim);
+/// Generalised forces that hold the posture against gravity and against what else the model puts on
+/// its joints at rest (ball joints in the child's axes) [Nm, N].
+Eigen::VectorXd holding_load(const Simulation& sim);
 
 /// Reference of a muscle's position controller that holds a tension at a muscle length, see
 /// Equilibrium::reference. @param length [m]   @param tension [N], > 0
+/// @throws BadInput if the controller has no proportional gain
 double position_reference(const MuscleModel& muscle, double length, double tension);
 
 /// @param q posture, size position_count. The simulation is used as scratch: it is placed there.
