@@ -12,8 +12,6 @@ namespace {
 using namespace testing_support;
 
 const char* const kAxis = "driven_axis/model_I.yaml";
-const char* const kRig = "two_muscle_rig/model_I.yaml";
-const char* const kArm = "anthrob/model_II.yaml";
 constexpr double kViscous = 203.5, kMass = 95.1;  // of the driven axis [Ns/m, kg]
 
 /// Speed of the driven axis after a time under a constant effort, from rest.

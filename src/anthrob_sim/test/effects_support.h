@@ -11,10 +11,14 @@
 namespace anthrob {
 namespace testing_support {
 
+constexpr char kRig[] = "two_muscle_rig/model_I.yaml";
+constexpr char kArm[] = "anthrob/model_II.yaml";
+constexpr double kStep = 1e-3;
+
 /// A robot of config/ with effects.
 inline std::shared_ptr<const RobotModel> robot_with(const std::string& file,
                                                     const std::vector<EffectInstance>& effects,
-                                                    double step = 1e-3) {
+                                                    double step = kStep) {
   LoadOptions options;
   options.step = step;
   options.effects = effects;
@@ -23,7 +27,7 @@ inline std::shared_ptr<const RobotModel> robot_with(const std::string& file,
 
 /// The same muscle with one effect.
 inline MuscleModel muscle_with(const std::string& file, const EffectInstance& effect,
-                               const std::string& muscle, double step = 1e-3) {
+                               const std::string& muscle, double step = kStep) {
   const auto robot = robot_with(file, {effect}, step);
   return robot->muscles[robot->find_muscle(muscle)];
 }
