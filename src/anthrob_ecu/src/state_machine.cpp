@@ -10,13 +10,14 @@ namespace {
 struct Transition {
   State from;
   Event event;
-  bool needs_released_stop;  ///< guard: refused while an emergency stop is latched
+  bool needs_released_stop;  ///< guard: this row does not count while an emergency stop is latched
   State to;
 };
 
-// Everything that is not listed is refused.
+// The first row that fits counts; everything that is not listed is refused.
 constexpr Transition kTransitions[] = {
-    {State::kBoot, Event::kSelfTestPassed, false, State::kIdle},
+    {State::kBoot, Event::kSelfTestPassed, true, State::kIdle},
+    {State::kBoot, Event::kSelfTestPassed, false, State::kStopping},
     {State::kIdle, Event::kEnable, true, State::kEnabled},
     {State::kEnabled, Event::kEnable, true, State::kEnabled},
     {State::kStopping, Event::kEnable, true, State::kEnabled},
@@ -24,7 +25,7 @@ constexpr Transition kTransitions[] = {
     {State::kEnabled, Event::kDisable, false, State::kStopping},
     {State::kStopping, Event::kDisable, false, State::kStopping},
     {State::kEnabled, Event::kCommandTimeout, false, State::kStopping},
-    {State::kBoot, Event::kEmergencyStop, false, State::kStopping},
+    {State::kBoot, Event::kEmergencyStop, false, State::kBoot},  // the self test is still to come
     {State::kIdle, Event::kEmergencyStop, false, State::kStopping},
     {State::kEnabled, Event::kEmergencyStop, false, State::kStopping},
     {State::kStopping, Event::kEmergencyStop, false, State::kStopping},
@@ -44,7 +45,7 @@ constexpr Transition kTransitions[] = {
 bool StateMachine::handle(Event event) {
   for (const Transition& t : kTransitions) {
     if (t.from != state_ || t.event != event) continue;
-    if (t.needs_released_stop && stop_latched_) return false;
+    if (t.needs_released_stop && stop_latched_) continue;
     state_ = t.to;
     if (event == Event::kEmergencyStop) stop_latched_ = true;
     if (event == Event::kClear) stop_latched_ = false;

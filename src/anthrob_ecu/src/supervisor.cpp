@@ -30,6 +30,7 @@ Supervisor::Supervisor(std::vector<MuscleChannel> muscles, const Options& option
     ecu_of_.push_back(static_cast<std::size_t>(it - ecus_.begin()));
   }
   machines_.resize(ecus_.size());
+  zero_lost_.resize(ecus_.size());
   handle_all(Event::kSelfTestPassed);
   if (options_.auto_enable) handle_all(Event::kEnable);
 }
@@ -69,14 +70,18 @@ std::string Supervisor::check(const std::vector<std::string>& names,
              ": expected VOLTAGE, POSITION, CURRENT or FORCE";
     }
     if (!it->modes[modes[i]]) return who + "has no mode " + kModeNames[modes[i]];
+    const auto muscle = it - muscles_.begin();
+    const std::size_t ecu = ecu_of_[static_cast<std::size_t>(muscle)];
+    if (static_cast<Mode>(modes[i]) == Mode::kPosition && zero_lost_[ecu]) {
+      return who + ecus_[ecu] + " restarted and lost its zero: call home first";
+    }
     const double reference = references[i];
     if (!std::isfinite(reference)) return who + "reference is not a finite number";
     if (reference < it->lowest[modes[i]] || reference > it->highest[modes[i]]) {
       return who + kModeNames[modes[i]] + " " + text(reference) + " " + kModeUnits[modes[i]] +
              ": expected " + text(it->lowest[modes[i]]) + " to " + text(it->highest[modes[i]]);
     }
-    accepted.push_back(
-        {static_cast<int>(it - muscles_.begin()), static_cast<Mode>(modes[i]), reference});
+    accepted.push_back({static_cast<int>(muscle), static_cast<Mode>(modes[i]), reference});
   }
   return "";
 }
@@ -147,6 +152,16 @@ Supervisor::Outcome Supervisor::fault(const std::string& ecu) {
     return {true, ""};
   }
   return {false, "no ECU of that name"};
+}
+
+void Supervisor::lose_zero(const std::string& ecu) {
+  for (std::size_t i = 0; i < ecus_.size(); ++i) {
+    if (ecus_[i] == ecu) zero_lost_[i] = true;
+  }
+}
+
+void Supervisor::regain_zeros() {
+  std::fill(zero_lost_.begin(), zero_lost_.end(), char{false});
 }
 
 bool Supervisor::update(double time) {

@@ -148,12 +148,18 @@ TEST_F(Desk, EnableNeedsTheRightSession) {
 
 TEST_F(Desk, AnEnableSentAgainDoesNotUndoAStop) {
   start();
-  const std::uint8_t old = sequence;
-  firmware.receive(Frame{});
-  tick();
-  sequence = static_cast<std::uint8_t>(old - 1);
+  host = false;
+  expect_fault(Fault::kSyncLost, Firmware::kWatchdogTicks);
+  // SYNC is back and nothing is latched: only its number tells this enable from a new one.
+  host = true;
+  run(50);
+  --sequence;
   request(Operation::kEnable);
+  run(20);
   EXPECT_EQ(firmware.state(), State::kStopping);
+  EXPECT_EQ(output[0], 0.0);
+  request(Operation::kEnable);
+  EXPECT_EQ(firmware.state(), State::kEnabled);
 }
 
 TEST_F(Desk, SyncLostMeansZeroVoltsWithin15Ms) {
@@ -285,6 +291,58 @@ TEST_F(Desk, SelfTest) {
   readings.muscle[0].current = 0;
   run(60);
   EXPECT_EQ(firmware.fault(), Fault::kSelfTest);
+  EXPECT_EQ(firmware.state(), State::kFault);
+}
+
+TEST_F(Desk, AFailedSelfTestCannotBeCleared) {
+  readings.muscle[0].current = 0;
+  run(60);
+  readings.muscle[0].current = 2048;
+  request(Operation::kClear);
+  EXPECT_EQ(report.refusal, Refusal::kSelfTest);
+  EXPECT_EQ(firmware.state(), State::kFault);
+  EXPECT_EQ(report.fault, Fault::kSelfTest);
+}
+TEST_F(Desk, AStopWhileBootingDoesNotSkipTheSelfTest) {
+  readings.muscle[1].current = 0;
+  run(10);
+  firmware.receive(Frame{});
+  request(Operation::kClear);
+  EXPECT_EQ(report.refusal, Refusal::kSelfTest);
+  EXPECT_TRUE(report.stop_latched);
+  run(60);
+  EXPECT_EQ(firmware.state(), State::kFault);
+  EXPECT_EQ(report.fault, Fault::kSelfTest);
+  EXPECT_EQ(report.muscle, 1);
+  request(Operation::kClear);
+  EXPECT_EQ(firmware.state(), State::kFault);
+}
+TEST_F(Desk, AStopWhileBootingHoldsPastTheSelfTest) {
+  run(10);
+  firmware.receive(Frame{});
+  tick();
+  EXPECT_EQ(firmware.state(), State::kBoot);
+  EXPECT_TRUE(report.stop_latched);
+  configure();
+  EXPECT_EQ(firmware.state(), State::kStopping);
+  request(Operation::kEnable);
+  EXPECT_EQ(report.refusal, Refusal::kStopLatched);
+  request(Operation::kClear);
+  EXPECT_EQ(firmware.state(), State::kIdle);
+  request(Operation::kEnable);
+  EXPECT_EQ(firmware.state(), State::kEnabled);
+}
+TEST_F(Desk, AFaultWhileBootingDoesNotSkipTheSelfTest) {
+  readings.muscle[0].current = 0;
+  readings.supply = 8.0;
+  run(20);
+  ASSERT_EQ(firmware.fault(), Fault::kSupplyLow);
+  readings.supply = 12.0;
+  request(Operation::kClear);
+  EXPECT_EQ(report.refusal, Refusal::kSelfTest);
+  run(60);
+  EXPECT_EQ(report.fault, Fault::kSelfTest);
+  request(Operation::kClear);
   EXPECT_EQ(firmware.state(), State::kFault);
 }
 

@@ -75,6 +75,16 @@ TEST(StateMachine, EmergencyStopIsAcceptedInEveryState) {
   }
 }
 
+TEST(StateMachine, AStopWhileBootingIsLatchedAndLeavesTheSelfTestToCome) {
+  StateMachine machine;
+  EXPECT_TRUE(machine.handle(Event::kEmergencyStop));
+  EXPECT_EQ(machine.state(), State::kBoot);
+  EXPECT_FALSE(machine.handle(Event::kClear));
+  EXPECT_TRUE(machine.handle(Event::kSelfTestPassed));
+  EXPECT_EQ(machine.state(), State::kStopping);
+  EXPECT_FALSE(machine.handle(Event::kEnable));
+}
+
 TEST(StateMachine, TimeoutStopsAndEnableResumes) {
   StateMachine machine = idle();
   EXPECT_FALSE(machine.handle(Event::kCommandTimeout));

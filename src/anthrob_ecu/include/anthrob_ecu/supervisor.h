@@ -58,9 +58,18 @@ class Supervisor {
   Outcome emergency_stop();
   Outcome clear_faults();
   Outcome fault(const std::string& ecu);
+  /// This ECU started anew: where its muscles are is not known, so none of them takes positions
+  /// until regain_zeros().
+  void lose_zero(const std::string& ecu);
+  void regain_zeros();
+  bool zero_lost(int muscle) const { return zero_lost_[ecu_of_[muscle]]; }
 
-  /// The back end moves muscles itself just now: the watch over commands starts anew at `time`.
-  void restart_watch(double time) { last_command_ = time; }
+  /// The back end moves muscles itself just now: the watch over commands starts anew at `time`, as
+  /// if one had come.
+  void restart_watch(double time) {
+    commanded_ = true;
+    last_command_ = time;
+  }
   /// Simulated time was put on by `seconds` in which nothing happened: no command gets older by it.
   void skip(double seconds) { last_command_ += seconds; }
   /// To be called often: handles the command time-out.
@@ -95,8 +104,9 @@ class Supervisor {
   std::vector<std::string> ecus_;
   std::vector<std::size_t> ecu_of_;
   std::vector<StateMachine> machines_;
-  bool commanded_ = false;  ///< since the last enable
-  bool timed_out_ = false;  ///< what stopped, stopped for want of commands
+  std::vector<char> zero_lost_;  ///< by ECU
+  bool commanded_ = false;       ///< since the last enable
+  bool timed_out_ = false;       ///< what stopped, stopped for want of commands
   double last_command_ = 0.0;
   std::size_t rejected_ = 0;
   std::string last_rejection_;

@@ -69,6 +69,16 @@ Refusal Firmware::enable(const Request& request) {
   return Refusal::kAccepted;
 }
 
+Refusal Firmware::clear() {
+  // Nothing to clear while it runs; a stop or a fault is cleared into idle. Not before the self
+  // test, whatever came up meanwhile, and what that found only the next power-up can take back.
+  if (machine_.state() == State::kEnabled) return Refusal::kAccepted;
+  if (!tested_ || fault_ == Fault::kSelfTest) return Refusal::kSelfTest;
+  handle(Event::kClear);
+  fault_ = Fault::kNone;
+  return Refusal::kAccepted;
+}
+
 void Firmware::on_request(const Request& request) {
   // The same request again is answered again, but done once: an old enable must not undo a stop.
   const bool repeated = request.sequence == sequence_;
@@ -84,12 +94,7 @@ void Firmware::on_request(const Request& request) {
       refusal_ = Refusal::kAccepted;
       return;
     case Operation::kClear:
-      // Nothing to clear while it runs; a stop or a fault is cleared into idle.
-      if (machine_.state() != State::kEnabled) {
-        handle(Event::kClear);
-        if (machine_.state() != State::kBoot) fault_ = Fault::kNone;
-      }
-      refusal_ = Refusal::kAccepted;
+      refusal_ = clear();
       return;
   }
   refusal_ = Refusal::kUnknownOperation;
@@ -185,16 +190,22 @@ void Firmware::watch(const Readings& readings) {
 }
 
 void Firmware::self_test(const Readings& readings) {
+  tested_ = true;
   for (int m = 0; m < wiring_.muscles; ++m) {
     const int current = readings.muscle[static_cast<std::size_t>(m)].current;
-    if (current < kLowestCount || current > kHighestCount) return stop(Fault::kSelfTest, m);
+    if (current >= kLowestCount && current <= kHighestCount) continue;
+    // Wins over a fault that came up while booting: that one could be cleared.
+    fault_ = Fault::kSelfTest;
+    fault_muscle_ = m;
+    state_changed_ = true;
+    return handle(Event::kFaultDetected);
   }
   handle(Event::kSelfTestPassed);
 }
 
 std::array<double, kMusclesPerEcu> Firmware::tick(const Readings& readings) {
   ++ticks_;
-  if (machine_.state() == State::kBoot && ticks_ >= kSelfTestTicks) self_test(readings);
+  if (!tested_ && ticks_ >= kSelfTestTicks) self_test(readings);
   watch(readings);
   for (int m = 0; m < wiring_.muscles; ++m) {
     const auto i = static_cast<std::size_t>(m);

@@ -59,6 +59,7 @@ class Firmware {
   void on_sync(const Sync& sync);
   void on_request(const Request& request);
   Refusal enable(const Request& request);
+  Refusal clear();
   void on_reference(const Reference& reference);
   void on_parameter(const ParameterMessage& message);
   ParameterResult write(const ParameterMessage& message, Channel& channel);
@@ -80,6 +81,7 @@ class Firmware {
   std::uint8_t sequence_ = 0;
   std::uint8_t refused_frames_ = 0;
   std::uint32_t ticks_ = 0;
+  bool tested_ = false;  ///< by itself, after power-up
   int sync_age_ = kWatchdogTicks;  ///< [ticks]
   int reference_age_ = 0;
   bool sync_seen_ = false, sync_pending_ = false, reference_taken_ = false, state_changed_ = true;
