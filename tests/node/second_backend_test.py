@@ -4,6 +4,7 @@ import os
 import subprocess
 import unittest
 
+import rosnode
 import rospkg
 import rospy
 import rostest
@@ -12,15 +13,40 @@ from anthrob_msgs.msg import MuscleStates
 
 class SecondBackend(unittest.TestCase):
 
-    def test_a_second_simulator_is_refused(self):
-        rospy.wait_for_message('muscle_states', MuscleStates, 20)
+    def start(self, name, namespace='/anthrob'):
         config = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'config', 'anthrob')
-        second = subprocess.run(['rosrun', 'anthrob_sim', 'anthrob_simulator', '__name:=second', '__ns:=/anthrob',
+        return subprocess.Popen(['rosrun', 'anthrob_sim', 'anthrob_simulator', '__name:=' + name, '__ns:=' + namespace,
                                  '_model:=' + os.path.join(config, 'model_I.yaml')],
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=40)
-        self.assertEqual(second.returncode, 2, second.stdout)
-        self.assertIn('/anthrob/simulator publishes it already', second.stdout)
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def check_refused(self, name, why):
+        first = rosnode.get_api_uri(rospy.get_master(), '/anthrob/simulator')
         rospy.wait_for_message('muscle_states', MuscleStates, 20)
+        second = self.start(name)
+        said = second.communicate(timeout=40)[0]
+        self.assertEqual(second.returncode, 2, said)
+        self.assertIn(why, said)
+        rospy.wait_for_message('muscle_states', MuscleStates, 20)
+        self.assertEqual(rosnode.get_api_uri(rospy.get_master(), '/anthrob/simulator'), first)
+
+    def test_a_second_simulator_is_refused(self):
+        self.check_refused('second', '/anthrob/simulator publishes it already')
+
+    def test_a_second_one_of_the_same_name_is_refused(self):
+        self.check_refused('simulator', '/anthrob/simulator runs already')
+
+    def test_a_dead_one_of_the_same_name_is_no_obstacle(self):
+        dead = self.start('simulator', '/elsewhere')
+        rospy.wait_for_message('/elsewhere/muscle_states', MuscleStates, 40)
+        dead.kill()
+        dead.communicate()
+        self.assertIn('/elsewhere/simulator', rosnode.get_node_names())
+        heir = self.start('simulator', '/elsewhere')
+        try:
+            rospy.wait_for_message('/elsewhere/muscle_states', MuscleStates, 40)
+        finally:
+            heir.terminate()
+            heir.communicate()
 
 
 if __name__ == '__main__':

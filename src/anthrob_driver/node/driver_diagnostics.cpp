@@ -86,6 +86,11 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
     raise(status, DiagnosticStatus::WARN);
     status.message += ", not configured";
   }
+  const bool zero_lost = driver.supervisor().zero_lost(link.own().muscles.front());
+  if (zero_lost) {
+    raise(status, DiagnosticStatus::WARN);
+    status.message += ", zero lost: home first";
+  }
   if (report.fault != ecu::Fault::kNone) {
     status.message += std::string("; ") + ecu::name(report.fault) + " (" +
                       muscle_of(driver, link, report.muscle).name + ")";
@@ -95,6 +100,7 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
       key_value("fault", ecu::name(report.fault)),
       key_value("session", std::to_string(report.session)),
       key_value("configured", link.configured() ? "true" : "false"),
+      key_value("zero_lost", zero_lost ? "true" : "false"),
       key_value("supply", text(health.supply)),
       key_value("refused_frames", std::to_string(health.refused_frames)),
       key_value("transmit_errors", std::to_string(health.transmit_errors)),

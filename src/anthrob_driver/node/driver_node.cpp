@@ -10,7 +10,6 @@
 
 #include "anthrob_driver/measurement_age.h"
 #include "anthrob_ros/diagnostics.h"
-#include "anthrob_ros/single_backend.h"
 #include "driver_diagnostics.h"
 
 namespace anthrob {
@@ -51,10 +50,6 @@ DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
   if (!thread_.note().empty()) ROS_WARN_STREAM(thread_.note());
 }
 
-std::string DriverNode::other_backend() const {
-  return other_publisher(muscles_);
-}
-
 // ---- commands and services ----
 
 void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
@@ -79,9 +74,11 @@ void DriverNode::wait_while(const std::function<bool(RobotDriver&, double now)>&
   }
 }
 
-void DriverNode::drop_waiting_commands() {
+void DriverNode::wait_without_commands(
+    const std::function<bool(RobotDriver&, double now)>& pending) {
   // Taking them out of the queue would leave their messages in the subscription, for the next call.
   dropping_ = true;
+  wait_while(pending);
   command_queue_.callAvailable();
   dropping_ = false;
 }
@@ -94,11 +91,10 @@ bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
     waiting = driver.phase() == RobotDriver::Phase::kEnabling;
   });
   if (waiting) {
-    wait_while([&](RobotDriver& driver, double) {
+    wait_without_commands([&](RobotDriver& driver, double) {
       outcome = driver.last_outcome();
       return driver.phase() == RobotDriver::Phase::kEnabling;
     });
-    drop_waiting_commands();
   }
   answer(outcome, response);
   return true;
@@ -108,11 +104,10 @@ bool DriverNode::on_home(Trigger::Request&, Trigger::Response& response) {
   RobotDriver::Outcome outcome;
   thread_.call([&](RobotDriver& driver, double now) { outcome = driver.start_home(now); });
   if (outcome.accepted) {
-    wait_while([&](RobotDriver& driver, double) {
+    wait_without_commands([&](RobotDriver& driver, double) {
       outcome = {driver.home().failure().empty(), driver.home().failure()};
       return driver.home().running();
     });
-    drop_waiting_commands();
   }
   answer(outcome, response);
   return true;

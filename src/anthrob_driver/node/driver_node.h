@@ -27,8 +27,6 @@ class DriverNode {
 
   /// Until ROS shuts down.
   void run();
-  /// Name of another back end in this namespace; empty if there is none.
-  std::string other_backend() const;
 
  private:
   using Trigger = std_srvs::Trigger;
@@ -36,8 +34,9 @@ class DriverNode {
   void on_command(const anthrob_msgs::MuscleCommand& command);
   /// Within a service: measurements, diagnostics and commands go on until `pending` says no.
   void wait_while(const std::function<bool(RobotDriver&, double now)>& pending);
-  /// Commands that wait were sent for a state that is past.
-  void drop_waiting_commands();
+  /// The same, and commands are refused: whatever comes before the answer was sent for a state that
+  /// is past when they could be followed.
+  void wait_without_commands(const std::function<bool(RobotDriver&, double now)>& pending);
   bool on_enable(Trigger::Request& request, Trigger::Response& response);
   bool on_home(Trigger::Request& request, Trigger::Response& response);
   bool on_disable(Trigger::Request& request, Trigger::Response& response);

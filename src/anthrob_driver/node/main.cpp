@@ -1,11 +1,14 @@
+#include <anthrob_msgs/MuscleStates.h>
 #include <ros/ros.h>
 
 #include "anthrob_config/errors.h"
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/single_backend.h"
 #include "driver_node.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "driver");
+  if (anthrob::name_is_taken()) return 2;
   ros::NodeHandle nh, settings("~");
   try {
     using namespace anthrob;
@@ -24,12 +27,23 @@ int main(int argc, char** argv) {
     if (!(options.pace > 0.0 && options.pace <= 1.0) || (options.pace < 1.0 && !in_memory)) {
       throw BadInput("parameter ~pace: expected 1, or a number in (0, 1] on a vcan");
     }
-    DriverNode node(load_hardware(file, hand), options, can, nh);
-    const std::string other = node.other_backend();
+    const Hardware hardware = load_hardware(file, hand);
+    std::string model;
+    take(settings, "model", text_of, model);
+    const std::string other_than_wired =
+        model.empty() ? "" : difference(hardware, load_hardware(file, hand, model));
+    if (!other_than_wired.empty()) {
+      throw BadInput("parameter ~model: expected the model that " + file + " names, or its like; " +
+                     model + " has " + other_than_wired);
+    }
+    // Before the bus is opened: our first SYNC would stop the motors of a driver that is there.
+    const ros::Publisher claim = nh.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
+    const std::string other = other_publisher(claim);
     if (!other.empty()) {
-      throw BadInput(nh.resolveName("muscle_states") + ": " + other +
+      throw BadInput(claim.getTopic() + ": " + other +
                      " publishes it already; stop that back end first");
     }
+    DriverNode node(hardware, options, can, nh);
     node.run();
   } catch (const anthrob::BadInput& error) {
     ROS_FATAL_STREAM(error.what());

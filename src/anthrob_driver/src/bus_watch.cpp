@@ -1,10 +1,9 @@
 #include "anthrob_driver/bus_watch.h"
 
+#include <algorithm>
+
 namespace anthrob {
 namespace driver {
-
-namespace {
-}  // namespace
 
 void BusWatch::found(Finding finding, double now) {
   findings_.add(finding, -1, now);
@@ -73,7 +72,8 @@ void BusWatch::sent(SendResult result, double now) {
   }
 }
 
-void BusWatch::cycle(double now) {
+void BusWatch::cycle(double now, double late) {
+  last_echo_ = std::min(last_echo_ + late, now);
   full_cycles_ = queue_full_ ? full_cycles_ + 1 : 0;
   queue_full_ = false;
   if (full_cycles_ >= kFullCycles) found(Finding::kQueueFull, now);

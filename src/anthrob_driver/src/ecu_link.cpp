@@ -1,6 +1,7 @@
 #include "anthrob_driver/ecu_link.h"
 
 #include <cstdio>
+#include <utility>
 
 namespace anthrob {
 namespace driver {
@@ -88,6 +89,7 @@ void EcuLink::finish_answer(double now) {
 
 void EcuLink::on_report(const ecu::StateReport& report, double now) {
   if (report.version != ecu::kProtocolVersion) {
+    wrong_version_ = true;
     findings_.add(Finding::kWrongVersion, index_, now,
                   "version " + std::to_string(report.version) + ", expected " +
                       std::to_string(ecu::kProtocolVersion));
@@ -106,15 +108,15 @@ void EcuLink::on_report(const ecu::StateReport& report, double now) {
 }
 
 bool EcuLink::take_restart() {
-  const bool was = restarted_;
-  restarted_ = false;
-  return was;
+  return std::exchange(restarted_, false);
+}
+
+bool EcuLink::take_wrong_version() {
+  return std::exchange(wrong_version_, false);
 }
 
 bool EcuLink::take_analog() {
-  const bool was = analog_new_;
-  analog_new_ = false;
-  return was;
+  return std::exchange(analog_new_, false);
 }
 
 float EcuLink::wanted_value() const {
@@ -145,9 +147,15 @@ bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
   return true;
 }
 
-void EcuLink::start_zero() {
+void EcuLink::start_zero(bool all) {
   zero_ = 0;
+  zero_all_ = all;
   zero_refused_ = waiting_ = false;
+  pass_over_unasked_zeros();
+}
+
+void EcuLink::pass_over_unasked_zeros() {
+  while (!zeroed() && !zero_all_ && !zeroing().parameters.has_force_sensor()) ++zero_;
 }
 
 const MuscleHardware& EcuLink::zeroing() const {
@@ -174,6 +182,7 @@ void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
   if (reply.index == ecu::kPresentPosition) {
     const bool taken = reply.result == ecu::ParameterResult::kOk && reply.muscle == zero_;
     if (taken) ++zero_;
+    pass_over_unasked_zeros();
     zero_refused_ = !taken;
     return;
   }

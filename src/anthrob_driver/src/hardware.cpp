@@ -13,6 +13,10 @@ namespace {
 
 using ecu::Parameter;
 
+std::string choose(const std::string& wanted, const std::string& otherwise) {
+  return wanted.empty() ? otherwise : wanted;
+}
+
 std::string beside(const std::string& file, const std::string& name) {
   return (std::filesystem::path(file).parent_path() / name).string();
 }
@@ -101,11 +105,12 @@ void load_sensors(const ConfigNode& node, MuscleHardware& muscle) {
 
 class Loader {
  public:
-  Loader(const std::string& file, bool hand)
+  Loader(const std::string& file, bool hand, const std::string& model)
       : config_(ConfigNode::load(file)),
-        model_(ConfigNode::load(beside(file, config_.text("model")))),
+        model_(ConfigNode::load(choose(model, beside(file, config_.text("model"))))),
         calibration_(ConfigNode::load(beside(file, config_.text("calibration")))),
-        hand_(hand) {
+        hand_(hand),
+        own_model_(model.empty()) {
     hardware_.file = file;
   }
 
@@ -125,6 +130,8 @@ class Loader {
     load_joints();
     load_home();
     finish();
+    // Another model need not have all that is wired.
+    if (!own_model_) return hardware_;
     config_.refuse_unknown_keys();
     calibration_.refuse_unknown_keys();
     return hardware_;
@@ -267,7 +274,7 @@ class Loader {
   }
 
   ConfigNode config_, model_, calibration_;
-  bool hand_;
+  bool hand_, own_model_;
   Hardware hardware_;
 };
 
@@ -279,8 +286,31 @@ std::vector<ecu::MuscleChannel> Hardware::channels() const {
   return channels;
 }
 
-Hardware load_hardware(const std::string& file, bool hand) {
-  return Loader(file, hand).load();
+Hardware load_hardware(const std::string& file, bool hand, const std::string& model) {
+  return Loader(file, hand, model).load();
+}
+
+std::string difference(const Hardware& a, const Hardware& b) {
+  for (std::size_t m = 0; m < std::max(a.muscles.size(), b.muscles.size()); ++m) {
+    if (m >= a.muscles.size()) return b.muscles[m].name + ": one muscle more";
+    const MuscleHardware& left = a.muscles[m];
+    if (m >= b.muscles.size() || left.name != b.muscles[m].name)
+      return left.name + ": is not there";
+    const MuscleHardware& right = b.muscles[m];
+    if (left.limits.ecu != right.limits.ecu || left.channel != right.channel) {
+      return left.name + ": another motor";
+    }
+    for (int p = 0; p < ecu::kParameterCount; ++p) {
+      if (left.parameters.raw(p) != right.parameters.raw(p)) {
+        return left.name + ": another " + ecu::kParameters[p].name;
+      }
+    }
+    const bool same_limits = left.limits.modes == right.limits.modes &&
+                             left.limits.lowest == right.limits.lowest &&
+                             left.limits.highest == right.limits.highest;
+    if (!same_limits) return left.name + ": other limits of commands";
+  }
+  return "";
 }
 
 }  // namespace driver

@@ -54,6 +54,7 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
     references_.push_back({static_cast<int>(m), ecu::Mode::kVoltage, 0.0});
   }
+  sent_ = references_;
   enabling_.sequence.resize(links_.size());
   sample_.muscles.resize(hardware_.muscles.size());
   joint_slopes_.resize(hardware_.joints.size());
@@ -103,14 +104,18 @@ void RobotDriver::on_frame(const ecu::Frame& frame, double now) {
   if (index < 0) return findings_.add(Finding::kForeignFrame, -1, now);
   EcuLink& link = links_[static_cast<std::size_t>(index)];
   link.receive(frame, now);
-  if (link.take_analog()) keep_analog(link, index);
+  if (link.take_analog()) keep_analog(link, index, now);
 }
 
-void RobotDriver::keep_analog(EcuLink& link, int ecu) {
+void RobotDriver::keep_analog(const EcuLink& link, int ecu, double now) {
   const auto& count = link.analog().count;
   for (std::size_t j = 0; j < hardware_.joints.size(); ++j) {
     const JointSensor& joint = hardware_.joints[j];
     if (joint.ecu != ecu) continue;
+    if (!LinearSensor::measures(count[joint.input])) {
+      findings_.add(Finding::kJointSensor, ecu, now, joint.joint);
+      continue;
+    }
     const double angle = joint.sensor.value(count[joint.input]);
     joint_slopes_[j].add(sample_.time, angle);
     analogs_.push_back(
@@ -158,15 +163,17 @@ RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
 std::string RobotDriver::why_not_enable() const {
   if (supervisor_.stop_latched()) return "emergency stop is latched: call clear_faults first";
   if (!watch_.trouble().empty()) return watch_.trouble();
-  for (std::size_t e = 0; e < links_.size(); ++e) {
-    const EcuLink& link = links_[e];
+  for (const EcuLink& link : links_) {
     const std::string who = link.own().name + ": ";
-    if (supervisor_.ecu_state(e) == ecu::State::kFault) {
+    if (supervisor_.state(link.own().muscles.front()) == ecu::State::kFault) {
       return who + "is in FAULT: call clear_faults first";
     }
     if (!link.heard()) return who + "was never heard; is it switched on?";
     if (!link.alive()) return who + "does not answer";
     if (!link.configured()) return who + "is being configured; try again in a second";
+    if (link.report().fault == ecu::Fault::kSelfTest) {
+      return who + "its self test failed: switch it off and on";
+    }
     if (link.state() == ecu::State::kFault) {
       return who + "fault " + ecu::name(link.report().fault) + ": call clear_faults first";
     }
@@ -298,10 +305,11 @@ void RobotDriver::stop(Finding finding, int ecu) {
 }
 
 void RobotDriver::check_bus(double now) {
-  if (cycles_ > 0 && now - last_cycle_ > 2.0 / options_.rate) {
-    findings_.add(Finding::kLateCycle, -1, now);
-  }
-  watch_.cycle(now);
+  const double period = 1.0 / options_.rate;
+  const double late = cycles_ > 0 ? now - last_cycle_ - period : 0.0;
+  const bool too_late = late > period;
+  if (too_late) findings_.add(Finding::kLateCycle, -1, now);
+  watch_.cycle(now, too_late ? late : 0.0);
   Finding finding;
   if (watch_.take_stop(finding)) stop(finding, -1);
 }
@@ -312,9 +320,11 @@ void RobotDriver::check_ecus(double now) {
     const int index = static_cast<int>(e);
     if (link.take_restart()) {
       stop(Finding::kEcuRestarted, index);
+      supervisor_.lose_zero(link.own().name);
       // While nothing runs too: its zero is lost, and the user must know before enabling.
       supervisor_.fault(link.own().name);
     }
+    if (link.take_wrong_version()) stop(Finding::kWrongVersion, index);
     if (!link.heard()) {
       if (now - started_ > kSilence) findings_.add(Finding::kEcuSilent, index, now);
       continue;
@@ -355,7 +365,8 @@ void RobotDriver::continue_home(double now) {
   if (home_.state() == Home::State::kFailed) return fail_home(now);
   if (home_.state() != Home::State::kReached) return;
   zero_deadline_ = now + kZeroTimeout;
-  for (EcuLink& link : links_) link.start_zero();
+  // Muscles that were not pulled keep their zero, unless it is lost anyway.
+  for (EcuLink& link : links_) link.start_zero(supervisor_.zero_lost(link.own().muscles.front()));
 }
 
 void RobotDriver::continue_zero(double now) {
@@ -371,7 +382,9 @@ void RobotDriver::continue_zero(double now) {
     ecu::Frame frame;
     if (link.next_zero(now, frame)) send(frame);
   }
-  if (all) home_.finish();
+  if (!all) return;
+  home_.finish();
+  supervisor_.regain_zeros();
 }
 
 void RobotDriver::fail_home(double now) {
@@ -425,13 +438,14 @@ void RobotDriver::send_cycle(double now) {
   sample_open_ = true;
   sync_stamp_ = 0;
   sample_.time = now;
+  sent_ = references_;
   send(ecu::encode(ecu::Sync{counter_, ecu::kProtocolVersion, phase_ == Phase::kEnabled}));
   for (EcuLink& link : links_) {
     if (phase_ == Phase::kDisabled) break;
     ecu::Reference reference;
     reference.counter = static_cast<std::uint8_t>(counter_ & 0xF);
     for (std::size_t c = 0; c < link.own().muscles.size(); ++c) {
-      const auto& wanted = references_[static_cast<std::size_t>(link.own().muscles[c])];
+      const auto& wanted = sent_[static_cast<std::size_t>(link.own().muscles[c])];
       reference.mode[c] = wanted.mode;
       reference.reference[c] = wanted.reference;
     }
@@ -475,10 +489,9 @@ void RobotDriver::close_sample(double now) {
     muscle.current = motion.current;
     muscle.voltage = link.effort().voltage[wired.channel];
     muscle.force = link.effort().force[wired.channel];
-    muscle.mode = references_[m].mode;
-    muscle.reference = references_[m].reference;
-    const bool failed =
-        supervisor_.ecu_state(static_cast<std::size_t>(wired.ecu)) == ecu::State::kFault;
+    muscle.mode = sent_[m].mode;
+    muscle.reference = sent_[m].reference;
+    const bool failed = supervisor_.state(static_cast<int>(m)) == ecu::State::kFault;
     muscle.state = failed ? ecu::State::kFault : motion.state;
   }
   if (!anything) return;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kVictim = 2;        // ecu_3
 constexpr int kVictimMuscles[] = {4, 5};  // its muscles
+constexpr std::size_t kElbow = 5;         // ecu_6 reads its potentiometer
 constexpr int kNone = -1;
 
 struct Kind {
@@ -190,6 +191,14 @@ std::vector<Kind> kinds() {
                  return Frames{f, ecu::encode(other, 3, 0)};
                }),
                untamper});
+  k.push_back({"a second node with an ECU's number, of another version", K::kEverybody,
+               int(Finding::kWrongVersion), tamper([](const ecu::Frame& f) {
+                 if (!from_victim(f) || ecu::function_of(f) != 8) return Frames{f};
+                 ecu::StateReport other = ecu::decode_state(f);
+                 ++other.version;
+                 return Frames{f, ecu::encode(other, 3)};
+               }),
+               untamper, 100});
   k.push_back({"host's controller goes bus-off", K::kEverybody, int(Finding::kBusOff),
                [](Rig& r) {
                  r.host.report(BusEvent::Kind::kBusOff);
@@ -233,6 +242,9 @@ std::vector<Kind> kinds() {
   k.push_back({"force sensor's cable cut", K::kEverybody, int(Finding::kEcuFault),
                [](Rig& r) { r.rack.board(kVictim).peripherals.force_sensor_cut = true; },
                [](Rig& r) { r.rack.board(kVictim).peripherals.force_sensor_cut = false; }, 20});
+  k.push_back({"elbow potentiometer's cable cut", K::kNobody, int(Finding::kJointSensor),
+               [](Rig& r) { r.rack.board(kElbow).peripherals.potentiometer_cut = true; },
+               [](Rig& r) { r.rack.board(kElbow).peripherals.potentiometer_cut = false; }});
   k.push_back({"supply breaks down", K::kEverybody, int(Finding::kEcuFault),
                [](Rig& r) { r.rack.board(kVictim).peripherals.supply = 7.0; },
                [](Rig& r) { r.rack.board(kVictim).peripherals.supply = 12.0; }, 10});

@@ -44,6 +44,41 @@ TEST(Hardware, GainsAndLimitsAreTheModels) {
   EXPECT_EQ(triceps.channel, 1);
 }
 
+TEST(Hardware, ModelsOfOneRobotAreTheSameToTheDriver) {
+  for (const bool hand : {false, true}) {
+    const Hardware own = load_hardware(kConfig / "hardware.yaml", hand);
+    for (const char* model :
+         {"model_I.yaml", "model_II.yaml", "model_II_noisy.yaml", "model_III.yaml"}) {
+      const Hardware other = load_hardware(kConfig / "hardware.yaml", hand, kConfig / model);
+      EXPECT_EQ(difference(own, other), "") << model;
+    }
+  }
+}
+
+TEST(Hardware, AModelOfPartOfTheRobotIsAnother) {
+  const Hardware own = load_hardware(kConfig / "hardware.yaml", false);
+  const Hardware tier1 =
+      load_hardware(kConfig / "hardware.yaml", false, kConfig / "model_I_tier1.yaml");
+  EXPECT_EQ(difference(own, tier1), "biceps_brachii: is not there");
+}
+
+TEST(Hardware, ADifferenceNamesMuscleAndWhat) {
+  const Hardware own = load_hardware(kConfig / "hardware.yaml", false);
+  Hardware other = own;
+  other.muscles[3].parameters.set(Parameter::kForceIntegral, 7.5);
+  EXPECT_EQ(difference(own, other), "supraspinatus: another force_integral");
+  other = own;
+  other.muscles[3].limits.highest[1] *= 2.0;
+  EXPECT_EQ(difference(own, other), "supraspinatus: other limits of commands");
+  other = own;
+  std::swap(other.muscles[9].limits.ecu, other.muscles[0].limits.ecu);
+  EXPECT_EQ(difference(own, other), "lateral_deltoid: another motor");
+  other = own;
+  other.muscles.pop_back();
+  EXPECT_EQ(difference(own, other), own.muscles.back().name + ": is not there");
+  EXPECT_EQ(difference(other, own), own.muscles.back().name + ": one muscle more");
+}
+
 /// Anthrob's files with one text replaced.
 std::string error_of(const std::string& file, const std::string& from, const std::string& to) {
   const fs::path folder =

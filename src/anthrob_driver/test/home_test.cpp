@@ -35,6 +35,20 @@ class HomeTest : public testing::Test {
     }
   }
   std::string failure() { return rig.driver().home().failure(); }
+  /// Enabled again after a brown-out of one unit.
+  void restart(std::size_t ecu) {
+    rig.rack.board(ecu).set_power(false);
+    rig.rack.board(ecu).set_power(true);
+    rig.run(2000);
+    ASSERT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
+    rig.driver().clear_faults(rig.now());
+    rig.run(100);
+    ASSERT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+  }
+  RobotDriver::Outcome command(const std::string& muscle, ecu::Mode mode, double reference) {
+    return rig.driver().command({muscle}, {static_cast<std::uint8_t>(mode)}, {reference},
+                                rig.now());
+  }
 
   Rig rig;
   double highest = 0.0;
@@ -42,6 +56,11 @@ class HomeTest : public testing::Test {
 };
 
 TEST_F(HomeTest, TensionsAllAndSetsZero) {
+  int zeros_of_hand = 0;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    zeros_of_hand += zero_of(f, rig.hardware.ecus[6].node);
+    return std::vector<ecu::Frame>{f};
+  };
   home();
   EXPECT_EQ(failure(), "");
   rig.run(50);
@@ -53,6 +72,7 @@ TEST_F(HomeTest, TensionsAllAndSetsZero) {
   EXPECT_LT(highest, 20.0);
   // The hand has no force sensors and stays as it is.
   EXPECT_EQ(rig.plant.voltage(12), 0.0);
+  EXPECT_EQ(zeros_of_hand, 0);
 }
 
 TEST_F(HomeTest, SendsAZeroAgainThatWasLost) {
@@ -200,6 +220,66 @@ TEST_F(HomeTest, CommandsThatWereSentBeforeDoNotTimeOutMeanwhile) {
   rig.run(200);
   EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
   EXPECT_EQ(rig.driver().findings().count(Finding::kCommandTimeout), 1u);
+}
+
+TEST_F(HomeTest, CommandsAreWatchedAfterwardsThoughNoneCameBefore) {
+  home();
+  EXPECT_EQ(failure(), "");
+  rig.run(400);
+  EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kEnabled);
+  rig.run(200);
+  EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kCommandTimeout), 1u);
+  EXPECT_EQ(rig.moving(), 0);
+}
+
+TEST_F(HomeTest, AUnitThatRestartedTakesNoPositionsBeforeIt) {
+  restart(2);
+  const auto infraspinatus = command("infraspinatus", ecu::Mode::kPosition, 1.0);
+  EXPECT_FALSE(infraspinatus.accepted);
+  EXPECT_EQ(infraspinatus.reason,
+            "muscle 'infraspinatus': ecu_3 restarted and lost its zero: call home first");
+  EXPECT_EQ(rig.driver().supervisor().last_rejection(), infraspinatus.reason);
+  EXPECT_FALSE(command("teres_minor", ecu::Mode::kPosition, 1.0).accepted);
+  EXPECT_TRUE(command("infraspinatus", ecu::Mode::kVoltage, 0.0).accepted);
+  EXPECT_TRUE(command("infraspinatus", ecu::Mode::kForce, 2.0).accepted);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+  // Nor does another clear, or another enable, bring the zero back.
+  rig.driver().disable();
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  ASSERT_TRUE(rig.enable());
+  EXPECT_FALSE(command("infraspinatus", ecu::Mode::kPosition, 1.0).accepted);
+  home();
+  ASSERT_EQ(failure(), "");
+  EXPECT_TRUE(command("infraspinatus", ecu::Mode::kPosition, 1.0).accepted);
+}
+
+TEST_F(HomeTest, AHomeThatFailedBringsNoZeroBack) {
+  restart(2);
+  rig.plant.cut(3);
+  home();
+  ASSERT_NE(failure(), "");
+  rig.run(100);
+  ASSERT_TRUE(rig.enable());
+  EXPECT_FALSE(command("infraspinatus", ecu::Mode::kPosition, 1.0).accepted);
+}
+
+TEST_F(HomeTest, ARestartedHandIsZeroWhereItIs) {
+  const std::string& muscle = rig.hardware.muscles[11].name;
+  restart(6);
+  EXPECT_FALSE(command(muscle, ecu::Mode::kPosition, 1.0).accepted);
+  rig.plant.slacken(11, 1e3);
+  ASSERT_TRUE(command(muscle, ecu::Mode::kVoltage, 4.0).accepted);
+  rig.run(300);
+  ASSERT_TRUE(command(muscle, ecu::Mode::kVoltage, 0.0).accepted);
+  rig.run(200);
+  ASSERT_GT(std::abs(rig.samples.back().muscles[11].position), 0.5);
+  home();
+  ASSERT_EQ(failure(), "");
+  rig.run(20);
+  EXPECT_NEAR(rig.samples.back().muscles[11].position, 0.0, 0.05);
+  EXPECT_TRUE(command(muscle, ecu::Mode::kPosition, 0.0).accepted);
 }
 
 TEST_F(HomeTest, CommandsAreRefusedMeanwhile) {

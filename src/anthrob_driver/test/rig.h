@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "anthrob_driver/bus/memory_bus.h"
@@ -18,7 +19,9 @@ namespace driver {
 class Rig {
  public:
   explicit Rig(bool hand = true, const RobotDriver::Options& options = RobotDriver::Options{})
-      : hardware(load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", hand)),
+      : Rig(load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", hand), options) {}
+  explicit Rig(Hardware robot, const RobotDriver::Options& options = RobotDriver::Options{})
+      : hardware(std::move(robot)),
         host(bus.attach()),
         ecus(bus.attach()),
         stranger(bus.attach()),

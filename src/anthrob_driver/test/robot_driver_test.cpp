@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rig.h"
@@ -142,6 +143,45 @@ TEST(RobotDriver, AnEcuThatRestartsWhileDisabledMustBeCleared) {
   EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
 }
 
+TEST(RobotDriver, AFaultIsTheUnitsInWhateverOrderTheFileNamesThem) {
+  Hardware robot = load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", true);
+  std::reverse(robot.ecus.begin(), robot.ecus.end());
+  const int last = static_cast<int>(robot.ecus.size()) - 1;
+  for (auto& muscle : robot.muscles) muscle.ecu = last - muscle.ecu;
+  for (auto& joint : robot.joints) joint.ecu = last - joint.ecu;
+  for (auto& touch : robot.touch) touch.ecu = last - touch.ecu;
+  Rig rig(robot);
+  ASSERT_TRUE(rig.start());
+  rig.rack.board(1).set_power(false);
+  rig.run(100);
+  rig.rack.board(1).set_power(true);
+  rig.run(1000);
+  EXPECT_EQ(rig.driver().start_enable(rig.now()).reason,
+            robot.ecus[1].name + ": is in FAULT: call clear_faults first");
+  for (std::size_t m = 0; m < robot.muscles.size(); ++m) {
+    EXPECT_EQ(rig.samples.back().muscles[m].state == ecu::State::kFault, robot.muscles[m].ecu == 1)
+        << robot.muscles[m].name;
+  }
+}
+
+TEST(RobotDriver, EmulatedEcusThatStartAnewWithAnotherSessionAreNoticed) {
+  for (const bool other_session : {false, true}) {
+    Rig rig;
+    rig.run(1000);
+    Rack anew(rig.hardware, rig.plant, rig.ecus, other_session);
+    for (int i = 0; i < 1000; ++i, ++rig.ms) {
+      if (rig.ms % rig.period_ms == 0) rig.driver().cycle(rig.now());
+      rig.bus.deliver(rig.stamp());
+      anew.receive();
+      anew.tick();
+      rig.bus.deliver(rig.stamp());
+      rig.listen();
+    }
+    EXPECT_EQ(rig.driver().start_enable(rig.now()).accepted, !other_session);
+    EXPECT_EQ(rig.driver().findings().count(Finding::kEcuRestarted), other_session ? 7u : 0u);
+  }
+}
+
 TEST(RobotDriver, OneEcuRefusesAndAllAreDisabled) {
   Rig rig;
   rig.run(1000);
@@ -180,6 +220,55 @@ TEST(RobotDriver, StaleDataIsNeverGivenOutAgain) {
   EXPECT_TRUE(rig.samples.empty());
 }
 
+TEST(RobotDriver, ASampleHasTheReferencesThatWentOutWithItsSync) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  while (rig.ms % 20 != 0) rig.step();
+  rig.volts[0] = 0.7;
+  rig.step();  // the command comes between SYNC and the answers
+  EXPECT_EQ(rig.samples.back().muscles[0].reference, 0.5);
+  rig.run(5);
+  EXPECT_EQ(rig.samples.back().muscles[0].reference, 0.7);
+}
+
+TEST(RobotDriver, ALateHostIsNotTakenForADeadBus) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.driver_runs = false;
+  rig.run(60);
+  rig.driver_runs = true;
+  rig.run(100);
+  EXPECT_GT(rig.driver().findings().count(Finding::kLateCycle), 0u);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kNoAcknowledge), 0u);
+  EXPECT_EQ(rig.driver().bus_watch().trouble(), "");
+  EXPECT_EQ(rig.driver().phase(), Phase::kDisabled);  // the units stopped by themselves
+  EXPECT_EQ(rig.driver().last_stop().substr(0, 11), "ecu_stopped");
+  EXPECT_EQ(rig.moving(), 0);
+}
+
+TEST(RobotDriver, ADeadBusIsNoticedBehindALateHost) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.driver_runs = false;
+  rig.host.jam(1000000);
+  rig.run(60);
+  rig.driver_runs = true;
+  rig.run(60);
+  EXPECT_GT(rig.driver().findings().count(Finding::kNoAcknowledge), 0u);
+}
+
+TEST(RobotDriver, AUnitOfAnotherVersionStopsTheMotors) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  ecu::StateReport report;
+  report.version = ecu::kProtocolVersion + 1;
+  rig.stranger.send(ecu::encode(report, rig.hardware.ecus[2].node));
+  rig.run(20);
+  EXPECT_EQ(rig.driver().phase(), Phase::kDisabled);
+  EXPECT_EQ(rig.driver().last_stop().substr(0, 13), "wrong_version");
+  EXPECT_EQ(rig.moving(), 0);
+}
+
 TEST(RobotDriver, AnalogSensorsAreCalibrated) {
   Rig rig;
   rig.plant.set_joint(0, 1.2);
@@ -200,6 +289,38 @@ TEST(RobotDriver, AnalogSensorsAreCalibrated) {
   }
   EXPECT_EQ(joints, 10);
   EXPECT_EQ(pads, 10);
+}
+
+TEST(RobotDriver, APotentiometerAtAnEndStopMeasuresNothing) {
+  Rig rig;
+  rig.plant.set_joint(0, 1.2);
+  rig.run(1500);
+  const JointSensor& elbow = rig.hardware.joints[0];
+  int count = 0;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    if (ecu::function_of(f) != static_cast<int>(ecu::Function::kAnalog)) {
+      return std::vector<ecu::Frame>{f};
+    }
+    ecu::Analog analog = ecu::decode_analog(f);
+    analog.count[elbow.input] = static_cast<std::uint16_t>(count);
+    return std::vector<ecu::Frame>{ecu::encode(analog, ecu::node_of(f))};
+  };
+  const auto published = [&](int reading) {
+    count = reading;
+    rig.run(20);
+    rig.analogs.clear();
+    rig.run(100);
+    return std::count_if(rig.analogs.begin(), rig.analogs.end(), [](const AnalogSample& a) {
+      return a.kind == AnalogSample::Kind::kJoint;
+    });
+  };
+  for (const int good : {8, 4087}) EXPECT_EQ(published(good), 10) << good;
+  EXPECT_EQ(rig.driver().findings().count(Finding::kJointSensor), 0u);
+  for (const int bad : {0, 7, 4088, 4095}) EXPECT_EQ(published(bad), 0) << bad;
+  EXPECT_GE(rig.driver().findings().count(Finding::kJointSensor), 40u);
+  // Neither shows in what comes after it: no slope leads across the gap.
+  EXPECT_EQ(published(1338), 10);
+  for (const AnalogSample& a : rig.analogs) EXPECT_EQ(a.rate, 0.0);
 }
 
 TEST(RobotDriver, ASecondNodeWithTheSameNumberDoesNotGetItsValuesIn) {

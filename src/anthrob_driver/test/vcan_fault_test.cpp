@@ -338,11 +338,53 @@ TEST_F(VcanFaults, SecondDriver) {
               [&] { second.reset(); });
 }
 
-TEST(CanCheck, RefusesARateAtWhichEcusWouldStop) {
-  if (::if_nametoindex(kInterface) == 0) GTEST_SKIP() << "no vcan0: scripts/with_vcan.sh";
-  const std::string call = std::string(ANTHROB_CAN_CHECK) + " --emulate --rate 50 --can " +
-                           kInterface + " --hardware " + kHardwareFile;
-  EXPECT_EQ(WEXITSTATUS(std::system(call.c_str())), 2);
+class CanCheck : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (::if_nametoindex(kInterface) == 0) GTEST_SKIP() << "no vcan0: scripts/with_vcan.sh";
+  }
+  /// @return its status
+  int run(const std::string& options, const std::string& before = "") {
+    const std::string call = std::string(ANTHROB_CAN_CHECK) + " " + options + " --can " +
+                             kInterface + " --hardware " + kHardwareFile;
+    FILE* pipe = ::popen((before + call + " 2>&1").c_str(), "r");
+    char line[256];
+    said.clear();
+    while (std::fgets(line, sizeof(line), pipe)) said += line;
+    return WEXITSTATUS(::pclose(pipe));
+  }
+  std::string said;
+};
+
+TEST_F(CanCheck, RefusesARateAtWhichEcusWouldStop) {
+  EXPECT_EQ(run("--emulate --rate 50"), 2);
+}
+
+TEST_F(CanCheck, NamesUnitsThatAreNotThereAndFails) {
+  EXPECT_EQ(run("--seconds 1.5"), 1);
+  EXPECT_NE(said.find("ecu_1: ecu_silent"), std::string::npos) << said;
+  EXPECT_NE(said.find("ecu_7: ecu_silent"), std::string::npos) << said;
+}
+
+TEST_F(CanCheck, SaysThatItWasInterrupted) {
+  EXPECT_EQ(run("--seconds 60", "timeout --preserve-status -s INT 3 "), 130);
+}
+
+TEST_F(CanCheck, LeavesStopsAndFaultsOfARobotAlone) {
+  EmulatedRobot robot;
+  sleep_robot(0.1);
+  robot.call([](Rack& rack) { rack.board(2).peripherals.supply = 7.0; });
+  SocketCanBus stranger(kInterface);
+  ASSERT_EQ(stranger.send(ecu::Frame{}), SendResult::kSent);
+  sleep_robot(0.1);
+  robot.call([](Rack& rack) { rack.board(2).peripherals.supply = 12.0; });
+  run("--seconds 0.5");
+  robot.call([](Rack& rack) {
+    for (std::size_t e = 0; e < rack.size(); ++e) {
+      EXPECT_TRUE(rack.board(e).firmware().stop_latched()) << e;
+    }
+    EXPECT_EQ(rack.board(2).firmware().fault(), ecu::Fault::kSupplyLow);
+  });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Checks a CAN bus: how fast commands and answers go round, what is lost, how loaded the bus is.
 // With --emulate the ECUs run in software in this process, so that an adapter, a vcan or a driver
-// can be tried without a robot. Nothing is enabled on a real robot.
+// can be tried without a robot. On a real robot nothing is enabled and nothing is cleared; units
+// that hold another configuration get that of hardware.yaml.
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -24,6 +25,7 @@ namespace driver {
 namespace {
 
 std::atomic<bool> interrupted{false};
+constexpr int kInterrupted = 130;  // as a shell calls a program that ^C ended
 
 struct Arguments {
   std::string can = "can0", hardware;
@@ -61,7 +63,7 @@ class Listener {
   explicit Listener(const std::string& can) : bus_(can) {}
   void listen(double seconds) {
     BusEvent event;
-    for (const double end = monotonic_now() + seconds; monotonic_now() < end;) {
+    for (const double end = monotonic_now() + seconds; monotonic_now() < end && !interrupted;) {
       if (!bus_.receive(event)) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       } else if (event.kind == BusEvent::Kind::kFrame) {
@@ -109,7 +111,7 @@ bool enable(DriverThread& thread) {
     if (outcome.accepted) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  std::cerr << "anthrob_can_check: " << outcome.reason << "\n";
+  if (!interrupted) std::cerr << "anthrob_can_check: " << outcome.reason << "\n";
   return false;
 }
 
@@ -127,6 +129,14 @@ void command(DriverThread& thread, const Hardware& hardware) {
   thread.call([&](RobotDriver& driver, double now) { driver.command(names, modes, volts, now); });
 }
 
+std::string line(const Hardware& hardware, const Findings::Entry& entry) {
+  const std::string who =
+      entry.ecu < 0 ? "" : hardware.ecus[static_cast<std::size_t>(entry.ecu)].name + ": ";
+  const std::string detail = entry.detail.empty() ? "" : ": " + entry.detail;
+  return "  " + who + info(entry.finding).name + " " + std::to_string(entry.count) + "x" + detail +
+         "\n";
+}
+
 int measure(const Arguments& arguments, const Hardware& hardware) {
   DriverThread::Options options;
   options.driver.rate = arguments.rate;
@@ -134,8 +144,11 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   options.pace = arguments.pace;
   DriverThread thread(hardware, options, arguments.can);
   if (!thread.note().empty()) std::cerr << "anthrob_can_check: " << thread.note() << "\n";
-  if (arguments.emulate && !enable(thread)) return 1;
-  thread.call([](RobotDriver& driver, double now) { driver.clear_faults(now); });
+  // On a robot a latched stop, or a fault, is somebody's: it stays.
+  if (arguments.emulate) {
+    thread.call([](RobotDriver& driver, double now) { driver.clear_faults(now); });
+    if (!enable(thread)) return interrupted ? kInterrupted : 1;
+  }
   thread.wait(0.0);
 
   Listener listener(arguments.can);
@@ -168,17 +181,18 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   thread.call([&](RobotDriver& driver, double) {
     stopped = arguments.emulate && driver.phase() != RobotDriver::Phase::kEnabled;
     for (const Findings::Entry& entry : driver.findings().entries()) {
-      findings +=
-          "  " + std::string(info(entry.finding).name) + " " + std::to_string(entry.count) + "x\n";
+      findings += line(hardware, entry);
     }
   });
   constexpr double kListen = 2.0;
+  const double listen_start = robot_time(arguments);
   std::thread listening([&] { listener.listen(kListen / arguments.pace); });
-  for (const double end = robot_time(arguments) + kListen; robot_time(arguments) < end;) {
+  while (robot_time(arguments) - listen_start < kListen && !interrupted) {
     if (arguments.emulate) command(thread, hardware);
     thread.wait(0.1);
   }
   listening.join();
+  const double listened = robot_time(arguments) - listen_start;
 
   const Load load = calculated_load(hardware, arguments.rate);
   const auto answered = static_cast<double>(round_trips.size());
@@ -194,8 +208,8 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   std::printf(
       "bus load at 1 Mbit/s: calculated %.1f %% without stuff bits, %.1f %% at most;"
       " counted %.1f %% (%.0f frames/s)\n",
-      load.plain / 1e4, load.worst / 1e4, listener.bits() / kListen / 1e4,
-      listener.frames() / kListen);
+      load.plain / 1e4, load.worst / 1e4, listener.bits() / listened / 1e4,
+      listener.frames() / listened);
   std::printf("processor: %.2f ms a second of the robot%s\n", 1e3 * busy / elapsed,
               arguments.emulate ? ", emulated ECUs included" : "");
   if (arguments.pace < 1.0) {
@@ -203,7 +217,8 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   }
   std::printf("%s",
               findings.empty() ? "nothing was found wrong\n" : ("found:\n" + findings).c_str());
-  return stopped || incomplete > 0 ? 1 : 0;
+  if (interrupted) return kInterrupted;
+  return stopped || incomplete > 0 || round_trips.empty() ? 1 : 0;
 }
 
 /// All ECUs in software; they end with this object, also when the measurement throws.

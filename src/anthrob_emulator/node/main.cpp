@@ -7,6 +7,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <iostream>
 #include <memory>
 
@@ -15,6 +16,7 @@
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
 #include "anthrob_emulator/simulator_plant.h"
+#include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/tool/tool.h"
 
 namespace anthrob {
@@ -94,7 +96,16 @@ class RobotClock {
   ros::Publisher publisher_;
 };
 
+/// Another one at every start (the same comes again after 64 s): ECUs of an emulator that was
+/// started anew must not pass for those that were there before.
+std::uint8_t session_now() {
+  using Quarters = std::chrono::duration<std::int64_t, std::ratio<1, 4>>;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint8_t>(std::chrono::duration_cast<Quarters>(now).count());
+}
+
 int run(const Arguments& arguments) {
+  if ((arguments.ros || arguments.clock) && name_is_taken()) return tool::kBadInput;
   const driver::Hardware hardware = driver::load_hardware(arguments.hardware, arguments.hand);
   std::unique_ptr<driver::Plant> plant;
   std::unique_ptr<BallJoints> balls;
@@ -109,7 +120,7 @@ int run(const Arguments& arguments) {
     plant = std::move(simulated);
   }
   driver::SocketCanBus bus(arguments.can);
-  driver::Rack rack(hardware, *plant, bus);
+  driver::Rack rack(hardware, *plant, bus, session_now());
   if (arguments.realtime) {
     const std::string refused = driver::become_realtime(driver::Emulator::kPriority);
     if (!refused.empty()) std::cerr << "anthrob_emulator: " << refused << "\n";

@@ -41,4 +41,11 @@ std::string other_publisher(const ros::Publisher& own) {
   return "";
 }
 
+bool name_is_taken() {
+  const std::string& name = ros::this_node::getName();
+  if (!lives(name)) return false;
+  ROS_FATAL_STREAM(name << " runs already; stop it first, or name this one otherwise");
+  return true;
+}
+
 }  // namespace anthrob

@@ -1,11 +1,13 @@
 #include <ros/ros.h>
 
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/core/errors.h"
 #include "simulator_node.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "simulator");
+  if (anthrob::name_is_taken()) return 2;
   ros::NodeHandle nh, settings("~");
   try {
     using namespace anthrob;

@@ -22,7 +22,8 @@ class BusWatch {
   void receive(const BusEvent& event, double now);
   void sent(SendResult result, double now);
   /// Once a cycle, before SYNC is sent.
-  void cycle(double now);
+  /// @param late [s] in which the host did nothing: no echo is missed for it
+  void cycle(double now, double late);
 
   Condition condition() const { return condition_; }
   /// Empty if the bus can be trusted to carry motion; otherwise what is wrong.

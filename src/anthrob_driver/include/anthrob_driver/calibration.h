@@ -11,6 +11,10 @@ struct LinearSensor {
   double gain = 1.0;    ///< [unit/count], not 0
   double offset = 0.0;  ///< [counts] at value 0
 
+  /// Counts beyond these are a converter's end stops: of a torn cable, not of a value.
+  static constexpr int kLowestCount = 8, kHighestCount = 4087;
+
+  static bool measures(int count) { return count >= kLowestCount && count <= kHighestCount; }
   double value(double count) const { return gain * (count - offset); }
   /// The 12-bit count a converter gives for a value.
   int count(double value) const {

@@ -31,10 +31,11 @@ class EcuLink {
   bool next_parameter(double now, ecu::Frame& frame);
 
   /// The positions of its muscles are to become their home_position from now on.
-  void start_zero();
+  /// @param all those without force sensor too
+  void start_zero(bool all);
   /// @return whether `frame` is the next write of a position, to be sent now
   bool next_zero(double now, ecu::Frame& frame);
-  /// All of them were confirmed.
+  /// All of them were confirmed, or none was asked for.
   bool zeroed() const { return zero_ == own().muscles.size(); }
   bool zero_refused() const { return zero_refused_; }
   /// The muscle whose zero is not confirmed yet; not if zeroed().
@@ -48,6 +49,9 @@ class EcuLink {
   bool complete() const { return got_ == wanted_; }
   /// Session differs from the first report's: it restarted. True once.
   bool take_restart();
+  /// A report in another version of the protocol came, perhaps of a second unit with this number.
+  /// True once.
+  bool take_wrong_version();
 
   /// Of the last complete answer.
   const ecu::Motion& motion(int channel) const { return sample_.motion[channel]; }
@@ -75,6 +79,7 @@ class EcuLink {
   void on_report(const ecu::StateReport& report, double now);
   void on_reply(const ecu::ParameterMessage& reply, double now);
   float wanted_value() const;
+  void pass_over_unasked_zeros();
 
   const Hardware& hardware_;
   int index_;
@@ -91,7 +96,7 @@ class EcuLink {
   ecu::Health health_;
   ecu::State state_ = ecu::State::kBoot;
   bool latched_ = false;
-  bool heard_ = false, sampled_ = false, restarted_ = false;
+  bool heard_ = false, sampled_ = false, restarted_ = false, wrong_version_ = false;
   double sample_time_ = 0.0;
 
   // Upload of the configuration: one parameter at a time, each read back.
@@ -100,7 +105,7 @@ class EcuLink {
   bool waiting_ = false;
   double sent_ = 0.0, resume_ = 0.0;
   std::size_t zero_ = 0;  ///< channel
-  bool zero_refused_ = false;
+  bool zero_refused_ = false, zero_all_ = false;
 };
 
 }  // namespace driver

@@ -31,12 +31,13 @@ enum class Finding : std::uint8_t {
   kStopLatched,
   kWrongVersion,
   kConfigurationRefused,
+  kJointSensor,
   kEnableRefused,
   kLateCycle,
   kCommandTimeout,
   kHomeFailed,
 };
-constexpr int kFindingCount = 26;
+constexpr int kFindingCount = 27;
 
 struct FindingInfo {
   Finding finding;

@@ -72,8 +72,13 @@ struct Hardware {
 /// Muscles, gains and command limits come from the model file that hardware.yaml names, the rest
 /// from hardware.yaml and the calibration file it names.
 /// @param hand with the hand's muscles and touch sensors
+/// @param model model file to take instead of the one that hardware.yaml names; empty: that one
 /// @throws BadInput with one line: file, line, key, value, what was expected
-Hardware load_hardware(const std::string& file, bool hand);
+Hardware load_hardware(const std::string& file, bool hand, const std::string& model = "");
+
+/// The first thing that the units, or commands, would have otherwise from `b` than from `a`: muscle
+/// and what of it; empty if there is none.
+std::string difference(const Hardware& a, const Hardware& b);
 
 }  // namespace driver
 }  // namespace anthrob

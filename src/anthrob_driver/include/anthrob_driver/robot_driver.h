@@ -18,7 +18,7 @@ namespace driver {
 struct MuscleSample {
   bool measured = false;  ///< its ECU answered this SYNC; else the numbers mean nothing
   double position = 0.0, velocity = 0.0, current = 0.0, voltage = 0.0, force = 0.0;
-  double reference = 0.0;
+  double reference = 0.0;  ///< it and mode: what went out with this SYNC
   ecu::Mode mode = ecu::Mode::kVoltage;
   ecu::State state = ecu::State::kBoot;
 };
@@ -112,7 +112,7 @@ class RobotDriver {
   void stop(Finding finding, int ecu);
   void send_cycle(double now);
   void close_sample(double now);
-  void keep_analog(EcuLink& link, int ecu);
+  void keep_analog(const EcuLink& link, int ecu, double now);
   bool all_complete() const;
   std::string why_not_enable() const;
 
@@ -129,6 +129,7 @@ class RobotDriver {
   Phase phase_ = Phase::kDisabled;
   Outcome last_outcome_{true, ""};
   std::vector<ecu::MuscleReference> references_;  ///< one a muscle
+  std::vector<ecu::MuscleReference> sent_;        ///< the same as they went out with the last SYNC
   std::vector<ecu::MuscleReference> accepted_;
   struct Enabling {
     double deadline = 0.0, retry = 0.0;

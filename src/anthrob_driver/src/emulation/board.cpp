@@ -7,21 +7,21 @@ namespace driver {
 
 namespace {
 
-ecu::Wiring wiring_of(const EcuHardware& ecu) {
+ecu::Wiring wiring_of(const EcuHardware& ecu, std::uint8_t session) {
   ecu::Wiring wiring;
   wiring.node = ecu.node;
   wiring.muscles = static_cast<int>(ecu.muscles.size());
   wiring.analogs = ecu.analogs;
-  wiring.session = static_cast<std::uint8_t>(17 * ecu.node);
+  wiring.session = static_cast<std::uint8_t>(17 * ecu.node + session);
   return wiring;
 }
 
 }  // namespace
 
-Board::Board(const Hardware& hardware, int ecu)
+Board::Board(const Hardware& hardware, int ecu, std::uint8_t session)
     : hardware_(hardware),
       ecu_(ecu),
-      wiring_(wiring_of(hardware.ecus[static_cast<std::size_t>(ecu)])),
+      wiring_(wiring_of(hardware.ecus[static_cast<std::size_t>(ecu)], session)),
       firmware_(wiring_) {}
 
 void Board::receive(const ecu::Frame& frame) {
@@ -70,7 +70,9 @@ ecu::Readings Board::read(const Plant& plant) const {
     const JointSensor& joint = hardware_.joints[j];
     if (joint.ecu != ecu_) continue;
     readings.analog[static_cast<std::size_t>(joint.input)] =
-        static_cast<std::uint16_t>(joint.sensor.count(plant.joint(j)));
+        peripherals.potentiometer_cut
+            ? std::uint16_t{0}
+            : static_cast<std::uint16_t>(joint.sensor.count(plant.joint(j)));
   }
   for (std::size_t t = 0; t < hardware_.touch.size(); ++t) {
     const TouchSensor& touch = hardware_.touch[t];

@@ -3,9 +3,10 @@
 namespace anthrob {
 namespace driver {
 
-Rack::Rack(const Hardware& hardware, Plant& plant, Bus& bus) : plant_(plant), bus_(bus) {
+Rack::Rack(const Hardware& hardware, Plant& plant, Bus& bus, std::uint8_t session)
+    : plant_(plant), bus_(bus) {
   for (std::size_t e = 0; e < hardware.ecus.size(); ++e) {
-    boards_.emplace_back(hardware, static_cast<int>(e));
+    boards_.emplace_back(hardware, static_cast<int>(e), session);
   }
 }
 

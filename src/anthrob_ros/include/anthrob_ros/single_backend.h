@@ -12,4 +12,10 @@ namespace anthrob {
 ///   that died without saying so does not count.
 std::string other_publisher(const ros::Publisher& own);
 
+/// A launch file that is started twice gives two nodes one name, and ROS ends the first when the
+/// second one registers, in motion or not. To be called between ros::init and the first NodeHandle,
+/// which registers.
+/// @return whether a living node has this node's name; the log says so then
+bool name_is_taken();
+
 }  // namespace anthrob

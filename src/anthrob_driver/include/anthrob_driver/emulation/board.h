@@ -16,7 +16,8 @@ class Board {
   static constexpr int kHardwareWatchdog = 5;
 
   /// @param hardware must outlive the board   @param ecu index in Hardware::ecus
-  Board(const Hardware& hardware, int ecu);
+  /// @param session what the first boot draws its session from
+  Board(const Hardware& hardware, int ecu, std::uint8_t session = 0);
 
   /// A frame on the bus.
   void receive(const ecu::Frame& frame);
@@ -36,6 +37,7 @@ class Board {
     double supply = 12.0;
     int temperature = 30;
     bool force_sensor_cut = false;
+    bool potentiometer_cut = false;
     bool bus_off = false;
   } peripherals;
 

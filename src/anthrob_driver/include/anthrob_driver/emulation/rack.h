@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -12,8 +13,8 @@ namespace driver {
 /// All ECUs of a robot in software, on one plant and one bus.
 class Rack {
  public:
-  /// @param hardware, plant, bus must outlive the rack
-  Rack(const Hardware& hardware, Plant& plant, Bus& bus);
+  /// @param hardware, plant, bus must outlive the rack   @param session as a Board's
+  Rack(const Hardware& hardware, Plant& plant, Bus& bus, std::uint8_t session = 0);
 
   /// Hands out what came in from the bus.
   void receive();
