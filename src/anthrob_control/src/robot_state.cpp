@@ -34,6 +34,11 @@ void RobotState::clear() {
   measured_.q = model_->skeleton->rest_configuration();
   measured_.u = Eigen::VectorXd::Zero(model_->skeleton->velocity_count);
   measured_.muscles.assign(model_->muscles.size(), {});
+  for (std::size_t m = 0; m < measured_.muscles.size(); ++m) {
+    // May never be measured, and zero would be a value.
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (!must_be_measured(m)) measured_.muscles[m] = {nan, nan, nan, nan};
+  }
   muscle_stamps_.assign(model_->muscles.size(), kNever);
   joint_stamps_.assign(model_->skeleton->joints.size(), kNever);
   enabled_.assign(model_->muscles.size(), 0);
@@ -74,6 +79,10 @@ void RobotState::see_ball_joint(const std::string& name, const Quat& orientation
   joint_stamps_[index] = stamp;
 }
 
+bool RobotState::must_be_measured(std::size_t muscle) const {
+  return model_->muscles[muscle].actuator->takes_input();
+}
+
 std::string RobotState::complaint(double now, double stale_after) const {
   for (std::size_t j = 0; j < joint_stamps_.size(); ++j) {
     const std::string why =
@@ -81,6 +90,7 @@ std::string RobotState::complaint(double now, double stale_after) const {
     if (!why.empty()) return why;
   }
   for (std::size_t m = 0; m < muscle_stamps_.size(); ++m) {
+    if (!must_be_measured(m)) continue;
     const std::string why =
         check_age("muscle " + model_->muscles[m].name, muscle_stamps_[m], now, stale_after);
     if (!why.empty()) return why;
@@ -89,9 +99,11 @@ std::string RobotState::complaint(double now, double stale_after) const {
 }
 
 bool RobotState::complete_since(double stamp) const {
-  const auto since = [stamp](double seen) { return seen >= stamp; };
-  return std::all_of(muscle_stamps_.begin(), muscle_stamps_.end(), since) &&
-         std::all_of(joint_stamps_.begin(), joint_stamps_.end(), since);
+  for (std::size_t m = 0; m < muscle_stamps_.size(); ++m) {
+    if (must_be_measured(m) && !(muscle_stamps_[m] >= stamp)) return false;
+  }
+  return std::all_of(joint_stamps_.begin(), joint_stamps_.end(),
+                     [stamp](double seen) { return seen >= stamp; });
 }
 
 std::string RobotState::disabled_muscle() const {

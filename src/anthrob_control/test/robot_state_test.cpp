@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace anthrob {
 namespace {
 
@@ -51,6 +53,23 @@ TEST_F(RobotStateTest, WhatIsNoMeasurementDoesNotCount) {
   state.see_muscle("brachialis", {0.0, INFINITY, 0.0, 0.0}, true, 2.0);
   EXPECT_FALSE(state.complete_since(1.5));
   EXPECT_EQ(state.measurement().q, (std::vector<double>{1, 0, 0, 0, 0.5}));
+}
+
+TEST(RobotStateOfALigament, NeedsNoMeasurementOfWhatTakesNoCommand) {
+  const auto model =
+      load_robot_model(std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/model_hill.yaml");
+  RobotState state(model);
+  state.see_joint("hinge", 0.5, 0.0, 1.0);
+  state.see_muscle("flexor", {0.1, 0.0, 0.0, 5.0}, true, 1.0);
+  EXPECT_EQ(state.complaint(1.0, 0.1), "muscle extensor: not measured yet");
+  EXPECT_FALSE(state.complete_since(1.0));
+  state.see_muscle("extensor", {0.1, 0.0, 0.0, 5.0}, true, 1.0);
+  EXPECT_EQ(state.complaint(1.0, 0.1), "");  // nobody has measured the capsule
+  EXPECT_TRUE(state.complete_since(1.0));
+  const auto capsule = static_cast<std::size_t>(model->find_muscle("capsule"));
+  EXPECT_TRUE(std::isnan(state.measurement().muscles[capsule].force));
+  state.see_muscle("capsule", {0.0, 0.0, 0.0, 3.0}, false, 1.0);
+  EXPECT_EQ(state.measurement().muscles[capsule].force, 3.0);
 }
 
 TEST_F(RobotStateTest, KnowsWhetherMotorsFollow) {

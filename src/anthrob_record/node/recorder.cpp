@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "measured_names.h"
+
 namespace anthrob {
 
 namespace {
@@ -39,7 +41,7 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
     return [this, write = record(topic)](const auto& message) {
       write(message);
       if (!belongs(message.header)) return;
-      for (const auto& name : message.name) {
+      for (const auto& name : measured_names(message)) {
         current_bag().gaps.see(name, message.header.stamp.toSec());
       }
     };
@@ -97,11 +99,11 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
   bool running = true;
   try {
     while (running && visit.outcome() == Visit::Outcome::kRunning) running = advance(visit, target);
+    switch_recording(0, target);  // of a trajectory, the last one ends with the visit
   } catch (...) {
     drop();
     throw;
   }
-  recording_ = 0;
   visit_ = nullptr;
   if (!running) {
     drop();

@@ -21,9 +21,10 @@ class RobotState {
                       double stamp);
 
   /// Why one cannot control with what is known at `now`; empty if one can. Values that are not
-  /// finite, or no rotation, count as not measured.
+  /// finite, or no rotation, count as not measured. Muscles that take no input, such as ligaments,
+  /// need no measurement: no unit has them.
   std::string complaint(double now, double stale_after) const;
-  /// Whether everything was measured at `stamp` or later.
+  /// Whether all that must be was measured at `stamp` or later.
   bool complete_since(double stamp) const;
   /// The first muscle whose ECU does not follow references, or empty.
   std::string disabled_muscle() const;
@@ -34,6 +35,8 @@ class RobotState {
   const RobotModel& model() const { return *model_; }
 
  private:
+  bool must_be_measured(std::size_t muscle) const;
+
   std::shared_ptr<const RobotModel> model_;
   RobotMeasurement measured_;
   std::vector<double> muscle_stamps_, joint_stamps_;

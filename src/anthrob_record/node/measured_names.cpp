@@ -1,0 +1,44 @@
+#include "measured_names.h"
+
+#include <cmath>
+
+namespace anthrob {
+
+namespace {
+
+template <class IsMeasured>
+std::vector<std::string> names_where(const std::vector<std::string>& names,
+                                     const IsMeasured& is_measured) {
+  std::vector<std::string> measured;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (is_measured(i)) measured.push_back(names[i]);
+  }
+  return measured;
+}
+
+bool is_number(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() && std::isfinite(values[i]);
+}
+
+/// As the reader of recordings has it; nothing that holds NaN is of unit length.
+bool is_turn(const geometry_msgs::Quaternion& q) {
+  return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) <= 0.01;
+}
+
+}  // namespace
+
+std::vector<std::string> measured_names(const anthrob_msgs::MuscleStates& m) {
+  return names_where(
+      m.name, [&](std::size_t i) { return is_number(m.position, i) && is_number(m.force, i); });
+}
+
+std::vector<std::string> measured_names(const sensor_msgs::JointState& m) {
+  return names_where(m.name, [&](std::size_t i) { return is_number(m.position, i); });
+}
+
+std::vector<std::string> measured_names(const anthrob_msgs::SphericalJointStates& m) {
+  return names_where(
+      m.name, [&](std::size_t i) { return i < m.orientation.size() && is_turn(m.orientation[i]); });
+}
+
+}  // namespace anthrob
