@@ -57,11 +57,12 @@ class MocapInput(unittest.TestCase):
         while time.time() < end and not all(p.get_num_connections() for p in cls.publishers):
             time.sleep(0.05)
 
-    def stream(self, part, left=None, right=None, delay=0.0):
+    def stream(self, part, left=None, right=None, delay=0.0, ahead=0):
         """Publishes pairs until the node says what is wrong with them."""
         end = time.time() + 20
         while time.time() < end:
             now = rospy.Time.now()
+            now = rospy.Time(now.secs + ahead, now.nsecs)
             if left is not False:
                 self.publishers[0].publish(image(now, **(left or {})))
             if right is not False:
@@ -76,12 +77,27 @@ class MocapInput(unittest.TestCase):
         self.watch.wait_for_error('no images')
         self.stream('no images from the right camera', right=False)
         self.stream('unsynchronised pair', delay=0.007)
+        # A clock that is wrong: 68 years ahead no difference of times can be said.
+        self.stream('left image: stamp ', ahead=2**31 + 100)
         self.stream('left image: encoding mono16: expected mono8', left={'encoding': 'mono16'})
         self.stream('right image: encoding bgr8: expected mono8', right={'encoding': 'bgr8'})
         self.stream('right image: 647x487 pixels: expected 648x488', right={'width': 647, 'height': 487},
                     left={'width': 648, 'height': 488})
         self.stream('left image: 100 bytes: truncated', left={'size': 100})
         self.assertEqual(self.states, [])
+
+    def test_stamps_are_the_pictures(self):
+        shown, sent = [], []
+        subscriber = rospy.Subscriber('/anthrob/mocap/debug_image', Image, shown.append)
+        end = time.time() + 20
+        while time.time() < end and len(shown) < 3:
+            sent.append(rospy.Time.now())
+            for publisher in self.publishers:
+                publisher.publish(image(sent[-1]))
+            time.sleep(0.05)
+        subscriber.unregister()
+        self.assertGreaterEqual(len(shown), 3)
+        self.assertLessEqual({m.header.stamp for m in shown}, set(sent))
 
     def test_pulled_camera(self):
         watch = Watch('/cameras: mocap')

@@ -113,6 +113,7 @@ class MocapVirtual(unittest.TestCase):
         self.assertGreater(poses.messages[0].pose.covariance[35], 0.0)
         self.assertLess(poses.messages[0].pose.covariance[35], math.radians(0.2) ** 2)
         self.assertGreater(joints.messages[0].angular_velocity_covariance[0], 0.0)
+        self.assertEqual(joints.messages[0].header.frame_id, 'humerus')  # whose axes they are in
         self.assertEqual(joints.messages[0].linear_acceleration_covariance[0], -1.0)
         self.assertGreaterEqual(len(markers.messages[-1].markers[0].points), 6)
         self.assertEqual((picture.messages[0].width, picture.messages[0].height), (2 * 648, 488))

@@ -36,6 +36,7 @@ FrameSource::Grab BagSource::next(StereoFrame& frame, double) {
       frame.owner[s] = pair[s].owner;
     }
     frame.t = pair[kLeft].t;
+    frame.ns = pair[kLeft].ns;
     frame.index = index_++;
     ++position_;
     return Grab::kFrame;

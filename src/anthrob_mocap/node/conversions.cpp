@@ -79,6 +79,7 @@ TimedImage timed_image(const sensor_msgs::ImageConstPtr& message, Side side) {
   }
   TimedImage image;
   image.t = message->header.stamp.toSec();
+  image.ns = static_cast<std::int64_t>(message->header.stamp.toNSec());
   image.image = {message->data.data(), static_cast<int>(message->width),
                  static_cast<int>(message->height), message->step};
   image.owner = std::shared_ptr<const void>(message.get(), [message](const void*) {});

@@ -33,7 +33,8 @@ anthrob_msgs::SphericalJointStates spherical_joint_states(const StereoFrame& fra
                                                           const std_msgs::Header& header);
 geometry_msgs::PoseWithCovarianceStamped pose_message(const TargetPose& pose,
                                                       const std_msgs::Header& header);
-/// Orientation and angular velocity with their covariances; no acceleration.
+/// Orientation and angular velocity with their covariances, all in the child's axes; no
+/// acceleration.
 sensor_msgs::Imu joint_message(const JointEstimate& joint, const std_msgs::Header& header);
 
 /// Markers of targets in the target's colour, other points grey.

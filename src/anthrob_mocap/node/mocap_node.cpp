@@ -2,6 +2,8 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
+#include <sstream>
+
 #include "anthrob_mocap/core/errors.h"
 #include "conversions.h"
 
@@ -70,16 +72,26 @@ void MocapNode::run() {
         ROS_WARN_STREAM_THROTTLE(1.0, why);
         status_.refuse(why);
       });
-  const ros::WallTimer timer =
-      nh_.createWallTimer(ros::WallDuration(kReportPeriod), [&](const ros::WallTimerEvent&) {
-        // While simulated time stands still there is nothing to see.
-        const bool still = ros::Time::isSimTime() && ros::Time::now() == last_report_time_;
-        last_report_time_ = ros::Time::now();
-        const std::string trouble = input.take_trouble();
-        publish_diagnostics(still ? "" : trouble);
-      });
+  const ros::WallTimer timer = nh_.createWallTimer(
+      ros::WallDuration(kReportPeriod),
+      [&](const ros::WallTimerEvent&) { publish_diagnostics(trouble_of(input)); });
   ros::spin();
   pipeline_.drain();
+}
+
+/// Half a second must have passed by simulated time, too: where it runs slowly pictures are rare,
+/// and while it stands still there is nothing to see.
+std::string MocapNode::trouble_of(TopicInput& input) {
+  const ros::Time now = ros::Time::now();
+  const bool still = ros::Time::isSimTime() && now == last_report_time_;
+  last_report_time_ = now;
+  if (last_asked_.isZero()) last_asked_ = now;
+  const double passed = now.toSec() - last_asked_.toSec();
+  if (!ros::Time::isSimTime() || passed < 0.0 || passed >= kReportPeriod) {
+    last_asked_ = now;
+    last_trouble_ = input.take_trouble();
+  }
+  return still ? "" : last_trouble_;
 }
 
 void MocapNode::run(FrameSource& source) {
@@ -100,6 +112,7 @@ void MocapNode::run(FrameSource& source) {
 void MocapNode::on_pair(const TimedImage pair[2]) {
   auto frame = std::make_unique<StereoFrame>();
   frame->t = pair[kLeft].t;
+  frame->ns = pair[kLeft].ns;
   for (const Side side : {kLeft, kRight}) {
     frame->image[side] = pair[side].image;
     frame->owner[side] = pair[side].owner;
@@ -111,11 +124,13 @@ void MocapNode::take(std::unique_ptr<StereoFrame> frame) {
   frame->index = index_++;
   try {
     check_size(*frame);
-    pipeline_.push(std::move(frame));
+    check_stamp(*frame);
   } catch (const BadInput& error) {
     ROS_WARN_STREAM_THROTTLE(1.0, error.what());
     status_.refuse(error.what());
+    return;
   }
+  pipeline_.push(std::move(frame));
 }
 
 void MocapNode::check_size(const StereoFrame& frame) const {
@@ -129,16 +144,28 @@ void MocapNode::check_size(const StereoFrame& frame) const {
   }
 }
 
+void MocapNode::check_stamp(const StereoFrame& frame) const {
+  // ROS counts nanoseconds from 0 and seconds in 32 bits; whoever takes the difference of a stamp
+  // and now has 31 bits.
+  constexpr std::int64_t kSecond = 1000000000;
+  const auto now = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  if (frame.ns >= 0 && frame.ns < (kSecond << 32) && frame.ns - now < (kSecond << 31)) return;
+  std::ostringstream text;
+  text << "left image: stamp " << std::fixed << frame.t << " s: expected the time of the exposure; "
+       << "now is " << 1e-9 * static_cast<double>(now) << " s";
+  throw BadInput(text.str());
+}
+
 void MocapNode::publish(const StereoFrame& frame) {
   std_msgs::Header header;
-  header.stamp.fromSec(frame.t);
+  header.stamp.fromNSec(static_cast<std::uint64_t>(frame.ns));
   header.frame_id = options_.camera_frame;
   const anthrob_msgs::SphericalJointStates states = spherical_joint_states(frame, set_, header);
   if (!states.name.empty()) joints_.publish(states);
   for (std::size_t j = 0; j < frame.joints.size(); ++j) {
     const JointEstimate& joint = frame.joints[j];
     if (joint.valid && joint.velocity_valid) {
-      joint_estimates_[j].publish(joint_message(joint, header));
+      joint_estimates_[j].publish(joint_message(joint, joint_header(header.stamp, j)));
     }
   }
   for (std::size_t k = 0; k < frame.targets.size(); ++k) {
@@ -148,7 +175,15 @@ void MocapNode::publish(const StereoFrame& frame) {
   }
   publish_transforms(frame, header);
   publish_pictures(frame, header);
-  status_.add(frame, (ros::Time::now() - header.stamp).toSec());
+  status_.add(frame, ros::Time::now().toSec() - frame.t);
+}
+
+/// A joint's quantities are in its child's axes, wherever the camera is.
+std_msgs::Header MocapNode::joint_header(const ros::Time& stamp, std::size_t joint) const {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  if (setup_) header.frame_id = setup_->joints[joint].child;
+  return header;
 }
 
 void MocapNode::publish_transforms(const StereoFrame& frame, const std_msgs::Header& header) {

@@ -43,10 +43,13 @@ class MocapNode {
   void on_pair(const TimedImage pair[2]);
   void take(std::unique_ptr<StereoFrame> frame);
   void publish(const StereoFrame& frame);
+  std_msgs::Header joint_header(const ros::Time& stamp, std::size_t joint) const;
   void publish_transforms(const StereoFrame& frame, const std_msgs::Header& header);
   void publish_pictures(const StereoFrame& frame, const std_msgs::Header& header);
   void publish_diagnostics(const std::string& trouble);
   void check_size(const StereoFrame& frame) const;
+  void check_stamp(const StereoFrame& frame) const;
+  std::string trouble_of(TopicInput& input);
 
   ros::NodeHandle nh_, images_;
   StereoRig rig_;
@@ -59,7 +62,8 @@ class MocapNode {
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::WallTime last_markers_, last_debug_, last_report_;
-  ros::Time last_report_time_;
+  ros::Time last_report_time_, last_asked_;
+  std::string last_trouble_;
 
   Status status_;
   std::uint64_t index_ = 0;

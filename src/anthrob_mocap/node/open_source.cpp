@@ -41,6 +41,8 @@ std::unique_ptr<FrameSource> open_source(const std::string& kind, const StereoRi
   if (kind == "folder") {
     FolderSource::Options options;
     take(settings, "rate", number_of, options.rate);
+    const double tolerance = sync_tolerance(settings);
+    if (tolerance > 0.0) options.sync_tolerance = tolerance;
     return std::make_unique<FolderSource>(required(settings, "left", "a folder of images"),
                                           required(settings, "right", "a folder of images"),
                                           options);

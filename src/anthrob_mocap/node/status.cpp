@@ -46,6 +46,7 @@ Status::Status(const std::string& name, const StereoRig& rig, const TargetSet& s
                const TrackerOptions& options)
     : name_(name), health_(rig, matching_of(set, options)) {
   for (const MarkerTarget& target : set.targets) targets_.push_back(target.name);
+  for (const BallJoint& joint : set.joints) joints_.push_back(joint.name);
   for (const Stage& stage : tracking_stages(rig, set, options)) stages_.push_back(stage.name);
   clear();
 }
@@ -111,6 +112,11 @@ void Status::judge(const std::string& trouble, DiagnosticStatus& status) const {
       if (health_.poses() == 0) status.message = health_.advice();
       return;
     }
+  }
+  for (const std::size_t j : health_.joints_without_velocity()) {
+    status.message = joints_[j] + " is seen, but never twice within " +
+                     text(JointEstimator::kLongestGap) + " s: no velocity, so no state";
+    return;
   }
   status.level = DiagnosticStatus::OK;
   status.message = health_.frames() > 0 ? "tracking" : "waiting";

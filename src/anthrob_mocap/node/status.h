@@ -33,7 +33,7 @@ class Status {
   void clear();
 
   std::string name_;
-  std::vector<std::string> targets_, stages_;
+  std::vector<std::string> targets_, joints_, stages_;
   std::mutex mutex_;
   Health health_;
   std::vector<double> processing_, delay_;  ///< [s] by frame

@@ -1,4 +1,5 @@
-// The offline command: its contract, and one clear line for everything that is wrong.
+// The offline command: its contract, and one clear line for everything that is wrong; and that
+// which calibrates a target.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -127,11 +128,37 @@ TEST_F(Offline, TakesTimesFromAFile) {
   EXPECT_DOUBLE_EQ(std::stod(table()[3][0]), 100.02);
   folder_.write("right/times.csv", test::replaced(times, "100.030000", "100.045000"));
   refuse("index 3: unsynchronised pair: left and right are 15.0");
+  EXPECT_EQ(run("--sync-tolerance 0.02"), 0) << folder_.read("err");
   folder_.write("right/times.csv", "index,t\n0,zero\n");
   refuse("times.csv:2: 0,zero: expected index,t");
-  folder_.write("right/times.csv", "");
+  std::filesystem::remove(folder_.path("right/times.csv"));
   folder_.write("left/times.csv", "index,t\n0,1\n");
   refuse("no time for 000001.png");
+}
+
+TEST_F(Offline, RefusesTimesThatAreNone) {
+  for (const char* place : {"times.csv", "left/times.csv", "right/times.csv"}) {
+    for (const char* none : {"", "index,t\n"}) {
+      folder_.write(place, none);
+      refuse("times.csv: holds no time: expected lines index,t");
+    }
+    std::filesystem::remove(folder_.path(place));
+  }
+  folder_.folder("left/times.csv");
+  refuse("left/times.csv: holds no time");
+}
+
+TEST_F(Offline, RefusesTimesThatNoStampCanSay) {
+  for (const char* t : {"-1", "4294967296", "1e300", "inf", "nan"}) {
+    const std::string line = std::string("1,") + t;
+    folder_.write("left/times.csv", "index,t\n0,1\n" + line + "\n");
+    refuse("left/times.csv:3: " + line + ": expected a time >= 0 and below 2^32 [s]");
+  }
+  std::filesystem::remove(folder_.path("left/times.csv"));
+  for (const std::string side : {"left", "right"}) {
+    std::filesystem::rename(file(side, kFrames - 1), folder_.path(side) + "/20260101120000123.png");
+  }
+  refuse("left: 20260101120000123.png: number 20260101120000123 at 60.0");
 }
 
 TEST_F(Offline, RefusesImagesItCannotUse) {
@@ -140,6 +167,15 @@ TEST_F(Offline, RefusesImagesItCannotUse) {
   refuse("left/000003.png: truncated image");
   folder_.write("left/000003.png", "not an image");
   refuse("left/000003.png: not an image that can be decoded");
+  for (const std::string header :
+       {"P5\n648 488\n255\n", "P5 # by hand\n# white\n648\t488 65535 "}) {
+    folder_.write("left/000003.png", header + std::string(648 * 488 - 1, 'a'));
+    refuse("left/000003.png: truncated image");
+  }
+  folder_.write("left/000003.png", "P5\n648");
+  refuse("left/000003.png: truncated image");
+  folder_.write("left/000003.png", "P5\n648 488\n255\n" + std::string(648 * 488, '\0'));
+  EXPECT_EQ(run(), 0) << folder_.read("err");
   folder_.write("left/000003.png", "");
   refuse("left/000003.png: the file is empty");
   cv::imwrite(file("left", 3), cv::Mat(488, 648, CV_16U, cv::Scalar(0)));
@@ -175,6 +211,63 @@ TEST_F(Offline, KnowsItsArguments) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_EQ(run("--out /nowhere/poses.csv"), 2);  // twice
   EXPECT_EQ(std::system((std::string(ANTHROB_MOCAP_OFFLINE) + " 2> /dev/null").c_str()) >> 8, 2);
+}
+
+/// A recording of both targets of which by hand only the humerus is known to a centimetre.
+class CalibrateTarget : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const StereoRig rig = make_rig();
+    folder_.folder("calibration"), folder_.folder("left"), folder_.folder("right");
+    folder_.write("calibration/left.yaml", rig.camera(kLeft).to_yaml());
+    folder_.write("calibration/right.yaml", rig.camera(kRight).to_yaml());
+    TargetSet by_hand = make_targets();
+    by_hand.joints.clear();
+    by_hand.targets[0].markers = {{0.0, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.0255, 0.0433, 0.0}};
+    by_hand.targets[1].markers[0].x() += 0.003;
+    folder_.write("by_hand.yaml", by_hand.to_yaml());
+    Renderer renderer(rig, RenderOptions());
+    const test::Motion motion = test::swing(0.6, 1.0);
+    for (int i = 0; i < 24; ++i) {
+      const Scene scene = test::scene_of(make_targets(), motion(i / 5.0));
+      for (const Side side : {kLeft, kRight}) {
+        Image image;
+        renderer.render(side, {scene}, static_cast<std::uint64_t>(i), image);
+        write_grey_image(folder_.path(name(side)) + "/" + std::to_string(100 + i) + ".png", image);
+      }
+    }
+  }
+  int run(const std::string& more = "") {
+    const std::string command = std::string(ANTHROB_MOCAP_CALIBRATE_TARGET) + " --left " +
+                                folder_.path("left") + " --right " + folder_.path("right") +
+                                " --calibration " + folder_.path("calibration") + " --targets " +
+                                folder_.path("by_hand.yaml") + " --name humerus --out " +
+                                folder_.path("targets.yaml") + " " + more + " > " +
+                                folder_.path("out") + " 2> " + folder_.path("err");
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(CalibrateTarget, KeepsItsResultBesideTargetsThatAreGuessesYet) {
+  ASSERT_EQ(run(), 0) << folder_.read("err");
+  const std::string note = folder_.read("err");
+  EXPECT_NE(note.find("target scapula: ambiguous: "), std::string::npos) << note;
+  EXPECT_EQ(note.find("target humerus"), std::string::npos) << note;
+  const TargetSet result = TargetSet::load(folder_.path("targets.yaml"), 0.0);
+  const auto edge = [](const TargetSet& set) {
+    return (set.targets[1].markers[0] - set.targets[1].markers[1]).norm();
+  };
+  EXPECT_NEAR(edge(result), edge(make_targets()), 2e-4);
+}
+
+TEST_F(CalibrateTarget, RefusesAResultThatIsAmbiguousItself) {
+  folder_.write("wide.yaml", "labelling: {edge_tolerance: 0.1}\n");
+  EXPECT_EQ(run("--settings " + folder_.path("wide.yaml")), 2);
+  const std::string error = folder_.read("err");
+  EXPECT_NE(error.find("target humerus: ambiguous: "), std::string::npos) << error;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("targets.yaml")));
 }
 
 }  // namespace

@@ -74,6 +74,15 @@ TEST_P(EitherMode, HandsOnWhatAStageThrows) {
       BadInput);
 }
 
+TEST_P(EitherMode, HandsOnWhatTheSinkThrowsWithoutBeingDrained) {
+  Pipeline pipeline({{"works", {[](Packet&) {}}}}, GetParam(), 2,
+                    [](PacketPtr) { throw std::runtime_error("sink"); });
+  const auto push_for_long = [&] {
+    for (int i = 0; i < 1000; ++i) pipeline.push(std::make_unique<Number>());
+  };
+  EXPECT_THROW(push_for_long(), std::runtime_error);
+}
+
 TEST(Pipeline, RefusesNonsense) {
   EXPECT_THROW(Pipeline({}, PipelineMode::kSequential, 1, [](PacketPtr) {}), std::invalid_argument);
   EXPECT_THROW(Pipeline({{"s", {}}}, PipelineMode::kThreaded, 0, [](PacketPtr) {}),
@@ -218,6 +227,31 @@ TEST(Health, SeesARigThatHasMoved) {
   EXPECT_GT(std::abs(moved.row_error()), 0.3);
 }
 
+TEST(Health, KnowsJointsWhosePicturesAreTooRare) {
+  Health health(make_rig(), MatchingOptions());
+  JointEstimator estimator(make_targets().joints[0]);
+  TargetPose seen;
+  seen.valid = true;
+  double t = 0.0;
+  const auto see = [&](double after, bool hidden = false) {
+    StereoFrame frame;
+    frame.joints = {estimator.estimate(t += after, seen, hidden ? TargetPose() : seen)};
+    health.add(frame);
+    health.clear();  // as after every report
+    return health.joints_without_velocity();
+  };
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(see(0.05).empty()) << i;
+  EXPECT_TRUE(see(1.0).empty());  // one gap
+  EXPECT_TRUE(see(0.05).empty());
+  EXPECT_TRUE(see(0.2).empty());
+  EXPECT_TRUE(see(0.2, true).empty());
+  EXPECT_TRUE(see(0.2).empty());
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(see(0.2), std::vector<std::size_t>{0}) << i;
+  EXPECT_TRUE(see(0.05).empty());
+  for (int i = 0; i < 3; ++i) see(0.0);  // stamps that stand still
+  EXPECT_EQ(health.joints_without_velocity(), std::vector<std::size_t>{0});
+}
+
 TEST(TrackerFile, IsStrict) {
   const test::TemporaryFolder folder;
   folder.write("t.yaml", "segmentation: {threshold: 70}\nlabelling: {edge_tolerance: 0.002}\n");
@@ -230,6 +264,21 @@ TEST(TrackerFile, IsStrict) {
   folder.write("t.yaml", "segmentation: {threshold: 300}\n");
   test::expect_bad_input([&] { load_tracker_options(folder.path("t.yaml")); },
                          "segmentation.threshold: 300: expected a number between 1 and 254");
+}
+
+TEST(TrackerFile, RefusesWhatIsNoSectionAndBoundsThatAreSwapped) {
+  const test::TemporaryFolder folder;
+  const auto refuse = [&](const std::string& text, const std::string& part) {
+    folder.write("t.yaml", text);
+    test::expect_bad_input([&] { load_tracker_options(folder.path("t.yaml")); }, part);
+  };
+  refuse("segmentation: 200\n", "t.yaml:1: segmentation: 200: expected a map");
+  refuse("matching: oops\n", "t.yaml:1: matching: oops: expected a map");
+  refuse("pose: []\n", "t.yaml:1: pose: a list of 0: expected a map");
+  refuse("segmentation: {min_area: 5000, max_area: 10}\n",
+         "segmentation: min_area 5000, max_area 10: expected min_area < max_area");
+  refuse("segmentation: {min_area: 6000}\n", "min_area 6000, max_area 5000");
+  refuse("matching: {max_depth: 0.1}\n", "expected min_depth < max_depth");
 }
 
 }  // namespace

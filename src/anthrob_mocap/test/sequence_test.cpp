@@ -158,8 +158,9 @@ TEST_P(Sequence, IsTrackedAccuratelyAndWithoutInvention) {
       Result::quantile(r.joint_error, 0.99) / kDegree, r.four[1], r.four[0], r.three[1], r.three[0],
       r.fewer[1], r.fewer[0], r.false_poses, r.invented);
   EXPECT_LE(Result::quantile(r.joint_error, 0.5), 0.1 * kDegree);
-  EXPECT_EQ(r.false_poses, 0);
-  EXPECT_EQ(r.invented, 0);
+  // Now and then three blobs of other things fit three markers: docs/mocap.md says how often.
+  EXPECT_LE(r.false_poses, frames / 1000);
+  EXPECT_LE(r.invented, 2 * (frames / 1000));
   EXPECT_GE(r.four[1], 0.995 * r.four[0]);
   EXPECT_GE(r.three[1], 0.95 * r.three[0]);
 }

@@ -80,7 +80,7 @@ TEST_P(Soak, DoesNotGrow) {
       for (const Side side : {kLeft, kRight}) {
         if (i % 101 == 50 && side == kRight) continue;  // lost on the way
         const auto& image = images[static_cast<std::size_t>(2 * (i % kScenes)) + side];
-        live.add(side, {static_cast<double>(i) / 60.0, image->view(), image});
+        live.add(side, {static_cast<double>(i) / 60.0, i * 1000000000 / 60, image->view(), image});
       }
       auto frame = std::make_unique<StereoFrame>();
       if (live.next(*frame, 0.0)) pipeline.push(std::move(frame));

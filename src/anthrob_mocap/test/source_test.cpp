@@ -12,6 +12,9 @@
 #include "anthrob_mocap/source/live_pair.h"
 #include "anthrob_mocap/source/pairing.h"
 #include "expect_bad_input.h"
+#ifdef ANTHROB_HAVE_DC1394
+#include "anthrob_mocap/source/dc1394_source.h"
+#endif
 
 namespace anthrob {
 namespace mocap {
@@ -122,6 +125,7 @@ TEST_F(Cameras, StreamPairs) {
   const double now =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
   EXPECT_NEAR(last_.t, now, 5.0);
+  EXPECT_EQ(last_.t, 1e-9 * static_cast<double>(last_.ns));
 }
 
 TEST_F(Cameras, AreReportedWhenLostAndTakenBack) {
@@ -149,6 +153,19 @@ TEST_F(Cameras, ThatAreNotThereAreNamed) {
   })) << source.trouble();
   test::expect_bad_input([&] { AravisSource none(options("")); }, "names of a left and a right");
 }
+
+#ifdef ANTHROB_HAVE_DC1394
+TEST(FireWire, TakesNoTriggerItDoesNotKnow) {
+  CameraOptions options;
+  options.name[kLeft] = options.name[kRight] = "1";
+  for (const char* word : {"software", "Line0", "extern"}) {
+    options.trigger = word;
+    test::expect_bad_input(
+        [&] { Dc1394Source source(options); },
+        std::string("dc1394: trigger '") + word + "': expected external or free");
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace mocap

@@ -5,7 +5,7 @@
 
 #include "anthrob_mocap/calibration/target_calibration.h"
 #include "anthrob_mocap/core/errors.h"
-#include "anthrob_mocap/pipeline/tracker.h"
+#include "anthrob_mocap/pipeline/tracker_file.h"
 #include "anthrob_mocap/source/folder_source.h"
 #include "tool.h"
 
@@ -14,16 +14,17 @@ namespace mocap = anthrob::mocap;
 namespace {
 
 struct Arguments {
-  std::string left, right, calibration, targets, name, out;
+  std::string left, right, calibration, targets, name, out, settings;
 };
 
 /// Points in space of every pair of images.
 std::vector<std::vector<mocap::MarkerPoint>> read_points(const Arguments& arguments,
-                                                         const mocap::TargetSet& set) {
+                                                         const mocap::TargetSet& set,
+                                                         const mocap::TrackerOptions& options) {
   const auto rig = mocap::StereoRig::load(arguments.calibration);
   std::vector<std::vector<mocap::MarkerPoint>> frames;
-  mocap::Pipeline pipeline(mocap::tracking_stages(rig, set, {}), mocap::PipelineMode::kSequential,
-                           1, [&](mocap::PacketPtr packet) {
+  mocap::Pipeline pipeline(mocap::tracking_stages(rig, set, options),
+                           mocap::PipelineMode::kSequential, 1, [&](mocap::PacketPtr packet) {
                              frames.push_back(static_cast<mocap::StereoFrame&>(*packet).points);
                            });
   mocap::FolderSource source(arguments.left, arguments.right, {});
@@ -34,13 +35,28 @@ std::vector<std::vector<mocap::MarkerPoint>> read_points(const Arguments& argume
   }
 }
 
+/// What is still ambiguous with another target in it: those may be guesses, to be calibrated yet.
+void note_others(const mocap::TargetSet& set, const std::string& name, double edge_tolerance) {
+  for (const mocap::MarkerTarget& a : set.targets) {
+    for (const mocap::MarkerTarget& b : set.targets) {
+      const std::string why = mocap::find_ambiguity(a, b, edge_tolerance);
+      if (!why.empty() && !(a.name == name && b.name == name)) {
+        std::cerr << "not yet to be tracked: target " << a.name << ": " << why << "\n";
+      }
+    }
+  }
+}
+
 int calibrate(const Arguments& arguments) {
+  mocap::TrackerOptions options;
+  if (!arguments.settings.empty()) options = mocap::load_tracker_options(arguments.settings);
+  const double edge_tolerance = options.labelling.edge_tolerance;
   // A guess may look ambiguous at the tolerance of tracking; the result must not.
   const double kNone = 0.0;
   mocap::TargetSet set = mocap::TargetSet::load(arguments.targets, kNone);
   for (mocap::MarkerTarget& target : set.targets) {
     if (target.name != arguments.name) continue;
-    const auto result = mocap::calibrate_target(target, read_points(arguments, set));
+    const auto result = mocap::calibrate_target(target, read_points(arguments, set, options));
     for (std::size_t i = 0; i < result.seen.size(); ++i) {
       std::printf("marker %zu: moved by %.2f mm, seen in %d frames\n", i,
                   1e3 * (result.target.markers[i] - target.markers[i]).norm(), result.seen[i]);
@@ -48,10 +64,13 @@ int calibrate(const Arguments& arguments) {
     std::printf("%d frames, %.3f mm rms\n", result.frames, 1e3 * result.rms);
     target = result.target;
     const std::string text = set.to_yaml();
-    mocap::TargetSet::parse(text, arguments.out, mocap::LabellingOptions().edge_tolerance);
+    mocap::TargetSet::parse(text, arguments.out, kNone);
+    const std::string why = mocap::find_ambiguity(target, target, edge_tolerance);
+    if (!why.empty()) throw mocap::BadInput("target " + target.name + ": " + why);
     std::ofstream out(arguments.out);
     out << text;
     if (!out.flush()) throw std::runtime_error(arguments.out + ": cannot be written");
+    note_others(set, target.name, edge_tolerance);
     return mocap::tool::kDone;
   }
   throw mocap::BadInput("--name " + arguments.name + ": no such target in " + arguments.targets);
@@ -71,5 +90,6 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--name", a.name, "the target to calibrate")->required();
   app.add_option("--out", a.out, "targets.yaml to be written")->required();
+  app.add_option("--settings", a.settings, "options of the stages (YAML)");
   return mocap::tool::run(app, argc, argv, [&] { return calibrate(a); });
 }

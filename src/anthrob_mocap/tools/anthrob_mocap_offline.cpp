@@ -116,6 +116,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 254));
   app.add_option("--rate", a.folder.rate, "pairs a second where there is no times.csv")
       ->check(CLI::Range(0.001, 100000.0));
+  app.add_option("--sync-tolerance", a.folder.sync_tolerance,
+                 "[s] between left and right in their times.csv")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--pipeline", a.pipeline, "sequential or threaded: same results");
   return mocap::tool::run(app, argc, argv, [&] { return track(a); });
 }

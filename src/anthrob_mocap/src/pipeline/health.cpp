@@ -5,6 +5,12 @@
 namespace anthrob {
 namespace mocap {
 
+namespace {
+
+constexpr int kRare = 3;  // sightings in a row without a velocity that are no coincidence
+
+}  // namespace
+
 Health::Health(const StereoRig& rig, const MatchingOptions& options)
     : rig_(rig), matcher_(rig, options) {}
 
@@ -23,6 +29,19 @@ void Health::add(const StereoFrame& frame) {
     sums_.pixel_rms += pose.pixel_rms;
   }
   if (sums_.poses == before) try_swapped(frame);
+  still_.resize(frame.joints.size(), 0);
+  for (std::size_t j = 0; j < still_.size(); ++j) {
+    const JointEstimate& joint = frame.joints[j];
+    if (joint.valid) still_[j] = joint.velocity_valid ? 0 : std::min(still_[j] + 1, kRare);
+  }
+}
+
+std::vector<std::size_t> Health::joints_without_velocity() const {
+  std::vector<std::size_t> result;
+  for (std::size_t j = 0; j < still_.size(); ++j) {
+    if (still_[j] == kRare) result.push_back(j);
+  }
+  return result;
 }
 
 void Health::try_swapped(const StereoFrame& frame) {

@@ -98,6 +98,8 @@ class ThreadedRunner final : public Pipeline::Runner {
     {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return free_ > 0; });
+      // It stays: what is in flight must not run on from a stage that has failed.
+      if (failure_) std::rethrow_exception(failure_);
       --free_;
     }
     nodes_.front()->try_put(packet.release());

@@ -1,15 +1,34 @@
 #include "anthrob_mocap/pipeline/tracker_file.h"
 
+#include <sstream>
+
 #include "anthrob_mocap/file/settings.h"
 
 namespace anthrob {
 namespace mocap {
 
+namespace {
+
+/// Between bounds that are swapped there is nothing, so nothing would be seen.
+void expect_order(const Settings& node, const std::string& low, double least,
+                  const std::string& high, double most) {
+  if (least < most) return;
+  std::ostringstream text;
+  text << low << " " << least << ", " << high << " " << most << ": expected " << low << " < "
+       << high;
+  node.fail(text.str());
+}
+
+}  // namespace
+
 TrackerOptions load_tracker_options(const std::string& path) {
   const Settings file = Settings::load(path);
   TrackerOptions options;
   const auto section = [&](const char* name, auto&& read) {
-    if (file.has(name)) read(file.at(name));
+    if (!file.has(name)) return;
+    const Settings node = file.at(name);
+    node.keys();  // refuses what is no map
+    read(node);
   };
   const auto number = [](const Settings& node, const char* key, double& value, double lo,
                          double hi) { value = node.number_or(key, value, lo, hi); };
@@ -18,6 +37,7 @@ TrackerOptions load_tracker_options(const std::string& path) {
     if (node.has("threshold")) o.threshold = node.at("threshold").integer(1, 254);
     number(node, "min_area", o.min_area, 1.0, 1e6);
     number(node, "max_area", o.max_area, 1.0, 1e6);
+    expect_order(node, "min_area", o.min_area, "max_area", o.max_area);
     number(node, "max_axis_ratio", o.max_axis_ratio, 1.0, 100.0);
     number(node, "min_fill", o.min_fill, 0.0, 1.0);
     number(node, "least_shape_area", o.least_shape_area, 0.0, 1e6);
@@ -27,6 +47,7 @@ TrackerOptions load_tracker_options(const std::string& path) {
     number(node, "epipolar_tolerance", o.epipolar_tolerance, 0.01, 100.0);
     number(node, "min_depth", o.min_depth, 0.01, 100.0);
     number(node, "max_depth", o.max_depth, 0.01, 1000.0);
+    expect_order(node, "min_depth", o.min_depth, "max_depth", o.max_depth);
     number(node, "size_factor", o.size_factor, 1.0, 100.0);
   });
   section("labelling", [&](const Settings& node) {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "anthrob_mocap/core/errors.h"
@@ -105,7 +106,9 @@ class Camera {
     auto image = std::make_shared<Image>();
     image->resize(arv_buffer_get_image_width(buffer), arv_buffer_get_image_height(buffer));
     std::copy_n(data, std::min(size, image->pixels.size()), image->pixels.data());
-    timed.t = 1e-9 * static_cast<double>(arv_buffer_get_system_timestamp(buffer)) - 0.5 * exposure;
+    timed.ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer)) -
+               std::llround(0.5e9 * exposure);
+    timed.t = 1e-9 * static_cast<double>(timed.ns);
     timed.image = image->view();
     timed.owner = image;
   }
@@ -188,7 +191,9 @@ class AravisSource::Implementation {
   std::thread threads_[2], trigger_;
 };
 
-AravisSource::AravisSource(const CameraOptions& options) {
+AravisSource::AravisSource(const CameraOptions& wanted) {
+  CameraOptions options = wanted;
+  if (options.trigger.empty()) options.trigger = "software";
   if (options.name[kLeft].empty() || options.name[kRight].empty()) {
     throw BadInput("aravis: expected the names of a left and a right camera");
   }

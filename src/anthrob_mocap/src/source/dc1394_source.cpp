@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <thread>
 
@@ -26,6 +27,13 @@ void check(dc1394error_t code, const char* what) {
   }
 }
 
+/// Whether the cameras wait for pulses on their wires.
+bool parse_trigger(const std::string& word) {
+  if (word == "free") return false;
+  if (word.empty() || word == "external") return true;
+  throw BadInput("dc1394: trigger '" + word + "': expected external or free");
+}
+
 /// One open camera that streams.
 class Camera {
  public:
@@ -42,8 +50,8 @@ class Camera {
     check(dc1394_feature_set_absolute_value(camera, DC1394_FEATURE_SHUTTER,
                                             static_cast<float>(options.exposure)),
           "shutter");
-    const bool free = options.trigger == "free";
-    check(dc1394_external_trigger_set_power(camera, free ? DC1394_OFF : DC1394_ON), "trigger");
+    const bool external = parse_trigger(options.trigger);
+    check(dc1394_external_trigger_set_power(camera, external ? DC1394_ON : DC1394_OFF), "trigger");
     check(dc1394_capture_setup(camera, kBuffers, DC1394_CAPTURE_FLAGS_DEFAULT), "capture");
     check(dc1394_video_set_transmission(camera, DC1394_ON), "transmission");
   }
@@ -64,7 +72,9 @@ class Camera {
         std::copy_n(frame->image + static_cast<std::size_t>(y) * frame->stride, image->width,
                     image->row(y));
       }
-      timed.t = 1e-6 * static_cast<double>(frame->timestamp) - 0.5 * exposure;
+      timed.ns =
+          1000 * static_cast<std::int64_t>(frame->timestamp) - std::llround(0.5e9 * exposure);
+      timed.t = 1e-9 * static_cast<double>(timed.ns);
       timed.image = image->view();
       timed.owner = image;
     }
@@ -142,8 +152,10 @@ class Dc1394Source::Implementation {
   std::thread threads_[2];
 };
 
-Dc1394Source::Dc1394Source(const CameraOptions& options)
-    : implementation_(std::make_unique<Implementation>(options)) {}
+Dc1394Source::Dc1394Source(const CameraOptions& options) {
+  parse_trigger(options.trigger);
+  implementation_ = std::make_unique<Implementation>(options);
+}
 
 Dc1394Source::~Dc1394Source() = default;
 

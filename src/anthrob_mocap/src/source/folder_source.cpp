@@ -12,6 +12,15 @@ namespace mocap {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Whether a stamp of ROS, which counts seconds from 0 in 32 bits, can say it.
+bool expressible(double t) {
+  return t >= 0.0 && t < 4294967296.0;
+}
+
+}  // namespace
+
 FolderSource::FolderSource(const std::string& left, const std::string& right,
                            const Options& options)
     : folder_{left, right} {
@@ -30,6 +39,7 @@ FolderSource::FolderSource(const std::string& left, const std::string& right,
 
 FolderSource::Times FolderSource::read_times(const std::string& file) {
   std::ifstream in(file);
+  if (!in) throw BadInput(file + ": cannot be read");
   std::string line;
   Times times;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -38,14 +48,19 @@ FolderSource::Times FolderSource::read_times(const std::string& file) {
     long index = 0;
     double t = 0.0;
     char rest = 0;
-    if (std::sscanf(line.c_str(), "%ld,%lf%c", &index, &t, &rest) != 2 || !std::isfinite(t)) {
+    if (std::sscanf(line.c_str(), "%ld,%lf%c", &index, &t, &rest) != 2) {
       throw BadInput(file + ":" + std::to_string(number) + ": " + line + ": expected index,t");
+    }
+    if (!expressible(t)) {
+      throw BadInput(file + ":" + std::to_string(number) + ": " + line +
+                     ": expected a time >= 0 and below 2^32 [s]");
     }
     if (!times.emplace(index, t).second) {
       throw BadInput(file + ":" + std::to_string(number) + ": index " + std::to_string(index) +
                      " appears twice");
     }
   }
+  if (times.empty()) throw BadInput(file + ": holds no time: expected lines index,t");
   return times;
 }
 
@@ -77,6 +92,11 @@ void FolderSource::load_times(const Options& options) {
       throw BadInput((times.empty() ? folder_[kLeft] : file) + ": " + names_[i] +
                      ": expected times that increase");
     }
+    if (!expressible(times_[i])) {
+      throw BadInput(folder_[kLeft] + ": " + names_[i] + ": number " + std::to_string(index) +
+                     " at " + std::to_string(options.rate) +
+                     " Hz: expected a time >= 0 and below 2^32 s");
+    }
   }
 }
 
@@ -101,6 +121,7 @@ FrameSource::Grab FolderSource::next(StereoFrame& frame, double) {
   }
   frame.index = position_;
   frame.t = times_[position_];
+  frame.ns = std::llround(1e9 * frame.t);
   ++position_;
   return Grab::kFrame;
 }

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
+#include <sstream>
 
 #include "anthrob_mocap/core/errors.h"
 
@@ -25,6 +27,20 @@ Bytes read_bytes(const std::string& file) {
   return Bytes(std::istreambuf_iterator<char>(in), {});
 }
 
+/// Whether a binary PGM ends before what its header promises.
+bool truncated_pgm(const Bytes& bytes) {
+  std::istringstream in(std::string(bytes.begin(), bytes.end()));
+  std::size_t numbers[3] = {0, 0, 0};  // width, height, white
+  in.ignore(2);
+  for (std::size_t& number : numbers) {
+    while ((in >> std::ws).peek() == '#') in.ignore(std::numeric_limits<int>::max(), '\n');
+    if (!(in >> number) || number > 65535) return in.eof();
+  }
+  if (in.eof()) return true;
+  const auto header = static_cast<std::size_t>(in.tellg()) + 1;
+  return bytes.size() < header + numbers[0] * numbers[1] * (numbers[2] > 255 ? 2 : 1);
+}
+
 /// The decoders fill what is missing with grey, or chatter on standard error.
 bool truncated(const Bytes& bytes) {
   const auto begins = [&](const Bytes& mark) {
@@ -37,6 +53,7 @@ bool truncated(const Bytes& bytes) {
   };
   if (begins({0x89, 'P', 'N', 'G'})) return !holds_near_end({'I', 'E', 'N', 'D'});
   if (begins({0xff, 0xd8})) return !holds_near_end({0xff, 0xd9});
+  if (begins({'P', '5'})) return truncated_pgm(bytes);
   return false;
 }
 

@@ -42,6 +42,7 @@ bool LivePair::next(StereoFrame& frame, double timeout) {
     frame.owner[side] = pairs_.front().image[side].owner;
   }
   frame.t = pairs_.front().image[kLeft].t;
+  frame.ns = pairs_.front().image[kLeft].ns;
   frame.index = index_++;
   pairs_.pop_front();
   return true;

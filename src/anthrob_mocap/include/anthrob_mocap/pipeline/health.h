@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "anthrob_mocap/pipeline/stereo_frame.h"
 
@@ -13,13 +14,17 @@ class Health {
   Health(const StereoRig& rig, const MatchingOptions& options);
 
   void add(const StereoFrame& frame);
-  void clear() { sums_ = Sums(); }
+  void clear() { sums_ = Sums(); }  ///< all but what joints_without_velocity stands on
 
   int frames() const { return sums_.frames; }
   int poses() const { return sums_.poses; }
   /// Mean of v_left - v_right over the markers used [pixel]; far from 0: the rig has moved.
   double row_error() const { return sums_.poses > 0 ? sums_.row_error / sums_.poses : 0.0; }
   double pixel_rms() const { return sums_.poses > 0 ? sums_.pixel_rms / sums_.poses : 0.0; }
+
+  /// Joints that were seen some times in a row, but never twice within the longest gap that their
+  /// velocity allows: nothing is published of them. Pictures are too rare, or not stamped.
+  std::vector<std::size_t> joints_without_velocity() const;
 
   /// What must be wrong with the images or the calibration; empty if nothing must.
   std::string contradiction() const;
@@ -37,6 +42,7 @@ class Health {
   StereoRig rig_;
   EpipolarMatcher matcher_;
   Sums sums_;
+  std::vector<int> still_;  ///< by joint: sightings in a row that had no velocity
 };
 
 }  // namespace mocap

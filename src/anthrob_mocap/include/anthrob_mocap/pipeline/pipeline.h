@@ -39,6 +39,7 @@ class Pipeline {
 
   /// Sequential: returns when the packet is done. Threaded: returns at once, unless `in_flight`
   /// packets are on their way; then it waits for the first of them.
+  /// @throws what a stage or the sink has thrown; threaded, from the next push on, until drain
   void push(PacketPtr packet);
   /// Waits until nothing is in flight.
   /// @throws what a stage has thrown

@@ -19,7 +19,8 @@ namespace mocap {
 /// A pair of images and all that the stages find in it, each member the output of one stage.
 struct StereoFrame final : Packet {
   std::uint64_t index = 0;
-  double t = 0.0;  ///< [s] exposure
+  double t = 0.0;       ///< [s] exposure
+  std::int64_t ns = 0;  ///< the same [ns], exactly as the source says it; of the left image
   std::array<ImageView, 2> image;
   std::array<std::shared_ptr<const void>, 2> owner;  ///< keeps the pixels alive
 

@@ -7,12 +7,14 @@ namespace mocap {
 
 /// Two cameras that are driven by this computer.
 struct CameraOptions {
-  std::string name[2];               ///< left, right: as the library calls them
-  int width = 0, height = 0;         ///< [pixel] as calibrated
-  double rate = 60.0;                ///< [Hz] of triggers, or of cameras that run freely
-  double exposure = 0.0005;          ///< [s]
-  std::string trigger = "software";  ///< software, free, or a line of the camera ("Line0")
-  double sync_tolerance = 0.004;     ///< [s] between the arrivals of a pair
+  std::string name[2];        ///< left, right: as the library calls them
+  int width = 0, height = 0;  ///< [pixel] as calibrated
+  double rate = 60.0;         ///< [Hz] of triggers, or of cameras that run freely
+  double exposure = 0.0005;   ///< [s]
+  /// Empty: the first of its source's. aravis: software, free, or a line of the camera ("Line0");
+  /// dc1394: external, free.
+  std::string trigger;
+  double sync_tolerance = 0.004;  ///< [s] between the arrivals of a pair
 };
 
 }  // namespace mocap

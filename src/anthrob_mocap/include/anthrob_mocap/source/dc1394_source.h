@@ -13,7 +13,7 @@ namespace mocap {
 /// Compiled but never run by us: no such camera is at hand.
 class Dc1394Source final : public FrameSource {
  public:
-  /// @throws BadInput if a name is no GUID
+  /// @throws BadInput if a name is no GUID or the trigger neither external nor free
   explicit Dc1394Source(const CameraOptions& options);
   ~Dc1394Source() override;
 

@@ -13,7 +13,8 @@ namespace mocap {
 
 /// One camera's image and its exposure.
 struct TimedImage {
-  double t = 0.0;  ///< [s]
+  double t = 0.0;       ///< [s]
+  std::int64_t ns = 0;  ///< the same [ns]: today's seconds are only good to 119 ns
   ImageView image;
   std::shared_ptr<const void> owner;
 };
