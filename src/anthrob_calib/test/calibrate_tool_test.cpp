@@ -124,6 +124,13 @@ TEST_F(CalibrateTool, BitsAreEqualHoweverItIsRun) {
   EXPECT_EQ(calibrate("hosts", "--jobs 1", mpirun).status, 0);
   expect_same("one", "hosts");
 
+  // Begun on several, it goes on alone: what MPI loads is no other build.
+  ASSERT_EQ(calibrate("left", "--jobs 1 --generations 2", mpirun).status, 0);
+  const Outcome alone = calibrate("left", "--jobs 1 --resume");
+  EXPECT_EQ(alone.status, 0);
+  EXPECT_EQ(alone.errors, "");
+  expect_same("one", "left");
+
   // All processes stop when one of them cannot go on.
   const Outcome unwritable =
       calibrate("c.yaml/below", "--jobs 1", std::string("timeout 30 env ") + mpirun);
@@ -141,6 +148,67 @@ TEST_F(CalibrateTool, LeastSquaresBeginsAnewOnResumeAndNothingIsOverwrittenWitho
   EXPECT_EQ(content(path("squares/result.json")), result);
   EXPECT_EQ(calibrate("squares", "--optimiser least_squares --resume").status, 0);
   EXPECT_EQ(content(path("squares/result.json")), result);
+}
+
+TEST_F(CalibrateTool, WhatAnotherProgramFoundIsFoundAnew) {
+  ASSERT_EQ(calibrate("same", "--generations 2").status, 0);
+  ASSERT_EQ(calibrate("other", "--generations 1").status, 0);
+  std::string journal = content(path("other/journal.txt"));
+  // Its fitnesses: of a program that calculated something else.
+  for (std::size_t at = 0; (at = journal.find("0.00", at)) != std::string::npos;) {
+    journal.replace(at, 4, "0.01");
+  }
+  write(path("other/journal.txt"), journal);
+  const Outcome again = calibrate("other", "--generations 2 --resume",
+                                  "LD_PRELOAD=" + std::string(ANTHROB_OTHER_LIBRARY) + " ");
+  ASSERT_EQ(again.status, 0) << again.errors;
+  EXPECT_NE(again.errors.find("of another build of the program"), std::string::npos)
+      << again.errors;
+  for (const char* file : {"/result.json", "/model.yaml"}) {
+    EXPECT_EQ(content(path("same") + file), content(path("other") + file)) << file;
+  }
+}
+
+TEST_F(CalibrateTool, EvaluatingLeavesAFinishedCalibrationAlone) {
+  ASSERT_EQ(calibrate("finished", "--generations 1 --brief").status, 0);
+  const std::string model = content(path("finished/model.yaml"));
+  for (const char* more : {"--evaluate", "--evaluate --resume"}) {
+    const Outcome outcome = calibrate("finished", more);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.errors.find("expected another --out"), std::string::npos) << outcome.errors;
+  }
+  EXPECT_EQ(content(path("finished/model.yaml")), model);
+  EXPECT_EQ(calibrate("errors_only", "--evaluate").status, 0);
+  EXPECT_EQ(calibrate("errors_only", "--evaluate").status, 0) << "again";
+}
+
+TEST_F(CalibrateTool, NothingThatIsReadIsReplaced) {
+  const auto refused = [](const std::string& out, const std::string& more, const char* file) {
+    const std::string before = content(path(out + "/" + file));
+    const Outcome outcome = calibrate(out, more);
+    EXPECT_EQ(outcome.status, 2) << more;
+    EXPECT_NE(outcome.errors.find(std::string(file) + " is read and would be replaced"),
+              std::string::npos)
+        << outcome.errors;
+    EXPECT_EQ(content(path(out + "/" + file)), before);
+  };
+  // Written by hand, in the folder for what is found.
+  fs::create_directories(path("mine"));
+  write(path("mine/model.yaml"), "extends: " + kRig + "\n");
+  const std::string model = "--model " + path("mine/model.yaml");
+  refused("mine", model, "model.yaml");
+  refused("mine", "--evaluate " + model, "model.yaml");
+  fs::create_directory_symlink(path("mine"), path("link"));
+  refused("link", model, "model.yaml");
+  EXPECT_FALSE(fs::exists(path("mine/journal.txt")));
+
+  // What the model extends, also where nothing of it is left.
+  write(path("further.yaml"), "extends: [" + kRig + ", mine/model.yaml]\n");
+  refused("mine", "--model " + path("further.yaml"), "model.yaml");
+
+  ASSERT_EQ(calibrate("earlier", "--generations 1 --brief").status, 0);
+  fs::remove(path("earlier/journal.txt"));
+  refused("earlier", "--start " + path("earlier/result.json"), "result.json");
 }
 
 TEST_F(CalibrateTool, BriefItFindsTheSameAndLeavesOutWhatComesAfterTheSearch) {
@@ -246,7 +314,17 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
   write(path("unknown.yaml"), content(path("c.yaml")) + "colour: red\n");
   expect("--config " + path("unknown.yaml") + out + " --data " + path("eq"), "unknown key");
   expect(config + out + " --optimiser magic --data " + path("eq"), "expected evolution_strategy");
+  std::string text = content(path("c.yaml"));
+  write(path("target.yaml"), text.insert(text.find("seed: 3"), "target: 0.1, "));
+  expect(
+      "--config " + path("target.yaml") + out + " --optimiser least_squares --data " + path("eq"),
+      "target: 0.1: expected 0");
   expect(config + out + " --resume --data " + path("eq"), "expected the journal");
+
+  fs::create_directories(path("held_out"));
+  fs::copy(path("eq/E2"), path("held_out/of_them"), fs::copy_options::recursive);
+  expect(config + out + " --data " + path("eq") + " --validation " + path("held_out"),
+         "held_out: of_them is E2 of " + path("eq"));
   write(path("file"), "");
   expect(config + " --out " + path("file") + "/x --data " + path("eq"), "--out");
 

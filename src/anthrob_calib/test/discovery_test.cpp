@@ -313,6 +313,22 @@ std::string content(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+TEST_F(InterruptedRun, ToolDoesNotReplaceTheModelThatItReads) {
+  fs::create_directories(path("found"));
+  const std::string text = "extends: " + kConfig + "/driven_axis/model_I.yaml\n";
+  std::ofstream(path("found/model.yaml")) << text;
+  axis_recording(20.4, 0.0, 1).save(path("train"));
+  const std::string command = std::string(ANTHROB_DISCOVER) + " --model " +
+                              path("found/model.yaml") + " --train " + path("train") + " --test " +
+                              path("train") + " --out " + path("found") + " 2>" + path("errors");
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_NE(content(path("errors")).find("its model.yaml is read"), std::string::npos)
+      << content(path("errors"));
+  EXPECT_EQ(content(path("found/model.yaml")), text);
+}
+
 TEST_F(InterruptedRun, ToolSaysHowToGoOn) {
   axis_recording(20.4, 0.0, 1).save(path("train"));
   axis_recording(20.4, 0.0, 2).save(path("test"));

@@ -340,7 +340,25 @@ TEST_F(JournalTest, RefusesWhatItDoesNotBelongTo) {
   other.fingerprint = "another robot";
   EXPECT_THROW(Journal(function_, other), BadInput);
   Journal same(function_, options(true));
+  EXPECT_FALSE(same.outdated());
   EXPECT_THROW(search(settings("evolution_strategy", 3, 2), variables(2, 1.0), same), BadInput);
+}
+
+TEST_F(JournalTest, WhatAnotherBuildFoundIsFoundAnew) {
+  {
+    Journal journal(function_, options(false));
+    search(settings("evolution_strategy", 3), variables(2, 1.0), journal);
+    journal.save();
+  }
+  for (const bool first : {true, false}) {
+    Journal::Options newer = options(true);
+    newer.program = 7;
+    Journal journal(function_, newer);
+    EXPECT_EQ(journal.outdated(), first);
+    search(settings("evolution_strategy", 3), variables(2, 1.0), journal);
+    EXPECT_EQ(journal.replayed(), first ? 0 : journal.evaluations());
+    journal.save();
+  }
 }
 
 }  // namespace

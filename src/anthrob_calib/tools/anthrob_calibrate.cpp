@@ -1,6 +1,7 @@
 // Calibrates a model against recordings.
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -12,6 +13,8 @@
 #include "anthrob_calib/optimiser/mpi_evaluator.h"
 #include "anthrob_calib/optimiser/problem_evaluator.h"
 #include "anthrob_calib/report/calibration_report.h"
+#include "anthrob_calib/resume/fingerprint.h"
+#include "anthrob_config/extended_files.h"
 #include "anthrob_sim/tool/tool.h"
 
 namespace anthrob {
@@ -26,6 +29,7 @@ struct Arguments {
   bool resume = false, evaluate = false, brief = false;
   int jobs = 0, generations = 0;
   std::int64_t seed = -1;
+  std::uint64_t program = 0;  ///< fingerprint of this build
 };
 
 CalibrationConfig configure(const Arguments& arguments) {
@@ -63,12 +67,26 @@ void write(const Arguments& arguments, const CalibrationInput& input,
   identification::write_files(arguments.out, files);
 }
 
-/// An earlier search is not thrown away by a forgotten --resume.
+/// An earlier search is not thrown away by a forgotten --resume, nor for the errors of a model.
 void keep_earlier_search(const Arguments& arguments) {
   const fs::path journal = fs::path(arguments.out) / "journal.txt";
-  if (arguments.resume || arguments.evaluate || !fs::exists(journal)) return;
+  if (!fs::exists(journal)) return;
+  if (arguments.evaluate) {
+    throw BadInput(journal.string() + ": an earlier search; expected another --out to --evaluate");
+  }
+  if (arguments.resume) return;
   throw BadInput(journal.string() +
                  ": an earlier search; expected --resume to go on with it, or another --out");
+}
+
+/// What is read is not replaced: not the files themselves, and no model by one that extends it.
+void keep_input(const Arguments& arguments, const std::string& model_file) {
+  std::vector<std::string> read = extended_files(model_file);
+  for (const std::string& file : extended_files(arguments.config)) read.push_back(file);
+  for (const std::string& file : arguments.start) {
+    read.push_back(fs::weakly_canonical(file).string());
+  }
+  identification::require_kept(arguments.out, {"model.yaml", "result.json"}, read);
 }
 
 /// What a process needs; all stop, with one complaint, if one of them cannot.
@@ -80,6 +98,7 @@ CalibrationInput read_together(const Arguments& arguments, const MpiSession& ses
                                          arguments.start));
     if (session.rank() == 0) {
       keep_earlier_search(arguments);
+      keep_input(arguments, input->config.model_file);
       identification::require_writable(arguments.out);
     }
   } catch (const BadInput& error) {
@@ -114,9 +133,14 @@ int calibrate(const Arguments& arguments, const MpiSession& session) {
   options.resume = arguments.resume;
   options.batch = settings.offspring;
   options.stop = tool::interrupted;
+  options.program = arguments.program;
   options.progress = [&](int done) { progress.update(std::min(1.0, done / expected)); };
   fs::create_directories(arguments.out);
   Journal journal(everywhere, options);
+  if (journal.outdated()) {
+    std::cerr << "anthrob_calibrate: " << options.file
+              << ": of another build of the program; what it found is found anew\n";
+  }
   problem.build(problem.space().initial());  // a start that cannot be built has its own message
 
   std::string reason = arguments.evaluate ? "errors only" : "interrupted";
@@ -170,6 +194,9 @@ void add_options(CLI::App& app, Arguments& a) {
 
 int main(int argc, char** argv) {
   using namespace anthrob;
+  Arguments arguments;
+  // Before MPI loads what it likes: a search begun on several hosts may go on without it.
+  arguments.program = resume::program_fingerprint();
   const MpiSession session(&argc, &argv);
   tool::interrupted();                               // listens from now on; rank 0 decides
   if (session.rank() > 0) std::cerr.rdbuf(nullptr);  // one process speaks for all
@@ -177,7 +204,6 @@ int main(int argc, char** argv) {
       "Calibrates a model against recordings: fits parameters within their ranges so that the "
       "simulated robot does what the recorded one did. Threads by itself, hosts by mpirun.",
       "anthrob_calibrate");
-  Arguments arguments;
   add_options(app, arguments);
   return tool::run(app, argc, argv, [&] {
     const int jobs =

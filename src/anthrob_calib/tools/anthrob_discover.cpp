@@ -7,6 +7,7 @@
 #include "anthrob_calib/discovery/closed_loop.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/identification/output_files.h"
+#include "anthrob_config/extended_files.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/tool/tool.h"
 
@@ -56,6 +57,11 @@ int main(int argc, char** argv) {
                  "rivals apart");
   return tool::run(app, argc, argv, [&]() -> int {
     const auto start = std::chrono::steady_clock::now();
+    std::vector<std::string> read = extended_files(question.model_file);
+    if (!robot_file.empty()) {
+      for (const std::string& file : extended_files(robot_file)) read.push_back(file);
+    }
+    identification::require_kept(out, {"model.yaml"}, read);
     identification::require_writable(out);
     question.nuisances = ordinary_parameters(question.model_file, calibration);
     question.train = load_all(train);

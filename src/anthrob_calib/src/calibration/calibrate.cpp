@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "anthrob_calib/resume/fingerprint.h"
@@ -15,7 +16,7 @@ namespace calibration {
 namespace {
 
 /// Of what is compared and how: a journal of another one is no good. Counts up with every change.
-constexpr int kComparison = 4;
+constexpr int kComparison = 5;
 
 void add(const std::vector<double>& values, resume::Fingerprint& fingerprint) {
   fingerprint.add(values.data(), values.size() * sizeof(double));
@@ -36,6 +37,24 @@ void add(const MeasuredRun& run, resume::Fingerprint& fingerprint) {
     add(command.reference, fingerprint);
   }
   for (const Samples* samples : {&run.before, &run.path, &run.after}) add(*samples, fingerprint);
+}
+
+/// A run that is fitted tells nothing about runs that are not, under whatever name.
+void keep_apart(const std::vector<MeasuredRun>& validation, const std::string& validation_folder,
+                const std::vector<MeasuredRun>& runs, const std::string& folder) {
+  const auto value_of = [](const MeasuredRun& run) {
+    resume::Fingerprint fingerprint;
+    add(run, fingerprint);
+    return fingerprint.value();
+  };
+  std::map<std::uint64_t, std::string> fitted;
+  for (const MeasuredRun& run : runs) fitted.emplace(value_of(run), run.name);
+  for (const MeasuredRun& run : validation) {
+    const auto same = fitted.find(value_of(run));
+    if (same == fitted.end()) continue;
+    throw BadInput(validation_folder + ": " + run.name + " is " + same->second + " of " + folder +
+                   ", which is fitted; expected recordings of its own for --validation");
+  }
 }
 
 /// Numbers of an earlier calibration that this model has, too.
@@ -122,6 +141,7 @@ CalibrationInput CalibrationInput::read(CalibrationConfig config, const std::str
   input.runs = read_runs(data, robot);
   input.config.check(input.runs, data);
   if (!validation.empty()) input.validation = read_runs(validation, robot);
+  keep_apart(input.validation, validation, input.runs, data);
   return input;
 }
 

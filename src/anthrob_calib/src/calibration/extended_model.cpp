@@ -18,6 +18,20 @@ std::string relative_to(const std::string& folder, const fs::path& file) {
   return fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder)).string();
 }
 
+/// A word as a YAML scalar; quoted where it would otherwise be read as something else.
+std::string scalar_text(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-";
+  const bool plain = !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
+  if (plain && word != "-") return word;
+  std::string text = "\"";
+  for (const char c : word) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  return text + "\"";
+}
+
 /// A node as YAML flow text, with names of files as seen from another folder.
 std::string flow_text(const ConfigNode& node, const std::string& folder) {
   std::string out;
@@ -30,14 +44,14 @@ std::string flow_text(const ConfigNode& node, const std::string& folder) {
   if (node.is_map()) {
     for (const auto& [key, value] : node.entries()) {
       const std::string text =
-          key == "file"
-              ? relative_to(folder, fs::path(value.file()).parent_path() / value.as_text())
-              : flow_text(value, folder);
-      out += (out.empty() ? "" : ", ") + key + ": " + text;
+          key == "file" ? scalar_text(relative_to(
+                              folder, fs::path(value.file()).parent_path() / value.as_text()))
+                        : flow_text(value, folder);
+      out += (out.empty() ? "" : ", ") + scalar_text(key) + ": " + text;
     }
     return "{" + out + "}";
   }
-  return node.is_scalar() ? node.as_text() : "null";
+  return node.is_scalar() ? scalar_text(node.as_text()) : "null";
 }
 
 /// What changes, as a tree of keys down to numbers and lists.
@@ -48,7 +62,7 @@ struct Branch {
 
 void write(const Branch& branch, const std::string& indent, std::ostringstream& out) {
   for (const auto& [key, child] : branch.children) {
-    out << indent << key << ":";
+    out << indent << scalar_text(key) << ":";
     if (child.children.empty()) {
       out << " " << child.text << "\n";
     } else {
@@ -80,7 +94,7 @@ std::string extended_model_text(const ConfigNode& model, const std::string& mode
   std::ostringstream out;
   std::istringstream lines(comment);
   for (std::string line; std::getline(lines, line);) out << "# " << line << "\n";
-  out << "\nextends: " << relative_to(folder, model_file) << "\n\n";
+  out << "\nextends: " << scalar_text(relative_to(folder, model_file)) << "\n\n";
   write(root, "", out);
   return out.str();
 }

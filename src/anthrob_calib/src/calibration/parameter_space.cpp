@@ -1,6 +1,7 @@
 #include "anthrob_calib/calibration/parameter_space.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 namespace anthrob {
@@ -32,6 +33,10 @@ ParameterSpace::ParameterSpace(const ConfigNode& config, const ConfigNode& model
 }
 
 void ParameterSpace::read_share(const ConfigNode& entry, const ConfigNode& model) {
+  static const std::set<std::string> kKnown = {"path", "of", "low", "high", "step"};
+  for (const auto& [key, value] : entry.entries()) {
+    if (!kKnown.count(key)) value.fail("unknown key");
+  }
   ModelParameter p;
   p.path = entry.text("path");
   p.unit = "1";

@@ -1,5 +1,6 @@
 #include "anthrob_calib/identification/output_files.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "anthrob_sim/core/errors.h"
@@ -26,6 +27,16 @@ void require_writable(const std::string& folder) {
   fs::remove(probe, error);
   // What is refused later shall leave nothing behind.
   if (made) fs::remove(folder, error);
+}
+
+void require_kept(const std::string& folder, const std::vector<std::string>& names,
+                  const std::vector<std::string>& read) {
+  for (const std::string& name : names) {
+    const std::string written = fs::weakly_canonical(fs::path(folder) / name).string();
+    if (std::find(read.begin(), read.end(), written) == read.end()) continue;
+    throw BadInput("--out " + folder + ": its " + name +
+                   " is read and would be replaced; expected another folder");
+  }
 }
 
 void write_files(const std::string& folder, const OutputFiles& files) {

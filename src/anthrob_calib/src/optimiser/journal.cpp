@@ -16,7 +16,13 @@ namespace calibration {
 
 namespace {
 
-constexpr const char* kTitle = "anthrob_calibrate journal 1 ";
+constexpr const char* kTitle = "anthrob_calibrate journal 2 ";
+
+std::string program_line(std::uint64_t program) {
+  std::ostringstream out;
+  out << "program " << std::hex << program;
+  return out.str();
+}
 
 std::uint64_t fingerprint_of(const Point& point) {
   return resume::Fingerprint().add(point.data(), point.size() * sizeof(double)).value();
@@ -47,6 +53,10 @@ void Journal::load() {
                    ": belongs to other data, another configuration or another model; expected the "
                    "same ones, or no --resume");
   }
+  std::string program;
+  std::getline(in, program);
+  outdated_ = program != program_line(options_.program);
+  if (outdated_) return;
   std::string point, fitness;
   while (in >> point >> fitness) {
     entries_.push_back(
@@ -150,8 +160,9 @@ void Journal::open_lists() {
   if (lists_ || options_.file.empty()) return;
   const auto file = std::filesystem::path(options_.file).parent_path() / "residuals.bin";
   if (!options_.resume) std::filesystem::remove(file);
+  if (outdated_) write();  // what is found from now on is of this build
   resume::Fingerprint context;
-  context.add(options_.fingerprint).add(resume::program_fingerprint());
+  context.add(options_.fingerprint).add(options_.program);
   lists_ = std::make_unique<resume::ResultFile<double>>(file.string(), context.value());
 }
 
@@ -163,7 +174,7 @@ void Journal::save() {
 
 void Journal::write() const {
   std::ostringstream out;
-  out << kTitle << options_.fingerprint << "\n";
+  out << kTitle << options_.fingerprint << "\n" << program_line(options_.program) << "\n";
   for (const Entry& entry : entries_) {
     out << std::hex << entry.point << " "
         << (std::isfinite(entry.fitness) ? exact_text(entry.fitness) : "inf") << "\n";

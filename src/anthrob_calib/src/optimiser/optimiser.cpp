@@ -33,6 +33,9 @@ void OptimiserSettings::check(const ConfigNode& node) const {
   if (method == "evolution_strategy" && parents > offspring) {
     node.at("parents").fail_expected("at most as many parents as offspring");
   }
+  if (method != "evolution_strategy" && target > 0.0) {
+    node.at("target").fail_expected("0: " + method + " does not stop at a fitness");
+  }
   if ((method == "cmaes" || method == "sade" || method == "bee_colony") && offspring < 7) {
     node.fail("offspring: " + std::to_string(offspring) + ": expected 7 at least for " + method);
   }

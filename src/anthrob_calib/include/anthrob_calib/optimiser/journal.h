@@ -27,7 +27,8 @@ struct Generation {
 /// Stands between an optimiser and the evaluator: keeps the best point and the history, and writes
 /// down every fitness. After an interruption the optimiser simply starts again: as long as the
 /// journal has an answer it comes from there, so that every optimiser resumes to the same bits.
-/// Residuals are in a file of their own beside it, until forget_residuals().
+/// What another build of the program has found may differ: it is found anew. Residuals are in a
+/// file of their own beside it, until forget_residuals().
 class Journal final : public Evaluator {
  public:
   struct Options {
@@ -37,6 +38,7 @@ class Journal final : public Evaluator {
     int batch = 36;           ///< single evaluations are taken together in the history
     std::function<bool()> stop = {};
     std::function<void(int)> progress = {};  ///< told the number of evaluations
+    std::uint64_t program = 0;               ///< fingerprint of the build that calculates them
   };
 
   /// @throws BadInput if there is nothing to resume, or it belongs to something else
@@ -55,6 +57,8 @@ class Journal final : public Evaluator {
   double best_fitness() const { return best_fitness_; }
   int evaluations() const { return evaluations_; }
   int replayed() const { return replayed_; }  ///< evaluations that were known already
+  /// Whether there is a journal to go on with, but of another build.
+  bool outdated() const { return outdated_; }
   std::vector<Generation> history() const;
 
  private:
@@ -76,6 +80,7 @@ class Journal final : public Evaluator {
   std::vector<Entry> entries_;                         ///< of the file
   std::unique_ptr<resume::ResultFile<double>> lists_;  ///< of residuals, by points
   std::size_t unsaved_ = 0;
+  bool outdated_ = false;
   int evaluations_ = 0, replayed_ = 0;
   Point best_;
   double best_fitness_;

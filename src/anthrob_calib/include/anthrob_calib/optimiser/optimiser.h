@@ -17,12 +17,12 @@ struct OptimiserSettings {
   int parents = 6;     ///< mu; of the evolution strategy only
   int offspring = 36;  ///< lambda, or the size of the population
   int generations = 100;
-  double target = 0.0;  ///< stops at a fitness below that
+  double target = 0.0;  ///< the evolution strategy stops at a fitness below that
   std::uint64_t seed = 1;
 
   /// @throws BadInput
   static OptimiserSettings read(const ConfigNode& node);
-  /// @throws BadInput naming the methods there are
+  /// @throws BadInput naming what does not fit the method
   void check(const ConfigNode& node) const;
   /// Evaluations, about: for progress.
   int evaluations(std::size_t variables) const;
