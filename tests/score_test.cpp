@@ -97,6 +97,43 @@ TEST_F(Score, OfEffects) {
   EXPECT_EQ(rate(result, "below 3 floors", "hits"), 1);
 }
 
+TEST_F(Score, WhatDoesNotShowAtOneSegmentIsNoExcuseForTheMuscle) {
+  const auto entry = [](const std::string& place, const Json& smallest) {
+    return Json{{"id", "eyelet_friction"}, {"place", place}, {"smallest_visible", smallest}};
+  };
+  const Json nowhere = entry("biceps_brachii/3", nullptr),
+             from_little = entry("biceps_brachii/4", 0.05);
+  for (const char* name : {"whole", "segments", "nowhere"}) {
+    truth(name, "effect", {hidden("eyelet_friction", "biceps_brachii", 0.1)});
+  }
+  report("whole", "no_missing_effect", {}, {nowhere}, {from_little, entry("biceps_brachii", 0.05)});
+  report("segments", "no_missing_effect", {}, {nowhere}, {from_little});
+  report("nowhere", "no_missing_effect", {}, {nowhere, entry("biceps_brachii/4", nullptr)});
+  const Json result = score();
+  EXPECT_EQ(result["effect"]["cases"], 2);
+  EXPECT_EQ(result["effect"]["said_invisible"], 1);
+}
+
+TEST_F(Score, SizesOfSeveralUnitsAreEachMeasuredByTheirOwn) {
+  const auto sized = [](const Json& values, const Json& sizes) {
+    return Json{{"id", "x"}, {"place", "elbow"}, {"parameters", values}, {"sizes", sizes}};
+  };
+  const auto answer = [](const std::string& first, double a, const std::string& second, double b) {
+    const auto number = [](double value) {
+      return Json{{"value", value}, {"ci95", List{value - 1.0, value + 1.0}}};
+    };
+    return Json{
+        {"id", "x"}, {"place", "elbow"}, {"parameters", {{first, number(a)}, {second, number(b)}}}};
+  };
+  truth("offset", "effect", {sized({{"offset", 2.0}, {"drift", 0.02}}, {"offset", "drift"})});
+  report("offset", "effects_found", {answer("offset", 2.0, "drift", 0.03)});
+  EXPECT_NEAR(rate(score(), "parameter error [%]", "median"), 25.0, 1e-9);  // of 0 and 50
+  truth("offset", "effect",
+        {sized({{"sine", 0.03}, {"cosine", 0.04}}, {"sine", "cosine"})});  // one vector of 0.05
+  report("offset", "effects_found", {answer("sine", 0.03, "cosine", 0.05)});
+  EXPECT_NEAR(rate(score(), "parameter error [%]", "median"), 10.0, 1e-9);  // of 0 and 20
+}
+
 TEST_F(Score, OneLawInsteadOfTwoIsInTheClassOfBoth) {
   const auto alone = [](double probability, const std::string& place) {
     return List{{{"id", "joint_coulomb_asymmetric"},
@@ -162,7 +199,10 @@ TEST_F(Score, OfWrappedMusclesNullsAndOutsiders) {
   truth("noisy", "null", {});
   report("noisy", "unexplained");
   truth("gusts", "outside", {hidden("gusts", "shoulder", 1.0)});
-  report("gusts", "effects_found", {named("joint_coulomb", "elbow", 1.0, 0.0, 2.0)});
+  Json unlikely = named("payload", "forearm", 0.1, 0.0, 1.0);
+  unlikely["probability"] = 0.3;
+  // However likely the first name is: none may be wrong with confidence.
+  report("gusts", "effects_found", {unlikely, named("joint_coulomb", "elbow", 1.0, 0.0, 2.0)});
   const Json result = score();
   EXPECT_EQ(result["wrapped"]["right"], 1);
   EXPECT_NEAR(rate(result, "its radius [%]", "median"), 10.0, 1e-9);
@@ -185,12 +225,30 @@ TEST_F(Score, OfChannelsThatGetWorseAndOfNamesTooMany) {
   report("worse_in_the_noise", "effects_found", {good}, {}, {}, force(0.6, 0.9));
   truth("quiet", "null", {});
   report("quiet", "effects_found", {good}, {}, {}, force(1.1, 1.3));
+  truth("unnamed", "effect", rubbing);
+  report("unnamed", "unexplained", {}, {}, {}, force(1.1, 1.1));
   const Json result = score();
   EXPECT_EQ(rate(result, "a channel worse", "hits"), 2.0);
   EXPECT_EQ(rate(result, "a channel worse", "count"), 3.0);
   EXPECT_EQ(rate(result, "and above its floor", "hits"), 1.0);
   EXPECT_EQ(rate(result, "more named than hidden", "hits"), 1.0);
-  EXPECT_EQ(rate(result, "more named than hidden", "count"), 3.0);
+  EXPECT_EQ(rate(result, "more named than hidden", "count"), 4.0);
+}
+
+TEST_F(Score, OfTheGapThatIsLeftWhateverWasAnswered) {
+  const auto gap = [](double after) {
+    return Json{{"test", {{"recalibrated", 3.0}, {"after", after}, {"floor", 1.0}}}};
+  };
+  const List good = {named("eyelet_friction", "brachialis", 0.1, 0.0, 1.0)};
+  const List rubbing = {hidden("eyelet_friction", "brachialis", 0.1)};
+  for (const char* name : {"found", "half", "unexplained"}) truth(name, "effect", rubbing);
+  report("found", "effects_found", good, {}, {}, gap(1.2));
+  report("half", "effects_found", good, {}, {}, gap(2.0));
+  report("unexplained", "unexplained", {}, {}, {}, gap(3.0));
+  truth("gusts", "outside", rubbing);  // has no answer
+  report("gusts", "effects_found", good, {}, {}, gap(1.0));
+  EXPECT_NEAR(rate(score(), "gap left held out", "median"), 0.5, 1e-9);
+  EXPECT_EQ(rate(score(), "gap left held out", "count"), 3.0);
 }
 
 }  // namespace
