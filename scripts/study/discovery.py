@@ -73,8 +73,8 @@ class Case:
         return "done" if self.done() else "begun" if os.path.exists(self.truth) else ""
 
     def make(self):
-        """The truth is written last."""
-        if os.path.exists(self.truth) and os.path.exists(self.data):
+        """The truth is written last; of a case that was done only the model is left."""
+        if os.path.exists(self.truth) and os.path.exists(f"{self.data}/test_0"):
             return
         shutil.rmtree(self.data, ignore_errors=True)
         must([MAKER, "--kind", self.kind, "--case", str(self.number), "--seed",
@@ -88,12 +88,26 @@ class Case:
                    "--out", self.report, "--jobs", str(self.options.jobs)]
         if self.kind in MOST_EFFECTS:
             command += ["--max-effects", str(MOST_EFFECTS[self.kind])]
-        return run(command, self.log)
+        begin, before = time.time(), self.spent()
+        try:
+            return run(command, self.log)
+        finally:
+            os.makedirs(self.report, exist_ok=True)
+            write(f"{self.report}/spent_s", str(before + time.time() - begin))
+
+    def spent(self):
+        """Seconds of discovery so far, of runs that were interrupted, too."""
+        file = f"{self.report}/spent_s"
+        return float(load(file)) if os.path.exists(file) else 0.0
+
+    def put_away(self):
+        """The recordings; the report's model extends the case's."""
+        for recording in glob.glob(f"{self.data}/*/"):
+            shutil.rmtree(recording)
 
     def carry_out(self):
-        """Whether there is a report now."""
         os.makedirs(os.path.dirname(self.log), exist_ok=True)
-        begin = time.time()
+        begin, asked = time.time(), commit()
         self.make()
         made = time.time()
         failed = f"{self.report}/failed"
@@ -101,15 +115,14 @@ class Case:
             say(f"{self.name} gave no report: see {self.log}")
             os.makedirs(self.report, exist_ok=True)
             write(failed, "")
-            return False
+            return
         if os.path.exists(failed):
             os.remove(failed)
-        facts = {"commit": commit(), "machine": machine(), "jobs": self.options.jobs,
-                 "making_s": made - begin, "discovery_s": time.time() - made}
+        facts = {"commit": asked, "machine": machine(), "jobs": self.options.jobs,
+                 "making_s": made - begin, "discovery_s": self.spent()}
         write(f"{self.report}/study.json", as_json(facts))
         if not self.options.keep:
-            shutil.rmtree(self.data, ignore_errors=True)
-        return True
+            self.put_away()
 
     def facts(self):
         return load(f"{self.report}/study.json")
@@ -318,12 +331,12 @@ def carry_out(cases, everything, options):
         left = time_left(cases)
         say(f"{case.name}, {sum(c.done() for c in cases)} of {len(cases)} done" +
             ("" if left is None else f", {left:.1f} h left"))
-        if case.carry_out():
-            summarise(everything, options)
+        case.carry_out()
+        summarise(everything, options)
     without = [case.name for case in cases if not case.done()]
+    summarise(everything, options)
     if without:
         sys.exit(f"study: without a report: {' '.join(without)}")
-    summarise(everything, options)
     say(f"{options.out}/{study_name(options)}.html" + (f", {document(options)}" if of_the_study(options) else ""))
 
 

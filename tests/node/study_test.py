@@ -19,7 +19,8 @@ import discovery  # noqa: E402
 # Hides "law" everywhere; lists three laws.
 MAKER = '''#!/bin/sh
 [ "$1" = --list ] && { echo "effect   a: 1"; echo "effect   b: 2"; echo "outside  c: 3"; exit; }
-mkdir -p "${10}" "$(dirname "${12}")"
+mkdir -p "${10}/test_0" "$(dirname "${12}")"
+touch "${10}/model.yaml"
 echo "made ${10}" >> calls
 echo '{"kind": "'$2'", "effects": [{"id": "law", "place": "elbow", "parameters": {"x": 1.0}, "sizes": ["x"]}]}' > "${12}"
 '''
@@ -163,7 +164,7 @@ class DiscoveryStudy(Study):
         self.assertEqual(result['null']['false'], 1)
         self.assertIn('2 of 78', result['facts']['cases'])
         self.assertIn('| correct | 1/1 = 100 %', self.told())
-        self.assertFalse(os.path.exists('out/discovery/cases/effect_01'))
+        self.assertEqual(os.listdir('out/discovery/cases/effect_01'), ['model.yaml'])
 
     def test_goes_on_elsewhere_with_what_is_published(self):
         self.study('--case', 'effect_01')
@@ -216,6 +217,30 @@ class DiscoveryStudy(Study):
         os.remove('status')
         self.study('--case', 'null_00')
         self.assertTrue(os.path.exists('out/discovery.json'))
+
+    def test_a_case_without_a_report_counts_as_missing(self):
+        self.study('--case', 'null_00')
+        with open('status', 'w') as file:
+            file.write('1')
+        with self.assertRaises(SystemExit):
+            self.study('--case', 'effect_01')
+        with open('out/discovery.json') as file:
+            self.assertEqual(json.load(file)['missing'], ['effect_01'])
+        self.assertIn('| correct | 0/1 = 0 %', self.told())
+
+    def test_times_are_of_all_runs_of_a_case(self):
+        with open('status', 'w') as file:
+            file.write('130')
+        with self.assertRaises(KeyboardInterrupt):
+            self.study('--case', 'null_00')
+        with open('out/discovery/reports/null_00/spent_s') as file:
+            self.assertGreater(float(file.read()), 0.0)
+        with open('out/discovery/reports/null_00/spent_s', 'w') as file:
+            file.write('3600.0')
+        os.remove('status')
+        self.study('--case', 'null_00')
+        with open('out/discovery/reports/null_00/study.json') as file:
+            self.assertGreater(json.load(file)['discovery_s'], 3600.0)
 
     def test_bad_input(self):
         for arguments in (['--case', 'nobody'], ['--slice', '3/2'], ['--slice', 'x'], ['--summary']):
