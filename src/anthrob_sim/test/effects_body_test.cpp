@@ -45,6 +45,8 @@ TEST(JointCoulomb, HoldsBelowBreakawayAndTakesAConstantForceAbove) {
        {{"torque", 20.0}, {"static_ratio", 1.5}, {"stribeck_velocity", 0.001}}}};
   EXPECT_EQ(speed_of_axis(effects, 29.0), 0.0);
   EXPECT_EQ(speed_of_axis(effects, -29.0), 0.0);
+  EXPECT_GT(speed_of_axis(effects, 31.0), 0.02);
+  EXPECT_LT(speed_of_axis(effects, -31.0), -0.02);
   // One second: in 1.5 s it would get to the stop.
   EXPECT_NEAR(speed_of_axis(effects, 45.0, 1000), expected_speed(25.0, kViscous, 1.0), 1e-3);
   EXPECT_NEAR(speed_of_axis(effects, -45.0, 1000), -expected_speed(25.0, kViscous, 1.0), 1e-3);
@@ -55,6 +57,8 @@ TEST(JointCoulombAsymmetric, TakesAnotherForceInEachDirection) {
       {"joint_coulomb_asymmetric", "axis", {{"forward", 17.2}, {"backward", 23.6}}}};
   EXPECT_EQ(speed_of_axis(effects, 17.0), 0.0);
   EXPECT_EQ(speed_of_axis(effects, -23.0), 0.0);
+  EXPECT_NEAR(speed_of_axis(effects, 17.5), expected_speed(17.5 - 17.2, kViscous), 2e-4);
+  EXPECT_NEAR(speed_of_axis(effects, -24.0), -expected_speed(24.0 - 23.6, kViscous), 2e-4);
   EXPECT_NEAR(speed_of_axis(effects, 40.0), expected_speed(40.0 - 17.2, kViscous), 2e-4);
   EXPECT_NEAR(speed_of_axis(effects, -40.0), -expected_speed(40.0 - 23.6, kViscous), 2e-4);
 }
@@ -64,16 +68,22 @@ TEST(JointOffsetTorque, AddsAConstantForce) {
               expected_speed(40.0 - 3.16, kViscous), 2e-4);
 }
 
-TEST(JointOffsetTorque, MovingItIsAsymmetricFrictionAtRestItIsNot) {
+TEST(JointOffsetTorque, BesideMoreFrictionItIsFrictionThatDiffersByDirection) {
   const std::vector<EffectInstance> offset = {
       {"joint_coulomb", "axis", {{"torque", 20.4}, {"static_ratio", 1.0}}},
       {"joint_offset_torque", "axis", {{"torque", -3.2}}}};
   const std::vector<EffectInstance> asymmetric = {
       {"joint_coulomb_asymmetric", "axis", {{"forward", 23.6}, {"backward", 17.2}}}};
-  for (const double effort : {40.0, -40.0}) {
-    EXPECT_NEAR(speed_of_axis(offset, effort), speed_of_axis(asymmetric, effort), 1e-9);
+  for (const double effort : {40.0, -40.0, 24.0, 23.0, -17.0, -18.0, 0.0}) {
+    EXPECT_NEAR(speed_of_axis(offset, effort), speed_of_axis(asymmetric, effort), 1e-9) << effort;
   }
-  EXPECT_NE(speed_of_axis(offset, 22.0), speed_of_axis(asymmetric, 24.0));
+  EXPECT_EQ(speed_of_axis(offset, 23.0), 0.0);
+  EXPECT_EQ(speed_of_axis(offset, -17.0), 0.0);
+  // An offset that is more than the friction moves the joint by itself; friction never does.
+  EXPECT_LT(speed_of_axis({{"joint_coulomb", "axis", {{"torque", 2.0}, {"static_ratio", 1.0}}},
+                           {"joint_offset_torque", "axis", {{"torque", -3.2}}}},
+                          0.0),
+            -1e-3);
 }
 
 /// Where the energy of a joint that is driven to and fro goes: share that is not accounted for.

@@ -321,6 +321,16 @@ TEST(Catalogue, BadEntriesAreRefusedWithOneLine) {
             "model.yaml:3: effects.0.width: wide: expected a finite number [rad]");
   EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, place: flexor, depth: 1}\n"),
             "model.yaml:3: effects.0.depth: unknown key: no parameter of gear_backlash");
+  // A ball joint's cable is at rest where the joint is.
+  try {
+    robot_with(kArm, {{"cable_drag", "shoulder", {{"stiffness", 0.1}, {"rest", 0.2}}}});
+    ADD_FAILURE() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("rest: 0.2: expected one of the effect's parameters there: stiffness"),
+              std::string::npos)
+        << error.what();
+  }
   EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, place: biceps, width: 0.01}\n"),
             "model.yaml:3: effects.0.place: biceps: expected a place for it on this robot (MUSCLE "
             "| all): flexor extensor all");

@@ -18,9 +18,10 @@ struct Separation {
 const std::vector<Separation>& separations() {
   static const std::vector<Separation> list = {
       {{"joint_offset_torque", "joint_coulomb_asymmetric", "joint_coulomb"},
-       "let the joint coast down without drive from both sides, and rest after each: an offset "
-       "moves the resting place, friction does not; while the joint moves they cannot be told "
-       "apart"},
+       "push the joint out of rest to both sides with the drive off, and once more with the joint "
+       "turned over: an offset of the amplifier or a weight goes or turns, friction stays; with "
+       "the "
+       "drive on they are the same torque, in motion and at rest"},
       {{"eyelet_friction", "wrap_friction", "joint_coulomb", "ball_joint_load_friction",
         "joint_coulomb_asymmetric"},
        "the same motion at three levels of co-contraction: dry joint friction stays as it is, "

@@ -53,11 +53,13 @@ EffectSetting::EffectSetting(const Effect& effect, EffectInstance instance,
     }
   }
   std::string names;
-  for (const EffectParameter& p : effect.info().parameters) {
+  for (const EffectParameter& p : parameters_) {
     names += (names.empty() ? "" : ", ") + p.name;
   }
   for (const auto& [name, value] : instance_.parameters) {
-    if (!effect.info().find(name)) fail(name, "one of the effect's parameters: " + names);
+    const bool known = std::any_of(parameters_.begin(), parameters_.end(),
+                                   [&](const EffectParameter& p) { return p.name == name; });
+    if (!known) fail(name, "one of the effect's parameters there: " + names);
   }
   if (!any_size) fail("place", "at least one of the effect's sizes beside it; it has: " + names);
 }

@@ -10,8 +10,9 @@ EffectInfo describe() {
   i.name = "Dry joint friction that differs by direction";
   i.description =
       "A preloaded screw or seal rubs more in one direction than in the other. Added to what the "
-      "model has. As long as the joint moves it cannot be told from a constant torque "
-      "(joint_offset_torque) beside symmetric friction; the joint at rest can tell.";
+      "model has. It cannot be told from symmetric friction beside a constant torque "
+      "(joint_offset_torque) that is less than it, neither in motion nor at rest: only what takes "
+      "that torque away can tell, an amplifier that is off or the joint turned over.";
   i.equation = "tau = -forward if dq/dt > 0, +backward if dq/dt < 0, holds at rest up to both";
   i.source = "Janot, Gautier, Brunot, EMPS benchmark 2019";
   i.where = "JOINT";

@@ -10,8 +10,9 @@ EffectInfo describe() {
   i.name = "Constant torque on a joint";
   i.description =
       "A constant torque: a residual of gravity, an offset of the amplifier, a spring far from its "
-      "rest. As long as the joint moves it cannot be told from friction that differs by direction "
-      "(joint_coulomb_asymmetric).";
+      "rest. Beside more dry friction than it is itself it cannot be told from friction that "
+      "differs "
+      "by direction (joint_coulomb_asymmetric), neither in motion nor at rest.";
   i.equation = "tau = torque";
   i.source = "Janot, Gautier, Brunot, EMPS benchmark 2019";
   i.where = "JOINT (hinges and slides)";

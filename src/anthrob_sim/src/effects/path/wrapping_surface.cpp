@@ -19,7 +19,7 @@ EffectInfo describe() {
       "down. At MUSCLE it is the last segment that crosses a joint, at MUSCLE/k the one that ends "
       "at entry k. Without friction: wrap_friction adds some.";
   i.equation = "shortest path over the cylinder, (4.28)-(4.33)";
-  i.source = "thesis, sections 4.3 and 7.4: model I against model II";
+  i.source = "thesis, sections 4.2.4, 7.2.2 and 7.5: model I against model II";
   i.where = "MUSCLE | MUSCLE/k";
   i.seam = Seam::kPath;
   i.stage = Stage::kParts;

@@ -14,7 +14,9 @@ EffectInfo describe() {
       "true one, and with a position controller the robot from its posture. Force and current "
       "still fit each other. Zero where the robot is placed.";
   i.equation = "position_read = position + rate t - missed integral |dposition|";
-  i.source = "thesis, section 7.4: re-calibrated beyond 3 degrees";
+  i.source =
+      "thesis, section 8.3: ticks counted in software; re-calibrated when the shoulder rested 3 "
+      "degrees off";
   i.where = "MUSCLE | all";
   i.seam = Seam::kSensors;
   i.slow = true;
