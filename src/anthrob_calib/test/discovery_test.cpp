@@ -193,7 +193,7 @@ TEST(DrivenAxis, OffsetAndAsymmetricFrictionAreSaidToBeAlike) {
   for (const Rival& rival : answer.effects[1].rivals) second.insert(rival.id);
   EXPECT_TRUE(second.count("joint_offset_torque")) << summary(answer);
   EXPECT_TRUE(second.count("joint_coulomb_asymmetric")) << summary(answer);
-  EXPECT_NE(answer.effects[1].separating_experiment.find("coast"), std::string::npos);
+  EXPECT_NE(answer.effects[1].separating_experiment.find("drive off"), std::string::npos);
   // One law says what the two say.
   ASSERT_EQ(answer.alternatives.size(), 1u) << summary(answer);
   const Alternative& one = answer.alternatives[0];
@@ -202,7 +202,7 @@ TEST(DrivenAxis, OffsetAndAsymmetricFrictionAreSaidToBeAlike) {
   EXPECT_EQ(one.instead_of[1], 1u);
   EXPECT_GT(one.probability, 0.05);
   EXPECT_LT(one.probability, 0.95);
-  EXPECT_NE(one.separating_experiment.find("coast"), std::string::npos);
+  EXPECT_NE(one.separating_experiment.find("drive off"), std::string::npos);
 }
 
 TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {
@@ -528,8 +528,16 @@ TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
   const Arm arm;
   Question good;
   good.model_file = kConfig + "/anthrob/model_I.yaml";
-  good.train = good.test = {arm.record({}, 1, 1)};
+  good.train = {arm.record({}, 1, 1)};
+  good.test = {arm.record({}, 1, 2)};
   EXPECT_EQ(refusal(good), "not refused");
+
+  Question judged_by_itself = good;
+  judged_by_itself.test = good.train;
+  EXPECT_NE(refusal(judged_by_itself).find("expected every recording once"), std::string::npos);
+  Question repeated_by_itself = good;
+  repeated_by_itself.repeats = good.train;
+  EXPECT_NE(refusal(repeated_by_itself).find("expected every recording once"), std::string::npos);
 
   Question still = good;
   for (Table& table : still.train[0].tables) {
@@ -568,7 +576,7 @@ TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
   EXPECT_NE(refusal(untested).find("no muscle moves"), std::string::npos) << refusal(untested);
 
   Question repeated = good;
-  repeated.repeats = {arm.record({}, 1, 2)};
+  repeated.repeats = {arm.record({}, 1, 3)};
   EXPECT_EQ(refusal(repeated), "not refused");
   repeated.repeats = {arm.record({}, 2, 2)};
   EXPECT_NE(refusal(repeated).find("expected a repeat of the commands"), std::string::npos)

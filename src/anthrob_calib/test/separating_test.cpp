@@ -1,4 +1,9 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
 
 #include "anthrob_calib/discovery/closed_loop.h"
 #include "anthrob_calib/discovery/report.h"
@@ -186,6 +191,21 @@ TEST(SeparatingFiles, AreWrittenForTheRecorder) {
   EXPECT_NE(postures.find("- name: P1_tight"), std::string::npos);
   EXPECT_NE(postures.find("# 12 nat"), std::string::npos);
   EXPECT_NE(postures.find("brachialis: 0.25"), std::string::npos);
+}
+
+TEST(SeparatingRecording, ProtocolsOfAnEarlierAnswerGo) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("protocols_" + std::to_string(getpid()));
+  fs::create_directories(folder / "separating_1_train");
+  for (const char* name : {"separating_1.yaml", "separating_1_postures.yaml", "separating_2.yaml",
+                           "separating_1_train/meta.yaml", "model.yaml"}) {
+    std::ofstream(folder / name) << "{}";
+  }
+  remove_other_protocols(folder.string(), {{"separating_2.yaml", "{}"}});
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(folder)) left.insert(entry.path().filename());
+  EXPECT_EQ(left, (std::set<std::string>{"model.yaml", "separating_1_train", "separating_2.yaml"}));
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -38,7 +38,13 @@ TEST(Verdict, ProbabilitiesEndWhereTheNamesDo) {
   Answer none = named(0.9, 0.0), some = named(0.9, 0.25), half = named(0.9, 0.5),
          most = named(0.9, 0.75);
   for (Answer* answer : {&none, &some, &half, &most}) {
+    answer->effects[0].rivals.push_back({"gear_efficiency", "biceps_brachii", 0.2});
+    answer->alternatives.emplace_back().probability = 0.5;
     pronounce({{"elbow/position", 2.0}}, true, *answer);
+  }
+  for (Answer* answer : {&none, &some}) {
+    EXPECT_DOUBLE_EQ(answer->effects[0].rivals[0].probability, answer == &none ? 0.2 : 0.1);
+    EXPECT_DOUBLE_EQ(answer->alternatives[0].probability, answer == &none ? 0.5 : 0.25);
   }
   EXPECT_DOUBLE_EQ(none.effects[0].probability, 0.9);
   EXPECT_DOUBLE_EQ(some.effects[0].probability, 0.45);
@@ -66,6 +72,19 @@ TEST(Verdict, NamesWhatMostOfTheRestDependsOn) {
   answer.remaining = {dependence("biceps_brachii/force", "load", 0.04)};
   pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
   EXPECT_EQ(answer.remaining_description, "depends on none of the measured quantities");
+}
+
+TEST(Verdict, NothingIsToldOfChannelsThatAreNoHigherThanNoise) {
+  const std::vector<Dependence> found = {dependence("elbow/position", "load", 0.9),
+                                         dependence("biceps_brachii/force", "load", 0.5)};
+  Answer answer;
+  answer.remaining = found;
+  pronounce({{"elbow/position", 0.7}, {"biceps_brachii/force", 4.0}}, true, answer);
+  ASSERT_EQ(answer.remaining.size(), 1u);
+  EXPECT_EQ(answer.remaining[0].channel, "biceps_brachii/force");
+  answer.remaining = found;
+  pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 1.5}}, false, answer);
+  EXPECT_TRUE(answer.remaining.empty());
 }
 
 TEST(Seams, AGapThatGoesWithTheMotorsIsTheirsHoweverTheRobotWasDriven) {

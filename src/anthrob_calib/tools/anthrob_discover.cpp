@@ -58,10 +58,20 @@ int main(int argc, char** argv) {
   return tool::run(app, argc, argv, [&]() -> int {
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::string> read = extended_files(question.model_file);
+    std::vector<std::string> written = {"model.yaml"};
     if (!robot_file.empty()) {
       for (const std::string& file : extended_files(robot_file)) read.push_back(file);
+      for (const auto* group : {&train, &test, &repeats}) {
+        for (const std::string& name : *group) {
+          read.push_back(std::filesystem::weakly_canonical(name + "/.").parent_path().string());
+        }
+      }
+      for (const char* recording :
+           {"separating_1_train", "separating_1_test", "separating_2_train", "separating_2_test"}) {
+        written.push_back(recording);
+      }
     }
-    identification::require_kept(out, {"model.yaml"}, read);
+    identification::require_kept(out, written, read);
     identification::require_writable(out);
     question.nuisances = ordinary_parameters(question.model_file, calibration);
     question.train = load_all(train);
@@ -100,6 +110,7 @@ int main(int argc, char** argv) {
       files["report.html"] = report_html(answer, question, runtime.count());
       files["model.yaml"] = model_text(answer, evaluator, question, out);
       identification::write_files(out, files);
+      discovery::remove_other_protocols(out, files);
       save_from(train.size(), question.train, out);
       save_from(test.size(), question.test, out);
       journal.remove();

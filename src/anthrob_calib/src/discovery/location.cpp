@@ -47,7 +47,7 @@ std::vector<Place> locate(const Judge& judge, const Eigen::VectorXf& residual, d
     const std::size_t slash = name.rfind('/');
     Place place{name.substr(slash + 1), name.substr(0, slash), "", "", scale.unit};
     place.rmse = gap * scale.sigma();
-    place.noise_floor = scale.floor;
+    place.noise_floor = scale.sigma();
     place.share = excess(gap, least) / whole;
     if (significance.count(name)) place.significance = significance.at(name);
     place.subsystem = subsystem_of(place, seams);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -103,6 +105,20 @@ std::vector<double> changes_of(const Series& series) {
   return values;
 }
 
+/// What was learned from cannot judge, and a copy of a recording scatters nowhere.
+void refuse_copies(const Question& question) {
+  std::map<std::uint64_t, std::string> folders;
+  for (const auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (const Dataset& recording : *group) {
+      const auto [other, is_new] =
+          folders.emplace(resume::Fingerprint().add(recording).value(), recording.folder);
+      if (is_new) continue;
+      throw BadInput(recording.folder + ": the same as " + other->second +
+                     ": expected every recording once, to learn from, to judge by or as a repeat");
+    }
+  }
+}
+
 /// The scatter of something else is no floor.
 void refuse_other_commands(const RobotModel& robot, const Dataset& first, const Dataset& repeat) {
   for (const MuscleModel& muscle : robot.muscles) {
@@ -131,6 +147,7 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) refuse_nonsense(recording);
   }
+  refuse_copies(question);
   const double length = refuse_shortness(question.train, "to learn from");
   refuse_shortness(question.test, "to judge by");
   refuse_stillness(robot, question.train);

@@ -62,11 +62,18 @@ std::string sentence(const Answer& answer) {
     }
     text += ", probability " + short_number(effect.probability) + ". ";
   }
+  for (const Alternative& other : answer.alternatives) {
+    const FoundEffect &one = answer.effects[other.instead_of[0]],
+                      &two = answer.effects[other.instead_of[1]];
+    text += "Or, instead of " + escaped(one.name) + " and " + escaped(two.name) + ", <b>" +
+            escaped(other.id) + "</b> at <b>" + escaped(other.place) + "</b> alone, probability " +
+            short_number(other.probability) + ". ";
+  }
   if (answer.verdict == "effects_found") {
     return "The model misses: " + text + "With it, the held-out gap falls from " +
            short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
-           " times the floor; " + short_number(100.0 * answer.remaining_share) +
-           " % of its square is left.";
+           " times the floor; of the square of what stood above the noise " +
+           short_number(100.0 * answer.remaining_share) + " % is left.";
   }
   text = answer.effects.empty() ? "" : "The catalogue offers: " + text;
   return "Something is missing that the catalogue does not have. " + text + "Held-out gap " +

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "anthrob_calib/discovery/report.h"
@@ -55,6 +56,19 @@ std::string postures_yaml(const RobotModel& model, const SeparatingRecording& pl
 
 std::string separating_file(std::size_t number) {
   return "separating_" + std::to_string(number) + ".yaml";
+}
+
+void remove_other_protocols(const std::string& folder,
+                            const std::map<std::string, std::string>& files) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const bool is_protocol = path.filename().string().rfind("separating_", 0) == 0 &&
+                             path.extension() == ".yaml" && entry.is_regular_file();
+    if (is_protocol && !files.count(path.filename().string())) others.push_back(path);
+  }
+  for (const fs::path& path : others) fs::remove(path);
 }
 
 std::map<std::string, std::string> separating_files(const Answer& answer, const RobotModel& model) {

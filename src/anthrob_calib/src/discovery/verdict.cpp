@@ -11,6 +11,13 @@ namespace {
 
 constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects are not the answer
 
+/// Whether a channel that a dependence is of stands above what noise may look like.
+bool is_real(const Dependence& dependence, const std::map<std::string, double>& left) {
+  return std::any_of(left.begin(), left.end(), [&](const auto& channel) {
+    return dependence.channel.rfind(channel.first, 0) == 0 && channel.second > kRealGap;
+  });
+}
+
 /// The dependence that explains most of all that is left; null: none does. What depends on nothing
 /// is noise that was thought smaller, not something missing.
 const Dependence* strongest(const std::map<std::string, double>& left,
@@ -43,8 +50,17 @@ void pronounce(const std::map<std::string, double>& left, bool certain, Answer& 
     answer.verdict = most ? "unexplained" : "effects_found";
     // What is left shows that the law may be another one; at kMostRemains the names go.
     const double doubt = certain ? std::min(1.0, answer.remaining_share / kMostRemains) : 0.0;
-    for (FoundEffect& effect : answer.effects) effect.probability *= 1.0 - doubt;
+    for (FoundEffect& effect : answer.effects) {
+      effect.probability *= 1.0 - doubt;
+      for (Rival& rival : effect.rivals) rival.probability *= 1.0 - doubt;
+    }
+    for (Alternative& alternative : answer.alternatives) alternative.probability *= 1.0 - doubt;
   }
+  auto& remaining = answer.remaining;
+  remaining.erase(
+      std::remove_if(remaining.begin(), remaining.end(),
+                     [&](const Dependence& d) { return !certain || !is_real(d, left); }),
+      remaining.end());
   const Dependence* cause = strongest(left, answer.remaining);
   if (!certain) {
     answer.remaining_description = "no gap that is certain";

@@ -20,6 +20,10 @@ std::string model_text(const Answer& answer, const Evaluator& evaluator, const Q
 
 /// For the recorder: protocols and postures that tell effects from their first rivals, by name.
 std::map<std::string, std::string> separating_files(const Answer& answer, const RobotModel& model);
+/// Of an earlier answer in the folder, which it does not explain any more.
+/// @param files what belongs there, by name
+void remove_other_protocols(const std::string& folder,
+                            const std::map<std::string, std::string>& files);
 /// "separating_1.yaml", of the first effect.
 std::string separating_file(std::size_t number);
 
