@@ -190,6 +190,21 @@ TEST(Judge, AGapInEveryBlockIsSignificantOneInASingleBlockIsNot) {
   EXPECT_LT(judge.excess_significance(residual, 1.4).at("hinge/position"), 1.0);
 }
 
+TEST(Judge, CorrelatedNoiseIsDividedOutOnce) {
+  const Experiments experiments = {std::make_shared<LongSwing>()};
+  const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
+  ChannelScale scale;
+  scale.inflation = 4.0;  // taken off by the whitener
+  const Judge plain(experiments, factors, {}),
+      inflated(experiments, factors, {{"hinge/position", scale}});
+  Eigen::VectorXf noise(334);
+  for (Eigen::Index b = 0; b < 334; ++b) noise[b] = (b / 4) % 3 == 0 ? 1.2f : -0.9f;
+  const Eigen::MatrixXd as_is = plain.block_scores({noise}, 0),
+                        taken_off = inflated.block_scores({0.5f * noise}, 0);
+  ASSERT_EQ(as_is.cols(), taken_off.cols());
+  EXPECT_LT((as_is - taken_off).cwiseAbs().maxCoeff(), 1e-4 * as_is.cwiseAbs().maxCoeff());
+}
+
 TEST(CertainGap, IsInBothAndInBlockAfterBlockOrClearlyLarge) {
   const Experiments experiments = {std::make_shared<LongSwing>()};
   const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);

@@ -226,7 +226,7 @@ TEST(DrivenAxis, WhatIsNamedIsLargerThanWhatIsSaidToShow) {
 
 TEST(DrivenAxis, WhatIsSaidToShowMostlyDoes) {
   int found = 0, told = 0;
-  for (std::uint64_t seed = 10; seed < 20; ++seed) {
+  for (std::uint64_t seed = 10; seed < 40; ++seed) {
     const auto with = [&](double coulomb) {
       Question question = axis_question(coulomb, 0.0);
       question.train = {axis_recording(coulomb, 0.0, seed)};
@@ -240,8 +240,8 @@ TEST(DrivenAxis, WhatIsSaidToShowMostlyDoes) {
       found += !answer.effects.empty() && answer.effects[0].id == "joint_coulomb";
     }
   }
-  EXPECT_EQ(told, 10);
-  EXPECT_GE(found, 8);
+  EXPECT_EQ(told, 30);
+  EXPECT_GE(found, 21);  // said are 19 of 20; what noise does to the fit is left out
 }
 
 TEST(DrivenAxis, WhatACalibrationMayTakeUpIsNotSaidToShow) {

@@ -1,6 +1,7 @@
 #include "anthrob_calib/discovery/discovery.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 
@@ -63,6 +64,7 @@ class Search {
     std::vector<Score> scores = screening.scores(base_.fit);
     PreFlight(candidates_, base_.fit, train_judge_, test_judge_, total_duration(laboratory_.test))
         .fly(screening, scores, answer);
+    std::size_t looked_again = SIZE_MAX;  // with so many effects accepted
     // What is dropped again makes room; but not for ever.
     for (int round = 0;
          round < kMostRounds * question_.max_effects && has_room() && gaps_.any(base_, kFaintGap);
@@ -84,7 +86,12 @@ class Search {
         if (accepted_.empty()) note_recalibrated(answer);
         naming_.follow(base_, list);
         if (question_.comment) comment_on(list);
-        if (!earns_its_place(list, answer)) break;
+        if (!earns_its_place(list, answer)) {
+          // The list was drawn up for a base gone astray: once more, for the one that was found.
+          if (looked_again == accepted_.size()) break;
+          looked_again = accepted_.size();
+          continue;
+        }
       }
       accept(list, answer);
       drop_superfluous(answer);
@@ -252,6 +259,7 @@ class Search {
     auto& dropped = answer.dropped;  // it may be needed again
     dropped.erase(std::remove(dropped.begin(), dropped.end(), candidate.name()), dropped.end());
     answer.effects.push_back(std::move(effect));
+    answer.refused = {};
     accepted_.push_back({best.candidate, base_.fit.cost - best.fit.cost});
     base_ = best;
   }

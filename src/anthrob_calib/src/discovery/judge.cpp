@@ -57,7 +57,8 @@ Eigen::MatrixXd Judge::block_scores(const std::vector<Eigen::VectorXf>& residual
   for (const Run& run : runs_) {
     const auto& sums = left[run.name];
     if (!(sums[1] > 0.0)) continue;
-    const double variance = std::max(1.0, sums[0] / sums[1]);
+    // The whitener has the floor's correlation in it: its variance is less by as much.
+    const double variance = std::max(1.0 / run.inflation, sums[0] / sums[1]);
     const double weight = 0.5 / (variance * std::max(1.0, sums[2] / sums[1]));
     for (std::size_t r = 0; r < residuals.size(); ++r) {
       for (Eigen::Index b = 0; b < run.count; ++b) {

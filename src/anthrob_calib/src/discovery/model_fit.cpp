@@ -19,8 +19,10 @@ struct Way {
   double damping, length;
   bool last_resort;
 };
-constexpr Way kWays[] = {{1e-4, 1.0, false}, {1.0, 1.0, false}, {1e-4, 0.5, true},
-                         {1e-4, 0.25, true}, {10.0, 1.0, true}, {100.0, 1.0, true}};
+/// The first goes to the ground of valleys that are flat along what unknowns do together.
+constexpr Way kWays[] = {{1e-7, 1.0, false}, {1e-4, 1.0, false}, {1.0, 1.0, false},
+                         {1e-4, 0.5, true},  {1e-4, 0.25, true}, {10.0, 1.0, true},
+                         {100.0, 1.0, true}};
 // Steps that tell a sensitivity [scales].
 constexpr double kOneSide = 0.5;
 constexpr double kBothSides = 1.0;

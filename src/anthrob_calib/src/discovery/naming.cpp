@@ -18,6 +18,12 @@ constexpr double kMostOfIt = 0.75;   ///< of a gain
 constexpr double kAllOfIt = 0.98;    ///< of a gain, but for what the shape of a law makes
 constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
 constexpr int kIterations = 6;
+constexpr double kTelling = 2.0;  ///< [nat] an iteration that brings less decides nothing
+
+/// The least relative gain of an iteration that may matter, however long the recordings are.
+double telling(const Fitted& fitted) {
+  return std::min(3e-3, kTelling / fitted.cost);
+}
 
 std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstance& start,
                                  int effect) {
@@ -144,7 +150,7 @@ void Naming::follow(const Tested& base, ShortList& list) const {
     Named& named = list.named[i];
     try {
       Named other = fit(base.fit, named.candidate, named.fit.variant.effects.back());
-      train_.improve(other.fit, kIterations);
+      train_.improve(other.fit, kIterations, telling(other.fit));
       if (other.fit.cost >= named.fit.cost) return;
       other.test = test_.residual(other.fit.variant);
       if (other.test.size() > 0) named = std::move(other);
@@ -195,7 +201,7 @@ ShortList Naming::weigh(const Tested& base, const std::vector<Score>& scores) co
                    [](const Named& a, const Named& b) { return a.fit.cost < b.fit.cost; });
   if (list.named.size() > kJudged) list.named.resize(kJudged);
   train_.side_by_side(list.named.size(), [&](std::size_t i) {
-    train_.improve(list.named[i].fit, kIterations);
+    train_.improve(list.named[i].fit, kIterations, telling(list.named[i].fit));
     list.named[i].test = test_.residual(list.named[i].fit.variant);
   });
   list.named.erase(std::remove_if(list.named.begin(), list.named.end(),

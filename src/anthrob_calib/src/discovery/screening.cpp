@@ -123,8 +123,7 @@ void Screening::take_both_sides(Look& look, const Fitted& base,
     for (std::size_t i = look.first_column[k]; i < look.first_column[k + 1]; ++i) {
       const auto c = static_cast<Eigen::Index>(i);
       const double whole = look.responses.col(c).cast<double>().squaredNorm();
-      const double left = whole - p.JS.col(c).dot(p.absorbed.col(c));
-      const bool imitated = whole > kFaint && left < kImitated * whole;
+      const bool imitated = whole > kFaint && p.left(c, whole) < kImitated * whole;
       if (!imitated || look.columns[i].lower > -1.0) continue;
       std::vector<double> amount(look.first_column[k + 1] - look.first_column[k], 0.0);
       amount[i - look.first_column[k]] = -1.0;
@@ -170,6 +169,7 @@ Screening::Projection Screening::project(const Look& look, const Fitted& base,
     A(k, k) += precision[unknowns[i]] + 1e-9 * (1.0 + A(k, k));
     pull[k] += precision[unknowns[i]] * off[unknowns[i]];
   }
+  p.precision = precision(unknowns);
   p.covariance = A.ldlt().solve(Eigen::MatrixXd::Identity(A.rows(), A.rows()));
   p.JS = (J.transpose() * look.responses).cast<double>();
   p.absorbed = p.covariance * p.JS;
@@ -192,6 +192,12 @@ Screening::Projection Screening::project_whole(const Look& look, const Fitted& b
     }
   }
   return p;
+}
+
+double Screening::Projection::left(Eigen::Index response, double whole) const {
+  // JS'a = a'J'J a + a'P a: what it costs to move the parameters shows in no recording.
+  return whole - JS.col(response).dot(absorbed.col(response)) -
+         absorbed.col(response).cwiseAbs2().dot(precision);
 }
 
 void Screening::Projection::hold(Eigen::Index unknown, Eigen::Index response) {
@@ -221,7 +227,7 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
       const bool visible = column.simulated && h(i, i) > kVisible * whole[i] && h(i, i) > 1e-6;
       lower[i] = visible ? std::max(column.lower, -100.0) : 0.0;
       upper[i] = visible ? std::min(column.upper, 100.0) : 0.0;
-      const double left = whole[i] - in_all.JS.col(from + i).dot(in_all.absorbed.col(from + i));
+      const double left = in_all.left(from + i, whole[i]);
       const bool shows = column.simulated && left > kVisible * whole[i] && left > 1e-6;
       if (shows && 1.0 / std::sqrt(left) < score.uncertainty) {
         score.uncertainty = 1.0 / std::sqrt(left);

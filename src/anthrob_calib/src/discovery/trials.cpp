@@ -20,25 +20,26 @@ constexpr double kBegun = 0.3;  ///< share of what a size would do in proportion
 /// Where among a candidate's sizes these are.
 constexpr std::size_t kAsSuggested = 1, kTheDose = 2;
 
+double largest(const Amount& amount) {
+  double size = 0.0;
+  for (const double a : amount) size = std::max(size, std::abs(a));
+  return size;
+}
+
 /// The dose itself is among them: a surface that is too small to touch does nothing. So are
 /// multiples of it: a strong effect need not look like a weak one.
 std::vector<Amount> sizes_to_try(const Amount& suggested) {
   std::vector<Amount> sizes;
+  const double whole = std::max(largest(suggested), 1e-300);  // sizes keep their ratio
   for (const double share : kSuggested) {
     sizes.push_back(suggested);
     for (double& a : sizes.back()) a *= share;
   }
   for (const double doses : kDoses) {
     sizes.push_back(suggested);
-    for (double& a : sizes.back()) a = a == 0.0 ? 0.0 : std::copysign(doses, a);
+    for (double& a : sizes.back()) a = std::copysign(doses, a) * (std::abs(a) / whole);
   }
   return sizes;
-}
-
-double largest(const Amount& amount) {
-  double size = 0.0;
-  for (const double a : amount) size = std::max(size, std::abs(a));
-  return size;
 }
 
 }  // namespace

@@ -83,6 +83,11 @@ class Screening {
     Eigen::MatrixXd covariance;    ///< (J'J + P)^-1
     Eigen::MatrixXd JS, absorbed;  ///< J' S and (J'J + P)^-1 J' S
     Eigen::VectorXd gradient;      ///< of the cost to the amounts
+    Eigen::VectorXd precision;     ///< diagonal of P
+
+    /// Square of what is left of a response, S - J absorbed.
+    /// @param whole its own square
+    double left(Eigen::Index response, double whole) const;
 
     /// Imitates one response without one of the parameters. Leaves the gradient.
     void hold(Eigen::Index unknown, Eigen::Index response);
