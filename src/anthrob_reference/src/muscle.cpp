@@ -41,7 +41,7 @@ void Muscle::solve(const Posture& posture, const Vector4& velocity, const Muscle
   solution->tensions.resize(path_.span_count());
   solution->sliding.resize(path_.span_count() - 1);
   solution->tensions[ring_span_] = tension;
-  spread_towards_origin(state.speed, solution);
+  spread_towards_origin(state, solution);
   spread_towards_insertion(velocity, solution);
   solution->torque.setZero();
   for (std::size_t s = 0; s < path_.span_count(); ++s) {
@@ -61,8 +61,10 @@ double Muscle::friction_slope(std::size_t eyelet, double sliding) const {
   return slope;
 }
 
-void Muscle::spread_towards_origin(double speed, MuscleSolution* solution) const {
-  const double sliding = spindle_radius_ * speed;
+void Muscle::spread_towards_origin(const MuscleState& state, MuscleSolution* solution) const {
+  double radius = spindle_radius_;
+  for (const auto& law : laws_) radius += law->leverage(state.position);
+  const double sliding = radius * state.speed;
   for (std::size_t j = ring_span_; j-- > 0;) {
     solution->sliding[j] = sliding;
     solution->tensions[j] =

@@ -32,12 +32,23 @@ constexpr std::pair<const char*, CaseKind> kKinds[] = {{"effect", CaseKind::kEff
                                                        {"outside", CaseKind::kOutside},
                                                        {"wrapped", CaseKind::kWrapped}};
 
-Robot robot_of(const BlindCase& blind, const std::vector<Hidden>& hidden,
-               const SensorSettings* sensors, std::uint64_t noise_seed) {
+Draft draft_of(const BlindCase& blind, const std::vector<Hidden>& hidden, std::uint64_t run) {
   Draft draft;
   draft.arm = blind.built;
+  draft.run = run;
   for (const Hidden& one : hidden) build_in(one, &draft);
-  return Robot(std::move(draft), sensors, noise_seed);
+  return draft;
+}
+
+/// The robot without them, but for what a calibration may correct of what they change.
+Draft ordinary_draft_of(const BlindCase& blind, const std::vector<Hidden>& hidden) {
+  Draft draft;
+  draft.arm = blind.built;
+  for (const Hidden& one : hidden) {
+    const HiddenLaw& law = hidden_law(one.id);
+    if (law.ordinary) law.ordinary(one, &draft);
+  }
+  return draft;
 }
 
 std::vector<Command> commands_of(const BlindCase& blind, double seconds, std::uint64_t stream) {
@@ -48,7 +59,8 @@ double train_seconds(const BlindCase& blind, const CaseSettings& settings) {
   return blind.slow ? settings.slow_train : settings.train;
 }
 
-/// What hidden things change in train_0 without noise, by runs with and without.
+/// What hidden things change in train_0 without noise, by runs with and without. What they change
+/// that a calibration corrects is in both.
 class Change {
  public:
   Change(const BlindCase& blind, const CaseSettings& settings)
@@ -56,15 +68,20 @@ class Change {
         settings_(settings),
         seconds_(train_seconds(blind, settings)),
         commands_(commands_of(blind, seconds_, kTrain)),
-        plain_(run({})) {}
+        plain_(run(draft_of(blind, {}, 0))) {}
   /// Of every channel [sensor errors].
   std::map<std::string, double> of(const std::vector<Hidden>& hidden) const {
-    return difference(run(hidden), plain_, blind_.built, blind_.sensors);
+    const bool ordinary_too = std::any_of(hidden.begin(), hidden.end(), [](const Hidden& one) {
+      return static_cast<bool>(hidden_law(one.id).ordinary);
+    });
+    const Recording with = run(draft_of(blind_, hidden, 0));
+    return difference(with, ordinary_too ? run(ordinary_draft_of(blind_, hidden)) : plain_,
+                      blind_.built, blind_.sensors);
   }
 
  private:
-  Recording run(const std::vector<Hidden>& hidden) const {
-    Robot robot = robot_of(blind_, hidden, nullptr, 0);
+  Recording run(Draft draft) const {
+    Robot robot(std::move(draft), nullptr, 0);
     return record(&robot, commands_, seconds_, settings_.recording);
   }
 
@@ -79,9 +96,11 @@ class Change {
 std::vector<std::string> shuffled_places(const HiddenLaw& law, const reference::ArmParameters& arm,
                                          std::uint64_t seed) {
   std::vector<std::string> places = law.places(arm);
-  const auto& all = catalogue_laws();
-  const auto same = [&](const HiddenLaw& other) { return other.id == law.id; };
-  const auto number = std::find_if(all.begin(), all.end(), same) - all.begin();
+  std::vector<std::string> ids;
+  for (const auto* laws : {&catalogue_laws(), &outside_laws()}) {
+    for (const HiddenLaw& other : *laws) ids.push_back(other.id);
+  }
+  const auto number = std::find(ids.begin(), ids.end(), law.id) - ids.begin();
   Random random(1009 * seed + static_cast<std::uint64_t>(number), kPlace);
   for (std::size_t i = places.size(); i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
   return places;
@@ -266,7 +285,7 @@ void record_case(const BlindCase& blind, const CaseSettings& settings, const std
   const double test = blind.slow ? settings.slow_test : settings.test;
   const auto run = [&](const std::string& name, double seconds, std::uint64_t stream,
                        std::uint64_t noise, const SensorSettings& sensors) {
-    Robot robot = robot_of(blind, blind.hidden, &sensors, blind.seed * 31 + noise);
+    Robot robot(draft_of(blind, blind.hidden, noise), &sensors, blind.seed * 31 + noise);
     const std::vector<Command> commands = commands_of(blind, seconds, stream);
     write_dataset(record(&robot, commands, seconds, settings.recording), names, settings.recording,
                   meta, folder + "/" + name);

@@ -133,6 +133,11 @@ TEST(Dose, FindsAFactorOnACurve) {
   const double factor = dose(change, 5.0, 0.01, 100.0);
   EXPECT_NEAR(std::log(change(factor) / 5.0), 0.0, 0.12);
   EXPECT_EQ(dose(change, 1e9, 0.1, 3.0), 3.0);
+  // Nothing up to a threshold, then soon much.
+  const auto threshold = [](double f) { return 20.0 * std::max(0.0, f - 1.5); };
+  EXPECT_NEAR(std::log(threshold(dose(threshold, 5.0, 0.02, 5.0)) / 5.0), 0.0, 0.5);
+  const auto low_threshold = [](double f) { return 60.0 * std::max(0.0, f - 0.4); };
+  EXPECT_NEAR(std::log(low_threshold(dose(low_threshold, 5.0, 0.02, 5.0)) / 5.0), 0.0, 0.7);
 }
 
 TEST(BlindCase, SizeIsWithinTheFloorsAskedForAndTheSameForASeed) {
@@ -223,6 +228,49 @@ TEST(BlindCase, SurfaceSitsWhereATendonTouchesIt) {
     places.insert(blind.hidden.front().place);
   }
   EXPECT_EQ(places.size(), 2u);
+}
+
+TEST(BlindCase, LengthThatACalibrationCorrectsIsNoChangeBySurfaces) {
+  // In its postures the biceps does not touch, but its tendon is longer for the rest posture.
+  const BlindCase blind =
+      make_case({{"wrapping_surface", "biceps_brachii"}}, 1, model_I(), settings());
+  EXPECT_LT(worst(blind.change).second, 1.0);
+  Draft with, ordinary, without;
+  for (Draft* draft : {&with, &ordinary, &without}) draft->arm = model_I();
+  const Hidden surface{"wrapping_surface", "biceps_brachii", {{"radius", 0.016}}};
+  build_in(surface, &with);
+  hidden_law(surface.id).ordinary(surface, &ordinary);
+  const std::size_t index = with.muscle(surface.place);
+  EXPECT_EQ(with.arm.muscles[index].rest_tendon_length,
+            ordinary.arm.muscles[index].rest_tendon_length);
+  EXPECT_GT(ordinary.arm.muscles[index].rest_tendon_length,
+            without.arm.muscles[index].rest_tendon_length + 1e-4);
+  EXPECT_EQ(ordinary.arm.muscles[index].path.size(), without.arm.muscles[index].path.size());
+}
+
+TEST(BlindCase, LawsOutsideOfTheCatalogueSitAtSeveralMuscles) {
+  CaseSettings brief = settings();
+  brief.train = 1.0;
+  std::set<std::string> muscles;
+  for (std::uint64_t k = 0; k < outside_laws().size(); ++k) {
+    const BlindCase blind = draw_case(CaseKind::kOutside, k, 1, model_I(), brief);
+    if (outside_laws()[k].places(model_I()).size() > 5) muscles.insert(blind.hidden[0].place);
+  }
+  EXPECT_GE(muscles.size(), 4u);
+}
+
+TEST(Outside, WhatHappensByChanceIsOtherInEachRun) {
+  const auto torque = [](std::uint64_t run) {
+    Draft draft;
+    draft.arm = model_I();
+    draft.run = run;
+    build_in({"gusts", "shoulder", {{"strength", 0.3}, {"seed", 7.0}}}, &draft);
+    const auto& law = draft.joint_laws.at(0);
+    for (int k = 0; k < 1000; ++k) law->settle(1e-3, {}, {});
+    return law->torque({}).eval();
+  };
+  EXPECT_EQ(torque(0), torque(0));
+  EXPECT_NE(torque(0), torque(1));
 }
 
 TEST(BlindCase, TruthTellsAllErrorsOfCalibration) {

@@ -65,7 +65,7 @@ class Muscle final {
  private:
   double friction(std::size_t eyelet, double sliding) const;
   double friction_slope(std::size_t eyelet, double sliding) const;
-  void spread_towards_origin(double speed, MuscleSolution* solution) const;
+  void spread_towards_origin(const MuscleState& state, MuscleSolution* solution) const;
   void spread_towards_insertion(const Vector4& velocity, MuscleSolution* solution) const;
 
   Path path_;

@@ -5,7 +5,8 @@
 namespace anthrob::virtual_robot {
 
 /// A factor for which `change` is near `target`, within [least, most]; `change` grows with it. A
-/// secant on logarithms, at most `tries` evaluations; the last one was of the factor returned.
+/// secant on logarithms between the nearest on both sides, at most `tries` evaluations; of those the
+/// nearest.
 double dose(const std::function<double(double)>& change, double target, double least, double most,
             int tries = 6);
 

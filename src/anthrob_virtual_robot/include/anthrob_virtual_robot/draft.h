@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@ namespace anthrob::virtual_robot {
 /// a draft serves for one robot.
 struct Draft {
   reference::ArmParameters arm;
+  std::uint64_t run = 0;  ///< of one robot: what happens by chance is other in each
   std::vector<std::pair<std::size_t, std::shared_ptr<reference::MuscleLaw>>> muscle_laws;
   std::vector<std::shared_ptr<reference::JointLaw>> joint_laws;
   std::vector<std::shared_ptr<CommandLaw>> command_laws;

@@ -39,6 +39,8 @@ struct HiddenLaw {
   std::function<Parameters(const reference::ArmParameters&, const std::string& place, Random*)>
       draw;
   std::function<void(const Hidden&, Draft*)> build;
+  /// Of what `build` changes that which an ordinary calibration corrects, alone; none: nothing.
+  std::function<void(const Hidden&, Draft*)> ordinary = {};
   /// What the first size adds to, if it is the same quantity as a number of the model file. What
   /// an ordinary calibration may correct of it is no effect.
   std::optional<ModelNumber> same_as = {};

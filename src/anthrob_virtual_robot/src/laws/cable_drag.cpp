@@ -21,7 +21,7 @@ class HardeningBundle final : public reference::JointLaw {
   }
 
  private:
-  static constexpr double kHard = 2.5;  // angle at which it is twice as stiff [rad]
+  static constexpr double kHard = 5.0;  // angle at which it is twice as stiff [rad]
   double pull(double angle) const {
     return stiffness_ * angle * (1.0 + angle * angle / (kHard * kHard));
   }
@@ -34,7 +34,7 @@ class HardeningBundle final : public reference::JointLaw {
 HiddenLaw cable_drag() {
   HiddenLaw law;
   law.id = "cable_drag";
-  law.law = "stiffness (1 + (q / 2.5 rad)^2)";
+  law.law = "stiffness (1 + (q / 5 rad)^2)";
   law.sizes = {"stiffness"};
   law.places = joint_places;
   law.draw = [](const auto&, const std::string& place, Random* random) -> Parameters {

@@ -20,7 +20,7 @@ class Virgin final : public reference::MuscleLaw {
   }
 
  private:
-  static constexpr double kSteep = 0.9;
+  static constexpr double kSteep = 0.5;  // the parabola that fits best has 1.03 of its size
   double softening_, stiffness_, rest_length_;
   double largest_ = 0.0;  // stretch so far [m]
 };

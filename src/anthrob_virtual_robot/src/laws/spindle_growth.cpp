@@ -18,7 +18,8 @@ class Layers final : public reference::MuscleLaw {
   }
 
  private:
-  static constexpr double kStep = 0.8;  // 0: a steady growth, 1: flat in the middle of a turn
+  // 0: a steady growth, 1: flat in the middle of a turn. Many muscles use a part of a turn only.
+  static constexpr double kStep = 0.2;
   double growth_;
 };
 

@@ -3,8 +3,9 @@
 namespace anthrob::virtual_robot {
 namespace {
 
-/// Kelvin-Voigt elements, one a decade, whose sum follows rate log(1 + t / onset) under a constant
-/// force within a tenth from 1 to 300 onset, and slowly come back without.
+/// Kelvin-Voigt elements with ratchets, one a decade: they do not come back. Under a force that
+/// changes as in motion their sum follows the logarithm that hardens, under a constant one it is
+/// 0.8 to 0.9 of it.
 class SlowFibres final : public reference::MuscleLaw {
  public:
   SlowFibres(double rate, double onset) : rate_(rate), onset_(onset) {}
@@ -15,14 +16,14 @@ class SlowFibres final : public reference::MuscleLaw {
     double time = 4.3 * onset_;
     for (double& a : a_) {
       const double keep = std::exp(-h / time);
-      a = keep * a + (1.0 - keep) * kDecade * rate_ * f;
+      a += (1.0 - keep) * std::max(0.0, kDecade * rate_ * f - a);
       time *= 10.0;
     }
   }
 
  private:
-  static constexpr double kDecade = 2.302585;  // log 10
-  double rate_;                                // of the whole tendon [m/N]
+  static constexpr double kDecade = 2.302585 / 1.22;  // log 10; a changing force moves them more
+  double rate_;                                       // of the whole tendon [m/N]
   double onset_;
   double a_[3] = {};
 };
@@ -32,7 +33,7 @@ class SlowFibres final : public reference::MuscleLaw {
 HiddenLaw tendon_creep() {
   HiddenLaw law;
   law.id = "tendon_creep";
-  law.law = "three Kelvin-Voigt elements, which recover, instead of a logarithm with hardening";
+  law.law = "three Kelvin-Voigt elements with ratchets instead of a logarithm with hardening";
   law.sizes = {"rate"};
   law.places = muscle_places_and_all;
   law.slow = true;

@@ -29,6 +29,8 @@ HiddenLaw tendon_elasticity() {
   law.law = "softer below 4 N, by 40 %; under the tension of the first segment";
   law.sizes = {"compliance"};
   law.places = muscle_places_and_all;
+  // Lengthening follows the force by a step: much more of it would chatter.
+  law.most = 2.0;
   law.draw = [](const auto&, const auto&, Random*) -> Parameters { return {{"compliance", 1e-4}}; };
   law.build = [](const Hidden& h, Draft* draft) {
     add_to_muscles(h, draft, [&](const reference::MuscleParameters& muscle) {

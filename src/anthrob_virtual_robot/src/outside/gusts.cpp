@@ -6,8 +6,8 @@ namespace {
 /// Random torques that last for a while.
 class Gusts final : public reference::JointLaw {
  public:
-  Gusts(double strength, double seed)
-      : strength_(strength), random_(static_cast<std::uint64_t>(seed)) {}
+  Gusts(double strength, double seed, std::uint64_t run)
+      : strength_(strength), random_(static_cast<std::uint64_t>(seed), run) {}
   reference::Vector4 torque(const reference::JointState&) const override {
     return on_joint("shoulder", strength_ * now_, 0.0);
   }
@@ -38,7 +38,7 @@ HiddenLaw gusts() {
     return {{"strength", 0.3}, {"seed", std::floor(random->uniform(0.0, 1e6))}};
   };
   law.build = [](const Hidden& h, Draft* draft) {
-    draft->joint_laws.push_back(std::make_shared<Gusts>(h["strength"], h["seed"]));
+    draft->joint_laws.push_back(std::make_shared<Gusts>(h["strength"], h["seed"], draft->run));
   };
   return law;
 }

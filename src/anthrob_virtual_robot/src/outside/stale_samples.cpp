@@ -6,8 +6,8 @@ namespace {
 /// A bus that repeats old samples now and then.
 class Stale final : public ReadingLaw {
  public:
-  Stale(std::size_t muscle, double share, double seed)
-      : muscle_(muscle), share_(share), random_(static_cast<std::uint64_t>(seed)) {}
+  Stale(std::size_t muscle, double share, double seed, std::uint64_t run)
+      : muscle_(muscle), share_(share), random_(static_cast<std::uint64_t>(seed), run) {}
   void apply(Readings* readings) override {
     MuscleReading& now = readings->muscles[muscle_];
     if (left_ == 0 && random_.uniform() < share_ / kLasting) left_ = kLasting;
@@ -43,7 +43,7 @@ HiddenLaw stale_samples() {
   };
   law.build = [](const Hidden& h, Draft* draft) {
     draft->reading_laws.push_back(
-        std::make_shared<Stale>(draft->muscle(h.place), h["share"], h["seed"]));
+        std::make_shared<Stale>(draft->muscle(h.place), h["share"], h["seed"], draft->run));
   };
   return law;
 }
