@@ -156,12 +156,14 @@ void Screening::renew(const Fitted& base, const std::vector<Score>& best, std::s
 }
 
 Screening::Projection Screening::project(const Look& look, const Fitted& base,
-                                         const std::vector<Eigen::Index>& unknowns) const {
+                                         const std::vector<Eigen::Index>& unknowns,
+                                         double share) const {
   Projection p;
   p.J = look.excerpt.of(base.sensitivity, unknowns);
   const Eigen::MatrixXf& J = p.J;
   const Eigen::VectorXf residual = look.excerpt.of(base.residual);
-  const Eigen::VectorXd precision = base.precision(), off = base.scaled() - base.expected();
+  const Eigen::VectorXd precision = share * base.precision();
+  const Eigen::VectorXd off = base.scaled() - base.expected();
   Eigen::MatrixXd A = (J.transpose() * J).cast<double>();
   Eigen::VectorXd pull = (J.transpose() * residual).cast<double>();
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
@@ -178,8 +180,12 @@ Screening::Projection Screening::project(const Look& look, const Fitted& base,
   return p;
 }
 
+double Screening::share_of_whole(const Look& look, const Fitted& base) {
+  return static_cast<double>(look.excerpt.rows.size()) / static_cast<double>(base.residual.size());
+}
+
 Screening::Projection Screening::project_whole(const Look& look, const Fitted& base) const {
-  Projection p = project(look, base, all_unknowns(base));
+  Projection p = project(look, base, all_unknowns(base), share_of_whole(look, base));
   for (std::size_t k = 0; k < look.candidates.size(); ++k) {
     if (look.candidates[k] == kMoved) continue;
     for (const int nuisance : candidates_[look.candidates[k]].same_as) {
@@ -206,7 +212,8 @@ void Screening::Projection::hold(Eigen::Index unknown, Eigen::Index response) {
 }
 
 void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& scores) const {
-  const Projection p = project(look, base, free_unknowns(base)), in_all = project_whole(look, base);
+  const Projection p = project(look, base, free_unknowns(base), 1.0),
+                   in_all = project_whole(look, base);
   for (std::size_t k = 0; k < look.candidates.size(); ++k) {
     if (look.candidates[k] == kMoved) continue;
     Score score;
@@ -253,8 +260,7 @@ std::vector<double> Screening::doses_to_a_gap(const Fitted& base, const std::vec
     const Projection p = project_whole(look, base);
     Eigen::MatrixXf left = look.responses;
     if (p.J.cols() > 0) left -= p.J * p.absorbed.cast<float>();
-    const double share =
-        static_cast<double>(look.excerpt.rows.size()) / static_cast<double>(whole.size());
+    const double share = share_of_whole(look, base);
     whole.setZero();
     for (std::size_t s = 0; s < scores.size(); ++s) {
       const auto found =
@@ -279,7 +285,7 @@ std::vector<double> Screening::doses_to_a_gap(const Fitted& base, const std::vec
 std::vector<std::vector<std::size_t>> Screening::alike(const Fitted& base) const {
   std::vector<std::vector<std::size_t>> groups;
   for (const Look& look : looks_) {
-    const Projection p = project(look, base, all_unknowns(base));
+    const Projection p = project(look, base, all_unknowns(base), share_of_whole(look, base));
     Eigen::MatrixXd gram = (look.responses.transpose() * look.responses).cast<double>();
     const Eigen::VectorXd whole = gram.diagonal();
     gram -= p.JS.transpose() * p.absorbed;

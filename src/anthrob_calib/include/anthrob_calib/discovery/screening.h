@@ -92,10 +92,14 @@ class Screening {
     /// Imitates one response without one of the parameters. Leaves the gradient.
     void hold(Eigen::Index unknown, Eigen::Index response);
   };
+  /// @param share of what the parameters are expected to be that counts
   Projection project(const Look& look, const Fitted& base,
-                     const std::vector<Eigen::Index>& unknowns) const;
+                     const std::vector<Eigen::Index>& unknowns, double share) const;
+  /// Of a look in all that was recorded: there expectations count the less, the more there is.
+  static double share_of_whole(const Look& look, const Fitted& base);
   /// By all of them, also those at a bound: it may be the imitation of an effect that took them
-  /// there. But a candidate that is the same quantity as one of them (at most one) without that.
+  /// there. But a candidate that is the same quantity as one of them (at most one) without that. As
+  /// far as they can in all that was recorded, of which the look is a part.
   Projection project_whole(const Look& look, const Fitted& base) const;
   void score(const Look& look, const Fitted& base, std::vector<Score>& scores) const;
 
