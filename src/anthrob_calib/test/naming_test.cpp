@@ -146,6 +146,27 @@ TEST(Naming, WhatIsManyDosesIsNotTakenForAWeakOne) {
   EXPECT_GT(list.named[0].probability, 0.99);
 }
 
+TEST(Naming, WhatPointsTheWrongWayAtFirstIsTriedWhereEvidenceIs) {
+  // A dose of damping makes it worse, three are what is missing. Dry friction says a little.
+  const Problem problem(
+      [](double elbow, double, double dry) {
+        const double doses = (elbow - kElbow) / kDose;
+        return 4.0 - std::min(1.0, dry / 0.1) + (doses < 1.0 ? 2.0 * doses : 5.0 - 3.0 * doses);
+      },
+      "shoulder", {"joint_viscous", "joint_coulomb"});
+  std::vector<Score> scores(2);
+  scores[0].candidate = problem.index("elbow", "joint_coulomb");
+  scores[0].gain = 1.0;
+  scores[0].amount = {0.5};
+  scores[1].candidate = problem.index("elbow");
+  scores[1].amount = {0.0};
+  const ShortList list = problem.naming.weigh(problem.base(0.15), scores);
+  ASSERT_EQ(list.named.size(), 2u);
+  EXPECT_EQ(list.named[0].candidate, scores[1].candidate);
+  EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"), 3.0 * kDose,
+              0.1 * kDose);
+}
+
 TEST(Naming, WithoutOrdinaryParameters) {
   const Problem problem(
       [](double elbow, double, double) { return 5.0 - 10.0 * (elbow - kElbow) / kDose; }, "");

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <string>
+
+#include "anthrob_sim/effects/placed_effects.h"
 
 namespace anthrob {
 namespace discovery {
@@ -15,7 +18,8 @@ using Amount = std::vector<double>;  // of each size, in doses
 constexpr double kSuggested[] = {0.5, 1.0};    ///< shares of what the screening suggests
 constexpr double kDoses[] = {1.0, 3.0, 10.0};  ///< whatever it suggests
 constexpr double kBetween[] = {0.25, 0.5, 0.75};
-constexpr double kBegun = 0.3;  ///< share of what a size would do in proportion to the dose
+constexpr double kBegun = 0.3;    ///< share of what a size would do in proportion to the dose
+constexpr double kUnasked = 5.0;  ///< [doses] where the screening suggests nothing
 
 /// Where among a candidate's sizes these are.
 constexpr std::size_t kAsSuggested = 1, kTheDose = 2;
@@ -69,6 +73,25 @@ std::vector<Score> Trials::most_promising(const std::vector<Score>& scores,
   return tried;
 }
 
+/// Where evidence is strongest, every law is tried: one whose dose seems to change nothing, or
+/// points the wrong way, may do it when it is larger.
+void Trials::add_place_of_first(const std::vector<Score>& scores,
+                                const std::vector<Candidate>& candidates,
+                                std::vector<Score>& tried) {
+  if (tried.empty()) return;
+  const std::string place = split_place(candidates[tried.front().candidate].place).front();
+  for (const Score& score : scores) {
+    if (candidates[score.candidate].place != place) continue;
+    const bool is_in = std::any_of(tried.begin(), tried.end(), [&](const Score& other) {
+      return other.candidate == score.candidate;
+    });
+    if (is_in) continue;
+    tried.push_back(score);
+    Amount& amount = tried.back().amount;
+    if (largest(amount) == 0.0) std::fill(amount.begin(), amount.end(), kUnasked);
+  }
+}
+
 std::vector<Trials::Trial> Trials::simulate(const Fitted& base, const std::vector<Score>& tried,
                                             std::vector<Trial> trials) const {
   std::vector<Variant> variants;
@@ -101,6 +124,7 @@ std::vector<Trials::Trial> Trials::simulate(const Fitted& base, const std::vecto
 
 std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& scores) const {
   std::vector<Score> tried = most_promising(scores, candidates_);
+  add_place_of_first(scores, candidates_, tried);
   std::vector<Trial> trials;
   for (std::size_t s = 0; s < tried.size(); ++s) {
     for (Amount& amount : sizes_to_try(tried[s].amount)) trials.push_back({s, std::move(amount)});

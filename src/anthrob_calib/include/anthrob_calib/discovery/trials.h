@@ -24,7 +24,8 @@ class Trials {
   Trials(const ModelFit& fit, const std::vector<Candidate>& candidates)
       : fit_(fit), candidates_(candidates) {}
 
-  /// Of the best by the screening those that leave least, least first, each at its best size.
+  /// Of the best by the screening, and of all at the place of the first, those that leave least,
+  /// least first, each at its best size.
   /// @param scores in order of falling gain
   std::vector<Score> best(const Fitted& base, const std::vector<Score>& scores) const;
 
@@ -39,6 +40,9 @@ class Trials {
 
   static std::vector<Score> most_promising(const std::vector<Score>& scores,
                                            const std::vector<Candidate>& candidates);
+  static void add_place_of_first(const std::vector<Score>& scores,
+                                 const std::vector<Candidate>& candidates,
+                                 std::vector<Score>& tried);
   std::vector<Trial> simulate(const Fitted& base, const std::vector<Score>& tried,
                               std::vector<Trial> trials) const;
 
