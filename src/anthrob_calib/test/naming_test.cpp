@@ -261,6 +261,30 @@ TEST(Settling, WhatStaysOutOfReachIsNotSettled) {
   EXPECT_GT(simulated(1e6, true), rough);
 }
 
+/// Fits to the end from the far one of two valleys.
+/// @param given, far what differs on their grounds; parameters are given in the first
+/// @return simulations that it took
+std::size_t finish_from_far(double given, double far, double level, bool within) {
+  const Problem problem([=](double, double shoulder, double) {
+    if (shoulder < 0.4) return 50.0 * std::abs(shoulder - 0.15) + given;
+    return 50.0 * std::abs(shoulder - 0.7) + far;
+  });
+  const Fitted begin = problem.fitted(0.7);
+  const std::size_t before = problem.evaluator.simulated();
+  const auto end = problem.settling.to_the_end_within_reach(begin, level * Problem::kBins);
+  EXPECT_EQ(end.has_value(), within);
+  if (end) {
+    EXPECT_LT(end->cost, 1.2 * Problem::kBins);  // half of its square, and as much of the noise
+  }
+  return problem.evaluator.simulated() - before;
+}
+
+TEST(Settling, WhatLagsBehindIsNotFinished) {
+  const std::size_t lost = finish_from_far(1.0, 3.0, 0.5, false);
+  EXPECT_GT(finish_from_far(1.0, 3.0, 2.0, true), lost);  // near from the given parameters
+  EXPECT_GT(finish_from_far(3.0, 1.0, 2.0, true), lost);  // near where it stood
+}
+
 /// Dry friction of the elbow is what is missing, and where the shoulder's damping is right it says
 /// all. In another valley, where that has gone astray, more damping of the elbow says more.
 double hides_dry_friction(double elbow, double shoulder, double dry) {

@@ -1,6 +1,8 @@
 #include "anthrob_calib/discovery/run_off.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "anthrob_calib/discovery/merit.h"
 
@@ -9,7 +11,8 @@ namespace discovery {
 
 namespace {
 
-constexpr double kComesNear = 0.5;  ///< share of the first one's gain
+constexpr double kComesNear = 0.5;   ///< share of the first one's gain
+constexpr double kLagsBehind = 0.4;  ///< lacking that after rough steps is lost
 
 }  // namespace
 
@@ -29,17 +32,26 @@ std::size_t RunOff::challenger(const Tested& base, const ShortList& list) const 
   return best;
 }
 
-void RunOff::finish(Named& named) const {
-  Tested tested = bench_.tested(bench_.settling.to_the_end(named.fit));
+bool RunOff::finish(Named& named, double level) const {
+  std::optional<Fitted> end = bench_.settling.to_the_end_within_reach(named.fit, level);
+  if (!end) return false;
+  Tested tested = bench_.tested(std::move(*end));
   if (tested.test.size() > 0) static_cast<Tested&>(named) = std::move(tested);
+  return true;
 }
 
 void RunOff::decide(const Tested& base, ShortList& list) const {
   const std::size_t index = challenger(base, list);
   ShortList end;
   end.named = {list.named.front()};
-  if (index > 0) end.named.push_back(list.named[index]);
-  for (Named& named : end.named) finish(named);
+  finish(end.named[0], HUGE_VAL);
+  if (index > 0) {
+    const double least = end.named[0].fit.cost;
+    Named other = list.named[index];
+    if (finish(other, least + kLagsBehind * (base.fit.cost - least))) {
+      end.named.push_back(std::move(other));
+    }
+  }
   bench_.naming.judge(base, end);
   const double first_probability = list.named.front().probability;
   const bool kept = end.named[0].candidate == list.named.front().candidate;

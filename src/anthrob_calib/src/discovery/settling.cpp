@@ -1,5 +1,8 @@
 #include "anthrob_calib/discovery/settling.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace anthrob {
 namespace discovery {
 
@@ -10,7 +13,7 @@ constexpr int kPolish = 8;          ///< iterations by the same slopes
 constexpr int kSettling = 8;        ///< times that slopes are simulated anew
 constexpr double kSettled = 5e-4;   ///< share of the cost
 constexpr int kFinishing = 5;       ///< rounds of exact slopes
-constexpr double kAtTheEnd = 2e-4;  ///< share of the cost
+constexpr double kAtTheEnd = 5e-4;  ///< share of the cost
 constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
 
@@ -31,9 +34,14 @@ void Settling::settle(Fitted& fitted) const {
   }
 }
 
-Fitted Settling::settled(const Variant& variant, std::vector<Unknown> unknowns) const {
+Fitted Settling::rough(const Variant& variant, std::vector<Unknown> unknowns) const {
   Fitted fitted = fit_.start(variant, std::move(unknowns));
   fit_.improve(fitted, kRough);
+  return fitted;
+}
+
+Fitted Settling::settled(const Variant& variant, std::vector<Unknown> unknowns) const {
+  Fitted fitted = rough(variant, std::move(unknowns));
   settle(fitted);
   return fitted;
 }
@@ -48,21 +56,27 @@ bool Settling::settle_within_reach(Fitted& fitted, double level) const {
 }
 
 Fitted Settling::to_the_end(const Fitted& fitted) const {
-  std::optional<Fitted> best = from_given(fitted);
+  return *to_the_end_within_reach(fitted, HUGE_VAL);
+}
+
+std::optional<Fitted> Settling::to_the_end_within_reach(const Fitted& fitted, double level) const {
+  std::optional<Fitted> best = roughly_from_given(fitted);
+  if (std::min(fitted.cost, best ? best->cost : HUGE_VAL) > level) return std::nullopt;
+  if (best) settle(*best);
   if (!best || best->cost >= fitted.cost) {
     best = fitted;
     settle(*best);
   }
   finish(*best);
-  return std::move(*best);
+  return best;
 }
 
 /// Nothing if the effects cannot be simulated with the given parameters.
-std::optional<Fitted> Settling::from_given(const Fitted& fitted) const {
+std::optional<Fitted> Settling::roughly_from_given(const Fitted& fitted) const {
   Variant given = fitted.variant;
   given.nuisances = evaluator_.initial_nuisances();
   try {
-    return settled(given, fitted.unknowns);
+    return rough(given, fitted.unknowns);
   } catch (const NotSimulated&) {
     return std::nullopt;
   }

@@ -8,8 +8,8 @@ namespace discovery {
 
 /// The last decision between two effects. The short list was fitted roughly, from where the model
 /// without them had gone astray, and a false one may be lower there. So the first of the list is
-/// fitted to the end and, if another effect brings half of what it does, that one, too; and those
-/// two are judged against each other.
+/// fitted to the end and, if another effect brings half of what it does, that one, too, unless it
+/// is left far behind; and those two are judged against each other.
 class RunOff {
  public:
   RunOff(const Workbench& bench, const Gaps& gaps) : bench_(bench), gaps_(gaps) {}
@@ -24,7 +24,8 @@ class RunOff {
   /// Its index; 0: none.
   std::size_t challenger(const Tested& base, const ShortList& list) const;
   /// As it was if it cannot be simulated there.
-  void finish(Named& named) const;
+  /// @return whether it gets anywhere near a level of cost; it is not finished if not
+  bool finish(Named& named, double level) const;
 
   const Workbench& bench_;
   const Gaps& gaps_;

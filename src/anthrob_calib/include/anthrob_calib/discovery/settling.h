@@ -21,6 +21,9 @@ class Settling {
   /// To the end. What was missing has led ordinary parameters astray, and friction does not let
   /// them all find back: with what is found, a fit from the given parameters mostly ends lower.
   Fitted to_the_end(const Fitted& fitted) const;
+  /// The same; nothing if it is above a level both where it is and, after rough steps, from the
+  /// given parameters.
+  std::optional<Fitted> to_the_end_within_reach(const Fitted& fitted, double level) const;
   /// From where a fit is; but only roughly, unless that brings the cost below a level.
   /// @return whether it did
   bool settle_within_reach(Fitted& fitted, double level) const;
@@ -28,7 +31,8 @@ class Settling {
  private:
   void settle(Fitted& fitted) const;
   bool clearly_misses(const Fitted& fitted) const;
-  std::optional<Fitted> from_given(const Fitted& fitted) const;
+  Fitted rough(const Variant& variant, std::vector<Unknown> unknowns) const;
+  std::optional<Fitted> roughly_from_given(const Fitted& fitted) const;
   void finish(Fitted& fitted) const;
 
   const Evaluator& evaluator_;
