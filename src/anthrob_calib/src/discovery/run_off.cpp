@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kComesNear = 0.5;   ///< share of the first one's gain
 constexpr double kLagsBehind = 0.4;  ///< lacking that after rough steps is lost
+constexpr double kScatter = 0.01;    ///< the same, by which ends of fits differ for no reason
 
 }  // namespace
 
@@ -40,6 +41,18 @@ bool RunOff::finish(Named& named, double level) const {
   return true;
 }
 
+/// Of what two laws have together, that of the better one. Fits of one law to one recording end as
+/// far apart as kScatter, and the true law may differ from both by as much: evidence of that size
+/// decides nothing, however many blocks agree.
+double RunOff::share_of_better(const Tested& base, const ShortList& end) {
+  const Named &better = end.named[0], &other = end.named[1];
+  const auto total = [](const Tested& t) { return t.fit.cost + 0.5 * t.test.squaredNorm(); };
+  const double lead = total(other) - total(better), gain = total(base) - total(better);
+  const double by_scatter = 0.5 * std::erfc(-lead / (kScatter * gain) * M_SQRT1_2);
+  const double by_blocks = better.probability / (better.probability + other.probability);
+  return std::min(by_blocks, std::max(0.5, by_scatter));
+}
+
 void RunOff::decide(const Tested& base, ShortList& list) const {
   const std::size_t index = challenger(base, list);
   ShortList end;
@@ -53,28 +66,27 @@ void RunOff::decide(const Tested& base, ShortList& list) const {
     }
   }
   bench_.naming.judge(base, end);
-  const double first_probability = list.named.front().probability;
   const bool kept = end.named[0].candidate == list.named.front().candidate;
-  if (kept || !lack(gaps_.merit_of(end, base)).empty()) {
+  if (end.named.size() == 1 || (!kept && !lack(gaps_.merit_of(end, base)).empty())) {
     Named& first = kept ? end.named[0] : end.named[1];
-    first.probability = first_probability;
+    first.probability = list.named.front().probability;
     list.named.front() = std::move(first);
     return;
   }
-  const Effect* beaten = bench_.candidates[list.named.front().candidate].effect;
-  const double share =
-      end.named[0].probability / (end.named[0].probability + end.named[1].probability);
-  Named winner = std::move(end.named[0]);
-  winner.probability = list.named[index].probability;
-  list.named.front() = std::move(end.named[1]);
-  list.named.front().probability = first_probability;
+  const std::size_t better = kept ? 0 : index, worse = kept ? index : 0;
+  const Effect* beaten = bench_.candidates[list.named[worse].candidate].effect;
+  double both = list.named[better].probability;
   for (Named& named : list.named) {
     if (bench_.candidates[named.candidate].effect != beaten) continue;
-    winner.probability += share * named.probability;
-    named.probability *= 1.0 - share;
+    both += named.probability;
+    named.probability = 0.0;
   }
-  list.named.erase(list.named.begin() + static_cast<std::ptrdiff_t>(index));
-  list.named.insert(list.named.begin(), std::move(winner));
+  const double share = share_of_better(base, end);
+  end.named[0].probability = share * both;
+  end.named[1].probability = (1.0 - share) * both;
+  list.named[worse] = std::move(end.named[1]);
+  list.named.erase(list.named.begin() + static_cast<std::ptrdiff_t>(better));
+  list.named.insert(list.named.begin(), std::move(end.named[0]));
   std::stable_sort(list.named.begin() + 1, list.named.end(),
                    [](const Named& a, const Named& b) { return a.probability > b.probability; });
 }

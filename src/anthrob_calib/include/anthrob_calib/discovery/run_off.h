@@ -15,8 +15,9 @@ class RunOff {
   RunOff(const Workbench& bench, const Gaps& gaps) : bench_(bench), gaps_(gaps) {}
 
   /// Afterwards the first of the list is fitted to the end, with the evidence of that. The other
-  /// one is first if it is more likely in the end and earns its place then; it has taken over the
-  /// probability of the first one's effect, at whatever place, as far as it is more likely.
+  /// one is first if it is more likely in the end and earns its place then. What the two have of
+  /// the probability, the beaten effect at whatever place, is shared by how likely they are in the
+  /// end.
   /// @param base fitted without them
   void decide(const Tested& base, ShortList& list) const;
 
@@ -26,6 +27,7 @@ class RunOff {
   /// As it was if it cannot be simulated there.
   /// @return whether it gets anywhere near a level of cost; it is not finished if not
   bool finish(Named& named, double level) const;
+  static double share_of_better(const Tested& base, const ShortList& end);
 
   const Workbench& bench_;
   const Gaps& gaps_;
