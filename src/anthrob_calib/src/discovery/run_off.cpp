@@ -76,10 +76,10 @@ void RunOff::decide(const Tested& base, ShortList& list) const {
   const std::size_t better = kept ? 0 : index, worse = kept ? index : 0;
   const Effect* beaten = bench_.candidates[list.named[worse].candidate].effect;
   double both = list.named[better].probability;
-  for (Named& named : list.named) {
-    if (bench_.candidates[named.candidate].effect != beaten) continue;
-    both += named.probability;
-    named.probability = 0.0;
+  for (std::size_t i = worse; i < list.named.size(); ++i) {
+    if (bench_.candidates[list.named[i].candidate].effect != beaten) continue;
+    both += list.named[i].probability;
+    list.named[i].probability = 0.0;
   }
   const double share = share_of_better(base, end);
   end.named[0].probability = share * both;

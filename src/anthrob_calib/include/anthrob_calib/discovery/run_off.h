@@ -16,8 +16,8 @@ class RunOff {
 
   /// Afterwards the first of the list is fitted to the end, with the evidence of that. The other
   /// one is first if it is more likely in the end and earns its place then. What the two have of
-  /// the probability, the beaten effect at whatever place, is shared by how likely they are in the
-  /// end.
+  /// the probability, with other places of the beaten effect that are no more likely than it, is
+  /// shared by how likely they are in the end.
   /// @param base fitted without them
   void decide(const Tested& base, ShortList& list) const;
 
