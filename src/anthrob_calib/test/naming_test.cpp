@@ -9,6 +9,7 @@
 
 #include "anthrob_calib/discovery/bootstrap.h"
 #include "anthrob_calib/discovery/run_off.h"
+#include "anthrob_calib/discovery/screening.h"
 #include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/trials.h"
 #include "anthrob_sim/effects/catalogue.h"
@@ -286,18 +287,23 @@ TEST(Settling, WhatLagsBehindIsNotFinished) {
 }
 
 /// Dry friction of the elbow is what is missing, and where the shoulder's damping is right it says
-/// all. In another valley, where that has gone astray, more damping of the elbow says more.
-double hides_dry_friction(double elbow, double shoulder, double dry) {
-  const double rubs = std::min(1.0, dry / 0.1), damped = std::min(1.0, (elbow - kElbow) / kDose);
-  if (shoulder < 0.4) return 50.0 * std::abs(shoulder - 0.15) + 6.0 - 6.0 * rubs;
-  return 50.0 * std::abs(shoulder - 0.7) + 6.0 - 3.0 * rubs - 4.0 * damped;
+/// all 6. In another valley, where that has gone astray, it says less, and more damping of the
+/// elbow says something.
+Problem::Law hides_dry_friction(double dry_astray, double damping_astray) {
+  return [=](double elbow, double shoulder, double dry) {
+    const double rubs = std::min(1.0, dry / 0.1), damped = std::min(1.0, (elbow - kElbow) / kDose);
+    if (shoulder < 0.4) return 50.0 * std::abs(shoulder - 0.15) + 6.0 - 6.0 * rubs;
+    return 50.0 * std::abs(shoulder - 0.7) + 6.0 - dry_astray * rubs - damping_astray * damped;
+  };
 }
 
 /// The short list of more damping of the elbow and dry friction there, a dose of each, and what the
 /// run-off makes of it.
 struct TwoLaws {
   TwoLaws(const Problem::Law& law, double shoulder)
-      : problem(law, "shoulder", {"joint_viscous", "joint_coulomb"}), base(problem.base(shoulder)) {
+      : problem(law, "shoulder",
+                {"joint_viscous", "joint_coulomb", "force_sensor_gain", "force_sensor_offset"}),
+        base(problem.base(shoulder)) {
     for (const char* id : {"joint_viscous", "joint_coulomb"}) {
       Score score;
       score.candidate = problem.index("elbow", id);
@@ -324,7 +330,7 @@ struct TwoLaws {
 
 TEST(RunOff, WhatIsBetterInTheEndIsFirst) {
   // Damping leaves 2 there and dry friction 3, but from the given 0.15 it leaves nothing.
-  TwoLaws laws(hides_dry_friction, 0.7);
+  TwoLaws laws(hides_dry_friction(3.0, 4.0), 0.7);
   ASSERT_EQ(laws.id(0), "joint_viscous");
   const double rough = laws.list.named[0].probability, rough_evidence = laws.list.named[1].evidence;
   ASSERT_GT(rough, 0.99);
@@ -352,6 +358,66 @@ TEST(RunOff, WhatIsNoBetterThanFitsScatterStaysOpen) {
   EXPECT_EQ(laws.id(0), "joint_coulomb");
   EXPECT_NEAR(laws.list.named[0].probability, 0.63, 0.05);
   EXPECT_NEAR(laws.list.named[1].probability, 0.37, 0.05);
+}
+
+TEST(RunOff, WhatIsLeftFarBehindIsLost) {
+  // Dry friction leaves 4 there and damping 4.5: half of the square and more. In the end it is 0.
+  TwoLaws laws(hides_dry_friction(2.0, 1.5), 0.7);
+  ASSERT_EQ(laws.id(0), "joint_coulomb");
+  laws.list.named[0].probability = 0.6;
+  laws.list.named[1].probability = 0.3;
+  const double rough = laws.list.named[1].fit.cost;
+  laws.decide();
+  EXPECT_EQ(laws.id(0), "joint_coulomb");
+  EXPECT_NEAR(laws.list.named[0].probability, 0.9, 1e-9);
+  EXPECT_EQ(laws.list.named[1].probability, 0.0);
+  EXPECT_EQ(laws.list.named[1].fit.cost, rough) << "not fitted to the end";
+}
+
+TEST(RunOff, WhatDidNotTakePartKeepsItsProbability) {
+  // Fits of the two, told to be of a law of one size and of one of two sizes at another muscle. At
+  // the first one's muscle that law does not challenge; it is no less likely for losing elsewhere.
+  for (const double elsewhere : {0.25, 0.1}) {
+    TwoLaws laws(hides_dry_friction(5.0, 4.0), 0.7);
+    ASSERT_EQ(laws.id(0), "joint_coulomb");
+    std::vector<Named>& named = laws.list.named;
+    named[0].candidate = laws.problem.index("biceps_brachii", "force_sensor_gain");
+    named[0].probability = 0.6;
+    named[1].probability = elsewhere;
+    named.push_back(named[1]);
+    named[1].candidate = laws.problem.index("brachialis", "force_sensor_offset");
+    const std::size_t here = laws.problem.index("biceps_brachii", "force_sensor_offset");
+    named[2].candidate = here;
+    named[2].probability = 0.2;
+    if (elsewhere < 0.2) std::swap(named[1], named[2]);
+    laws.decide();
+    EXPECT_NEAR(named[0].probability, 0.6 + elsewhere, 1e-6);
+    EXPECT_EQ(named[1].candidate, here);
+    EXPECT_NEAR(named[1].probability, 0.2, 1e-9);
+    EXPECT_NEAR(named[2].probability, 0.0, 1e-6);
+  }
+}
+
+TEST(Screening, ExpectationsCountTheLessTheMoreWasRecorded) {
+  // The shoulder's damping imitates the elbow's, as far as it is not expected to stay.
+  const Problem::Law law = [](double elbow, double shoulder, double) {
+    return (elbow - kElbow) / kDose + 0.35 * (shoulder - 0.15);
+  };
+  const Problem problem(law);
+  Fitted base = problem.fitted(0.15);
+  problem.train.polish(base, 0);
+  const auto uncertainty = [&](Eigen::Index bins) {
+    Excerpt part{{std::make_shared<MadeExperiment>(law, law, bins, 1)}, {}};
+    for (Eigen::Index b = 0; b < bins; ++b) part.rows.push_back(b);
+    const Screening screening(problem.train, base, problem.candidates, part, part);
+    for (const Score& score : screening.scores(base)) {
+      if (score.candidate == problem.index("elbow")) return score.uncertainty;
+    }
+    return 0.0;
+  };
+  const double whole = uncertainty(Problem::kBins), half = uncertainty(Problem::kBins / 2);
+  EXPECT_GT(whole, 3.0 / std::sqrt(Problem::kBins)) << "much of it is imitated";
+  EXPECT_NEAR(half, std::sqrt(2.0) * whole, 0.01 * whole);
 }
 
 /// The elbow is asked whether it is needed beside the shoulder.

@@ -42,13 +42,17 @@ bool RunOff::finish(Named& named, double level) const {
 }
 
 /// Of what two laws have together, that of the better one. Fits of one law to one recording end as
-/// far apart as kScatter, and the true law may differ from both by as much: evidence of that size
-/// decides nothing, however many blocks agree.
+/// far apart as kScatter, or as what a last round may leave, and the true law may differ from both
+/// by as much: evidence of that size decides nothing, however many blocks agree.
 double RunOff::share_of_better(const Tested& base, const ShortList& end) {
+  if (end.named.size() == 1) return 1.0;
   const Named &better = end.named[0], &other = end.named[1];
-  const auto total = [](const Tested& t) { return t.fit.cost + 0.5 * t.test.squaredNorm(); };
+  const auto total = [](const Tested& t) {
+    return t.fit.cost + 0.5 * t.test.cast<double>().squaredNorm();
+  };
   const double lead = total(other) - total(better), gain = total(base) - total(better);
-  const double by_scatter = 0.5 * std::erfc(-lead / (kScatter * gain) * M_SQRT1_2);
+  const double scatter = std::max(kScatter * gain, Settling::kAtTheEnd * total(better));
+  const double by_scatter = 0.5 * std::erfc(-lead / scatter * M_SQRT1_2);
   const double by_blocks = better.probability / (better.probability + other.probability);
   return std::min(by_blocks, std::max(0.5, by_scatter));
 }
@@ -67,24 +71,28 @@ void RunOff::decide(const Tested& base, ShortList& list) const {
   }
   bench_.naming.judge(base, end);
   const bool kept = end.named[0].candidate == list.named.front().candidate;
-  if (end.named.size() == 1 || (!kept && !lack(gaps_.merit_of(end, base)).empty())) {
+  if (index == 0 || (!kept && !lack(gaps_.merit_of(end, base)).empty())) {
     Named& first = kept ? end.named[0] : end.named[1];
     first.probability = list.named.front().probability;
     list.named.front() = std::move(first);
     return;
   }
   const std::size_t better = kept ? 0 : index, worse = kept ? index : 0;
+  const Candidate& winner = bench_.candidates[list.named[better].candidate];
   const Effect* beaten = bench_.candidates[list.named[worse].candidate].effect;
   double both = list.named[better].probability;
   for (std::size_t i = worse; i < list.named.size(); ++i) {
-    if (bench_.candidates[list.named[i].candidate].effect != beaten) continue;
+    const Candidate& place = bench_.candidates[list.named[i].candidate];
+    if (place.effect != beaten || (i != worse && says_less(winner, place))) continue;
     both += list.named[i].probability;
     list.named[i].probability = 0.0;
   }
   const double share = share_of_better(base, end);
+  if (end.named.size() > 1) {
+    end.named[1].probability = (1.0 - share) * both;
+    list.named[worse] = std::move(end.named[1]);
+  }
   end.named[0].probability = share * both;
-  end.named[1].probability = (1.0 - share) * both;
-  list.named[worse] = std::move(end.named[1]);
   list.named.erase(list.named.begin() + static_cast<std::ptrdiff_t>(better));
   list.named.insert(list.named.begin(), std::move(end.named[0]));
   std::stable_sort(list.named.begin() + 1, list.named.end(),

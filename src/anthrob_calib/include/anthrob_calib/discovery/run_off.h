@@ -16,8 +16,10 @@ class RunOff {
 
   /// Afterwards the first of the list is fitted to the end, with the evidence of that. The other
   /// one is first if it is more likely in the end and earns its place then. What the two have of
-  /// the probability, with other places of the beaten effect that are no more likely than it, is
-  /// shared by how likely they are in the end.
+  /// the probability is shared by how likely they are in the end; what was left far behind has
+  /// nothing. Other places of the beaten effect go with it, but not one that was more likely, nor
+  /// one that only says more at the winner's place. If the other one is more likely but does not
+  /// earn its place, all stays as it was.
   /// @param base fitted without them
   void decide(const Tested& base, ShortList& list) const;
 

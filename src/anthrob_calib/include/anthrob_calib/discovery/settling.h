@@ -12,6 +12,8 @@ namespace discovery {
 /// been left half way down.
 class Settling {
  public:
+  static constexpr double kAtTheEnd = 5e-4;  ///< share of the cost that a last round may bring
+
   /// @param judge of what is fitted
   Settling(const Evaluator& evaluator, const ModelFit& fit, const Judge& judge)
       : evaluator_(evaluator), fit_(fit), judge_(judge) {}

@@ -24,8 +24,8 @@ class Trials {
   Trials(const ModelFit& fit, const std::vector<Candidate>& candidates)
       : fit_(fit), candidates_(candidates) {}
 
-  /// Of the best by the screening, and of all at the place of the first, those that leave least,
-  /// least first, each at its best size.
+  /// Of the best by the screening, and of all that can be where the first is (at the whole of its
+  /// muscle or joint), those that leave least, least first, each at its best size.
   /// @param scores in order of falling gain
   std::vector<Score> best(const Fitted& base, const std::vector<Score>& scores) const;
 
