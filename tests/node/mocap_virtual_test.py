@@ -89,13 +89,15 @@ class MocapVirtual(unittest.TestCase):
         self.assertGreater(len(errors), 10 * duration)
 
     def test_diagnostics(self):
-        def status():
+        def tracking():  # in a second in which pictures came: without one it is well, too, but waiting
             for array in reversed(self.diagnostics.messages):
                 for entry in array.status:
-                    if entry.name == '/anthrob: mocap':
+                    if entry.name == '/anthrob: mocap' and entry.message == 'tracking':
                         return entry
-        wait_for(lambda: status() and status().level == 0, 20, 'mocap is well')
-        values = {v.key: v.value for v in status().values}
+        wait_for(tracking, 20, 'mocap is well')
+        status = tracking()
+        self.assertEqual(status.level, 0)
+        values = {v.key: v.value for v in status.values}
         for key in ['rate', 'processing_ms_median', 'exposure_to_result_ms', 'segmentation_us', 'labelling_us',
                     'humerus_availability', 'humerus_markers', 'residual_px', 'row_error_px']:
             self.assertIn(key, values)
