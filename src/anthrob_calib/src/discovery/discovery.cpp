@@ -62,7 +62,9 @@ class Search {
     stage("screening " + std::to_string(candidates_.size()) + " candidates");
     Screening screening(train_, base_.fit, candidates_, laboratory_.quick, laboratory_.slow);
     std::vector<Score> scores = screening.scores(base_.fit);
-    PreFlight(candidates_, base_.fit, train_judge_, test_judge_, total_duration(laboratory_.test))
+    stage("what these recordings can show");
+    PreFlight(candidates_, train_, base_.fit, train_judge_, test_judge_,
+              total_duration(laboratory_.test))
         .fly(screening, scores, answer);
     std::size_t looked_again = SIZE_MAX;  // with so many effects accepted
     // What is dropped again makes room; but not for ever.

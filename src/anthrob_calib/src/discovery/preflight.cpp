@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/discovery/likelihood_profile.h"
+#include "anthrob_sim/effects/placed_effects.h"
 
 namespace anthrob {
 namespace discovery {
@@ -36,25 +39,28 @@ double mostly_enough(double evidence) {
 
 }  // namespace
 
-PreFlight::PreFlight(const std::vector<Candidate>& candidates, const Fitted& base,
-                     const Judge& train, const Judge& test, double held_out)
-    : candidates_(candidates), base_(base), train_(train), test_(test), held_out_(held_out) {}
+PreFlight::PreFlight(const std::vector<Candidate>& candidates, const ModelFit& fit,
+                     const Fitted& base, const Judge& train, const Judge& test, double held_out)
+    : candidates_(candidates),
+      fit_(fit),
+      base_(base),
+      train_(train),
+      test_(test),
+      held_out_(held_out) {}
 
 void PreFlight::fly(const Screening& screening, std::vector<Score> scores, Answer& answer) const {
   std::sort(scores.begin(), scores.end(),
             [](const Score& a, const Score& b) { return a.candidate < b.candidate; });
-  std::vector<Visibility> all;
-  const std::vector<double> for_gap =
+  std::vector<double> doses =
       screening.doses_to_a_gap(base_, scores, train_, mostly_looked_at(train_, test_));
+  fit_.side_by_side(scores.size(), [&](std::size_t s) {
+    doses[s] = std::max(doses[s], doses_for_evidence(scores[s]));
+    if (is_met(scores[s], doses[s])) doses[s] *= times_the_doses(scores[s], doses[s]);
+  });
+  std::vector<Visibility> all;
   for (std::size_t s = 0; s < scores.size(); ++s) {
-    const Candidate& candidate = candidates_[scores[s].candidate];
-    const EffectParameter& size = *candidate.sizes()[scores[s].size];
-    const double dose = std::abs(size.typical - size.neutral);
-    const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
-    all.push_back(visibility_of(scores[s], for_gap[s]));
-    const double smallest = all.back().smallest_visible;
-    const bool met = smallest - taken_for_ordinary(candidate) <= kMostDoses * dose;
-    (smallest <= largest && met ? answer.visible : answer.not_visible).push_back(all.back());
+    all.push_back(visibility_of(scores[s], doses[s]));
+    (is_met(scores[s], doses[s]) ? answer.visible : answer.not_visible).push_back(all.back());
   }
   for (const auto& group : screening.alike(base_)) {
     answer.alike.emplace_back();
@@ -62,15 +68,34 @@ void PreFlight::fly(const Screening& screening, std::vector<Score> scores, Answe
   }
 }
 
-Visibility PreFlight::visibility_of(const Score& score, double doses_for_gap) const {
+double PreFlight::doses_for_evidence(const Score& score) const {
+  const double evidence = mostly_enough(needed_evidence(candidates_.size()));
+  return score.uncertainty * std::sqrt(2.0 * evidence * score.seconds / held_out_);
+}
+
+double PreFlight::times_the_doses(const Score& score, double doses) const {
+  const Candidate& candidate = candidates_[score.candidate];
+  if (!dynamic_cast<const WorldAxisEffect*>(candidate.effect)) return 1.0;
+  const double deviations = doses / score.uncertainty;
+  const double reckoned =
+      0.5 * deviations * deviations * total_duration(fit_.experiments()) / score.seconds;
+  const std::optional<double> rise = profile_rise(fit_, base_, candidate, score.size, doses);
+  if (!rise) return 1.0;
+  return *rise > 0.0 ? std::max(1.0, std::sqrt(reckoned / *rise)) : HUGE_VAL;
+}
+
+Visibility PreFlight::visibility_of(const Score& score, double doses) const {
   const Candidate& candidate = candidates_[score.candidate];
   const EffectParameter& size = *candidate.sizes()[score.size];
-  const double evidence = mostly_enough(needed_evidence(candidates_.size()));
-  const double doses_for_evidence =
-      score.uncertainty * std::sqrt(2.0 * evidence * score.seconds / held_out_);
-  const double dose = std::abs(size.typical - size.neutral);
   return {candidate.effect->info().id, candidate.place, size.unit,
-          std::max(doses_for_evidence, doses_for_gap) * dose + taken_for_ordinary(candidate)};
+          doses * std::abs(size.typical - size.neutral) + taken_for_ordinary(candidate)};
+}
+
+bool PreFlight::is_met(const Score& score, double doses) const {
+  const Candidate& candidate = candidates_[score.candidate];
+  const EffectParameter& size = *candidate.sizes()[score.size];
+  const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
+  return doses <= kMostDoses && visibility_of(score, doses).smallest_visible <= largest;
 }
 
 /// How much of an effect an ordinary parameter that is the same quantity may be.

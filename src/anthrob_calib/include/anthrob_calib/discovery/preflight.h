@@ -5,6 +5,7 @@
 #include "anthrob_calib/discovery/candidate.h"
 #include "anthrob_calib/discovery/discovery.h"
 #include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/discovery/model_fit.h"
 #include "anthrob_calib/discovery/screening.h"
 
 namespace anthrob {
@@ -16,20 +17,27 @@ namespace discovery {
 /// What is named must gain on held-out data, and some channel must show a gap without it.
 class PreFlight {
  public:
-  /// @param base fit of the ordinary parameters
+  /// @param fit to what is there to learn from   @param base that of the ordinary parameters
   /// @param train, test judges of what it was fitted to and of what is held out
   /// @param held_out length of the latter [s]
-  PreFlight(const std::vector<Candidate>& candidates, const Fitted& base, const Judge& train,
-            const Judge& test, double held_out);
+  PreFlight(const std::vector<Candidate>& candidates, const ModelFit& fit, const Fitted& base,
+            const Judge& train, const Judge& test, double held_out);
 
   /// Fills in `visible`, `not_visible` and `alike`.
   void fly(const Screening& screening, std::vector<Score> scores, Answer& answer) const;
 
  private:
-  Visibility visibility_of(const Score& score, double doses_for_gap) const;
+  double doses_for_evidence(const Score& score) const;
+  /// How many times the doses it takes to show as much as is reckoned. Ordinary parameters of all
+  /// muscles together imitate a turn of the world or of who looks at it, and not linearly.
+  double times_the_doses(const Score& score, double doses) const;
+  Visibility visibility_of(const Score& score, double doses) const;
+  /// Whether sizes so far from neutral are ones that one meets.
+  bool is_met(const Score& score, double doses) const;
   double taken_for_ordinary(const Candidate& candidate) const;
 
   const std::vector<Candidate>& candidates_;
+  const ModelFit& fit_;
   const Fitted& base_;
   const Judge &train_, &test_;
   double held_out_;
