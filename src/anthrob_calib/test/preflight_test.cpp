@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "anthrob_calib/discovery/likelihood_profile.h"
 
@@ -14,55 +15,74 @@ constexpr double kDose = 0.03;      // of a tilt [rad]
 constexpr double kDamping = 0.15;   // of the model's shoulder [Nms/rad]
 constexpr std::size_t kBins = 500;  // of each channel
 
-/// A tilt of gravity by t doses and a shoulder's damping that is d too high, in tenths of its
-/// range, show as 20 (t - d) in one channel, so that d follows t, and as t - cubic d^3 and a
-/// constant in another one.
+/// A tilt of gravity by t doses and a shoulder's damping that is d tenths too high show as
+/// 20 (t - d) in one channel, so that d follows t; as t - cubic d^3 and a constant in another; and
+/// something that has nothing to do with either is large in a third one.
 class Tilted final : public Experiment {
  public:
-  Tilted(double cubic, double constant) : cubic_(cubic), constant_(constant) {
-    channels_ = {{"shoulder", "position", "rad", 0, 0, kBins, 0.0},
-                 {"elbow", "position", "rad", 0, kBins, kBins, 0.0}};
-    present_.assign(2 * kBins, 1);
+  Tilted(double cubic, double constant, double large, std::size_t bins = kBins)
+      : shown_{0.0, constant, large}, cubic_(cubic), bins_(bins) {
+    const char* places[] = {"shoulder", "elbow", "wrist"};
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      channels_.push_back({places[c], "position", "rad", 0, c * bins, bins, 0.0});
+    }
+    present_.assign(kChannels * bins, 1);
     bin_ = 0.02;
-    duration_ = bin_ * kBins;
+    duration_ = bin_ * static_cast<double>(bins);
   }
 
   void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
     const double t = std::asin(model->gravity.y() / model->gravity.norm()) / kDose;
     const auto shoulder = static_cast<std::size_t>(model->skeleton->find_joint("shoulder"));
     const double d = (model->skeleton->joints[shoulder].friction.viscous - kDamping) / 0.1;
-    const double shown[] = {20.0 * (t - d), t - cubic_ * d * d * d + constant_};
-    for (std::size_t b = 0; b < 2 * kBins; ++b) out[b] = static_cast<float>(shown[b / kBins]);
+    const double change[] = {20.0 * (t - d), t - cubic_ * d * d * d, 0.0};
+    for (std::size_t b = 0; b < kChannels * bins_; ++b) {
+      const std::size_t channel = b / bins_;
+      out[b] = static_cast<float>(shown_[channel] + change[channel]);
+    }
   }
 
+  static constexpr std::size_t kChannels = 3;
+
  private:
-  double cubic_, constant_;
+  const double shown_[kChannels];
+  const double cubic_;
+  const std::size_t bins_;
 };
 
 struct TiltProblem {
-  explicit TiltProblem(double cubic, double constant = 0.0)
-      : evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
+  explicit TiltProblem(double cubic, double constant = 0.0, double large = 0.0)
+      : half{{std::make_shared<Tilted>(cubic, constant, large, kBins / 2)}, {}},
+        evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
                   {{"joints.shoulder.friction.viscous", "Nms/rad", kDamping, -10.0, 10.0, 0.01}},
                   0.001, 1),
-        fit(evaluator, {std::make_shared<Tilted>(cubic, constant)},
-            Eigen::VectorXf::Ones(2 * kBins)),
+        fit(evaluator, {std::make_shared<Tilted>(cubic, constant, large)},
+            Eigen::VectorXf::Ones(Tilted::kChannels * kBins)),
         judge(fit.experiments(), fit.whitening(), {}),
         candidates(list_candidates(evaluator, {"gravity_tilt"})),
-        base(fit.start(Variant{{kDamping}}, nuisance_unknowns(evaluator))) {}
-
-  Visibility of_x() const {
-    Excerpt all{fit.experiments(), {}};
-    for (Eigen::Index b = 0; b < base.residual.size(); ++b) all.rows.push_back(b);
-    const Screening screening(fit, base, candidates, all, all);
-    Answer answer;
-    PreFlight(candidates, fit, base, judge, judge, kBins * 0.02)
-        .fly(screening, screening.scores(base), answer);
-    for (const Visibility& v : answer.visible) {
-      if (v.place == "x") return v;
+        base(fit.start(Variant{{kDamping}}, nuisance_unknowns(evaluator))) {
+    for (Eigen::Index b = 0; b < base.residual.size(); ++b) {
+      if (b % static_cast<Eigen::Index>(kBins) < static_cast<Eigen::Index>(kBins / 2)) {
+        half.rows.push_back(b);
+      }
     }
-    return {};
   }
 
+  double rise(double doses) const {
+    return LikelihoodProfile(fit, base).rise(candidates.at(0), 0, doses).value_or(HUGE_VAL);
+  }
+  /// Of a tilt about x [rad], and in which list it is.
+  std::pair<double, bool> smallest_visible() const {
+    const Screening screening(fit, base, candidates, half, half);
+    Answer answer;
+    PreFlight(candidates, fit, base, judge, judge, 0.02 * kBins)
+        .fly(screening, screening.scores(base), answer);
+    const bool shows = answer.visible.size() == 1;
+    const auto& list = shows ? answer.visible : answer.not_visible;
+    return {list.at(0).smallest_visible, shows};
+  }
+
+  Excerpt half;
   Evaluator evaluator;
   ModelFit fit;
   Judge judge;
@@ -72,26 +92,31 @@ struct TiltProblem {
 
 TEST(LikelihoodProfile, IsWhatOrdinaryParametersCannotTakeUp) {
   for (const double cubic : {0.0, 0.5}) {
-    // The constant is higher on one side by as much as lower on the other.
-    const TiltProblem problem(cubic, 0.5);
-    ASSERT_EQ(problem.candidates.at(0).place, "x");
-    const auto rise = profile_rise(problem.fit, problem.base, problem.candidates[0], 0, 1.0);
-    ASSERT_TRUE(rise);
-    EXPECT_NEAR(*rise, 0.5 * kBins * std::pow(1.0 - cubic, 2), 0.02 * 0.5 * kBins);
+    for (const double large : {0.0, 300.0}) {
+      // The constant is higher on one side by as much as lower on the other.
+      const TiltProblem problem(cubic, 0.5, large);
+      EXPECT_NEAR(problem.rise(1.0), 0.5 * kBins * std::pow(1.0 - cubic, 2), 0.02 * 0.5 * kBins)
+          << large;
+    }
   }
 }
 
 TEST(PreFlight, WhatIsImitatedNotLinearlyMustBeLarger) {
-  const double linear = TiltProblem(0.0).of_x().smallest_visible;
-  ASSERT_GT(linear, 0.0);
-  // Half of what is reckoned at that size is left: it must be twice as large.
-  const double cubic = 0.5 * std::pow(kDose / linear, 2);
-  EXPECT_NEAR(TiltProblem(cubic).of_x().smallest_visible, 2.0 * linear, 0.05 * linear);
+  const double linear = TiltProblem(0.0).smallest_visible().first;
+  const double needed = TiltProblem(0.0).rise(linear / kDose);
+  ASSERT_GT(needed, 10.0);
+  for (const double lost : {0.05, 0.2, 0.3, 0.5}) {  // at that size
+    const TiltProblem problem(lost * std::pow(kDose / linear, 2));
+    const auto [smallest, shows] = problem.smallest_visible();
+    EXPECT_TRUE(shows) << lost;
+    EXPECT_GT(problem.rise(smallest / kDose), 0.89 * needed) << lost;
+  }
 }
 
 TEST(PreFlight, WhatNothingIsLeftOfIsNotVisible) {
-  const double linear = TiltProblem(0.0).of_x().smallest_visible;
-  EXPECT_EQ(TiltProblem(std::pow(kDose / linear, 2)).of_x().smallest_visible, 0.0);
+  const double linear = TiltProblem(0.0).smallest_visible().first;
+  EXPECT_TRUE(TiltProblem(0.0).smallest_visible().second);
+  EXPECT_FALSE(TiltProblem(std::pow(kDose / linear, 2)).smallest_visible().second);
 }
 
 }  // namespace

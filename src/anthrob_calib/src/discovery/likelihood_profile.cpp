@@ -1,28 +1,44 @@
 #include "anthrob_calib/discovery/likelihood_profile.h"
 
+#include <utility>
+#include <vector>
+
 namespace anthrob {
 namespace discovery {
 
 namespace {
 
-constexpr int kIterations = 5;    ///< by the slopes of the fit without the effect
-constexpr double kEnough = 1e-3;  ///< relative gain that is not worth another one
+constexpr int kIterations = 5;     ///< by the slopes of the fit without the effect
+constexpr double kTelling = 10.0;  ///< [nat] an iteration that brings less decides nothing
 constexpr double kSides[] = {-1.0, 1.0};
+
+void fit_on(const ModelFit& fit, Fitted& fitted) {
+  fit.improve(fitted, kIterations, kTelling / (kTelling + fitted.cost));
+}
+
+double misfit(const Fitted& fitted) {
+  return 0.5 * fitted.residual.cast<double>().squaredNorm();
+}
 
 }  // namespace
 
-std::optional<double> profile_rise(const ModelFit& fit, const Fitted& base,
-                                   const Candidate& candidate, std::size_t size, double doses) {
+LikelihoodProfile::LikelihoodProfile(const ModelFit& fit, Fitted base)
+    : fit_(fit), base_(std::move(base)) {
+  fit_on(fit_, base_);
+}
+
+std::optional<double> LikelihoodProfile::rise(const Candidate& candidate, std::size_t size,
+                                              double doses) const {
   double mean = 0.0;
   for (const double side : kSides) {
     std::vector<double> amount(candidate.sizes().size(), 0.0);
     amount[size] = side * doses;
-    Variant variant = base.variant;
+    Fitted fitted = base_;
+    Variant variant = base_.variant;
     variant.effects.push_back(candidate.sized(amount));
-    Fitted fitted = base;
-    if (!fit.move(fitted, variant)) return std::nullopt;
-    fit.improve(fitted, kIterations, kEnough);
-    mean += 0.5 * (fitted.cost - base.cost);
+    if (!fit_.move(fitted, variant)) return std::nullopt;
+    fit_on(fit_, fitted);
+    mean += 0.5 * (misfit(fitted) - misfit(base_));
   }
   return mean;
 }

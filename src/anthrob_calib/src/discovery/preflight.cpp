@@ -7,7 +7,6 @@
 #include <string>
 
 #include "anthrob_calib/discovery/criteria.h"
-#include "anthrob_calib/discovery/likelihood_profile.h"
 #include "anthrob_sim/effects/placed_effects.h"
 
 namespace anthrob {
@@ -16,6 +15,8 @@ namespace discovery {
 namespace {
 
 constexpr double kMostly = 1.645;   ///< standard deviations: nineteen times out of twenty
+constexpr int kRounds = 3;          ///< in which a size is made larger
+constexpr double kEnough = 0.9;     ///< of what is needed
 constexpr double kMostDoses = 5.0;  ///< more than that of a typical size is none that one meets
 
 /// How high each channel must stand so that it mostly is above a faint gap [floors].
@@ -53,10 +54,10 @@ void PreFlight::fly(const Screening& screening, std::vector<Score> scores, Answe
             [](const Score& a, const Score& b) { return a.candidate < b.candidate; });
   std::vector<double> doses =
       screening.doses_to_a_gap(base_, scores, train_, mostly_looked_at(train_, test_));
-  fit_.side_by_side(scores.size(), [&](std::size_t s) {
+  for (std::size_t s = 0; s < scores.size(); ++s) {
     doses[s] = std::max(doses[s], doses_for_evidence(scores[s]));
-    if (is_met(scores[s], doses[s])) doses[s] *= times_the_doses(scores[s], doses[s]);
-  });
+  }
+  check_turns(scores, doses);
   std::vector<Visibility> all;
   for (std::size_t s = 0; s < scores.size(); ++s) {
     all.push_back(visibility_of(scores[s], doses[s]));
@@ -73,15 +74,32 @@ double PreFlight::doses_for_evidence(const Score& score) const {
   return score.uncertainty * std::sqrt(2.0 * evidence * score.seconds / held_out_);
 }
 
-double PreFlight::times_the_doses(const Score& score, double doses) const {
-  const Candidate& candidate = candidates_[score.candidate];
-  if (!dynamic_cast<const WorldAxisEffect*>(candidate.effect)) return 1.0;
+void PreFlight::check_turns(const std::vector<Score>& scores, std::vector<double>& doses) const {
+  std::vector<std::size_t> turns;
+  for (std::size_t s = 0; s < scores.size(); ++s) {
+    const Effect* effect = candidates_[scores[s].candidate].effect;
+    if (dynamic_cast<const WorldAxisEffect*>(effect) == nullptr) continue;
+    if (is_met(scores[s], doses[s])) turns.push_back(s);
+  }
+  if (turns.empty()) return;
+  const LikelihoodProfile profile(fit_, base_);
+  fit_.side_by_side(turns.size(), [&](std::size_t i) {
+    doses[turns[i]] = checked(profile, scores[turns[i]], doses[turns[i]]);
+  });
+}
+
+double PreFlight::checked(const LikelihoodProfile& profile, const Score& score,
+                          double doses) const {
   const double deviations = doses / score.uncertainty;
-  const double reckoned =
+  const double needed =
       0.5 * deviations * deviations * total_duration(fit_.experiments()) / score.seconds;
-  const std::optional<double> rise = profile_rise(fit_, base_, candidate, score.size, doses);
-  if (!rise) return 1.0;
-  return *rise > 0.0 ? std::max(1.0, std::sqrt(reckoned / *rise)) : HUGE_VAL;
+  for (int round = 0; round < kRounds && is_met(score, doses); ++round) {
+    const auto rise = profile.rise(candidates_[score.candidate], score.size, doses);
+    if (!rise || *rise <= 0.0) return HUGE_VAL;
+    if (*rise > kEnough * needed) return doses;
+    doses *= std::sqrt(needed / *rise);
+  }
+  return doses;
 }
 
 Visibility PreFlight::visibility_of(const Score& score, double doses) const {

@@ -44,14 +44,15 @@ bool RunOff::finish(Named& named, double level) const {
 /// Of what two laws have together, that of the better one. Fits of one law to one recording end as
 /// far apart as kScatter, or as what a last round may leave, and the true law may differ from both
 /// by as much: evidence of that size decides nothing, however many blocks agree.
-double RunOff::share_of_better(const Tested& base, const ShortList& end) {
+double RunOff::share_of_better(const Tested& base, const ShortList& end) const {
   if (end.named.size() == 1) return 1.0;
   const Named &better = end.named[0], &other = end.named[1];
   const auto total = [](const Tested& t) {
     return t.fit.cost + 0.5 * t.test.cast<double>().squaredNorm();
   };
   const double lead = total(other) - total(better), gain = total(base) - total(better);
-  const double scatter = std::max(kScatter * gain, Settling::kAtTheEnd * total(better));
+  const double scatter = std::max({kScatter * gain, bench_.settling.left_open(better.fit),
+                                   bench_.settling.left_open(other.fit)});
   const double by_scatter = 0.5 * std::erfc(-lead / scatter * M_SQRT1_2);
   const double by_blocks = better.probability / (better.probability + other.probability);
   return std::min(by_blocks, std::max(0.5, by_scatter));

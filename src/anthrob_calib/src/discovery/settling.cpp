@@ -8,18 +8,23 @@ namespace discovery {
 
 namespace {
 
-constexpr int kRough = 8;          ///< iterations by the first slopes
-constexpr int kPolish = 8;         ///< iterations by the same slopes
-constexpr int kSettling = 8;       ///< times that slopes are simulated anew
-constexpr double kSettled = 5e-4;  ///< share of the cost
-constexpr int kFinishing = 5;      ///< rounds of exact slopes
-constexpr double kClearGap = 2.5;  ///< of all channels together, in floors
+constexpr int kRough = 8;           ///< iterations by the first slopes
+constexpr int kPolish = 8;          ///< iterations by the same slopes
+constexpr int kSettling = 8;        ///< times that slopes are simulated anew
+constexpr double kSettled = 5e-4;   ///< share of the cost
+constexpr double kAtTheEnd = 5e-4;  ///< share of the cost
+constexpr int kFinishing = 5;       ///< rounds of exact slopes
+constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
 
 }  // namespace
 
 bool Settling::clearly_misses(const Fitted& fitted) const {
   return judge_.gap(fitted.residual) > kClearGap;
+}
+
+double Settling::left_open(const Fitted& fitted) const {
+  return (clearly_misses(fitted) ? kRoughlySettled : kAtTheEnd) * fitted.cost;
 }
 
 /// Polishes as long as that brings something. Where something is clearly missing, the last steps to

@@ -8,15 +8,25 @@
 namespace anthrob {
 namespace discovery {
 
-/// The likelihood profile of an effect's size: by how much a fit is worse if the effect is so many
-/// doses from neutral, the ordinary parameters fitted again. That is what they cannot take up, also
-/// where it is not linear. The mean of both sides: what is in the data already makes one of them
-/// higher and the other lower.
-/// @param base fitted without the effect, its sensitivities known
-/// @param size index among the candidate's
-/// @return [nat]; nothing if a side cannot be simulated
-std::optional<double> profile_rise(const ModelFit& fit, const Fitted& base,
-                                   const Candidate& candidate, std::size_t size, double doses);
+/// How much worse recordings are predicted if an effect has a size that it has not, the ordinary
+/// parameters fitted again: what they cannot take up, also where that is not linear.
+class LikelihoodProfile {
+ public:
+  /// @param base fitted without the effect, its sensitivities known; it is fitted a little further,
+  /// like what is compared with it
+  LikelihoodProfile(const ModelFit& fit, Fitted base);
+
+  /// The mean of both sides: what is in the data already makes one of them higher and the other
+  /// lower.
+  /// @param size index among the candidate's   @param doses how far from neutral
+  /// @return by how much half the sum of squares rises [nat], what it costs to move ordinary
+  /// parameters left out; nothing if a side cannot be simulated
+  std::optional<double> rise(const Candidate& candidate, std::size_t size, double doses) const;
+
+ private:
+  const ModelFit& fit_;
+  Fitted base_;
+};
 
 }  // namespace discovery
 }  // namespace anthrob

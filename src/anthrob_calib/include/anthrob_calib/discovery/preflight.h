@@ -5,6 +5,7 @@
 #include "anthrob_calib/discovery/candidate.h"
 #include "anthrob_calib/discovery/discovery.h"
 #include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/discovery/likelihood_profile.h"
 #include "anthrob_calib/discovery/model_fit.h"
 #include "anthrob_calib/discovery/screening.h"
 
@@ -28,9 +29,12 @@ class PreFlight {
 
  private:
   double doses_for_evidence(const Score& score) const;
-  /// How many times the doses it takes to show as much as is reckoned. Ordinary parameters of all
-  /// muscles together imitate a turn of the world or of who looks at it, and not linearly.
-  double times_the_doses(const Score& score, double doses) const;
+  /// Ordinary parameters of all muscles together imitate a turn of the world, or of who looks at
+  /// it, and not linearly.
+  void check_turns(const std::vector<Score>& scores, std::vector<double>& doses) const;
+  /// So many doses or as many more as it takes until as much is left as is reckoned of them; as far
+  /// as they are met.
+  double checked(const LikelihoodProfile& profile, const Score& score, double doses) const;
   Visibility visibility_of(const Score& score, double doses) const;
   /// Whether sizes so far from neutral are ones that one meets.
   bool is_met(const Score& score, double doses) const;

@@ -18,7 +18,8 @@ class RunOff {
   /// one is first if it is more likely in the end and earns its place then. What the two have of
   /// the probability is shared by how likely they are in the end; what was left far behind has
   /// nothing. Other places of the beaten effect go with it, but not one that was more likely, nor
-  /// one that only says more at the winner's place. If the other one is more likely but does not
+  /// one that only says more at the winner's place. A third law may be more probable than what is
+  /// first now: it was not fitted to the end. If the other one is more likely but does not
   /// earn its place, all stays as it was.
   /// @param base fitted without them
   void decide(const Tested& base, ShortList& list) const;
@@ -29,7 +30,7 @@ class RunOff {
   /// As it was if it cannot be simulated there.
   /// @return whether it gets anywhere near a level of cost; it is not finished if not
   bool finish(Named& named, double level) const;
-  static double share_of_better(const Tested& base, const ShortList& end);
+  double share_of_better(const Tested& base, const ShortList& end) const;
 
   const Workbench& bench_;
   const Gaps& gaps_;

@@ -12,8 +12,6 @@ namespace discovery {
 /// been left half way down.
 class Settling {
  public:
-  static constexpr double kAtTheEnd = 5e-4;  ///< share of the cost that a last round may bring
-
   /// @param judge of what is fitted
   Settling(const Evaluator& evaluator, const ModelFit& fit, const Judge& judge)
       : evaluator_(evaluator), fit_(fit), judge_(judge) {}
@@ -29,6 +27,9 @@ class Settling {
   /// From where a fit is; but only roughly, unless that brings the cost below a level.
   /// @return whether it did
   bool settle_within_reach(Fitted& fitted, double level) const;
+
+  /// What another round may still bring where a fit to the end has ended [nat].
+  double left_open(const Fitted& fitted) const;
 
  private:
   void settle(Fitted& fitted) const;
