@@ -24,7 +24,7 @@ TEST(SmoothStribeck, IsTheLogisticStribeckCurve) {
 
 TEST(SmoothStribeck, SlopeIsItsDerivative) {
   const SmoothStribeck law(kStatic, kKinetic, kVelocity, 10.0);
-  for (double v : {-0.01, -1e-3, -2e-5, 3e-6, 4e-4, 2e-3}) {
+  for (double v : {-0.01, -4e-3, -1e-3, -2e-5, 0.0, 3e-6, 4e-4, 2e-3, 5e-3}) {
     const double h = 1e-9;
     const double slope =
         (law.evaluate(v + h, StateView()).mu - law.evaluate(v - h, StateView()).mu) / (2 * h);

@@ -4,11 +4,19 @@
 
 namespace anthrob {
 
+namespace {
+/// Beyond it exp(-x) is lost beside 1.
+constexpr double kSettled = 40.0;
+}  // namespace
+
+/// Asked several times for each contact in a step, at rest every other time: exponentials that
+/// change no bit of the coefficient are left out.
 FrictionLaw::Value SmoothStribeck::evaluate(double v, StateView) const {
+  if (v == 0.0) return {0.0, 0.5 * kappa_ * static_ / velocity_};
   const double x = std::abs(v) / velocity_;
   const double decay = std::exp(-x);
   const double level = kinetic_ + (static_ - kinetic_) * decay;
-  const double e = std::exp(-kappa_ * x);
+  const double e = kappa_ * x < kSettled ? std::exp(-kappa_ * x) : 0.0;
   const double sign = (1.0 - e) / (1.0 + e);  // = 2 / (1 + e) - 1, without cancellation at rest
   const double sign_slope = 2.0 * kappa_ * e / ((1.0 + e) * (1.0 + e));
   const double slope = (sign_slope * level - sign * (static_ - kinetic_) * decay) / velocity_;
