@@ -12,6 +12,8 @@
 #include "anthrob_calib/calibration/problem.h"
 #include "anthrob_calib/optimiser/optimiser.h"
 #include "anthrob_calib/optimiser/problem_evaluator.h"
+#include "anthrob_ecu/state_machine.h"
+#include "anthrob_sim/recording/unanswered.h"
 #include "simulated_recordings.h"
 
 namespace anthrob {
@@ -146,6 +148,12 @@ TEST(MeasuredRun, BridgesSamplesThatWereLost) {
       std::fill_n(values.begin() + static_cast<long>(first), 9, NAN);
     }
   }
+  // What the driver says then; the motor goes on.
+  Column& state = with_losses.tables[0].column("flexor/ecu_state");
+  state.values.assign(rows, static_cast<double>(ecu::State::kEnabled));
+  state.present.assign(rows, 1);
+  std::fill_n(state.values.begin() + 150, 9, static_cast<double>(ecu::State::kFault));
+  leave_out_unanswered(with_losses);
   const MeasuredRun bridged = read_run(with_losses, rig());
   EXPECT_NEAR(bridged.duration, run.duration, 0.05);
   ASSERT_GT(bridged.path.count(), 190);

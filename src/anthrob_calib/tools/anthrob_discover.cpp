@@ -9,6 +9,7 @@
 #include "anthrob_calib/identification/output_files.h"
 #include "anthrob_config/extended_files.h"
 #include "anthrob_sim/recording/load_recording.h"
+#include "anthrob_sim/recording/unanswered.h"
 #include "anthrob_sim/tool/tool.h"
 
 namespace {
@@ -17,7 +18,10 @@ using namespace anthrob;
 
 std::vector<Dataset> load_all(const std::vector<std::string>& names) {
   std::vector<Dataset> recordings;
-  for (const std::string& name : names) recordings.push_back(load_recording(name));
+  for (const std::string& name : names) {
+    recordings.push_back(load_recording(name));
+    leave_out_unanswered(recordings.back());
+  }
   return recordings;
 }
 

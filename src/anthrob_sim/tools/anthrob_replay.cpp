@@ -4,6 +4,7 @@
 
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/replay.h"
+#include "anthrob_sim/recording/unanswered.h"
 #include "anthrob_sim/tool/tool.h"
 
 int main(int argc, char** argv) {
@@ -21,7 +22,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
     const auto model = tool::load_model(app, model_file, {step, {}});
-    const Dataset recording = load_recording(in);
+    Dataset recording = load_recording(in);
+    leave_out_unanswered(recording);
     const ReplayMode replay_mode = mode == "reference" ? ReplayMode::kReference
                                    : mode == "voltage" ? ReplayMode::kVoltage
                                                        : ReplayMode::kPosition;

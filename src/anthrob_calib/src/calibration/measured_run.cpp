@@ -9,6 +9,7 @@
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/replay.h"
+#include "anthrob_sim/recording/unanswered.h"
 
 namespace anthrob {
 namespace calibration {
@@ -16,9 +17,6 @@ namespace calibration {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// What is lost for no longer is bridged [s]; the recorder accepts as much.
-constexpr double kLongestLoss = 0.05;
 
 /// The columns of a recording that calibration needs, checked.
 class RunReader {
@@ -77,28 +75,9 @@ class RunReader {
   }
 
   Series measured(const std::string& name, bool required = true) {
-    const Series all = recording_.series(name);
-    if (all.empty() && required) fail("column '" + name + "' is missing or empty");
-    Series series = without_lost(name, all);
+    Series series = column(name, required);
     if (!series.empty()) end_ = std::min(end_, series.t.back());
     return series;
-  }
-
-  /// An ECU that did not answer in time is NaN: as good as a cell that is empty, but not for long.
-  Series without_lost(const std::string& name, const Series& all) const {
-    Series known;
-    double since = all.empty() ? 0.0 : all.t.front();
-    for (std::size_t i = 0; i < all.t.size(); ++i) {
-      const bool is_known = std::isfinite(all.values[i]);
-      const bool was_lost = !is_known || (i > 0 && !std::isfinite(all.values[i - 1]));
-      if (was_lost && all.t[i] - since > kLongestLoss + 1e-9) fail_not_finite(name, all.t[i]);
-      if (!is_known) continue;
-      since = all.t[i];
-      known.t.push_back(all.t[i]);
-      known.values.push_back(all.values[i]);
-    }
-    if (known.empty() && !all.empty()) fail_not_finite(name, all.t.front());
-    return known;
   }
 
   void read_muscle(const std::string& name) {
@@ -281,8 +260,11 @@ std::vector<MeasuredRun> read_runs(const std::string& folder,
   }
   std::sort(paths.begin(), paths.end(), natural_less);
   std::vector<MeasuredRun> runs;
-  for (const std::string& path : paths)
-    runs.push_back(read_run(load_recording(path), model, options));
+  for (const std::string& path : paths) {
+    Dataset recording = load_recording(path);
+    leave_out_unanswered(recording);
+    runs.push_back(read_run(recording, model, options));
+  }
   return runs;
 }
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "anthrob_sim/recording/dataset.h"
+
+namespace anthrob {
+
+/// Empties the cells that tell nothing of the robot, so that they count as not measured:
+/// - What was not measured (NaN) for no longer than 50 ms, which the recorder accepts, too.
+/// - The words beside it of a motor unit that did not answer in time: FAULT and VOLTAGE 0 are the
+///   driver's, not the unit's, which went on.
+/// - A quantity without any number, as the force of a muscle that has no such sensor.
+/// What was not measured for longer stays NaN, to be refused: by then the driver stops motors.
+void leave_out_unanswered(Dataset& recording);
+
+}  // namespace anthrob

@@ -1,0 +1,81 @@
+#include "anthrob_sim/recording/unanswered.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "anthrob_ecu/state_machine.h"
+
+namespace anthrob {
+
+namespace {
+
+constexpr double kLongestLoss = 0.05;  // [s]
+
+using Rows = std::vector<char>;  ///< of a table, whether each of them is meant
+
+bool is_measured(const Column& column) {
+  const std::string quantity = column.quantity();
+  return quantity != "ecu_state" && quantity != "mode" && quantity != "reference";
+}
+
+/// Empties losses that are short, or all there is.
+/// @return the rows that were emptied
+Rows empty_losses(const Table& table, Column& column) {
+  Rows emptied(table.t.size(), 0);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < table.t.size(); ++i) {
+    if (column.present[i]) rows.push_back(i);
+  }
+  const auto is_lost = [&](std::size_t k) { return std::isnan(column.values[rows[k]]); };
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!is_lost(k)) continue;
+    const std::size_t first = k;
+    while (k < rows.size() && is_lost(k)) ++k;
+    const bool is_all = first == 0 && k == rows.size();
+    const Nanoseconds since = table.t[rows[first > 0 ? first - 1 : 0]],
+                      until = table.t[rows[std::min(k, rows.size() - 1)]];
+    if (!is_all && seconds(until - since) > kLongestLoss + 1e-9) continue;
+    for (std::size_t i = first; i < k; ++i) {
+      column.present[rows[i]] = 0;
+      emptied[rows[i]] = 1;
+    }
+  }
+  return emptied;
+}
+
+/// Where all that a unit measures was lost, it did not answer; one that tells of a fault tells
+/// more.
+void empty_words(Table& table, const std::string& muscle, const Rows& lost) {
+  std::vector<Column*> measured, words;
+  for (Column& column : table.columns) {
+    if (column.owner() == muscle) (is_measured(column) ? measured : words).push_back(&column);
+  }
+  const Column& state = *table.find(muscle + "/ecu_state");
+  for (std::size_t i = 0; i < table.t.size(); ++i) {
+    const bool any = std::any_of(measured.begin(), measured.end(),
+                                 [&](const Column* column) { return column->present[i] != 0; });
+    if (!lost[i] || any || state.values[i] != static_cast<double>(ecu::State::kFault)) continue;
+    for (Column* column : words) column->present[i] = 0;
+  }
+}
+
+}  // namespace
+
+void leave_out_unanswered(Dataset& recording) {
+  for (Table& table : recording.tables) {
+    std::map<std::string, Rows> lost;
+    for (Column& column : table.columns) {
+      if (is_measured(column)) lost[column.name] = empty_losses(table, column);
+    }
+    for (const Column& column : table.columns) {
+      if (column.quantity() != "ecu_state") continue;
+      const auto position = lost.find(column.owner() + "/position");
+      if (position != lost.end()) empty_words(table, column.owner(), position->second);
+    }
+  }
+}
+
+}  // namespace anthrob
