@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "anthrob_config/config_node.h"
 
@@ -12,6 +13,12 @@ namespace driver {
 namespace {
 
 using ecu::Parameter;
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
 
 std::string choose(const std::string& wanted, const std::string& otherwise) {
   return wanted.empty() ? otherwise : wanted;
@@ -84,6 +91,11 @@ void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
   if (ends.size() != 2) range.fail_expected("two numbers [lowest, highest] [rad]");
   set(muscle, Parameter::kPositionLow, ends[0].as_number(Bounds::any(), "rad"), ends[0]);
   set(muscle, Parameter::kPositionHigh, ends[1].as_number(Bounds::any(), "rad"), ends[1]);
+  const double low = muscle.parameters.get(Parameter::kPositionLow),
+               high = muscle.parameters.get(Parameter::kPositionHigh);
+  if (!(low < high)) {
+    range.fail(text(low) + " to " + text(high) + " rad: expected [lowest, highest]");
+  }
   const int order = node.at("filter_order").as_integer(0, ecu::kMaxFilterOrder);
   set(muscle, Parameter::kFilterOrder, order, node.at("filter_order"));
 }
@@ -101,6 +113,25 @@ void load_sensors(const ConfigNode& node, MuscleHardware& muscle) {
     set(muscle, Parameter::kForceOffset, muscle.force.offset, node.at("force"));
   }
   muscle.limits.modes = {true, true, true, has_force};
+}
+
+/// A limit that its sensor cannot read is none.
+void check_reach(const ConfigNode& unit, const char* key, double limit, double reach,
+                 const std::string& muscle, const char* what) {
+  if (limit <= reach) return;
+  unit.at(key).fail_expected("at most " + text(reach) + " " + what + ", which the sensor of " +
+                             muscle + " reads");
+}
+
+void check_limits(const ConfigNode& unit, const MuscleHardware& muscle) {
+  constexpr double kLargestCount = 4095.0;
+  const LinearSensor &current = muscle.current, &force = muscle.force;
+  const double either_way = std::min(current.offset, kLargestCount - current.offset);
+  check_reach(unit, "current_limit", muscle.parameters.get(Parameter::kCurrentLimit),
+              std::abs(current.gain) * either_way, muscle.name, "A");
+  if (!muscle.parameters.has_force_sensor()) return;
+  check_reach(unit, "force_limit", muscle.parameters.get(Parameter::kForceLimit),
+              force.gain * (kLargestCount - force.offset), muscle.name, "N");
 }
 
 class Loader {
@@ -172,14 +203,22 @@ class Loader {
     load_controller(controller, muscle);
     load_unit(config_.at("units").at(kind), muscle);
     load_sensors(sensors.at(name), muscle);
-    muscle.home_position = home_position(name);
+    check_limits(config_.at("units").at(kind), muscle);
+    muscle.home_position = home_position(muscle);
     hardware_.muscles.push_back(muscle);
   }
 
-  double home_position(const std::string& name) {
+  double home_position(const MuscleHardware& muscle) {
     const ConfigNode home = config_.at("home");
-    if (!home.has("positions")) return 0.0;
-    return home.at("positions").number_or(name, 0.0, Bounds::between(-50.0, 50.0), "rad");
+    const double low = muscle.parameters.get(Parameter::kPositionLow),
+                 high = muscle.parameters.get(Parameter::kPositionHigh);
+    if (home.has("positions") && home.at("positions").has(muscle.name)) {
+      return home.at("positions").number(muscle.name, Bounds::between(low, high), "rad");
+    }
+    if (low > 0.0 || high < 0.0) {
+      home.fail("positions." + muscle.name + ": missing, and 0 rad is outside of position_range");
+    }
+    return 0.0;
   }
 
   void load_hand() {
