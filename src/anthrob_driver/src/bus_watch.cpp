@@ -22,7 +22,9 @@ void BusWatch::receive(const BusEvent& event, double now) {
       if (condition_ == Condition::kOff) condition_ = Condition::kGood;
       break;
     case Kind::kEcho:
-      if (condition_ == Condition::kOff) condition_ = Condition::kGood;
+      if (condition_ == Condition::kOff || ++sent_since_error_ == kHealed) {
+        condition_ = Condition::kGood;
+      }
       echoes_ = true;
       unheard_ = false;
       last_echo_ = now;
@@ -35,14 +37,17 @@ void BusWatch::receive(const BusEvent& event, double now) {
       condition_ = Condition::kGood;
       break;
     case Kind::kErrorWarning:
+      sent_since_error_ = 0;
       if (condition_ == Condition::kGood) condition_ = Condition::kWarning;
       found(Finding::kErrorWarning, now);
       break;
     case Kind::kErrorPassive:
+      sent_since_error_ = 0;
       condition_ = Condition::kPassive;
       found(Finding::kErrorPassive, now);
       break;
     case Kind::kBusOff:
+      sent_since_error_ = 0;
       condition_ = Condition::kOff;
       found(Finding::kBusOff, now);
       break;

@@ -17,6 +17,8 @@ namespace driver {
 namespace {
 
 constexpr int kPriority = 60;
+/// Of frames that are read before anything else has its turn: 0.1 s of a full bus.
+constexpr int kMostFrames = 1000;
 constexpr std::size_t kMostSamples = 400;  ///< two seconds; whoever reads slower loses the oldest
 
 void watch(int epoll, int fd) {
@@ -33,8 +35,10 @@ std::uint64_t take_count(int fd) {
 }
 
 void start_timer(int timer, double rate) {
+  constexpr long kSecond = 1000000000;
+  const long nanoseconds = std::lround(kSecond / rate);
   itimerspec period{};
-  period.it_interval.tv_nsec = std::lround(1e9 / rate);
+  period.it_interval = {nanoseconds / kSecond, nanoseconds % kSecond};
   period.it_value.tv_nsec = 1;
   timerfd_settime(timer, 0, &period, nullptr);
 }
@@ -137,7 +141,7 @@ void DriverThread::loop() {
     const int count = epoll_wait(epoll_, events, 4, 100);
     (void)count;
     BusEvent event;
-    while (bus_.receive(event)) driver_.receive(event, now());
+    for (int i = 0; i < kMostFrames && bus_.receive(event); ++i) driver_.receive(event, now());
     if (take_count(wakeup_) > 0) serve_requests();
     if (take_count(timer_) > 0) driver_.cycle(now());
     collect();

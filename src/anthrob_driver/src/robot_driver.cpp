@@ -92,7 +92,8 @@ void RobotDriver::on_frame(const ecu::Frame& frame, double now) {
   if (ecu::function_of(frame) == static_cast<int>(Function::kStop)) {
     // Somebody else on the bus pressed stop.
     findings_.add(Finding::kStopLatched, -1, now);
-    emergency_stop();
+    // Passed on once; each cycle repeats it. Two hosts that answered each other would never end.
+    if (!supervisor_.stop_latched()) emergency_stop();
     return;
   }
   if (ecu::function_of(frame) <= static_cast<int>(Function::kReference) ||

@@ -82,6 +82,48 @@ TEST(RobotDriver, AnEmergencyStopIsLatchedAndClearsWithoutMotion) {
   EXPECT_TRUE(rig.enable());
 }
 
+/// As another driver on the bus does, which passes on every stop that it hears.
+TEST(RobotDriver, TwoHostsDoNotPassAStopToAndFro) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.driver().emergency_stop();
+  int stops = 0;
+  for (int ms = 0; ms < 1000; ++ms) {
+    rig.step();
+    BusEvent event;
+    while (rig.stranger.receive(event)) {
+      if (event.kind != BusEvent::Kind::kFrame || event.frame.id != 0) continue;
+      ++stops;
+      rig.stranger.send(ecu::Frame{});
+    }
+  }
+  EXPECT_LE(stops, 202);  // one a cycle
+  EXPECT_GE(stops, 200);
+  rig.run(20);  // what is still under way
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  EXPECT_TRUE(rig.enable());
+}
+
+TEST(RobotDriver, AControllerThatIsActiveAgainNeedNotSaySo) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.host.report(BusEvent::Kind::kErrorPassive);
+  rig.run(20);
+  EXPECT_EQ(rig.moving(), 0);
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  EXPECT_FALSE(rig.driver().start_enable(rig.now()).accepted);
+  // Errors go on.
+  for (int i = 0; i < 20; ++i) {
+    rig.host.report(BusEvent::Kind::kErrorWarning);
+    rig.run(100);
+  }
+  EXPECT_FALSE(rig.driver().start_enable(rig.now()).accepted);
+  rig.run(1500);
+  EXPECT_TRUE(rig.enable());
+}
+
 TEST(RobotDriver, AStopWinsOverAnEnableUnderWay) {
   Rig rig;
   rig.run(1000);
