@@ -119,10 +119,15 @@ bool EcuLink::take_analog() {
   return std::exchange(analog_new_, false);
 }
 
+/// What a sensor's counts mean comes before the limits that watch it.
+int EcuLink::wanted_index() const {
+  constexpr int kFirst = static_cast<int>(ecu::Parameter::kEncoderScale);
+  return (next_ + kFirst) % ecu::kParameterCount;
+}
+
 float EcuLink::wanted_value() const {
   const int muscle = own().muscles[static_cast<std::size_t>(next_ / ecu::kParameterCount)];
-  return hardware_.muscles[static_cast<std::size_t>(muscle)].parameters.raw(next_ %
-                                                                            ecu::kParameterCount);
+  return hardware_.muscles[static_cast<std::size_t>(muscle)].parameters.raw(wanted_index());
 }
 
 bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
@@ -138,11 +143,12 @@ bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
   ecu::ParameterMessage message;
   message.write = true;
   message.muscle = static_cast<std::uint8_t>(next_ / ecu::kParameterCount);
-  message.index = static_cast<std::uint8_t>(next_ % ecu::kParameterCount);
+  message.index = static_cast<std::uint8_t>(wanted_index());
   message.sequence = ++sequence_;
   message.value = wanted_value();
   frame = ecu::encode_parameter_request(message, own().node);
   waiting_ = true;
+  zero_asked_ = false;
   sent_ = now;
   return true;
 }
@@ -171,7 +177,7 @@ bool EcuLink::next_zero(double now, ecu::Frame& frame) {
   message.sequence = ++sequence_;
   message.value = static_cast<float>(zeroing().home_position);
   frame = ecu::encode_parameter_request(message, own().node);
-  waiting_ = true;
+  waiting_ = zero_asked_ = true;
   sent_ = now;
   return true;
 }
@@ -179,14 +185,15 @@ bool EcuLink::next_zero(double now, ecu::Frame& frame) {
 void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
   if (!waiting_ || reply.sequence != sequence_) return;
   waiting_ = false;
-  if (reply.index == ecu::kPresentPosition) {
-    const bool taken = reply.result == ecu::ParameterResult::kOk && reply.muscle == zero_;
+  if (zero_asked_) {
+    const bool taken = reply.result == ecu::ParameterResult::kOk &&
+                       reply.index == ecu::kPresentPosition && reply.muscle == zero_;
     if (taken) ++zero_;
     pass_over_unasked_zeros();
     zero_refused_ = !taken;
     return;
   }
-  const int index = next_ % ecu::kParameterCount;
+  const int index = wanted_index();
   if (reply.result == ecu::ParameterResult::kOk && reply.index == index &&
       reply.value == wanted_value()) {
     ++next_;

@@ -55,6 +55,20 @@ class HomeTest : public testing::Test {
   std::function<void()> sabotage;
 };
 
+TEST_F(HomeTest, AnAnswerToSomethingElseIsNoZero) {
+  rig.bus.tamper = [](const ecu::Frame& f, const MemoryBus::Port&) {
+    if (ecu::function_of(f) != static_cast<int>(ecu::Function::kParameterReply)) {
+      return std::vector<ecu::Frame>{f};
+    }
+    ecu::ParameterMessage reply = ecu::decode_parameter(f);
+    reply.index = 3;
+    return std::vector<ecu::Frame>{ecu::encode_parameter_reply(reply, ecu::node_of(f))};
+  };
+  home();
+  EXPECT_NE(failure(), "");
+  EXPECT_EQ(rig.driver().findings().count(Finding::kConfigurationRefused), 0u);
+}
+
 TEST_F(HomeTest, TensionsAllAndSetsZero) {
   int zeros_of_hand = 0;
   rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {

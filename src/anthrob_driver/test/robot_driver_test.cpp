@@ -394,6 +394,27 @@ TEST(RobotDriver, ASecondNodeWithTheSameNumberDoesNotGetItsValuesIn) {
   }
 }
 
+/// A sensor whose zero is far from what a unit starts with must not look like a current.
+TEST(RobotDriver, SensorsAreKnownBeforeTheirLimits) {
+  Hardware hardware = load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", true);
+  for (MuscleHardware& muscle : hardware.muscles) {
+    muscle.current.offset = 1500.0;
+    ASSERT_TRUE(muscle.parameters.set(ecu::Parameter::kCurrentOffset, 1500.0));
+    ASSERT_TRUE(muscle.parameters.set(ecu::Parameter::kCurrentLimit, 2.0));
+  }
+  for (EcuHardware& ecu : hardware.ecus) {
+    std::vector<ecu::ParameterSet> sets;
+    for (const int m : ecu.muscles) {
+      sets.push_back(hardware.muscles[static_cast<std::size_t>(m)].parameters);
+    }
+    ecu.configuration = ecu::configuration_checksum(sets.data(), static_cast<int>(sets.size()));
+  }
+  Rig rig(hardware);
+  rig.run(1500);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kEcuFault), 0u);
+  EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+}
+
 TEST(RobotDriver, ADoubledAnalogFrameIsOneMeasurement) {
   Rig rig;
   rig.run(1500);

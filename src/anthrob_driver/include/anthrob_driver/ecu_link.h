@@ -78,6 +78,7 @@ class EcuLink {
   void finish_answer(double now);
   void on_report(const ecu::StateReport& report, double now);
   void on_reply(const ecu::ParameterMessage& reply, double now);
+  int wanted_index() const;
   float wanted_value() const;
   void pass_over_unasked_zeros();
 
@@ -102,7 +103,8 @@ class EcuLink {
   // Upload of the configuration: one parameter at a time, each read back.
   int next_ = 0;
   std::uint8_t sequence_ = 0;
-  bool waiting_ = false;
+  bool waiting_ = false;     ///< for a reply
+  bool zero_asked_ = false;  ///< which is to a zero
   double sent_ = 0.0, resume_ = 0.0;
   std::size_t zero_ = 0;  ///< channel
   bool zero_refused_ = false, zero_all_ = false;
