@@ -4,13 +4,24 @@
 
 namespace anthrob {
 
-BagFile::BagFile(const std::string& file, const std::string& prefix) : prefix_(prefix) {
+BagFile::BagFile(const std::string& file, const std::string& prefix)
+    : bag_(std::make_unique<rosbag::Bag>()), prefix_(prefix) {
   try {
-    bag_.open(file, rosbag::bagmode::Write);
+    bag_->open(file, rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {
     throw std::runtime_error(file + ": cannot be written: " + error.what());
   }
-  bag_.setCompression(rosbag::compression::LZ4);
+  bag_->setCompression(rosbag::compression::LZ4);
+}
+
+BagFile::~BagFile() {
+  try {
+    bag_->close();
+  } catch (const rosbag::BagException&) {
+    // Its destructor would try again, and throw, which ends the program without a word. What is
+    // left open is left to the system.
+    (void)bag_.release();
+  }
 }
 
 }  // namespace anthrob

@@ -2,6 +2,7 @@
 
 #include <rosbag/bag.h>
 
+#include <memory>
 #include <string>
 
 #include "anthrob_record/gap_watch.h"
@@ -15,19 +16,24 @@ class BagFile {
   /// @param prefix of the topics, "/anthrob/"
   /// @throws std::runtime_error if the file cannot be made
   BagFile(const std::string& file, const std::string& prefix);
+  /// Of one that was not closed nobody wants to hear that it cannot be.
+  ~BagFile();
+  BagFile(const BagFile&) = delete;
+  BagFile& operator=(const BagFile&) = delete;
 
   template <class Message>
   void write(const std::string& topic, const Message& message) {
     // Time 0 cannot be held by a bag.
     const ros::Time stamp = std::max(message.header.stamp, ros::TIME_MIN);
-    bag_.write(prefix_ + topic, stamp, message);
+    bag_->write(prefix_ + topic, stamp, message);
   }
-  void close() { bag_.close(); }
+  /// @throws rosbag::BagException, if the disk is full, say
+  void close() { bag_->close(); }
 
   GapWatch gaps;  ///< of what is measured while the bag is written
 
  private:
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag> bag_;
   std::string prefix_;
 };
 
