@@ -2,7 +2,9 @@
 
 #include <anthrob_msgs/GoTo.h>
 
+#include <chrono>
 #include <cmath>
+#include <future>
 #include <stdexcept>
 
 #include "measured_names.h"
@@ -31,7 +33,8 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
       model_(model),
       protocol_(protocol),
       store_(folder, model, protocol),
-      link_(nh, model, options) {
+      link_(nh, model, options),
+      lock_step_(options.lock_step) {
   const auto record = [this](const char* topic) {
     return [this, topic](const auto& message) {
       if (belongs(message.header)) current_bag().write(topic, message);
@@ -210,6 +213,8 @@ void Recorder::switch_recording(int recording, const Protocol::Target&) {
   const std::size_t i = static_cast<std::size_t>(recording - 1);
   bags_[i] = std::make_unique<BagFile>(store_.partial_bag(names_[i]), nh_.getNamespace() + "/");
   for (const MuscleModel& muscle : model_->muscles) {
+    // Nobody measures a ligament on a robot.
+    if (!muscle.actuator->takes_input()) continue;
     current_bag().gaps.expect(muscle.name, since_.toSec());
   }
   for (const JointModel& joint : model_->skeleton->joints) {
@@ -251,6 +256,23 @@ DatasetMeta Recorder::describe(const Visit& visit, const Protocol::Target& targe
 }
 
 void Recorder::store(const Visit& visit, const Protocol::Target& target, int repeat) {
+  const auto write = [&] { write_files(visit, target, repeat); };
+  if (lock_step_) {
+    write();
+  } else {
+    // Motors stop if commands stay away, and a disk may take its time.
+    std::future<void> done = std::async(std::launch::async, write);
+    while (done.wait_for(std::chrono::seconds(0)) != std::future_status::ready && link_.wait()) {
+      if (protocol_.kind != Protocol::Kind::kZeroGravity) follow({aim_, 0}, target);
+    }
+    done.get();
+  }
+  ++recorded_;
+  report(names_.front(), visit);
+}
+
+/// Touches nothing that commands or callbacks do between two visits.
+void Recorder::write_files(const Visit& visit, const Protocol::Target& target, int repeat) {
   if (!store_.baseline() && !protocol_.by_hand) store_.set_baseline(visit.rest_before());
   for (auto& bag : bags_) bag->close();
   for (int i = 0; i < static_cast<int>(names_.size()); ++i) {
@@ -259,8 +281,6 @@ void Recorder::store(const Visit& visit, const Protocol::Target& target, int rep
   }
   for (auto& bag : bags_) bag.reset();
   store_.summarise();
-  ++recorded_;
-  report(names_.front(), visit);
 }
 
 void Recorder::report(const std::string& name, const Visit& visit) {

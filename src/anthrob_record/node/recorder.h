@@ -35,6 +35,7 @@ class Recorder {
   void call_controller(Visit::Aim aim, const Protocol::Target& target);
   void switch_recording(int recording, const Protocol::Target& target);
   void store(const Visit& visit, const Protocol::Target& target, int repeat);
+  void write_files(const Visit& visit, const Protocol::Target& target, int repeat);
   /// Whether a message is of the recording that runs. Not by its arrival: topics overtake each
   /// other, and a straggler of the instant before would be in one recording and not in the next.
   bool belongs(const std_msgs::Header& header) const;
@@ -50,6 +51,7 @@ class Recorder {
   Protocol protocol_;
   RecordingStore store_;
   RobotLink link_;
+  bool lock_step_;
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer sample_;
   std::vector<std::unique_ptr<BagFile>> bags_;  ///< of the visit, by recording

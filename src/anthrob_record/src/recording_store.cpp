@@ -48,7 +48,8 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   }
   if (node.has("rest")) baseline_ = read_sample(node.at("rest"), *model_);
   for (const auto& entry : fs::directory_iterator(folder_)) {
-    if (entry.path().extension() == kPart) fs::remove(entry.path());
+    // NAME.bag.part, and NAME.yaml.part1234 while that is written.
+    if (entry.path().extension().string().rfind(kPart, 0) == 0) fs::remove(entry.path());
   }
 }
 
@@ -93,6 +94,7 @@ void RecordingStore::discard(const std::string& name) const {
 void RecordingStore::finish(const std::string& name, DatasetMeta meta, const Sample& sample) {
   meta.robot = model_->name;
   meta.other["sample"] = sample_yaml(*model_, sample) + "\n";
+  keep_on_disk(partial_bag(name));
   fs::rename(partial_bag(name), file(name + ".bag"));
   write_file_atomically(file(name + ".yaml"), meta_text(meta));
 }
@@ -136,7 +138,10 @@ void RecordingStore::write_samples(const std::vector<Entry>& all) const {
   for (const Entry& entry : all) {
     out << entry.name << "," << entry.target;
     for (const auto* values : {&entry.sample.position, &entry.sample.force, &entry.sample.q}) {
-      for (const double value : *values) out << "," << exact_text(value);
+      for (const double value : *values) {
+        out << ",";
+        if (!std::isnan(value)) out << exact_text(value);
+      }
     }
     out << "\n";
   }

@@ -1,5 +1,6 @@
 #include "anthrob_record/sample.h"
 
+#include <cmath>
 #include <sstream>
 
 #include "anthrob_sim/recording/dataset.h"
@@ -54,8 +55,12 @@ std::string sample_yaml(const RobotModel& model, const Sample& sample) {
   std::ostringstream out;
   const auto muscles = [&](const char* key, const std::vector<double>& values) {
     out << key << ": {";
-    for (std::size_t m = 0; m < values.size(); ++m)
-      out << (m ? ", " : "") << model.muscles[m].name << ": " << exact_text(values[m]);
+    const char* separator = "";
+    for (std::size_t m = 0; m < values.size(); ++m) {
+      if (std::isnan(values[m])) continue;  // a ligament, which nobody measures
+      out << separator << model.muscles[m].name << ": " << exact_text(values[m]);
+      separator = ", ";
+    }
     out << "}, ";
   };
   out << "{time: " << exact_text(sample.time) << ", ";
@@ -82,8 +87,13 @@ Sample read_sample(const ConfigNode& node, const RobotModel& model) {
   Sample sample;
   sample.time = node.number("time", Bounds::any(), "s");
   for (const MuscleModel& muscle : model.muscles) {
-    sample.position.push_back(node.at("position").number(muscle.name, Bounds::any(), "rad"));
-    sample.force.push_back(node.at("force").number(muscle.name, Bounds::any(), "N"));
+    const auto read = [&](const char* key, const char* unit) {
+      const ConfigNode values = node.at(key);
+      const bool is_there = muscle.actuator->takes_input() || values.has(muscle.name);
+      return is_there ? values.number(muscle.name, Bounds::any(), unit) : std::nan("");
+    };
+    sample.position.push_back(read("position", "rad"));
+    sample.force.push_back(read("force", "N"));
   }
   sample.q = model.skeleton->rest_configuration();
   for (const JointModel& joint : model.skeleton->joints) {

@@ -55,6 +55,7 @@ TEST_F(RecordingStoreTest, GoesOnWhereItWasInterrupted) {
     store.set_baseline(sample(0.05));
     record(store, "E0_to_E3_run1", 0.1);
     std::ofstream(store.partial_bag("E3_to_E0_run1")) << "half a b";
+    std::ofstream(folder + "/E0_to_E4_run1.yaml.part4711") << "half a d";
     std::ofstream(folder + "/E0_to_E4_run1.bag") << "killed before its description was written";
   }
   RecordingStore store(folder, model, protocol);
@@ -62,8 +63,40 @@ TEST_F(RecordingStoreTest, GoesOnWhereItWasInterrupted) {
   EXPECT_FALSE(store.complete("E3_to_E0_run1"));
   EXPECT_FALSE(store.complete("E0_to_E4_run1"));
   EXPECT_FALSE(std::filesystem::exists(store.partial_bag("E3_to_E0_run1")));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/E0_to_E4_run1.yaml.part4711"));
   ASSERT_NE(store.baseline(), nullptr);
   EXPECT_EQ(store.baseline()->q, sample(0.05).q);  // bit for bit
+}
+
+TEST_F(RecordingStoreTest, WhatIsNeverMeasuredOfALigamentIsLeftOut) {
+  parent.write("ligament.yaml",
+               "extends: " + anthrob_folder() +
+                   "model_I_tier1.yaml\n"
+                   "springs: {collagen: {type: spring_damper, rest_length: 0.02, stiffness: 1000, "
+                   "damping: 5}}\nactuators: {ligament: {type: ligament}}\n"
+                   "muscles:\n  capsule:\n    actuator: ligament\n    rest_tendon_length: 0.05\n"
+                   "    spring: {kind: collagen, segment: 0}\n"
+                   "    force_sensor_segment: 0\n    path:\n"
+                   "      - {body: base, point: [-0.0402, -0.1710, 0.3485]}\n"
+                   "      - {body: humerus, point: [-0.0091, 0.1702, -0.0147]}\n");
+  model = load_robot_model(parent.file("ligament.yaml"));
+  ASSERT_EQ(model->muscles.size(), 9u);
+  Sample measured = sample(0.1);
+  measured.position.push_back(std::nan(""));
+  measured.force.push_back(std::nan(""));
+  {
+    RecordingStore store(folder, model, protocol);
+    store.set_baseline(measured);
+    std::ofstream(store.partial_bag("E0_to_E3_run1")) << "a bag";
+    store.finish("E0_to_E3_run1", {}, measured);
+    store.summarise();
+  }
+  EXPECT_EQ(content(folder + "/samples.csv").find("nan"), std::string::npos);
+  const RecordingStore again(folder, model, protocol);
+  ASSERT_NE(again.baseline(), nullptr);
+  EXPECT_TRUE(std::isnan(again.baseline()->force[8]));
+  EXPECT_EQ(again.baseline()->force[7], 3.0);
+  again.summarise();
 }
 
 TEST_F(RecordingStoreTest, AFolderBelongsToOneSession) {

@@ -1,5 +1,6 @@
 #include "anthrob_sim/recording/atomic_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,11 +17,17 @@ std::string temporary_of(const std::string& file) {
   return file + ".part" + std::to_string(getpid());
 }
 
+std::string folder_of(const std::string& file) {
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
 void write_beside(const std::string& file, const std::string& content) {
   std::ofstream out(temporary_of(file), std::ios::binary);
   out << content;
   out.close();
   if (!out) throw std::runtime_error(file + ": cannot be written: " + std::strerror(errno));
+  keep_on_disk(temporary_of(file));
 }
 
 void move_into_place(const std::string& file) {
@@ -31,6 +38,13 @@ void move_into_place(const std::string& file) {
 
 }  // namespace
 
+void keep_on_disk(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
 void write_file_atomically(const std::string& file, const std::string& content) {
   write_files_atomically({{file, content}});
 }
@@ -39,6 +53,7 @@ void write_files_atomically(const std::vector<std::pair<std::string, std::string
   try {
     for (const auto& [file, content] : files) write_beside(file, content);
     for (const auto& [file, content] : files) move_into_place(file);
+    for (const auto& [file, content] : files) keep_on_disk(folder_of(file));
   } catch (...) {
     std::error_code ignored;
     for (const auto& [file, content] : files) {
