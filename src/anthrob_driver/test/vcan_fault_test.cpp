@@ -338,6 +338,28 @@ TEST_F(VcanFaults, SecondDriver) {
               [&] { second.reset(); });
 }
 
+TEST(SocketCan, TellsOfFramesThatItsQueueCouldNotHold) {
+  if (::if_nametoindex(kInterface) == 0) GTEST_SKIP() << "no vcan0: scripts/with_vcan.sh";
+  SocketCanBus sleeper(kInterface), talker(kInterface);
+  constexpr int kFrames = 20000;
+  for (int i = 0; i < kFrames; ++i) {
+    talker.send(ecu::encode(ecu::Sync{static_cast<std::uint8_t>(i), 0, false}));
+    if (i % 50 == 0) talker.flush();
+  }
+  int overruns = 0, frames = 0;
+  BusEvent event;
+  while (sleeper.receive(event)) {
+    overruns += event.kind == BusEvent::Kind::kReceiveOverrun;
+    frames += event.kind == BusEvent::Kind::kFrame;
+  }
+  EXPECT_LT(frames, kFrames);
+  // What was queued is whole; the first frame after it tells.
+  talker.send(ecu::encode(ecu::Sync{1, 0, false}));
+  talker.flush();
+  while (sleeper.receive(event)) overruns += event.kind == BusEvent::Kind::kReceiveOverrun;
+  EXPECT_EQ(overruns, 1);
+}
+
 class CanCheck : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -358,6 +380,10 @@ class CanCheck : public ::testing::Test {
 
 TEST_F(CanCheck, RefusesARateAtWhichEcusWouldStop) {
   EXPECT_EQ(run("--emulate --rate 50"), 2);
+  for (const char* seconds : {"nan", "0", "-1", "inf"}) {
+    EXPECT_EQ(run(std::string("--seconds ") + seconds), 2) << seconds;
+    EXPECT_NE(said.find("--seconds: "), std::string::npos) << said;
+  }
 }
 
 TEST_F(CanCheck, NamesUnitsThatAreNotThereAndFails) {

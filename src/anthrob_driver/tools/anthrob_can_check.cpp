@@ -250,8 +250,14 @@ class EmulatedRobot {
   std::thread ecus_;
 };
 
+constexpr double kLongest = 1e6;  // [s], eleven days
+
 int run(const Arguments& arguments) {
   const Hardware hardware = load_hardware(arguments.hardware, arguments.hand);
+  if (!(arguments.seconds > 0.0 && arguments.seconds <= kLongest)) {
+    throw BadInput("--seconds: " + std::to_string(arguments.seconds) +
+                   ": expected more than 0 and no more than " + std::to_string(kLongest));
+  }
   if (!arguments.emulate && arguments.pace < 1.0) {
     throw BadInput("--pace: a robot has no other pace than 1; expected --emulate");
   }

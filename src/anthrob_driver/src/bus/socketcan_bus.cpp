@@ -18,7 +18,8 @@ namespace driver {
 
 namespace {
 
-/// Bands of the queue of an interface (pfifo_fast): 6 is served before 0, and needs no privilege as 7 would.
+/// Bands of the queue of an interface (pfifo_fast): 6 is served before 0, and needs no privilege as
+/// 7 would.
 constexpr int kOrdinary = 0, kUrgent = 6;
 
 int open_socket(unsigned index) {
@@ -46,8 +47,8 @@ BusEvent::Kind kind_of_error(const can_frame& frame) {
   if (frame.can_id & CAN_ERR_CRTL) {
     const auto flags = frame.data[1];
     if (flags & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) return Kind::kErrorPassive;
-    if (flags & (CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) return Kind::kErrorWarning;
     if (flags & CAN_ERR_CRTL_RX_OVERFLOW) return Kind::kReceiveOverrun;
+    if (flags & (CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) return Kind::kErrorWarning;
     if (flags & CAN_ERR_CRTL_ACTIVE) return Kind::kErrorActive;
   }
   if (frame.can_id & CAN_ERR_ACK) return Kind::kNoAcknowledge;
@@ -55,14 +56,31 @@ BusEvent::Kind kind_of_error(const can_frame& frame) {
   return Kind::kErrorWarning;
 }
 
-std::int64_t stamp_of(msghdr& message) {
+/// What the kernel tells beside a frame.
+struct Beside {
+  std::int64_t stamp_ns = 0;
+  std::uint32_t dropped = 0;  ///< frames, since the socket is open, that found its queue full
+};
+
+template <class T>
+T content_of(const cmsghdr* message) {
+  T value;
+  std::memcpy(&value, CMSG_DATA(message), sizeof(value));
+  return value;
+}
+
+Beside beside(msghdr& message) {
+  Beside told;
   for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
-    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
-    timespec time;
-    std::memcpy(&time, CMSG_DATA(c), sizeof(time));
-    return static_cast<std::int64_t>(time.tv_sec) * 1000000000 + time.tv_nsec;
+    if (c->cmsg_level != SOL_SOCKET) continue;
+    if (c->cmsg_type == SCM_TIMESTAMPNS) {
+      const auto time = content_of<timespec>(c);
+      told.stamp_ns = static_cast<std::int64_t>(time.tv_sec) * 1000000000 + time.tv_nsec;
+    } else if (c->cmsg_type == SO_RXQ_OVFL) {
+      told.dropped = content_of<std::uint32_t>(c);
+    }
   }
-  return 0;
+  return told;
 }
 
 }  // namespace
@@ -126,6 +144,8 @@ bool SocketCanBus::open_interface() {
   option(socket_, SOL_SOCKET, SO_TIMESTAMPNS, int{1});
   option(socket_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, int{1});
   option(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});
+  option(socket_, SOL_SOCKET, SO_RXQ_OVFL, int{1});
+  dropped_ = 0;
   // Bursts of a whole cycle must fit, whatever the scheduler does.
   option(socket_, SOL_SOCKET, SO_RCVBUF, int{1 << 20});
   option(socket_, SOL_SOCKET, SO_PRIORITY, kOrdinary);
@@ -211,8 +231,14 @@ bool SocketCanBus::receive(BusEvent& event) {
   }
   const can_frame& raw = in_->frames[in_->next];
   mmsghdr& message = in_->messages[in_->next];
+  const Beside told = beside(message.msg_hdr);
+  if (told.dropped != dropped_) {
+    dropped_ = told.dropped;
+    event = {Kind::kReceiveOverrun, {}, told.stamp_ns};
+    return true;
+  }
   ++in_->next;
-  event = {Kind::kFrame, {}, stamp_of(message.msg_hdr)};
+  event = {Kind::kFrame, {}, told.stamp_ns};
   if (raw.can_id & CAN_ERR_FLAG) {
     event.kind = kind_of_error(raw);
   } else if (message.msg_len != sizeof(raw) || (raw.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) ||

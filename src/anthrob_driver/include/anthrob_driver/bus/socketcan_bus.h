@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -45,6 +46,7 @@ class SocketCanBus final : public Bus {
   std::string interface_;
   int socket_ = -1;
   bool up_ = false, reported_up_ = true;
+  std::uint32_t dropped_ = 0;  ///< frames that found the socket's queue full, as far as reported
   std::unique_ptr<Batch> out_, in_;
 };
 
