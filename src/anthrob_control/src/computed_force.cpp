@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "anthrob_sim/statics/equilibrium.h"
@@ -9,6 +10,8 @@
 namespace anthrob {
 
 namespace {
+
+constexpr double kLongestStep = 0.02;  ///< of a motion [s]
 
 /// Muscles without a controller are left alone: their bounds are zero.
 Eigen::VectorXd bounds(const RobotModel& model, double tension) {
@@ -70,9 +73,25 @@ void ComputedForce::go_to(const std::vector<double>& q, double duration) {
   for (const double value : q) {
     if (!std::isfinite(value)) throw std::invalid_argument("go_to: posture is not finite");
   }
+  refuse_haste(q, duration);
   if (!moving_) servo_.reset();
   motion_.start(target(), q, duration);
   moving_ = true;
+}
+
+void ComputedForce::refuse_haste(const std::vector<double>& q, double duration) const {
+  const auto& joints = model().skeleton->joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const double way = PostureMotion::kFastest * joint_distance(joints[j], target(), q);
+    const double fastest = settings_.joints[j].fastest;
+    if (way <= fastest * duration) continue;
+    char text[160];
+    std::snprintf(text, sizeof(text),
+                  "duration: %g s: joint '%s' would move at %.3g rad/s, more than its fastest, %g; "
+                  "expected %.3g s at least",
+                  duration, joints[j].name.c_str(), way / duration, fastest, way / fastest);
+    throw BadInput(text);
+  }
 }
 
 const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, double dt) {
@@ -111,7 +130,9 @@ void ComputedForce::compute_torque(double dt) {
     command_.torque += servo_.hold(held_, q, u);
     return;
   }
-  motion_.advance(dt);
+  // Where commands were held up the motion waits: what it would have done meanwhile is no step to
+  // be taken at once.
+  motion_.advance(std::min(dt, std::max(kLongestStep, 2.0 / settings_.rate)));
   command_.torque += servo_.track(motion_.configuration(), motion_.velocity(), q, u, dt);
   command_.torque.noalias() += posture_.mass_matrix() * motion_.acceleration();
   for (const JointModel& joint : model().skeleton->joints) {

@@ -19,6 +19,7 @@ JointGains read_gains(const ConfigNode& node) {
   gains.integral = node.number("integral", Bounds::nonnegative(), "Nm/(rad s)");
   gains.yield = node.number("yield", Bounds::nonnegative(), "Nm");
   gains.strength = node.number("strength", Bounds::nonnegative(), "Nm");
+  gains.fastest = node.number_or("fastest", gains.fastest, Bounds::positive(), "rad/s");
   return gains;
 }
 

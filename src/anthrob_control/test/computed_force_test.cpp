@@ -285,6 +285,58 @@ TEST(ComputedForce, RefusesMeasurementsThatDoNotFit) {
   EXPECT_THROW(controller.update(m, 0.005), std::invalid_argument);
   EXPECT_THROW(controller.go_to({1, 0, 0, 0}, 1.0), std::invalid_argument);
   EXPECT_THROW(controller.go_to({1, 0, 0, 0, 0}, 0.0), std::invalid_argument);
+  EXPECT_TRUE(controller.holds());
+}
+
+/// The elbow, 1 rad away, stands still.
+class GoTo : public ::testing::Test {
+ protected:
+  GoTo()
+      : settings(ControlSettings::load(kAnthrob + "control.yaml", *robot)),
+        controller(robot, settings),
+        measured{robot->skeleton->rest_configuration(), Eigen::VectorXd::Zero(4),
+                 std::vector<ecu::Measurement>(11)} {
+    measured.q[4] = 0.5;
+    controller.update(measured, 0.005);
+    aim = measured.q;
+    aim[4] = 1.5;
+  }
+
+  std::shared_ptr<const RobotModel> robot = load_robot_model(kAnthrob + "model_I.yaml");
+  ControlSettings settings;
+  ComputedForce controller;
+  RobotMeasurement measured;
+  std::vector<double> aim;
+};
+
+TEST_F(GoTo, RefusesHaste) {
+  const double shortest = 1.875 / 4.0;
+  try {
+    controller.go_to(aim, 0.98 * shortest);
+    FAIL() << "no refusal";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("'elbow' would move at 4.08 rad/s"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(controller.holds());
+  controller.go_to(aim, 1.02 * shortest);
+  double fastest = 0.0, last = 0.5;
+  for (int i = 0; i < 120; ++i) {
+    controller.update(measured, 0.005);
+    fastest = std::max(fastest, (controller.target()[4] - last) / 0.005);
+    last = controller.target()[4];
+  }
+  EXPECT_NEAR(fastest, 4.0 / 1.02, 0.02);
+  EXPECT_EQ(last, 1.5);
+}
+
+TEST_F(GoTo, WaitsWhereItWasHeldUp) {
+  controller.go_to(aim, 1.0);
+  for (int i = 0; i < 80; ++i) controller.update(measured, 0.005);
+  const double before = controller.target()[4];
+  controller.update(measured, 0.4);
+  EXPECT_LT(controller.target()[4] - before, 0.02 * 1.875);
+  EXPECT_GT(controller.target()[4], before);
 }
 
 TEST(ControlSettings, RefusesWhatItCannotUse) {

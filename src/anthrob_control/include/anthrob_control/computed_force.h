@@ -47,6 +47,7 @@ class ComputedForce {
   void zero_gravity();
   /// @param q posture, size position_count   @param duration [s], > 0
   /// @throws std::invalid_argument
+  /// @throws BadInput, and goes on as before, if a joint would move faster than it may
   void go_to(const std::vector<double>& q, double duration);
 
   /// @param dt since the last update [s]
@@ -68,6 +69,7 @@ class ComputedForce {
 
   static std::vector<Ligament> ligaments_of(const RobotModel& model);
   void forget_voltages();
+  void refuse_haste(const std::vector<double>& q, double duration) const;
   void compute_torque(double dt);
   void split();
   double tension_of(const Ligament& ligament) const;

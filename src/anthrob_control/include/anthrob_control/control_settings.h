@@ -15,6 +15,7 @@ struct JointGains {
   double integral = 0.0;   ///< on the way to a posture [Nm/(rad s)]
   double yield = 0.0;      ///< torque beyond which the held posture gives way, zero gravity [Nm]
   double strength = 0.0;   ///< largest correcting torque on the way to a posture [Nm]
+  double fastest = 4.0;    ///< highest speed that may be asked for on that way [rad/s]
 };
 
 /// Settings of the computed-force controller: a YAML file beside the robot's models, see

@@ -10,6 +10,8 @@ namespace anthrob {
 /// From one posture to another on the shortest way, with least jerk: at rest at both ends.
 class PostureMotion {
  public:
+  static constexpr double kFastest = 1.875;  ///< highest speed on the way, of the mean speed
+
   explicit PostureMotion(const SkeletonModel& skeleton);
 
   /// Stands at a posture.
