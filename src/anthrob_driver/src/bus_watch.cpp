@@ -22,9 +22,7 @@ void BusWatch::receive(const BusEvent& event, double now) {
       if (condition_ == Condition::kOff) condition_ = Condition::kGood;
       break;
     case Kind::kEcho:
-      if (condition_ == Condition::kOff || ++sent_since_error_ == kHealed) {
-        condition_ = Condition::kGood;
-      }
+      if (condition_ == Condition::kOff) condition_ = Condition::kGood;
       echoes_ = true;
       unheard_ = false;
       last_echo_ = now;
@@ -37,17 +35,14 @@ void BusWatch::receive(const BusEvent& event, double now) {
       condition_ = Condition::kGood;
       break;
     case Kind::kErrorWarning:
-      sent_since_error_ = 0;
       if (condition_ == Condition::kGood) condition_ = Condition::kWarning;
       found(Finding::kErrorWarning, now);
       break;
     case Kind::kErrorPassive:
-      sent_since_error_ = 0;
       condition_ = Condition::kPassive;
       found(Finding::kErrorPassive, now);
       break;
     case Kind::kBusOff:
-      sent_since_error_ = 0;
       condition_ = Condition::kOff;
       found(Finding::kBusOff, now);
       break;
@@ -99,7 +94,10 @@ std::string BusWatch::trouble() const {
     case Condition::kOff:
       return "the CAN controller is bus-off";
     case Condition::kPassive:
-      return "the CAN controller is error-passive";
+      // Only it knows when that is over; single errors are not reported to us.
+      return "the CAN controller is error-passive, and has not said that this is over; where it "
+             "is, "
+             "set the interface down and up";
     default:
       break;
   }

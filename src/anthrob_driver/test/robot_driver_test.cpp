@@ -105,25 +105,6 @@ TEST(RobotDriver, TwoHostsDoNotPassAStopToAndFro) {
   EXPECT_TRUE(rig.enable());
 }
 
-TEST(RobotDriver, AControllerThatIsActiveAgainNeedNotSaySo) {
-  Rig rig;
-  ASSERT_TRUE(rig.start());
-  rig.host.report(BusEvent::Kind::kErrorPassive);
-  rig.run(20);
-  EXPECT_EQ(rig.moving(), 0);
-  rig.driver().clear_faults(rig.now());
-  rig.run(200);
-  EXPECT_FALSE(rig.driver().start_enable(rig.now()).accepted);
-  // Errors go on.
-  for (int i = 0; i < 20; ++i) {
-    rig.host.report(BusEvent::Kind::kErrorWarning);
-    rig.run(100);
-  }
-  EXPECT_FALSE(rig.driver().start_enable(rig.now()).accepted);
-  rig.run(1500);
-  EXPECT_TRUE(rig.enable());
-}
-
 TEST(RobotDriver, AStopWinsOverAnEnableUnderWay) {
   Rig rig;
   rig.run(1000);

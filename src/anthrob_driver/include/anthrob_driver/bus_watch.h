@@ -15,9 +15,6 @@ class BusWatch {
   static constexpr double kEchoTimeout = 0.02;  ///< [s] without an echo of anything we sent
   static constexpr int kFullCycles = 3;         ///< cycles in which the queue was full
   static constexpr int kFlood = 150;            ///< frames in a cycle; 7 ECUs send 22 to 36
-  /// Frames of ours in a row that got through without an error: each takes one off the controller's
-  /// count, which is 255 at most. So it is active again, though the frame that says so was lost.
-  static constexpr int kHealed = 256;
 
   explicit BusWatch(Findings& findings, double rate) : findings_(findings), rate_(rate) {}
 
@@ -49,7 +46,7 @@ class BusWatch {
   double last_echo_ = 0.0;
   bool unheard_ = false;
   std::uint64_t frames_ = 0;
-  int frames_this_cycle_ = 0, sent_since_error_ = 0;
+  int frames_this_cycle_ = 0;
 };
 
 }  // namespace driver
