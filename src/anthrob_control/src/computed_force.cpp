@@ -11,7 +11,7 @@ namespace anthrob {
 
 namespace {
 
-constexpr double kLongestStep = 0.02;  ///< of a motion [s]
+constexpr double kLongestStep = 0.1;  ///< of a motion [s]; a measurement that old is stale
 
 /// Muscles without a controller are left alone: their bounds are zero.
 Eigen::VectorXd bounds(const RobotModel& model, double tension) {
@@ -73,6 +73,7 @@ void ComputedForce::go_to(const std::vector<double>& q, double duration) {
   for (const double value : q) {
     if (!std::isfinite(value)) throw std::invalid_argument("go_to: posture is not finite");
   }
+  if (!(duration > 0.0)) throw std::invalid_argument("go_to: duration: expected > 0 s");
   refuse_haste(q, duration);
   if (!moving_) servo_.reset();
   motion_.start(target(), q, duration);

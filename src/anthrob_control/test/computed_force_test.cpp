@@ -330,12 +330,18 @@ TEST_F(GoTo, RefusesHaste) {
   EXPECT_EQ(last, 1.5);
 }
 
+TEST_F(GoTo, RefusesNoDuration) {
+  for (const double duration : {0.0, -1.0, std::nan("")}) {
+    EXPECT_THROW(controller.go_to(aim, duration), std::invalid_argument) << duration;
+  }
+}
+
 TEST_F(GoTo, WaitsWhereItWasHeldUp) {
   controller.go_to(aim, 1.0);
   for (int i = 0; i < 80; ++i) controller.update(measured, 0.005);
   const double before = controller.target()[4];
   controller.update(measured, 0.4);
-  EXPECT_LT(controller.target()[4] - before, 0.02 * 1.875);
+  EXPECT_LT(controller.target()[4] - before, 0.1 * 1.875);
   EXPECT_GT(controller.target()[4], before);
 }
 
