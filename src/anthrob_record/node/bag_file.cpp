@@ -9,12 +9,17 @@ BagFile::BagFile(const std::string& file, const std::string& prefix)
   try {
     bag_->open(file, rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {
+    abandon();
     throw std::runtime_error(file + ": cannot be written: " + error.what());
   }
   bag_->setCompression(rosbag::compression::LZ4);
 }
 
 BagFile::~BagFile() {
+  abandon();
+}
+
+void BagFile::abandon() {
   try {
     bag_->close();
   } catch (const rosbag::BagException&) {

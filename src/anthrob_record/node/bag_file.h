@@ -33,6 +33,8 @@ class BagFile {
   GapWatch gaps;  ///< of what is measured while the bag is written
 
  private:
+  void abandon();
+
   std::unique_ptr<rosbag::Bag> bag_;
   std::string prefix_;
 };

@@ -257,15 +257,19 @@ DatasetMeta Recorder::describe(const Visit& visit, const Protocol::Target& targe
 
 void Recorder::store(const Visit& visit, const Protocol::Target& target, int repeat) {
   const auto write = [&] { write_files(visit, target, repeat); };
-  if (lock_step_) {
+  if (lock_step_ || protocol_.kind == Protocol::Kind::kZeroGravity) {
     write();
   } else {
     // Motors stop if commands stay away, and a disk may take its time.
     std::future<void> done = std::async(std::launch::async, write);
+    bool jumped = false;
     while (done.wait_for(std::chrono::seconds(0)) != std::future_status::ready && link_.wait()) {
-      if (protocol_.kind != Protocol::Kind::kZeroGravity) follow({aim_, 0}, target);
+      jumped = jumped || link_.time_jumped();
+      const bool fresh = link_.state().complaint(link_.now().toSec(), kSilence).empty();
+      if (fresh && !jumped) follow({aim_, 0}, target);
     }
     done.get();
+    if (jumped) throw std::runtime_error("time jumped back");
   }
   ++recorded_;
   report(names_.front(), visit);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -15,6 +16,13 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPart = ".part";
+
+/// NAME.bag.part, and NAME.yaml.part1234 while that is written.
+bool is_part(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  return extension.rfind(kPart, 0) == 0 &&
+         extension.find_first_not_of("0123456789", std::strlen(kPart)) == std::string::npos;
+}
 
 /// FNV-1a: enough to tell two protocols apart.
 std::string fingerprint(const std::string& text) {
@@ -48,8 +56,7 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   }
   if (node.has("rest")) baseline_ = read_sample(node.at("rest"), *model_);
   for (const auto& entry : fs::directory_iterator(folder_)) {
-    // NAME.bag.part, and NAME.yaml.part1234 while that is written.
-    if (entry.path().extension().string().rfind(kPart, 0) == 0) fs::remove(entry.path());
+    if (is_part(entry.path())) fs::remove(entry.path());
   }
 }
 

@@ -45,14 +45,22 @@ sensor_msgs::JointState message(unsigned i) {
 
 TEST(BagFile, AFullDiskIsToldAndEndsNothingElse) {
   {
-    BagFile bag(file(), "/robot/");
     const DiskOf full(200000);
+    BagFile bag(file(), "/robot/");
     EXPECT_THROW(
         {
           for (unsigned i = 0; i < 100; ++i) bag.write("joint_states", message(i));
           bag.close();
         },
         rosbag::BagException);
+  }
+  std::filesystem::remove(file());
+}
+
+TEST(BagFile, OneThatCannotBeBegunIsToldToo) {
+  {
+    const DiskOf full(100);
+    EXPECT_THROW(BagFile(file(), "/robot/"), std::runtime_error);
   }
   std::filesystem::remove(file());
 }

@@ -41,8 +41,10 @@ void move_into_place(const std::string& file) {
 void keep_on_disk(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return;
-  ::fsync(fd);
+  const bool lost = ::fsync(fd) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
+  const std::string reason = std::strerror(errno);
   ::close(fd);
+  if (lost) throw std::runtime_error(path + ": cannot be written: " + reason);
 }
 
 void write_file_atomically(const std::string& file, const std::string& content) {

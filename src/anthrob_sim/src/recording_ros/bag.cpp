@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <set>
 
 #include "anthrob_sim/core/errors.h"
@@ -447,24 +448,27 @@ void write_bag(const Dataset& dataset, const std::string& file) {
   const std::string prefix =
       "/" + (dataset.meta.robot.empty() ? std::string("robot") : dataset.meta.robot) + "/";
   const std::string temporary = file + ".part" + std::to_string(getpid());
+  auto bag = std::make_unique<rosbag::Bag>();
   try {
-    rosbag::Bag bag(temporary, rosbag::bagmode::Write);
+    bag->open(temporary, rosbag::bagmode::Write);
     for (const Table& table : standard_tables(dataset)) {
       if (table.name == "commands")
-        write_rows<MuscleCommand>(table, dataset, prefix + "muscle_command", bag);
+        write_rows<MuscleCommand>(table, dataset, prefix + "muscle_command", *bag);
       if (table.name == "muscles")
-        write_rows<MuscleStates>(table, dataset, prefix + "muscle_states", bag);
+        write_rows<MuscleStates>(table, dataset, prefix + "muscle_states", *bag);
       if (table.name == "joints")
-        write_rows<JointState>(table, dataset, prefix + "joint_states", bag);
+        write_rows<JointState>(table, dataset, prefix + "joint_states", *bag);
       if (table.name == "spherical_joints") {
-        write_rows<SphericalJointStates>(table, dataset, prefix + "spherical_joint_states", bag);
+        write_rows<SphericalJointStates>(table, dataset, prefix + "spherical_joint_states", *bag);
       }
     }
-    bag.close();
+    bag->close();
+    keep_on_disk(temporary);
     // First: a meta.yaml that waits for its bag misleads nobody, a bag with none or another's does.
     write_file_atomically(meta_beside(file), meta_text(dataset.meta));
     std::filesystem::rename(temporary, file);
   } catch (const rosbag::BagException& e) {
+    (void)bag.release();  // its destructor would write again, and throw, which ends the program
     std::filesystem::remove(temporary);
     throw std::runtime_error(file + ": cannot be written: " + e.what());
   } catch (...) {

@@ -8,6 +8,7 @@ namespace anthrob {
 
 /// Until a file, or what a folder lists, is on the disk: what is renamed before that may be there
 /// without its content after a power cut. As far as the file system can.
+/// @throws std::runtime_error if the disk does not take it
 void keep_on_disk(const std::string& path);
 
 /// Writes beside the target and renames, so that the target is either the old or the complete new
