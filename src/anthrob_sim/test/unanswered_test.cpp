@@ -86,9 +86,43 @@ TEST(Unanswered, AUnitThatTellsOfAFaultStays) {
   lose(data, "biceps", 10, 4);
   data.tables.front().column("biceps/current").values[12] = 0.0;
   leave_out_unanswered(data);
-  // Two short silences, and a row that says that it failed.
-  EXPECT_EQ(cells(data, "biceps/ecu_state"), kRows - 3);
+  // It failed in the silence before it said so; of the one after that nothing is known.
+  EXPECT_EQ(cells(data, "biceps/ecu_state"), kRows - 1);
+  for (std::size_t i = 10; i < 13; ++i) {
+    EXPECT_EQ(data.series("biceps/ecu_state").values[i], static_cast<double>(ecu::State::kFault));
+  }
+}
+
+TEST(Unanswered, AUnitThatWasStoppedMeanwhileStays) {
+  Dataset data = recording();
+  lose(data, "biceps", 10, 4);
+  auto& state = data.tables.front().column("biceps/ecu_state").values;
+  for (std::size_t i = 14; i < kRows; ++i) state[i] = static_cast<double>(ecu::State::kFault);
+  leave_out_unanswered(data);
+  EXPECT_EQ(cells(data, "biceps/position"), kRows - 4);
+  EXPECT_EQ(cells(data, "biceps/ecu_state"), kRows);
   EXPECT_EQ(data.series("biceps/ecu_state").values[10], static_cast<double>(ecu::State::kFault));
+}
+
+TEST(Unanswered, AUnitThatNeverAnswersStays) {
+  Dataset data = recording();
+  lose(data, "biceps", 0, kRows);
+  leave_out_unanswered(data);
+  EXPECT_EQ(cells(data, "biceps/ecu_state"), kRows);
+  EXPECT_EQ(cells(data, "biceps/reference"), kRows);
+  EXPECT_EQ(cells(data, "biceps/position"), kRows);
+}
+
+TEST(Unanswered, WhatDrivesAReplayIsNotMeasured) {
+  Dataset data = recording();
+  Column& load = data.tables.front().column("elbow/load");
+  load.values.assign(kRows, 0.1);
+  load.present.assign(kRows, 1);
+  load.values[7] = NAN;
+  data.tables.front().column("biceps/reference").values[7] = NAN;
+  leave_out_unanswered(data);
+  EXPECT_EQ(cells(data, "elbow/load"), kRows);
+  EXPECT_EQ(cells(data, "biceps/reference"), kRows);
 }
 
 TEST(Unanswered, CellsInBetweenThatWereEmptyAreNoAnswer) {

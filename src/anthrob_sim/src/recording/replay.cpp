@@ -414,12 +414,19 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
   out.meta = recording.meta;
   out.meta.other["simulated_by"] = "anthrob_replay\n";
   for (auto& sampler : samplers) out.tables.push_back(sampler.take());
-  // Commands are what they were, row by row.
+  // Commands are what they were, row by row; where a unit did not say, what the simulated one says.
   for (Table& table : out.tables) {
     const Table* source = recording.find_table(table.name);
     for (Column& column : table.columns) {
       if (!source || (column.quantity() != "mode" && column.quantity() != "reference")) continue;
-      if (const Column* original = source->find(column.name)) column = *original;
+      const Column* original = source->find(column.name);
+      if (!original) continue;
+      const bool of_unit = source->find(column.owner() + "/ecu_state") != nullptr;
+      for (std::size_t i = 0; i < column.values.size(); ++i) {
+        if (of_unit && !original->present[i]) continue;
+        column.values[i] = original->values[i];
+        column.present[i] = original->present[i];
+      }
     }
   }
   return out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,14 @@ constexpr double kLongestLoss = 0.05;  // [s]
 
 using Rows = std::vector<char>;  ///< of a table, whether each of them is meant
 
+/// What sensors tell, and not what a unit or its commander says.
 bool is_measured(const Column& column) {
-  const std::string quantity = column.quantity();
-  return quantity != "ecu_state" && quantity != "mode" && quantity != "reference";
+  static const std::set<std::string> kMeasured = {
+      "position", "velocity", "current", "voltage", "force", "w", "x", "y", "z", "wx", "wy", "wz"};
+  return kMeasured.count(column.quantity()) > 0;
 }
 
-/// Empties losses that are short, or all there is.
+/// Empties losses that are short.
 /// @return the rows that were emptied
 Rows empty_losses(const Table& table, Column& column) {
   Rows emptied(table.t.size(), 0);
@@ -34,10 +37,9 @@ Rows empty_losses(const Table& table, Column& column) {
     if (!is_lost(k)) continue;
     const std::size_t first = k;
     while (k < rows.size() && is_lost(k)) ++k;
-    const bool is_all = first == 0 && k == rows.size();
     const Nanoseconds since = table.t[rows[first > 0 ? first - 1 : 0]],
                       until = table.t[rows[std::min(k, rows.size() - 1)]];
-    if (!is_all && seconds(until - since) > kLongestLoss + 1e-9) continue;
+    if (seconds(until - since) > kLongestLoss + 1e-9) continue;
     for (std::size_t i = first; i < k; ++i) {
       column.present[rows[i]] = 0;
       emptied[rows[i]] = 1;
@@ -46,19 +48,32 @@ Rows empty_losses(const Table& table, Column& column) {
   return emptied;
 }
 
-/// Where all that a unit measures was lost, it did not answer; one that tells of a fault tells
-/// more.
+void empty_if_there_is_none(Column& column) {
+  for (std::size_t i = 0; i < column.values.size(); ++i) {
+    if (column.present[i] && !std::isnan(column.values[i])) return;
+  }
+  std::fill(column.present.begin(), column.present.end(), 0);
+}
+
+/// Where all that a unit measures was lost, it did not answer; one that tells of a fault, then or
+/// when it answers again, tells more.
 void empty_words(Table& table, const std::string& muscle, const Rows& lost) {
   std::vector<Column*> measured, words;
   for (Column& column : table.columns) {
     if (column.owner() == muscle) (is_measured(column) ? measured : words).push_back(&column);
   }
   const Column& state = *table.find(muscle + "/ecu_state");
-  for (std::size_t i = 0; i < table.t.size(); ++i) {
+  bool fault_next = false;
+  for (std::size_t i = table.t.size(); i-- > 0;) {
+    if (!state.present[i]) continue;
     const bool any = std::any_of(measured.begin(), measured.end(),
                                  [&](const Column* column) { return column->present[i] != 0; });
-    if (!lost[i] || any || state.values[i] != static_cast<double>(ecu::State::kFault)) continue;
-    for (Column* column : words) column->present[i] = 0;
+    const bool fault = state.values[i] == static_cast<double>(ecu::State::kFault);
+    if (!lost[i] || any || !fault) {
+      fault_next = fault;
+    } else if (!fault_next) {
+      for (Column* column : words) column->present[i] = 0;
+    }
   }
 }
 
@@ -68,6 +83,7 @@ void leave_out_unanswered(Dataset& recording) {
   for (Table& table : recording.tables) {
     std::map<std::string, Rows> lost;
     for (Column& column : table.columns) {
+      if (column.quantity() == "force") empty_if_there_is_none(column);
       if (is_measured(column)) lost[column.name] = empty_losses(table, column);
     }
     for (const Column& column : table.columns) {

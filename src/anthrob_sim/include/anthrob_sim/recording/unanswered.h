@@ -7,9 +7,10 @@ namespace anthrob {
 /// Empties the cells that tell nothing of the robot, so that they count as not measured:
 /// - What was not measured (NaN) for no longer than 50 ms, which the recorder accepts, too.
 /// - The words beside it of a motor unit that did not answer in time: FAULT and VOLTAGE 0 are the
-///   driver's, not the unit's, which went on.
-/// - A quantity without any number, as the force of a muscle that has no such sensor.
-/// What was not measured for longer stays NaN, to be refused: by then the driver stops motors.
+///   driver's, not the unit's. But not where the unit is in FAULT when it answers again: there the
+///   driver had stopped it.
+/// - Forces of a muscle of which there is no number: it has no such sensor.
+/// What was not measured for longer stays NaN, to be refused.
 void leave_out_unanswered(Dataset& recording);
 
 }  // namespace anthrob
