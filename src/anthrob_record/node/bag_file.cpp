@@ -19,13 +19,22 @@ BagFile::~BagFile() {
   abandon();
 }
 
-void BagFile::abandon() {
+void BagFile::close() {
   try {
     bag_->close();
-  } catch (const rosbag::BagException&) {
+  } catch (...) {
     // Its destructor would try again, and throw, which ends the program without a word. What is
     // left open is left to the system.
     (void)bag_.release();
+    throw;
+  }
+}
+
+void BagFile::abandon() {
+  try {
+    if (bag_) close();
+  } catch (const rosbag::BagException&) {
+    // It was not complete.
   }
 }
 

@@ -28,14 +28,14 @@ class BagFile {
     bag_->write(prefix_ + topic, stamp, message);
   }
   /// @throws rosbag::BagException, if the disk is full, say
-  void close() { bag_->close(); }
+  void close();
 
   GapWatch gaps;  ///< of what is measured while the bag is written
 
  private:
   void abandon();
 
-  std::unique_ptr<rosbag::Bag> bag_;
+  std::unique_ptr<rosbag::Bag> bag_;  ///< null once it could not be closed
   std::string prefix_;
 };
 
