@@ -95,9 +95,8 @@ std::string BusWatch::trouble() const {
       return "the CAN controller is bus-off";
     case Condition::kPassive:
       // Only it knows when that is over; single errors are not reported to us.
-      return "the CAN controller is error-passive, and has not said that this is over; where it "
-             "is, "
-             "set the interface down and up";
+      return "the CAN controller is error-passive and has not said that it is active again; where "
+             "it is, set the interface down and up";
     default:
       break;
   }

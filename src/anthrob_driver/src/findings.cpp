@@ -9,7 +9,7 @@ namespace driver {
 const FindingInfo kFindings[kFindingCount] = {
     {Finding::kInterfaceDown, "interface_down", true, "the CAN interface is down or gone", "plug the adapter in, `ip link set can0 up type can bitrate 1000000 restart-ms 100`; enable again"},
     {Finding::kBusOff, "bus_off", true, "the host's CAN controller has left the bus after 256 errors", "check cable, termination (120 ohm at both ends) and bit rate; enable again"},
-    {Finding::kErrorPassive, "error_passive", true, "the host's CAN controller counted 128 errors", "as bus_off"},
+    {Finding::kErrorPassive, "error_passive", true, "the host's CAN controller counted 128 errors", "as bus_off; if that is still refused, set the interface down and up"},
     {Finding::kErrorWarning, "error_warning", false, "the host's CAN controller counted 96 errors, or reports a bus error", "check cable and termination soon"},
     {Finding::kNoAcknowledge, "no_acknowledge", true, "nobody acknowledges our frames", "switch the ECUs on; check the cable and the bit rate; enable again"},
     {Finding::kQueueFull, "queue_full", true, "the interface takes no more frames (ENOBUFS) for three cycles", "as no_acknowledge; or lower the rate"},
