@@ -43,6 +43,10 @@ void hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
                                  [&](const anthrob::PostureStep& s) { return s.name == wanted; });
   if (step == sequence.steps.end())
     throw anthrob::BadInput("parameter ~posture: '" + wanted + "': no such posture");
+  if (!step->reference.empty()) {
+    throw anthrob::BadInput("parameter ~posture: '" + wanted +
+                            "': is given by references; expected one given by joints");
+  }
   anthrob::Simulation scratch(model);
   const anthrob::Equilibrium equilibrium =
       anthrob::find_equilibrium(scratch, step->q, sequence.options);
