@@ -56,7 +56,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
                     discovery: the blind test; --slice K/N of it, --list, --summary, --help
                     resumable; results in build/study/ and docs/studies/
   shell             a shell in which rosrun, roslaunch and rostopic know the workspace
-  clean             remove build/ (but not build/study) and devel/: keep results of yours elsewhere
+  clean             remove build/ (but not build/study), devel/ and install/: keep results of yours elsewhere
   help              this text
 TEXT
 }
