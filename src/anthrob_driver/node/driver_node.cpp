@@ -38,6 +38,8 @@ DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
       hardware_(std::move(hardware)),
       interface_(interface),
       pace_(options.pace),
+      joint_readings_(hardware_.joints.size()),
+      touch_readings_(hardware_.touch.size()),
       nh_(nh),
       stop_nh_(nh),
       command_nh_(nh) {
@@ -156,26 +158,13 @@ void DriverNode::publish_measurements(double wait) {
     const double old = age(sample.time, sample.stamp_ns);
     if (old <= kOldestMeasurement) publish(sample, stamp(old));
   }
-  anthrob_msgs::TouchStates touch;  // pads that were read together go together
-  double read_at = 0.0;
-  const auto finish = [&] {
-    if (!touch.name.empty()) touch_.publish(touch);
-    touch = {};
-  };
   for (const AnalogSample& sample : batch.analogs) {
-    const double old = age(sample.time, sample.stamp_ns);
-    if (old > kOldestMeasurement) continue;
     if (sample.kind == AnalogSample::Kind::kJoint) {
-      publish_joint(sample, stamp(old));
-      continue;
+      publish_joints(joint_readings_.add(sample));
+    } else {
+      publish_touch(touch_readings_.add(sample));
     }
-    if (sample.time != read_at) finish();
-    if (touch.name.empty()) touch.header.stamp = stamp(old);
-    read_at = sample.time;
-    touch.name.push_back(hardware_.touch[sample.sensor].name);
-    touch.force.push_back(sample.value);
   }
-  finish();
 }
 
 void DriverNode::publish(const Sample& sample, const ros::Time& stamp) {
@@ -198,13 +187,31 @@ void DriverNode::publish(const Sample& sample, const ros::Time& stamp) {
   muscles_.publish(states);
 }
 
-void DriverNode::publish_joint(const AnalogSample& sample, const ros::Time& stamp) {
-  sensor_msgs::JointState state;
-  state.header.stamp = stamp;
-  state.name.push_back(hardware_.joints[sample.sensor].joint);
-  state.position.push_back(sample.value);
-  state.velocity.push_back(sample.rate);
-  joints_.publish(state);
+void DriverNode::publish_joints(const std::vector<AnalogSample>& readings) {
+  if (readings.empty()) return;
+  const double old = age(readings.front().time, readings.front().stamp_ns);
+  if (old > kOldestMeasurement) return;
+  sensor_msgs::JointState states;
+  states.header.stamp = stamp(old);
+  for (const AnalogSample& reading : readings) {
+    states.name.push_back(hardware_.joints[reading.sensor].joint);
+    states.position.push_back(reading.value);
+    states.velocity.push_back(reading.rate);
+  }
+  joints_.publish(states);
+}
+
+void DriverNode::publish_touch(const std::vector<AnalogSample>& readings) {
+  if (readings.empty()) return;
+  const double old = age(readings.front().time, readings.front().stamp_ns);
+  if (old > kOldestMeasurement) return;
+  anthrob_msgs::TouchStates touch;
+  touch.header.stamp = stamp(old);
+  for (const AnalogSample& reading : readings) {
+    touch.name.push_back(hardware_.touch[reading.sensor].name);
+    touch.force.push_back(reading.value);
+  }
+  touch_.publish(touch);
 }
 
 // ---- diagnostics ----

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "anthrob_driver/driver_thread.h"
+#include "anthrob_driver/reading_group.h"
 #include "anthrob_driver/stamp_clock.h"
 
 namespace anthrob {
@@ -48,7 +49,9 @@ class DriverNode {
   double age(double time, std::int64_t kernel_ns) const;
   ros::Time stamp(double age);
   void publish(const Sample& sample, const ros::Time& stamp);
-  void publish_joint(const AnalogSample& sample, const ros::Time& stamp);
+  /// @param readings of one instant, if any
+  void publish_joints(const std::vector<AnalogSample>& readings);
+  void publish_touch(const std::vector<AnalogSample>& readings);
   void publish_diagnostics();
   void log_stops();
 
@@ -57,6 +60,7 @@ class DriverNode {
   std::string interface_;
   double pace_;
   StampClock stamp_clock_;
+  ReadingGroup joint_readings_, touch_readings_;
   ros::NodeHandle nh_, stop_nh_, command_nh_;
   ros::CallbackQueue stop_queue_, command_queue_;
   bool dropping_ = false;

@@ -329,6 +329,10 @@ Hardware load_hardware(const std::string& file, bool hand, const std::string& mo
   return Loader(file, hand, model).load();
 }
 
+bool has_hand(const std::string& file) {
+  return ConfigNode::load(file).has("hand");
+}
+
 std::string difference(const Hardware& a, const Hardware& b) {
   for (std::size_t m = 0; m < std::max(a.muscles.size(), b.muscles.size()); ++m) {
     if (m >= a.muscles.size()) return b.muscles[m].name + ": one muscle more";

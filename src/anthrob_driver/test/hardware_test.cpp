@@ -33,6 +33,18 @@ TEST(Hardware, AnthrobWithAndWithoutHand) {
   EXPECT_FALSE(all.muscles[12].limits.modes[3]);
 }
 
+TEST(Hardware, ARobotWithoutHand) {
+  const std::string file = ANTHROB_CONFIG_DIR "/two_muscle_rig/hardware.yaml";
+  EXPECT_FALSE(has_hand(file));
+  EXPECT_TRUE(has_hand(kConfig / "hardware.yaml"));
+  const Hardware rig = load_hardware(file, false);
+  EXPECT_EQ(rig.muscles.size(), 2u);
+  EXPECT_EQ(rig.muscles[1].channel, 1);
+  EXPECT_EQ(rig.joints.size(), 1u);
+  EXPECT_TRUE(rig.idle_nodes.empty());
+  EXPECT_THROW(load_hardware(file, true), BadInput);
+}
+
 TEST(Hardware, GainsAndLimitsAreTheModels) {
   const Hardware arm = load_hardware(kConfig / "hardware.yaml", false);
   const MuscleHardware& triceps = arm.muscles[9];

@@ -253,7 +253,8 @@ class EmulatedRobot {
 constexpr double kLongest = 1e6;  // [s], eleven days
 
 int run(const Arguments& arguments) {
-  const Hardware hardware = load_hardware(arguments.hardware, arguments.hand);
+  const bool hand = arguments.hand && has_hand(arguments.hardware);
+  const Hardware hardware = load_hardware(arguments.hardware, hand);
   if (!(arguments.seconds > 0.0 && arguments.seconds <= kLongest)) {
     throw BadInput("--seconds: " + std::to_string(arguments.seconds) +
                    ": expected more than 0 and no more than " + std::to_string(kLongest));
@@ -287,7 +288,8 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1.0));
   app.add_flag("--emulate", arguments.emulate, "run the ECUs in software");
-  app.add_flag("--hand,!--no-hand", arguments.hand, "with the hand's ECU (default)");
+  app.add_flag("--hand,!--no-hand", arguments.hand,
+               "with the hand's ECU, if the robot has a hand (default)");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
   std::signal(SIGINT, [](int) { driver::interrupted = true; });
   try {

@@ -106,7 +106,8 @@ std::uint8_t session_now() {
 
 int run(const Arguments& arguments) {
   if ((arguments.ros || arguments.clock) && name_is_taken()) return tool::kBadInput;
-  const driver::Hardware hardware = driver::load_hardware(arguments.hardware, arguments.hand);
+  const bool hand = arguments.hand && driver::has_hand(arguments.hardware);
+  const driver::Hardware hardware = driver::load_hardware(arguments.hardware, hand);
   std::unique_ptr<driver::Plant> plant;
   std::unique_ptr<BallJoints> balls;
   std::unique_ptr<RobotClock> clock;
@@ -155,7 +156,7 @@ int main(int argc, char** argv) {
   app.add_option("--pace", arguments.pace, "below 1: time runs slower, as the driver's ~pace")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1.0));
-  app.add_flag("--hand", arguments.hand, "with the hand's muscles");
+  app.add_flag("--hand", arguments.hand, "with the hand's muscles, if the robot has a hand");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
   app.add_flag("--ros", arguments.ros, "publish the ball joints, as motion capture would");
   app.add_flag("--clock", arguments.clock, "publish /clock, the robot's time at --pace");

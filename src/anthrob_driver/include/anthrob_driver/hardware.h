@@ -76,6 +76,10 @@ struct Hardware {
 /// @throws BadInput with one line: file, line, key, value, what was expected
 Hardware load_hardware(const std::string& file, bool hand, const std::string& model = "");
 
+/// Whether hardware.yaml describes a hand at all.
+/// @throws BadInput if it cannot be read
+bool has_hand(const std::string& file);
+
 /// The first thing that the units, or commands, would have otherwise from `b` than from `a`: muscle
 /// and what of it; empty if there is none.
 std::string difference(const Hardware& a, const Hardware& b);
