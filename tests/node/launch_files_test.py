@@ -4,6 +4,8 @@ package of files that are links.)"""
 import glob
 import os
 import re
+import shutil
+import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -79,6 +81,22 @@ class LaunchFiles(unittest.TestCase):
                 self.assertEqual(len(models), backend != 'hardware')
                 seen = any(node.package == 'anthrob_mocap' for node in config.nodes)
                 self.assertEqual(seen, backend != 'emulated')
+
+    def test_a_robot_may_be_anywhere(self):
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        for urdf in 'robot.urdf', 'robot_tier1.urdf', 'robot_hand.urdf':
+            with open(os.path.join(folder, urdf), 'w') as file:
+                file.write('<robot name="mine"/>')
+        for name in 'sim', 'robot', 'computed_force', 'demo', 'record', 'record_zero_gravity', 'mocap':
+            with self.subTest(name):
+                required = {'record': ['protocol:=p', 'out:=o'], 'record_zero_gravity': ['out:=o']}.get(name, [])
+                backends = [['backend:=emulated'], ['mocap:=true']] if name == 'robot' else [[]]
+                for backend in backends:
+                    config = load(name + '.launch', 'robot:=mine', 'robot_folder:=' + folder, *required, *backend)
+                    files = [str(p.value) for p in config.params.values()] + [node.args for node in config.nodes]
+                    self.assertTrue([file for file in files if folder in file])
+                    self.assertFalse([file for file in files if '/config/' in file])
 
     def check_types(self, launch, asked, node, expected, wrong):
         config = load(launch, *asked)
