@@ -103,10 +103,11 @@ bool RobotLink::connected() const {
 }
 
 bool RobotLink::wait_for_simulator() {
-  while (ros::ok() && !ros::service::waitForService("sim/step", ros::Duration(0.5))) {
+  const std::string step = nh_.resolveName("sim/step");
+  while (ros::ok() && !ros::service::waitForService(step, ros::Duration(0.5))) {
   }
   while (ros::ok() && !connected()) ros::WallDuration(0.01).sleep();
-  step_ = nh_.serviceClient<anthrob_msgs::Step>("sim/step", true);
+  step_ = nh_.serviceClient<anthrob_msgs::Step>(step, true);
   return ros::ok();
 }
 
