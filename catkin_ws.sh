@@ -50,7 +50,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
   sim [ARG:=VALUE]  simulate Anthrob, with RViz if there is a display; arguments as of sim.launch:
                     robot:=anthrob model:=II rviz:=false rate:=1 (0: as fast as possible)
   demo              the arm raises, bends and returns; records demo.bag, converts it and draws build/demo/
-  test              all tests; the last line counts them
+  test [PACKAGE...] all tests, or those of some packages; the last line counts them
   bench             benchmarks beside MuJoCo and OpenCV; writes build/bench.json
   study NAME        calibration: chapter 8 of the thesis against virtual robots
                     discovery: the blind test; --slice K/N of it, --list, --summary, --help
@@ -181,7 +181,20 @@ demo() {
   (cd "$out" && ls -1 -- *.bag *.svg *.png && echo "recording/")
 }
 
+# Into build/tests.json: the tests that are registered, of the packages named or of all.
+list_tests() {
+  local names="_ctest_"
+  [ $# -eq 0 ] || names="_ctest_($(IFS='|' && echo "$*"))_(gtest|rostest)_"
+  (cd build && ctest --show-only=json-v1 -R "$names") >build/tests.json || die "ctest does not list the tests: see build/tests.json"
+}
+
 tests() {
+  local package run=(run_tests) built=(tests)
+  for package in "$@"; do
+    [ -f "src/$package/package.xml" ] ||
+      die "test: $package: expected packages: $(cd src && ls -d -- */ | tr -d / | tr '\n' ' ')"
+  done
+  [ $# -eq 0 ] || run=("${@/#/run_tests_}")
   extras
   # The driver's own tests want a CAN bus: this kernel's, or user-mode Linux's.
   if timeout 60 scripts/with_vcan.sh true >/dev/null 2>&1; then
@@ -192,15 +205,20 @@ tests() {
     say "left out: tests of the driver on a CAN bus, which neither this kernel nor user-mode Linux has here"
   fi
   build
+  rm -rf build/test_results
+  list_tests "$@"
+  for package in "$@"; do
+    grep -q "\"_ctest_${package}_" build/tests.json || die "test: $package: has no tests of its own"
+  done
+  # shellcheck disable=SC2207
+  [ $# -eq 0 ] || built=($(sed -nE 's/.*"name" : "_ctest_.*_gtest_([a-z0-9_]+)".*/\1/p' build/tests.json))
   say "building the tests (log: build/build.log)"
-  catkin_make -j"$(nproc)" tests >>build/build.log 2>&1 ||
+  [ ${#built[@]} -eq 0 ] || catkin_make -j"$(nproc)" "${built[@]}" >>build/build.log 2>&1 ||
     { grep -m5 -E 'error|Error' build/build.log >&2; die "the tests do not build: see build/build.log"; }
   say "running the tests (log: build/test.log)"
-  rm -rf build/test_results
-  (cd build && ctest --show-only=json-v1) >build/tests.json || die "ctest does not list the tests: see build/tests.json"
   # One after the other: several roscores would share a port. A test that fails leaves the status at 0.
   local status=0
-  catkin_make -j1 run_tests >build/test.log 2>&1 || status=$?
+  catkin_make -j1 "${run[@]}" >build/test.log 2>&1 || status=$?
   /usr/bin/python3 scripts/count_tests.py build/test_results --registered build/tests.json --status "$status"
 }
 
