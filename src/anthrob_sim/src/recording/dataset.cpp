@@ -80,7 +80,10 @@ class TableReader {
   void read_header() {
     if (!in_) throw BadInput(file_ + ": cannot be read");
     std::string line;
-    if (!std::getline(in_, line) || trimmed(line).empty()) {
+    const bool any = static_cast<bool>(std::getline(in_, line));
+    constexpr const char* kByteOrderMark = "\xef\xbb\xbf";  // of spreadsheet programs
+    if (line.rfind(kByteOrderMark, 0) == 0) line.erase(0, 3);
+    if (!any || trimmed(line).empty()) {
       throw BadInput(file_ + ": empty; expected a header line 't,<name>/<quantity>,...'");
     }
     const auto names = split(line);
@@ -359,8 +362,9 @@ std::string meta_text(const DatasetMeta& meta) {
     std::istringstream lines(yaml);
     std::string line;
     out << key << ":";
-    const bool one_line = yaml.find('\n') == yaml.size() - 1;
-    while (std::getline(lines, line)) out << (one_line ? " " : "\n  ") << line;
+    const bool beside =
+        ConfigNode::parse(yaml, key).is_scalar() && yaml.find('\n') == yaml.size() - 1;
+    while (std::getline(lines, line)) out << (beside ? " " : "\n  ") << line;
     out << "\n";
   }
   return out.str();

@@ -13,8 +13,6 @@ namespace anthrob {
 
 namespace {
 
-constexpr double kLongestLoss = 0.05;  // [s]
-
 using Rows = std::vector<char>;  ///< of a table, whether each of them is meant
 
 /// What sensors tell, and not what a unit or its commander says.

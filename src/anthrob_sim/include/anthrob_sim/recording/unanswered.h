@@ -4,8 +4,11 @@
 
 namespace anthrob {
 
+/// How long a sensor may have been silent and the recording still be used [s].
+constexpr double kLongestLoss = 0.05;
+
 /// Empties the cells that tell nothing of the robot, so that they count as not measured:
-/// - What was not measured (NaN) for no longer than 50 ms, which the recorder accepts, too.
+/// - What was not measured (NaN) for no longer than kLongestLoss, which the recorder accepts, too.
 /// - The words beside it of a motor unit that did not answer in time: FAULT and VOLTAGE 0 are the
 ///   driver's, not the unit's. But not where the unit is in FAULT when it answers again: there the
 ///   driver had stopped it.
