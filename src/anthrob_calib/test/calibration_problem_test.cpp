@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numeric>
 
 #include "anthrob_calib/calibration/extended_model.h"
@@ -161,6 +162,102 @@ TEST(MeasuredRun, BridgesSamplesThatWereLost) {
   EXPECT_TRUE(bridged.path.q.allFinite() && bridged.path.force.allFinite());
   EXPECT_LT((bridged.path.q - run.path.q.topRows(count)).cwiseAbs().maxCoeff(), 0.02);
   EXPECT_EQ(bridged.path.q.row(20), run.path.q.row(20));
+}
+
+/// As a bag has it: commands in a table of their own, states that tell what was in force.
+Dataset as_in_a_bag(Dataset recording) {
+  Table& states = recording.table("muscles");
+  const std::size_t rows = states.t.size();
+  for (const char* muscle : {"flexor", "extensor"}) {
+    states.column(std::string(muscle) + "/mode").values.assign(rows, 1.0);
+    states.column(std::string(muscle) + "/ecu_state").values.assign(rows, 2.0);
+    for (const char* word : {"/mode", "/ecu_state"}) {
+      states.column(std::string(muscle) + word).present.assign(rows, 1);
+    }
+  }
+  Table& commands = recording.table("commands");
+  commands.t = {500000000, 700000000};
+  for (const char* muscle : {"flexor", "extensor"}) {
+    commands.column(std::string(muscle) + "/mode").values = {1.0, 1.0};
+    commands.column(std::string(muscle) + "/mode").present = {1, 1};
+  }
+  commands.column("flexor/reference").values = {3.0, 0.0};
+  commands.column("flexor/reference").present = {1, 0};
+  commands.column("extensor/reference").values = {0.0, 2.0};
+  commands.column("extensor/reference").present = {0, 1};
+  return recording;
+}
+
+/// What the states say of one muscle from one row to another.
+void say(Dataset& recording, const std::string& muscle, std::size_t from, std::size_t to,
+         double mode, double reference) {
+  Table& states = recording.table("muscles");
+  for (std::size_t i = from; i < to; ++i) {
+    states.column(muscle + "/mode").values[i] = mode;
+    states.column(muscle + "/reference").values[i] = reference;
+  }
+}
+
+TEST(MeasuredRun, MusclesAreCommandedEachInItsTime) {
+  Dataset data = as_in_a_bag(record_simulation(rig(), plan(3.0, 1.0, "trajectory")));
+  const std::size_t rows = data.table("muscles").t.size();  // 5 ms apart
+  say(data, "extensor", 140, rows, 1.0, 2.0);
+  const auto expect_both = [&] {
+    const MeasuredRun run = read_run(data, rig());
+    EXPECT_EQ(run.start, (std::vector<double>{1.0, 1.0}));
+    ASSERT_EQ(run.commands.size(), 2u);
+    EXPECT_EQ(run.commands[0].reference, (std::vector<double>{3.0, 1.0}));
+    EXPECT_EQ(run.commands[1].reference, (std::vector<double>{3.0, 2.0}));
+    EXPECT_NEAR(run.commands[1].t, 0.2, 1e-9);
+  };
+  expect_both();
+  // The same where only the description says where the robot began.
+  data.meta.start = "given";
+  data.meta.start_position = {{"flexor", 1.0}, {"extensor", 1.0}};
+  for (const char* muscle : {"flexor", "extensor"}) {
+    for (const char* word : {"/mode", "/reference", "/ecu_state"}) {
+      data.table("muscles").column(std::string(muscle) + word).present.assign(rows, 0);
+    }
+  }
+  expect_both();
+}
+
+TEST(MeasuredRun, ARobotWithoutVoltageIsAtNoReference) {
+  Dataset data = as_in_a_bag(record_simulation(rig(), plan(3.0, 1.0, "trajectory")));
+  say(data, "flexor", 0, 100, 0.0, 0.0);
+  EXPECT_NE(error_of(data).find("flexor: without voltage when the recording began"),
+            std::string::npos)
+      << error_of(data);
+  data.meta.start = "zero";
+  EXPECT_EQ(error_of(data), "no error");
+}
+
+TEST(MeasuredRun, WhatWasNotMeasuredForLongIsNoLine) {
+  const Dataset good = record_simulation(rig(), plan(3.0, 0.0, "trajectory"));
+  const std::size_t rows = good.tables[0].t.size();
+  const auto error_without = [&](std::size_t from, std::size_t to) {
+    Dataset bad = good;
+    auto& present = bad.tables[0].column("hinge/position").present;
+    std::fill(present.begin() + static_cast<long>(from), present.begin() + static_cast<long>(to),
+              0);
+    return error_of(bad);
+  };
+  EXPECT_EQ(error_without(150, 159), "no error");
+  EXPECT_EQ(error_without(150, 170),
+            "simulated: hinge/position: nothing measured from t = 0.745000 to 0.850000 s: expected "
+            "no gap of more than 0.050000 s");
+  EXPECT_NE(error_without(0, 170).find("nothing measured from t = 0.5"), std::string::npos);
+  EXPECT_NE(error_without(rows - 50, rows).find("nothing measured from t = 2.2"),
+            std::string::npos);
+}
+
+TEST(MeasuredRun, IsCalledAsItsFile) {
+  Dataset data = record_simulation(rig(), plan(3.0, 0.0, "trajectory"));
+  for (const auto& [path, name] : std::map<std::string, std::string>{
+           {"runs/E_0.5", "E_0.5"}, {"runs/E1/", "E1"}, {"runs/E_0.5.bag", "E_0.5"}}) {
+    data.folder = path;
+    EXPECT_EQ(read_run(data, rig()).name, name);
+  }
 }
 
 TEST(RunDifferences, AreMeansOfSquares) {

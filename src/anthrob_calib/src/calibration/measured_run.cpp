@@ -7,6 +7,7 @@
 
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/followed_commands.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/replay.h"
 #include "anthrob_sim/recording/unanswered.h"
@@ -17,6 +18,13 @@ namespace calibration {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// As its file or folder is called, a bag's without ".bag".
+std::string name_of(const std::string& path) {
+  const fs::path entry =
+      fs::path(path).has_filename() ? fs::path(path) : fs::path(path).parent_path();
+  return (entry.extension() == ".bag" ? entry.stem() : entry.filename()).string();
+}
 
 /// The columns of a recording that calibration needs, checked.
 class RunReader {
@@ -35,10 +43,11 @@ class RunReader {
 
   MeasuredRun read() {
     MeasuredRun run;
-    run.name = fs::path(recording_.folder).stem().string();
+    run.name = name_of(recording_.folder);
     read_kind(run);
     read_commands(run);
     check_states();
+    for (const auto& [name, series] : measured_) check_gaps(name, series);
     run.settle = recording_.meta.settle_s;
     run.lead = std::max(0.0, origin_);
     run.duration = end_ - origin_;
@@ -76,8 +85,34 @@ class RunReader {
 
   Series measured(const std::string& name, bool required = true) {
     Series series = column(name, required);
-    if (!series.empty()) end_ = std::min(end_, series.t.back());
+    if (series.empty()) return series;
+    end_ = std::min(end_, series.t.back());
+    last_ = std::max(last_, series.t.back());
+    measured_.emplace_back(name, series);
     return series;
+  }
+
+  /// What lies between two samples is taken as a line: not for longer than a sensor may be silent.
+  void check_gaps(const std::string& name, const Series& series) const {
+    double allowed = kLongestLoss;
+    if (series.t.size() > 1) {
+      std::vector<double> periods;
+      for (std::size_t i = 1; i < series.t.size(); ++i) {
+        periods.push_back(series.t[i] - series.t[i - 1]);
+      }
+      const auto middle = periods.begin() + static_cast<long>(periods.size() / 2);
+      std::nth_element(periods.begin(), middle, periods.end());
+      allowed = std::max(allowed, 2.0 * *middle);
+    }
+    const auto check = [&](double from, double to) {
+      if (to - from <= allowed + 1e-6) return;
+      fail(name + ": nothing measured from t = " + std::to_string(from) + " to " +
+           std::to_string(to) + " s: expected no gap of more than " + std::to_string(allowed) +
+           " s");
+    };
+    check(std::max(0.0, origin_), series.t.front());
+    for (std::size_t i = 1; i < series.t.size(); ++i) check(series.t[i - 1], series.t[i]);
+    check(series.t.back(), last_);
   }
 
   void read_muscle(const std::string& name) {
@@ -87,10 +122,28 @@ class RunReader {
              ": expected POSITION; calibration replays position control only");
       }
     }
-    references_.push_back(column(name + "/reference"));
+    column(name + "/reference");
+    read_references(name);
     forces_.push_back(measured(name + "/force"));
     Series position = measured(name + "/position", false);
     if (!position.empty()) positions_.push_back(std::move(position));
+  }
+
+  /// Where a recording tells what its units did, the references that they followed.
+  void read_references(const std::string& name) {
+    CommandSeries told = followed_commands(recording_, name, ecu::Mode::kPosition);
+    const auto holds_position = [&](std::size_t i) {
+      return told.mode.empty() || told.mode.values[i] == static_cast<double>(ecu::Mode::kPosition);
+    };
+    Series held;
+    for (std::size_t i = 0; i < told.reference.t.size(); ++i) {
+      if (!holds_position(i)) continue;  // without voltage: check_states() says more of it
+      held.t.push_back(told.reference.t[i]);
+      held.values.push_back(told.reference.values[i]);
+    }
+    if (held.empty()) fail(name + "/reference: no command that its unit followed");
+    begins_held_.push_back(holds_position(0) ? 1 : 0);
+    references_.push_back(std::move(held));
   }
 
   void read_joint(const JointModel& joint) {
@@ -136,7 +189,11 @@ class RunReader {
     origin_ = *changes.begin();
     for (const double t : changes) {
       Command command{t - origin_, {}};
-      for (const Series& reference : references_) command.reference.push_back(reference.held_at(t));
+      for (std::size_t m = 0; m < references_.size(); ++m) {
+        const Series& reference = references_[m];
+        const bool told = t >= reference.t.front();
+        command.reference.push_back(told ? reference.held_at(t) : run.start[m]);
+      }
       run.commands.push_back(command);
     }
   }
@@ -157,7 +214,14 @@ class RunReader {
   }
 
   double start_reference(std::size_t muscle) const {
-    if (recording_.meta.start == "first") return references_[muscle].values.front();
+    if (recording_.meta.start == "first") {
+      if (!begins_held_[muscle]) {
+        fail(model_.muscles[muscle].name +
+             ": without voltage when the recording began: expected one that begins at a reference; "
+             "cut it, or let start of meta.yaml say at which references the robot was");
+      }
+      return references_[muscle].values.front();
+    }
     const auto given = recording_.meta.start_position.find(model_.muscles[muscle].name);
     return given == recording_.meta.start_position.end() ? 0.0 : given->second;
   }
@@ -208,7 +272,9 @@ class RunReader {
   const RobotModel& model_;
   const SamplingOptions& options_;
   std::vector<Series> references_, forces_, positions_, q_;
-  double origin_ = 0.0, end_ = HUGE_VAL;
+  std::vector<char> begins_held_;  ///< of each muscle, whether its motor had a reference then
+  std::vector<std::pair<std::string, Series>> measured_;
+  double origin_ = 0.0, end_ = HUGE_VAL, last_ = 0.0;
 };
 
 /// "E2" before "E10".
