@@ -104,6 +104,32 @@ TEST(ParameterList, OverridesReachTheModel) {
   EXPECT_NEAR(l1 - l0, 0.001 / 0.0065, 1e-9);
 }
 
+TEST(OrdinaryParameters, AreThereForEveryModelOfAnthrob) {
+  namespace fs = std::filesystem;
+  int models = 0;
+  for (const auto& entry : fs::directory_iterator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob")) {
+    if (entry.path().filename().string().rfind("model_", 0) != 0) continue;
+    EXPECT_GT(ordinary_parameters(entry.path().string()).size(), 20u) << entry.path();
+    ++models;
+  }
+  EXPECT_GE(models, 9);
+}
+
+TEST(OrdinaryParameters, ReachToWhereACalibrationWent) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("anthrob_widened_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string model = (folder / "model.yaml").string();
+  std::ofstream(model) << "extends: " << ANTHROB_CONFIG_DIR << "/anthrob/model_I.yaml\n"
+                       << "joints: {elbow: {friction: {viscous: 0.08}}}\n";
+  double upper = 0.0;
+  for (const ModelParameter& p : ordinary_parameters(model)) {
+    if (p.path == "joints.elbow.friction.viscous") upper = p.upper;
+  }
+  EXPECT_DOUBLE_EQ(upper, 0.08);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(OrdinaryParameters, AreThoseBesideTheModelOrBesideTheOneItExtends) {
   const std::string model = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml";
   const auto folder =

@@ -72,7 +72,7 @@ void check_keys(const ConfigNode& entry) {
   }
 }
 
-ModelParameter read_parameter(const ConfigNode& entry, const ConfigNode& number) {
+ModelParameter read_parameter(const ConfigNode& entry, const ConfigNode& number, Outside outside) {
   ModelParameter p;
   p.path = number.path();
   p.unit = entry.text("unit");
@@ -86,7 +86,10 @@ ModelParameter read_parameter(const ConfigNode& entry, const ConfigNode& number)
     p.lower = entry.number("low", Bounds::any(), p.unit);
     p.upper = entry.number("high", Bounds::any(), p.unit);
     if (!(p.lower < p.upper)) entry.at("high").fail_expected("more than low");
-    if (p.initial < p.lower || p.initial > p.upper) {
+    if (outside == Outside::kWiden) {
+      p.lower = std::min(p.lower, p.initial);
+      p.upper = std::max(p.upper, p.initial);
+    } else if (p.initial < p.lower || p.initial > p.upper) {
       entry.fail(p.path + " is " + std::to_string(p.initial) + " in " + number.file() +
                  ", outside [low, high]");
     }
@@ -112,7 +115,8 @@ std::string ModelParameter::name() const {
   return name;
 }
 
-std::vector<ModelParameter> read_parameters(const ConfigNode& list, const ConfigNode& model) {
+std::vector<ModelParameter> read_parameters(const ConfigNode& list, const ConfigNode& model,
+                                            Outside outside) {
   std::vector<ModelParameter> parameters;
   std::set<std::string> taken;
   for (const ConfigNode& entry : list.items()) {
@@ -125,7 +129,7 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
       entry.at("path").fail_expected("the path of a number in " + model.file());
     }
     for (const ConfigNode& number : numbers) {
-      parameters.push_back(read_parameter(entry, number));
+      parameters.push_back(read_parameter(entry, number, outside));
       if (!taken.insert(parameters.back().path).second) {
         entry.at("path").fail("it is about " + parameters.back().path + ", as another entry is");
       }
@@ -145,7 +149,8 @@ std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
     }
   }
   if (calibration_file.empty()) return {};
-  return read_parameters(ConfigNode::load(calibration_file).at("parameters"), model);
+  return read_parameters(ConfigNode::load(calibration_file).at("parameters"), model,
+                         Outside::kWiden);
 }
 
 std::map<std::string, double> overrides_of(const std::vector<ModelParameter>& parameters,

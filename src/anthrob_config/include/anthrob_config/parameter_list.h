@@ -21,6 +21,9 @@ struct ModelParameter {
   std::string name() const;
 };
 
+/// What becomes of a range from `low` to `high` in which the model's own value is not.
+enum class Outside { kRefuse, kWiden };
+
 /// Reads the parameters of a calibration from a list of patterns,
 ///   - {path: "muscles.*.spindle_radius", unit: m, range: 0.0005, step: 0.0001}
 ///   - {path: "muscles.{biceps_brachii,brachialis}.path.-2.point.*", unit: m, range: 0.0025, step:
@@ -33,10 +36,12 @@ struct ModelParameter {
 /// @param list the sequence of patterns   @param model the model file they are about
 /// @throws BadInput for patterns that match no number, numbers that match twice, empty ranges, and
 /// initial values that are out of range
-std::vector<ModelParameter> read_parameters(const ConfigNode& list, const ConfigNode& model);
+std::vector<ModelParameter> read_parameters(const ConfigNode& list, const ConfigNode& model,
+                                            Outside outside = Outside::kRefuse);
 
 /// What an ordinary calibration may correct of a model: `parameters` of the named file, or of
 /// calibration.yaml beside the model or beside the one that it extends; nothing if there is none.
+/// Ranges reach as far as the model's own values: it may have been calibrated by wider ones.
 /// @throws BadInput
 std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
                                                 std::string calibration_file = "");
