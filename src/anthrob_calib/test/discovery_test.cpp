@@ -21,8 +21,9 @@
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
+#include "arm.h"
+#include "axis_recording.h"
 #include "interrupt.h"
-#include "made_recording.h"
 
 namespace anthrob {
 namespace discovery {
@@ -117,53 +118,6 @@ TEST(BlockSignificance, DoesNotDoubtGainsThatDifferInSize) {
 
 // ---- a driven axis, made here by its closed equation
 // -----------------------------------------------
-
-/// m a = u - viscous v - coulomb sign(v) - offset, under a slowly reversing effort, integrated with
-/// steps of 10 us.
-Dataset axis_recording(double coulomb, double offset, std::uint64_t seed) {
-  Dataset data;
-  data.folder = "axis";
-  data.meta.robot = "driven_axis";
-  Table& table = data.table("joints");
-  table.column("axis/position");
-  table.column("axis/effort");
-  Column &position = table.columns[0], &effort = table.columns[1];
-  const CounterRandom random(seed, 9);
-  const double mass = 95.1089, viscous = 203.5, h = 1e-5;
-  const double first = 60.0 + 20.0 * random.uniform(1), second = 2.0 + 3.0 * random.uniform(2);
-  double q = 0.1, v = 0.0, u = 0.0;  // far from both stops
-  for (int i = 0; i < 800000; ++i) {
-    // Held over a millisecond, as a recording's effort is; a spring keeps the carriage in place.
-    const int row = i / 100;
-    const double now = 1e-3 * row;
-    if (i % 100 == 0)
-      u = first * std::sin(1.7 * now) + 0.5 * first * std::sin(second * now) - 2000.0 * (q - 0.1);
-    if (i % 100 == 0) {
-      table.t.push_back(static_cast<Nanoseconds>(row) * 1000000);
-      position.values.push_back(q + 2e-7 * random.normal(static_cast<std::uint64_t>(100 + row)));
-      effort.values.push_back(u);
-    }
-    const double drive = u - offset - viscous * v;
-    const double friction = std::abs(v) < 1e-7 && std::abs(drive) < coulomb
-                                ? drive
-                                : std::copysign(coulomb, v == 0.0 ? drive : v);
-    const double next = v + h / mass * (drive - friction);
-    v = v != 0.0 && next * v < 0.0 && std::abs(drive) < coulomb ? 0.0 : next;
-    q += h * v;
-  }
-  position.present.assign(position.values.size(), 1);
-  effort.present.assign(effort.values.size(), 1);
-  return data;
-}
-
-Question axis_question(double coulomb, double offset) {
-  Question question;
-  question.model_file = kConfig + "/driven_axis/model_I.yaml";
-  question.nuisances = ordinary_parameters(question.model_file);
-  question.train = {axis_recording(coulomb, offset, 1)};
-  question.test = {axis_recording(coulomb, offset, 2)};
-  return question;
-}
 
 Answer ask(const Question& question, int jobs = 2) {
   const Evaluator evaluator(question.model_file, question.nuisances, question.step, jobs);
@@ -364,22 +318,6 @@ TEST_F(InterruptedRun, ToolSaysHowToGoOn) {
 // ---- the arm
 // --------------------------------------------------------------------------------------
 
-struct Arm {
-  ConfigNode config = ConfigNode::load(kConfig + "/anthrob/model_I.yaml");
-  std::shared_ptr<const RobotModel> plain = build_robot_model(config);
-
-  Dataset record(const std::vector<EffectInstance>& effects, std::uint64_t seed,
-                 std::uint64_t noise) const {
-    LoadOptions options;
-    options.effects = effects;
-    MadeRecording made;
-    made.seed = seed;
-    made.noise = noise;
-    made.length = 8.0;
-    return made.measure(build_robot_model(config, options), made.commands(plain));
-  }
-};
-
 TEST(ChainExperiment, DifferencesAreNoiseOnlyWhereTheModelIsRight) {
   const Arm arm;
   const Dataset data = arm.record({}, 1, 1);
@@ -509,109 +447,6 @@ TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {
   const std::string page = report_html(answer, question, 1.0);
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("nan"), std::string::npos);
-}
-
-// ---- recordings that cannot answer
-// -------------------------------------------------------------------
-
-std::string refusal(const Question& question) {
-  try {
-    const Evaluator evaluator(question.model_file, {}, 0.001, 1);
-    prepare(evaluator, question);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "not refused";
-}
-
-TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
-  const Arm arm;
-  Question good;
-  good.model_file = kConfig + "/anthrob/model_I.yaml";
-  good.train = {arm.record({}, 1, 1)};
-  good.test = {arm.record({}, 1, 2)};
-  EXPECT_EQ(refusal(good), "not refused");
-
-  Question judged_by_itself = good;
-  judged_by_itself.test = good.train;
-  EXPECT_NE(refusal(judged_by_itself).find("expected every recording once"), std::string::npos);
-  Question repeated_by_itself = good;
-  repeated_by_itself.repeats = good.train;
-  EXPECT_NE(refusal(repeated_by_itself).find("expected every recording once"), std::string::npos);
-
-  Question still = good;
-  for (Table& table : still.train[0].tables) {
-    for (Column& column : table.columns) {
-      std::fill(column.values.begin(), column.values.end(), column.values.front());
-    }
-  }
-  EXPECT_NE(refusal(still).find("no muscle moves: nothing to learn about friction"),
-            std::string::npos)
-      << refusal(still);
-
-  Question backwards = good;
-  std::swap(backwards.train[0].tables[1].t[5], backwards.train[0].tables[1].t[50]);
-  EXPECT_NE(refusal(backwards).find("time runs backwards"), std::string::npos);
-
-  Question broken = good;
-  broken.train[0].table("muscles").columns[3].values[7] = std::nan("");
-  EXPECT_NE(refusal(broken).find("expected a finite number"), std::string::npos);
-
-  Question late = good;
-  for (Nanoseconds& t : late.train[0].table("joints").t) t += 3600000000000;
-  EXPECT_NE(refusal(late).find("not synchronised"), std::string::npos) << refusal(late);
-
-  Question brief = good;
-  for (Table& table : brief.train[0].tables) {
-    for (std::size_t i = 0; i < table.t.size(); ++i) table.t[i] /= 100;
-  }
-  EXPECT_NE(refusal(brief).find("too short"), std::string::npos);
-
-  Question untested = good;
-  untested.test.clear();
-  EXPECT_NE(refusal(untested).find("--test"), std::string::npos);
-  untested.test = brief.train;
-  EXPECT_NE(refusal(untested).find("to judge by"), std::string::npos) << refusal(untested);
-  untested.test = still.train;
-  EXPECT_NE(refusal(untested).find("no muscle moves"), std::string::npos) << refusal(untested);
-
-  Question repeated = good;
-  repeated.repeats = {arm.record({}, 1, 3)};
-  EXPECT_EQ(refusal(repeated), "not refused");
-  repeated.repeats = {arm.record({}, 2, 2)};
-  EXPECT_NE(refusal(repeated).find("expected a repeat of the commands"), std::string::npos)
-      << refusal(repeated);
-}
-
-TEST(MeasureScales, CountsOfAnEncoderReachTheVoltagesOfItsController) {
-  const Arm arm;
-  const auto round_motors = [&](Dataset data, const std::string& quantity, double count) {
-    for (Table& table : data.tables) {
-      for (Column& column : table.columns) {
-        if (column.quantity() != quantity || arm.plain->find_muscle(column.owner()) < 0) continue;
-        for (double& value : column.values) value = count * std::round(value / count);
-      }
-    }
-    return data;
-  };
-  constexpr double kCount = 0.02;  // [rad]
-  const Dataset fine = arm.record({}, 1, 1), coarse = round_motors(fine, "position", kCount);
-  const Evaluator evaluator(kConfig + "/anthrob/model_I.yaml", {}, 0.001, 1);
-  const auto scales_of = [&](const Dataset& data) {
-    return measure_scales(evaluator, {make_experiment(*arm.plain, data)}, {});
-  };
-  const std::string voltage = "biceps_brachii/voltage";
-  EXPECT_EQ(scales_of(fine).at(voltage).counts, 0.0);
-  // Proportional gain times the error of rounding.
-  const double gain =
-      arm.plain->muscles[arm.plain->find_muscle("biceps_brachii")].controller.position.proportional;
-  const double expected = gain * kCount / std::sqrt(12.0);
-  const ChannelScale scale = scales_of(coarse).at(voltage);
-  EXPECT_GT(scale.counts, 0.4 * expected);
-  EXPECT_LT(scale.counts, 1.6 * expected);
-  // Nor does the voltage's own sensor take anything off them.
-  const Dataset both = round_motors(coarse, "voltage", expected);
-  EXPECT_NEAR(scales_of(both).at(voltage).counts, scale.counts, 1e-3 * scale.counts);
 }
 
 }  // namespace

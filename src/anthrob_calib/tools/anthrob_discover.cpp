@@ -78,6 +78,11 @@ int main(int argc, char** argv) {
     identification::require_kept(out, written, read);
     identification::require_writable(out);
     question.nuisances = ordinary_parameters(question.model_file, calibration);
+    if (question.nuisances.empty()) {
+      std::cerr << "nothing of " << question.model_file
+                << " may be corrected: there is no calibration.yaml beside it, nor --calibration; "
+                   "what a wrong length or radius does may be named as an effect\n";
+    }
     question.train = load_all(train);
     question.test = load_all(test);
     question.repeats = load_all(repeats);

@@ -77,6 +77,7 @@ std::vector<Candidate> list_candidates(const Evaluator& evaluator,
   for (const Effect* effect : all_effects()) {
     const std::string& id = effect->info().id;
     if (!ids.empty() && !std::count(ids.begin(), ids.end(), id)) continue;
+    find_effect(id);  // one that is there twice is told, not taken for one that does nothing
     for (const std::string& place : effect->places(robot)) {
       if (has(id, place)) continue;
       Candidate candidate{effect, place, effect->parameters_at(robot, place), {}};

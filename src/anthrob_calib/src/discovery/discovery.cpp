@@ -228,10 +228,11 @@ class Search {
     for (std::size_t e = 0; e < answer.effects.size(); ++e) {
       for (const EffectParameter& p : candidates_[accepted_[e].candidate].parameters) {
         const double value = base_.fit.variant.effects[e].parameters.at(p.name);
-        FoundParameter found{p.name, p.unit, value, value, value};
+        FoundParameter found{p.name, p.unit, value, value, value, true};
         for (std::size_t i = 0; i < ranges.size(); ++i) {
           const Unknown& u = base_.fit.unknowns[i];
           if (u.effect != static_cast<int>(e) || u.parameter != p.name) continue;
+          found.known = false;
           found.low = ranges[i].first;
           found.high = ranges[i].second;
         }

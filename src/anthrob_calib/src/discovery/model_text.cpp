@@ -14,8 +14,7 @@ std::string model_text(const Answer& answer, const Evaluator& evaluator, const Q
                short_number(effect.probability) + ", " + short_number(effect.evidence) +
                " nat on held-out data";
     for (const FoundParameter& p : effect.parameters) {
-      comment += ", " + p.name + " " + short_number(p.value) + " [" + short_number(p.low) + ", " +
-                 short_number(p.high) + "] " + p.unit;
+      comment += ", " + p.name + " " + interval_text(p);
     }
     comment += ".\n";
   }
@@ -25,12 +24,28 @@ std::string model_text(const Answer& answer, const Evaluator& evaluator, const Q
   for (const Dataset& recording : question.train) comment += " " + recording.folder;
   comment += "\nJudged by:";
   for (const Dataset& recording : question.test) comment += " " + recording.folder;
+  if (!question.repeats.empty()) comment += "\nFloor from repeats:";
+  for (const Dataset& recording : question.repeats) comment += " " + recording.folder;
+  comment += "\nWith --dt " + short_number(question.step) + " --max-effects " +
+             std::to_string(question.max_effects);
+  for (const std::string& id : question.effects) comment += " --effects " + id;
+  comment += ".";
 
-  std::string text = calibration::extended_model_text(
-      ConfigNode::load(question.model_file), question.model_file,
-      overrides_of(evaluator.nuisances(), answer.extended.nuisances), folder, comment);
-  // Lists are replaced by `extends`: those that the model has already are repeated.
+  std::map<std::string, double> numbers =
+      overrides_of(evaluator.nuisances(), answer.extended.nuisances);
+  // Lists are replaced by `extends`: those that the model has already are repeated, with the sizes
+  // that a calibration may correct as they are now.
   std::vector<EffectInstance> effects = evaluator.model()->effects;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    for (auto& [name, value] : effects[e].parameters) {
+      const auto moved = numbers.find("effects." + std::to_string(e) + "." + name);
+      if (moved == numbers.end()) continue;
+      value = moved->second;
+      numbers.erase(moved);
+    }
+  }
+  std::string text = calibration::extended_model_text(
+      ConfigNode::load(question.model_file), question.model_file, numbers, folder, comment);
   effects.insert(effects.end(), answer.extended.effects.begin(), answer.extended.effects.end());
   if (!effects.empty()) text += "\n" + effects_yaml(effects);
   return text;

@@ -127,8 +127,8 @@ double resolution_of(std::vector<double> values) {
   const std::size_t count = values.size();
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
-  // Values of a fine sensor, and of none, hardly ever repeat.
-  if (values.size() < 3 || values.size() > count / 2) return 0.0;
+  // Values of a fine sensor, and of none, hardly ever repeat. Two that do are neighbours.
+  if (values.size() < 2 || values.size() > count / 2) return 0.0;
   double step = values[1] - values[0];
   for (std::size_t i = 1; i < values.size(); ++i) step = std::min(step, values[i] - values[i - 1]);
   if (values.back() - values.front() > kMostCounts * step) return 0.0;

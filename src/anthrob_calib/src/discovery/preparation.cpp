@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kShortest = 2.0;         // [s] of all training recordings together
 constexpr double kSameCommand = 0.01;     // of the range of commands
+constexpr double kSameMotion = 0.15;      // of its range
 constexpr double kFinestBin = 0.02;       // [s]
 constexpr double kAxisBin = 0.025;        // [s]
 constexpr double kMostDifferences = 4e5;  // of the training recordings
@@ -119,6 +120,25 @@ void refuse_copies(const Question& question) {
   }
 }
 
+/// Of what moves a robot that is not told references: the same, but for noise and what a controller
+/// or hand does a little otherwise.
+void refuse_another_motion(const std::string& column, const Dataset& first, const Dataset& repeat) {
+  const Series asked = first.series(column), again = repeat.series(column);
+  if (asked.empty() || again.empty()) return;
+  const double end = std::min(asked.t.back(), again.t.back());
+  const auto [low, high] = std::minmax_element(asked.values.begin(), asked.values.end());
+  double squares = 0.0;
+  constexpr int kPoints = 1000;
+  for (int i = 0; i < kPoints; ++i) {
+    const double t = end * i / kPoints, apart = asked.at(t) - again.at(t);
+    squares += apart * apart / kPoints;
+  }
+  if (std::sqrt(squares) <= kSameMotion * (*high - *low)) return;
+  throw BadInput(repeat.folder + ": " + column + ": " + std::to_string(std::sqrt(squares)) +
+                 " rms from that of " + first.folder + ", which ranges over " +
+                 std::to_string(*high - *low) + ": expected a repeat of its motion");
+}
+
 /// The scatter of something else is no floor.
 void refuse_other_commands(const RobotModel& robot, const Dataset& first, const Dataset& repeat) {
   for (const MuscleModel& muscle : robot.muscles) {
@@ -133,6 +153,10 @@ void refuse_other_commands(const RobotModel& robot, const Dataset& first, const 
                      " rad: expected a repeat of the commands of " + first.folder + ", " +
                      std::to_string(asked[i]) + " rad");
     }
+    if (asked.empty()) refuse_another_motion(muscle.name + "/voltage", first, repeat);
+  }
+  for (const JointModel& joint : robot.skeleton->joints) {
+    if (joint.driven) refuse_another_motion(joint.name + "/position", first, repeat);
   }
 }
 

@@ -45,8 +45,24 @@ td,th{border:1px solid #ccc;padding:.25em .6em;text-align:left}th{background:#f2
 </style></head><body>
 )";
 
+std::string range_text(const FoundParameter& p) {
+  return short_number(p.low) + " to " + short_number(p.high);
+}
+
+/// Why the rest has no name.
+std::string nameless(const Answer& answer, const Question& question) {
+  if (answer.effects.size() >= static_cast<std::size_t>(question.max_effects)) {
+    return "Something is missing beyond the " + std::to_string(question.max_effects) +
+           " effects that --max-effects let be named. ";
+  }
+  if (!question.effects.empty()) {
+    return "Something is missing that is not among what --effects let be looked for. ";
+  }
+  return "Something is missing that the catalogue does not have. ";
+}
+
 /// The answer in one or two sentences.
-std::string sentence(const Answer& answer) {
+std::string sentence(const Answer& answer, const Question& question) {
   if (answer.verdict == "no_missing_effect") {
     return "Nothing is missing: the model, with its ordinary parameters fitted, predicts the "
            "held-out recordings with no gap that is certain (all channels together " +
@@ -57,8 +73,8 @@ std::string sentence(const Answer& answer) {
     text += "<b>" + escaped(effect.name) + "</b> at <b>" + escaped(effect.place) + "</b>";
     if (!effect.parameters.empty()) {
       const FoundParameter& p = effect.parameters.front();
-      text += " (" + escaped(p.name) + " " + short_number(p.value) + " " + escaped(p.unit) +
-              ", 95 % interval " + short_number(p.low) + " to " + short_number(p.high) + ")";
+      text += " (" + escaped(p.name) + " " + short_number(p.value) + " " + escaped(p.unit) + ", " +
+              (p.known ? "taken as known" : "95 % interval " + range_text(p)) + ")";
     }
     text += ", probability " + short_number(effect.probability) + ". ";
   }
@@ -76,8 +92,7 @@ std::string sentence(const Answer& answer) {
            short_number(100.0 * answer.remaining_share) + " % is left.";
   }
   text = answer.effects.empty() ? "" : "The catalogue offers: " + text;
-  return "Something is missing that the catalogue does not have. " + text + "Held-out gap " +
-         short_number(answer.test.after) +
+  return nameless(answer, question) + text + "Held-out gap " + short_number(answer.test.after) +
          " times the floor; what is left: " + escaped(answer.remaining_description) + ".";
 }
 
@@ -116,12 +131,12 @@ std::string effects_table(const Answer& answer) {
             "interval</th><th>unit</th></tr>\n";
     for (const FoundParameter& p : effect.parameters) {
       html += "<tr>" + cell(p.name) + cell(short_number(p.value)) +
-              cell(short_number(p.low) + " to " + short_number(p.high)) + cell(p.unit) + "</tr>\n";
+              cell(p.known ? "taken as known" : range_text(p)) + cell(p.unit) + "</tr>\n";
     }
     html += "</table>\n<p>Probability " + short_number(effect.probability) +
             ", gain in held-out log score " + short_number(effect.evidence) + " nat.</p>\n";
     if (effect.rivals.empty()) continue;
-    html += "<p>These data hardly tell it apart from:</p><ul>\n";
+    html += "<p>These data do not exclude:</p><ul>\n";
     for (const Rival& rival : effect.rivals) {
       html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", probability " +
               short_number(rival.probability) + "</li>\n";
@@ -247,6 +262,19 @@ std::string example_figures(const Answer& answer) {
   return html;
 }
 
+/// Of the places that disagree; elsewhere a curve through noise says nothing.
+std::vector<Dependence> dependences_where(const Answer& answer) {
+  std::vector<Dependence> found;
+  for (const Dependence& d : answer.dependences) {
+    const bool disagrees =
+        std::any_of(answer.where.begin(), answer.where.end(), [&](const Place& place) {
+          return d.channel.rfind(place.place + "/" + place.channel, 0) == 0;
+        });
+    if (disagrees) found.push_back(d);
+  }
+  return found;
+}
+
 std::string dependence_figures(const std::vector<Dependence>& dependences) {
   std::vector<const Dependence*> strongest;
   for (const Dependence& d : dependences) {
@@ -336,13 +364,14 @@ std::string report_html(const Answer& answer, const Question& question, double r
     recordings += "<li>repeat: " + escaped(r.folder) + "</li>";
   return std::string(kHead) + "<h1>What the model misses</h1>\n<p class=\"small\">" +
          escaped(question.model_file) + ", seed " + std::to_string(question.seed) + ", " +
-         short_number(runtime) + " s</p>\n<p class=\"answer\">" + sentence(answer) + "</p>\n" +
-         gap_table(answer) + example_figures(answer) + "<h2>What</h2>\n" + effects_table(answer) +
-         "<h2>Where the recalibrated model disagrees</h2>\n" + where_table(answer) +
-         regime_map(answer) + seam_map(answer) + dependence_figures(answer.dependences) +
-         "<h2>What is left</h2>\n<p>" + escaped(answer.remaining_description) + "</p>\n" +
-         dependence_figures(answer.remaining) + "<h2>Held-out gap by channel</h2>\n" +
-         channel_table(answer) + "<h2>What these recordings can show</h2>\n" + preflight(answer) +
+         short_number(runtime) + " s</p>\n<p class=\"answer\">" + sentence(answer, question) +
+         "</p>\n" + gap_table(answer) + example_figures(answer) + "<h2>What</h2>\n" +
+         effects_table(answer) + "<h2>Where the recalibrated model disagrees</h2>\n" +
+         where_table(answer) + regime_map(answer) + seam_map(answer) +
+         dependence_figures(dependences_where(answer)) + "<h2>What is left</h2>\n<p>" +
+         escaped(answer.remaining_description) + "</p>\n" + dependence_figures(answer.remaining) +
+         "<h2>Held-out gap by channel</h2>\n" + channel_table(answer) +
+         "<h2>What these recordings can show</h2>\n" + preflight(answer) +
          "<h2>Recordings</h2><ul>" + recordings + "</ul>\n</body></html>\n";
 }
 

@@ -28,6 +28,7 @@ Json parameters_json(const std::vector<FoundParameter>& parameters) {
   for (const FoundParameter& p : parameters) {
     json[p.name] = {
         {"value", number(p.value)}, {"ci95", {number(p.low), number(p.high)}}, {"unit", p.unit}};
+    if (p.known) json[p.name]["known"] = true;
   }
   return json;
 }
@@ -114,6 +115,19 @@ Json dependences_json(const Answer& answer) {
   return list;
 }
 
+/// What was asked, so that it can be asked again.
+Json question_json(const Question& question) {
+  const auto folders = [](const std::vector<Dataset>& recordings) {
+    Json names = Json::array();
+    for (const Dataset& recording : recordings) names.push_back(recording.folder);
+    return names;
+  };
+  return {{"model", question.model_file},   {"train", folders(question.train)},
+          {"test", folders(question.test)}, {"repeat", folders(question.repeats)},
+          {"effects", question.effects},    {"max_effects", question.max_effects},
+          {"dt", number(question.step)},    {"ordinary_parameters", question.nuisances.size()}};
+}
+
 }  // namespace
 
 std::string report_json(const Answer& answer, const Question& question, double runtime) {
@@ -163,6 +177,7 @@ std::string report_json(const Answer& answer, const Question& question, double r
     report["regimes"].push_back({{"place", row.place}, {"by", row.word}, {"gap", gaps}});
   }
   report["model"] = "model.yaml";
+  report["question"] = question_json(question);
   report["seed"] = question.seed;
   report["runtime_s"] = number(runtime);
   return report.dump(2) + "\n";
@@ -173,6 +188,12 @@ std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g", value);
   return text;
+}
+
+std::string interval_text(const FoundParameter& p) {
+  const std::string interval =
+      p.known ? ", taken as known" : " [" + short_number(p.low) + ", " + short_number(p.high) + "]";
+  return short_number(p.value) + (p.known ? " " + p.unit + interval : interval + " " + p.unit);
 }
 
 std::string alternative_text(const Alternative& alternative, const Answer& answer) {
@@ -190,8 +211,7 @@ std::string summary(const Answer& answer) {
     text += "  " + effect.id + " @ " + effect.place + ", probability " +
             short_number(effect.probability) + "\n";
     for (const FoundParameter& p : effect.parameters) {
-      text += "    " + p.name + " " + short_number(p.value) + " [" + short_number(p.low) + ", " +
-              short_number(p.high) + "] " + p.unit + "\n";
+      text += "    " + p.name + " " + interval_text(p) + "\n";
     }
     for (const Rival& rival : effect.rivals) {
       text += "    or " + rival.id + " @ " + rival.place + ", probability " +

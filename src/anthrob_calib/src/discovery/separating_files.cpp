@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 #include "anthrob_calib/discovery/report.h"
@@ -64,8 +65,9 @@ void remove_other_protocols(const std::string& folder,
   std::vector<fs::path> others;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
-    const bool is_protocol = path.filename().string().rfind("separating_", 0) == 0 &&
-                             path.extension() == ".yaml" && entry.is_regular_file();
+    static const std::regex kOurs("separating_[0-9]+(_postures)?\\.yaml");
+    const bool is_protocol =
+        std::regex_match(path.filename().string(), kOurs) && entry.is_regular_file();
     if (is_protocol && !files.count(path.filename().string())) others.push_back(path);
   }
   for (const fs::path& path : others) fs::remove(path);

@@ -34,6 +34,7 @@ struct Question {
 struct FoundParameter {
   std::string name, unit;
   double value = 0.0, low = 0.0, high = 0.0;  ///< 95 % interval
+  bool known = false;  ///< nothing that was fitted: the catalogue's number, without an interval
 };
 
 struct Rival {

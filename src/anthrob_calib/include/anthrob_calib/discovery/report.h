@@ -33,6 +33,9 @@ std::string summary(const Answer& answer);
 /// "payload @ hand instead of both ... and ..., probability 0.5".
 std::string alternative_text(const Alternative& alternative, const Answer& answer);
 
+/// "0.0421 [0.038, 0.047] Nm".
+std::string interval_text(const FoundParameter& parameter);
+
 /// "0.0421", three significant digits.
 std::string short_number(double value);
 

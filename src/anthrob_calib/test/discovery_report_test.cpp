@@ -1,0 +1,121 @@
+// What a run of discovery leaves: page, numbers for scripts, extended model.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/report.h"
+#include "anthrob_sim/model/robot_model.h"
+
+namespace anthrob {
+namespace discovery {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+FoundEffect cogging() {
+  FoundEffect effect;
+  effect.id = "cogging";
+  effect.name = "Cogging";
+  effect.place = "brachialis";
+  effect.probability = 0.9;
+  effect.parameters = {{"amplitude", "Nm", 0.005, 0.004, 0.006, false},
+                       {"periods", "1", 12.0, 12.0, 12.0, true}};
+  return effect;
+}
+
+TEST(Report, WhatWasNotFittedHasNoInterval) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  const std::string page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "0.004 to 0.006"));
+  EXPECT_TRUE(holds(page, "taken as known"));
+  EXPECT_FALSE(holds(page, "12 to 12"));
+  EXPECT_TRUE(holds(summary(answer), "periods 12 1, taken as known")) << summary(answer);
+  EXPECT_TRUE(holds(summary(answer), "amplitude 0.005 [0.004, 0.006] Nm")) << summary(answer);
+  const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
+  const auto& parameters = json["effects"][0]["parameters"];
+  EXPECT_FALSE(parameters["amplitude"].contains("known"));
+  EXPECT_EQ(parameters["periods"]["known"], true);
+}
+
+TEST(Report, SaysWhyTheRestHasNoName) {
+  Answer answer;
+  answer.verdict = "unexplained";
+  Question question;
+  EXPECT_TRUE(holds(report_html(answer, question, 1.0), "that the catalogue does not have"));
+  question.effects = {"payload"};
+  EXPECT_TRUE(holds(report_html(answer, question, 1.0), "what --effects let be looked for"));
+  question.max_effects = 1;
+  answer.effects = {cogging()};
+  EXPECT_TRUE(holds(report_html(answer, question, 1.0), "beyond the 1 effects that --max-effects"));
+}
+
+TEST(Report, ShowsDependencesOfWhatDisagrees) {
+  Answer answer;
+  answer.verdict = "no_missing_effect";
+  Dependence dependence;
+  dependence.channel = "elbow/position";
+  dependence.variable = "elbow/velocity";
+  dependence.word = "sign of velocity";
+  dependence.share = 0.5;
+  dependence.at = {-1.0, 1.0};
+  dependence.curve = dependence.error = {0.1, 0.2};
+  answer.dependences = {dependence};
+  EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "depends on sign of velocity"));
+  Place place;
+  place.place = "elbow";
+  place.channel = "position";
+  answer.where = {place};
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "depends on sign of velocity"));
+}
+
+TEST(Report, TellsWhatWasAsked) {
+  Question question;
+  question.model_file = "model_I.yaml";
+  question.train.resize(1);
+  question.train[0].folder = "run_1";
+  question.repeats.resize(1);
+  question.repeats[0].folder = "run_1_again";
+  const auto json = nlohmann::json::parse(report_json({}, question, 1.0));
+  EXPECT_EQ(json["question"]["model"], "model_I.yaml");
+  EXPECT_EQ(json["question"]["train"][0], "run_1");
+  EXPECT_EQ(json["question"]["repeat"][0], "run_1_again");
+}
+
+TEST(ModelText, CanBeLoadedWhereTheModelHasEffectsThatMayBeCorrected) {
+  const fs::path folder =
+      fs::temp_directory_path() / ("anthrob_model_text_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  Question question;
+  question.model_file = (folder / "model_found.yaml").string();
+  std::ofstream(question.model_file)
+      << "extends: " << ANTHROB_CONFIG_DIR << "/driven_axis/model_I.yaml\n"
+      << "effects:\n  - {id: joint_coulomb, place: axis, torque: 5.0}\n";
+  question.nuisances = read_parameters(
+      ConfigNode::parse("- {path: effects.0.torque, unit: N, range: 4, step: 1}", "list"),
+      ConfigNode::load(question.model_file));
+  const Evaluator evaluator(question.model_file, question.nuisances, 0.001, 1);
+  Answer answer;
+  answer.extended.nuisances = {7.0};
+  answer.extended.effects = {{"joint_offset_torque", "axis", {{"torque", 2.0}}}};
+  const std::string file = (folder / "model.yaml").string();
+  std::ofstream(file) << model_text(answer, evaluator, question, folder.string());
+  const auto model = load_robot_model(file);
+  ASSERT_EQ(model->effects.size(), 2u);
+  EXPECT_EQ(model->effects[0].parameters.at("torque"), 7.0);
+  EXPECT_EQ(model->effects[1].id, "joint_offset_torque");
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace discovery
+}  // namespace anthrob
