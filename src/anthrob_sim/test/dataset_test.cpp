@@ -214,6 +214,12 @@ TEST(Dataset, UnwritableFolderIsReported) {
   Dataset data;
   data.table("m").t.push_back(0);
   EXPECT_THROW(data.save("/proc/nowhere"), std::runtime_error);
+  EXPECT_THROW(data.require_place("/proc/nowhere"), std::runtime_error);
+  const TemporaryFolder folder;
+  data.require_place(folder.path() + "/new");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() + "/new"));
+  folder.write("other.csv", "a,b\n1,2\n");
+  EXPECT_THROW(data.require_place(folder.path()), BadInput);
 }
 
 TEST(Series, InterpolatesAndHolds) {

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
     if (std::filesystem::equivalent(in, out, error)) {
       throw BadInput("--out " + out + ": expected another folder than the recording");
     }
+    recording.require_place(out);
     tool::Progress progress("replay");
     tool::interrupted();
     const Dataset result = replay(model, recording, replay_mode, [&](double share) {

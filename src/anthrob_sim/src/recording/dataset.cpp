@@ -453,11 +453,25 @@ Dataset Dataset::load(const std::string& folder) {
   return dataset;
 }
 
+void Dataset::require_place(const std::string& target) const {
+  std::error_code error;
+  const bool made = fs::create_directories(target, error);
+  if (!fs::is_directory(target, error)) {
+    throw std::runtime_error(target + ": cannot be created as a folder");
+  }
+  tables_to_go(target, *this);
+  const fs::path probe = fs::path(target) / ".writable";
+  write_files_atomically({{probe.string(), ""}});
+  fs::remove(probe, error);
+  if (made) fs::remove(target, error);
+}
+
 void Dataset::save(const std::string& target) const {
   std::error_code error;
   fs::create_directories(target, error);
-  if (!fs::is_directory(target))
+  if (!fs::is_directory(target, error)) {
     throw std::runtime_error(target + ": cannot be created as a folder");
+  }
   const std::vector<fs::path> replaced = tables_to_go(target, *this);
   std::vector<std::pair<std::string, std::string>> files;
   for (const Table& table : tables) {

@@ -81,6 +81,9 @@ struct Dataset {
   /// @throws std::runtime_error naming the file that cannot be written
   /// @throws BadInput if the folder holds CSV files that are no part of a recording
   void save(const std::string& folder) const;
+  /// Tells before long work what save() would say after it.
+  /// @throws as save()
+  void require_place(const std::string& folder) const;
 
   const Table* find_table(const std::string& name) const;
   Table& table(const std::string& name);
