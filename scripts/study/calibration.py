@@ -8,6 +8,7 @@ from, docs/studies/calibration.json: with --adopt, on another machine, the robot
 
 import argparse
 import hashlib
+import glob
 import json
 import os
 import shutil
@@ -101,7 +102,7 @@ class Robot:
         out = f"{self.folder}/{model}/{stage}/{name}"
         more = more + ([] if self.options.thorough else ["--brief"])
         key = fingerprint(more, f"{CONFIG}/{stage}_{model}.yaml", f"{self.data}/complete",
-                          f"{start}/result.json" if start else None)
+                          f"{start}/result.json" if start else None, *robot_files())
         spent = 0.0
         if os.path.exists(f"{out}/step.json"):
             before = load(f"{out}/step.json")
@@ -175,6 +176,11 @@ class Robot:
         }
         out["validation"] = errors(result["validation"]["mean"]["after"])
         return out
+
+
+def robot_files():
+    """What the models that are calibrated are made of."""
+    return sorted(glob.glob("config/anthrob/model_*.yaml") + glob.glob("config/anthrob/*.urdf"))
 
 
 def fingerprint(more, *files):

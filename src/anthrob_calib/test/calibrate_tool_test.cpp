@@ -328,6 +328,12 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
   write(path("file"), "");
   expect(config + " --out " + path("file") + "/x --data " + path("eq"), "--out");
 
+  // A result of a model that means something else by a path.
+  write(path("other.json"), R"({"overrides": {"muscles.flexor.rest_tendon_length": 0.5},
+    "parameters": [{"path": "muscles.flexor.rest_tendon_length", "lower": 0.49, "upper": 0.51}]})");
+  expect(config + out + " --start " + path("other.json") + " --data " + path("eq"),
+         "other.json: muscles.flexor.rest_tendon_length: was calibrated from 0.49 to 0.51");
+
   // A journal of other data is refused, and stays.
   ASSERT_EQ(calibrate("kept", "--generations 1").status, 0);
   const std::string journal = content(path("kept/journal.txt"));

@@ -78,6 +78,8 @@ TEST_F(ForeignCsv, RowsMayBeEvenlySpaced) {
 TEST_F(ForeignCsv, WhatIsWrongIsSaidInOneLine) {
   const std::string head = "t [ms],y [mm],u\n";
   EXPECT_NE(error(kMap, "t [ms],y [mm]\n0,1\n").find("column 'u' is not in"), std::string::npos);
+  EXPECT_NE(error(kMap, "t [ms],y [mm],u,u\n0,1,2,3\n").find("column 'u' is there twice"),
+            std::string::npos);
   EXPECT_NE(error(kMap, head + "0,1,2\n1,one,2\n").find("data.csv:3: column 'y [mm]': 'one'"),
             std::string::npos);
   EXPECT_NE(error(kMap, head + "0,1,2\n0,1,2\n").find(":3: time does not grow"), std::string::npos);

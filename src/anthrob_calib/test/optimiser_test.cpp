@@ -184,6 +184,19 @@ TEST(LeastSquares, SolvesRosenbrockAtABound) {
   EXPECT_NEAR(bounded.fitness, 0.25, 1e-3);
 }
 
+TEST(LeastSquares, DifferencesStayWithinNarrowBounds) {
+  Function function([](const Point& p) { return Point{p[0] - 1.0, p[1] + 1.0}; });
+  const std::vector<SearchVariable> v = {{0.0, -0.2, 0.3, 1.0}, {0.1, -0.1, 0.1, 1.0}};
+  search(settings("least_squares", 20), v, function);
+  ASSERT_FALSE(function.asked.empty());
+  for (const Point& point : function.asked) {
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      EXPECT_GE(point[i], v[i].lower);
+      EXPECT_LE(point[i], v[i].upper);
+    }
+  }
+}
+
 TEST(LeastSquares, TakesFewJacobians) {
   constexpr std::size_t kCount = 10;
   Function curved([](const Point& p) {

@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -101,7 +102,7 @@ CalibrationInput read_together(const Arguments& arguments, const MpiSession& ses
       keep_input(arguments, input->config.model_file);
       identification::require_writable(arguments.out);
     }
-  } catch (const BadInput& error) {
+  } catch (const std::exception& error) {  // the others wait for what is said of it
     complaint = error.what();
   }
   complaint = session.first_complaint(complaint);
@@ -161,6 +162,12 @@ int calibrate(const Arguments& arguments, const MpiSession& session) {
   write(arguments, input, outcome);
   std::cout << summary(outcome);
   if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
+  if (complete && !arguments.evaluate && !std::isfinite(outcome.fitness)) {
+    std::cerr << "anthrob_calibrate: " << input.config.model_file
+              << ": no set of parameters could be simulated along the recordings: replay them with "
+                 "anthrob_replay to see where it fails\n";
+    return tool::kFailed;
+  }
   if (complete && !outcome.interrupted) {
     journal.forget_residuals();
     return tool::kDone;

@@ -18,17 +18,19 @@ constexpr std::size_t kMostPoints = 2000;
 
 /// All owners that have a quantity, in the order of their first column.
 std::vector<std::string> owners(const Dataset& data, const std::string& quantity, bool muscles) {
-  std::set<std::string> with_force;
+  static const std::set<std::string> kOfMuscles = {"mode",    "reference", "current",
+                                                   "voltage", "force",     "ecu_state"};
+  std::set<std::string> of_muscles;
   for (const Table& table : data.tables) {
     for (const Column& column : table.columns) {
-      if (column.quantity() == "force") with_force.insert(column.owner());
+      if (kOfMuscles.count(column.quantity()) > 0) of_muscles.insert(column.owner());
     }
   }
   std::vector<std::string> names;
   std::set<std::string> seen;
   for (const Table& table : data.tables) {
     for (const Column& column : table.columns) {
-      if (column.quantity() != quantity || (with_force.count(column.owner()) > 0) != muscles)
+      if (column.quantity() != quantity || (of_muscles.count(column.owner()) > 0) != muscles)
         continue;
       if (seen.insert(column.owner()).second) names.push_back(column.owner());
     }

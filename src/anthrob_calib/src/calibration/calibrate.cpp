@@ -9,6 +9,7 @@
 
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/dataset.h"
 
 namespace anthrob {
 namespace calibration {
@@ -57,6 +58,19 @@ void keep_apart(const std::vector<MeasuredRun>& validation, const std::string& v
   }
 }
 
+/// A path is a place in a list: what an earlier calibration moved there must be what is there now.
+void require_same_place(const nlohmann::json& result, const std::string& path, double own,
+                        const std::string& file, const ConfigNode& model) {
+  for (const auto& p : result.value("parameters", nlohmann::json::array())) {
+    if (p.value("path", "") != path) continue;
+    const double lower = p.value("lower", -HUGE_VAL), upper = p.value("upper", HUGE_VAL);
+    if (own >= lower && own <= upper) return;
+    throw BadInput(file + ": " + path + ": was calibrated from " + exact_text(lower) + " to " +
+                   exact_text(upper) + ", " + model.file() + " has " + exact_text(own) +
+                   " there: expected the result of a model that means the same by it");
+  }
+}
+
 /// Numbers of an earlier calibration that this model has, too.
 void take_over(const std::string& file, ConfigNode& model, std::map<std::string, double>& numbers) {
   std::ifstream in(file);
@@ -68,11 +82,13 @@ void take_over(const std::string& file, ConfigNode& model, std::map<std::string,
   int taken = 0;
   for (const auto& [path, value] : json["overrides"].items()) {
     if (!value.is_number()) throw BadInput(file + ": overrides: " + path + ": expected a number");
+    double own = 0.0;
     try {
-      number_at(model, path);
+      own = number_at(model, path);
     } catch (const BadInput&) {
       continue;  // a part that this model has not
     }
+    require_same_place(json, path, own, file, model);
     model.set_number(path, value.get<double>());
     numbers[path] = value.get<double>();
     ++taken;

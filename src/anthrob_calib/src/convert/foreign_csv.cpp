@@ -1,5 +1,6 @@
 #include "anthrob_calib/convert/foreign_csv.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -79,8 +80,12 @@ class ForeignReader {
   }
 
   std::size_t place_of(const std::string& name) const {
-    for (std::size_t i = 0; i < header_.size(); ++i) {
-      if (header_[i] == name) return i;
+    const auto found = std::find(header_.begin(), header_.end(), name);
+    if (found != header_.end()) {
+      if (std::find(found + 1, header_.end(), name) != header_.end()) {
+        throw BadInput(file_ + ": column '" + name + "' is there twice: expected it once");
+      }
+      return static_cast<std::size_t>(found - header_.begin());
     }
     std::string there;
     for (const std::string& column : header_) there += (there.empty() ? "" : ", ") + column;

@@ -14,9 +14,13 @@ namespace fs = std::filesystem;
 void require_writable(const std::string& folder) {
   std::error_code error;
   const bool made = fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
+  std::error_code unseen;
+  if (!fs::is_directory(folder, unseen)) {
     throw BadInput("--out " + folder + ": cannot be made: " +
-                   (error ? error.message() : "it is a file") + "; expected a folder");
+                   (error    ? error.message()
+                    : unseen ? unseen.message()
+                             : "it is a file") +
+                   "; expected a folder");
   }
   const std::string probe = (fs::path(folder) / ".writable").string();
   try {

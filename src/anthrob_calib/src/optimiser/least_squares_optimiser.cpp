@@ -135,10 +135,11 @@ std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& 
   std::vector<double> steps;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const SearchVariable& v = variables[i];
-    const double up = point[i] + difference * v.step;
-    const double sign = up <= v.upper ? 1.0 : -1.0;
+    // To the side where there is more room, where there is not enough above.
+    const double up = point[i] + difference * v.step, down = point[i] - difference * v.step;
+    const bool above = up <= v.upper || v.upper - point[i] >= point[i] - v.lower;
     neighbours.push_back(point);
-    neighbours.back()[i] = point[i] + sign * difference * v.step;
+    neighbours.back()[i] = above ? std::min(up, v.upper) : std::max(down, v.lower);
     steps.push_back((neighbours.back()[i] - point[i]) / v.step);
   }
   std::vector<std::vector<double>> columns = evaluator.residuals(neighbours);
