@@ -95,7 +95,9 @@ void Settings::fail_expected(const std::string& expectation) const {
 
 bool Settings::has(const std::string& key) const {
   const YAML::Node& node = data_->node;
-  return node.IsMap() && node[key].IsDefined() && !node[key].IsNull();
+  if (!node.IsMap() || !node[key].IsDefined()) return false;
+  data_->read->insert(join(path_, key));  // known, even if it has no value
+  return !node[key].IsNull();
 }
 
 Settings Settings::at(const std::string& key) const {
@@ -188,6 +190,10 @@ void Settings::refuse_unknown_keys() const {
       if (data_->read->count(path) == 0) {
         throw BadInput(data_->file + ":" + std::to_string(entry.first.Mark().line + 1) + ": " +
                        path + ": unknown key");
+      }
+      if (entry.second.IsNull()) {
+        throw BadInput(data_->file + ":" + std::to_string(entry.first.Mark().line + 1) + ": " +
+                       path + ": nothing: expected a value, or to be left out");
       }
       at(entry.first.Scalar()).refuse_unknown_keys();
     }
