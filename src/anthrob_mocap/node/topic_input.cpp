@@ -18,7 +18,8 @@ StereoRig wait_for_rig(ros::NodeHandle nh) {
     }
   }
   if (!ros::ok()) throw std::runtime_error("interrupted while waiting for camera_info");
-  return StereoRig(camera_model(*info[kLeft], kLeft), camera_model(*info[kRight], kRight));
+  return StereoRig(camera_model(*info[kLeft], kLeft), camera_model(*info[kRight], kRight),
+                   " camera_info");
 }
 
 TopicInput::TopicInput(ros::NodeHandle nh, double tolerance, Handler handler, Refuse refuse)

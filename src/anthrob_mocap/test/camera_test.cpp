@@ -129,6 +129,15 @@ TEST_F(RigFiles, ThatAreNoPairAreRefused) {
   refuse(left_, replaced(right_, "image_width: 648", "image_width: 640"), "same size");
 }
 
+TEST_F(RigFiles, AreNamedOnlyWhereTheCalibrationIsFromThem) {
+  const CameraModel &left = rig_.camera(kLeft), &right = rig_.camera(kRight);
+  refuse(left_, left_, ": right.yaml: projection_matrix: baseline");
+  expect_bad_input([&] { StereoRig none(left, left); },
+                   "right camera: projection_matrix: baseline");
+  expect_bad_input([&] { StereoRig none(right, left, " camera_info"); },
+                   "left camera_info: projection_matrix: left and right are swapped");
+}
+
 TEST_F(RigFiles, WithBrokenValuesAreRefused) {
   refuse(replaced(left_, "image_width: 648", "image_width: wide"), right_,
          "left.yaml:1: image_width: wide: expected a number");

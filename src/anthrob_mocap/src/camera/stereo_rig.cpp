@@ -10,7 +10,7 @@ namespace mocap {
 StereoRig StereoRig::load(const std::string& folder) {
   try {
     return StereoRig(CameraModel::load(folder + "/left.yaml"),
-                     CameraModel::load(folder + "/right.yaml"));
+                     CameraModel::load(folder + "/right.yaml"), ".yaml");
   } catch (const BadInput& error) {
     const std::string what = error.what();
     if (what.rfind(folder, 0) == 0) throw;
@@ -18,46 +18,46 @@ StereoRig StereoRig::load(const std::string& folder) {
   }
 }
 
-StereoRig::StereoRig(const CameraModel& left, const CameraModel& right)
+StereoRig::StereoRig(const CameraModel& left, const CameraModel& right, const std::string& origin)
     : cameras_{left, right},
       focal_(left.P(0, 0)),
       baseline_(-right.P(0, 3) / right.P(0, 0)),
       centre_{{left.P(0, 2), left.P(1, 2)}, {right.P(0, 2), right.P(1, 2)}} {
-  check();
+  check("left" + origin, "right" + origin);
 }
 
-void StereoRig::check() const {
+void StereoRig::check(const std::string& left_name, const std::string& right_name) const {
   const CameraModel &left = cameras_[kLeft], &right = cameras_[kRight];
   const auto text = [](double value) { return std::to_string(value); };
   if (left.width != right.width || left.height != right.height) {
-    throw BadInput("left.yaml and right.yaml: expected images of the same size, not " +
+    throw BadInput(left_name + " and " + right_name + ": expected images of the same size, not " +
                    std::to_string(left.width) + "x" + std::to_string(left.height) + " and " +
                    std::to_string(right.width) + "x" + std::to_string(right.height));
   }
   if (left.P(0, 3) < 0.0 && right.P(0, 3) == 0.0) {
-    throw BadInput("left.yaml: projection_matrix: left and right are swapped (the baseline " +
-                   text(-left.P(0, 3) / left.P(0, 0)) + " m is in the left file)");
+    throw BadInput(left_name + ": projection_matrix: left and right are swapped (the baseline " +
+                   text(-left.P(0, 3) / left.P(0, 0)) + " m is its own)");
   }
   if (left.P(0, 3) != 0.0 || left.P(1, 3) != 0.0) {
-    throw BadInput("left.yaml: projection_matrix: expected Tx = Ty = 0 for the left camera");
+    throw BadInput(left_name + ": projection_matrix: expected Tx = Ty = 0 for the left camera");
   }
   if (right.P(1, 3) != 0.0) {
-    throw BadInput("right.yaml: projection_matrix: Ty = " + text(right.P(1, 3)) +
+    throw BadInput(right_name + ": projection_matrix: Ty = " + text(right.P(1, 3)) +
                    ": expected a pair side by side, not one above the other");
   }
   if (baseline_ < 0.0) {
-    throw BadInput("right.yaml: projection_matrix: baseline " + text(baseline_) +
+    throw BadInput(right_name + ": projection_matrix: baseline " + text(baseline_) +
                    " m: left and right are swapped, or the calibration is mirrored");
   }
   if (!(baseline_ > 1e-3 && baseline_ < 100.0)) {
-    throw BadInput("right.yaml: projection_matrix: baseline " + text(baseline_) +
+    throw BadInput(right_name + ": projection_matrix: baseline " + text(baseline_) +
                    " m: expected the calibration of a pair in metres (between 0.001 and 100)");
   }
   if (std::abs(left.P(0, 0) - right.P(0, 0)) > 1e-6 * focal_ ||
       std::abs(left.P(1, 2) - right.P(1, 2)) > 1e-6 * focal_) {
-    throw BadInput(
-        "left.yaml and right.yaml: projection_matrix: expected the same f and cy in "
-        "both; these are not of one stereo calibration");
+    throw BadInput(left_name + " and " + right_name +
+                   ": projection_matrix: expected the same f and cy in "
+                   "both; these are not of one stereo calibration");
   }
 }
 

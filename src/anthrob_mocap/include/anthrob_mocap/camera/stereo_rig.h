@@ -17,7 +17,9 @@ class StereoRig {
   /// Reads DIR/left.yaml and DIR/right.yaml.
   /// @throws BadInput if they are swapped, no pair, or of different shape
   static StereoRig load(const std::string& folder);
-  StereoRig(const CameraModel& left, const CameraModel& right);
+  /// @param origin of the calibrations, for messages: "left" and "right" go before it
+  StereoRig(const CameraModel& left, const CameraModel& right,
+            const std::string& origin = " camera");
 
   const CameraModel& camera(Side side) const { return cameras_[side]; }
   int width() const { return cameras_[0].width; }
@@ -48,7 +50,7 @@ class StereoRig {
   double disparity(const Vec2& left, const Vec2& right) const;
 
  private:
-  void check() const;
+  void check(const std::string& left_name, const std::string& right_name) const;
 
   std::array<CameraModel, 2> cameras_;
   double focal_, baseline_;
