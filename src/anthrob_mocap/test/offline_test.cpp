@@ -1,5 +1,5 @@
-// The offline command: its contract, and one clear line for everything that is wrong; and that
-// which calibrates a target.
+// The offline command: its contract, and one clear line for everything that is wrong; and those
+// that calibrate.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -268,6 +268,23 @@ TEST_F(CalibrateTarget, RefusesAResultThatIsAmbiguousItself) {
   const std::string error = folder_.read("err");
   EXPECT_NE(error.find("target humerus: ambiguous: "), std::string::npos) << error;
   EXPECT_FALSE(std::filesystem::exists(folder_.path("targets.yaml")));
+}
+
+TEST(Calibrate, PairsPicturesByTheirLastNumber) {
+  const test::TemporaryFolder folder;
+  for (const std::string file : {"left/rig2_07_l.png", "right/rig2_07_r.png", "right/08.png"}) {
+    folder.folder(file.substr(0, file.find('/')));
+    cv::imwrite(folder.path(file), cv::Mat(488, 648, CV_8U, cv::Scalar(0)));
+  }
+  const std::string command = std::string(ANTHROB_MOCAP_CALIBRATE) + " --left " +
+                              folder.path("left") + " --right " + folder.path("right") + " > " +
+                              folder.path("out") + " 2> " + folder.path("err");
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  const std::string out = folder.read("out");
+  EXPECT_EQ(out.find("no partner"), std::string::npos) << out;
+  for (const char* file : {"rig2_07_l.png: no board of", "rig2_07_r.png: no board of"}) {
+    EXPECT_NE(out.find(file), std::string::npos) << out;
+  }
 }
 
 }  // namespace

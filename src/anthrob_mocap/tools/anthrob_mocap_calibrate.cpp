@@ -26,7 +26,8 @@ std::string key_of(const std::string& file) {
   const auto end = stem.find_last_of("0123456789");
   if (end == std::string::npos) return stem;
   const auto before = stem.find_last_not_of("0123456789", end);
-  return stem.substr(before == std::string::npos ? 0 : before + 1, end + 1);
+  const auto begin = before == std::string::npos ? 0 : before + 1;
+  return stem.substr(begin, end + 1 - begin);
 }
 
 std::map<std::string, std::string> by_key(const std::string& folder) {
