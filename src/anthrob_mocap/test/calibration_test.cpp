@@ -110,6 +110,43 @@ TEST(Board, IsChecked) {
   expect_bad_input([] { Board::parse("9x6", -1.0); }, "--square");
 }
 
+/// A picture of squares of so many pixels, seen straight on but drawn together as by a slant.
+Image draw_board(double width, double height) {
+  constexpr int kFine = 8;  // samples by pixel and axis
+  const Vec2 corner(100.3, 100.6);
+  Image image;
+  image.resize(648, 488);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      int light = 0;
+      for (int s = 0; s < kFine * kFine; ++s) {
+        const double u = x + (s % kFine + 0.5) / kFine - 0.5 - corner.x();
+        const double v = y + (s / kFine + 0.5) / kFine - 0.5 - corner.y();
+        const int column = static_cast<int>(std::floor(u / width));
+        const int row = static_cast<int>(std::floor(v / height));
+        const bool board = column >= -1 && column <= 8 && row >= -1 && row <= 5;
+        light += board && (column + row) % 2 == 0 ? 0 : 200;
+      }
+      image.row(y)[x] = static_cast<std::uint8_t>(20 + light / (kFine * kFine));
+    }
+  }
+  return image;
+}
+
+TEST(Checkerboard, IsFoundWithSquaresThatAreNarrowInEitherDirection) {
+  for (const Vec2& square : {Vec2(30, 30), Vec2(40, 11), Vec2(11, 40)}) {
+    auto corners = find_corners(draw_board(square.x(), square.y()), kBoard);
+    ASSERT_TRUE(corners.has_value()) << square.transpose();
+    if (corners->front().y() > corners->back().y()) std::reverse(corners->begin(), corners->end());
+    double worst = 0.0;
+    for (int i = 0; i < 54; ++i) {
+      const Vec2 truth(100.3 + i % 9 * square.x(), 100.6 + i / 9 * square.y());
+      worst = std::max(worst, ((*corners)[static_cast<std::size_t>(i)] - truth).norm());
+    }
+    EXPECT_LT(worst, 0.1) << square.transpose();
+  }
+}
+
 TEST(StereoCalibration, OfRealPictures) {
   const std::string folder = "/usr/share/doc/opencv-doc/examples/data/";
   if (!std::filesystem::exists(folder + "left01.jpg")) {

@@ -42,11 +42,15 @@ std::optional<std::vector<Vec2>> find_corners(const Image& image, const Board& b
                                  cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE)) {
     return std::nullopt;
   }
-  // The window must stay within the squares around a corner.
+  // The window must stay within the squares around a corner, of a board seen at a slant, too.
+  const std::size_t columns = static_cast<std::size_t>(board.columns);
   float shortest = 1e9f;
-  for (std::size_t i = 1; i < corners.size(); ++i) {
-    if (i % static_cast<std::size_t>(board.columns) == 0) continue;
-    shortest = std::min(shortest, static_cast<float>(cv::norm(corners[i] - corners[i - 1])));
+  const auto limit = [&](const cv::Point2f& a, const cv::Point2f& b) {
+    shortest = std::min(shortest, static_cast<float>(cv::norm(a - b)));
+  };
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i % columns != 0) limit(corners[i], corners[i - 1]);
+    if (i >= columns) limit(corners[i], corners[i - columns]);
   }
   const int half = std::clamp(static_cast<int>(0.45f * shortest), 2, 11);
   cv::cornerSubPix(grey, corners, {half, half}, {-1, -1},
