@@ -58,10 +58,11 @@ int calibrate(const Arguments& arguments) {
     if (target.name != arguments.name) continue;
     const auto result = mocap::calibrate_target(target, read_points(arguments, set, options));
     for (std::size_t i = 0; i < result.seen.size(); ++i) {
-      std::printf("marker %zu: moved by %.2f mm, seen in %d frames\n", i,
-                  1e3 * (result.target.markers[i] - target.markers[i]).norm(), result.seen[i]);
+      std::printf("marker %zu: moved by %.2f mm, seen in %d frames, %.3f mm rms\n", i,
+                  1e3 * (result.target.markers[i] - target.markers[i]).norm(), result.seen[i],
+                  1e3 * result.rms[i]);
     }
-    std::printf("%d frames, %.3f mm rms\n", result.frames, 1e3 * result.rms);
+    std::printf("%d frames\n", result.frames);
     target = result.target;
     const std::string text = set.to_yaml();
     mocap::TargetSet::parse(text, arguments.out, kNone);

@@ -1,5 +1,6 @@
 #include "anthrob_mocap/calibration/target_calibration.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "anthrob_mocap/core/errors.h"
@@ -21,6 +22,7 @@ class Mean {
   explicit Mean(const MarkerTarget& target)
       : target_(target),
         sum_(target.markers.size(), Vec3::Zero()),
+        squares_(target.markers.size(), 0.0),
         seen_(target.markers.size(), 0) {}
 
   void add(const Labelling& labelling, const std::vector<MarkerPoint>& points) {
@@ -30,13 +32,15 @@ class Mean {
       if (labelling.point[i] < 0) continue;
       const Vec3 m = X_TC * points[static_cast<std::size_t>(labelling.point[i])].p;
       sum_[i] += m, ++seen_[i];
-      squares_ += (m - target_.markers[i]).squaredNorm(), ++count_;
+      squares_[i] += (m - target_.markers[i]).squaredNorm();
     }
   }
   TargetCalibration result() const {
-    TargetCalibration result{target_, frames_, std::sqrt(squares_ / std::max(1, count_)), seen_};
+    TargetCalibration result{target_, frames_, std::vector<double>(sum_.size(), 0.0), seen_};
     for (std::size_t i = 0; i < sum_.size(); ++i) {
-      if (seen_[i] > 0) result.target.markers[i] = sum_[i] / seen_[i];
+      if (seen_[i] == 0) continue;
+      result.target.markers[i] = sum_[i] / seen_[i];
+      result.rms[i] = std::sqrt(squares_[i] / seen_[i]);
     }
     return result;
   }
@@ -44,9 +48,9 @@ class Mean {
  private:
   const MarkerTarget& target_;
   std::vector<Vec3> sum_;
+  std::vector<double> squares_;
   std::vector<int> seen_;
-  int frames_ = 0, count_ = 0;
-  double squares_ = 0.0;
+  int frames_ = 0;
 };
 
 TargetCalibration round(const MarkerTarget& target, double tolerance,
@@ -97,9 +101,12 @@ TargetCalibration calibrate_target(const MarkerTarget& guess,
                    std::to_string(kFewestFrames) +
                    "; is the guess right to a centimetre, and does the target turn enough?");
   }
-  if (!(result.rms <= kLargestRms)) {
-    throw BadInput("target " + guess.name + ": markers scatter by " +
-                   std::to_string(1e3 * result.rms) + " mm: is one of them loose?");
+  const auto worst = std::max_element(result.rms.begin(), result.rms.end());
+  if (!(*worst <= kLargestRms)) {
+    throw BadInput("target " + guess.name + ": marker " +
+                   std::to_string(worst - result.rms.begin()) + " scatters by " +
+                   std::to_string(1e3 * *worst) + " mm: expected at most " +
+                   std::to_string(1e3 * kLargestRms) + "; is it loose?");
   }
   anchor(guess, result.target);
   return result;

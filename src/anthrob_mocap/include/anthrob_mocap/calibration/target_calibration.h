@@ -10,9 +10,9 @@ namespace mocap {
 
 struct TargetCalibration {
   MarkerTarget target;
-  int frames = 0;         ///< used
-  double rms = 0.0;       ///< [m] of the markers about the target, over all frames
-  std::vector<int> seen;  ///< by marker: in how many frames
+  int frames = 0;           ///< used
+  std::vector<double> rms;  ///< by marker, about its place in the target, over all frames [m]
+  std::vector<int> seen;    ///< by marker: in how many frames
 };
 
 /// Where the markers of a target are, from frames in which it moves (section A.2): every frame is
