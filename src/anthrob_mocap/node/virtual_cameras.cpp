@@ -126,9 +126,10 @@ int main(int argc, char** argv) {
     ros::NodeHandle nh("mocap"), settings("~");
     const auto rig = mocap::StereoRig::load(
         anthrob::required(settings, "calibration", "a folder with left.yaml and right.yaml"));
-    const double none = 0.0;  // it only draws: what looks alike is the tracker's affair
-    const auto set = mocap::TargetSet::load(
-        anthrob::required(settings, "targets", "the path of targets.yaml"), none);
+    // It only draws: what looks alike is the tracker's affair.
+    const auto set =
+        mocap::TargetSet::load(anthrob::required(settings, "targets", "the path of targets.yaml"),
+                               mocap::TargetSet::kUnchecked);
     const auto setup =
         mocap::Setup::load(anthrob::required(settings, "rig", "the path of rig.yaml"), set);
     mocap::VirtualRig(nh, rig, set, setup).run();

@@ -255,11 +255,18 @@ TEST_F(CalibrateTarget, KeepsItsResultBesideTargetsThatAreGuessesYet) {
   const std::string note = folder_.read("err");
   EXPECT_NE(note.find("target scapula: ambiguous: "), std::string::npos) << note;
   EXPECT_EQ(note.find("target humerus"), std::string::npos) << note;
-  const TargetSet result = TargetSet::load(folder_.path("targets.yaml"), 0.0);
+  const TargetSet result = TargetSet::load(folder_.path("targets.yaml"), TargetSet::kUnchecked);
   const auto edge = [](const TargetSet& set) {
     return (set.targets[1].markers[0] - set.targets[1].markers[1]).norm();
   };
   EXPECT_NEAR(edge(result), edge(make_targets()), 2e-4);
+}
+
+TEST_F(CalibrateTarget, TakesGuessesOfOthersWithEqualEdges) {
+  TargetSet by_hand = TargetSet::load(folder_.path("by_hand.yaml"), TargetSet::kUnchecked);
+  by_hand.targets[0].markers = {{0.0, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.025, 0.06, 0.0}};
+  folder_.write("by_hand.yaml", by_hand.to_yaml());
+  EXPECT_EQ(run(), 0) << folder_.read("err");
 }
 
 TEST_F(CalibrateTarget, RefusesAResultThatIsAmbiguousItself) {

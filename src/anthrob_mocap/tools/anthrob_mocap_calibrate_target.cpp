@@ -51,9 +51,8 @@ int calibrate(const Arguments& arguments) {
   mocap::TrackerOptions options;
   if (!arguments.settings.empty()) options = mocap::load_tracker_options(arguments.settings);
   const double edge_tolerance = options.labelling.edge_tolerance;
-  // A guess may look ambiguous at the tolerance of tracking; the result must not.
-  const double kNone = 0.0;
-  mocap::TargetSet set = mocap::TargetSet::load(arguments.targets, kNone);
+  // A guess may look ambiguous; the result must not.
+  mocap::TargetSet set = mocap::TargetSet::load(arguments.targets, mocap::TargetSet::kUnchecked);
   for (mocap::MarkerTarget& target : set.targets) {
     if (target.name != arguments.name) continue;
     const auto result = mocap::calibrate_target(target, read_points(arguments, set, options));
@@ -65,7 +64,7 @@ int calibrate(const Arguments& arguments) {
     std::printf("%d frames\n", result.frames);
     target = result.target;
     const std::string text = set.to_yaml();
-    mocap::TargetSet::parse(text, arguments.out, kNone);
+    mocap::TargetSet::parse(text, arguments.out, mocap::TargetSet::kUnchecked);
     const std::string why = mocap::find_ambiguity(target, target, edge_tolerance);
     if (!why.empty()) throw mocap::BadInput("target " + target.name + ": " + why);
     std::ofstream out(arguments.out);

@@ -28,6 +28,9 @@ struct TargetSet {
   std::vector<MarkerTarget> targets;
   std::vector<BallJoint> joints;
 
+  /// As edge_tolerance: whether targets can be told apart is not asked, not even of equal edges.
+  static constexpr double kUnchecked = -1.0;
+
   /// @param edge_tolerance [m] edges closer than this cannot be told apart
   /// @throws BadInput with file, line, key and reason, also for targets that cannot be told apart
   ///   from themselves or from each other
@@ -38,7 +41,7 @@ struct TargetSet {
 
 /// Why markers of `a` can be taken for markers of `b` (or for others of the same target, if a and b
 /// are the same): another assignment of all of a's markers that keeps every edge within the
-/// tolerance. Names the offending edges; empty if there is none.
+/// tolerance. Names the offending edges; empty if there is none, or the tolerance is negative.
 std::string find_ambiguity(const MarkerTarget& a, const MarkerTarget& b, double edge_tolerance);
 
 /// Number of triples of one target's markers that another triple, or the same one turned round, can
