@@ -11,8 +11,6 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not moved stays below
-
 std::string text(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof(buffer), "%.3f", value);
@@ -100,11 +98,8 @@ void Status::judge(const std::string& trouble, DiagnosticStatus& status) const {
   status.message = error;
   if (!error.empty()) return;
   status.level = DiagnosticStatus::WARN;
-  if (std::abs(health_.row_error()) > kLargestRowError) {
-    status.message =
-        "rows of left and right differ by " + text(health_.row_error()) + " pixels: calibrate anew";
-    return;
-  }
+  status.message = health_.bend();
+  if (!status.message.empty()) return;
   if (health_.frames() > 0) {
     for (std::size_t k = 0; k < targets_.size(); ++k) {
       if (seen_[k] > 0) continue;

@@ -205,6 +205,18 @@ TEST_F(Offline, RefusesWhatDoesNotBelongTogether) {
   refuse("right.yaml:1: 'image_height': missing");
 }
 
+TEST_F(Offline, WarnsOfARigThatWasBentALittle) {
+  ASSERT_EQ(run(), 0);
+  EXPECT_EQ(folder_.read("err"), "");
+  CameraModel tilted = make_rig().camera(kRight);
+  tilted.R = exp_rotation({0.0004, 0.0, 0.0}) * tilted.R;
+  folder_.write("calibration/right.yaml", tilted.to_yaml());
+  EXPECT_EQ(run(), 0);
+  const std::string error = folder_.read("err");
+  EXPECT_EQ(error.find("warning: rows of left and right differ by "), 0u) << error;
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+}
+
 TEST_F(Offline, KnowsItsArguments) {
   EXPECT_EQ(run("--pipeline parallel"), 2);
   EXPECT_EQ(run("--threshold 400"), 2);

@@ -225,6 +225,8 @@ TEST(Health, SeesARigThatHasMoved) {
   const Health moved = health_of(rig, StereoRig(rig.camera(kLeft), tilted), false, 0.0);
   EXPECT_GT(moved.poses(), 0);
   EXPECT_GT(std::abs(moved.row_error()), 0.3);
+  EXPECT_NE(moved.bend().find("rows of left and right differ by "), std::string::npos);
+  EXPECT_EQ(health_of(rig, rig, false, 0.0).bend(), "");
 }
 
 TEST(Health, KnowsJointsWhosePicturesAreTooRare) {

@@ -96,6 +96,7 @@ int track(const Arguments& arguments) {
   }
   report.print();
   if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
+  if (!health.bend().empty()) std::cerr << "warning: " << health.bend() << "\n";
   return mocap::tool::kDone;
 }
 

@@ -1,6 +1,8 @@
 #include "anthrob_mocap/pipeline/health.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace anthrob {
 namespace mocap {
@@ -8,6 +10,7 @@ namespace mocap {
 namespace {
 
 constexpr int kRare = 3;  // sightings in a row without a velocity that are no coincidence
+constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not moved stays below
 
 }  // namespace
 
@@ -53,6 +56,14 @@ void Health::try_swapped(const StereoFrame& frame) {
   std::vector<Match> matches;
   matcher_.match(blobs, points, matches);
   sums_.matches_if_swapped += static_cast<long>(matches.size());
+}
+
+std::string Health::bend() const {
+  if (std::abs(row_error()) <= kLargestRowError) return "";
+  char text[96];
+  std::snprintf(text, sizeof(text), "rows of left and right differ by %.3f pixels: calibrate anew",
+                row_error());
+  return text;
 }
 
 std::string Health::contradiction() const {

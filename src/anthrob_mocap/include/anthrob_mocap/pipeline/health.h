@@ -26,6 +26,8 @@ class Health {
   /// velocity allows: nothing is published of them. Pictures are too rare, or not stamped.
   std::vector<std::size_t> joints_without_velocity() const;
 
+  /// That the rig seems to have been bent a little: there are poses, but worse ones; else empty.
+  std::string bend() const;
   /// What must be wrong with the images or the calibration; empty if nothing must.
   std::string contradiction() const;
   /// What to look at if nothing was found; empty if something was.
