@@ -183,12 +183,17 @@ TEST_P(EitherMode, DoesNotGrow) {
 }
 
 /// Tracks 20 pairs after something has been done to them.
-Health health_of(const StereoRig& rendered, const StereoRig& believed, bool swap, double late) {
+Health health_of(const StereoRig& rendered, const StereoRig& believed, bool swap, double late,
+                 double believed_diameter = 0.016) {
   Renderer renderer(rendered, RenderOptions());
   const TargetSet set = make_targets();
   const test::Motion motion = test::swing(0.5, 2.0);
-  Health health(believed, MatchingOptions());
-  Pipeline pipeline(tracking_stages(believed, set, {}), PipelineMode::kSequential, 1,
+  TargetSet believed_set = set;
+  believed_set.marker_diameter = believed_diameter;
+  MatchingOptions matching;
+  matching.marker_diameter = believed_diameter;
+  Health health(believed, matching);
+  Pipeline pipeline(tracking_stages(believed, believed_set, {}), PipelineMode::kSequential, 1,
                     [&](PacketPtr packet) { health.add(static_cast<StereoFrame&>(*packet)); });
   for (int i = 0; i < 20; ++i) {
     auto frame = std::make_unique<StereoFrame>();
@@ -216,6 +221,11 @@ TEST(Health, KnowsSwappedImagesAndForeignCalibrations) {
   const Health foreign = health_of(rig, StereoRig(rig.camera(kLeft), tilted), false, 0.0);
   EXPECT_EQ(foreign.poses(), 0);
   EXPECT_NE(foreign.contradiction().find("calibration"), std::string::npos);
+  // Lamps: on common rows, but of no marker's size.
+  const Health lamps = health_of(rig, rig, false, 0.0, 0.002);
+  EXPECT_EQ(lamps.poses(), 0);
+  EXPECT_EQ(lamps.contradiction(), "");
+  EXPECT_NE(lamps.advice().find("form no target"), std::string::npos) << lamps.advice();
 }
 
 TEST(Health, SeesARigThatHasMoved) {

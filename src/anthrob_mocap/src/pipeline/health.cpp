@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace anthrob {
 namespace mocap {
@@ -12,10 +13,17 @@ namespace {
 constexpr int kRare = 3;  // sightings in a row without a velocity that are no coincidence
 constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not moved stays below
 
+MatchingOptions rows_only(MatchingOptions options) {
+  options.marker_diameter = 0.0;
+  options.min_depth = -std::numeric_limits<double>::infinity();
+  options.max_depth = std::numeric_limits<double>::infinity();
+  return options;
+}
+
 }  // namespace
 
 Health::Health(const StereoRig& rig, const MatchingOptions& options)
-    : rig_(rig), matcher_(rig, options) {}
+    : rig_(rig), matcher_(rig, options), row_matcher_(rig, rows_only(options)) {}
 
 void Health::add(const StereoFrame& frame) {
   ++sums_.frames;
@@ -31,7 +39,7 @@ void Health::add(const StereoFrame& frame) {
     sums_.row_error += pose.row_error;
     sums_.pixel_rms += pose.pixel_rms;
   }
-  if (sums_.poses == before) try_swapped(frame);
+  if (sums_.poses == before) try_swapped(frame), try_rows(frame);
   still_.resize(frame.joints.size(), 0);
   for (std::size_t j = 0; j < still_.size(); ++j) {
     const JointEstimate& joint = frame.joints[j];
@@ -58,6 +66,17 @@ void Health::try_swapped(const StereoFrame& frame) {
   sums_.matches_if_swapped += static_cast<long>(matches.size());
 }
 
+/// Counts left blobs that a right one shares its row with. Lamps are of no marker's size.
+void Health::try_rows(const StereoFrame& frame) {
+  std::vector<Match> matches;
+  row_matcher_.match(frame.blobs, frame.rectified, matches);
+  int last = -1;
+  for (const Match& match : matches) {
+    sums_.on_common_rows += match.left != last ? 1 : 0;
+    last = match.left;
+  }
+}
+
 std::string Health::bend() const {
   if (std::abs(row_error()) <= kLargestRowError) return "";
   char text[96];
@@ -75,7 +94,7 @@ std::string Health::contradiction() const {
   if (sums_.matches_if_swapped >= 3 * frames && sums_.matches_if_swapped > 2 * sums_.matches) {
     return "left and right images are swapped";
   }
-  if (fewest >= 4 * frames && 4 * sums_.matches < fewest) {
+  if (fewest >= 4 * frames && 4 * sums_.on_common_rows < fewest) {
     return "the blobs of left and right image do not lie on common rows: the pair is "
            "unsynchronised, or this is not the calibration of these cameras";
   }

@@ -36,13 +36,14 @@ class Health {
  private:
   struct Sums {
     int frames = 0, poses = 0, cluttered = 0;
-    long matches = 0, matches_if_swapped = 0, blobs[2] = {0, 0};
+    long matches = 0, matches_if_swapped = 0, on_common_rows = 0, blobs[2] = {0, 0};
     double row_error = 0.0, pixel_rms = 0.0;
   };
   void try_swapped(const StereoFrame& frame);
+  void try_rows(const StereoFrame& frame);
 
   StereoRig rig_;
-  EpipolarMatcher matcher_;
+  EpipolarMatcher matcher_, row_matcher_;  ///< the latter at any depth, of any size
   Sums sums_;
   std::vector<int> still_;  ///< by joint: sightings in a row that had no velocity
 };
