@@ -132,6 +132,7 @@ void Status::list_values(double elapsed, DiagnosticStatus& status) {
   }
   add_value(status, "residual_px", text(health_.pixel_rms()));
   add_value(status, "row_error_px", text(health_.row_error()));
+  add_value(status, "searches_given_up", std::to_string(health_.given_up()));
   add_value(status, "refused_images", std::to_string(refused_));
 }
 

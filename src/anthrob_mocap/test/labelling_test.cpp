@@ -201,8 +201,28 @@ TEST(CliqueSearch, StaysWithinItsStepsInACrowd) {
   CliqueSearch clique(make_targets().targets[0], options);
   std::vector<Edge> edges;
   find_edges(points, clique.longest_edge() + 0.003, edges);
-  clique.find(points, edges, std::vector<char>(points.size(), 1));
-  EXPECT_TRUE(clique.gave_up());
+  EXPECT_TRUE(clique.find(points, edges, std::vector<char>(points.size(), 1)).gave_up);
+}
+
+TEST(Labeller, DoubtsThreeMarkersOfASearchThatGaveUp) {
+  const MarkerTarget target = make_targets().targets[0];
+  for (const int seen : {3, 4}) {
+    std::vector<MarkerPoint> points;
+    for (int i = 0; i < seen; ++i) {
+      points.push_back(point_at(target.markers[static_cast<std::size_t>(i)], i));
+    }
+    for (const int limit : {20000, 4 + seen}) {  // the latter reaches the first answer only
+      LabellingOptions options;
+      options.step_limit = limit;
+      Labeller labeller({target}, options, {});
+      std::vector<Edge> edges;
+      find_edges(points, labeller.longest_edge(), edges);
+      std::vector<Labelling> labels;
+      labeller.label(0.0, points, edges, labels);
+      EXPECT_EQ(labels[0].gave_up, limit < 20000) << seen;
+      EXPECT_EQ(labels[0].count, seen == 3 && limit < 20000 ? 0 : seen) << limit;
+    }
+  }
 }
 
 TEST(Labeller, UsesNoBlobTwice) {

@@ -96,6 +96,10 @@ int track(const Arguments& arguments) {
   }
   report.print();
   if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
+  if (health.given_up() > 0) {
+    std::cerr << "warning: " << health.given_up()
+              << " searches of targets were given up at step_limit: too many bright blobs\n";
+  }
   if (!health.bend().empty()) std::cerr << "warning: " << health.bend() << "\n";
   return mocap::tool::kDone;
 }

@@ -58,6 +58,7 @@ const Labelling& CliqueSearch::find(const std::vector<MarkerPoint>& points,
   }
   best_.ambiguous = best_.count > 0 && rival_.count == best_.count &&
                     rival_.fit.rms < 2.0 * best_.fit.rms + options_.tie_margin;
+  best_.gave_up = steps_ > options_.step_limit;
   return best_;
 }
 

@@ -32,7 +32,8 @@ void Labeller::label(double t, const std::vector<MarkerPoint>& points,
     Labelling& labelling = result[k];
     if (collides(labelling)) labelling = searches_[k].find(points, edges, usable_);
     const bool doubtful =
-        labelling.ambiguous || (labelling.count == 3 && priors_[k].contradicts(t, labelling.fit.X));
+        labelling.ambiguous ||
+        (labelling.count == 3 && (labelling.gave_up || priors_[k].contradicts(t, labelling.fit.X)));
     if (doubtful) labelling.count = 0;
     if (labelling.count == 0) continue;
     priors_[k].accept(t, labelling.fit.X);

@@ -32,6 +32,7 @@ void Health::add(const StereoFrame& frame) {
   for (const Side side : {kLeft, kRight}) {
     sums_.blobs[side] += static_cast<long>(frame.blobs[side].size());
   }
+  for (const Labelling& labelling : frame.labels) sums_.given_up += labelling.gave_up ? 1 : 0;
   const int before = sums_.poses;
   for (const TargetPose& pose : frame.targets) {
     if (!pose.valid) continue;

@@ -24,6 +24,7 @@ struct Labelling {
   int count = 0;           ///< markers seen; 0: the target is not found
   RigidFit fit;            ///< target frame to rectified left frame
   bool ambiguous = false;  ///< another labelling fits as well, with another pose
+  bool gave_up = false;    ///< at the step limit: more markers, or a rival, may have been missed
 };
 
 /// Finds the largest part of one target's reference graph in the candidate graph: a maximum clique
@@ -43,8 +44,6 @@ class CliqueSearch {
                         const std::vector<char>& usable);
 
   double longest_edge() const { return longest_; }
-  /// Whether the last search hit its step limit.
-  bool gave_up() const { return steps_ > options_.step_limit; }
 
  private:
   struct ReferenceEdge {
