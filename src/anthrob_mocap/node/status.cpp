@@ -1,7 +1,6 @@
 #include "status.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace anthrob {
@@ -29,13 +28,6 @@ double quantile(std::vector<double>& values, double share) {
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
-}
-
-/// The matcher's own: it knows how large a marker is.
-MatchingOptions matching_of(const TargetSet& set, const TrackerOptions& options) {
-  MatchingOptions matching = options.matching;
-  matching.marker_diameter = set.marker_diameter;
-  return matching;
 }
 
 }  // namespace

@@ -249,9 +249,10 @@ class CalibrateTarget : public ::testing::Test {
       }
     }
   }
-  int run(const std::string& more = "") {
+  int run(const std::string& more = "", const std::string& left = "left",
+          const std::string& right = "right") {
     const std::string command = std::string(ANTHROB_MOCAP_CALIBRATE_TARGET) + " --left " +
-                                folder_.path("left") + " --right " + folder_.path("right") +
+                                folder_.path(left) + " --right " + folder_.path(right) +
                                 " --calibration " + folder_.path("calibration") + " --targets " +
                                 folder_.path("by_hand.yaml") + " --name humerus --out " +
                                 folder_.path("targets.yaml") + " " + more + " > " +
@@ -279,6 +280,26 @@ TEST_F(CalibrateTarget, TakesGuessesOfOthersWithEqualEdges) {
   by_hand.targets[0].markers = {{0.0, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.025, 0.06, 0.0}};
   folder_.write("by_hand.yaml", by_hand.to_yaml());
   EXPECT_EQ(run(), 0) << folder_.read("err");
+}
+
+TEST_F(CalibrateTarget, RefusesWhatDoesNotBelongTogether) {
+  const auto refuse = [&](int status, const std::string& part) {
+    const std::string error = folder_.read("err");
+    EXPECT_EQ(status, 2);
+    EXPECT_NE(error.find(part), std::string::npos) << error << "expected: " << part;
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+  };
+  refuse(run("", "right", "left"), "left and right images are swapped");
+  std::string times = "index,t\n";
+  for (int i = 0; i < 24; ++i) {
+    times += std::to_string(100 + i) + "," + std::to_string(100 + i) + ".000\n";
+  }
+  folder_.write("left/times.csv", times);
+  folder_.write("right/times.csv", test::replaced(times, "107.000", "107.005"));
+  refuse(run(), "index 107: unsynchronised pair: left and right are 5.0");
+  EXPECT_EQ(run("--sync-tolerance 0.006"), 0) << folder_.read("err");
+  cv::imwrite(folder_.path("left/103.png"), cv::Mat(487, 647, CV_8U, cv::Scalar(0)));
+  refuse(run("--sync-tolerance 0.006"), "left image 3: 647x487 pixels: expected 648x488, as in ");
 }
 
 TEST_F(CalibrateTarget, RefusesAResultThatIsAmbiguousItself) {

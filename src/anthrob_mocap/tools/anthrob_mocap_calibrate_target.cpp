@@ -2,11 +2,12 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "anthrob_mocap/calibration/target_calibration.h"
 #include "anthrob_mocap/core/errors.h"
 #include "anthrob_mocap/pipeline/tracker_file.h"
-#include "anthrob_mocap/source/folder_source.h"
+#include "recording.h"
 #include "tool.h"
 
 namespace mocap = anthrob::mocap;
@@ -14,25 +15,27 @@ namespace mocap = anthrob::mocap;
 namespace {
 
 struct Arguments {
-  std::string left, right, calibration, targets, name, out, settings;
+  mocap::tool::Recording recording;
+  std::string targets, name, out, settings;
 };
 
-/// Points in space of every pair of images.
-std::vector<std::vector<mocap::MarkerPoint>> read_points(const Arguments& arguments,
-                                                         const mocap::TargetSet& set,
-                                                         const mocap::TrackerOptions& options) {
-  const auto rig = mocap::StereoRig::load(arguments.calibration);
+/// Points in space of every pair of images; nothing if interrupted.
+std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
+    const mocap::tool::Recording& recording, const mocap::TargetSet& set,
+    const mocap::TrackerOptions& options) {
+  const auto rig = mocap::StereoRig::load(recording.calibration);
   std::vector<std::vector<mocap::MarkerPoint>> frames;
+  mocap::Health health(rig, mocap::matching_of(set, options));
   mocap::Pipeline pipeline(mocap::tracking_stages(rig, set, options),
                            mocap::PipelineMode::kSequential, 1, [&](mocap::PacketPtr packet) {
-                             frames.push_back(static_cast<mocap::StereoFrame&>(*packet).points);
+                             const auto& frame = static_cast<mocap::StereoFrame&>(*packet);
+                             health.add(frame), frames.push_back(frame.points);
                            });
-  mocap::FolderSource source(arguments.left, arguments.right, {});
-  for (;;) {
-    auto frame = std::make_unique<mocap::StereoFrame>();
-    if (source.next(*frame, 0.0) == mocap::FrameSource::Grab::kEnd) return frames;
-    pipeline.push(std::move(frame));
-  }
+  mocap::FolderSource source(recording.left, recording.right, recording.folder);
+  if (!mocap::tool::track_all(source, rig, recording, pipeline)) return std::nullopt;
+  recording.refuse_contradiction(health);
+  if (!health.bend().empty()) std::cerr << "warning: " << health.bend() << "\n";
+  return frames;
 }
 
 /// What is still ambiguous with another target in it: those may be guesses, to be calibrated yet.
@@ -55,7 +58,9 @@ int calibrate(const Arguments& arguments) {
   mocap::TargetSet set = mocap::TargetSet::load(arguments.targets, mocap::TargetSet::kUnchecked);
   for (mocap::MarkerTarget& target : set.targets) {
     if (target.name != arguments.name) continue;
-    const auto result = mocap::calibrate_target(target, read_points(arguments, set, options));
+    const auto points = read_points(arguments.recording, set, options);
+    if (!points) return mocap::tool::kInterrupted;
+    const auto result = mocap::calibrate_target(target, *points);
     for (std::size_t i = 0; i < result.seen.size(); ++i) {
       std::printf("marker %zu: moved by %.2f mm, seen in %d frames, %.3f mm rms\n", i,
                   1e3 * (result.target.markers[i] - target.markers[i]).norm(), result.seen[i],
@@ -82,10 +87,7 @@ int main(int argc, char** argv) {
   CLI::App app("Measures where the markers of a target are, from a recording in which it moves.",
                "anthrob_mocap_calibrate_target");
   Arguments a;
-  app.add_option("--left", a.left, "folder of images")->required();
-  app.add_option("--right", a.right, "folder of images")->required();
-  app.add_option("--calibration", a.calibration, "folder with left.yaml and right.yaml")
-      ->required();
+  a.recording.add_options(app);
   app.add_option("--targets", a.targets, "targets.yaml with the markers as measured by hand")
       ->required();
   app.add_option("--name", a.name, "the target to calibrate")->required();

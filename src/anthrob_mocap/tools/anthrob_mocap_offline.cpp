@@ -5,9 +5,8 @@
 
 #include "anthrob_mocap/core/errors.h"
 #include "anthrob_mocap/output/pose_table.h"
-#include "anthrob_mocap/pipeline/health.h"
 #include "anthrob_mocap/pipeline/tracker_file.h"
-#include "anthrob_mocap/source/folder_source.h"
+#include "recording.h"
 #include "tool.h"
 
 namespace mocap = anthrob::mocap;
@@ -15,22 +14,10 @@ namespace mocap = anthrob::mocap;
 namespace {
 
 struct Arguments {
-  std::string left, right, calibration, targets, out, settings, pipeline = "sequential";
+  mocap::tool::Recording recording;
+  std::string targets, out, settings, pipeline = "sequential";
   int threshold = 0;
-  mocap::FolderSource::Options folder;
 };
-
-void check_size(const mocap::StereoFrame& frame, const mocap::StereoRig& rig,
-                const std::string& calibration) {
-  for (const auto side : {mocap::kLeft, mocap::kRight}) {
-    const mocap::ImageView& image = frame.image[side];
-    if (image.width == rig.width() && image.height == rig.height()) continue;
-    throw mocap::BadInput(std::string(mocap::name(side)) + " image " + std::to_string(frame.index) +
-                          ": " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                          " pixels: expected " + std::to_string(rig.width()) + "x" +
-                          std::to_string(rig.height()) + ", as in " + calibration);
-  }
-}
 
 /// Frames, availability and latency, for people.
 class Report {
@@ -62,18 +49,17 @@ class Report {
 };
 
 int track(const Arguments& arguments) {
+  const mocap::tool::Recording& recording = arguments.recording;
   mocap::TrackerOptions options;
   if (!arguments.settings.empty()) options = mocap::load_tracker_options(arguments.settings);
   if (arguments.threshold > 0) options.segmentation.threshold = arguments.threshold;
-  const auto rig = mocap::StereoRig::load(arguments.calibration);
+  const auto rig = mocap::StereoRig::load(recording.calibration);
   const auto set = mocap::TargetSet::load(arguments.targets, options.labelling.edge_tolerance);
-  mocap::FolderSource source(arguments.left, arguments.right, arguments.folder);
+  mocap::FolderSource source(recording.left, recording.right, recording.folder);
   std::ofstream out(arguments.out);
   if (!out) throw std::runtime_error(arguments.out + ": cannot be written");
   mocap::PoseTable table(out, set);
-  mocap::MatchingOptions matching = options.matching;
-  matching.marker_diameter = set.marker_diameter;
-  mocap::Health health(rig, matching);
+  mocap::Health health(rig, mocap::matching_of(set, options));
   Report report(set);
   mocap::Pipeline pipeline(mocap::tracking_stages(rig, set, options),
                            mocap::pipeline_mode(arguments.pipeline), 8,
@@ -81,19 +67,10 @@ int track(const Arguments& arguments) {
                              const auto& frame = static_cast<const mocap::StereoFrame&>(*packet);
                              table.add(frame), health.add(frame), report.add(frame);
                            });
-  bool stopped = false;
-  while (!(stopped = mocap::tool::interrupted())) {
-    auto frame = std::make_unique<mocap::StereoFrame>();
-    if (source.next(*frame, 0.0) == mocap::FrameSource::Grab::kEnd) break;
-    check_size(*frame, rig, arguments.calibration);
-    pipeline.push(std::move(frame));
-  }
-  pipeline.drain();
+  const bool done = mocap::tool::track_all(source, rig, recording, pipeline);
   if (!out.flush()) throw std::runtime_error(arguments.out + ": cannot be written");
-  if (stopped) return mocap::tool::kInterrupted;
-  if (!health.contradiction().empty()) {
-    throw mocap::BadInput(arguments.left + ", " + arguments.right + ": " + health.contradiction());
-  }
+  if (!done) return mocap::tool::kInterrupted;
+  recording.refuse_contradiction(health);
   report.print();
   if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
   if (health.given_up() > 0) {
@@ -110,20 +87,14 @@ int main(int argc, char** argv) {
   CLI::App app("Tracks marker targets in pairs of images; writes poses and ball joints as CSV.",
                "anthrob_mocap_offline");
   Arguments a;
-  app.add_option("--left", a.left, "folder of images 000000.png, ..., 8-bit grey")->required();
-  app.add_option("--right", a.right, "the same for the right camera")->required();
-  app.add_option("--calibration", a.calibration, "folder with left.yaml and right.yaml")
-      ->required();
+  a.recording.add_options(app);
   app.add_option("--targets", a.targets, "targets.yaml")->required();
   app.add_option("--out", a.out, "poses.csv, to be written")->required();
   app.add_option("--settings", a.settings, "options of the stages (YAML)");
   app.add_option("--threshold", a.threshold, "grey levels above the background")
       ->check(CLI::Range(1, 254));
-  app.add_option("--rate", a.folder.rate, "pairs a second where there is no times.csv")
+  app.add_option("--rate", a.recording.folder.rate, "pairs a second where there is no times.csv")
       ->check(CLI::Range(0.001, 100000.0));
-  app.add_option("--sync-tolerance", a.folder.sync_tolerance,
-                 "[s] between left and right in their times.csv")
-      ->check(CLI::NonNegativeNumber);
   app.add_option("--pipeline", a.pipeline, "sequential or threaded: same results");
   return mocap::tool::run(app, argc, argv, [&] { return track(a); });
 }

@@ -38,11 +38,15 @@ auto undistortion(const StereoRig& rig) {
 
 }  // namespace
 
+MatchingOptions matching_of(const TargetSet& targets, const TrackerOptions& options) {
+  MatchingOptions matching = options.matching;
+  matching.marker_diameter = targets.marker_diameter;
+  return matching;
+}
+
 std::vector<Stage> tracking_stages(const StereoRig& rig, const TargetSet& set,
                                    const TrackerOptions& options) {
-  MatchingOptions matching = options.matching;
-  matching.marker_diameter = set.marker_diameter;
-  const auto matcher = std::make_shared<EpipolarMatcher>(rig, matching);
+  const auto matcher = std::make_shared<EpipolarMatcher>(rig, matching_of(set, options));
   const Triangulator triangulator(rig, 0.5 * set.marker_diameter);
   const auto labeller = std::make_shared<Labeller>(set.targets, options.labelling, options.motion);
   const PoseEstimator pose_estimator(rig, set.targets, options.pose);

@@ -15,6 +15,9 @@ struct TrackerOptions {
   int most_points = 400;  ///< points in space; of more, only these are looked at
 };
 
+/// Those of the matcher, which knows how large a marker is.
+MatchingOptions matching_of(const TargetSet& targets, const TrackerOptions& options);
+
 /// The stages between a pair of images and the joints, in the order of Figure A.2. They keep
 /// scratch and state: one tracker is one stream of frames, in the order of time.
 /// @throws std::invalid_argument if an option makes no sense

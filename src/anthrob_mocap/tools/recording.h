@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "anthrob_mocap/pipeline/health.h"
+#include "anthrob_mocap/pipeline/tracker.h"
+#include "anthrob_mocap/source/folder_source.h"
+
+namespace anthrob {
+namespace mocap {
+namespace tool {
+
+/// What a command line says about a recording: its images, and the calibration of their cameras.
+struct Recording {
+  std::string left, right, calibration;
+  FolderSource::Options folder;
+
+  void add_options(CLI::App& app);
+
+  /// @throws BadInput if what was seen says that images and calibration do not belong together
+  void refuse_contradiction(const Health& health) const;
+};
+
+/// Tracks all pairs of a recording.
+/// @return false if it was interrupted
+/// @throws BadInput if an image cannot be used or is not as large as calibrated
+bool track_all(FolderSource& source, const StereoRig& rig, const Recording& recording,
+               Pipeline& pipeline);
+
+}  // namespace tool
+}  // namespace mocap
+}  // namespace anthrob
