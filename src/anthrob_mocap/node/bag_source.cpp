@@ -30,7 +30,7 @@ FrameSource::Grab BagSource::next(StereoFrame& frame, double) {
       throw BadInput(file_ + ": " + position_->getTopic() + ": expected sensor_msgs/Image");
     const Side side = position_->getTopic() == topics_[kLeft] ? kLeft : kRight;
     TimedImage pair[2];
-    if (!pairing_.add(side, timed_image(message, side), pair)) continue;
+    if (!pairing_.add(side, timed_image(message), pair)) continue;
     for (const Side s : {kLeft, kRight}) {
       frame.image[s] = pair[s].image;
       frame.owner[s] = pair[s].owner;

@@ -67,15 +67,17 @@ sensor_msgs::CameraInfo camera_info(const CameraModel& camera) {
   return info;
 }
 
-TimedImage timed_image(const sensor_msgs::ImageConstPtr& message, Side side) {
-  const std::string who = std::string(name(side)) + " image: ";
+TimedImage timed_image(const sensor_msgs::ImageConstPtr& message) {
   if (message->encoding != sensor_msgs::image_encodings::MONO8 &&
       message->encoding != sensor_msgs::image_encodings::TYPE_8UC1) {
-    throw BadInput(who + "encoding " + message->encoding + ": expected mono8");
+    throw BadInput("encoding " + message->encoding + ": expected mono8");
   }
   if (message->step < message->width ||
       message->data.size() < std::size_t{message->step} * message->height) {
-    throw BadInput(who + std::to_string(message->data.size()) + " bytes: truncated");
+    throw BadInput(std::to_string(message->data.size()) + " bytes: truncated");
+  }
+  if (message->header.stamp.isZero()) {
+    throw BadInput("stamp 0: expected the time of the exposure");
   }
   TimedImage image;
   image.t = message->header.stamp.toSec();

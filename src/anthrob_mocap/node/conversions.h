@@ -20,8 +20,8 @@ CameraModel camera_model(const sensor_msgs::CameraInfo& info, Side side);
 sensor_msgs::CameraInfo camera_info(const CameraModel& camera);
 
 /// Shares the message's pixels.
-/// @throws BadInput unless it is 8-bit grey
-TimedImage timed_image(const sensor_msgs::ImageConstPtr& message, Side side);
+/// @throws BadInput unless it is 8-bit grey and has a stamp
+TimedImage timed_image(const sensor_msgs::ImageConstPtr& message);
 
 Pose pose(const geometry_msgs::Transform& transform);
 geometry_msgs::TransformStamped transform(const Pose& X, const std_msgs::Header& header,

@@ -39,9 +39,9 @@ TopicInput::TopicInput(ros::NodeHandle nh, double tolerance, Handler handler, Re
 void TopicInput::on_image(Side side, const sensor_msgs::ImageConstPtr& message) {
   TimedImage pair[2];
   try {
-    if (pairing_.add(side, timed_image(message, side), pair)) handler_(pair);
+    if (pairing_.add(side, timed_image(message), pair)) handler_(pair);
   } catch (const BadInput& error) {
-    refuse_(error.what());
+    refuse_(std::string(name(side)) + " image: " + error.what());
   }
 }
 

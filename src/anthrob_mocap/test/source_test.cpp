@@ -70,6 +70,32 @@ TEST(Pairing, SurvivesTimeThatStepsBack) {
   EXPECT_TRUE(pairing.add(kRight, at(1.0), pair));
 }
 
+TEST(Pairing, RefusesStampsThatDoNotAdvance) {
+  Pairing pairing(0.002);
+  TimedImage pair[2];
+  EXPECT_FALSE(pairing.add(kLeft, at(5.0), pair));
+  const auto refuse = [&](Side side, double t, const std::string& part) {
+    test::expect_bad_input([&] { pairing.add(side, at(t), pair); }, part);
+  };
+  refuse(kLeft, 5.0, "stamp 5.000000 s: expected one after 5.000000 s, the last");
+  EXPECT_TRUE(pairing.add(kRight, at(5.0), pair));
+  refuse(kRight, 5.0, "stamp 5.000000 s");  // paired already, but seen
+  refuse(kLeft, 4.5, "stamp 4.500000 s: expected one after 5.000000 s, the last");
+  EXPECT_FALSE(pairing.add(kLeft, at(5.1), pair));
+  EXPECT_TRUE(pairing.add(kRight, at(5.1), pair));
+}
+
+TEST(LivePair, SaysThatStampsDoNotAdvance) {
+  LivePair live(0.002);
+  live.add(kRight, at(5.0));
+  live.add(kLeft, at(5.0));
+  live.add(kRight, at(5.0));
+  EXPECT_EQ(live.trouble(),
+            "right camera: stamp 5.000000 s: expected one after 5.000000 s, the last");
+  live.add(kRight, at(5.1));
+  EXPECT_EQ(live.trouble(), "");
+}
+
 /// The fake camera as a process of its own.
 class FakeCamera {
  public:

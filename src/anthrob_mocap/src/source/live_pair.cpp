@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstdio>
 
+#include "anthrob_mocap/core/errors.h"
+
 namespace anthrob {
 namespace mocap {
 
@@ -21,7 +23,12 @@ void LivePair::add(Side side, const TimedImage& image) {
   last_image_[side] = now();
   trouble_[side].clear();
   Pair pair;
-  if (!pairing_.add(side, image, pair.image)) return;
+  try {
+    if (!pairing_.add(side, image, pair.image)) return;
+  } catch (const BadInput& error) {
+    trouble_[side] = error.what();
+    return;
+  }
   last_pair_ = now();
   pairs_.push_back(pair);
   if (pairs_.size() > kMostPairs) pairs_.pop_front();

@@ -3,21 +3,37 @@
 #include <cmath>
 #include <cstdio>
 
+#include "anthrob_mocap/core/errors.h"
+
 namespace anthrob {
 namespace mocap {
 
 namespace {
 
 constexpr std::size_t kMostWaiting = 8;  // more than this long no partner comes
+constexpr double kAnotherTime = 1.0;     // [s] back: a bag that loops, a simulator anew
 
 }  // namespace
+
+void Pairing::advance(Side side, double t) {
+  std::optional<double>& last = last_[side];
+  if (last && t <= *last) {
+    if (t > *last - kAnotherTime) {
+      char text[96];
+      std::snprintf(text, sizeof(text), "stamp %.6f s: expected one after %.6f s, the last", t,
+                    *last);
+      throw BadInput(text);
+    }
+    waiting_[side].clear();  // worth nothing any more
+  }
+  last = t;
+}
 
 bool Pairing::add(Side side, const TimedImage& image, TimedImage pair[2]) {
   const Side other = side == kLeft ? kRight : kLeft;
   std::deque<TimedImage>&mine = waiting_[side], &theirs = waiting_[other];
   ++counts_.images[side];
-  // Time that steps back (a bag that loops, a simulator anew) makes what waits worthless.
-  if (!mine.empty() && image.t < mine.back().t) mine.clear();
+  advance(side, image.t);
   std::size_t best = theirs.size();
   for (std::size_t i = 0; i < theirs.size(); ++i) {
     const double gap = std::abs(theirs[i].t - image.t);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "anthrob_mocap/core/image.h"
@@ -27,6 +28,8 @@ class Pairing {
   explicit Pairing(double tolerance) : tolerance_(tolerance) {}
 
   /// @return true if the image completes a pair, then in pair[kLeft], pair[kRight]
+  /// @throws BadInput if its stamp does not follow that of the side's image before: of stamps that
+  ///   stand still nobody knows which belong together. A second back and more is another time.
   bool add(Side side, const TimedImage& image, TimedImage pair[2]);
 
   struct Counts {
@@ -41,7 +44,10 @@ class Pairing {
   double tolerance() const { return tolerance_; }
 
  private:
+  void advance(Side side, double t);
+
   double tolerance_;
+  std::optional<double> last_[2];  ///< [s] stamps
   std::deque<TimedImage> waiting_[2];
   Counts counts_;
 };
