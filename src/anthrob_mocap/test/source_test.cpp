@@ -85,6 +85,36 @@ TEST(Pairing, RefusesStampsThatDoNotAdvance) {
   EXPECT_TRUE(pairing.add(kRight, at(5.1), pair));
 }
 
+TEST(Pairing, DoesNotLockOnePeriodApart) {
+  // Left begins one period late, and the tolerance is longer than a period of 1/60 s.
+  Pairing pairing(0.02);
+  TimedImage pair[2];
+  int pairs = 0, wrong = 0;
+  for (int i = 0; i < 30; ++i) {
+    for (const Side side : {kRight, kLeft}) {
+      if (side == kLeft && (i == 0 || i == 20)) continue;
+      if (!pairing.add(side, at(i / 60.0 + (side == kLeft ? 0.001 : 0.0)), pair)) continue;
+      ++pairs;
+      wrong += std::abs(pair[kLeft].t - pair[kRight].t) > 0.002 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(pairs, 27);
+  EXPECT_LE(wrong, 1);  // the first, before a period has been seen
+  EXPECT_NEAR(pairing.tolerance(), 1.0 / 120.0, 1e-9);
+}
+
+TEST(CameraOptions, AreChecked) {
+  CameraOptions options;
+  options.name[kLeft] = options.name[kRight] = "Fake_1";
+  options.sync_tolerance = 0.0084;
+  test::expect_bad_input(
+      [&] { AravisSource source(options); },
+      "aravis: sync_tolerance 0.0084 s: expected at most 0.00833333 s, half a period");
+  options.rate = 0.0;
+  test::expect_bad_input([&] { AravisSource source(options); },
+                         "aravis: rate 0, exposure 0.0005: expected both > 0");
+}
+
 TEST(LivePair, SaysThatStampsDoNotAdvance) {
   LivePair live(0.002);
   live.add(kRight, at(5.0));

@@ -197,9 +197,7 @@ AravisSource::AravisSource(const CameraOptions& wanted) {
   if (options.name[kLeft].empty() || options.name[kRight].empty()) {
     throw BadInput("aravis: expected the names of a left and a right camera");
   }
-  if (!(options.rate > 0.0) || !(options.exposure > 0.0)) {
-    throw BadInput("aravis: expected rate and exposure > 0");
-  }
+  options.check("aravis");
   arv_enable_interface("Fake");
   implementation_ = std::make_unique<Implementation>(options);
 }

@@ -154,6 +154,7 @@ class Dc1394Source::Implementation {
 
 Dc1394Source::Dc1394Source(const CameraOptions& options) {
   parse_trigger(options.trigger);
+  options.check("dc1394");
   implementation_ = std::make_unique<Implementation>(options);
 }
 

@@ -1,5 +1,6 @@
 #include "anthrob_mocap/source/pairing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -11,6 +12,7 @@ namespace mocap {
 namespace {
 
 constexpr std::size_t kMostWaiting = 8;  // more than this long no partner comes
+constexpr std::size_t kIntervals = 9;    // whose median is the cameras' period
 constexpr double kAnotherTime = 1.0;     // [s] back: a bag that loops, a simulator anew
 
 }  // namespace
@@ -25,8 +27,20 @@ void Pairing::advance(Side side, double t) {
       throw BadInput(text);
     }
     waiting_[side].clear();  // worth nothing any more
+  } else if (last) {
+    intervals_.push_back(t - *last);
+    if (intervals_.size() > kIntervals) intervals_.pop_front();
   }
   last = t;
+}
+
+double Pairing::tolerance() const {
+  if (intervals_.empty()) return tolerance_;
+  // The median: late images come in bursts, lost ones leave gaps.
+  std::deque<double> sorted = intervals_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return std::min(tolerance_, 0.5 * *middle);
 }
 
 bool Pairing::add(Side side, const TimedImage& image, TimedImage pair[2]) {
@@ -39,7 +53,7 @@ bool Pairing::add(Side side, const TimedImage& image, TimedImage pair[2]) {
     const double gap = std::abs(theirs[i].t - image.t);
     if (best == theirs.size() || gap < std::abs(theirs[best].t - image.t)) best = i;
   }
-  if (best < theirs.size() && std::abs(theirs[best].t - image.t) <= tolerance_) {
+  if (best < theirs.size() && std::abs(theirs[best].t - image.t) <= tolerance()) {
     pair[side] = image, pair[other] = theirs[best];
     theirs.erase(theirs.begin(), theirs.begin() + static_cast<std::ptrdiff_t>(best) + 1);
     mine.clear();

@@ -14,7 +14,11 @@ struct CameraOptions {
   /// Empty: the first of its source's. aravis: software, free, or a line of the camera ("Line0");
   /// dc1394: external, free.
   std::string trigger;
-  double sync_tolerance = 0.004;  ///< [s] between the arrivals of a pair
+  double sync_tolerance = 0.004;  ///< [s] between the arrivals of a pair; half a period at most
+
+  /// @param source for the message
+  /// @throws BadInput if a number makes no sense
+  void check(const std::string& source) const;
 };
 
 }  // namespace mocap

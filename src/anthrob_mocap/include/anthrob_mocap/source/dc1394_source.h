@@ -13,7 +13,9 @@ namespace mocap {
 /// Compiled but never run by us: no such camera is at hand.
 class Dc1394Source final : public FrameSource {
  public:
-  /// @throws BadInput if a name is no GUID or the trigger neither external nor free
+  /// @throws BadInput if a name is no GUID, the trigger neither external nor free, or a number
+  /// makes
+  ///   no sense
   explicit Dc1394Source(const CameraOptions& options);
   ~Dc1394Source() override;
 

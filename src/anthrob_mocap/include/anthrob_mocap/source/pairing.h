@@ -41,13 +41,16 @@ class Pairing {
   Counts take_counts();
   /// Why there are images but no pairs, or none of one camera; empty if all is well.
   static std::string complaint(const Counts& counts, double tolerance);
-  double tolerance() const { return tolerance_; }
+  /// [s] as given, but at most half the time between images of a camera, once that is known: a
+  /// wider one would bring together images one period apart, and go on so.
+  double tolerance() const;
 
  private:
   void advance(Side side, double t);
 
   double tolerance_;
   std::optional<double> last_[2];  ///< [s] stamps
+  std::deque<double> intervals_;   ///< [s] the last between images of either side
   std::deque<TimedImage> waiting_[2];
   Counts counts_;
 };
