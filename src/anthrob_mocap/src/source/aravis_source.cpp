@@ -18,7 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kBuffers = 8;
-constexpr auto kPatience = 1s;  // without images before a camera is opened anew
 
 /// What aravis reports, as an exception.
 class Check {
@@ -122,7 +121,7 @@ class Camera {
 class AravisSource::Implementation {
  public:
   explicit Implementation(const CameraOptions& options)
-      : options_(options), live_(options.sync_tolerance) {
+      : options_(options), live_(options.sync_tolerance, options.silence()) {
     for (const Side side : {kLeft, kRight}) {
       threads_[side] = std::thread([this, side] { serve(side); });
     }
@@ -148,7 +147,7 @@ class AravisSource::Implementation {
           std::atomic_store(&cameras_[side], camera);
           stream(side, *camera);
         }
-        live_.set_trouble(side, stop_ ? "" : "lost; connecting anew");
+        live_.set_trouble(side, stop_ ? "" : lost());
       } catch (const std::exception& error) {
         live_.set_trouble(side, error.what());
       }
@@ -157,10 +156,17 @@ class AravisSource::Implementation {
     }
   }
 
+  std::string lost() const {
+    const bool own = options_.trigger == "software" || options_.trigger == "free";
+    return own ? "lost; connecting anew"
+               : "lost, or no pulses on " + options_.trigger + "; connecting anew";
+  }
+
   void stream(Side side, Camera& camera) {
     Clock::time_point last = Clock::now();
     TimedImage image;
-    while (!stop_ && Clock::now() - last < kPatience) {
+    const std::chrono::duration<double> patience(options_.patience());
+    while (!stop_ && Clock::now() - last < patience) {
       if (!camera.grab(options_.exposure, image)) continue;
       last = Clock::now();
       live_.add(side, image);

@@ -19,7 +19,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kBuffers = 8;
-constexpr auto kPatience = 1s;  // without images before a camera is opened anew
 
 void check(dc1394error_t code, const char* what) {
   if (code != DC1394_SUCCESS) {
@@ -105,7 +104,7 @@ class Dc1394Source::Implementation {
   explicit Implementation(const CameraOptions& options)
       : options_(options),
         guid_{parse_guid(options.name[kLeft]), parse_guid(options.name[kRight])},
-        live_(options.sync_tolerance) {
+        live_(options.sync_tolerance, options.silence()) {
     for (const Side side : {kLeft, kRight})
       threads_[side] = std::thread([this, side] { serve(side); });
   }
@@ -128,8 +127,9 @@ class Dc1394Source::Implementation {
         if (!bus) throw std::runtime_error("no FireWire bus");
         Camera camera(bus.get(), guid_[side], options_);
         auto last = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> patience(options_.patience());
         TimedImage image;
-        while (!stop_ && std::chrono::steady_clock::now() - last < kPatience) {
+        while (!stop_ && std::chrono::steady_clock::now() - last < patience) {
           if (camera.grab(options_.exposure, image)) {
             last = std::chrono::steady_clock::now();
             live_.add(side, image);
@@ -137,7 +137,9 @@ class Dc1394Source::Implementation {
             std::this_thread::sleep_for(500us);
           }
         }
-        live_.set_trouble(side, "lost; connecting anew");
+        live_.set_trouble(side, parse_trigger(options_.trigger)
+                                    ? "lost, or no pulses on its wire; connecting anew"
+                                    : "lost; connecting anew");
       } catch (const std::exception& error) {
         live_.set_trouble(side, error.what());
       }

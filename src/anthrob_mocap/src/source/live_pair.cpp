@@ -58,16 +58,17 @@ bool LivePair::next(StereoFrame& frame, double timeout) {
 std::string LivePair::trouble() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const double t = now();
-  for (const Side side : {kLeft, kRight}) {
+  const Side first = last_image_[kRight] < last_image_[kLeft] ? kRight : kLeft;
+  for (const Side side : {first, first == kLeft ? kRight : kLeft}) {
     const std::string who = std::string(name(side)) + " camera: ";
     if (!trouble_[side].empty()) return who + trouble_[side];
-    if (t - last_image_[side] < kSilence) continue;
+    if (t - last_image_[side] < silence_) continue;
     if (last_image_[side] == 0.0) return who + "no image yet";
     char text[64];
     std::snprintf(text, sizeof(text), "no image for %.1f s", t - last_image_[side]);
     return who + text;
   }
-  if (t - last_pair_ > kSilence) {
+  if (t - last_pair_ > silence_) {
     char text[96];
     std::snprintf(text, sizeof(text),
                   "unsynchronised pair: no left and right image within %.1f ms of each other",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 namespace anthrob {
@@ -15,6 +16,9 @@ struct CameraOptions {
   /// dc1394: external, free.
   std::string trigger;
   double sync_tolerance = 0.004;  ///< [s] between the arrivals of a pair; half a period at most
+
+  double silence() const { return std::max(0.5, 3.0 / rate); }   ///< [s] without images: trouble
+  double patience() const { return std::max(1.0, 3.0 / rate); }  ///< [s] then: opened anew
 
   /// @param source for the message
   /// @throws BadInput if a number makes no sense

@@ -15,9 +15,9 @@ namespace mocap {
 /// is noticed.
 class LivePair {
  public:
-  static constexpr double kSilence = 0.5;  ///< [s] without images that is trouble
-
-  explicit LivePair(double sync_tolerance) : pairing_(sync_tolerance) {}
+  /// @param silence [s] without images that is trouble
+  explicit LivePair(double sync_tolerance, double silence = 0.5)
+      : silence_(silence), pairing_(sync_tolerance) {}
 
   /// From the camera's thread.
   void add(Side side, const TimedImage& image);
@@ -26,12 +26,15 @@ class LivePair {
 
   /// The oldest pair not taken; waits at most `timeout` [s].
   bool next(StereoFrame& frame, double timeout);
+  /// Of the camera that has been silent for longer first: cameras that are triggered together may
+  /// all fall silent when one of them is pulled.
   std::string trouble() const;
 
  private:
   struct Pair {
     TimedImage image[2];
   };
+  const double silence_;
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   Pairing pairing_;
