@@ -1,5 +1,7 @@
 #include "bag_source.h"
 
+#include <sstream>
+
 #include "anthrob_mocap/core/errors.h"
 #include "conversions.h"
 
@@ -7,8 +9,8 @@ namespace anthrob {
 namespace mocap {
 
 BagSource::BagSource(const std::string& file, const std::string& left, const std::string& right,
-                     double sync_tolerance)
-    : file_(file), topics_{left, right}, pairing_(sync_tolerance) {
+                     double sync_tolerance, Refuse refuse)
+    : file_(file), topics_{left, right}, pairing_(sync_tolerance), refuse_(std::move(refuse)) {
   try {
     bag_.open(file, rosbag::bagmode::Read);
   } catch (const rosbag::BagException& error) {
@@ -30,7 +32,15 @@ FrameSource::Grab BagSource::next(StereoFrame& frame, double) {
       throw BadInput(file_ + ": " + position_->getTopic() + ": expected sensor_msgs/Image");
     const Side side = position_->getTopic() == topics_[kLeft] ? kLeft : kRight;
     TimedImage pair[2];
-    if (!pairing_.add(side, timed_image(message), pair)) continue;
+    try {
+      if (!pairing_.add(side, timed_image(message), pair)) continue;
+    } catch (const BadInput& error) {
+      std::ostringstream text;
+      text << file_ << ": " << topics_[side] << ": image of " << message->header.stamp
+           << " s: " << error.what();
+      refuse_(last_refusal_ = text.str());
+      continue;
+    }
     for (const Side s : {kLeft, kRight}) {
       frame.image[s] = pair[s].image;
       frame.owner[s] = pair[s].owner;
@@ -41,8 +51,10 @@ FrameSource::Grab BagSource::next(StereoFrame& frame, double) {
     ++position_;
     return Grab::kFrame;
   }
-  if (index_ == 0)
-    throw BadInput(file_ + ": " + Pairing::complaint(pairing_.take_counts(), pairing_.tolerance()));
+  if (index_ == 0) {
+    const std::string why = Pairing::complaint(pairing_.take_counts(), pairing_.tolerance());
+    throw BadInput(last_refusal_.empty() ? file_ + ": " + why : last_refusal_);
+  }
   return Grab::kEnd;
 }
 

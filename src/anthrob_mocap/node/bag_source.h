@@ -3,6 +3,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -15,11 +16,15 @@ namespace mocap {
 /// Pairs from two image topics of a bag, as fast as they are taken.
 class BagSource final : public FrameSource {
  public:
+  using Refuse = std::function<void(const std::string& why)>;
+
   /// @param left, right topics
+  /// @param refuse is told of every image that is left out because it cannot be used
   /// @throws BadInput if there is no such bag or topic
   BagSource(const std::string& file, const std::string& left, const std::string& right,
-            double sync_tolerance);
+            double sync_tolerance, Refuse refuse);
 
+  /// @throws BadInput at the end of a bag without a pair
   Grab next(StereoFrame& frame, double timeout) override;
 
  private:
@@ -28,6 +33,8 @@ class BagSource final : public FrameSource {
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator position_;
   Pairing pairing_;
+  Refuse refuse_;
+  std::string last_refusal_;
   std::uint64_t index_ = 0;
 };
 

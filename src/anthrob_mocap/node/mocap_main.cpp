@@ -51,7 +51,8 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   if (source == "topics") {
     node.run();
   } else {
-    node.run(*mocap::open_source(source, rig, settings));
+    node.run(*mocap::open_source(source, rig, settings,
+                                 [&](const std::string& why) { node.refuse(why); }));
   }
 }
 

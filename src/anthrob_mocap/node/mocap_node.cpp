@@ -68,10 +68,7 @@ void MocapNode::publish_camera_frame() {
 void MocapNode::run() {
   TopicInput input(
       images_, options_.sync_tolerance, [this](const TimedImage pair[2]) { on_pair(pair); },
-      [this](const std::string& why) {
-        ROS_WARN_STREAM_THROTTLE(1.0, why);
-        status_.refuse(why);
-      });
+      [this](const std::string& why) { refuse(why); });
   const ros::WallTimer timer = nh_.createWallTimer(
       ros::WallDuration(kReportPeriod),
       [&](const ros::WallTimerEvent&) { publish_diagnostics(trouble_of(input)); });
@@ -126,11 +123,15 @@ void MocapNode::take(std::unique_ptr<StereoFrame> frame) {
     check_size(*frame);
     check_stamp(*frame);
   } catch (const BadInput& error) {
-    ROS_WARN_STREAM_THROTTLE(1.0, error.what());
-    status_.refuse(error.what());
+    refuse(error.what());
     return;
   }
   pipeline_.push(std::move(frame));
+}
+
+void MocapNode::refuse(const std::string& why) {
+  ROS_WARN_STREAM_THROTTLE(1.0, why);
+  status_.refuse(why);
 }
 
 void MocapNode::check_size(const StereoFrame& frame) const {

@@ -36,6 +36,8 @@ class MocapNode {
   void run();
   /// Tracks what a source delivers, until it ends or ROS shuts down.
   void run(FrameSource& source);
+  /// Logs and counts an image that could not be used.
+  void refuse(const std::string& why);
 
  private:
   void advertise();

@@ -36,8 +36,9 @@ CameraOptions camera_options(const StereoRig& rig, const ros::NodeHandle& settin
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_source(const std::string& kind, const StereoRig& rig,
-                                         const ros::NodeHandle& settings) {
+std::unique_ptr<FrameSource> open_source(
+    const std::string& kind, const StereoRig& rig, const ros::NodeHandle& settings,
+    const std::function<void(const std::string& why)>& refuse) {
   if (kind == "folder") {
     FolderSource::Options options;
     take(settings, "rate", number_of, options.rate);
@@ -50,7 +51,7 @@ std::unique_ptr<FrameSource> open_source(const std::string& kind, const StereoRi
   if (kind == "bag") {
     return std::make_unique<BagSource>(
         required(settings, "bag", "a bag file"), required(settings, "left", "an image topic"),
-        required(settings, "right", "an image topic"), sync_tolerance(settings));
+        required(settings, "right", "an image topic"), sync_tolerance(settings), refuse);
   }
   if (kind == "aravis") return std::make_unique<AravisSource>(camera_options(rig, settings));
 #ifdef ANTHROB_HAVE_DC1394
