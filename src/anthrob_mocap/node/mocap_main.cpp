@@ -23,6 +23,8 @@ mocap::MocapNode::Options read_options(const ros::NodeHandle& settings) {
   anthrob::take(settings, "camera_frame", anthrob::text_of, options.camera_frame);
   anthrob::take(settings, "sync_tolerance", anthrob::number_of, options.sync_tolerance);
   anthrob::take(settings, "joint_tf", anthrob::truth_of, options.joint_tf);
+  const std::string source = optional_text(settings, "source", "topics");
+  options.recorded = source == "folder" || source == "bag";
   if (!(options.sync_tolerance >= 0.0)) {
     throw mocap::BadInput("parameter ~sync_tolerance: expected a number >= 0 [s]");
   }

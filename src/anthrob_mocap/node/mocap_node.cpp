@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "anthrob_mocap/core/errors.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr double kReportPeriod = 0.5;   // [s] a lost camera is known within a second
 constexpr double kMarkerPeriod = 0.04;  // [s]
 constexpr double kDebugPeriod = 0.1;    // [s]
+constexpr double kGreeting = 5.0;       // [s] that a recording waits for somebody who listens,
+constexpr double kOthers = 0.5;         // [s] then for those who come with him,
+constexpr double kFarewell = 1.0;       // [s] and at its end until what is queued is sent
 
 bool due(ros::WallTime& last, double period) {
   const ros::WallTime now = ros::WallTime::now();
@@ -44,16 +48,17 @@ MocapNode::MocapNode(ros::NodeHandle nh, const StereoRig& rig, const TargetSet& 
 MocapNode::~MocapNode() = default;
 
 void MocapNode::advertise() {
-  joints_ = nh_.advertise<anthrob_msgs::SphericalJointStates>("spherical_joint_states", 100);
+  const std::uint32_t queue = options_.recorded ? 0 : 100;  // 0: without a limit
+  joints_ = nh_.advertise<anthrob_msgs::SphericalJointStates>("spherical_joint_states", queue);
   markers_ = images_.advertise<visualization_msgs::MarkerArray>("markers", 2);
   debug_ = images_.advertise<sensor_msgs::Image>("debug_image", 1);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
   for (const MarkerTarget& target : set_.targets) {
-    target_poses_.push_back(
-        images_.advertise<geometry_msgs::PoseWithCovarianceStamped>("targets/" + target.name, 100));
+    target_poses_.push_back(images_.advertise<geometry_msgs::PoseWithCovarianceStamped>(
+        "targets/" + target.name, queue));
   }
   for (const BallJoint& joint : set_.joints) {
-    joint_estimates_.push_back(images_.advertise<sensor_msgs::Imu>("joints/" + joint.name, 100));
+    joint_estimates_.push_back(images_.advertise<sensor_msgs::Imu>("joints/" + joint.name, queue));
   }
 }
 
@@ -92,6 +97,8 @@ std::string MocapNode::trouble_of(TopicInput& input) {
 }
 
 void MocapNode::run(FrameSource& source) {
+  if (options_.recorded) wait_for_listeners();
+  last_report_ = ros::WallTime::now();
   bool ended = false;
   while (ros::ok() && !ended) {
     auto frame = std::make_unique<StereoFrame>();
@@ -104,6 +111,26 @@ void MocapNode::run(FrameSource& source) {
     ros::spinOnce();
   }
   pipeline_.drain();
+  if (!ended) return;
+  publish_diagnostics(source.trouble());
+  ros::WallDuration(kFarewell).sleep();
+}
+
+bool MocapNode::heard() const {
+  const auto listened = [](const ros::Publisher& p) { return p.getNumSubscribers() > 0; };
+  return listened(joints_) || std::any_of(target_poses_.begin(), target_poses_.end(), listened) ||
+         std::any_of(joint_estimates_.begin(), joint_estimates_.end(), listened);
+}
+
+void MocapNode::wait_for_listeners() const {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kGreeting);
+  while (ros::ok() && !heard() && ros::WallTime::now() < end) ros::WallDuration(0.02).sleep();
+  if (heard()) {
+    ros::WallDuration(kOthers).sleep();
+  } else if (ros::ok()) {
+    ROS_WARN_STREAM("nobody listens to " << joints_.getTopic() << " or " << images_.getNamespace()
+                                         << "/targets: what is seen from now on is lost");
+  }
 }
 
 void MocapNode::on_pair(const TimedImage pair[2]) {

@@ -25,6 +25,7 @@ class MocapNode {
     std::string camera_frame = "mocap_camera";
     double sync_tolerance = 0.0;  ///< [s] between stamps of image topics
     bool joint_tf = false;        ///< publish links of joints; not beside a simulator, which does
+    bool recorded = false;        ///< a source that ends: no result may be lost, none is late
     TrackerOptions tracker;
   };
 
@@ -34,7 +35,8 @@ class MocapNode {
 
   /// Tracks image topics until ROS shuts down.
   void run();
-  /// Tracks what a source delivers, until it ends or ROS shuts down.
+  /// Tracks what a source delivers, until it ends or ROS shuts down. What is recorded waits for
+  /// somebody who listens, some seconds at most.
   void run(FrameSource& source);
   /// Logs and counts an image that could not be used.
   void refuse(const std::string& why);
@@ -42,6 +44,8 @@ class MocapNode {
  private:
   void advertise();
   void publish_camera_frame();
+  bool heard() const;
+  void wait_for_listeners() const;
   void on_pair(const TimedImage pair[2]);
   void take(std::unique_ptr<StereoFrame> frame);
   void publish(const StereoFrame& frame);
