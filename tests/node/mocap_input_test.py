@@ -8,7 +8,9 @@ import rospy
 import rostest
 from anthrob_msgs.msg import SphericalJointStates
 from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from sensor_msgs.msg import Image
+from tf2_msgs.msg import TFMessage
 
 
 class Watch:
@@ -36,11 +38,13 @@ class Watch:
         return self.wait(lambda w: w.level == 2 and part in w.message, seconds)
 
 
-def image(stamp, encoding='mono8', width=648, height=488, size=None):
+def image(stamp, pixels, encoding='mono8', width=648, height=488, size=None):
+    """The picture, at the left of each row whatever the encoding: who did not look at that would find the markers."""
     bytes_per_pixel = {'mono8': 1, 'mono16': 2, 'bgr8': 3}[encoding]
     message = Image(width=width, height=height, encoding=encoding, step=width * bytes_per_pixel)
     message.header.stamp = stamp
-    message.data = bytes(message.step * height if size is None else size)
+    rows = [pixels[648 * y:648 * y + width] for y in range(height)]
+    message.data = b''.join(row + bytes(message.step - width) for row in rows)[:size]
     return message
 
 
@@ -56,18 +60,32 @@ class MocapInput(unittest.TestCase):
         end = time.time() + 30
         while time.time() < end and not all(p.get_num_connections() for p in cls.publishers):
             time.sleep(0.05)
+        cls.pixels = cls.draw()
 
-    def stream(self, part, left=None, right=None, delay=0.0, ahead=0):
+    @classmethod
+    def draw(cls):
+        """Both pictures of the arm at rest (rig.yaml)."""
+        rest = TransformStamped(child_frame_id='humerus')
+        rest.header.frame_id = 'base'
+        rest.transform.translation = Vector3(0.0, -0.21778888860545664, 0.19)
+        rest.transform.rotation = Quaternion(x=0.298236838, y=0.641135546, z=0.641135546, w=0.298236838)
+        cls.tf = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
+        cls.tf.publish(TFMessage([rest]))
+        return [rospy.wait_for_message('/scene/mocap/%s/image_raw' % side, Image, 30).data for side in ['left', 'right']]
+
+    def publish(self, stamp, left=None, right=None, delay=0.0):
+        if left is not False:
+            self.publishers[0].publish(image(stamp, self.pixels[0], **(left or {})))
+        if right is not False:
+            self.publishers[1].publish(image(stamp + rospy.Duration(delay), self.pixels[1], **(right or {})))
+        time.sleep(0.03)
+
+    def stream(self, part, ahead=0, stamp=None, **how):
         """Publishes pairs until the node says what is wrong with them."""
         end = time.time() + 20
         while time.time() < end:
             now = rospy.Time.now()
-            now = rospy.Time(now.secs + ahead, now.nsecs)
-            if left is not False:
-                self.publishers[0].publish(image(now, **(left or {})))
-            if right is not False:
-                self.publishers[1].publish(image(now + rospy.Duration(delay), **(right or {})))
-            time.sleep(0.03)
+            self.publish(rospy.Time(now.secs + ahead, now.nsecs) if stamp is None else stamp, **how)
             if self.watch.level == 2 and part in self.watch.message:
                 break
         self.watch.wait_for_error(part, 1)
@@ -81,10 +99,17 @@ class MocapInput(unittest.TestCase):
         self.stream('left image: stamp ', ahead=2**31 + 100)
         self.stream('left image: encoding mono16: expected mono8', left={'encoding': 'mono16'})
         self.stream('right image: encoding bgr8: expected mono8', right={'encoding': 'bgr8'})
-        self.stream('right image: 647x487 pixels: expected 648x488', right={'width': 647, 'height': 487},
-                    left={'width': 648, 'height': 488})
+        self.stream('right image: 647x487 pixels: expected 648x488', right={'width': 647, 'height': 487})
         self.stream('left image: 100 bytes: truncated', left={'size': 100})
+        self.stream('image: stamp 0: expected the time of the exposure', stamp=rospy.Time(0, 0))
+        still = rospy.Time.now()
+        self.stream('image: stamp %d.' % still.secs, stamp=still)
         self.assertEqual(self.states, [])
+        # Nothing but that was wrong with them.
+        end = time.time() + 20
+        while time.time() < end and not self.states:
+            self.publish(rospy.Time.now())
+        self.assertEqual(self.states[0].name, ['shoulder'])
 
     def test_stamps_are_the_pictures(self):
         shown, sent = [], []
@@ -92,9 +117,7 @@ class MocapInput(unittest.TestCase):
         end = time.time() + 20
         while time.time() < end and len(shown) < 3:
             sent.append(rospy.Time.now())
-            for publisher in self.publishers:
-                publisher.publish(image(sent[-1]))
-            time.sleep(0.05)
+            self.publish(sent[-1])
         subscriber.unregister()
         self.assertGreaterEqual(len(shown), 3)
         self.assertLessEqual({m.header.stamp for m in shown}, set(sent))
