@@ -2,9 +2,13 @@
 """Simulator -> virtual cameras -> mocap: the same ball joint as the simulator's, on the same topic."""
 import bisect
 import math
+import shutil
+import subprocess
+import tempfile
 import time
 import unittest
 
+import rosbag
 import rospy
 import rostest
 from anthrob_msgs.msg import MuscleCommand, SphericalJointStates
@@ -120,6 +124,34 @@ class MocapVirtual(unittest.TestCase):
         self.assertGreaterEqual(len(markers.messages[-1].markers[0].points), 6)
         self.assertEqual((picture.messages[0].width, picture.messages[0].height), (2 * 648, 488))
         wait_for(lambda: any(t.child_frame_id == 'mocap/humerus' for m in tf.messages for t in m.transforms), 20, 'tf')
+
+    def test_recording_is_replayed_whole(self):
+        pictures = [Collector('mocap/%s/image_raw' % side, Image) for side in ['left', 'right']]
+        wait_for(lambda: min(len(p.messages) for p in pictures) >= 150, 60, 'pictures')
+        for p in pictures:
+            p.subscriber.unregister()
+        left, right = ({m.header.stamp: m for m in p.messages} for p in pictures)
+        stamps = sorted(left.keys() & right.keys())
+        folder = tempfile.mkdtemp()
+        try:
+            with rosbag.Bag(folder + '/run.bag', 'w') as bag:
+                for stamp in stamps:
+                    bag.write('/left', left[stamp], stamp)
+                    bag.write('/right', right[stamp], stamp)
+            parameters = {key: rospy.get_param('mocap/' + key) for key in ['targets', 'rig', 'calibration']}
+            parameters.update(source='bag', bag=folder + '/run.bag', left='/left', right='/right')
+            node = subprocess.Popen(['rosrun', 'anthrob_mocap', 'anthrob_mocap', '__ns:=replayed', '/tf:=/replayed/tf',
+                                     '/tf_static:=/replayed/tf_static'] + ['_%s:=%s' % item for item in parameters.items()])
+            time.sleep(1.0)  # who listens comes late
+            poses = Collector('/replayed/mocap/targets/humerus', PoseWithCovarianceStamped)
+            states = Collector('/replayed/spherical_joint_states', SphericalJointStates)
+            self.assertEqual(node.wait(timeout=60), 0)
+            time.sleep(0.5)
+            print('%d pairs, %d poses, %d states' % (len(stamps), len(poses.messages), len(states.messages)))
+            self.assertEqual([m.header.stamp for m in poses.messages], stamps)
+            self.assertGreater(len(states.messages), 0.9 * len(stamps))
+        finally:
+            shutil.rmtree(folder)
 
 
 if __name__ == '__main__':
