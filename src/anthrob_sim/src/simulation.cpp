@@ -133,6 +133,14 @@ void Simulation::check_muscle(int muscle) const {
   }
 }
 
+void Simulation::check_joint(int joint) const {
+  const std::size_t count = model_->skeleton->joints.size();
+  if (joint < 0 || joint >= static_cast<int>(count)) {
+    throw BadInput("joint " + std::to_string(joint) + ": expected an index below " +
+                   std::to_string(count));
+  }
+}
+
 void Simulation::command(int muscle, ecu::Mode mode, double reference) {
   check_muscle(muscle);
   muscles_[muscle].command(mode, reference);
@@ -184,7 +192,8 @@ void Simulation::release(int muscle) {
 }
 
 void Simulation::apply_effort(int joint, double effort) {
-  if (!model_->skeleton->joints.at(joint).driven) {
+  check_joint(joint);
+  if (!model_->skeleton->joints[joint].driven) {
     throw BadInput("joint " + model_->skeleton->joints[joint].name +
                    ": takes no effort; expected 'driven: true' in " + model_->file);
   }
@@ -193,7 +202,8 @@ void Simulation::apply_effort(int joint, double effort) {
 }
 
 void Simulation::apply_load(int joint, double load) {
-  if (model_->skeleton->joints.at(joint).type == JointType::kBall) {
+  check_joint(joint);
+  if (model_->skeleton->joints[joint].type == JointType::kBall) {
     throw BadInput("joint " + model_->skeleton->joints[joint].name +
                    ": load: expected a hinge or prismatic joint");
   }
@@ -528,6 +538,8 @@ void Simulation::restore(const Snapshot& snapshot) {
   tree_.update(skeleton_.bodies(), q_);
   // Paths are scratch memory: the same posture and states give the same paths.
   for (Muscle& muscle : muscles_) muscle.refresh_path(skeleton_.bodies());
+  // Looking for them left its marks.
+  store_.assign(snapshot.state);
 }
 
 }  // namespace anthrob

@@ -296,6 +296,17 @@ TEST(Catalogue, AnEffectOfOnesOwnComesFromALibrary) {
   }
 }
 
+TEST(Catalogue, ALibraryIsLookedForFromTheModelFile) {
+  const TemporaryRobot robot("", "extends: " + config("two_muscle_rig/model_I.yaml") +
+                                     "\neffect_libraries: [lib/own.so]\neffects:\n  - {id: "
+                                     "spindle_eccentricity, place: flexor, offset: 0.001}\n");
+  EXPECT_THROW(robot.load(), BadInput);
+  const auto folder = std::filesystem::path(robot.file()).parent_path() / "lib";
+  std::filesystem::create_directories(folder);
+  std::filesystem::create_symlink(ANTHROB_EXAMPLE_LIBRARY, folder / "own.so");
+  EXPECT_EQ(robot.load()->effects.size(), 1u);
+}
+
 /// Loads the rig with an `effects:` section; returns the message.
 std::string refusal(const std::string& effects) {
   const std::string base = config("two_muscle_rig/model_I.yaml");

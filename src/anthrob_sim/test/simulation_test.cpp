@@ -221,6 +221,17 @@ TEST(Simulation, SnapshotInMidFlightContinuesWithTheSameBits) {
   expect_same_bits(original, fresh);
 }
 
+TEST(Simulation, RestoringLeavesTheStateThatItWasGiven) {
+  for (const char* name : {"II", "III"}) {
+    Simulation sim(anthrob_model(name));
+    excite(sim);
+    sim.step(100);
+    const Snapshot snapshot = sim.snapshot();
+    sim.restore(snapshot);
+    EXPECT_EQ(sim.snapshot().state, snapshot.state) << name;
+  }
+}
+
 TEST(Simulation, RestoringAndPlacingBringTheLastStepsLossesToo) {
   const auto losses = [](const Simulation& sim) {
     std::vector<double> powers{sim.joint_dissipation()};
@@ -282,6 +293,8 @@ TEST(Simulation, CommandsAreChecked) {
   EXPECT_THROW(sim.command(0, ecu::Mode::kVoltage, std::nan("")), BadInput);
   EXPECT_THROW(sim.apply_effort(1, 1.0), BadInput);
   EXPECT_THROW(sim.apply_load(0, 1.0), BadInput);
+  EXPECT_THROW(sim.apply_effort(-1, 1.0), BadInput);
+  EXPECT_THROW(sim.apply_load(99, 1.0), BadInput);
 }
 
 TEST(Simulation, DisabledMuscleGetsZeroVolts) {

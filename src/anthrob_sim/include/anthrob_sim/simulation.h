@@ -125,6 +125,7 @@ class Simulation {
   void check_finite() const;
   void check_place(const std::vector<double>& q, const std::vector<double>& positions) const;
   void check_muscle(int muscle) const;
+  void check_joint(int joint) const;
 
   std::shared_ptr<const RobotModel> model_;
   mutable StateStore store_;  ///< components hold views of it

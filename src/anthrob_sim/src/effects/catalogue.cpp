@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -113,8 +114,12 @@ EffectRegistration::~EffectRegistration() {
 }
 
 void load_effect_library(const std::string& library, const ConfigNode& origin) {
-  const std::string file =
+  std::string file =
       library.find_first_of("/.") == std::string::npos ? "lib" + library + ".so" : library;
+  // Like all files that a model names.
+  if (file.find('/') != std::string::npos) {
+    file = (std::filesystem::path(origin.file()).parent_path() / file).lexically_normal().string();
+  }
   static std::mutex loading;  // not the registry's: loading registers
   const std::lock_guard<std::mutex> lock(loading);
   if (registry().libraries.count(file)) return;

@@ -31,8 +31,13 @@ void Sticking::commit(double v, StateView state) const {
 }
 
 std::shared_ptr<const FrictionLaw> Sticking::load(const ConfigNode& node, double step) {
-  return std::make_shared<Sticking>(node.number("static", Bounds::nonnegative(), "1"),
-                                    node.number("kinetic", Bounds::nonnegative(), "1"),
+  const double fixed = node.number("static", Bounds::nonnegative(), "1"),
+               kinetic = node.number("kinetic", Bounds::nonnegative(), "1");
+  // What does not stick has no bristle that could pull.
+  if (!(fixed > 0.0) && kinetic > 0.0) {
+    node.at("static").fail_expected("more than 0 where kinetic is");
+  }
+  return std::make_shared<Sticking>(fixed, kinetic,
                                     node.number("stribeck_velocity", Bounds::positive(), "m/s"),
                                     node.number("presliding", Bounds::positive(), "m"), step);
 }

@@ -127,6 +127,10 @@ class Builder {
     if (!config_.has("muscles")) return;
     for (const auto& [name, node] : config_.at("muscles").entries()) {
       require_snake_case(node, name);
+      if (skeleton_->find_joint(name) >= 0) {
+        node.fail("a joint of " + model_->urdf_file +
+                  " has this name: expected another, for recordings name both");
+      }
       model_->muscles.push_back(read_muscle(name, node));
     }
     for (const char* library : {"springs", "actuators", "controllers"}) {
@@ -310,7 +314,7 @@ class Builder {
         node.at("joint").fail_expected("a hinge with limits in " + model_->urdf_file);
       }
       pad.lever = node.number("lever", Bounds::positive(), "m");
-      pad.share = node.number("share", Bounds{0.0, 1.0, true, true}, "1");
+      pad.share = node.number("share", Bounds::fraction(), "1");
       model_->touch_pads.push_back(pad);
     }
   }

@@ -26,9 +26,9 @@ class EffectRegistration {
   std::unique_ptr<const Effect> effect_;
 };
 
-/// Loads a library with effects of one's own: a path, or a name that the loader finds
-/// ("my_effects" is libmy_effects.so).
-/// @param origin for messages  @throws BadInput if it cannot be loaded
+/// Loads a library with effects of one's own: a path, from the folder of the file that names it, or
+/// a name that the loader finds ("my_effects" is libmy_effects.so).
+/// @param origin where it is named  @throws BadInput if it cannot be loaded
 void load_effect_library(const std::string& library, const ConfigNode& origin);
 
 /// The effects that a model file and a caller ask for, neutral ones too, in the order in which
