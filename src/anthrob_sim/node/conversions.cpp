@@ -1,6 +1,7 @@
 #include "conversions.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_sim/path/cylinder.h"
@@ -163,8 +164,12 @@ constexpr double kTendonWidth = 0.0022;    // [m] thicker than real, to be seen
 constexpr double kFullColourForce = 40.0;  // [N] where the scale ends
 
 std_msgs::ColorRGBA colour_of(double force) {
-  const double x = std::min(1.0, std::max(0.0, force / kFullColourForce));
   std_msgs::ColorRGBA colour;
+  if (std::isnan(force)) {
+    colour.r = colour.g = colour.b = 0.6f, colour.a = 1.0f;
+    return colour;
+  }
+  const double x = std::min(1.0, std::max(0.0, force / kFullColourForce));
   // Blue, green, yellow, red.
   colour.r = static_cast<float>(std::min(1.0, std::max(0.0, 3.0 * x - 1.0)));
   colour.g = static_cast<float>(x < 2.0 / 3.0 ? std::min(1.0, 0.25 + 2.25 * x) : 3.0 * (1.0 - x));
@@ -213,7 +218,17 @@ anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& s
   return paths;
 }
 
-visualization_msgs::MarkerArray muscle_markers(const Simulation& sim, const ros::Time& stamp) {
+std::vector<double> spring_tensions(const Simulation& sim) {
+  std::vector<double> tensions;
+  for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
+    tensions.push_back(sim.muscle(static_cast<int>(i)).spring_tension());
+  }
+  return tensions;
+}
+
+visualization_msgs::MarkerArray muscle_markers(const Simulation& sim,
+                                               const std::vector<double>& forces,
+                                               const ros::Time& stamp) {
   visualization_msgs::MarkerArray markers;
   for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
     const Muscle& muscle = sim.muscle(static_cast<int>(i));
@@ -224,7 +239,7 @@ visualization_msgs::MarkerArray muscle_markers(const Simulation& sim, const ros:
     marker.type = visualization_msgs::Marker::LINE_STRIP;
     marker.pose.orientation.w = 1.0;
     marker.scale.x = kTendonWidth;
-    marker.color = colour_of(muscle.spring_tension());
+    marker.color = colour_of(forces[i]);
     for (const Vec3& point : muscle.path().polyline(sim.bodies()))
       marker.points.push_back(to_point(point));
     markers.markers.push_back(marker);

@@ -42,8 +42,13 @@ std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulat
 
 /// What the muscles' paths are: contacts, tensions on both sides.
 anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& stamp);
-/// Muscles along their solved paths, blue to red by force; segments on a surface stand out.
-visualization_msgs::MarkerArray muscle_markers(const Simulation& sim, const ros::Time& stamp);
+/// Forces in the springs of all muscles [N].
+std::vector<double> spring_tensions(const Simulation& sim);
+/// Muscles along their solved paths, blue to red by force.
+/// @param forces of all muscles [N]; grey where it is NaN
+visualization_msgs::MarkerArray muscle_markers(const Simulation& sim,
+                                               const std::vector<double>& forces,
+                                               const ros::Time& stamp);
 /// Wrapping surfaces, fixed to their links.
 visualization_msgs::MarkerArray surface_markers(const RobotModel& model);
 

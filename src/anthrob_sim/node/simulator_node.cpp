@@ -310,7 +310,7 @@ void SimulatorNode::publish(bool all) {
   if (all ||
       std::chrono::duration<double>(wall - marker_time_).count() > 1.0 / options_.marker_rate) {
     marker_time_ = wall;
-    muscle_paths_.publish(muscle_markers(sim_, now));
+    muscle_paths_.publish(muscle_markers(sim_, spring_tensions(sim_), now));
   }
 }
 

@@ -1,0 +1,105 @@
+#include "tendon_display.h"
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "anthrob_sim/core/errors.h"
+#include "conversions.h"
+
+namespace anthrob {
+
+namespace {
+
+constexpr double kPeriod = 0.05;     // [s] of wall time
+constexpr double kStaleAfter = 0.5;  // [s] what is older is not where the robot is
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeHandle nh)
+    : sim_(std::move(model)),
+      q_(sim_.model().skeleton->rest_configuration()),
+      forces_(sim_.muscle_count(), kNotMeasured),
+      stamps_(sim_.model().skeleton->joints.size()) {
+  paths_ = nh.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
+  surfaces_ = nh.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
+  surfaces_.publish(surface_markers(sim_.model()));
+  subscribers_ = {
+      nh.subscribe("muscle_states", 1, &TendonDisplay::see_muscles, this),
+      nh.subscribe("joint_states", 100, &TendonDisplay::see_joints, this),
+      nh.subscribe("spherical_joint_states", 100, &TendonDisplay::see_ball_joints, this),
+  };
+  timer_ = nh.createWallTimer(ros::WallDuration(kPeriod),
+                              [this](const ros::WallTimerEvent&) { draw(); });
+}
+
+void TendonDisplay::see_muscles(const anthrob_msgs::MuscleStates& message) {
+  std::fill(forces_.begin(), forces_.end(), kNotMeasured);
+  for (std::size_t i = 0; i < std::min(message.name.size(), message.force.size()); ++i) {
+    const int muscle = sim_.model().find_muscle(message.name[i]);
+    if (muscle >= 0) forces_[static_cast<std::size_t>(muscle)] = message.force[i];
+  }
+}
+
+void TendonDisplay::see_joints(const sensor_msgs::JointState& message) {
+  for (std::size_t i = 0; i < std::min(message.name.size(), message.position.size()); ++i) {
+    see_joint(message.name[i], {message.position[i]}, message.header.stamp);
+  }
+}
+
+void TendonDisplay::see_ball_joints(const anthrob_msgs::SphericalJointStates& message) {
+  for (std::size_t i = 0; i < std::min(message.name.size(), message.orientation.size()); ++i) {
+    const auto& o = message.orientation[i];
+    const double norm = std::sqrt(o.w * o.w + o.x * o.x + o.y * o.y + o.z * o.z);
+    if (!(norm > 0.5 && norm < 2.0)) continue;
+    see_joint(message.name[i], {o.w / norm, o.x / norm, o.y / norm, o.z / norm},
+              message.header.stamp);
+  }
+}
+
+void TendonDisplay::see_joint(const std::string& name, const std::vector<double>& position,
+                              const ros::Time& stamp) {
+  const int index = sim_.model().skeleton->find_joint(name);
+  if (index < 0) return;  // a robot may carry more than the model
+  const JointModel& joint = sim_.model().skeleton->joints[index];
+  const bool fits = static_cast<int>(position.size()) == joint.position_size() &&
+                    std::all_of(position.begin(), position.end(),
+                                [](double value) { return std::isfinite(value); });
+  if (!fits) return;
+  std::copy(position.begin(), position.end(), q_.begin() + joint.position_offset);
+  stamps_[index] = stamp;
+}
+
+std::string TendonDisplay::missing(const ros::Time& now) const {
+  for (std::size_t j = 0; j < stamps_.size(); ++j) {
+    if (stamps_[j].isZero() || (now - stamps_[j]).toSec() > kStaleAfter) {
+      return sim_.model().skeleton->joints[j].name;
+    }
+  }
+  return "";
+}
+
+void TendonDisplay::draw() {
+  const ros::Time now = ros::Time::now();
+  const std::string joint = missing(now);
+  if (!joint.empty()) {
+    ROS_WARN_STREAM_THROTTLE(10.0, "tendons are not drawn: joint " << joint << " is not measured");
+    return;
+  }
+  try {
+    // Where motors stand says nothing of where tendons run.
+    sim_.place(q_, std::vector<double>(sim_.muscle_count(), 0.0));
+  } catch (const BadInput& error) {
+    ROS_WARN_STREAM_THROTTLE(10.0, "tendons are not drawn: " << error.what());
+    return;
+  }
+  const ros::Time oldest = *std::min_element(stamps_.begin(), stamps_.end());
+  visualization_msgs::MarkerArray markers = muscle_markers(sim_, forces_, oldest);
+  for (auto& marker : markers.markers) marker.lifetime = ros::Duration(kStaleAfter);
+  paths_.publish(markers);
+}
+
+}  // namespace anthrob

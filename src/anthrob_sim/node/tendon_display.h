@@ -1,0 +1,43 @@
+#pragma once
+
+#include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/SphericalJointStates.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// Draws a robot's tendons where its measured joints put them, in the colours of the measured
+/// forces: what the simulator shows of itself. Sends nothing but markers.
+class TendonDisplay {
+ public:
+  TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeHandle nh);
+
+ private:
+  void see_muscles(const anthrob_msgs::MuscleStates& message);
+  void see_joints(const sensor_msgs::JointState& message);
+  void see_ball_joints(const anthrob_msgs::SphericalJointStates& message);
+  /// Takes a joint's position, if it is one: numbers that are finite, and of a ball joint a
+  /// rotation.
+  void see_joint(const std::string& name, const std::vector<double>& position,
+                 const ros::Time& stamp);
+  void draw();
+  /// The first joint that was not measured lately; empty if all were.
+  std::string missing(const ros::Time& now) const;
+
+  Simulation sim_;
+  std::vector<double> q_;          ///< of all joints, as Simulation::place takes them
+  std::vector<double> forces_;     ///< of all muscles [N]; NaN: not measured
+  std::vector<ros::Time> stamps_;  ///< of all joints
+  ros::Publisher paths_, surfaces_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Tendons of a robot are drawn where its measured joints put them, and not where they were."""
+import math
+import time
+import unittest
+
+import rospy
+import rostest
+from anthrob_msgs.msg import MuscleStates
+from sensor_msgs.msg import JointState
+from visualization_msgs.msg import MarkerArray
+
+ANGLE = 0.6  # [rad]
+
+
+class Tendons(unittest.TestCase):
+
+    def setUp(self):
+        self.drawn = []
+        rospy.Subscriber('muscle_paths', MarkerArray, self.drawn.append)
+        self.joints = rospy.Publisher('joint_states', JointState, queue_size=1)
+        self.muscles = rospy.Publisher('muscle_states', MuscleStates, queue_size=1)
+        end = time.time() + 20
+        while not (self.joints.get_num_connections() and self.muscles.get_num_connections()):
+            self.assertLess(time.time(), end)
+            time.sleep(0.05)
+
+    def measure(self, angle, forces):
+        stamp = rospy.Time.now()
+        joint = JointState(name=['hinge'], position=[angle])
+        joint.header.stamp = stamp
+        self.muscles.publish(MuscleStates(name=['flexor', 'extensor'], force=forces))
+        self.joints.publish(joint)
+        return stamp
+
+    def see(self, angle, forces, good):
+        """The first markers that are `good`, while this is measured."""
+        end = time.time() + 20
+        while time.time() < end:
+            stamp = self.measure(angle, forces)
+            time.sleep(0.05)
+            if self.drawn and good(self.drawn[-1].markers):
+                self.assertLessEqual(self.drawn[-1].markers[0].header.stamp, stamp)
+                return self.drawn[-1].markers
+        self.fail('not drawn: %s' % self.drawn[-1:])
+
+    def test_where_joints_are_measured_and_only_while_they_are(self):
+        time.sleep(0.5)
+        self.assertFalse(self.drawn)  # nothing is known yet
+
+        # The hinge, half a metre up, turns about -y: the flexor's end is at (0.02, 0, -0.08) of the arm.
+        c, s = math.cos(ANGLE), math.sin(ANGLE)
+        x, z = 0.02 * c + 0.08 * s, 0.5 + 0.02 * s - 0.08 * c
+        near = lambda markers: abs(markers[0].points[-1].x - x) < 1e-6 and abs(markers[0].points[-1].z - z) < 1e-6
+        flexor, extensor = self.see(ANGLE, [40.0, math.nan], near)
+        self.assertEqual((flexor.ns, extensor.ns), ('flexor', 'extensor'))
+        self.assertGreater(flexor.color.r, 0.9)                                                  # taut: red
+        self.assertEqual(extensor.color.r, extensor.color.b)                                     # not measured: grey
+        self.assertGreater(flexor.lifetime.to_sec(), 0.0)
+        self.see(-ANGLE, [40.0, 0.0], lambda markers: markers[0].points[-1].x < 0.0 and markers[1].color.b > 0.9)
+
+        # Half a second later the robot may be anywhere.
+        time.sleep(1.0)
+        count = len(self.drawn)
+        time.sleep(0.5)
+        self.assertEqual(len(self.drawn), count)
+
+
+if __name__ == '__main__':
+    rospy.init_node('tendons_drawn')
+    rostest.rosrun('anthrob_tests', 'tendons_drawn', Tendons)
