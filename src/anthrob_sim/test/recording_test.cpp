@@ -121,6 +121,34 @@ TEST(Replay, StartsWhereARobotStandsThatNobodyCommandsYet) {
   EXPECT_LT(session.replay_error(), 0.05);
 }
 
+TEST(Replay, StartsWithoutAJerkThatASpringRemembers) {
+  LoadOptions options;
+  options.effects = {{"see_mullins", "flexor", {{"softening", 0.5}}}};
+  const auto model = load_robot_model(config("two_muscle_rig/model_I.yaml"), options);
+  Simulation slow(model);
+  const auto wind = [&](double from, double to, double time) {
+    const int steps = static_cast<int>(std::lround(time / slow.step_length()));
+    for (int i = 0; i < steps; ++i) {
+      const double speed = (to - from) / time;
+      slow.impose_position(0, from + (to - from) * (i + 1) / steps, speed);
+      slow.impose_position(1, -from - (to - from) * (i + 1) / steps, -speed);
+      slow.step();
+    }
+  };
+  wind(0.0, 3.0, 1.2);
+  wind(3.0, 3.0, 4.8);
+  Dataset recording;
+  recording.meta.settle_s = 6.0;
+  Table& muscles = recording.table("muscles");
+  muscles.t = {0, 100000000};
+  muscles.columns.push_back({"flexor/position", {3.0, 3.0}, {1, 1}});
+  muscles.columns.push_back({"extensor/position", {-3.0, -3.0}, {1, 1}});
+  const Dataset replayed = replay(model, recording, ReplayMode::kPosition);
+  const double force = slow.reading(0).force;
+  EXPECT_GT(force, 1.0);
+  EXPECT_NEAR(replayed.find_table("muscles")->find("flexor/force")->values[0], force, 1e-3 * force);
+}
+
 TEST(Replay, StopsWhereItsUnitWasStopped) {
   Session session;
   session.command(ecu::Mode::kPosition, 0.0);
