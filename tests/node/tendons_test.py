@@ -29,7 +29,10 @@ class Tendons(unittest.TestCase):
         stamp = rospy.Time.now()
         joint = JointState(name=['hinge'], position=[angle])
         joint.header.stamp = stamp
-        self.muscles.publish(MuscleStates(name=['flexor', 'extensor'], force=forces))
+        if forces:
+            states = MuscleStates(name=['flexor', 'extensor'], force=forces)
+            states.header.stamp = stamp
+            self.muscles.publish(states)
         self.joints.publish(joint)
         return stamp
 
@@ -58,6 +61,9 @@ class Tendons(unittest.TestCase):
         self.assertEqual(extensor.color.r, extensor.color.b)                                     # not measured: grey
         self.assertGreater(flexor.lifetime.to_sec(), 0.0)
         self.see(-ANGLE, [40.0, 0.0], lambda markers: markers[0].points[-1].x < 0.0 and markers[1].color.b > 0.9)
+
+        # Forces that are not measured any more are not shown.
+        self.see(ANGLE, None, lambda markers: markers[0].color.r == markers[0].color.b)
 
         # Half a second later the robot may be anywhere.
         time.sleep(1.0)

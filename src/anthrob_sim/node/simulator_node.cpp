@@ -301,7 +301,8 @@ void SimulatorNode::publish(bool all) {
   spherical_joints_.publish(spherical_joint_states(sim_, now));
   if (touch_) touch_.publish(touch_states(sim_, now));
   const double cycle = steps_per_cycle_ * sim_.step_length();  // [s]
-  const int cycles_per_tf = std::max(1, static_cast<int>(std::lround(1.0 / (options_.tf_rate * cycle))));
+  const int cycles_per_tf =
+      std::max(1, static_cast<int>(std::lround(1.0 / (options_.tf_rate * cycle))));
   if (all || cycles_ % static_cast<std::uint64_t>(cycles_per_tf) == 0) {
     transforms_.sendTransform(ball_joint_transforms(sim_, now));
     if (solved_paths_.getNumSubscribers() > 0) solved_paths_.publish(solved_paths(sim_, now));

@@ -37,6 +37,7 @@ TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeH
 }
 
 void TendonDisplay::see_muscles(const anthrob_msgs::MuscleStates& message) {
+  forces_stamp_ = message.header.stamp;
   std::fill(forces_.begin(), forces_.end(), kNotMeasured);
   for (std::size_t i = 0; i < std::min(message.name.size(), message.force.size()); ++i) {
     const int muscle = sim_.model().find_muscle(message.name[i]);
@@ -95,6 +96,9 @@ void TendonDisplay::draw() {
   } catch (const BadInput& error) {
     ROS_WARN_STREAM_THROTTLE(10.0, "tendons are not drawn: " << error.what());
     return;
+  }
+  if ((now - forces_stamp_).toSec() > kStaleAfter) {
+    std::fill(forces_.begin(), forces_.end(), kNotMeasured);
   }
   const ros::Time oldest = *std::min_element(stamps_.begin(), stamps_.end());
   visualization_msgs::MarkerArray markers = muscle_markers(sim_, forces_, oldest);

@@ -32,8 +32,9 @@ class TendonDisplay {
   std::string missing(const ros::Time& now) const;
 
   Simulation sim_;
-  std::vector<double> q_;          ///< of all joints, as Simulation::place takes them
-  std::vector<double> forces_;     ///< of all muscles [N]; NaN: not measured
+  std::vector<double> q_;       ///< of all joints, as Simulation::place takes them
+  std::vector<double> forces_;  ///< of all muscles [N]; NaN: not measured
+  ros::Time forces_stamp_;
   std::vector<ros::Time> stamps_;  ///< of all joints
   ros::Publisher paths_, surfaces_;
   std::vector<ros::Subscriber> subscribers_;

@@ -118,7 +118,8 @@ void load_effect_library(const std::string& library, const ConfigNode& origin) {
       library.find_first_of("/.") == std::string::npos ? "lib" + library + ".so" : library;
   // Like all files that a model names.
   if (file.find('/') != std::string::npos) {
-    file = (std::filesystem::path(origin.file()).parent_path() / file).lexically_normal().string();
+    const auto folder = std::filesystem::absolute(origin.file()).parent_path();
+    file = (folder / file).lexically_normal().string();
   }
   static std::mutex loading;  // not the registry's: loading registers
   const std::lock_guard<std::mutex> lock(loading);
