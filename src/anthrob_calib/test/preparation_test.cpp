@@ -92,6 +92,33 @@ TEST(Preparation, RefusesRepeatsOfAnotherMotion) {
   EXPECT_NE(refusal(axis).find("expected a repeat of its motion"), std::string::npos);
 }
 
+TEST(Preparation, RefusesRepeatsOfWhatIsDrivenOtherwise) {
+  const Arm arm;
+  Question question;
+  question.model_file = ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml";
+  question.train = {arm.record({}, 1, 1)};
+  question.test = {arm.record({}, 1, 2)};
+  question.repeats = {arm.record({}, 1, 3)};
+  const auto without = [](Dataset& recording, const std::string& quantity) {
+    for (Table& table : recording.tables) {
+      for (Column& column : table.columns) {
+        if (column.quantity() == quantity) column.present.assign(table.t.size(), 0);
+      }
+    }
+  };
+  without(question.repeats[0], "reference");
+  EXPECT_NE(refusal(question).find("/reference: expected it where"), std::string::npos)
+      << refusal(question);
+  // Driven by motor positions: by their own, then by those of another motion.
+  for (auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (const char* quantity : {"reference", "voltage"}) without(group->front(), quantity);
+  }
+  EXPECT_EQ(refusal(question), "not refused");
+  question.repeats = {arm.record({}, 2, 2)};
+  for (const char* quantity : {"reference", "voltage"}) without(question.repeats[0], quantity);
+  EXPECT_NE(refusal(question).find("/position"), std::string::npos) << refusal(question);
+}
+
 TEST(Resolution, OfSensorsThatHardlyMoved) {
   std::vector<double> two(100, 0.5);
   std::fill_n(two.begin(), 30, 0.4);

@@ -13,19 +13,6 @@ namespace discovery {
 
 namespace {
 
-/// What drives the replay: the earliest input of the chain that was recorded.
-ReplayMode mode_of(const RobotModel& model, const Dataset& recording) {
-  const auto any = [&](const char* quantity) {
-    for (const MuscleModel& muscle : model.muscles) {
-      if (!recording.series(muscle.name + quantity).empty()) return true;
-    }
-    return false;
-  };
-  if (any("/reference")) return ReplayMode::kReference;
-  if (any("/voltage")) return ReplayMode::kVoltage;
-  return ReplayMode::kPosition;
-}
-
 /// A time between two steps.
 struct Moment {
   std::int64_t step;  ///< that arrives at or after it
@@ -48,6 +35,18 @@ Eigen::Vector3d rotation_vector(const std::array<double, 4>& from, const double*
 }
 
 }  // namespace
+
+ReplayMode mode_of(const RobotModel& model, const Dataset& recording) {
+  const auto any = [&](const char* quantity) {
+    for (const MuscleModel& muscle : model.muscles) {
+      if (!recording.series(muscle.name + quantity).empty()) return true;
+    }
+    return false;
+  };
+  if (any("/reference")) return ReplayMode::kReference;
+  if (any("/voltage")) return ReplayMode::kVoltage;
+  return ReplayMode::kPosition;
+}
 
 ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recording,
                                  const ExperimentOptions& options)

@@ -5,6 +5,31 @@
 namespace anthrob {
 namespace discovery {
 
+namespace {
+
+/// The model's own effects, with the sizes that were corrected; those are taken out of `numbers`.
+/// Paths count in the order of the file, a built model has another.
+std::vector<EffectInstance> corrected_effects(const RobotModel& robot, const ConfigNode& file,
+                                              std::map<std::string, double>& numbers) {
+  std::vector<EffectInstance> effects = robot.effects;
+  if (!file.has("effects")) return effects;
+  const auto entries = file.at("effects").items();
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    for (EffectInstance& effect : effects) {
+      if (effect.id != entries[e].text("id") || effect.place != entries[e].text("place")) continue;
+      for (auto& [name, value] : effect.parameters) {
+        const auto moved = numbers.find("effects." + std::to_string(e) + "." + name);
+        if (moved == numbers.end()) continue;
+        value = moved->second;
+        numbers.erase(moved);
+      }
+    }
+  }
+  return effects;
+}
+
+}  // namespace
+
 std::string model_text(const Answer& answer, const Evaluator& evaluator, const Question& question,
                        const std::string& folder) {
   std::string comment = "Written by anthrob_discover, seed " + std::to_string(question.seed) +
@@ -33,19 +58,11 @@ std::string model_text(const Answer& answer, const Evaluator& evaluator, const Q
 
   std::map<std::string, double> numbers =
       overrides_of(evaluator.nuisances(), answer.extended.nuisances);
-  // Lists are replaced by `extends`: those that the model has already are repeated, with the sizes
-  // that a calibration may correct as they are now.
-  std::vector<EffectInstance> effects = evaluator.model()->effects;
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    for (auto& [name, value] : effects[e].parameters) {
-      const auto moved = numbers.find("effects." + std::to_string(e) + "." + name);
-      if (moved == numbers.end()) continue;
-      value = moved->second;
-      numbers.erase(moved);
-    }
-  }
-  std::string text = calibration::extended_model_text(
-      ConfigNode::load(question.model_file), question.model_file, numbers, folder, comment);
+  // Lists are replaced by `extends`: those that the model has already are repeated.
+  const ConfigNode file = ConfigNode::load(question.model_file);
+  std::vector<EffectInstance> effects = corrected_effects(*evaluator.model(), file, numbers);
+  std::string text =
+      calibration::extended_model_text(file, question.model_file, numbers, folder, comment);
   effects.insert(effects.end(), answer.extended.effects.begin(), answer.extended.effects.end());
   if (!effects.empty()) text += "\n" + effects_yaml(effects);
   return text;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "anthrob_calib/discovery/chain_experiment.h"
 #include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
@@ -16,6 +17,7 @@ namespace {
 constexpr double kShortest = 2.0;         // [s] of all training recordings together
 constexpr double kSameCommand = 0.01;     // of the range of commands
 constexpr double kSameMotion = 0.15;      // of its range
+constexpr double kNoiseRange = 10.0;      // standard deviations; what ranges less is noise
 constexpr double kFinestBin = 0.02;       // [s]
 constexpr double kAxisBin = 0.025;        // [s]
 constexpr double kMostDifferences = 4e5;  // of the training recordings
@@ -124,9 +126,14 @@ void refuse_copies(const Question& question) {
 /// or hand does a little otherwise.
 void refuse_another_motion(const std::string& column, const Dataset& first, const Dataset& repeat) {
   const Series asked = first.series(column), again = repeat.series(column);
-  if (asked.empty() || again.empty()) return;
   const double end = std::min(asked.t.back(), again.t.back());
   const auto [low, high] = std::minmax_element(asked.values.begin(), asked.values.end());
+  double noise = 0.0;  // of neighbours, squares
+  for (std::size_t i = 1; i < asked.values.size(); ++i) {
+    noise += std::pow(asked.values[i] - asked.values[i - 1], 2);
+  }
+  noise = std::sqrt(0.5 * noise / static_cast<double>(asked.values.size()));
+  if (*high - *low <= kNoiseRange * noise) return;  // it does not move
   double squares = 0.0;
   constexpr int kPoints = 1000;
   for (int i = 0; i < kPoints; ++i) {
@@ -141,9 +148,22 @@ void refuse_another_motion(const std::string& column, const Dataset& first, cons
 
 /// The scatter of something else is no floor.
 void refuse_other_commands(const RobotModel& robot, const Dataset& first, const Dataset& repeat) {
+  const ReplayMode mode = mode_of(robot, first);
+  const char* const driving = mode == ReplayMode::kReference ? "/reference"
+                              : mode == ReplayMode::kVoltage ? "/voltage"
+                                                             : "/position";
   for (const MuscleModel& muscle : robot.muscles) {
-    const std::string column = muscle.name + "/reference";
+    const std::string column = muscle.name + driving;
     const auto asked = changes_of(first.series(column)), again = changes_of(repeat.series(column));
+    if (asked.empty() != again.empty()) {
+      throw BadInput(repeat.folder + ": " + column + ": expected it where " + first.folder +
+                     " has it: a repeat of its commands");
+    }
+    if (asked.empty()) continue;
+    if (mode != ReplayMode::kReference) {
+      refuse_another_motion(column, first, repeat);
+      continue;
+    }
     const std::size_t both = std::min(asked.size(), again.size());
     double range = 0.0;
     for (const double value : asked) range = std::max(range, std::abs(value - asked.front()));
@@ -153,10 +173,11 @@ void refuse_other_commands(const RobotModel& robot, const Dataset& first, const 
                      " rad: expected a repeat of the commands of " + first.folder + ", " +
                      std::to_string(asked[i]) + " rad");
     }
-    if (asked.empty()) refuse_another_motion(muscle.name + "/voltage", first, repeat);
   }
   for (const JointModel& joint : robot.skeleton->joints) {
-    if (joint.driven) refuse_another_motion(joint.name + "/position", first, repeat);
+    const std::string column = joint.name + "/position";
+    const bool both = !first.series(column).empty() && !repeat.series(column).empty();
+    if (joint.driven && both) refuse_another_motion(column, first, repeat);
   }
 }
 

@@ -6,6 +6,9 @@
 namespace anthrob {
 namespace discovery {
 
+/// What drives the replay of a recording: the earliest input of the chain that it has.
+ReplayMode mode_of(const RobotModel& model, const Dataset& recording);
+
 /// A recording of a robot with muscles: its inputs are replayed through the whole chain, and the
 /// simulated sensors, without noise and counts, are compared with the measured ones.
 class ChainExperiment final : public Experiment {
