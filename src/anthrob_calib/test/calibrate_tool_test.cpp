@@ -329,10 +329,10 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
   expect(config + " --out " + path("file") + "/x --data " + path("eq"), "--out");
 
   // A result of a model that means something else by a path.
-  write(path("other.json"), R"({"overrides": {"muscles.flexor.rest_tendon_length": 0.5},
-    "parameters": [{"path": "muscles.flexor.rest_tendon_length", "lower": 0.49, "upper": 0.51}]})");
+  write(path("other.json"), R"({"overrides": {"muscles.flexor.path.0.point.0": 0.5},
+    "given": {"muscles.flexor.path.0.point.0": 0.49}})");
   expect(config + out + " --start " + path("other.json") + " --data " + path("eq"),
-         "other.json: muscles.flexor.rest_tendon_length: was calibrated from 0.49 to 0.51");
+         "other.json: muscles.flexor.path.0.point.0: was calibrated from 0.49");
 
   // A journal of other data is refused, and stays.
   ASSERT_EQ(calibrate("kept", "--generations 1").status, 0);

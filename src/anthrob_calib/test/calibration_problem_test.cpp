@@ -222,6 +222,19 @@ TEST(MeasuredRun, MusclesAreCommandedEachInItsTime) {
   expect_both();
 }
 
+TEST(MeasuredRun, AModeHoldsUntilTheNext) {
+  Dataset data = record_simulation(rig(), plan(3.0, 1.0, "trajectory"));
+  const std::vector<double> start = read_run(data, rig()).commands[0].reference;
+  Table& table = data.table("muscles");
+  for (const char* muscle : {"flexor", "extensor"}) {
+    Column& mode = table.column(std::string(muscle) + "/mode");
+    mode.values.assign(table.t.size(), 1.0);
+    mode.present.assign(table.t.size(), 0);
+    mode.present[0] = 1;
+  }
+  EXPECT_EQ(read_run(data, rig()).commands[0].reference, start);
+}
+
 TEST(MeasuredRun, ARobotWithoutVoltageIsAtNoReference) {
   Dataset data = as_in_a_bag(record_simulation(rig(), plan(3.0, 1.0, "trajectory")));
   say(data, "flexor", 0, 100, 0.0, 0.0);
@@ -246,7 +259,8 @@ TEST(MeasuredRun, WhatWasNotMeasuredForLongIsNoLine) {
   EXPECT_EQ(error_without(150, 170),
             "simulated: hinge/position: nothing measured from t = 0.745000 to 0.850000 s: expected "
             "no gap of more than 0.050000 s");
-  EXPECT_NE(error_without(0, 170).find("nothing measured from t = 0.5"), std::string::npos);
+  EXPECT_NE(error_without(0, 170).find("nothing measured from t = 0.4"), std::string::npos);
+  EXPECT_EQ(error_without(20, 60), "no error");  // long before the command, at 0.5 s
   EXPECT_NE(error_without(rows - 50, rows).find("nothing measured from t = 2.2"),
             std::string::npos);
 }

@@ -58,21 +58,24 @@ void keep_apart(const std::vector<MeasuredRun>& validation, const std::string& v
   }
 }
 
-/// A path is a place in a list: what an earlier calibration moved there must be what is there now.
-void require_same_place(const nlohmann::json& result, const std::string& path, double own,
+/// The third point of a path is another one where the model has one more: what a place in a list
+/// held before its calibration must be what it holds here.
+/// @param given what the calibrated model's file had, by path   @param own what this one has
+void require_same_place(const nlohmann::json& given, const std::string& path, double own,
                         const std::string& file, const ConfigNode& model) {
-  for (const auto& p : result.value("parameters", nlohmann::json::array())) {
-    if (p.value("path", "") != path) continue;
-    const double lower = p.value("lower", -HUGE_VAL), upper = p.value("upper", HUGE_VAL);
-    if (own >= lower && own <= upper) return;
-    throw BadInput(file + ": " + path + ": was calibrated from " + exact_text(lower) + " to " +
-                   exact_text(upper) + ", " + model.file() + " has " + exact_text(own) +
-                   " there: expected the result of a model that means the same by it");
-  }
+  const bool in_list = path.find(".path.") != std::string::npos;
+  if (!in_list || !given.contains(path) || !given[path].is_number()) return;
+  const double then = given[path].get<double>();
+  if (then == own) return;
+  throw BadInput(file + ": " + path + ": was calibrated from " + exact_text(then) + ", " +
+                 model.file() + " has " + exact_text(own) +
+                 " there: expected the result of a model that means the same by it");
 }
 
 /// Numbers of an earlier calibration that this model has, too.
-void take_over(const std::string& file, ConfigNode& model, std::map<std::string, double>& numbers) {
+/// @param own the model file without any of them
+void take_over(const std::string& file, const ConfigNode& own, ConfigNode& model,
+               std::map<std::string, double>& numbers) {
   std::ifstream in(file);
   if (!in) throw BadInput(file + ": cannot be read; expected the result.json of a calibration");
   const auto json = nlohmann::json::parse(in, nullptr, false);
@@ -82,13 +85,13 @@ void take_over(const std::string& file, ConfigNode& model, std::map<std::string,
   int taken = 0;
   for (const auto& [path, value] : json["overrides"].items()) {
     if (!value.is_number()) throw BadInput(file + ": overrides: " + path + ": expected a number");
-    double own = 0.0;
+    double before = 0.0;
     try {
-      own = number_at(model, path);
+      before = number_at(own, path);
     } catch (const BadInput&) {
       continue;  // a part that this model has not
     }
-    require_same_place(json, path, own, file, model);
+    require_same_place(json.value("given", nlohmann::json::object()), path, before, file, own);
     model.set_number(path, value.get<double>());
     numbers[path] = value.get<double>();
     ++taken;
@@ -149,9 +152,10 @@ BeforeAfter simulate_both(const Problem& problem, const Point& best,
 CalibrationInput CalibrationInput::read(CalibrationConfig config, const std::string& data,
                                         const std::string& validation,
                                         const std::vector<std::string>& start) {
-  ConfigNode model = ConfigNode::load(config.model_file).clone();
+  const ConfigNode own = ConfigNode::load(config.model_file);
+  ConfigNode model = own.clone();
   std::map<std::string, double> started;
-  for (const std::string& file : start) take_over(file, model, started);
+  for (const std::string& file : start) take_over(file, own, model, started);
   const auto robot = build_robot_model(model);
   CalibrationInput input{std::move(config), model, std::move(started), {}, {}};
   input.runs = read_runs(data, robot);
@@ -209,6 +213,8 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   for (const auto& [path, value] : problem.space().overrides(outcome.best)) {
     outcome.overrides[path] = value;
   }
+  const ConfigNode own = ConfigNode::load(input.config.model_file);
+  for (const auto& [path, value] : outcome.overrides) outcome.given[path] = number_at(own, path);
   outcome.reason = reason;
   outcome.evaluations = journal.evaluations();
   outcome.history = journal.history();

@@ -47,7 +47,9 @@ class RunReader {
     read_kind(run);
     read_commands(run);
     check_states();
-    for (const auto& [name, series] : measured_) check_gaps(name, series);
+    const double from = run.is_trajectory ? std::max(0.0, origin_ - options_.average)
+                                          : std::max(origin_, end_ - options_.average);
+    for (const auto& [name, series] : measured_) check_gaps(name, series, from);
     run.settle = recording_.meta.settle_s;
     run.lead = std::max(0.0, origin_);
     run.duration = end_ - origin_;
@@ -93,24 +95,23 @@ class RunReader {
   }
 
   /// What lies between two samples is taken as a line: not for longer than a sensor may be silent.
-  void check_gaps(const std::string& name, const Series& series) const {
-    double allowed = kLongestLoss;
-    if (series.t.size() > 1) {
-      std::vector<double> periods;
-      for (std::size_t i = 1; i < series.t.size(); ++i) {
-        periods.push_back(series.t[i] - series.t[i - 1]);
-      }
-      const auto middle = periods.begin() + static_cast<long>(periods.size() / 2);
-      std::nth_element(periods.begin(), middle, periods.end());
-      allowed = std::max(allowed, 2.0 * *middle);
+  /// @param from what is sampled begins there; it ends with the recording
+  void check_gaps(const std::string& name, const Series& series, double from) const {
+    if (series.t.size() < 2) return;  // a mean, maybe of much
+    std::vector<double> periods;
+    for (std::size_t i = 1; i < series.t.size(); ++i) {
+      periods.push_back(series.t[i] - series.t[i - 1]);
     }
-    const auto check = [&](double from, double to) {
-      if (to - from <= allowed + 1e-6) return;
-      fail(name + ": nothing measured from t = " + std::to_string(from) + " to " +
-           std::to_string(to) + " s: expected no gap of more than " + std::to_string(allowed) +
+    const auto middle = periods.begin() + static_cast<long>(periods.size() / 2);
+    std::nth_element(periods.begin(), middle, periods.end());
+    const double allowed = std::max(kLongestLoss, 2.0 * *middle);
+    const auto check = [&](double begin, double end) {
+      if (end <= from || end - begin <= allowed + 1e-6) return;
+      fail(name + ": nothing measured from t = " + std::to_string(begin) + " to " +
+           std::to_string(end) + " s: expected no gap of more than " + std::to_string(allowed) +
            " s");
     };
-    check(std::max(0.0, origin_), series.t.front());
+    check(from, series.t.front());
     for (std::size_t i = 1; i < series.t.size(); ++i) check(series.t[i - 1], series.t[i]);
     check(series.t.back(), last_);
   }
@@ -133,7 +134,8 @@ class RunReader {
   void read_references(const std::string& name) {
     CommandSeries told = followed_commands(recording_, name, ecu::Mode::kPosition);
     const auto holds_position = [&](std::size_t i) {
-      return told.mode.empty() || told.mode.values[i] == static_cast<double>(ecu::Mode::kPosition);
+      return told.mode.empty() ||
+             told.mode.held_at(told.reference.t[i]) == static_cast<double>(ecu::Mode::kPosition);
     };
     Series held;
     for (std::size_t i = 0; i < told.reference.t.size(); ++i) {

@@ -123,6 +123,7 @@ std::string result_json(const CalibrationOutcome& o) {
                              {"largest_actuator_difference_deg", number(kDegrees * d.actuator)}});
   }
   out["overrides"] = o.overrides;
+  out["given"] = o.given;
   out["history"] = history_json(o.history);
   return out.dump(2) + "\n";
 }

@@ -37,6 +37,7 @@ struct CalibrationOutcome {
   std::vector<ModelParameter> parameters;
   Point best;
   std::map<std::string, double> overrides;  ///< of this calibration and those it started from
+  std::map<std::string, double> given;      ///< what the model file has where they are
   double fitness_before = 0.0, fitness = 0.0;
   std::string reason;  ///< why the search ended
   int evaluations = 0;
