@@ -184,7 +184,7 @@ demo() {
 # Into build/tests.json: the tests that are registered, of the packages named or of all.
 list_tests() {
   local names="_ctest_"
-  [ $# -eq 0 ] || names="_ctest_($(IFS='|' && echo "$*"))_(gtest|rostest)_"
+  [ $# -eq 0 ] || names="_ctest_($(IFS='|' && echo "$*"))_(gtest|rostest|vcan)_"
   (cd build && ctest --show-only=json-v1 -R "$names") >build/tests.json || die "ctest does not list the tests: see build/tests.json"
 }
 
