@@ -1,0 +1,180 @@
+#!/usr/bin/python3
+"""Pairs of images as the commands of motion capture read them: OUT/left and OUT/right with 000000.png, ..., and
+OUT/times.csv with the time of each pair [s].
+
+    save_pairs.py OUT --bag BAG [--topics LEFT RIGHT] [--tolerance S] [--every N]
+    save_pairs.py OUT --cameras LEFT RIGHT [--rate HZ] [--count N] [--exposure S]
+
+Of a recording: images (sensor_msgs/Image, mono8) that have equal stamps, or within the tolerance. Of GenICam cameras
+(python3-gi, gir1.2-aravis-0.8): pictures triggered together, until there are N of them or Ctrl-C."""
+import argparse
+import pathlib
+import struct
+import sys
+import time
+import zlib
+
+
+def png(width, height, rows):
+    """An 8-bit grey PNG of rows of bytes."""
+    def chunk(kind, data):
+        return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+    header = struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)
+    packed = zlib.compress(b''.join(b'\0' + row for row in rows), 1)
+    return b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'IDAT', packed) + chunk(b'IEND', b'')
+
+
+def encoded(width, height, step, data):
+    return png(width, height, [data[y * step:y * step + width] for y in range(height)])
+
+
+class Pairs:
+    """The folder that is written to."""
+
+    def __init__(self, out):
+        self.out, self.times = pathlib.Path(out), []
+        for side in ('left', 'right'):
+            (self.out / side).mkdir(parents=True, exist_ok=True)
+            if any((self.out / side).iterdir()):
+                raise ValueError('%s: expected an empty folder' % (self.out / side))
+
+    def add(self, stamp, left, right):
+        """stamp: text [s]; images: PNG"""
+        for side, image in (('left', left), ('right', right)):
+            (self.out / side / ('%06d.png' % len(self.times))).write_bytes(image)
+        self.times.append(stamp)
+
+    def close(self):
+        lines = ['index,t'] + ['%d,%s' % row for row in enumerate(self.times)]
+        (self.out / 'times.csv').write_text('\n'.join(lines) + '\n')
+        print('%d pairs in %s' % (len(self.times), self.out))
+
+
+def of_message(image, topic):
+    where = '%s: image of %.6f s: ' % (topic, image.header.stamp.to_sec())
+    if image.encoding not in ('mono8', '8UC1'):
+        raise ValueError('%sencoding %s: expected mono8' % (where, image.encoding))
+    if image.step < image.width or len(image.data) < image.step * image.height:
+        raise ValueError('%s%d bytes: truncated' % (where, len(image.data)))
+    return encoded(image.width, image.height, image.step, image.data)
+
+
+def matched(messages, topics, tolerance):
+    """(left, right) of near stamps, as they come; what has no partner is left out."""
+    waiting = {topic: [] for topic in topics}
+    for topic, image, _ in messages:
+        others = waiting[topics[1 - topics.index(topic)]]
+
+        def distance(other):
+            return abs((other.header.stamp - image.header.stamp).to_nsec())
+        partner = min(others, key=distance, default=None)
+        if partner is None or distance(partner) > 1e9 * tolerance:
+            waiting[topic] = waiting[topic][-30:] + [image]
+            continue
+        del others[:others.index(partner) + 1]
+        yield (image, partner) if topic == topics[0] else (partner, image)
+
+
+def save_bag(arguments):
+    import rosbag
+    try:
+        bag = rosbag.Bag(arguments.bag)
+    except rosbag.ROSBagException as error:
+        raise ValueError('%s: no bag that can be read (%s)' % (arguments.bag, error))
+    images = [name for name, what in bag.get_type_and_topic_info().topics.items()
+              if what.msg_type == 'sensor_msgs/Image']
+    for topic in arguments.topics:
+        if topic not in images:
+            raise ValueError('%s: no images on topic %s; there are %s' %
+                             (arguments.bag, topic, ', '.join(sorted(images)) or 'none'))
+    folder = Pairs(arguments.out)
+    messages = bag.read_messages(topics=arguments.topics)
+    for i, (left, right) in enumerate(matched(messages, arguments.topics, arguments.tolerance)):
+        if i % arguments.every == 0:
+            stamp = '%d.%09d' % (left.header.stamp.secs, left.header.stamp.nsecs)
+            folder.add(stamp, of_message(left, arguments.topics[0]), of_message(right, arguments.topics[1]))
+    if not folder.times:
+        raise ValueError('%s: no pair with stamps within %g s: see --tolerance' % (arguments.bag, arguments.tolerance))
+    folder.close()
+
+
+class Camera:
+    def __init__(self, aravis, name, exposure):
+        self.name = name
+        self.camera = aravis.Camera.new(name)
+        self.camera.set_pixel_format(aravis.PIXEL_FORMAT_MONO_8)
+        self.camera.set_exposure_time(1e6 * exposure)
+        self.camera.set_trigger('Software')
+        self.stream = self.camera.create_stream(None, None)
+        for _ in range(4):
+            self.stream.push_buffer(aravis.Buffer.new_allocate(self.camera.get_payload()))
+        self.good = aravis.BufferStatus.SUCCESS
+        self.camera.start_acquisition()
+
+    def trigger(self):
+        for late in iter(self.stream.try_pop_buffer, None):
+            self.stream.push_buffer(late)
+        self.camera.software_trigger()
+
+    def picture(self):
+        """None if none came within a second."""
+        buffer = self.stream.timeout_pop_buffer(1000000)
+        if buffer is None:
+            return None
+        image = None
+        if buffer.get_status() == self.good:
+            width = buffer.get_image_width()
+            image = encoded(width, buffer.get_image_height(), width, buffer.get_data())
+        self.stream.push_buffer(buffer)
+        return image
+
+
+def save_cameras(arguments):
+    import gi
+    gi.require_version('Aravis', '0.8')
+    from gi.repository import Aravis, GLib
+    Aravis.enable_interface('Fake')
+    try:
+        cameras = [Camera(Aravis, name, arguments.exposure) for name in arguments.cameras]
+        folder = Pairs(arguments.out)
+        try:
+            while len(folder.times) < arguments.count:
+                now = time.time()
+                for camera in cameras:
+                    camera.trigger()
+                left, right = [camera.picture() for camera in cameras]
+                if left and right:
+                    folder.add('%.6f' % now, left, right)
+                else:
+                    print('no image from %s' % cameras[0 if not left else 1].name, file=sys.stderr)
+                time.sleep(max(0.0, now + 1.0 / arguments.rate - time.time()))
+        except KeyboardInterrupt:
+            pass
+        folder.close()
+    except GLib.Error as error:
+        raise ValueError('cameras %s: %s' % (', '.join(arguments.cameras), error.message))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('out', metavar='OUT')
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument('--bag')
+    source.add_argument('--cameras', nargs=2, metavar=('LEFT', 'RIGHT'), help='names, as of source:=aravis')
+    parser.add_argument('--topics', nargs=2, metavar=('LEFT', 'RIGHT'),
+                        default=['/anthrob/mocap/left/image_raw', '/anthrob/mocap/right/image_raw'])
+    parser.add_argument('--tolerance', type=float, default=0.0, metavar='S', help='[s] between stamps of a pair')
+    parser.add_argument('--every', type=int, default=1, metavar='N', help='only every Nth pair')
+    parser.add_argument('--rate', type=float, default=10.0, metavar='HZ')
+    parser.add_argument('--count', type=int, default=600, metavar='N')
+    parser.add_argument('--exposure', type=float, default=0.0005, metavar='S')
+    arguments = parser.parse_args()
+    try:
+        (save_bag if arguments.bag else save_cameras)(arguments)
+    except (ImportError, OSError, ValueError) as error:
+        print('save_pairs.py: %s' % error, file=sys.stderr)
+        sys.exit(2)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""What scripts/save_pairs.py makes of a recording of two cameras."""
+import os
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+
+import rosbag
+import rospy
+import rostest
+from sensor_msgs.msg import Image
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+SCRIPT = os.path.join(TOP, 'scripts', 'save_pairs.py')
+TOPICS = '/cam/left/image_raw', '/cam/right/image_raw'
+
+
+def image(seconds, grey, encoding='mono8'):
+    """3 x 2 pixels, rows of 4 bytes; each pixel another grey."""
+    message = Image(width=3, height=2, step=4, encoding=encoding, data=bytes([grey, grey + 1, grey + 2, 0] * 2))
+    message.header.stamp = rospy.Time.from_sec(seconds)
+    return message
+
+
+def pixels(file):
+    """Of an 8-bit grey PNG without filters: rows of bytes."""
+    with open(file, 'rb') as content:
+        data = content.read()
+    width, height = struct.unpack('>II', data[16:24])
+    at, packed = 8, b''
+    while at < len(data):
+        length, kind = struct.unpack('>I4s', data[at:at + 8])
+        packed += data[at + 8:at + 8 + length] if kind == b'IDAT' else b''
+        at += 12 + length
+    raw = zlib.decompress(packed)
+    return [raw[y * (width + 1) + 1:(y + 1) * (width + 1)] for y in range(height)]
+
+
+class SavePairs(unittest.TestCase):
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def record(self, images):
+        with rosbag.Bag(self.path('run.bag'), 'w') as bag:
+            for side, message in images:
+                bag.write(TOPICS[side], message, t=message.header.stamp)
+
+    def save(self, *more):
+        return subprocess.run([SCRIPT, self.path('out'), '--bag', self.path('run.bag'), '--topics', *TOPICS, *more],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+
+    def test_pairs_have_one_number_and_their_time(self):
+        self.record([(0, image(1.0, 10)), (1, image(1.0, 20)), (0, image(2.0, 30)),     # no partner
+                     (1, image(3.0, 40)), (0, image(3.0, 50))])
+        done = self.save()
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(sorted(os.listdir(self.path('out/left'))), ['000000.png', '000001.png'])
+        self.assertEqual(pixels(self.path('out/left/000000.png')), [bytes([10, 11, 12])] * 2)
+        self.assertEqual(pixels(self.path('out/right/000000.png')), [bytes([20, 21, 22])] * 2)
+        self.assertEqual(pixels(self.path('out/left/000001.png')), [bytes([50, 51, 52])] * 2)
+        with open(self.path('out/times.csv')) as times:
+            self.assertEqual(times.read(), 'index,t\n0,1.000000000\n1,3.000000000\n')
+        self.assertIn('expected an empty folder', self.save().stdout)
+
+    def test_what_cannot_be_a_pair_is_refused_in_one_line(self):
+        for images, more, expected in (([(0, image(1.0, 1)), (1, image(1.004, 1))], [], 'no pair with stamps within 0 s'),
+                                       ([(0, image(1.0, 1, 'rgb8')), (1, image(1.0, 1))], [], 'rgb8: expected mono8'),
+                                       ([(0, image(1.0, 1))], [], 'no images on topic ' + TOPICS[1])):
+            self.record(images)
+            done = self.save(*more)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stdout.count('\n'), 1, done.stdout)
+            self.assertIn(expected, done.stdout)
+            shutil.rmtree(self.path('out'), ignore_errors=True)
+        self.record([(0, image(1.0, 1)), (1, image(1.004, 1))])
+        self.assertEqual(self.save('--tolerance', '0.005').returncode, 0)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('anthrob_tests', 'save_pairs', SavePairs)
