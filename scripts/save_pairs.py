@@ -9,6 +9,8 @@ Of a recording: images (sensor_msgs/Image, mono8) that have equal stamps, or wit
 (python3-gi, gir1.2-aravis-0.8): pictures triggered together, until there are N of them or Ctrl-C."""
 import argparse
 import pathlib
+import signal
+import statistics
 import struct
 import sys
 import time
@@ -26,6 +28,13 @@ def png(width, height, rows):
 
 def encoded(width, height, step, data):
     return png(width, height, [data[y * step:y * step + width] for y in range(height)])
+
+
+class BadImage(Exception):
+    pass
+
+
+stop_asked = []  # Ctrl-C: after the pair that is being written
 
 
 class Pairs:
@@ -53,25 +62,33 @@ class Pairs:
 def of_message(image, topic):
     where = '%s: image of %.6f s: ' % (topic, image.header.stamp.to_sec())
     if image.encoding not in ('mono8', '8UC1'):
-        raise ValueError('%sencoding %s: expected mono8' % (where, image.encoding))
+        raise BadImage('%sencoding %s: expected mono8' % (where, image.encoding))
     if image.step < image.width or len(image.data) < image.step * image.height:
-        raise ValueError('%s%d bytes: truncated' % (where, len(image.data)))
+        raise BadImage('%s%d bytes: truncated' % (where, len(image.data)))
     return encoded(image.width, image.height, image.step, image.data)
 
 
 def matched(messages, topics, tolerance):
     """(left, right) of near stamps, as they come; what has no partner is left out."""
-    waiting = {topic: [] for topic in topics}
+    waiting, intervals, last = {topic: [] for topic in topics}, [], {}
     for topic, image, _ in messages:
         others = waiting[topics[1 - topics.index(topic)]]
+        if topic in last and image.header.stamp > last[topic]:
+            intervals = (intervals + [(image.header.stamp - last[topic]).to_nsec()])[-9:]
+        last[topic] = image.header.stamp
+        # Wider than half a period it would bring together images one period apart.
+        widest = 1e9 * tolerance
+        if intervals:
+            widest = min(widest, 0.5 * statistics.median(intervals))
 
         def distance(other):
             return abs((other.header.stamp - image.header.stamp).to_nsec())
         partner = min(others, key=distance, default=None)
-        if partner is None or distance(partner) > 1e9 * tolerance:
+        if partner is None or distance(partner) > widest:
             waiting[topic] = waiting[topic][-30:] + [image]
             continue
         del others[:others.index(partner) + 1]
+        waiting[topic].clear()
         yield (image, partner) if topic == topics[0] else (partner, image)
 
 
@@ -89,10 +106,20 @@ def save_bag(arguments):
                              (arguments.bag, topic, ', '.join(sorted(images)) or 'none'))
     folder = Pairs(arguments.out)
     messages = bag.read_messages(topics=arguments.topics)
+    bad = None
     for i, (left, right) in enumerate(matched(messages, arguments.topics, arguments.tolerance)):
-        if i % arguments.every == 0:
-            stamp = '%d.%09d' % (left.header.stamp.secs, left.header.stamp.nsecs)
+        if stop_asked:
+            break
+        if i % arguments.every:
+            continue
+        stamp = '%d.%09d' % (left.header.stamp.secs, left.header.stamp.nsecs)
+        try:
             folder.add(stamp, of_message(left, arguments.topics[0]), of_message(right, arguments.topics[1]))
+        except BadImage as error:
+            bad = error
+            print('left out: %s' % error, file=sys.stderr)
+    if bad and not folder.times:
+        raise ValueError('%s: no pair that can be read' % arguments.bag)
     if not folder.times:
         raise ValueError('%s: no pair with stamps within %g s: see --tolerance' % (arguments.bag, arguments.tolerance))
     folder.close()
@@ -138,7 +165,7 @@ def save_cameras(arguments):
         cameras = [Camera(Aravis, name, arguments.exposure) for name in arguments.cameras]
         folder = Pairs(arguments.out)
         try:
-            while len(folder.times) < arguments.count:
+            while len(folder.times) < arguments.count and not stop_asked:
                 now = time.time()
                 for camera in cameras:
                     camera.trigger()
@@ -148,9 +175,8 @@ def save_cameras(arguments):
                 else:
                     print('no image from %s' % cameras[0 if not left else 1].name, file=sys.stderr)
                 time.sleep(max(0.0, now + 1.0 / arguments.rate - time.time()))
-        except KeyboardInterrupt:
-            pass
-        folder.close()
+        finally:
+            folder.close()
     except GLib.Error as error:
         raise ValueError('cameras %s: %s' % (', '.join(arguments.cameras), error.message))
 
@@ -165,10 +191,11 @@ def main():
                         default=['/anthrob/mocap/left/image_raw', '/anthrob/mocap/right/image_raw'])
     parser.add_argument('--tolerance', type=float, default=0.0, metavar='S', help='[s] between stamps of a pair')
     parser.add_argument('--every', type=int, default=1, metavar='N', help='only every Nth pair')
-    parser.add_argument('--rate', type=float, default=10.0, metavar='HZ')
+    parser.add_argument('--rate', type=float, default=30.0, metavar='HZ')
     parser.add_argument('--count', type=int, default=600, metavar='N')
     parser.add_argument('--exposure', type=float, default=0.0005, metavar='S')
     arguments = parser.parse_args()
+    signal.signal(signal.SIGINT, lambda *_: stop_asked.append(True))
     try:
         (save_bag if arguments.bag else save_cameras)(arguments)
     except (ImportError, OSError, ValueError) as error:

@@ -70,9 +70,30 @@ class SavePairs(unittest.TestCase):
             self.assertEqual(times.read(), 'index,t\n0,1.000000000\n1,3.000000000\n')
         self.assertIn('expected an empty folder', self.save().stdout)
 
+    def test_bad_images_are_left_out_and_named(self):
+        self.record([(0, image(1.0, 1, 'rgb8')), (1, image(1.0, 1)), (0, image(2.0, 1)), (1, image(2.0, 1))])
+        done = self.save()
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn('left out: ' + TOPICS[0] + ': image of 1.000000 s: encoding rgb8: expected mono8', done.stdout)
+        with open(self.path('out/times.csv')) as times:
+            self.assertEqual(times.read(), 'index,t\n0,2.000000000\n')
+
+    def test_a_wide_tolerance_does_not_pair_one_period_apart(self):
+        images = []
+        for i in range(30):                              # left begins one period late
+            images += [(0, image(1.0 + i / 60 - 0.001, i))] if i else []
+            images += [(1, image(1.0 + i / 60, i))]
+        self.record(images)
+        done = self.save('--tolerance', '0.02')
+        self.assertEqual(done.returncode, 0, done.stdout)
+        wrong = 0
+        for file in os.listdir(self.path('out/left')):
+            wrong += pixels(self.path('out/left/' + file)) != pixels(self.path('out/right/' + file))
+        self.assertLessEqual(wrong, 1)                   # the first, before a period was seen
+
     def test_what_cannot_be_a_pair_is_refused_in_one_line(self):
         for images, more, expected in (([(0, image(1.0, 1)), (1, image(1.004, 1))], [], 'no pair with stamps within 0 s'),
-                                       ([(0, image(1.0, 1, 'rgb8')), (1, image(1.0, 1))], [], 'rgb8: expected mono8'),
+                                       ([(0, image(1.0, 1)), (1, image(1.5, 1))], ['--tolerance', '0.1'], 'no pair with stamps within 0.1 s'),
                                        ([(0, image(1.0, 1))], [], 'no images on topic ' + TOPICS[1])):
             self.record(images)
             done = self.save(*more)

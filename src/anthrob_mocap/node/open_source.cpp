@@ -29,8 +29,7 @@ CameraOptions camera_options(const StereoRig& rig, const ros::NodeHandle& settin
   take(settings, "rate", number_of, options.rate);
   take(settings, "exposure", number_of, options.exposure);
   take(settings, "trigger", text_of, options.trigger);
-  const double tolerance = sync_tolerance(settings);
-  if (tolerance > 0.0) options.sync_tolerance = tolerance;
+  options.sync_tolerance = sync_tolerance(settings);
   return options;
 }
 

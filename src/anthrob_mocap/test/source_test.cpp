@@ -85,13 +85,30 @@ TEST(Pairing, RefusesStampsThatDoNotAdvance) {
   EXPECT_TRUE(pairing.add(kRight, at(5.1), pair));
 }
 
+TEST(Pairing, TakesAShortRecordingThatLoops) {
+  Pairing pairing(0.002);
+  TimedImage pair[2];
+  int pairs = 0, refused = 0;
+  for (int i = 0; i < 40; ++i) {
+    for (const Side side : {kLeft, kRight}) {
+      try {
+        pairs += pairing.add(side, at(5.0 + 0.05 * (i % 10)), pair) ? 1 : 0;
+      } catch (const BadInput&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_EQ(refused, 3 * 2 * 4);  // four at each of three ends, then it is another time
+  EXPECT_EQ(pairs, 40 - 3 * 4);
+}
+
 TEST(Pairing, DoesNotLockOnePeriodApart) {
   // Left begins one period late, and the tolerance is longer than a period of 1/60 s.
   Pairing pairing(0.02);
   TimedImage pair[2];
   int pairs = 0, wrong = 0;
   for (int i = 0; i < 30; ++i) {
-    for (const Side side : {kRight, kLeft}) {
+    for (const Side side : {kLeft, kRight}) {
       if (side == kLeft && (i == 0 || i == 20)) continue;
       if (!pairing.add(side, at(i / 60.0 + (side == kLeft ? 0.001 : 0.0)), pair)) continue;
       ++pairs;
@@ -123,6 +140,16 @@ TEST(CameraOptions, GiveSlowCamerasTheirTime) {
   options.rate = 1.0;
   EXPECT_EQ(options.silence(), 3.0);
   EXPECT_EQ(options.patience(), 3.0);
+}
+
+TEST(CameraOptions, FastCamerasHaveANarrowerToleranceWhereNoneIsSaid) {
+  CameraOptions options;
+  EXPECT_EQ(options.tolerance(), 0.004);
+  options.rate = 200.0;
+  EXPECT_EQ(options.tolerance(), 0.0025);
+  EXPECT_NO_THROW(options.check("aravis"));
+  options.sync_tolerance = 0.002;
+  EXPECT_EQ(options.tolerance(), 0.002);
 }
 
 TEST(CameraOptions, AreChecked) {

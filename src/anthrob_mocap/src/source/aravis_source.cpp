@@ -121,7 +121,7 @@ class Camera {
 class AravisSource::Implementation {
  public:
   explicit Implementation(const CameraOptions& options)
-      : options_(options), live_(options.sync_tolerance, options.silence()) {
+      : options_(options), live_(options.tolerance(), options.silence()) {
     for (const Side side : {kLeft, kRight}) {
       threads_[side] = std::thread([this, side] { serve(side); });
     }

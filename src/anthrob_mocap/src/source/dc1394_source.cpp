@@ -104,7 +104,7 @@ class Dc1394Source::Implementation {
   explicit Implementation(const CameraOptions& options)
       : options_(options),
         guid_{parse_guid(options.name[kLeft]), parse_guid(options.name[kRight])},
-        live_(options.sync_tolerance, options.silence()) {
+        live_(options.tolerance(), options.silence()) {
     for (const Side side : {kLeft, kRight})
       threads_[side] = std::thread([this, side] { serve(side); });
   }

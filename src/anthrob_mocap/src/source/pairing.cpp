@@ -14,13 +14,17 @@ namespace {
 constexpr std::size_t kMostWaiting = 8;  // more than this long no partner comes
 constexpr std::size_t kIntervals = 9;    // whose median is the cameras' period
 constexpr double kAnotherTime = 1.0;     // [s] back: a bag that loops, a simulator anew
+constexpr int kAdvancing = 4;            // refused stamps in a row: a bag of less than that
 
 }  // namespace
 
 void Pairing::advance(Side side, double t) {
   std::optional<double>& last = last_[side];
   if (last && t <= *last) {
-    if (t > *last - kAnotherTime) {
+    int& advancing = advancing_[side];
+    advancing = refused_[side] && t > *refused_[side] ? advancing + 1 : 1;
+    refused_[side] = t;
+    if (t > *last - kAnotherTime && advancing <= kAdvancing) {
       char text[96];
       std::snprintf(text, sizeof(text), "stamp %.6f s: expected one after %.6f s, the last", t,
                     *last);
@@ -32,6 +36,7 @@ void Pairing::advance(Side side, double t) {
     if (intervals_.size() > kIntervals) intervals_.pop_front();
   }
   last = t;
+  refused_[side].reset();
 }
 
 double Pairing::tolerance() const {

@@ -15,8 +15,13 @@ struct CameraOptions {
   /// Empty: the first of its source's. aravis: software, free, or a line of the camera ("Line0");
   /// dc1394: external, free.
   std::string trigger;
-  double sync_tolerance = 0.004;  ///< [s] between the arrivals of a pair; half a period at most
+  /// [s] between the arrivals of a pair; half a period at most. 0: as tolerance() says.
+  double sync_tolerance = 0.0;
 
+  /// [s] sync_tolerance, or 0.004 s where cameras are slow enough for it
+  double tolerance() const {
+    return sync_tolerance > 0.0 ? sync_tolerance : std::min(0.004, 0.5 / rate);
+  }
   double silence() const { return std::max(0.5, 3.0 / rate); }   ///< [s] without images: trouble
   double patience() const { return std::max(1.0, 3.0 / rate); }  ///< [s] then: opened anew
 

@@ -29,7 +29,8 @@ class Pairing {
 
   /// @return true if the image completes a pair, then in pair[kLeft], pair[kRight]
   /// @throws BadInput if its stamp does not follow that of the side's image before: of stamps that
-  ///   stand still nobody knows which belong together. A second back and more is another time.
+  ///   stand still nobody knows which belong together. A second back and more is another time, and
+  ///   so are some in a row that do advance among themselves.
   bool add(Side side, const TimedImage& image, TimedImage pair[2]);
 
   struct Counts {
@@ -49,8 +50,10 @@ class Pairing {
   void advance(Side side, double t);
 
   double tolerance_;
-  std::optional<double> last_[2];  ///< [s] stamps
-  std::deque<double> intervals_;   ///< [s] the last between images of either side
+  std::optional<double> last_[2];     ///< [s] stamps
+  std::optional<double> refused_[2];  ///< [s] the last stamp, if it was refused
+  int advancing_[2] = {0, 0};         ///< refused stamps in a row, each after the one before
+  std::deque<double> intervals_;      ///< [s] the last between images of either side
   std::deque<TimedImage> waiting_[2];
   Counts counts_;
 };
