@@ -14,8 +14,7 @@ namespace mocap {
 class Dc1394Source final : public FrameSource {
  public:
   /// @throws BadInput if a name is no GUID, the trigger neither external nor free, or a number
-  /// makes
-  ///   no sense
+  ///   makes no sense
   explicit Dc1394Source(const CameraOptions& options);
   ~Dc1394Source() override;
 
