@@ -1,5 +1,6 @@
 #include "anthrob_sim/placement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -74,8 +75,12 @@ void Placement::set_muscle(const std::string& name, double position) {
   const int index = model_.find_muscle(name);
   if (index < 0) throw BadInput(who + ": no such muscle");
   if (!std::isfinite(position)) throw BadInput(who + ": position is not finite");
-  const double limit = model_.muscles[index].limits.position;
-  if (std::abs(position) > limit + kGive) refuse(who, position, -limit, limit);
+  const MuscleModel& muscle = model_.muscles[index];
+  const double limit = muscle.limits.position;
+  const double highest = std::min(limit + kGive, muscle.actuator->highest_position());
+  if (position < -limit - kGive || position > highest) {
+    refuse(who, position, -limit, std::min(limit, highest));
+  }
   positions_[index] = position;
 }
 

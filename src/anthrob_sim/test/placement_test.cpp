@@ -107,5 +107,13 @@ TEST(Placement, MusclesStayWithinTheLimitsOfCommands) {
   EXPECT_NE(refusal([&] { placement.set_muscle("nobody", 0.0); }), "");
 }
 
+TEST(Placement, AHillMuscleHasAShortestLength) {
+  const auto model = load_robot_model(config("two_muscle_rig/model_hill.yaml"));
+  Placement placement(*model);
+  placement.set_muscle("flexor", 0.8);
+  const std::string text = refusal([&] { placement.set_muscle("flexor", 0.81); });
+  EXPECT_NE(text.find("to 0.8"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace anthrob

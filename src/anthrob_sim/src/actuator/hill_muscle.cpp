@@ -100,6 +100,10 @@ double HillMuscle::position_for(double tendon_length) const {
   return (p_.rest_tendon_length - tendon_length) / p_.optimal_length;
 }
 
+double HillMuscle::highest_position() const {
+  return 1.0 - kShortest;
+}
+
 double HillMuscle::holding_input(double position, double load) const {
   const double length = 1.0 - position;
   return std::clamp((load / p_.max_force - passive_force(length)) / force_length(length), 0.0, 1.0);

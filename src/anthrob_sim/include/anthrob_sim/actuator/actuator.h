@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -41,6 +42,8 @@ class Actuator {
   virtual double winding_speed(StateView state) const = 0;
   /// The position that gives a tendon length, the inverse of tendon_length at rest.
   virtual double position_for(double tendon_length) const = 0;
+  /// The furthest it can wind in [rad]; infinite if nothing ends it.
+  virtual double highest_position() const { return std::numeric_limits<double>::infinity(); }
   /// The input that keeps the actuator at rest at a position under a load [N].
   virtual double holding_input(double position, double load) const = 0;
 

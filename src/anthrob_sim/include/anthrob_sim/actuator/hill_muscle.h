@@ -34,6 +34,7 @@ class HillMuscle final : public Actuator {
   double tendon_length(StateView state) const override;
   double winding_speed(StateView state) const override;
   double position_for(double tendon_length) const override;
+  double highest_position() const override;
   double holding_input(double position, double load) const override;
   double input_low() const override { return 0.0; }
   double input_high() const override { return 1.0; }
