@@ -266,6 +266,15 @@ class Contract(unittest.TestCase):
         self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
         self.await_value('voltage', 'lateral_deltoid', 1.0)
 
+    def test_enable_in_motion_does_not_switch_the_timeout_off(self):
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.await_value('voltage', 'lateral_deltoid', 1.0)
+        self.commander.message = None
+        answer = self.call('enable')
+        self.assertTrue(answer.success)
+        self.assertEqual(answer.message, 'already enabled')
+        self.await_state(MuscleStates.STOPPING)
+
     def check_stop_is_latched(self):
         self.await_state(MuscleStates.STOPPING)
         self.stays_still()

@@ -118,6 +118,11 @@ Supervisor::Outcome Supervisor::enable(double time) {
       return {false, ecus_[i] + " is in FAULT: call clear_faults first"};
     }
   }
+  const bool running =
+      std::all_of(machines_.begin(), machines_.end(),
+                  [](const StateMachine& machine) { return machine.state() == State::kEnabled; });
+  // What runs stays watched: else its motors would follow the last command for ever.
+  if (running && !machines_.empty()) return {true, "already enabled"};
   handle_all(Event::kEnable);
   // The watch starts with the first command after enabling.
   commanded_ = timed_out_ = false;

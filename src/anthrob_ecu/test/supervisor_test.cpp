@@ -155,6 +155,18 @@ TEST(Supervisor, AutoEnableDoesNotEndADisableAfterATimeout) {
   }
 }
 
+TEST(Supervisor, EnablingWhatRunsDoesNotEndTheWatch) {
+  Fixture f;
+  EXPECT_EQ(f.supervisor.enable(0.0).reason, "");
+  f.command(0.0);
+  const auto outcome = f.supervisor.enable(0.3);
+  EXPECT_TRUE(outcome.accepted);
+  EXPECT_EQ(outcome.reason, "already enabled");
+  EXPECT_FALSE(f.supervisor.update(0.5));
+  EXPECT_TRUE(f.supervisor.update(0.6));
+  EXPECT_EQ(f.supervisor.state(0), State::kStopping);
+}
+
 TEST(Supervisor, ZeroTimeoutNeverStops) {
   Fixture f({0.0, false});
   f.supervisor.enable(0.0);

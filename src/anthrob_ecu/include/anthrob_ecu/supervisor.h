@@ -53,6 +53,7 @@ class Supervisor {
                   const std::vector<double>& references, double time,
                   std::vector<MuscleReference>& accepted);
 
+  /// Where all is enabled already nothing changes: the watch over commands goes on.
   Outcome enable(double time);
   Outcome disable();
   Outcome emergency_stop();
