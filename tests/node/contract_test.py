@@ -127,6 +127,11 @@ class Contract(unittest.TestCase):
             self.assertEqual({v for v in self.states.last().voltage if not math.isnan(v)} - {0.0}, set())
             time.sleep(0.005)
 
+    def diagnosed(self, key):
+        """What the back end's last diagnostics say."""
+        wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
+        return {v.key: v.value for v in self.diagnostics.last().status[0].values}[key]
+
     # ---- topics ----
 
     def test_states_of_all_muscles_at_200_hz(self):
@@ -177,6 +182,10 @@ class Contract(unittest.TestCase):
         self.send(MUSCLES, [VOLTAGE] * 11, [4.0] * 11)
         time.sleep(0.2 / PACE)
         self.stays_still(1.0)
+        # Nor does it look as if commands were taken.
+        wait_for(lambda: self.diagnosed('last_rejection') == 'not enabled: call enable', 'the refusal in diagnostics')
+        rejected = int(self.diagnosed('rejected_commands'))
+        wait_for(lambda: int(self.diagnosed('rejected_commands')) > rejected, 'more refusals in diagnostics')
 
     def test_a_command_moves_the_arm(self):
         before = self.balls.last().orientation[0].w
@@ -233,10 +242,8 @@ class Contract(unittest.TestCase):
         ]
 
         def rejected():
-            values = {v.key: v.value for v in self.diagnostics.last().status[0].values}
-            return int(values['rejected_commands']), values['last_rejection']
+            return int(self.diagnosed('rejected_commands')), self.diagnosed('last_rejection')
 
-        wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
         time.sleep(1.5 / PACE)
         before = rejected()[0]
         # Good commands go on: the bad ones must neither take effect nor keep the good ones from it.

@@ -58,7 +58,7 @@ void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   RobotDriver::Outcome outcome;
   double time = 0.0;
   thread_.call([&](RobotDriver& driver, double now) {
-    outcome = dropping_ ? RobotDriver::Outcome{false, "sent before the robot was ready for it"}
+    outcome = dropping_ ? driver.refuse("sent before the robot was ready for it")
                         : driver.command(command.name, command.mode, command.reference, now);
     time = now;
   });

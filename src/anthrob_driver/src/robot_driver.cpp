@@ -151,10 +151,9 @@ bool RobotDriver::take_analog(AnalogSample& sample) {
 RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
                                           const std::vector<std::uint8_t>& modes,
                                           const std::vector<double>& references, double now) {
+  if (home_.running()) return refuse("home is running");
   const Outcome outcome = supervisor_.command(names, modes, references, now, accepted_);
   if (!outcome.accepted) return outcome;
-  if (phase_ != Phase::kEnabled) return {false, "not enabled"};
-  if (home_.running()) return {false, "home is running"};
   for (const ecu::MuscleReference& reference : accepted_) {
     references_[static_cast<std::size_t>(reference.muscle)] = reference;
   }

@@ -301,6 +301,8 @@ TEST_F(HomeTest, CommandsAreRefusedMeanwhile) {
   const auto outcome = rig.driver().command({"brachialis"}, {0}, {1.0}, rig.now());
   EXPECT_FALSE(outcome.accepted);
   EXPECT_EQ(outcome.reason, "home is running");
+  EXPECT_EQ(rig.driver().supervisor().last_rejection(), "home is running");
+  EXPECT_EQ(rig.driver().supervisor().rejected_count(), 1u);
 }
 
 }  // namespace

@@ -37,6 +37,10 @@ TEST(RobotDriver, NothingMovesBeforeEnable) {
     rig.step();
     ASSERT_EQ(rig.moving(), 0) << "at " << i << " ms";
   }
+  const ecu::Supervisor& supervisor = rig.driver().supervisor();
+  EXPECT_EQ(supervisor.rejected_count(), 100u);
+  EXPECT_EQ(supervisor.last_rejection(), "not enabled: call enable");
+  EXPECT_LT(supervisor.command_age(rig.now()), 0.0);
 }
 
 TEST(RobotDriver, EnablesAndMovesAllMuscles) {

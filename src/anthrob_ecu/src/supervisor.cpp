@@ -93,11 +93,7 @@ Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
   accepted.clear();
   std::vector<MuscleReference> checked;
   const std::string reason = check(names, modes, references, checked);
-  if (!reason.empty()) {
-    ++rejected_;
-    last_rejection_ = reason;
-    return {false, reason};
-  }
+  if (!reason.empty()) return refuse(reason);
   if (options_.auto_enable && timed_out_) {
     // What was disabled stays so; a latched stop or a fault refuses this event.
     for (StateMachine& machine : machines_) {
@@ -105,10 +101,28 @@ Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
     }
     timed_out_ = false;
   }
+  for (const MuscleReference& reference : checked) {
+    if (!follows_references(reference.muscle)) return refuse(why_stopped(reference.muscle));
+  }
   commanded_ = true;
   last_command_ = time;
   accepted = std::move(checked);
   return {true, ""};
+}
+
+Supervisor::Outcome Supervisor::refuse(const std::string& reason) {
+  ++rejected_;
+  last_rejection_ = reason;
+  return {false, reason};
+}
+
+std::string Supervisor::why_stopped(int muscle) const {
+  if (stop_latched()) return "emergency stop is latched: call clear_faults, then enable";
+  if (state(muscle) == State::kFault) {
+    return ecus_[ecu_of_[static_cast<std::size_t>(muscle)]] +
+           " is in FAULT: call clear_faults, then enable";
+  }
+  return "not enabled: call enable";
 }
 
 Supervisor::Outcome Supervisor::enable(double time) {

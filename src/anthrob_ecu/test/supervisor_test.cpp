@@ -36,7 +36,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Supervisor, NothingMovesBeforeEnable) {
   Fixture f;
-  EXPECT_TRUE(f.command(0.0));
+  EXPECT_FALSE(f.command(0.0));
   EXPECT_FALSE(f.supervisor.follows_references(0));
   EXPECT_EQ(f.supervisor.state(0), State::kIdle);
   EXPECT_TRUE(f.supervisor.enable(0.1).accepted);
@@ -85,6 +85,32 @@ TEST(Supervisor, RefusesMalformedCommandsWholeAndSaysWhy) {
   EXPECT_LT(f.supervisor.command_age(1.0), 0.0);  // none of them counts as a command
 }
 
+TEST(Supervisor, CommandsForWhatIsStoppedAreRefusedCountedAndNamed) {
+  Fixture f;
+  const auto expect_refused = [&](double time, const std::string& muscle, std::size_t count,
+                                  const std::string& reason) {
+    const double age = f.supervisor.command_age(10.0);
+    const auto outcome = f.supervisor.command({"a", muscle}, {0, 0}, {1.0, 1.0}, time, f.accepted);
+    EXPECT_FALSE(outcome.accepted) << reason;
+    EXPECT_TRUE(f.accepted.empty());
+    EXPECT_EQ(outcome.reason, reason);
+    EXPECT_EQ(f.supervisor.last_rejection(), reason);
+    EXPECT_EQ(f.supervisor.rejected_count(), count);
+    EXPECT_EQ(f.supervisor.command_age(10.0), age);
+  };
+  expect_refused(0.0, "b", 1, "not enabled: call enable");
+  f.supervisor.enable(0.0);
+  f.command(1.0);
+  f.supervisor.fault("ecu_2");
+  expect_refused(1.1, "c", 2, "ecu_2 is in FAULT: call clear_faults, then enable");
+  f.supervisor.emergency_stop();
+  expect_refused(1.2, "b", 3, "emergency stop is latched: call clear_faults, then enable");
+  f.supervisor.clear_faults();
+  f.supervisor.refuse("home is running");
+  EXPECT_EQ(f.supervisor.rejected_count(), 4u);
+  EXPECT_EQ(f.supervisor.last_rejection(), "home is running");
+}
+
 TEST(Supervisor, OnlyFreshValidCommandsFeedTheWatch) {
   Fixture f;
   f.supervisor.enable(0.0);
@@ -103,7 +129,7 @@ TEST(Supervisor, AfterATimeoutHardwareStaysDisabledUntilEnabled) {
   f.supervisor.enable(0.0);
   f.command(0.0);
   f.supervisor.update(1.0);
-  EXPECT_TRUE(f.command(1.1));
+  EXPECT_FALSE(f.command(1.1));
   EXPECT_FALSE(f.supervisor.follows_references(0));
   f.supervisor.enable(1.2);
   EXPECT_TRUE(f.supervisor.follows_references(0));

@@ -73,12 +73,6 @@ ecu::Supervisor::Outcome DrivenJoints::command(const std::vector<std::string>& n
   const auto outcome = supervisor_.command(names, modes, efforts, sim.time(), accepted);
   if (!outcome.accepted) return refuse(outcome.reason);
   for (const ecu::MuscleReference& effort : accepted) {
-    if (supervisor_.follows_references(effort.muscle)) continue;
-    return refuse("joint '" + supervisor_.muscles()[effort.muscle].name +
-                  "': it is stopped: call " +
-                  (supervisor_.stop_latched() ? "clear_faults, then enable" : "enable"));
-  }
-  for (const ecu::MuscleReference& effort : accepted) {
     sim.apply_effort(joints_[effort.muscle], effort.reference);
   }
   return {true, ""};

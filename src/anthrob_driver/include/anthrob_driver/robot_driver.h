@@ -69,6 +69,8 @@ class RobotDriver {
 
   Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                   const std::vector<double>& references, double now);
+  /// A command that is not even looked at; counted and named as the others that are refused.
+  Outcome refuse(const std::string& reason) { return supervisor_.refuse(reason); }
   /// Begins; phase() and last_outcome() tell how it went, within kEnableTimeout.
   Outcome start_enable(double now);
   /// Begins; home().running() and its outcome tell how it went.

@@ -28,8 +28,9 @@ struct MuscleReference {
 };
 
 /// Watches over commands and states of all ECUs of a robot, the same on simulator and hardware:
-/// nothing moves before enable, commands that are malformed are refused whole, a command that is
-/// not renewed in time stops the motors, an emergency stop holds until it is cleared.
+/// nothing moves before enable, commands that are malformed or name a muscle that is stopped are
+/// refused whole, a command that is not renewed in time stops the motors, an emergency stop holds
+/// until it is cleared.
 ///
 /// Free of clocks: time comes in as an argument and may jump.
 class Supervisor {
@@ -48,10 +49,13 @@ class Supervisor {
 
   Supervisor(std::vector<MuscleChannel> muscles, const Options& options);
 
-  /// Checks a whole command; fills `references` only if all of it is good.
+  /// Checks a whole command; fills `accepted` only if all of it is good and all of its muscles
+  /// follow references.
   Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                   const std::vector<double>& references, double time,
                   std::vector<MuscleReference>& accepted);
+  /// Counts and names a command that the back end does not take for a reason of its own.
+  Outcome refuse(const std::string& reason);
 
   /// Where all is enabled already nothing changes: the watch over commands goes on.
   Outcome enable(double time);
@@ -98,6 +102,7 @@ class Supervisor {
   std::string check(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                     const std::vector<double>& references,
                     std::vector<MuscleReference>& accepted) const;
+  std::string why_stopped(int muscle) const;
   bool handle_all(Event event);
 
   std::vector<MuscleChannel> muscles_;
