@@ -5,8 +5,10 @@
 #include <sensor_msgs/JointState.h>
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
 #include <limits>
+#include <thread>
 
 #include "anthrob_driver/measurement_age.h"
 #include "anthrob_ros/diagnostics.h"
@@ -17,6 +19,9 @@ namespace driver {
 
 namespace {
 
+constexpr std::chrono::milliseconds kPause{2};  ///< between two looks at what a call waits for
+/// One call that waits does not hold up the others.
+constexpr std::uint32_t kRequestThreads = 4;
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 
 void answer(const RobotDriver::Outcome& outcome, std_srvs::Trigger::Response& response) {
@@ -42,9 +47,12 @@ DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
       touch_readings_(hardware_.touch.size()),
       nh_(nh),
       stop_nh_(nh),
-      command_nh_(nh) {
+      command_nh_(nh),
+      request_nh_(nh),
+      request_queue_([this] { return thread_.halts(); }) {
   stop_nh_.setCallbackQueue(&stop_queue_);
   command_nh_.setCallbackQueue(&command_queue_);
+  request_nh_.setCallbackQueue(&request_queue_);
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
   joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
   if (!hardware_.touch.empty()) touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);
@@ -67,51 +75,55 @@ void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   ROS_WARN_STREAM("muscle_command refused: " << outcome.reason);
 }
 
-void DriverNode::wait_while(const std::function<bool(RobotDriver&, double now)>& pending) {
-  for (bool waiting = true; waiting && ros::ok();) {
-    publish_measurements(0.002);
-    publish_diagnostics();
-    command_queue_.callAvailable();
-    thread_.call([&](RobotDriver& driver, double now) { waiting = pending(driver, now); });
-  }
+void DriverNode::pass_commands() {
+  // The round that runs now may have begun before the last of them came.
+  const std::uint64_t passed = command_rounds_ + 2;
+  while (command_rounds_ < passed && ros::ok()) std::this_thread::sleep_for(kPause);
 }
 
-void DriverNode::wait_without_commands(
-    const std::function<bool(RobotDriver&, double now)>& pending) {
-  // Taking them out of the queue would leave their messages in the subscription, for the next call.
-  dropping_ = true;
-  wait_while(pending);
-  command_queue_.callAvailable();
-  dropping_ = false;
+DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, Commands commands) {
+  const std::uint64_t received = RequestQueue::received();
+  Outcome outcome{false, "the motors were stopped after this was called; call it again"};
+  bool pending = false, refusing = false;
+  thread_.call([&](RobotDriver& driver, double now) {
+    pending = driver.halts() == received && begin(driver, now, outcome);
+    refusing = pending && commands == Commands::kRefused;
+    if (refusing) ++dropping_;
+  });
+  while (pending && ros::ok()) {
+    std::this_thread::sleep_for(kPause);
+    thread_.call([&](RobotDriver& driver, double now) { pending = look(driver, now, outcome); });
+  }
+  if (refusing) {
+    pass_commands();
+    thread_.call([this](RobotDriver&, double) { --dropping_; });
+  }
+  return outcome;
 }
 
 bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
-  RobotDriver::Outcome outcome;
-  bool waiting = false;
-  thread_.call([&](RobotDriver& driver, double now) {
+  const auto begin = [](RobotDriver& driver, double now, Outcome& outcome) {
     outcome = driver.start_enable(now);
-    waiting = driver.phase() == RobotDriver::Phase::kEnabling;
-  });
-  if (waiting) {
-    wait_without_commands([&](RobotDriver& driver, double) {
-      outcome = driver.last_outcome();
-      return driver.phase() == RobotDriver::Phase::kEnabling;
-    });
-  }
-  answer(outcome, response);
+    return driver.phase() == RobotDriver::Phase::kEnabling;
+  };
+  const auto look = [](RobotDriver& driver, double, Outcome& outcome) {
+    outcome = driver.last_outcome();
+    return driver.phase() == RobotDriver::Phase::kEnabling;
+  };
+  answer(carry_out(begin, look, Commands::kRefused), response);
   return true;
 }
 
 bool DriverNode::on_home(Trigger::Request&, Trigger::Response& response) {
-  RobotDriver::Outcome outcome;
-  thread_.call([&](RobotDriver& driver, double now) { outcome = driver.start_home(now); });
-  if (outcome.accepted) {
-    wait_without_commands([&](RobotDriver& driver, double) {
-      outcome = {driver.home().failure().empty(), driver.home().failure()};
-      return driver.home().running();
-    });
-  }
-  answer(outcome, response);
+  const auto begin = [](RobotDriver& driver, double now, Outcome& outcome) {
+    outcome = driver.start_home(now);
+    return outcome.accepted;
+  };
+  const auto look = [](RobotDriver& driver, double, Outcome& outcome) {
+    outcome = {driver.home().failure().empty(), driver.home().failure()};
+    return driver.home().running();
+  };
+  answer(carry_out(begin, look, Commands::kRefused), response);
   return true;
 }
 
@@ -126,10 +138,24 @@ bool DriverNode::on_emergency_stop(Trigger::Request&, Trigger::Response& respons
 }
 
 bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response) {
-  thread_.call(
-      [&](RobotDriver& driver, double now) { answer(driver.clear_faults(now), response); });
+  std::uint64_t halts = 0;
+  const auto begin = [&](RobotDriver& driver, double now, Outcome& outcome) {
+    halts = driver.halts();
+    outcome = driver.clear_faults(now);
+    return driver.clearing(now);
+  };
   // Until the ECUs have cleared too: enable may follow at once.
-  wait_while([](RobotDriver& driver, double now) { return driver.clearing(now); });
+  const auto look = [&](RobotDriver& driver, double now, Outcome& outcome) {
+    if (driver.halts() != halts) {
+      outcome = {false, "stopped meanwhile"};
+      return false;
+    }
+    if (driver.clearing(now)) return true;
+    const std::string left = driver.not_cleared();
+    if (!left.empty()) outcome = {false, left};
+    return false;
+  };
+  answer(carry_out(begin, look, Commands::kTaken), response);
   return true;
 }
 
@@ -263,19 +289,22 @@ void DriverNode::run() {
           ros::VoidConstPtr(), kNoDelay),
   };
   services_ = {
-      nh_.advertiseService("enable", &DriverNode::on_enable, this),
-      nh_.advertiseService("home", &DriverNode::on_home, this),
-      nh_.advertiseService("clear_faults", &DriverNode::on_clear_faults, this),
+      request_nh_.advertiseService("enable", &DriverNode::on_enable, this),
+      request_nh_.advertiseService("home", &DriverNode::on_home, this),
+      request_nh_.advertiseService("clear_faults", &DriverNode::on_clear_faults, this),
       stop_nh_.advertiseService("disable", &DriverNode::on_disable, this),
       stop_nh_.advertiseService("emergency_stop", &DriverNode::on_emergency_stop, this),
   };
   ros::AsyncSpinner stops(1, &stop_queue_);
   stops.start();
+  ros::AsyncSpinner requests(kRequestThreads, &request_queue_);
+  requests.start();
   report_time_ = monotonic_now();
   while (ros::ok()) {
     publish_measurements(0.002);
     ros::getGlobalCallbackQueue()->callAvailable();
     command_queue_.callAvailable();
+    ++command_rounds_;
     publish_diagnostics();
     log_stops();
   }

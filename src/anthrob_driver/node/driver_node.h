@@ -7,20 +7,23 @@
 #include <std_msgs/Empty.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <functional>
 #include <vector>
 
 #include "anthrob_driver/driver_thread.h"
 #include "anthrob_driver/reading_group.h"
 #include "anthrob_driver/stamp_clock.h"
+#include "request_queue.h"
 
 namespace anthrob {
 namespace driver {
 
 /// The ROS contract around the driver: topics, services, diagnostics; the same as the simulator's.
 ///
-/// Three threads: the bus has its own, stops have their own so that nothing can hold them up, all
-/// the rest is in run().
+/// The bus has a thread of its own, stops have one, so that nothing can hold them up, and the calls
+/// that wait for the robot (enable, home, clear_faults) have some; all the rest is in run(). A call
+/// that came in before a stop does not undo it.
 class DriverNode {
  public:
   DriverNode(Hardware hardware, const DriverThread::Options& options, const std::string& interface,
@@ -33,11 +36,17 @@ class DriverNode {
   using Trigger = std_srvs::Trigger;
 
   void on_command(const anthrob_msgs::MuscleCommand& command);
-  /// Within a service: measurements, diagnostics and commands go on until `pending` says no.
-  void wait_while(const std::function<bool(RobotDriver&, double now)>& pending);
-  /// The same, and commands are refused: whatever comes before the answer was sent for a state that
-  /// is past when they could be followed.
-  void wait_without_commands(const std::function<bool(RobotDriver&, double now)>& pending);
+  using Outcome = RobotDriver::Outcome;
+  /// Says what has come of a request so far. @return whether it goes on
+  using Step = std::function<bool(RobotDriver& driver, double now, Outcome& outcome)>;
+  enum class Commands { kTaken, kRefused };
+  /// Within a service: `begin`, unless the motors were stopped since the call came in, then `look`
+  /// again and again while that goes on.
+  /// @param commands meanwhile. Refused is also what comes before the answer: it was sent for a
+  /// state that is past when it could be followed
+  Outcome carry_out(const Step& begin, const Step& look, Commands commands);
+  /// Until all commands that have come so far were taken or refused.
+  void pass_commands();
   bool on_enable(Trigger::Request& request, Trigger::Response& response);
   bool on_home(Trigger::Request& request, Trigger::Response& response);
   bool on_disable(Trigger::Request& request, Trigger::Response& response);
@@ -61,9 +70,11 @@ class DriverNode {
   double pace_;
   StampClock stamp_clock_;
   ReadingGroup joint_readings_, touch_readings_;
-  ros::NodeHandle nh_, stop_nh_, command_nh_;
+  ros::NodeHandle nh_, stop_nh_, command_nh_, request_nh_;
   ros::CallbackQueue stop_queue_, command_queue_;
-  bool dropping_ = false;
+  RequestQueue request_queue_;
+  int dropping_ = 0;  ///< requests that refuse commands; for the thread of the bus only
+  std::atomic<std::uint64_t> command_rounds_{0};  ///< in which run() emptied command_queue_
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher muscles_, joints_, touch_, diagnostics_;

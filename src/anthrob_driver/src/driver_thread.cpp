@@ -109,6 +109,7 @@ void DriverThread::serve_requests() {
     work_.pop_front();
     lock.unlock();
     (*next.run)(driver_, now());
+    halts_ = driver_.halts();
     lock.lock();
     *next.done = true;
     done_.notify_all();
@@ -144,6 +145,7 @@ void DriverThread::loop() {
     for (int i = 0; i < kMostFrames && bus_.receive(event); ++i) driver_.receive(event, now());
     if (take_count(wakeup_) > 0) serve_requests();
     if (take_count(timer_) > 0) driver_.cycle(now());
+    halts_ = driver_.halts();
     collect();
   }
 }

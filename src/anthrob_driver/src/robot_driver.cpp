@@ -248,6 +248,7 @@ RobotDriver::Outcome RobotDriver::start_home(double now) {
 }
 
 RobotDriver::Outcome RobotDriver::disable() {
+  ++halts_;
   home_.abort("disabled");
   phase_ = Phase::kDisabled;
   disable_repeats_ = kRepeats;
@@ -281,10 +282,19 @@ RobotDriver::Outcome RobotDriver::clear_faults(double now) {
 
 bool RobotDriver::clearing(double now) const {
   if (cleared_ < 0.0 || now - cleared_ > kClearGrace) return false;
-  if (clear_repeats_ > 0) return true;
-  return std::any_of(links_.begin(), links_.end(), [](const EcuLink& link) {
-    return link.alive() && (link.stop_latched() || link.state() == ecu::State::kFault);
-  });
+  return clear_repeats_ > 0 || !not_cleared().empty();
+}
+
+std::string RobotDriver::not_cleared() const {
+  for (const EcuLink& link : links_) {
+    if (!link.alive()) continue;
+    const std::string who = link.own().name + ": ";
+    if (link.state() == ecu::State::kFault) {
+      return who + "fault " + ecu::name(link.report().fault) + " persists";
+    }
+    if (link.stop_latched()) return who + "holds its emergency stop";
+  }
+  return "";
 }
 
 // ---- watching ----

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rig.h"
 
@@ -84,6 +85,59 @@ TEST(RobotDriver, AnEmergencyStopIsLatchedAndClearsWithoutMotion) {
   rig.run(500);
   EXPECT_EQ(rig.moving(), 0);
   EXPECT_TRUE(rig.enable());
+}
+
+TEST(RobotDriver, WhatIsNotClearedIsNamed) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  const auto clear = [&] {
+    rig.driver().clear_faults(rig.now());
+    for (int ms = 0; rig.driver().clearing(rig.now()) && ms < 1000; ++ms) rig.step();
+    return rig.driver().not_cleared();
+  };
+  rig.rack.board(2).peripherals.supply = 8.0;
+  rig.run(100);
+  EXPECT_EQ(clear(), "ecu_3: fault supply_low persists");
+  rig.rack.board(2).peripherals.supply = 12.0;
+  EXPECT_EQ(clear(), "");
+  rig.driver().emergency_stop();
+  rig.run(10);
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool lost = ecu::function_of(f) == static_cast<int>(ecu::Function::kRequest);
+    return lost ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+  EXPECT_EQ(clear(), "ecu_1: holds its emergency stop");
+  rig.bus.tamper = nullptr;
+  EXPECT_EQ(clear(), "");
+  // Who does not answer cannot say.
+  rig.rack.board(2).peripherals.supply = 8.0;
+  rig.run(100);
+  rig.rack.board(2).set_power(false);
+  rig.run(100);
+  EXPECT_EQ(clear(), "");
+}
+
+TEST(RobotDriver, EveryDisableIsAHalt) {
+  Rig rig;
+  rig.run(1000);
+  auto halted = [&, before = rig.driver().halts()]() mutable {
+    return std::exchange(before, rig.driver().halts()) != before;
+  };
+  ASSERT_TRUE(rig.enable());
+  EXPECT_FALSE(halted());
+  rig.driver().disable();
+  EXPECT_TRUE(halted());
+  rig.driver().clear_faults(rig.now());
+  ASSERT_TRUE(rig.enable());
+  EXPECT_FALSE(halted());
+  rig.driver().emergency_stop();
+  EXPECT_TRUE(halted());
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  EXPECT_FALSE(halted());
+  rig.stranger.send(ecu::Frame{});
+  rig.run(2);
+  EXPECT_TRUE(halted());
 }
 
 /// As another driver on the bus does, which passes on every stop that it hears.

@@ -37,6 +37,9 @@ class DriverThread {
   /// Runs `work` between two events of the loop and waits until it is done.
   void call(const std::function<void(RobotDriver&, double now)>& work);
 
+  /// RobotDriver::halts(), for any thread and without waiting. Never behind what call() has done.
+  std::uint64_t halts() const { return halts_; }
+
   /// Waits for measurements, at most `seconds`. @return all that came since the last call
   struct Batch {
     std::deque<Sample> samples;
@@ -68,6 +71,7 @@ class DriverThread {
   std::deque<Work> work_;
   Batch batch_;
   std::atomic<bool> quit_{false};
+  std::atomic<std::uint64_t> halts_{0};
   std::thread thread_;
 };
 

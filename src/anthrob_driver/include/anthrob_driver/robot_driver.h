@@ -81,6 +81,8 @@ class RobotDriver {
 
   /// Between clear_faults and the moment the ECUs have cleared too.
   bool clearing(double now) const;
+  /// The first unit that answers and is in FAULT or holds an emergency stop, and why; empty: none.
+  std::string not_cleared() const;
 
   Phase phase() const { return phase_; }
   const Outcome& last_outcome() const { return last_outcome_; }
@@ -91,6 +93,8 @@ class RobotDriver {
   const Findings& findings() const { return findings_; }
   const BusWatch& bus_watch() const { return watch_; }
   std::uint64_t cycles() const { return cycles_; }
+  /// How often everything was disabled, by whomever and whether anything ran or not.
+  std::uint64_t halts() const { return halts_; }
   /// How often motors were stopped for a reason, and the last one.
   std::uint64_t stops() const { return stops_; }
   const std::string& last_stop() const { return last_stop_; }
@@ -138,7 +142,7 @@ class RobotDriver {
     std::vector<std::uint8_t> sequence;  ///< of the request, by ECU
   } enabling_;
 
-  std::uint64_t cycles_ = 0, stops_ = 0;
+  std::uint64_t cycles_ = 0, stops_ = 0, halts_ = 0;
   std::string last_stop_;
   std::uint8_t counter_ = 0, sequence_ = 0;
   double last_cycle_ = 0.0, started_ = 0.0, cleared_ = -1.0;

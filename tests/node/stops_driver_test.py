@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""What is called while `home` runs is answered at once, and nothing that was called before an emergency stop undoes it."""
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from anthrob_msgs.msg import MuscleStates
+from diagnostic_msgs.msg import DiagnosticArray
+from std_srvs.srv import Trigger
+
+PACE = 1.0  # seconds of the robot in a second of the wall clock
+
+
+def wait_for(condition, what, seconds):
+    end = time.time() + seconds / PACE
+    while time.time() < end:
+        if condition():
+            return
+        time.sleep(0.01)
+    raise AssertionError('waited %.1f s for: %s' % (seconds, what))
+
+
+class Call(threading.Thread):
+    """A service call in a thread of its own."""
+
+    def __init__(self, name):
+        super().__init__(daemon=True)
+        self.service, self.answer = rospy.ServiceProxy(name, Trigger), None
+        self.start()
+
+    def run(self):
+        self.answer = self.service()
+
+
+class Stops(unittest.TestCase):
+
+    def receive_states(self, message):
+        self.states = message
+
+    def receive_diagnostics(self, message):
+        if message.status[0].name == '/anthrob: driver':
+            self.driver = message.status[0]
+
+    def call(self, name):
+        return rospy.ServiceProxy(name, Trigger)()
+
+    def setUp(self):
+        self.states = self.driver = None
+        rospy.Subscriber('muscle_states', MuscleStates, self.receive_states, queue_size=10)
+        rospy.Subscriber('/diagnostics', DiagnosticArray, self.receive_diagnostics, queue_size=10)
+        for name in ['enable', 'home', 'clear_faults', 'disable', 'emergency_stop']:
+            rospy.wait_for_service(name, 60)
+        wait_for(lambda: self.states is not None and self.driver is not None, 'states and diagnostics', 30)
+
+    def test_what_was_called_before_a_stop_does_not_undo_it(self):
+        wait_for(lambda: self.call('enable').success, 'enable', 30)
+        home = Call('home')
+        wait_for(lambda: any(volts > 0.0 for volts in self.states.voltage), 'home to pull', 30)
+        called = {name: Call(name) for name in ['clear_faults', 'enable', 'home']}
+        for name, call in called.items():
+            call.join(60)
+            self.assertIsNotNone(call.answer, name)
+        self.assertTrue(home.is_alive(), 'they waited for home: ' + str(home.answer))
+        self.assertEqual({name: (call.answer.success, call.answer.message) for name, call in called.items()},
+                         {'clear_faults': (True, 'nothing to clear'), 'enable': (True, 'already enabled'),
+                          'home': (False, 'home is running already')})
+        self.assertTrue(self.call('emergency_stop').success)
+        home.join(60)
+        self.assertFalse(home.answer.success, home.answer.message)
+        time.sleep(1.0 / PACE)
+        self.assertEqual(set(self.states.ecu_state), {MuscleStates.STOPPING})
+        answer = self.call('enable')
+        self.assertFalse(answer.success)
+        self.assertIn('emergency stop is latched', answer.message)
+        # It shows for as long as it holds.
+        self.driver = None
+        wait_for(lambda: self.driver is not None, 'diagnostics', 10)
+        self.assertEqual(self.driver.message, 'emergency stop')
+        self.assertEqual(self.driver.level, 1)
+        self.assertTrue(self.call('clear_faults').success)
+        self.assertTrue(self.call('enable').success)
+
+
+if __name__ == '__main__':
+    rospy.init_node('stops_driver_test')
+    PACE = rospy.get_param('~pace', 1.0)
+    rostest.rosrun('anthrob_tests', 'stops_driver', Stops)
