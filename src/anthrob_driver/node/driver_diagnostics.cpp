@@ -47,10 +47,11 @@ DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std:
                    : driver.home().running()          ? "homing"
                    : enabled                          ? "enabled"
                                                       : "disabled";
+  if (driver.supervisor().stop_latched()) raise(status, DiagnosticStatus::WARN);
   const std::string trouble = driver.bus_watch().trouble();
   if (!trouble.empty()) {
     status.message += ": " + trouble;
-    status.level = DiagnosticStatus::ERROR;
+    raise(status, DiagnosticStatus::ERROR);
   }
   const ecu::Supervisor& supervisor = driver.supervisor();
   const auto late = driver.findings().count(Finding::kLateCycle);
@@ -59,6 +60,8 @@ DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std:
       key_value("last_rejection", supervisor.last_rejection()),
       key_value("command_age", text(supervisor.command_age(now))),
       key_value("last_outcome", driver.last_outcome().reason),
+      key_value("stops", std::to_string(driver.stops())),
+      key_value("last_stop", driver.last_stop()),
       key_value("frames_received", std::to_string(driver.bus_watch().frames())),
       key_value("late_cycles", std::to_string(late)),
   };

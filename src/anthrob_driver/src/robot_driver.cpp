@@ -93,7 +93,7 @@ void RobotDriver::on_frame(const ecu::Frame& frame, double now) {
     // Somebody else on the bus pressed stop.
     findings_.add(Finding::kStopLatched, -1, now);
     // Passed on once; each cycle repeats it. Two hosts that answered each other would never end.
-    if (!supervisor_.stop_latched()) emergency_stop();
+    if (!supervisor_.stop_latched()) obey_stop(-1);
     return;
   }
   if (ecu::function_of(frame) <= static_cast<int>(Function::kReference) ||
@@ -310,8 +310,19 @@ void RobotDriver::stop(Finding finding, int ecu) {
   if (ecu >= 0 && finding != Finding::kEcuStopped)
     supervisor_.fault(links_[static_cast<std::size_t>(ecu)].own().name);
   last_outcome_ = {false, who + what.meaning};
+  note_stop(finding, who + what.meaning);
+}
+
+void RobotDriver::obey_stop(int ecu) {
+  emergency_stop();
+  const std::string who = ecu < 0 ? "" : links_[static_cast<std::size_t>(ecu)].own().name + ": ";
+  note_stop(Finding::kStopLatched, ecu < 0 ? "a STOP frame came from elsewhere on the bus"
+                                           : who + info(Finding::kStopLatched).meaning);
+}
+
+void RobotDriver::note_stop(Finding finding, const std::string& what) {
   ++stops_;
-  last_stop_ = std::string(what.name) + ": " + who + what.meaning + "; " + what.remedy;
+  last_stop_ = std::string(info(finding).name) + ": " + what + "; " + info(finding).remedy;
 }
 
 void RobotDriver::check_bus(double now) {
@@ -350,7 +361,7 @@ void RobotDriver::check_ecus(double now) {
     }
     if (link.stop_latched() && !supervisor_.stop_latched() && now - cleared_ > kClearGrace) {
       findings_.add(Finding::kStopLatched, index, now);
-      emergency_stop();
+      obey_stop(index);
     }
     if (phase_ == Phase::kEnabled && link.state() != ecu::State::kEnabled) {
       findings_.add(Finding::kEcuStopped, index, now, ecu::name(link.report().fault));
@@ -400,6 +411,7 @@ void RobotDriver::continue_zero(double now) {
 void RobotDriver::fail_home(double now) {
   findings_.add(Finding::kHomeFailed, -1, now, home_.failure());
   disable();
+  note_stop(Finding::kHomeFailed, home_.failure());
 }
 
 // ---- out ----

@@ -134,6 +134,9 @@ TEST_F(HomeTest, NamesABrokenTendonAndStops) {
   home();
   EXPECT_NE(failure().find("supraspinatus"), std::string::npos) << failure();
   EXPECT_NE(failure().find("broken"), std::string::npos) << failure();
+  EXPECT_EQ(rig.driver().stops(), 1u);
+  EXPECT_EQ(rig.driver().last_stop(),
+            "home_failed: " + failure() + "; " + info(Finding::kHomeFailed).remedy);
   rig.run(20);
   EXPECT_EQ(rig.moving(), 0);
   EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);

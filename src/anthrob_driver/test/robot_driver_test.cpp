@@ -87,6 +87,31 @@ TEST(RobotDriver, AnEmergencyStopIsLatchedAndClearsWithoutMotion) {
   EXPECT_TRUE(rig.enable());
 }
 
+TEST(RobotDriver, AStopFromElsewhereIsCountedAndNamed) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.driver().emergency_stop();
+  rig.run(20);
+  EXPECT_EQ(rig.driver().stops(), 0u);  // whoever called it here knows
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  ASSERT_TRUE(rig.enable());
+  rig.stranger.send(ecu::Frame{});
+  rig.run(200);
+  EXPECT_EQ(rig.driver().stops(), 1u);
+  EXPECT_EQ(rig.driver().last_stop(),
+            "stop_latched: a STOP frame came from elsewhere on the bus; find who sent it; "
+            "clear_faults, enable");
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  // One that only the unit heard, while nothing ran.
+  rig.rack.board(2).receive(ecu::Frame{});
+  rig.run(200);
+  EXPECT_EQ(rig.driver().stops(), 2u);
+  EXPECT_EQ(rig.driver().last_stop().substr(0, 20), "stop_latched: ecu_3:");
+  EXPECT_TRUE(rig.driver().supervisor().stop_latched());
+}
+
 TEST(RobotDriver, WhatIsNotClearedIsNamed) {
   Rig rig;
   ASSERT_TRUE(rig.start());

@@ -116,6 +116,9 @@ class RobotDriver {
   void fail_home(double now);
   void finish_enable(bool success, const std::string& reason);
   void stop(Finding finding, int ecu);
+  /// Somebody else pressed stop. @param ecu which holds it; -1: a frame on the bus
+  void obey_stop(int ecu);
+  void note_stop(Finding finding, const std::string& what);
   void send_cycle(double now);
   void close_sample(double now);
   void keep_analog(const EcuLink& link, int ecu, double now);
