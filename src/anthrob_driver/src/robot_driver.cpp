@@ -56,6 +56,7 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
   }
   sent_ = references_;
   enabling_.sequence.resize(links_.size());
+  restarted_.resize(links_.size());
   sample_.muscles.resize(hardware_.muscles.size());
   joint_slopes_.resize(hardware_.joints.size());
 }
@@ -342,6 +343,7 @@ void RobotDriver::check_ecus(double now) {
     if (link.take_restart()) {
       stop(Finding::kEcuRestarted, index);
       supervisor_.lose_zero(link.own().name);
+      restarted_[e] = true;
       // While nothing runs too: its zero is lost, and the user must know before enabling.
       supervisor_.fault(link.own().name);
     }
@@ -386,15 +388,24 @@ void RobotDriver::continue_home(double now) {
   if (home_.state() == Home::State::kFailed) return fail_home(now);
   if (home_.state() != Home::State::kReached) return;
   zero_deadline_ = now + kZeroTimeout;
-  // Muscles that were not pulled keep their zero, unless it is lost anyway.
-  for (EcuLink& link : links_) link.start_zero(supervisor_.zero_lost(link.own().muscles.front()));
+  for (std::size_t e = 0; e < links_.size(); ++e) {
+    // Muscles that were not pulled keep their zero, unless it is lost anyway.
+    links_[e].start_zero(restarted_[e]);
+    // From here on it is the old one or the new one, until it is confirmed.
+    if (!links_[e].zeroed()) supervisor_.lose_zero(links_[e].own().name);
+  }
 }
 
 void RobotDriver::continue_zero(double now) {
   // The tendons are held meanwhile. The zero counts only if every ECU confirms it.
   bool all = true;
-  for (EcuLink& link : links_) {
-    if (link.zeroed()) continue;
+  for (std::size_t e = 0; e < links_.size(); ++e) {
+    EcuLink& link = links_[e];
+    if (link.zeroed()) {
+      supervisor_.regain_zero(link.own().name);
+      restarted_[e] = false;
+      continue;
+    }
     all = false;
     if (link.zero_refused() || now > zero_deadline_) {
       home_.abort(link.zeroing().name + ": " + link.own().name + " does not take the zero");
@@ -403,9 +414,7 @@ void RobotDriver::continue_zero(double now) {
     ecu::Frame frame;
     if (link.next_zero(now, frame)) send(frame);
   }
-  if (!all) return;
-  home_.finish();
-  supervisor_.regain_zeros();
+  if (all) home_.finish();
 }
 
 void RobotDriver::fail_home(double now) {

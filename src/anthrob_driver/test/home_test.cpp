@@ -255,7 +255,7 @@ TEST_F(HomeTest, AUnitThatRestartedTakesNoPositionsBeforeIt) {
   const auto infraspinatus = command("infraspinatus", ecu::Mode::kPosition, 1.0);
   EXPECT_FALSE(infraspinatus.accepted);
   EXPECT_EQ(infraspinatus.reason,
-            "muscle 'infraspinatus': ecu_3 restarted and lost its zero: call home first");
+            "muscle 'infraspinatus': ecu_3 has lost its zero: call home first");
   EXPECT_EQ(rig.driver().supervisor().last_rejection(), infraspinatus.reason);
   EXPECT_FALSE(command("teres_minor", ecu::Mode::kPosition, 1.0).accepted);
   EXPECT_TRUE(command("infraspinatus", ecu::Mode::kVoltage, 0.0).accepted);
@@ -280,6 +280,39 @@ TEST_F(HomeTest, AHomeThatFailedBringsNoZeroBack) {
   rig.run(100);
   ASSERT_TRUE(rig.enable());
   EXPECT_FALSE(command("infraspinatus", ecu::Mode::kPosition, 1.0).accepted);
+}
+
+TEST_F(HomeTest, AnInterruptedWriteOfZerosLosesThoseThatAreNotConfirmed) {
+  // One unit takes its zero, and nobody hears that it did.
+  const int node = rig.hardware.ecus[2].node;
+  int unheard = 0;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool lost = ecu::function_of(f) == static_cast<int>(ecu::Function::kParameterReply) &&
+                      ecu::node_of(f) == node;
+    unheard += lost;
+    return lost ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  while (unheard == 0 && rig.driver().home().running()) rig.step();
+  ASSERT_GT(unheard, 0);
+  rig.run(40);  // the others have confirmed
+  rig.driver().emergency_stop();
+  rig.bus.tamper = nullptr;
+  rig.run(20);
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  ASSERT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+  EXPECT_EQ(command("infraspinatus", ecu::Mode::kPosition, 0.0).reason,
+            "muscle 'infraspinatus': ecu_3 has lost its zero: call home first");
+  EXPECT_TRUE(command("infraspinatus", ecu::Mode::kForce, 2.0).accepted);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+  EXPECT_TRUE(command(rig.hardware.muscles[11].name, ecu::Mode::kPosition, 0.0).accepted);
+  rig.driver().disable();
+  rig.run(100);
+  ASSERT_TRUE(rig.enable());
+  home();
+  ASSERT_EQ(failure(), "");
+  EXPECT_TRUE(command("infraspinatus", ecu::Mode::kPosition, 0.0).accepted);
 }
 
 TEST_F(HomeTest, ARestartedHandIsZeroWhereItIs) {

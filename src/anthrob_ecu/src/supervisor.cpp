@@ -73,7 +73,7 @@ std::string Supervisor::check(const std::vector<std::string>& names,
     const auto muscle = it - muscles_.begin();
     const std::size_t ecu = ecu_of_[static_cast<std::size_t>(muscle)];
     if (static_cast<Mode>(modes[i]) == Mode::kPosition && zero_lost_[ecu]) {
-      return who + ecus_[ecu] + " restarted and lost its zero: call home first";
+      return who + ecus_[ecu] + " has lost its zero: call home first";
     }
     const double reference = references[i];
     if (!std::isfinite(reference)) return who + "reference is not a finite number";
@@ -174,13 +174,17 @@ Supervisor::Outcome Supervisor::fault(const std::string& ecu) {
 }
 
 void Supervisor::lose_zero(const std::string& ecu) {
-  for (std::size_t i = 0; i < ecus_.size(); ++i) {
-    if (ecus_[i] == ecu) zero_lost_[i] = true;
-  }
+  set_zero_lost(ecu, true);
 }
 
-void Supervisor::regain_zeros() {
-  std::fill(zero_lost_.begin(), zero_lost_.end(), char{false});
+void Supervisor::regain_zero(const std::string& ecu) {
+  set_zero_lost(ecu, false);
+}
+
+void Supervisor::set_zero_lost(const std::string& ecu, bool lost) {
+  for (std::size_t i = 0; i < ecus_.size(); ++i) {
+    if (ecus_[i] == ecu) zero_lost_[i] = lost;
+  }
 }
 
 bool Supervisor::update(double time) {

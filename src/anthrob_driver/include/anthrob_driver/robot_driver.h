@@ -134,6 +134,7 @@ class RobotDriver {
   std::vector<EcuLink> links_;
   std::vector<int> link_of_node_;
   Home home_;
+  std::vector<char> restarted_;  ///< by ECU: no zero was confirmed since
 
   Phase phase_ = Phase::kDisabled;
   Outcome last_outcome_{true, ""};

@@ -63,10 +63,10 @@ class Supervisor {
   Outcome emergency_stop();
   Outcome clear_faults();
   Outcome fault(const std::string& ecu);
-  /// This ECU started anew: where its muscles are is not known, so none of them takes positions
-  /// until regain_zeros().
+  /// This ECU started anew, or may have taken a new zero or not: where its muscles are is not
+  /// known, so none of them takes positions until regain_zero().
   void lose_zero(const std::string& ecu);
-  void regain_zeros();
+  void regain_zero(const std::string& ecu);
   bool zero_lost(int muscle) const { return zero_lost_[ecu_of_[muscle]]; }
 
   /// The back end moves muscles itself just now: the watch over commands starts anew at `time`, as
@@ -103,6 +103,7 @@ class Supervisor {
                     const std::vector<double>& references,
                     std::vector<MuscleReference>& accepted) const;
   std::string why_stopped(int muscle) const;
+  void set_zero_lost(const std::string& ecu, bool lost);
   bool handle_all(Event event);
 
   std::vector<MuscleChannel> muscles_;
