@@ -17,11 +17,12 @@ EcuLink::EcuLink(const Hardware& hardware, int index, Findings& findings)
 }
 
 void EcuLink::start_cycle(std::uint8_t counter, double now) {
-  if (started_ && sampled_ && !complete()) {
+  if (started_ && sampled_ && got_ != wanted_) {
     if (unanswered_ < kLostSyncs) ++unanswered_;
     findings_.add(Finding::kLostFrame, index_, now);
   }
   started_ = true;
+  returning_ = sampled_ && unanswered_ >= kLostSyncs;
   counter_ = static_cast<std::uint8_t>(counter & 0xF);
   got_ = 0;
   got_analog_ = false;
@@ -48,7 +49,7 @@ void EcuLink::receive(const ecu::Frame& frame, double now) {
     case Function::kAnalog: {
       const ecu::Analog analog = ecu::decode_analog(frame);
       // Given out twice it would be two measurements at one instant.
-      if (!started_ || got_analog_ || analog.counter != counter_) break;
+      if (!started_ || returning_ || got_analog_ || analog.counter != counter_) break;
       analog_ = analog;
       got_analog_ = analog_new_ = true;
       break;
@@ -78,10 +79,11 @@ bool EcuLink::take_part(unsigned part, std::uint8_t counter, double now) {
 }
 
 void EcuLink::finish_answer(double now) {
-  if (!complete()) return;
+  if (got_ != wanted_) return;
+  unanswered_ = 0;
+  if (returning_) return;
   sample_ = incoming_;
   sampled_ = true;
-  unanswered_ = 0;
   sample_time_ = now;
   state_ = sample_.motion[0].state;
   latched_ = sample_.motion[0].stop_latched;

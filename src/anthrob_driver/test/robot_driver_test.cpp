@@ -326,6 +326,45 @@ TEST(RobotDriver, StaleDataIsNeverGivenOutAgain) {
   EXPECT_TRUE(rig.samples.empty());
 }
 
+TEST(RobotDriver, AnOldAnswerDoesNotPassForTheFirstAfterALoss) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  const int node = rig.hardware.ecus[2].node;
+  // What the unit said to a SYNC stays in its controller, which has left the bus; when it is back
+  // the four bits of the counter have come round.
+  std::vector<ecu::Frame> waiting;
+  bool off = false;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const int function = ecu::function_of(f);
+    if (ecu::node_of(f) != node || function < 4 || function > 7) return std::vector<ecu::Frame>{f};
+    if (off && waiting.size() < 3) waiting.push_back(f);
+    return off ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+  while (rig.ms % rig.period_ms != 0) rig.step();
+  off = true;
+  const std::uint64_t lost = rig.driver().cycles();
+  rig.run(rig.period_ms);
+  ASSERT_EQ(waiting.size(), 3u);
+  const double old = ecu::decode_motion(waiting[0]).position;
+  while (rig.driver().cycles() < lost + 1 + 16) rig.step();
+  ASSERT_FALSE(rig.driver().link(2).alive());
+  rig.samples.clear();
+  off = false;
+  rig.bus.tamper = nullptr;
+  for (const ecu::Frame& frame : waiting) rig.stranger.send(frame);
+  rig.run(1);
+  EXPECT_FALSE(rig.driver().link(2).alive());
+  rig.run(30);
+  EXPECT_TRUE(rig.driver().link(2).alive());
+  int measured = 0;
+  for (const Sample& sample : rig.samples) {
+    if (!sample.muscles[4].measured) continue;
+    ++measured;
+    EXPECT_NE(sample.muscles[4].position, old);
+  }
+  EXPECT_GE(measured, 4);
+}
+
 TEST(RobotDriver, ASampleHasTheReferencesThatWentOutWithItsSync) {
   Rig rig;
   ASSERT_TRUE(rig.start());

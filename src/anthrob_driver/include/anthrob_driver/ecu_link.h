@@ -43,10 +43,12 @@ class EcuLink {
 
   bool heard() const { return heard_; }
   /// Whether it answers.
-  bool alive() const { return sampled_ && unanswered_ < kLostSyncs; }
+  bool alive() const { return sampled_ && !returning_ && unanswered_ < kLostSyncs; }
   bool configured() const { return heard_ && report_.configuration == own().configuration; }
-  /// All frames of the current SYNC are in.
-  bool complete() const { return got_ == wanted_; }
+  /// All frames of the current SYNC are in. Not so of an ECU that was lost and answers again for
+  /// the first time: what waited in its controller meanwhile may pass for an answer, for the
+  /// counter has four bits only.
+  bool complete() const { return got_ == wanted_ && !returning_; }
   /// Session differs from the first report's: it restarted. True once.
   bool take_restart();
   /// A report in another version of the protocol came, perhaps of a second unit with this number.
@@ -88,6 +90,7 @@ class EcuLink {
   unsigned wanted_;  ///< bits of the frames that make an answer
   unsigned got_ = 0;
   int unanswered_ = 0;        ///< SYNCs since the last complete answer
+  bool returning_ = false;    ///< was lost until the current SYNC
   std::uint8_t counter_ = 0;  ///< low four bits of the SYNC's
   bool started_ = false;
   Sample incoming_, sample_;
