@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "anthrob_config/config_node.h"
 
@@ -244,7 +246,7 @@ class Loader {
       TouchSensor touch;
       touch.name = name;
       touch.ecu = find_ecu(node.text("ecu"), node);
-      touch.input = input(node, touch.ecu);
+      touch.input = input(node, touch.ecu, name);
       const ConfigNode sensor = sensors.at("touch").at(name);
       touch.sensor.gain = sensor.number("gain", Bounds::positive(), "N");
       touch.sensor.threshold = sensor.number("threshold", Bounds::between(0.0, 4095.0), "count");
@@ -252,9 +254,20 @@ class Loader {
     }
   }
 
-  int input(const ConfigNode& node, int ecu_index) {
+  /// After the muscles. @param sensor that is wired there
+  int input(const ConfigNode& node, int ecu_index, const std::string& sensor) {
     const int input = node.at("input").as_integer(0, ecu::kAnalogInputs - 1);
     EcuHardware& ecu = hardware_.ecus[static_cast<std::size_t>(ecu_index)];
+    // The driver would not listen to it. Another model may have no muscles there.
+    if (own_model_ && ecu.muscles.empty()) {
+      node.at("ecu").fail(ecu.name + ": expected a unit with muscles, and " +
+                          (hand_ ? "" : "without hand ") + "this one has none");
+    }
+    const auto [other, first] = sensor_at_.try_emplace({ecu_index, input}, sensor);
+    if (!first) {
+      node.at("input").fail(std::to_string(input) + " of " + ecu.name + ": " + other->second +
+                            " is there already");
+    }
     ecu.analogs = std::max(ecu.analogs, input + 1);
     return input;
   }
@@ -265,7 +278,7 @@ class Loader {
       JointSensor joint;
       joint.joint = name;
       joint.ecu = find_ecu(node.text("ecu"), node);
-      joint.input = input(node, joint.ecu);
+      joint.input = input(node, joint.ecu, name);
       joint.sensor = load_linear(calibration_.at("joints").at(name), "rad");
       hardware_.joints.push_back(joint);
     }
@@ -315,6 +328,7 @@ class Loader {
   ConfigNode config_, model_, calibration_;
   bool hand_, own_model_;
   Hardware hardware_;
+  std::map<std::pair<int, int>, std::string> sensor_at_;  ///< by ECU and input
 };
 
 }  // namespace

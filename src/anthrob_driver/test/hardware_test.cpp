@@ -91,8 +91,9 @@ TEST(Hardware, ADifferenceNamesMuscleAndWhat) {
   EXPECT_EQ(difference(other, own), own.muscles.back().name + ": one muscle more");
 }
 
-/// Anthrob's files with one text replaced.
-std::string error_of(const std::string& file, const std::string& from, const std::string& to) {
+/// Anthrob's files with one text replaced, or two.
+std::string error_of(const std::string& file, const std::string& from, const std::string& to,
+                     const std::string& from_too = "", const std::string& to_too = "") {
   const fs::path folder =
       fs::temp_directory_path() / ("anthrob_hardware_" + std::to_string(getpid()));
   fs::create_directories(folder);
@@ -105,6 +106,7 @@ std::string error_of(const std::string& file, const std::string& from, const std
       const auto at = content.find(from);
       EXPECT_NE(at, std::string::npos) << from;
       content.replace(at, from.size(), to);
+      if (!from_too.empty()) content.replace(content.find(from_too), from_too.size(), to_too);
     }
     std::ofstream(folder / name) << content;
   }
@@ -141,6 +143,11 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_9}", "ecu_9"},
       {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_1}",
        "already has 2"},
+      {"hardware.yaml", "metacarpal_1: {ecu: ecu_7, input: 1}",
+       "metacarpal_1: {ecu: ecu_7, input: 0}",
+       "hand.touch.metacarpal_1.input: 0 of ecu_7: ring_finger_tip is there already"},
+      {"hardware.yaml", "elbow: {ecu: ecu_6, input: 0}", "elbow: {ecu: ecu_7, input: 3}",
+       "joints.elbow.input: 3 of ecu_7: metacarpal_3 is there already"},
       {"hardware.yaml", "pretension: 5.0", "pretension: -5.0", "home.pretension"},
       {"sensors.yaml", "gain: 0.06", "gain: -0.06", "lateral_deltoid.force.gain"},
       {"sensors.yaml", "offset: 400", "offset: 5000", "offset"},
@@ -153,6 +160,19 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
     EXPECT_NE(error.find(".yaml:"), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
+}
+
+TEST(Hardware, ASensorOnAUnitThatIsNotListenedToIsRefused) {
+  EXPECT_EQ(error_of("hardware.yaml", "ecu_7: {node: 7}", "ecu_7: {node: 7}\n  ecu_8: {node: 8}"),
+            "no error");
+  const std::string error =
+      error_of("hardware.yaml", "ecu_7: {node: 7}", "ecu_7: {node: 7}\n  ecu_8: {node: 8}",
+               "ecu_6, input: 0", "ecu_8, input: 0");
+  EXPECT_NE(error.find("hardware.yaml:"), std::string::npos) << error;
+  EXPECT_NE(
+      error.find("joints.elbow.ecu: ecu_8: expected a unit with muscles, and this one has none"),
+      std::string::npos)
+      << error;
 }
 
 TEST(Calibration, CountsAndValuesAreInverse) {
