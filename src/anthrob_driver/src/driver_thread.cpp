@@ -129,10 +129,11 @@ void DriverThread::collect() {
 }
 
 void DriverThread::watch_socket() {
-  // A recovered interface has a new descriptor; closing the old one took it out of the set.
-  if (bus_.descriptor() == watched_) return;
-  watched_ = bus_.descriptor();
-  if (watched_ >= 0) watch(epoll_, watched_);
+  // A recovered interface has a new socket, perhaps with the old number; closing the old one took
+  // it out of the set.
+  if (bus_.descriptor() < 0 || bus_.openings() == watched_) return;
+  watched_ = bus_.openings();
+  watch(epoll_, bus_.descriptor());
 }
 
 void DriverThread::loop() {

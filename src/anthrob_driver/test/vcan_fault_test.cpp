@@ -360,6 +360,20 @@ TEST(SocketCan, TellsOfFramesThatItsQueueCouldNotHold) {
   EXPECT_EQ(overruns, 1);
 }
 
+TEST(SocketCan, ASocketThatIsOpenedAnewIsAnother) {
+  if (::if_nametoindex(kInterface) == 0) GTEST_SKIP() << "no vcan0: scripts/with_vcan.sh";
+  SocketCanBus bus(kInterface);
+  const int number = bus.descriptor();
+  EXPECT_EQ(bus.openings(), 1u);
+  set_interface(false);
+  EXPECT_EQ(bus.send(ecu::Frame{}), SendResult::kDown);
+  EXPECT_LT(bus.descriptor(), 0);
+  set_interface(true);
+  bus.recover();
+  EXPECT_EQ(bus.descriptor(), number);  // what it can be known by no longer
+  EXPECT_EQ(bus.openings(), 2u);
+}
+
 class CanCheck : public ::testing::Test {
  protected:
   void SetUp() override {

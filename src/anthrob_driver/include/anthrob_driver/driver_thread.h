@@ -60,7 +60,8 @@ class DriverThread {
   RobotDriver driver_;
   Options options_;
   std::string note_;
-  int epoll_, timer_, wakeup_, watched_ = -1;
+  int epoll_, timer_, wakeup_;
+  std::uint64_t watched_ = 0;  ///< SocketCanBus::openings() of the socket that is waited on
 
   std::mutex mutex_;
   std::condition_variable done_, arrived_;

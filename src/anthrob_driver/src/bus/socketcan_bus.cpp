@@ -141,6 +141,7 @@ bool SocketCanBus::open_interface() {
   if (index == 0) return false;
   socket_ = open_socket(index);
   if (socket_ < 0) return false;
+  ++openings_;
   option(socket_, SOL_SOCKET, SO_TIMESTAMPNS, int{1});
   option(socket_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, int{1});
   option(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});

@@ -29,6 +29,8 @@ class SocketCanBus final : public Bus {
 
   /// To wait on; negative while the interface is missing. Changes with recover().
   int descriptor() const { return socket_; }
+  /// How often it was opened: a new socket may have the number of the one before.
+  std::uint64_t openings() const { return openings_; }
   const std::string& interface() const { return interface_; }
 
  private:
@@ -45,6 +47,7 @@ class SocketCanBus final : public Bus {
 
   std::string interface_;
   int socket_ = -1;
+  std::uint64_t openings_ = 0;
   bool up_ = false, reported_up_ = true;
   std::uint32_t dropped_ = 0;  ///< frames that found the socket's queue full, as far as reported
   std::unique_ptr<Batch> out_, in_;
