@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include "anthrob_driver/realtime.h"
 
@@ -41,6 +42,18 @@ void start_timer(int timer, double rate) {
   period.it_interval = {nanoseconds / kSecond, nanoseconds % kSecond};
   period.it_value.tv_nsec = 1;
   timerfd_settime(timer, 0, &period, nullptr);
+}
+
+template <class T>
+void hand_over(std::deque<T>& from, std::deque<T>& to) {
+  // As a rule somebody has taken all: no copy then.
+  if (to.empty()) {
+    std::swap(from, to);
+  } else {
+    to.insert(to.end(), from.begin(), from.end());
+    from.clear();
+  }
+  while (to.size() > kMostSamples) to.pop_front();
 }
 
 }  // namespace
@@ -88,8 +101,11 @@ void DriverThread::call(const std::function<void(RobotDriver&, double now)>& wor
   bool done = false;
   std::unique_lock<std::mutex> lock(mutex_);
   work_.push_back({&work, &done});
+  // The thread that this wakes may be of a higher priority: it must not find the mutex taken.
+  lock.unlock();
   const std::uint64_t one = 1;
   (void)!::write(wakeup_, &one, sizeof(one));
+  lock.lock();
   done_.wait(lock, [&] { return done; });
 }
 
@@ -119,13 +135,15 @@ void DriverThread::serve_requests() {
 void DriverThread::collect() {
   Sample sample;
   AnalogSample analog;
-  std::unique_lock<std::mutex> lock(mutex_);
-  bool any = false;
-  for (; driver_.take_sample(sample); any = true) batch_.samples.push_back(sample);
-  for (; driver_.take_analog(analog); any = true) batch_.analogs.push_back(analog);
-  while (batch_.samples.size() > kMostSamples) batch_.samples.pop_front();
-  while (batch_.analogs.size() > kMostSamples) batch_.analogs.pop_front();
-  if (any) arrived_.notify_one();
+  while (driver_.take_sample(sample)) fresh_.samples.push_back(sample);
+  while (driver_.take_analog(analog)) fresh_.analogs.push_back(analog);
+  if (fresh_.samples.empty() && fresh_.analogs.empty()) return;
+  // Whoever has the mutex may be of a lower priority, and held up: the next turn will do.
+  const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  hand_over(fresh_.samples, batch_.samples);
+  hand_over(fresh_.analogs, batch_.analogs);
+  arrived_.notify_one();
 }
 
 void DriverThread::watch_socket() {

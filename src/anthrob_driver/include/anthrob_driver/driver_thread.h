@@ -70,7 +70,7 @@ class DriverThread {
     bool* done;
   };
   std::deque<Work> work_;
-  Batch batch_;
+  Batch batch_, fresh_;  ///< fresh_: of the thread, not handed over yet
   std::atomic<bool> quit_{false};
   std::atomic<std::uint64_t> halts_{0};
   std::thread thread_;
