@@ -213,6 +213,15 @@ TEST_F(Desk, StopIsLatchedAndWinsOverEnable) {
   EXPECT_EQ(report.refusal, Refusal::kAccepted);
 }
 
+TEST(Persistence, WhatLastsForLongGoesOnToLast) {
+  Persistence persistence;
+  for (int tick = 1; tick <= 140000; ++tick) {
+    ASSERT_EQ(persistence.lasted(true, 10), tick >= 10) << tick;
+  }
+  EXPECT_FALSE(persistence.lasted(false, 10));
+  EXPECT_FALSE(persistence.lasted(true, 10));
+}
+
 TEST_F(Desk, OverCurrent) {
   start();
   readings.muscle[1].current = 2048 + 1100;

@@ -179,7 +179,7 @@ void Firmware::stop(Fault fault, int muscle) {
 
 void Firmware::watch(const Readings& readings) {
   if (sync_age_ < kWatchdogTicks) ++sync_age_;
-  ++reference_age_;
+  if (reference_age_ < kWatchdogTicks) ++reference_age_;
   if (readings.bus_off) stop(Fault::kBusOff, 0);
   if (sync_age_ >= kWatchdogTicks) stop(Fault::kSyncLost, 0);
   if (reference_age_ >= kWatchdogTicks) stop(Fault::kReferenceLost, 0);

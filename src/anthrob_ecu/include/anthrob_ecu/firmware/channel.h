@@ -22,14 +22,18 @@ constexpr int kLowestCount = 8, kHighestCount = 4087;
 /// A condition that must last before it counts.
 class Persistence {
  public:
-  /// @return whether the condition has now lasted for `ticks`
+  /// @param ticks below 65536   @return whether the condition has now lasted for `ticks`
   bool lasted(bool condition, int ticks) {
-    count_ = condition ? count_ + 1 : 0;
+    if (!condition) {
+      count_ = 0;
+    } else if (count_ < ticks) {
+      ++count_;  // no further: what lasts for days must not start again at nought
+    }
     return count_ >= ticks;
   }
 
  private:
-  int count_ = 0;
+  std::uint16_t count_ = 0;
 };
 
 /// One muscle of an ECU: readings to units, limits, control law.
