@@ -109,9 +109,9 @@ void Home::step(const std::vector<Reading>& readings, double now) {
   if (now - settled_ >= hardware_.home.settle_time) {
     state_ = State::kReached;
   } else if (now - started_ > hardware_.home.time_limit) {
-    abort(text("%.1f s passed and %.1f N were not reached by ", hardware_.home.time_limit,
-               hardware_.home.pretension) +
-          slack);
+    const char* const what = slack.empty() ? "%.1f s passed before all held %.1f N for settle_time"
+                                           : "%.1f s passed and %.1f N were not reached by ";
+    abort(text(what, hardware_.home.time_limit, hardware_.home.pretension) + slack);
   }
 }
 

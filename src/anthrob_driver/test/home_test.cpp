@@ -215,6 +215,19 @@ TEST_F(HomeTest, NamesAMuscleThatIsNeverMeasured) {
   EXPECT_EQ(home.failure(), "supraspinatus: no measurement to start at");
 }
 
+TEST_F(HomeTest, SaysWhyItEndsWhereAllAreTightTooLate) {
+  HomeRoutine& routine = rig.hardware.home;
+  Home home(rig.hardware);
+  std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.0, 0.0});
+  home.start(0.0);
+  for (double t = 0.0; home.running() && t < 60.0; t += 0.005) {
+    const bool tight = t > routine.time_limit - 0.5 * routine.settle_time;
+    for (Home::Reading& reading : readings) reading.force = tight ? routine.pretension : 0.0;
+    home.step(readings, t);
+  }
+  EXPECT_EQ(home.failure(), "20.0 s passed before all held 5.0 N for settle_time");
+}
+
 TEST_F(HomeTest, NamesAMuscleWhoseForceIsNoLongerMeasured) {
   Home home(rig.hardware);
   std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.0, 0.0});
