@@ -69,7 +69,7 @@ class ComputedForceNode {
       if (link_.time_jumped()) controller_.reset();
       trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
       if (!trouble_.empty()) {
-        // Nothing is sent on stale measurements: the ECUs' watchdog stops the motors.
+        // Nothing is sent on stale measurements: after command_timeout the motors stop.
         controller_.reset();
       } else {
         control();
