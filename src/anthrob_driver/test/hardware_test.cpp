@@ -59,8 +59,8 @@ TEST(Hardware, GainsAndLimitsAreTheModels) {
 TEST(Hardware, ModelsOfOneRobotAreTheSameToTheDriver) {
   for (const bool hand : {false, true}) {
     const Hardware own = load_hardware(kConfig / "hardware.yaml", hand);
-    for (const char* model :
-         {"model_I.yaml", "model_II.yaml", "model_II_noisy.yaml", "model_III.yaml"}) {
+    for (const char* model : {"model_I.yaml", "model_II.yaml", "model_II_noisy.yaml",
+                              "model_II_ecu.yaml", "model_III.yaml"}) {
       const Hardware other = load_hardware(kConfig / "hardware.yaml", hand, kConfig / model);
       EXPECT_EQ(difference(own, other), "") << model;
     }

@@ -6,10 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "anthrob_driver/bus/memory_bus.h"
-#include "anthrob_driver/emulation/rack.h"
-#include "anthrob_driver/robot_driver.h"
-#include "anthrob_emulator/simulator_plant.h"
+#include "emulated_robot.h"
 
 namespace anthrob {
 namespace {
@@ -18,6 +15,7 @@ const char* const kModel = ANTHROB_CONFIG_DIR "/anthrob/model_II.yaml";
 const char* const kHandModel = ANTHROB_CONFIG_DIR "/anthrob/model_II_hand.yaml";
 const char* const kHardware = ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml";
 
+using testing_support::EmulatedRobot;
 using References = std::map<std::string, double>;  // [rad]
 
 const References kReach = {
@@ -50,49 +48,21 @@ Outcome simulate(const References& references, int milliseconds) {
   return outcome;
 }
 
-/// Driver, bus and ECUs around the simulator's physics, a millisecond at a time.
 Outcome emulate(const References& references, int milliseconds) {
-  const driver::Hardware hardware = driver::load_hardware(kHardware, false);
-  SimulatorPlant plant(load_robot_model(kModel), hardware);
-  driver::MemoryBus bus;
-  driver::MemoryBus::Port &host = bus.attach(), &ecus = bus.attach();
-  driver::Rack rack(hardware, plant, ecus);
-  driver::RobotDriver robot(hardware, {}, host);
-  driver::Sample last;
-  int ms = 0;
-  const auto step = [&] {
-    if (ms % 5 == 0) robot.cycle(0.001 * ms);
-    bus.deliver(1 + ms);
-    rack.receive();
-    rack.tick();
-    bus.deliver(1 + ms);
-    driver::BusEvent event;
-    while (host.receive(event)) robot.receive(event, 0.001 * ms);
-    driver::Sample sample;
-    while (robot.take_sample(sample)) last = sample;
-    ++ms;
-  };
-  // Configuring and enabling take a second in which the arm hangs still.
-  while (ms < 1000) step();
-  robot.start_enable(0.001 * ms);
-  while (robot.phase() == driver::RobotDriver::Phase::kEnabling) step();
-  EXPECT_EQ(robot.phase(), driver::RobotDriver::Phase::kEnabled) << robot.last_outcome().reason;
-  std::vector<std::string> names;
-  std::vector<double> values;
-  for (const auto& [name, value] : references) names.push_back(name), values.push_back(value);
-  const std::vector<std::uint8_t> modes(names.size(), 1);
-  for (const int start = ms; ms - start < milliseconds;) {
-    if ((ms - start) % 100 == 0) robot.command(names, modes, values, 0.001 * ms);
-    step();
+  EmulatedRobot robot(kModel, kHardware);
+  robot.enable();
+  for (int ms = 0; ms < milliseconds; ++ms) {
+    if (ms % 100 == 0) robot.command(references, ecu::Mode::kPosition);
+    robot.step();
   }
   Outcome outcome;
-  for (const driver::MuscleSample& muscle : last.muscles) {
+  for (const driver::MuscleSample& muscle : robot.last().muscles) {
     EXPECT_EQ(muscle.state, ecu::State::kEnabled);
     outcome.position.push_back(muscle.position);
     outcome.force.push_back(muscle.force);
     outcome.volts.push_back(muscle.voltage);
   }
-  outcome.q = plant.simulation().configuration();
+  outcome.q = robot.truth().configuration();
   return outcome;
 }
 
