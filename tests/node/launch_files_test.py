@@ -82,6 +82,13 @@ class LaunchFiles(unittest.TestCase):
                 seen = any(node.package == 'anthrob_mocap' for node in config.nodes)
                 self.assertEqual(seen, backend != 'emulated')
 
+    def test_whose_time_it_is_is_said_by_every_back_end(self):
+        for asked, simulated in (['backend:=hardware'], False), (['backend:=hardware', 'mocap:=true'], False), \
+                (['backend:=emulated'], False), (['backend:=emulated', 'pace:=0.5'], True), (['backend:=sim'], True), \
+                (['backend:=hardware', 'pace:=0.5'], False):
+            with self.subTest(' '.join(asked)):
+                self.assertIs(load('robot.launch', *asked).params['/use_sim_time'].value, simulated)
+
     def test_a_robot_may_be_anywhere(self):
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)

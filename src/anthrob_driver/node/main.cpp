@@ -2,6 +2,7 @@
 #include <ros/ros.h>
 
 #include "anthrob_config/errors.h"
+#include "anthrob_ros/clock_wait.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/single_backend.h"
 #include "driver_node.h"
@@ -36,6 +37,9 @@ int main(int argc, char** argv) {
       throw BadInput("parameter ~model: expected the model that " + file + " names, or its like; " +
                      model + " has " + other_than_wired);
     }
+    // A clock of another pace comes with the emulated units, which start when we do.
+    const std::string no_time = options.pace < 1.0 ? "" : standing_clock(ros::WallDuration(5.0));
+    if (!no_time.empty()) throw BadInput("measurements cannot be stamped: " + no_time);
     // Before the bus is opened: our first SYNC would stop the motors of a driver that is there.
     const ros::Publisher claim = nh.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
     const std::string other = other_publisher(claim);

@@ -84,7 +84,10 @@ bool RobotLink::wait_for_period() {
   while (ros::ok()) {
     queue.callAvailable(ros::WallDuration(0.001));
     const ros::Time time = ros::Time::now();
-    if (time.isZero()) continue;
+    if (time.isZero()) {
+      clock_wait_.look();
+      continue;
+    }
     if (time >= now_ && time < next_) continue;
     advance_to(time);
     // Late periods are left out rather than made up for.

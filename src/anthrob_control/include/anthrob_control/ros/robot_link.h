@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "anthrob_control/robot_state.h"
+#include "anthrob_ros/clock_wait.h"
 
 namespace anthrob {
 
@@ -18,9 +19,9 @@ namespace anthrob {
 ///   RobotLink link(nh, model, options);
 ///   while (link.wait()) link.send(my_controller(link.state().measurement(), link.dt()));
 ///
-/// In real time `wait` returns once a period of ROS time. In lock-step it lets the simulator take
-/// its steps, with the command that was sent last, and returns when their outcome is in: the same
-/// run gives the same bits, at whatever speed.
+/// In real time `wait` returns once a period of ROS time, and warns while that stands at zero. In
+/// lock-step it lets the simulator take its steps, with the command that was sent last, and returns
+/// when their outcome is in: the same run gives the same bits, at whatever speed.
 class RobotLink {
  public:
   struct Options {
@@ -68,6 +69,7 @@ class RobotLink {
   ros::ServiceClient step_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Time now_, next_, unstepped_command_;
+  ClockWait clock_wait_;
   double dt_ = 0.0;
   bool jumped_ = false;
 };

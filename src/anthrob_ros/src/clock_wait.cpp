@@ -1,0 +1,28 @@
+#include "anthrob_ros/clock_wait.h"
+
+#include <ros/console.h>
+
+namespace anthrob {
+
+namespace {
+
+const ros::WallDuration kFirst(3.0), kAgain(10.0);
+const char* const kStands =
+    "/use_sim_time is true and nobody has published /clock yet; start the simulator, or, without "
+    "one: rosparam set /use_sim_time false, and start this anew";
+
+}  // namespace
+
+void ClockWait::look() {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (next_.isZero()) next_ = now + kFirst;
+  if (now < next_) return;
+  next_ = now + kAgain;
+  ROS_WARN_STREAM("waiting for /clock: " << kStands);
+}
+
+std::string standing_clock(const ros::WallDuration& patience) {
+  return ros::Time::waitForValid(patience) ? "" : kStands;
+}
+
+}  // namespace anthrob
