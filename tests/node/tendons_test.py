@@ -25,8 +25,8 @@ class Tendons(unittest.TestCase):
             self.assertLess(time.time(), end)
             time.sleep(0.05)
 
-    def measure(self, angle, forces):
-        stamp = rospy.Time.now()
+    def measure(self, angle, forces, ahead=0.0):
+        stamp = rospy.Time.now() + rospy.Duration(ahead)
         joint = JointState(name=['hinge'], position=[angle])
         joint.header.stamp = stamp
         if forces:
@@ -70,6 +70,13 @@ class Tendons(unittest.TestCase):
         count = len(self.drawn)
         time.sleep(0.5)
         self.assertEqual(len(self.drawn), count)
+
+        # Nor says a stamp that is far ahead where it is now.
+        for _ in range(10):
+            self.measure(ANGLE, [40.0, 0.0], ahead=30.0)
+            time.sleep(0.05)
+        self.assertEqual(len(self.drawn), count)
+        self.see(ANGLE, [40.0, 0.0], near)
 
 
 if __name__ == '__main__':

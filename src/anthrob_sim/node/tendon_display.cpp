@@ -14,8 +14,13 @@ namespace anthrob {
 namespace {
 
 constexpr double kPeriod = 0.05;     // [s] of wall time
-constexpr double kStaleAfter = 0.5;  // [s] what is older is not where the robot is
+constexpr double kStaleAfter = 0.5;  // [s] what is older, or ahead, is not where the robot is
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+/// Stamps lie ahead where clocks differ, or time was set back.
+bool is_fresh(const ros::Time& stamp, const ros::Time& now) {
+  return !stamp.isZero() && std::abs(now.toSec() - stamp.toSec()) <= kStaleAfter;
+}
 
 }  // namespace
 
@@ -27,10 +32,11 @@ TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeH
   paths_ = nh.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
   surfaces_ = nh.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
   surfaces_.publish(surface_markers(sim_.model()));
+  const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
-      nh.subscribe("muscle_states", 1, &TendonDisplay::see_muscles, this),
-      nh.subscribe("joint_states", 100, &TendonDisplay::see_joints, this),
-      nh.subscribe("spherical_joint_states", 100, &TendonDisplay::see_ball_joints, this),
+      nh.subscribe("muscle_states", 1, &TendonDisplay::see_muscles, this, no_delay),
+      nh.subscribe("joint_states", 100, &TendonDisplay::see_joints, this, no_delay),
+      nh.subscribe("spherical_joint_states", 100, &TendonDisplay::see_ball_joints, this, no_delay),
   };
   timer_ = nh.createWallTimer(ros::WallDuration(kPeriod),
                               [this](const ros::WallTimerEvent&) { draw(); });
@@ -76,15 +82,14 @@ void TendonDisplay::see_joint(const std::string& name, const std::vector<double>
 
 std::string TendonDisplay::missing(const ros::Time& now) const {
   for (std::size_t j = 0; j < stamps_.size(); ++j) {
-    if (stamps_[j].isZero() || (now - stamps_[j]).toSec() > kStaleAfter) {
-      return sim_.model().skeleton->joints[j].name;
-    }
+    if (!is_fresh(stamps_[j], now)) return sim_.model().skeleton->joints[j].name;
   }
   return "";
 }
 
 void TendonDisplay::draw() {
   const ros::Time now = ros::Time::now();
+  if (now.isZero()) return clock_wait_.look();
   const std::string joint = missing(now);
   if (!joint.empty()) {
     ROS_WARN_STREAM_THROTTLE(10.0, "tendons are not drawn: joint " << joint << " is not measured");
@@ -97,9 +102,7 @@ void TendonDisplay::draw() {
     ROS_WARN_STREAM_THROTTLE(10.0, "tendons are not drawn: " << error.what());
     return;
   }
-  if ((now - forces_stamp_).toSec() > kStaleAfter) {
-    std::fill(forces_.begin(), forces_.end(), kNotMeasured);
-  }
+  if (!is_fresh(forces_stamp_, now)) std::fill(forces_.begin(), forces_.end(), kNotMeasured);
   const ros::Time oldest = *std::min_element(stamps_.begin(), stamps_.end());
   visualization_msgs::MarkerArray markers = muscle_markers(sim_, forces_, oldest);
   for (auto& marker : markers.markers) marker.lifetime = ros::Duration(kStaleAfter);

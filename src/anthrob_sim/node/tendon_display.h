@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_ros/clock_wait.h"
 #include "anthrob_sim/simulation.h"
 
 namespace anthrob {
@@ -39,6 +40,7 @@ class TendonDisplay {
   ros::Publisher paths_, surfaces_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
+  ClockWait clock_wait_;
 };
 
 }  // namespace anthrob

@@ -14,6 +14,9 @@ int main(int argc, char** argv) {
   } catch (const anthrob::BadInput& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM("tendons: " << error.what());
+    return 1;
   }
   return 0;
 }
