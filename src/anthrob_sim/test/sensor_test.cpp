@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -76,6 +77,35 @@ TEST(Sensor, StreamsAreIndependentAndRepeatable) {
     ASSERT_EQ(again.measure(0.0), x);
   }
   EXPECT_NEAR(product / 100000, 0.0, 4 / std::sqrt(100000.0));
+}
+
+/// The rig with other sensors and effects, tendons hanging slack; what is measured of the flexor.
+std::vector<double> forces_of_a_slack_tendon(const std::string& more) {
+  const std::string rig = testing_support::config("two_muscle_rig/");
+  const testing_support::TemporaryRobot robot(
+      "", "extends: " + rig + "model_I.yaml\nrobot: " + rig + "robot.urdf\n" + more);
+  Simulation sim(robot.load());
+  sim.place(sim.configuration(), {-5.0, -5.0});
+  std::vector<double> forces;
+  for (int i = 0; i < 1000; ++i) {
+    sim.step();
+    EXPECT_EQ(sim.muscle(0).force(), 0.0);
+    forces.push_back(sim.muscle(0).measured().force);
+  }
+  return forces;
+}
+
+TEST(Sensor, AMeasuredForceIsNeverNegative) {
+  const auto noisy = forces_of_a_slack_tendon("sensors:\n  force: {noise: 0.5}\n");
+  const auto zeros = std::count(noisy.begin(), noisy.end(), 0.0);
+  EXPECT_NEAR(zeros, 500, 100);  // the other half is above
+  EXPECT_EQ(*std::min_element(noisy.begin(), noisy.end()), 0.0);
+  const auto low = forces_of_a_slack_tendon(
+      "effects:\n  - {id: force_sensor_offset, place: all, offset: -2.0}\n");
+  EXPECT_EQ(low, std::vector<double>(1000, 0.0));
+  const auto high = forces_of_a_slack_tendon(
+      "effects:\n  - {id: force_sensor_offset, place: all, offset: 2.0}\n");
+  EXPECT_EQ(high, std::vector<double>(1000, 2.0));
 }
 
 TEST(Sensor, AverageIsAMovingMean) {

@@ -145,7 +145,8 @@ void Muscle::sense(std::uint64_t step_index, const ecu::Measurement& seen) {
   m.position = measure(kPosition, seen.position);
   m.velocity = measure(kVelocity, seen.velocity);
   m.current = measure(kCurrent, seen.current);
-  m.force = measure(kForce, seen.force);
+  // As the ECU: a tendon does not push, below zero there are only noise and offset.
+  m.force = std::max(measure(kForce, seen.force), 0.0);
 }
 
 void Muscle::control(std::uint64_t step_index) {
