@@ -102,7 +102,7 @@ void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
   set(muscle, Parameter::kFilterOrder, order, node.at("filter_order"));
 }
 
-/// Sensors of one muscle: one entry of the calibration file's `muscles`.
+/// Sensors of one muscle: one entry of the calibration file's `muscles`. Its controller is loaded.
 void load_sensors(const ConfigNode& node, MuscleHardware& muscle) {
   muscle.current = load_linear(node.at("current"), "A");
   set(muscle, Parameter::kCurrentGain, muscle.current.gain, node.at("current"));
@@ -114,7 +114,8 @@ void load_sensors(const ConfigNode& node, MuscleHardware& muscle) {
     set(muscle, Parameter::kForceGain, muscle.force.gain, node.at("force"));
     set(muscle, Parameter::kForceOffset, muscle.force.offset, node.at("force"));
   }
-  muscle.limits.modes = {true, true, true, has_force};
+  const bool takes_forces = muscle.limits.highest[static_cast<int>(ecu::Mode::kForce)] > 0.0;
+  muscle.limits.modes = {true, true, true, has_force && takes_forces};
 }
 
 /// A limit that its sensor cannot read is none.

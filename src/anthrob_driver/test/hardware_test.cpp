@@ -60,11 +60,25 @@ TEST(Hardware, ModelsOfOneRobotAreTheSameToTheDriver) {
   for (const bool hand : {false, true}) {
     const Hardware own = load_hardware(kConfig / "hardware.yaml", hand);
     for (const char* model : {"model_I.yaml", "model_II.yaml", "model_II_noisy.yaml",
-                              "model_II_ecu.yaml", "model_III.yaml"}) {
+                              "model_II_ecu.yaml", "model_II_hand.yaml", "model_III.yaml"}) {
       const Hardware other = load_hardware(kConfig / "hardware.yaml", hand, kConfig / model);
       EXPECT_EQ(difference(own, other), "") << model;
     }
   }
+}
+
+TEST(Hardware, WithoutALargestForceThereIsNoForceMode) {
+  const fs::path model =
+      fs::temp_directory_path() / ("anthrob_no_force_" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(model) << "extends: " << (kConfig / "model_II.yaml").string()
+                       << "\ncontrollers: {type_2: {limits: {force: 0.0}}}\n";
+  const Hardware own = load_hardware(kConfig / "hardware.yaml", false);
+  const Hardware other = load_hardware(kConfig / "hardware.yaml", false, model);
+  fs::remove(model);
+  EXPECT_TRUE(own.muscles[9].limits.modes[3]);
+  EXPECT_TRUE(other.muscles[0].limits.modes[3]);   // lateral_deltoid: type_1
+  EXPECT_FALSE(other.muscles[9].limits.modes[3]);  // triceps_brachii: type_2
+  EXPECT_TRUE(other.muscles[9].limits.modes[1]);
 }
 
 TEST(Hardware, AModelOfPartOfTheRobotIsAnother) {

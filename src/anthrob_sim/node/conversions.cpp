@@ -21,7 +21,7 @@ std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model) {
     const CommandLimits& limits = muscle.limits;
     if (muscle.has_controller) {
       const double volts = muscle.controller.voltage_limit;
-      channel.modes = {true, true, true, true};
+      channel.modes = {true, true, true, limits.force > 0.0};
       channel.lowest = {-volts, -limits.position, -limits.current, 0.0};
       channel.highest = {volts, limits.position, limits.current, limits.force};
     } else {

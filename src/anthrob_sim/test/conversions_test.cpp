@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "anthrob_sim/report/solved_path.h"
 #include "support.h"
@@ -20,6 +21,20 @@ Vec3 vector_of(const geometry_msgs::Point& p) {
 
 std::vector<Marker> markers_of(const std::string& model) {
   return surface_markers(*load_robot_model(config(model))).markers;
+}
+
+TEST(MuscleChannels, AMuscleWithoutForceSensorTakesNoForces) {
+  const auto channels = muscle_channels(*load_robot_model(config("anthrob/model_II_hand.yaml")));
+  ASSERT_EQ(channels.size(), 13u);
+  const auto takes = [](bool force) {
+    return std::array<bool, ecu::kModeCount>{true, true, true, force};
+  };
+  for (std::size_t m = 0; m < 13; ++m) {
+    EXPECT_EQ(channels[m].modes, takes(m < 11)) << channels[m].name;
+  }
+  const auto& hand = channels[12];
+  EXPECT_EQ(hand.name, "hand_antagonist");
+  EXPECT_EQ(hand.highest, (std::array<double, ecu::kModeCount>{6.0, 15.0, 1.0, 0.0}));
 }
 
 TEST(SurfaceMarkers, HaveAShapeAndASize) {

@@ -201,7 +201,7 @@ class Builder {
     const ConfigNode limits = node.at("limits");
     muscle.limits.position = limits.number("position", Bounds::positive(), "rad");
     muscle.limits.current = limits.number("current", Bounds::positive(), "A");
-    muscle.limits.force = limits.number("force", Bounds::positive(), "N");
+    muscle.limits.force = limits.number("force", Bounds::nonnegative(), "N");
     if (options_.slow_controllers) c.period = std::max(c.period, options_.step);
     const double ratio = c.period / options_.step;
     muscle.steps_per_tick = static_cast<int>(std::lround(ratio));

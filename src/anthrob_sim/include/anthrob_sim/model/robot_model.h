@@ -23,7 +23,7 @@ namespace anthrob {
 struct CommandLimits {
   double position = 30.0;  ///< [rad]
   double current = 10.0;   ///< [A]
-  double force = 500.0;    ///< [N]
+  double force = 500.0;    ///< [N]; 0: no FORCE mode
 };
 
 /// One muscle: actuator, spring and path, and the ECU channel that drives it.
