@@ -79,7 +79,7 @@ class Contract(unittest.TestCase):
         cls.publisher = rospy.Publisher('muscle_command', MuscleCommand, queue_size=10, tcp_nodelay=True)
         cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
         cls.services = {}
-        for name in ['enable', 'disable', 'emergency_stop', 'clear_faults']:
+        for name in ['enable', 'home', 'disable', 'emergency_stop', 'clear_faults']:
             rospy.wait_for_service(name, 60)
             cls.services[name] = rospy.ServiceProxy(name, Trigger)
         wait_for(lambda: cls.states.messages and cls.publisher.get_num_connections() > 0
@@ -186,6 +186,14 @@ class Contract(unittest.TestCase):
         wait_for(lambda: self.diagnosed('last_rejection') == 'not enabled: call enable', 'the refusal in diagnostics')
         rejected = int(self.diagnosed('rejected_commands'))
         wait_for(lambda: int(self.diagnosed('rejected_commands')) > rejected, 'more refusals in diagnostics')
+
+    def test_home_wants_enabled_motors(self):
+        self.call('disable')
+        self.await_state(MuscleStates.STOPPING)
+        answer = self.call('home')
+        self.assertFalse(answer.success)
+        self.assertIn('call enable first', answer.message)
+        self.stays_still()
 
     def test_a_command_moves_the_arm(self):
         before = self.balls.last().orientation[0].w

@@ -56,10 +56,11 @@ class SimContract(unittest.TestCase):
         cls.solved = Collector('solved_paths', MusclePaths)
         cls.command = rospy.Publisher('muscle_command', MuscleCommand, queue_size=10, tcp_nodelay=True)
         cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
-        for name in ['enable', 'disable', 'emergency_stop', 'clear_faults', 'sim/pause', 'sim/step', 'sim/reset',
+        for name in ['enable', 'home', 'disable', 'emergency_stop', 'clear_faults', 'sim/pause', 'sim/step', 'sim/reset',
                      'sim/set_state']:
             rospy.wait_for_service(name, 30)
         cls.enable = rospy.ServiceProxy('enable', Trigger)
+        cls.home = rospy.ServiceProxy('home', Trigger)
         cls.disable = rospy.ServiceProxy('disable', Trigger)
         cls.emergency_stop = rospy.ServiceProxy('emergency_stop', Trigger)
         cls.clear_faults = rospy.ServiceProxy('clear_faults', Trigger)
@@ -240,6 +241,14 @@ class SimContract(unittest.TestCase):
         self.assertIn('FORCE -1 N', rejected()[1])
 
     # ---- stops ----
+
+    def test_a_script_that_starts_the_robot_starts_the_simulator(self):
+        self.assertTrue(self.home().success)
+        self.assertEqual(set(self.advance(490).ecu_state), {MuscleStates.ENABLED})
+        # Commands are watched from there on.
+        self.assertEqual(set(self.advance(20).ecu_state), {MuscleStates.STOPPING})
+        self.assertTrue(self.enable().success)
+        self.assertEqual(set(self.advance(1).ecu_state), {MuscleStates.ENABLED})
 
     def test_timeout_stops_and_a_fresh_command_resumes(self):
         self.send(['lateral_deltoid'], [0], [4.0])

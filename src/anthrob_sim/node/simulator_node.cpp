@@ -61,6 +61,7 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
   };
   services_ = {
       nh_.advertiseService("enable", &SimulatorNode::on_enable, this),
+      nh_.advertiseService("home", &SimulatorNode::on_home, this),
       nh_.advertiseService("disable", &SimulatorNode::on_disable, this),
       nh_.advertiseService("emergency_stop", &SimulatorNode::on_emergency_stop, this),
       nh_.advertiseService("clear_faults", &SimulatorNode::on_clear_faults, this),
@@ -142,6 +143,17 @@ void SimulatorNode::supervise(Request request, std_srvs::Trigger::Response* resp
 
 bool SimulatorNode::on_enable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   supervise([this](ecu::Supervisor& all) { return all.enable(sim_.time()); }, &response);
+  return true;
+}
+
+bool SimulatorNode::on_home(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  bool enabled = true;
+  for (std::size_t m = 0; m < supervisor_.muscles().size(); ++m) {
+    enabled = enabled && supervisor_.follows_references(static_cast<int>(m));
+  }
+  response.success = enabled;
+  response.message = enabled ? "the model's zero holds" : "not enabled: call enable first";
+  if (enabled) supervisor_.restart_watch(sim_.time());
   return true;
 }
 

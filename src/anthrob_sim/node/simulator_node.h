@@ -53,6 +53,9 @@ class SimulatorNode {
   template <typename Request>
   void supervise(Request request, std_srvs::Trigger::Response* response = nullptr);
   bool on_enable(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  /// Nothing is lost here that it could find: moves nothing. As on the robot it wants enabled
+  /// motors, and from then on commands are watched, whether some came before or none.
+  bool on_home(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_disable(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_emergency_stop(std_srvs::Trigger::Request& request,
                          std_srvs::Trigger::Response& response);
