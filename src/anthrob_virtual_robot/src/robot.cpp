@@ -1,5 +1,7 @@
 #include "anthrob_virtual_robot/robot.h"
 
+#include <algorithm>
+
 namespace anthrob::virtual_robot {
 
 Robot::Robot(Draft draft, const SensorSettings* sensors, std::uint64_t noise_seed)
@@ -54,6 +56,8 @@ void Robot::read() {
   measured_ = truth_;
   for (const auto& law : reading_laws_) law->apply(&measured_);
   if (sensors_) sensors_->measure(&measured_);
+  // As units do: a tendon does not push.
+  for (MuscleReading& muscle : measured_.muscles) muscle.force = std::max(muscle.force, 0.0);
 }
 
 }  // namespace anthrob::virtual_robot

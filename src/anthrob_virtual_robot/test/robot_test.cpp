@@ -56,6 +56,33 @@ TEST(Robot, SameSeedSameBitsOtherSeedOtherNoise) {
   EXPECT_FALSE(same(first, moved(&c, 0.2)));
 }
 
+/// What it measures of tendons that hang slack.
+std::vector<double> forces_of_slack_tendons(Draft draft, const SensorSettings* sensors) {
+  Robot robot(std::move(draft), sensors, 5);
+  const std::vector<double> slack(robot.muscle_count(), -5.0);
+  robot.place(slack);
+  std::vector<double> forces;
+  for (int k = 0; k < 100; ++k) {
+    robot.tick();
+    for (std::size_t i = 0; i < slack.size(); ++i) {
+      EXPECT_EQ(robot.truth().muscles[i].force, 0.0);
+      forces.push_back(robot.measured().muscles[i].force);
+    }
+  }
+  return forces;
+}
+
+TEST(Robot, MeasuresNoNegativeForces) {
+  SensorSettings noisy;
+  noisy.force = {0.3, 0.0, 0.0};
+  const auto forces = forces_of_slack_tendons(plain_draft(), &noisy);
+  EXPECT_EQ(*std::min_element(forces.begin(), forces.end()), 0.0);
+  EXPECT_NEAR(std::count(forces.begin(), forces.end(), 0.0), 550, 100);  // of 1100
+  Draft low = plain_draft();
+  build_in({"force_sensor_offset", "all", {{"offset", -2.0}, {"drift", 0.0}}}, &low);
+  EXPECT_EQ(forces_of_slack_tendons(std::move(low), nullptr), std::vector<double>(1100, 0.0));
+}
+
 TEST(Robot, LinksNothingOfTheSimulator) {
   std::ifstream maps("/proc/self/maps");
   const std::string all((std::istreambuf_iterator<char>(maps)), {});
