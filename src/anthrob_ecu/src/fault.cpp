@@ -11,13 +11,15 @@ const FaultInfo kFaults[kFaultCount] = {
      "the self test at power-up failed: a current sensor reads an end stop",
      "check the current sensor, then switch the unit off and on"},
     {Fault::kOverCurrent, "over_current", "current above `current_limit` for 20 ms",
-     "look for a jammed spindle or a short; clear_faults, enable"},
+     "look for a short; for a jammed spindle only if the limit is below the stall current; "
+     "clear_faults, enable"},
     {Fault::kOverForce, "over_force", "tension above `force_limit` for 5 ms",
      "look for antagonists pulling against each other; clear_faults, enable"},
     {Fault::kPositionLimit, "position_limit", "position outside `position_low`..`position_high`",
      "unwind by hand; clear_faults, enable, home: the zero may be lost"},
     {Fault::kOverSpeed, "over_speed", "speed above `speed_limit` for 5 ms",
-     "look for a broken tendon (the motor runs free), then clear_faults, enable, home"},
+     "look at the encoder, `encoder_scale` and what drives the spindle: no motor goes beyond its "
+     "no-load speed by itself; clear_faults, enable, home"},
     {Fault::kOverTemperature, "over_temperature", "power stage above `temperature_limit`",
      "let it cool, lower the load, then clear_faults"},
     {Fault::kSupplyLow, "supply_low", "supply below 9 V for 10 ms",
