@@ -34,6 +34,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kLateCycle, "late_cycle", false, "a cycle of the driver came more than a period late", "use `realtime:=true`; look for a busy machine"},
     {Finding::kCommandTimeout, "command_timeout", true, "no fresh muscle_command in time", "keep commands coming; enable again"},
     {Finding::kHomeFailed, "home_failed", true, "homing met a limit: tendon broken, slack or slipped", "look at the tendon that is named; repair, enable, home"},
+    {Finding::kTendonSlack, "tendon_slack", true, "a tendon lost its force in motion: broken, slipped or off its pulley", "look at the tendon that is named; repair, clear_faults, enable, home"},
 };
 // clang-format on
 

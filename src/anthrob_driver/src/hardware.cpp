@@ -163,6 +163,7 @@ class Loader {
     load_hand();
     load_joints();
     load_home();
+    load_tendons();
     finish();
     // Another model need not have all that is wired.
     if (!own_model_) return hardware_;
@@ -298,6 +299,28 @@ class Loader {
     home.time_limit = node.number("time_limit", Bounds::positive(), "s");
     if (home.force_limit <= home.pretension) {
       node.at("force_limit").fail_expected("more than pretension");
+    }
+  }
+
+  /// What is not given is taken from `home`.
+  void load_tendons() {
+    const HomeRoutine& home = hardware_.home;
+    TendonLimits& tendons = hardware_.tendons;
+    tendons.loaded = 4.0 * home.pretension;
+    tendons.slack = (1.0 - home.slip_drop) * home.pretension;
+    // A limb that was moved by hand leaves more slack than an arm that hangs at rest.
+    tendons.travel = 2.0 * home.travel_limit;
+    if (!config_.has("tendons")) return;
+    const ConfigNode node = config_.at("tendons");
+    const auto take = [&](const char* key, const char* unit, double& value) {
+      if (node.has(key)) value = node.number(key, Bounds::nonnegative(), unit);
+    };
+    take("loaded", "N", tendons.loaded);
+    take("slack", "N", tendons.slack);
+    take("travel", "rad", tendons.travel);
+    if (tendons.loaded > 0.0 && tendons.loaded <= tendons.slack) {
+      node.fail("loaded: " + text(tendons.loaded) + " N: expected 0, or more than slack, " +
+                text(tendons.slack) + " N");
     }
   }
 

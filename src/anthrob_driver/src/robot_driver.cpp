@@ -55,6 +55,7 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
     references_.push_back({static_cast<int>(m), ecu::Mode::kVoltage, 0.0});
   }
   sent_ = references_;
+  tendons_.assign(hardware_.muscles.size(), TendonWatch(hardware_.tendons));
   enabling_.sequence.resize(links_.size());
   restarted_.resize(links_.size());
   sample_.muscles.resize(hardware_.muscles.size());
@@ -374,6 +375,28 @@ void RobotDriver::check_ecus(double now) {
   }
 }
 
+void RobotDriver::check_tendons(double now) {
+  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+    const MuscleHardware& wired = hardware_.muscles[m];
+    // `home` watches for itself.
+    if (phase_ != Phase::kEnabled || home_.running()) {
+      tendons_[m].restart();
+      continue;
+    }
+    const MuscleSample& muscle = finished_.muscles[m];
+    if (!muscle.measured || !std::isfinite(muscle.force)) continue;
+    const bool pulled =
+        muscle.mode == ecu::Mode::kForce && muscle.reference > hardware_.home.pretension;
+    const std::string wrong =
+        tendons_[m].step(muscle.position, muscle.force, pulled, finished_.time);
+    if (wrong.empty()) continue;
+    const std::string detail = wired.name + ": " + wrong;
+    findings_.add(Finding::kTendonSlack, wired.ecu, now, detail);
+    stop(Finding::kTendonSlack, wired.ecu);
+    last_stop_ += " (" + detail + ")";
+  }
+}
+
 void RobotDriver::continue_home(double now) {
   if (home_.state() == Home::State::kReached) return continue_zero(now);
   if (home_.state() != Home::State::kRunning) return;
@@ -458,6 +481,7 @@ void RobotDriver::cycle(double now) {
     // STOPPING is what the ECUs report then, as on the simulator.
     stop(Finding::kCommandTimeout, -1);
   }
+  check_tendons(now);
   if (phase_ == Phase::kEnabled) continue_home(now);
   send_cycle(now);
   if (phase_ == Phase::kEnabling) continue_enable(now);

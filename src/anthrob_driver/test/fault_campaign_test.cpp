@@ -60,6 +60,17 @@ ecu::Frame corrupted(ecu::Frame frame) {
   return frame;
 }
 
+/// Until the muscle stands.
+void pull(Rig& rig, std::size_t muscle, ecu::Mode mode, double reference) {
+  rig.modes[muscle] = static_cast<std::uint8_t>(mode);
+  rig.volts[muscle] = reference;
+  rig.run(3000);
+}
+void let_pull_by_volts(Rig& rig) {
+  rig.modes[kVictimMuscles[0]] = 0;
+  rig.volts[kVictimMuscles[0]] = 0.5;
+}
+
 std::vector<Kind> kinds() {
   using K = Kind;
   std::vector<Kind> k;
@@ -239,6 +250,20 @@ std::vector<Kind> kinds() {
                  r.volts[kVictimMuscles[0]] = 8.0;
                },
                [](Rig& r) { r.volts[kVictimMuscles[0]] = 0.5; }, 320});
+  k.push_back({"tendon cut, POSITION", K::kEverybody, int(Finding::kTendonSlack),
+               [](Rig& r) {
+                 const auto muscle = static_cast<std::size_t>(kVictimMuscles[0]);
+                 pull(r, muscle, ecu::Mode::kPosition, 1.5);
+                 r.plant.cut(muscle);
+               },
+               let_pull_by_volts, 160});
+  k.push_back({"tendon cut, FORCE", K::kEverybody, int(Finding::kTendonSlack),
+               [](Rig& r) {
+                 const auto muscle = static_cast<std::size_t>(kVictimMuscles[0]);
+                 pull(r, muscle, ecu::Mode::kForce, 30.0);
+                 r.plant.cut(muscle);
+               },
+               let_pull_by_volts, 160});
   k.push_back({"force sensor's cable cut", K::kEverybody, int(Finding::kEcuFault),
                [](Rig& r) { r.rack.board(kVictim).peripherals.force_sensor_cut = true; },
                [](Rig& r) { r.rack.board(kVictim).peripherals.force_sensor_cut = false; }, 20});

@@ -56,6 +56,13 @@ TEST(Hardware, GainsAndLimitsAreTheModels) {
   EXPECT_EQ(triceps.channel, 1);
 }
 
+TEST(Hardware, WhatIsNotSaidOfTendonsIsHomes) {
+  const Hardware rig = load_hardware(ANTHROB_CONFIG_DIR "/two_muscle_rig/hardware.yaml", false);
+  EXPECT_EQ(rig.tendons.loaded, 20.0);
+  EXPECT_EQ(rig.tendons.slack, 2.5);
+  EXPECT_EQ(rig.tendons.travel, 12.0);
+}
+
 TEST(Hardware, ModelsOfOneRobotAreTheSameToTheDriver) {
   for (const bool hand : {false, true}) {
     const Hardware own = load_hardware(kConfig / "hardware.yaml", hand);
@@ -163,6 +170,7 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"hardware.yaml", "elbow: {ecu: ecu_6, input: 0}", "elbow: {ecu: ecu_7, input: 3}",
        "joints.elbow.input: 3 of ecu_7: metacarpal_3 is there already"},
       {"hardware.yaml", "pretension: 5.0", "pretension: -5.0", "home.pretension"},
+      {"hardware.yaml", "loaded: 20.0", "loaded: 2.0", "loaded: 2 N: expected 0, or more than"},
       {"sensors.yaml", "gain: 0.06", "gain: -0.06", "lateral_deltoid.force.gain"},
       {"sensors.yaml", "offset: 400", "offset: 5000", "offset"},
       {"sensors.yaml", "threshold: 20", "threshold: nan", "threshold"},

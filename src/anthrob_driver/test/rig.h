@@ -29,6 +29,7 @@ class Rig {
         rack(hardware, plant, ecus),
         driver_options(options),
         period_ms(static_cast<int>(std::lround(1000.0 / options.rate))),
+        modes(hardware.muscles.size(), 0),
         volts(hardware.muscles.size(), 0.5),
         driver_(std::make_unique<RobotDriver>(hardware, options, host)) {}
 
@@ -67,11 +68,11 @@ class Rig {
     AnalogSample analog;
     while (driver().take_analog(analog)) analogs.push_back(analog);
   }
-  /// Volts in turn on every muscle, as a controller would send them.
+  /// One command to every muscle, as a controller would send them.
   void command() {
     std::vector<std::string> names;
     for (const MuscleHardware& muscle : hardware.muscles) names.push_back(muscle.name);
-    driver().command(names, std::vector<std::uint8_t>(names.size(), 0), volts, now());
+    driver().command(names, modes, volts, now());
   }
   /// Until the driver is configured and enabled.
   bool enable() {
@@ -103,7 +104,8 @@ class Rig {
   int period_ms;
   std::int64_t ms = 0;
   bool driver_runs = true, commander_runs = false;
-  std::vector<double> volts;        ///< by muscle; 0.5 V stall at 143 N
+  std::vector<std::uint8_t> modes;  ///< by muscle; VOLTAGE
+  std::vector<double> volts;        ///< references, by muscle; 0.5 V stall at 143 N
   std::int64_t clock_offset_s = 0;  ///< somebody set the wall clock
   std::vector<Sample> samples;
   std::vector<AnalogSample> analogs;

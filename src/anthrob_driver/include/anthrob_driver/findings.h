@@ -36,8 +36,9 @@ enum class Finding : std::uint8_t {
   kLateCycle,
   kCommandTimeout,
   kHomeFailed,
+  kTendonSlack,
 };
-constexpr int kFindingCount = 27;
+constexpr int kFindingCount = 28;
 
 struct FindingInfo {
   Finding finding;

@@ -56,6 +56,13 @@ struct HomeRoutine {
   double time_limit = 15.0;   ///< [s]
 };
 
+/// When a tendon counts as broken in motion, see TendonWatch; of muscles with a force sensor.
+struct TendonLimits {
+  double loaded = 20.0;  ///< [N] a load that is missed if it is gone at once; 0: none is
+  double slack = 2.5;    ///< [N] less than this is no force
+  double travel = 12.0;  ///< [rad] wound in without force though one is wanted; 0: without end
+};
+
 /// A robot as it is wired: hardware.yaml beside its model files.
 struct Hardware {
   std::string file;
@@ -65,6 +72,7 @@ struct Hardware {
   std::vector<JointSensor> joints;
   std::vector<TouchSensor> touch;
   HomeRoutine home;
+  TendonLimits tendons;
 
   std::vector<ecu::MuscleChannel> channels() const;
 };

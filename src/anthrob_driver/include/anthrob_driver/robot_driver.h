@@ -9,6 +9,7 @@
 #include "anthrob_driver/ecu_link.h"
 #include "anthrob_driver/home.h"
 #include "anthrob_driver/slope.h"
+#include "anthrob_driver/tendon_watch.h"
 #include "anthrob_ecu/supervisor.h"
 
 namespace anthrob {
@@ -110,6 +111,7 @@ class RobotDriver {
   void on_frame(const ecu::Frame& frame, double now);
   void check_bus(double now);
   void check_ecus(double now);
+  void check_tendons(double now);
   void continue_enable(double now);
   void continue_home(double now);
   void continue_zero(double now);
@@ -135,6 +137,7 @@ class RobotDriver {
   std::vector<int> link_of_node_;
   Home home_;
   std::vector<char> restarted_;  ///< by ECU: no zero was confirmed since
+  std::vector<TendonWatch> tendons_;  ///< one a muscle
 
   Phase phase_ = Phase::kDisabled;
   Outcome last_outcome_{true, ""};
