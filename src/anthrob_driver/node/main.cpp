@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     DriverThread::Options options;
     take(settings, "rate", number_of, options.driver.rate);
     take(settings, "command_timeout", number_of, options.driver.command_timeout);
+    take(settings, "first_step", number_of, options.driver.first_step);
     take(settings, "realtime", truth_of, options.realtime);
     take(settings, "pace", number_of, options.pace);
     const bool in_memory = can.rfind("vcan", 0) == 0;

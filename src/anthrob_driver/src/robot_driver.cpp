@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "anthrob_config/errors.h"
@@ -27,6 +28,10 @@ ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options)
   if (!(options.command_timeout > 0.0 && options.command_timeout <= 10.0)) {
     throw BadInput("command_timeout: " + std::to_string(options.command_timeout) +
                    ": expected a number above 0, up to 10 s");
+  }
+  if (!(options.first_step >= 0.0 && options.first_step <= 100.0)) {
+    throw BadInput("first_step: " + std::to_string(options.first_step) +
+                   ": expected a number of 0 (any) to 100 rad");
   }
   ecu::Supervisor::Options result;
   result.command_timeout = options.command_timeout;
@@ -154,12 +159,39 @@ RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
                                           const std::vector<std::uint8_t>& modes,
                                           const std::vector<double>& references, double now) {
   if (home_.running()) return refuse("home is running");
+  const std::string far = too_far(names, modes, references);
+  if (!far.empty()) return refuse(far);
   const Outcome outcome = supervisor_.command(names, modes, references, now, accepted_);
   if (!outcome.accepted) return outcome;
   for (const ecu::MuscleReference& reference : accepted_) {
     references_[static_cast<std::size_t>(reference.muscle)] = reference;
   }
   return outcome;
+}
+
+std::string RobotDriver::too_far(const std::vector<std::string>& names,
+                                 const std::vector<std::uint8_t>& modes,
+                                 const std::vector<double>& references) const {
+  const std::size_t count = std::min({names.size(), modes.size(), references.size()});
+  if (options_.first_step <= 0.0 || phase_ != Phase::kEnabled || home_.running()) return "";
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool position = static_cast<ecu::Mode>(modes[i]) == ecu::Mode::kPosition;
+    if (!position || !std::isfinite(references[i])) continue;
+    for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+      if (hardware_.muscles[m].name != names[i]) continue;
+      if (references_[m].mode == ecu::Mode::kPosition) continue;  // it follows already
+      // Enabled, so that there was a measurement; NaN if there is none just now.
+      const double step = std::abs(references[i] - finished_.muscles[m].position);
+      if (step <= options_.first_step) continue;
+      char text[160];
+      std::snprintf(text, sizeof(text),
+                    "POSITION %.2f rad is %.2f rad from where it is, first_step is %.2f rad: start "
+                    "there",
+                    references[i], step, options_.first_step);
+      return "muscle '" + names[i] + "': " + text;
+    }
+  }
+  return "";
 }
 
 std::string RobotDriver::why_not_enable() const {

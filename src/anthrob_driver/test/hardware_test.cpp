@@ -56,6 +56,21 @@ TEST(Hardware, GainsAndLimitsAreTheModels) {
   EXPECT_EQ(triceps.channel, 1);
 }
 
+TEST(Hardware, TheCarefulRobotIsTheSameButSlow) {
+  Hardware careful = load_hardware(kConfig / "hardware_careful.yaml", true);
+  const Hardware own = load_hardware(kConfig / "hardware.yaml", true);
+  ASSERT_EQ(careful.muscles.size(), own.muscles.size());
+  for (std::size_t m = 0; m < own.muscles.size(); ++m) {
+    ecu::ParameterSet& slow = careful.muscles[m].parameters;
+    EXPECT_EQ(slow.get(Parameter::kPositionRate), 1.0) << own.muscles[m].name;
+    EXPECT_EQ(slow.get(Parameter::kForceRate), 20.0) << own.muscles[m].name;
+    for (const Parameter rate : {Parameter::kPositionRate, Parameter::kForceRate}) {
+      slow.set(rate, own.muscles[m].parameters.get(rate));
+    }
+  }
+  EXPECT_EQ(difference(own, careful), "");
+}
+
 TEST(Hardware, WhatIsNotSaidOfTendonsIsHomes) {
   const Hardware rig = load_hardware(ANTHROB_CONFIG_DIR "/two_muscle_rig/hardware.yaml", false);
   EXPECT_EQ(rig.tendons.loaded, 20.0);

@@ -345,6 +345,17 @@ TEST_F(HomeTest, ARestartedHandIsZeroWhereItIs) {
   EXPECT_TRUE(command(muscle, ecu::Mode::kPosition, 0.0).accepted);
 }
 
+TEST(HomeOfTheCarefulRobot, Succeeds) {
+  Rig rig(load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware_careful.yaml", true));
+  for (std::size_t m = 0; m < rig.hardware.muscles.size(); ++m) rig.plant.slacken(m, 1.0);
+  rig.run(1000);
+  ASSERT_TRUE(rig.enable());
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  for (int ms = 0; ms < 30000 && rig.driver().home().running(); ++ms) rig.step();
+  EXPECT_EQ(rig.driver().home().failure(), "");
+  EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kEnabled);
+}
+
 TEST_F(HomeTest, CommandsAreRefusedMeanwhile) {
   ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
   const auto outcome = rig.driver().command({"brachialis"}, {0}, {1.0}, rig.now());

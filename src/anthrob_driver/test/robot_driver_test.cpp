@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "anthrob_config/errors.h"
 #include "rig.h"
 
 namespace anthrob {
@@ -186,6 +187,49 @@ TEST(RobotDriver, TwoHostsDoNotPassAStopToAndFro) {
   rig.driver().clear_faults(rig.now());
   rig.run(200);
   EXPECT_TRUE(rig.enable());
+}
+
+TEST(RobotDriver, AFirstPositionFarFromWhereTheMuscleIsIsRefused) {
+  RobotDriver::Options options;
+  options.first_step = 0.5;
+  Rig rig(true, options);
+  rig.run(1000);
+  ASSERT_TRUE(rig.enable());
+  const auto go = [&](double to, ecu::Mode mode = ecu::Mode::kPosition) {
+    return rig.driver().command({"teres_minor", "brachialis"}, {0, static_cast<std::uint8_t>(mode)},
+                                {0.0, to}, rig.now());
+  };
+  EXPECT_EQ(go(3.0).reason,
+            "muscle 'brachialis': POSITION 3.00 rad is 3.00 rad from where it is, first_step is "
+            "0.50 rad: start there");
+  EXPECT_EQ(rig.driver().supervisor().rejected_count(), 1u);
+  EXPECT_LT(rig.driver().supervisor().command_age(rig.now()), 0.0);  // it feeds no watch
+  rig.run(100);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_EQ(go(NAN).reason, "muscle 'brachialis': reference is not a finite number");
+  // From where it stands the way is free.
+  ASSERT_TRUE(go(0.4).accepted);
+  rig.run(100);
+  ASSERT_TRUE(go(3.0).accepted);
+  for (int i = 0; i < 30; ++i) {
+    rig.run(100);
+    ASSERT_TRUE(go(3.0).accepted);
+  }
+  // What stopped starts again from where it stands.
+  rig.driver().disable();
+  rig.run(300);
+  ASSERT_TRUE(rig.enable());
+  EXPECT_FALSE(go(0.4).accepted);
+  ASSERT_TRUE(go(0.5, ecu::Mode::kVoltage).accepted);
+  EXPECT_FALSE(go(0.4).accepted);
+}
+
+TEST(RobotDriver, AFirstStepOutOfRangeIsRefused) {
+  for (const double step : {-1.0, 1e9, static_cast<double>(NAN)}) {
+    RobotDriver::Options options;
+    options.first_step = step;
+    EXPECT_THROW(Rig(true, options), BadInput) << step;
+  }
 }
 
 TEST(RobotDriver, AStopWinsOverAnEnableUnderWay) {

@@ -54,6 +54,9 @@ class RobotDriver {
   struct Options {
     double rate = 200.0;  ///< [Hz] of cycle()
     double command_timeout = 0.5;
+    /// [rad] that the first POSITION reference of a muscle after enable, home or another mode may
+    /// be away from where it is; 0: any
+    double first_step = 0.0;
   };
   using Outcome = ecu::Supervisor::Outcome;
   enum class Phase { kDisabled, kEnabling, kEnabled };
@@ -126,6 +129,9 @@ class RobotDriver {
   void keep_analog(const EcuLink& link, int ecu, double now);
   bool all_complete() const;
   std::string why_not_enable() const;
+  /// What first_step has against a command; empty: nothing.
+  std::string too_far(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
+                      const std::vector<double>& references) const;
 
   Hardware hardware_;
   Options options_;
