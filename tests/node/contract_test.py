@@ -263,6 +263,19 @@ class Contract(unittest.TestCase):
         wait_for(lambda: rejected()[0] == before + len(cases), 'all rejections in diagnostics')
         self.assertIn('FORCE -1 N', rejected()[1])
 
+    def test_a_recording_moves_a_simulator_and_no_robot(self):
+        wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
+        robot = self.diagnostics.last().status[0].name == '/anthrob: driver'
+        wait_for(lambda: rospy.Time.now().to_sec() > 2.0, 'the third second')
+        old = MuscleCommand(name=['lateral_deltoid'], mode=[VOLTAGE], reference=[0.7])
+        old.header.stamp = rospy.Time(1)
+        self.publisher.publish(old)
+        if not robot:
+            return self.await_value('reference', 'lateral_deltoid', 0.7)
+        values = lambda: {v.key: v.value for v in self.diagnostics.last().status[0].values}
+        wait_for(lambda: 'a recording' in values()['last_rejection'], 'the rejection')
+        self.assertEqual(self.states.last().reference[0], 0.0)
+
     # ---- stops ----
 
     def test_timeout_stops_until_enabled_again(self):

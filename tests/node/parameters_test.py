@@ -37,7 +37,8 @@ class Parameters(unittest.TestCase):
 
     def test_driver(self):
         self.check('anthrob_driver', 'anthrob_driver', [('hardware', os.path.join(CONFIG, 'hardware.yaml'))],
-                   [('rate', 'fast'), ('realtime', '1'), ('command_timeout', '.nan'),
+                   [('rate', 'fast'), ('realtime', '1'), ('command_timeout', '.nan'), ('check_stamps', '1'),
+                    ('first_step', '.nan'),
                     # Before the bus is opened: no interface is needed to be told.
                     ('model', os.path.join(CONFIG, 'model_I_tier1.yaml'))])
 

@@ -38,11 +38,12 @@ std::int64_t wall_clock_ns() {
 }  // namespace
 
 DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
-                       const std::string& interface, ros::NodeHandle nh)
+                       const std::string& interface, bool check_stamps, ros::NodeHandle nh)
     : thread_(hardware, options, interface),
       hardware_(std::move(hardware)),
       interface_(interface),
       pace_(options.pace),
+      check_stamps_(check_stamps),
       joint_readings_(hardware_.joints.size()),
       touch_readings_(hardware_.touch.size()),
       nh_(nh),
@@ -65,14 +66,22 @@ DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
 void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   RobotDriver::Outcome outcome;
   double time = 0.0;
+  const double old = command_age(command.header.stamp);
   thread_.call([&](RobotDriver& driver, double now) {
     outcome = dropping_ ? driver.refuse("sent before the robot was ready for it")
-                        : driver.command(command.name, command.mode, command.reference, now);
+                        : driver.command(command.name, command.mode, command.reference, now, old);
     time = now;
   });
   if (outcome.accepted || time - warning_time_ < 1.0) return;
   warning_time_ = time;
   ROS_WARN_STREAM("muscle_command refused: " << outcome.reason);
+}
+
+double DriverNode::command_age(const ros::Time& stamp) const {
+  const ros::Time now = ros::Time::now();
+  // `rostopic pub` sends no stamp; simulated time may not have begun.
+  if (!check_stamps_ || stamp.isZero() || now.isZero()) return 0.0;
+  return (now - stamp).toSec();
 }
 
 void DriverNode::pass_commands() {

@@ -26,8 +26,9 @@ namespace driver {
 /// that came in before a stop does not undo it.
 class DriverNode {
  public:
+  /// @param check_stamps refuse commands whose stamp says that they were not sent just now
   DriverNode(Hardware hardware, const DriverThread::Options& options, const std::string& interface,
-             ros::NodeHandle nh);
+             bool check_stamps, ros::NodeHandle nh);
 
   /// Until ROS shuts down.
   void run();
@@ -36,6 +37,8 @@ class DriverNode {
   using Trigger = std_srvs::Trigger;
 
   void on_command(const anthrob_msgs::MuscleCommand& command);
+  /// [s] of ROS time since `stamp`; 0 if it says nothing.
+  double command_age(const ros::Time& stamp) const;
   using Outcome = RobotDriver::Outcome;
   /// Says what has come of a request so far. @return whether it goes on
   using Step = std::function<bool(RobotDriver& driver, double now, Outcome& outcome)>;
@@ -68,6 +71,7 @@ class DriverNode {
   Hardware hardware_;
   std::string interface_;
   double pace_;
+  bool check_stamps_;
   StampClock stamp_clock_;
   ReadingGroup joint_readings_, touch_readings_;
   ros::NodeHandle nh_, stop_nh_, command_nh_, request_nh_;

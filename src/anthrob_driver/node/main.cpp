@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
     take(settings, "rate", number_of, options.driver.rate);
     take(settings, "command_timeout", number_of, options.driver.command_timeout);
     take(settings, "first_step", number_of, options.driver.first_step);
+    bool check_stamps = true;
+    take(settings, "check_stamps", truth_of, check_stamps);
     take(settings, "realtime", truth_of, options.realtime);
     take(settings, "pace", number_of, options.pace);
     const bool in_memory = can.rfind("vcan", 0) == 0;
@@ -48,7 +50,7 @@ int main(int argc, char** argv) {
       throw BadInput(claim.getTopic() + ": " + other +
                      " publishes it already; stop that back end first");
     }
-    DriverNode node(hardware, options, can, nh);
+    DriverNode node(hardware, options, can, check_stamps, nh);
     node.run();
   } catch (const anthrob::BadInput& error) {
     ROS_FATAL_STREAM(error.what());

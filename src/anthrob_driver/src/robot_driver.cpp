@@ -39,6 +39,15 @@ ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options)
   return result;
 }
 
+std::string too_old(double age, double limit) {
+  if (std::abs(age) <= limit) return "";
+  char text[120];
+  std::snprintf(text, sizeof(text),
+                "sent %.1f s %s: a recording, or the clocks of two computers differ", std::abs(age),
+                age > 0.0 ? "ago" : "ahead of time");
+  return text;
+}
+
 }  // namespace
 
 RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
@@ -157,7 +166,10 @@ bool RobotDriver::take_analog(AnalogSample& sample) {
 
 RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
                                           const std::vector<std::uint8_t>& modes,
-                                          const std::vector<double>& references, double now) {
+                                          const std::vector<double>& references, double now,
+                                          double age) {
+  const std::string old = too_old(age, options_.command_timeout);
+  if (!old.empty()) return refuse(old);
   if (home_.running()) return refuse("home is running");
   const std::string far = too_far(names, modes, references);
   if (!far.empty()) return refuse(far);

@@ -189,6 +189,28 @@ TEST(RobotDriver, TwoHostsDoNotPassAStopToAndFro) {
   EXPECT_TRUE(rig.enable());
 }
 
+TEST(RobotDriver, ACommandThatWasNotSentJustNowIsRefused) {
+  Rig rig;
+  rig.run(1000);
+  ASSERT_TRUE(rig.enable());
+  const auto go = [&](double age) {
+    return rig.driver().command({"brachialis"}, {0}, {1.0}, rig.now(), age);
+  };
+  EXPECT_EQ(go(3.14).reason, "sent 3.1 s ago: a recording, or the clocks of two computers differ");
+  EXPECT_EQ(go(-0.6).reason,
+            "sent 0.6 s ahead of time: a recording, or the clocks of two computers differ");
+  EXPECT_EQ(rig.driver().supervisor().rejected_count(), 2u);
+  EXPECT_LT(rig.driver().supervisor().command_age(rig.now()), 0.0);  // they feed no watch
+  rig.run(50);
+  EXPECT_EQ(rig.moving(), 0);
+  for (const double age : {0.4, 0.0, -0.4}) EXPECT_TRUE(go(age).accepted) << age;
+  // An old one does not keep the motors going either.
+  rig.run(300);
+  EXPECT_FALSE(go(3.0).accepted);
+  rig.run(300);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kCommandTimeout), 1u);
+}
+
 TEST(RobotDriver, AFirstPositionFarFromWhereTheMuscleIsIsRefused) {
   RobotDriver::Options options;
   options.first_step = 0.5;

@@ -71,8 +71,10 @@ class RobotDriver {
   bool take_sample(Sample& sample);
   bool take_analog(AnalogSample& sample);
 
+  /// @param age [s] since it was sent, by its stamp; 0 without one. More than command_timeout, or
+  /// as far ahead of time, is refused: nobody sends it now
   Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
-                  const std::vector<double>& references, double now);
+                  const std::vector<double>& references, double now, double age = 0.0);
   /// A command that is not even looked at; counted and named as the others that are refused.
   Outcome refuse(const std::string& reason) { return supervisor_.refuse(reason); }
   /// Begins; phase() and last_outcome() tell how it went, within kEnableTimeout.
