@@ -2,59 +2,74 @@
 // feedback.
 #include <ros/ros.h>
 
+#include <stdexcept>
+
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
-#include "anthrob_ros/clock_wait.h"
 #include "anthrob_ros/parameters.h"
 
 namespace {
 
 /// Commands are renewed faster than they time out.
 constexpr double kCommandRate = 50.0;  // [Hz]
+constexpr double kUndriven = 0.5;      // [s] motors may start with the first commands
 
-/// Sends one command for some ROS time from `now` on, which goes on to when that is over.
-/// @return false if time jumped back: a bag looped, a simulator was started anew
-bool hold(anthrob_msgs::MuscleCommand command, double duration, const ros::Publisher& commands,
-          ros::Rate& rate, ros::Time& now) {
-  const ros::Time end = now + ros::Duration(duration);
-  while (ros::ok() && now < end) {
-    command.header.stamp = now;
-    commands.publish(command);
-    rate.sleep();
-    const ros::Time before = now;
-    now = ros::Time::now();
-    if (now < before) return false;
+/// Whoever stopped the motors did not mean that the next enable takes up a posture.
+/// @param driven when they last were on   @throws std::runtime_error naming a motor that is off
+void check_motors(const anthrob::RobotLink& link, ros::Time& driven) {
+  const std::string off = link.state().disabled_muscle();
+  if (off.empty() || driven.isZero()) driven = link.now();
+  if ((link.now() - driven).toSec() > kUndriven) {
+    throw std::runtime_error("the motor of " + off + " is not enabled; enable, then start again");
   }
+}
+
+/// Until there is a robot.
+/// @return false when ROS shuts down
+bool wait_for_states(anthrob::RobotLink& link) {
+  bool seen = false;
+  link.on_muscles = [&](const anthrob_msgs::MuscleStates&) { seen = true; };
+  while (!seen) {
+    if (!link.wait()) return false;
+  }
+  link.on_muscles = nullptr;
   return true;
 }
 
-void play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
+/// @return false when ROS shuts down
+bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const auto model =
       anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
   const auto sequence = anthrob::PostureSequence::load(
       anthrob::required(settings, "postures", "a posture file"), *model);
   const auto references = sequence.references(model);
 
-  ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 10);
-  anthrob::ClockWait clock_wait;
-  while (ros::ok() && (commands.getNumSubscribers() == 0 || ros::Time::now().isZero())) {
-    if (ros::Time::now().isZero()) clock_wait.look();
-    ros::WallDuration(0.05).sleep();
-  }
-  ros::Rate rate(kCommandRate);
-  ros::Time now = ros::Time::now();
-  for (std::size_t i = 0; ros::ok() && i < sequence.steps.size();) {
-    ROS_INFO_STREAM("posture " << i + 1 << " of " << sequence.steps.size() << ": "
-                               << sequence.steps[i].name);
-    const auto command =
-        anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, references[i]);
-    if (hold(command, sequence.steps[i].hold, commands, rate, now)) {
-      ++i;
-    } else {
+  anthrob::RobotLink::Options options;
+  options.period = 1.0 / kCommandRate;
+  anthrob::RobotLink link(nh, model, options);
+  if (!wait_for_states(link)) return false;
+  ros::Time end, driven;
+  for (std::size_t i = 0; i < sequence.steps.size();) {
+    if (link.time_jumped()) {
       ROS_WARN("time jumped back: begins anew");
       i = 0;
+      end = driven = ros::Time();
     }
+    if (end.isZero()) {
+      ROS_INFO_STREAM("posture " << i + 1 << " of " << sequence.steps.size() << ": "
+                                 << sequence.steps[i].name);
+      end = link.now() + ros::Duration(sequence.steps[i].hold);
+    }
+    check_motors(link, driven);
+    if (link.now() >= end) {
+      ++i;
+      end = ros::Time();
+      continue;
+    }
+    link.send(anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, references[i]));
+    if (!link.wait()) return false;
   }
+  return true;
 }
 
 }  // namespace
@@ -63,7 +78,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "posture_player");
   ros::NodeHandle nh, settings("~");
   try {
-    play(nh, settings);
+    return play(nh, settings) ? 0 : 130;
   } catch (const anthrob::BadInput& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;
@@ -71,5 +86,4 @@ int main(int argc, char** argv) {
     ROS_FATAL_STREAM(error.what());
     return 1;
   }
-  return 0;
 }
