@@ -8,6 +8,9 @@ namespace driver {
 
 namespace {
 
+/// [rad] that a slack tendon may get longer while it is to be wound in.
+constexpr double kUnwound = 0.5;
+
 std::string text(const char* format, double a, double b) {
   char buffer[160];
   std::snprintf(buffer, sizeof(buffer), format, a, b);
@@ -66,6 +69,11 @@ std::string Home::check(const Reading& reading, Tendon& tendon) const {
   }
   const double wound = reading.position - tendon.start;
   const bool grips = reading.force > 0.5 * pretension;
+  // One that was tight at the start may pay out down to the pretension, and holds that then.
+  if (wound < -kUnwound && !grips && !tendon.held) {
+    return text("at %.2f rad, from %.2f: winds the wrong way: polarity of motor or encoder",
+                reading.position, tendon.start);
+  }
   if (wound > limits.travel_limit && !grips) {
     return text("wound in by %.2f rad and only %.1f N: the tendon is broken or off its pulley",
                 wound, reading.force);

@@ -152,6 +152,41 @@ TEST_F(HomeTest, NamesATendonThatSlips) {
   EXPECT_NE(failure().find("slips"), std::string::npos) << failure();
 }
 
+TEST_F(HomeTest, NamesAMotorThatWindsTheWrongWay) {
+  Home home(rig.hardware);
+  std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.3, 0.0});
+  home.start(0.0);
+  home.step(readings, 0.0);
+  readings[3].position = -0.19;
+  home.step(readings, 0.005);
+  EXPECT_TRUE(home.running());
+  readings[3].position = -0.21;
+  home.step(readings, 0.01);
+  EXPECT_EQ(home.failure(),
+            "supraspinatus: at -0.21 rad, from 0.30: winds the wrong way: polarity of motor or "
+            "encoder");
+}
+
+TEST_F(HomeTest, ATightTendonMayPayOutDownToThePretension) {
+  Home home(rig.hardware);
+  std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.3, 15.0});
+  home.start(0.0);
+  home.step(readings, 0.0);
+  readings[3] = {-0.4, 5.0};
+  home.step(readings, 0.005);
+  EXPECT_TRUE(home.running()) << home.failure();
+}
+
+TEST_F(HomeTest, AMotorWiredTheWrongWayStopsBeforeItPaysOutItsTendon) {
+  rig.plant.reverse(3);
+  home();
+  EXPECT_NE(failure().find("supraspinatus"), std::string::npos) << failure();
+  EXPECT_NE(failure().find("winds the wrong way"), std::string::npos) << failure();
+  rig.run(20);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_GT(rig.plant.muscle(3).position, -1.5);
+}
+
 TEST_F(HomeTest, AJammedMotorIsAFaultOfItsEcu) {
   rig.plant.jam(5);
   home();

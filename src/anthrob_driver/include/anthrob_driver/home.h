@@ -9,9 +9,9 @@ namespace anthrob {
 namespace driver {
 
 /// Winds all tendons in slowly until they grip, brings them to a common tension by force control,
-/// watches for those that are broken, slack or slip, and then declares this posture the zero.
-/// Muscles without force sensor are left alone: neither pulled nor, unless their unit restarted,
-/// given a zero.
+/// watches for those that are broken, slack, slip or wind the wrong way, and then declares this
+/// posture the zero. Muscles without force sensor are left alone: neither pulled nor, unless their
+/// unit restarted, given a zero.
 class Home {
  public:
   struct Reading {

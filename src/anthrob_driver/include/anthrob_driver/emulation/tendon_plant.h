@@ -32,7 +32,9 @@ class TendonPlant final : public Plant {
   Muscle muscle(std::size_t muscle) const override;
   double joint(std::size_t joint) const override { return joints_[joint]; }
   double touch(std::size_t pad) const override { return pads_[pad]; }
-  void drive(std::size_t muscle, double voltage) override { tendons_[muscle].voltage = voltage; }
+  void drive(std::size_t muscle, double voltage) override {
+    tendons_[muscle].voltage = tendons_[muscle].reversed ? -voltage : voltage;
+  }
   void advance() override;
 
   double voltage(std::size_t muscle) const { return tendons_[muscle].voltage; }
@@ -41,13 +43,15 @@ class TendonPlant final : public Plant {
   void cut(std::size_t muscle) { tendons_[muscle].cut = true; }
   void slacken(std::size_t muscle, double position) { tendons_[muscle].slack = position; }
   void jam(std::size_t muscle) { tendons_[muscle].jammed = true; }
+  /// Its motor's leads are swapped.
+  void reverse(std::size_t muscle) { tendons_[muscle].reversed = true; }
   void set_joint(std::size_t joint, double position) { joints_[joint] = position; }
   void set_touch(std::size_t pad, double force) { pads_[pad] = force; }
 
  private:
   struct Tendon {
     double voltage = 0.0, current = 0.0, velocity = 0.0, position = 0.0, slack = 0.0;
-    bool cut = false, jammed = false;
+    bool cut = false, jammed = false, reversed = false;
   };
   double force(const Tendon& tendon) const;
 
