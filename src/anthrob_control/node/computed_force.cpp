@@ -82,7 +82,8 @@ class ComputedForceNode {
   void control() {
     idle_ = link_.state().disabled_muscle();
     // Whatever posture the arm is in when the motors are enabled is the one that is held.
-    if (!idle_.empty()) controller_.reset();
+    // Also of those that were, and are again, while this node had no processor.
+    if (link_.take_disabled() || !idle_.empty()) controller_.reset();
     const anthrob::ForceCommand& wanted =
         controller_.update(link_.state().measurement(), link_.dt());
     shortfall_ = wanted.shortfall.norm();

@@ -11,6 +11,7 @@ namespace anthrob {
 
 namespace {
 
+constexpr double kForgotten = 0.5;    ///< without an update [s]; begins anew after it
 constexpr double kLongestStep = 0.1;  ///< of a motion [s]; a measurement that old is stale
 
 /// Muscles without a controller are left alone: their bounds are zero.
@@ -99,6 +100,8 @@ const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, doub
   if (!(dt >= 0.0) || measured.muscles.size() != command_.reference.size()) {
     throw std::invalid_argument("ComputedForce: time step or number of muscles");
   }
+  // The units' motors stopped meanwhile, or the arm was left alone: what it was told is past.
+  if (dt > std::max(kForgotten, 2.0 / settings_.rate)) reset();
   if (fresh_) filter_.reset();
   filter_.step(measured.q, measured.u, dt);
   posture_.update(filter_.configuration(), filter_.velocity());

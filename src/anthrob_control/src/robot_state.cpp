@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 namespace anthrob {
 
@@ -42,12 +43,14 @@ void RobotState::clear() {
   muscle_stamps_.assign(model_->muscles.size(), kNever);
   joint_stamps_.assign(model_->skeleton->joints.size(), kNever);
   enabled_.assign(model_->muscles.size(), 0);
+  was_disabled_ = false;
 }
 
 void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, bool enabled,
                             double stamp) {
   const int index = model_->find_muscle(name);
   if (index < 0) return;
+  was_disabled_ = was_disabled_ || (!enabled && model_->muscles[index].has_controller);
   if (!std::isfinite(m.position + m.velocity + m.current + m.force)) return;
   measured_.muscles[index] = m;
   enabled_[index] = enabled;
@@ -111,6 +114,10 @@ std::string RobotState::disabled_muscle() const {
     if (model_->muscles[m].has_controller && !enabled_[m]) return model_->muscles[m].name;
   }
   return "";
+}
+
+bool RobotState::take_disabled() {
+  return std::exchange(was_disabled_, false);
 }
 
 }  // namespace anthrob

@@ -345,6 +345,15 @@ TEST_F(GoTo, WaitsWhereItWasHeldUp) {
   EXPECT_GT(controller.target()[4], before);
 }
 
+TEST_F(GoTo, BeginsAnewWhereItWasLeftAloneForLong) {
+  controller.go_to(aim, 1.0);
+  for (int i = 0; i < 80; ++i) controller.update(measured, 0.005);
+  ASSERT_FALSE(controller.holds());
+  controller.update(measured, 0.6);
+  EXPECT_TRUE(controller.holds());
+  EXPECT_EQ(controller.target(), measured.q);
+}
+
 TEST(ControlSettings, RefusesWhatItCannotUse) {
   const auto model = load_robot_model(kAnthrob + "model_I.yaml");
   std::ifstream in(kAnthrob + "control.yaml");

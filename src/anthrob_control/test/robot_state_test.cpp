@@ -72,6 +72,20 @@ TEST(RobotStateOfALigament, NeedsNoMeasurementOfWhatTakesNoCommand) {
   EXPECT_EQ(state.measurement().muscles[capsule].force, 3.0);
 }
 
+TEST_F(RobotStateTest, RemembersAStopUntilItIsAskedFor) {
+  see_all(1.0);
+  EXPECT_FALSE(state.take_disabled());
+  // Stopped and enabled again between two looks.
+  state.see_muscle("brachialis", {0.1, 0.0, 0.0, 5.0}, false, 1.1);
+  state.see_muscle("brachialis", {0.1, 0.0, 0.0, 5.0}, true, 1.2);
+  EXPECT_EQ(state.disabled_muscle(), "");
+  EXPECT_TRUE(state.take_disabled());
+  EXPECT_FALSE(state.take_disabled());
+  // A unit that was lost measures nothing.
+  state.see_muscle("brachialis", {NAN, NAN, NAN, NAN}, false, 1.3);
+  EXPECT_TRUE(state.take_disabled());
+}
+
 TEST_F(RobotStateTest, KnowsWhetherMotorsFollow) {
   see_all(1.0);
   EXPECT_EQ(state.disabled_muscle(), "");

@@ -28,6 +28,9 @@ class RobotState {
   bool complete_since(double stamp) const;
   /// The first muscle whose ECU does not follow references, or empty.
   std::string disabled_muscle() const;
+  /// Whether any muscle was seen that did not follow references since the last call: one that was
+  /// stopped and enabled again between two looks is enabled now, and elsewhere than it was told.
+  bool take_disabled();
   /// Forgets all, as when time jumps back.
   void clear();
 
@@ -41,6 +44,7 @@ class RobotState {
   RobotMeasurement measured_;
   std::vector<double> muscle_stamps_, joint_stamps_;
   std::vector<char> enabled_;
+  bool was_disabled_ = false;
 };
 
 }  // namespace anthrob
