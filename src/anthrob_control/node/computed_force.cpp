@@ -68,6 +68,7 @@ class ComputedForceNode {
     while (link_.wait()) {
       if (link_.time_jumped()) controller_.reset();
       trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
+      if (trouble_.empty()) trouble_ = missing_force();
       if (!trouble_.empty()) {
         // Nothing is sent on stale measurements: after command_timeout the motors stop.
         controller_.reset();
@@ -79,6 +80,15 @@ class ComputedForceNode {
   }
 
  private:
+  /// Voltages are this node's own force law; FORCE and POSITION are the units'.
+  std::string missing_force() const {
+    const bool needed = settings_.hold_output == anthrob::ecu::Mode::kVoltage ||
+                        settings_.move_output == anthrob::ecu::Mode::kVoltage;
+    const std::string muscle = needed ? link_.state().muscle_without_force() : "";
+    return muscle.empty() ? ""
+                          : "muscle " + muscle + ": its force is not measured, output is VOLTAGE";
+  }
+
   void control() {
     idle_ = link_.state().disabled_muscle();
     // Whatever posture the arm is in when the motors are enabled is the one that is held.

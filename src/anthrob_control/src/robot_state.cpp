@@ -51,7 +51,7 @@ void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, 
   const int index = model_->find_muscle(name);
   if (index < 0) return;
   was_disabled_ = was_disabled_ || (!enabled && model_->muscles[index].has_controller);
-  if (!std::isfinite(m.position + m.velocity + m.current + m.force)) return;
+  if (!std::isfinite(m.position + m.velocity + m.current) || std::isinf(m.force)) return;
   measured_.muscles[index] = m;
   enabled_[index] = enabled;
   muscle_stamps_[index] = stamp;
@@ -112,6 +112,15 @@ bool RobotState::complete_since(double stamp) const {
 std::string RobotState::disabled_muscle() const {
   for (std::size_t m = 0; m < enabled_.size(); ++m) {
     if (model_->muscles[m].has_controller && !enabled_[m]) return model_->muscles[m].name;
+  }
+  return "";
+}
+
+std::string RobotState::muscle_without_force() const {
+  for (std::size_t m = 0; m < enabled_.size(); ++m) {
+    if (model_->muscles[m].has_controller && std::isnan(measured_.muscles[m].force)) {
+      return model_->muscles[m].name;
+    }
   }
   return "";
 }

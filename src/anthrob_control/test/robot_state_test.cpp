@@ -86,6 +86,25 @@ TEST_F(RobotStateTest, RemembersAStopUntilItIsAskedFor) {
   EXPECT_TRUE(state.take_disabled());
 }
 
+TEST_F(RobotStateTest, AMuscleWithoutForceSensorIsMeasured) {
+  see_all(1.0);
+  EXPECT_EQ(state.muscle_without_force(), "");
+  state.see_muscle("brachialis", {0.3, 0.0, 0.0, NAN}, true, 2.0);
+  EXPECT_EQ(state.measurement()
+                .muscles[static_cast<std::size_t>(model->find_muscle("brachialis"))]
+                .position,
+            0.3);
+  EXPECT_EQ(state.muscle_without_force(), "brachialis");
+  for (const ecu::Measurement& m :
+       {ecu::Measurement{NAN, 0, 0, 5}, ecu::Measurement{0, NAN, 0, 5},
+        ecu::Measurement{0, 0, NAN, 5}, ecu::Measurement{0, 0, 0, INFINITY}}) {
+    state.see_muscle("brachialis", m, true, 3.0);
+    EXPECT_TRUE(std::isnan(state.measurement()
+                               .muscles[static_cast<std::size_t>(model->find_muscle("brachialis"))]
+                               .force));
+  }
+}
+
 TEST_F(RobotStateTest, KnowsWhetherMotorsFollow) {
   see_all(1.0);
   EXPECT_EQ(state.disabled_muscle(), "");

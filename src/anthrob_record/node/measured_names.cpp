@@ -28,8 +28,10 @@ bool is_turn(const geometry_msgs::Quaternion& q) {
 }  // namespace
 
 std::vector<std::string> measured_names(const anthrob_msgs::MuscleStates& m) {
-  return names_where(
-      m.name, [&](std::size_t i) { return is_number(m.position, i) && is_number(m.force, i); });
+  // Forces are not measured where there is no sensor.
+  return names_where(m.name, [&](std::size_t i) {
+    return is_number(m.position, i) && is_number(m.velocity, i) && is_number(m.current, i);
+  });
 }
 
 std::vector<std::string> measured_names(const sensor_msgs::JointState& m) {

@@ -57,7 +57,7 @@ std::string sample_yaml(const RobotModel& model, const Sample& sample) {
     out << key << ": {";
     const char* separator = "";
     for (std::size_t m = 0; m < values.size(); ++m) {
-      if (std::isnan(values[m])) continue;  // a ligament, which nobody measures
+      if (std::isnan(values[m])) continue;  // a ligament, or no force sensor: nobody measures it
       out << separator << model.muscles[m].name << ": " << exact_text(values[m]);
       separator = ", ";
     }
@@ -87,13 +87,14 @@ Sample read_sample(const ConfigNode& node, const RobotModel& model) {
   Sample sample;
   sample.time = node.number("time", Bounds::any(), "s");
   for (const MuscleModel& muscle : model.muscles) {
-    const auto read = [&](const char* key, const char* unit) {
+    const auto read = [&](const char* key, const char* unit, bool must) {
       const ConfigNode values = node.at(key);
-      const bool is_there = muscle.actuator->takes_input() || values.has(muscle.name);
-      return is_there ? values.number(muscle.name, Bounds::any(), unit) : std::nan("");
+      return must || values.has(muscle.name) ? values.number(muscle.name, Bounds::any(), unit)
+                                             : std::nan("");
     };
-    sample.position.push_back(read("position", "rad"));
-    sample.force.push_back(read("force", "N"));
+    sample.position.push_back(read("position", "rad", muscle.actuator->takes_input()));
+    // A muscle may have no force sensor.
+    sample.force.push_back(read("force", "N", false));
   }
   sample.q = model.skeleton->rest_configuration();
   for (const JointModel& joint : model.skeleton->joints) {

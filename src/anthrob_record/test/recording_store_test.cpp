@@ -99,6 +99,17 @@ TEST_F(RecordingStoreTest, WhatIsNeverMeasuredOfALigamentIsLeftOut) {
   again.summarise();
 }
 
+TEST_F(RecordingStoreTest, AForceThatNoSensorMeasuresIsLeftOut) {
+  Sample measured = sample(0.1);
+  measured.force[2] = std::nan("");
+  RecordingStore(folder, model, protocol).set_baseline(measured);
+  const RecordingStore again(folder, model, protocol);
+  ASSERT_NE(again.baseline(), nullptr);
+  EXPECT_TRUE(std::isnan(again.baseline()->force[2]));
+  EXPECT_EQ(again.baseline()->force[3], 3.0);
+  EXPECT_EQ(again.baseline()->position[2], 0.25);
+}
+
 TEST_F(RecordingStoreTest, AFolderBelongsToOneSession) {
   RecordingStore(folder, model, protocol);
   Protocol other = protocol;

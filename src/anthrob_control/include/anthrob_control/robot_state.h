@@ -21,13 +21,15 @@ class RobotState {
                       double stamp);
 
   /// Why one cannot control with what is known at `now`; empty if one can. Values that are not
-  /// finite, or no rotation, count as not measured. Muscles that take no input, such as ligaments,
-  /// need no measurement: no unit has them.
+  /// finite, or no rotation, count as not measured; forces alone may be NaN, where there is no
+  /// sensor. Muscles that take no input, such as ligaments, need no measurement: no unit has them.
   std::string complaint(double now, double stale_after) const;
   /// Whether all that must be was measured at `stamp` or later.
   bool complete_since(double stamp) const;
   /// The first muscle whose ECU does not follow references, or empty.
   std::string disabled_muscle() const;
+  /// The first muscle with a controller whose force is not a number, or empty: it has no sensor.
+  std::string muscle_without_force() const;
   /// Whether any muscle was seen that did not follow references since the last call: one that was
   /// stopped and enabled again between two looks is enabled now, and elsewhere than it was told.
   bool take_disabled();
