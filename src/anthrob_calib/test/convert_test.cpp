@@ -169,6 +169,115 @@ TEST(Convert, SaysWhatItDoesNotCarry) {
   EXPECT_NE(contents.not_carried[1].find("malformed"), std::string::npos);
 }
 
+TEST(Convert, AnEmptyCommandComesBackEmpty) {
+  const Folder folder;
+  for (const bool only_empty : {false, true}) {
+    {
+      rosbag::Bag bag(folder / "a.bag", rosbag::bagmode::Write);
+      for (int i = 1; i < 5; ++i) {
+        anthrob_msgs::MuscleCommand command;
+        command.header.stamp = ros::Time(i);
+        if (!only_empty && i != 2 && i != 3) {
+          command.name = {"flexor"}, command.mode = {3}, command.reference = {20.0};
+        }
+        bag.write("/rig/muscle_command", ros::Time(i), command);
+      }
+    }
+    read_bag(folder / "a.bag").dataset.save(folder / "set");
+    write_bag(Dataset::load(folder / "set"), folder / "b.bag");
+    expect_same<anthrob_msgs::MuscleCommand>(folder / "a.bag", folder / "b.bag",
+                                             "/rig/muscle_command", 4);
+  }
+}
+
+/// A stamped publisher whose messages are late beside one that leaves the stamp to the bag.
+void write_two_publishers(const std::string& file, double late) {
+  rosbag::Bag bag(file, rosbag::bagmode::Write);
+  for (int i = 1; i <= 10; ++i) {
+    anthrob_msgs::MuscleCommand command;
+    command.name = {i % 2 ? "flexor" : "extensor"};
+    command.mode = {1};
+    command.reference = {0.1 * i};
+    const ros::Time arrival(100 + i);
+    if (i % 2 == 0) command.header.stamp = arrival - ros::Duration(late);
+    bag.write("/rig/muscle_command", arrival, command);
+  }
+}
+
+TEST(Convert, CommandsOfTwoPublishersAreInTheOrderOfTheirStamps) {
+  const Folder folder;
+  write_two_publishers(folder / "a.bag", 0.4);
+  EXPECT_TRUE(read_bag(folder / "a.bag").dataset.remarks.empty());
+  {
+    rosbag::Bag bag(folder / "a.bag", rosbag::bagmode::Append);
+    anthrob_msgs::MuscleCommand command;
+    command.header.stamp = ros::Time(109, 750000000);
+    command.name = {"flexor"}, command.mode = {1}, command.reference = {7.0};
+    bag.write("/rig/muscle_command", ros::Time(110, 2), command);  // after one of 110 s
+    command.header.stamp = ros::Time(110), command.reference = {8.0};
+    bag.write("/rig/muscle_command", ros::Time(110, 1), command);
+  }
+  const BagContents contents = read_bag(folder / "a.bag");
+  ASSERT_EQ(contents.dataset.remarks.size(), 1u);
+  EXPECT_NE(contents.dataset.remarks[0].find("/rig/muscle_command: 1 of 12 messages"),
+            std::string::npos)
+      << contents.dataset.remarks[0];
+  EXPECT_NE(contents.dataset.remarks[0].find("by up to 0.250 s"), std::string::npos);
+  EXPECT_EQ(contents.dataset.series("flexor/reference").values,
+            (std::vector<double>{0.1, 0.1 * 3, 0.5, 0.1 * 7, 0.9, 7.0, 8.0}));
+  contents.dataset.save(folder / "set");
+  write_bag(Dataset::load(folder / "set"), folder / "b.bag");
+  expect_same<anthrob_msgs::MuscleCommand>(folder / "a.bag", folder / "b.bag",
+                                           "/rig/muscle_command", 12);
+}
+
+TEST(Convert, AClockPutBackIsRefused) {
+  const Folder folder;
+  write_two_publishers(folder / "a.bag", 1.75);
+  try {
+    read_bag(folder / "a.bag");
+    ADD_FAILURE() << "read";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("time goes backwards by 0.750 s"), std::string::npos)
+        << error.what();
+  }
+  {
+    rosbag::Bag bag(folder / "b.bag", rosbag::bagmode::Write);
+    for (const int late : {0, 100}) {  // what a robot measures comes in order
+      sensor_msgs::JointState joints;
+      joints.header.stamp = ros::Time(5, 1000 - late);
+      joints.name = {"elbow"}, joints.position = {0.5};
+      bag.write("/rig/joint_states", ros::Time(5, 2000 + late), joints);
+    }
+  }
+  EXPECT_THROW(read_bag(folder / "b.bag"), BadInput);
+}
+
+TEST(Convert, NamesThatCannotHeadColumnsAreNotCarried) {
+  const Folder folder;
+  {
+    rosbag::Bag bag(folder / "a.bag", rosbag::bagmode::Write);
+    int second = 0;
+    const std::vector<std::vector<std::string>> lists = {
+        {"a", "b"}, {"a", "a"}, {"a/b", "c"}, {"a,b", "c"}, {"a ", "c"}};
+    for (const std::vector<std::string>& names : lists) {
+      sensor_msgs::JointState joints;
+      joints.name = names;
+      joints.position = {1.0, 2.0};
+      bag.write("/rig/joint_states", ros::Time(++second), joints);
+    }
+    sensor_msgs::JointState bare;
+    bare.name = {"elbow"};
+    bag.write("/rig/joint_states", ros::Time(++second), bare);
+  }
+  const BagContents contents = read_bag(folder / "a.bag");
+  EXPECT_EQ(contents.not_carried,
+            (std::vector<std::string>{"/rig/joint_states (4 malformed messages)",
+                                      "/rig/joint_states (1 messages with names only)"}));
+  contents.dataset.save(folder / "set");
+  EXPECT_EQ(Dataset::load(folder / "set").series("b/position").values, (std::vector<double>{2.0}));
+}
+
 TEST(Convert, RefusesWhatIsNoRecording) {
   const Folder folder;
   std::ofstream(folder / "text.bag") << "hello";
@@ -234,6 +343,35 @@ TEST(Convert, FolderToBagKeepsWhatTheMetaSays) {
   const DatasetMeta back = read_bag(folder / "a.bag").dataset.meta;
   EXPECT_EQ(meta_text(back), meta_text(data.meta));
   EXPECT_EQ(back.settle_s, 2.5);
+}
+
+TEST(Convert, FolderToBagSaysWhatItDoesNotCarry) {
+  const Folder folder;
+  Dataset data = hinge();
+  data.table("joints").columns.push_back({"hinge/load", {1.0, 2.0}, {1, 1}});
+  const BagRemarks said = write_bag(data, folder / "a.bag");
+  EXPECT_EQ(said.not_carried, (std::vector<std::string>{"joints.csv: hinge/load"}));
+  EXPECT_EQ(read_bag(folder / "a.bag").dataset.series("hinge/position").values,
+            (std::vector<double>{0.25, 0.5}));
+  Dataset nothing;
+  nothing.table("joints").t = {0};
+  nothing.table("joints").columns.push_back({"hinge/load", {1.0}, {1}});
+  EXPECT_THROW(write_bag(nothing, folder / "b.bag"), BadInput);
+}
+
+TEST(Convert, ATableOfBallJointsBecomesBallJoints) {
+  const Folder folder;
+  Dataset data = hinge();
+  data.tables[0].columns.clear();
+  for (const char* axis : {"w", "x", "y", "z"}) {
+    data.tables[0].columns.push_back({std::string("shoulder/") + axis, {0.5, 0.5}, {1, 1}});
+  }
+  write_bag(data, folder / "a.bag");
+  const auto balls =
+      messages<anthrob_msgs::SphericalJointStates>(folder / "a.bag", "/rig/spherical_joint_states");
+  ASSERT_EQ(balls.size(), 2u);
+  EXPECT_EQ(balls[1].second.name, std::vector<std::string>{"shoulder"});
+  EXPECT_TRUE(messages<sensor_msgs::JointState>(folder / "a.bag", "/rig/joint_states").empty());
 }
 
 TEST(Convert, ACommandHasAReference) {

@@ -8,6 +8,14 @@
 #include "anthrob_sim/recording/dataset.h"
 #include "anthrob_sim/tool/tool.h"
 
+namespace {
+
+void say_not_carried(const std::vector<std::string>& list) {
+  for (const std::string& what : list) std::cout << "not carried: " << what << "\n";
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
@@ -32,13 +40,17 @@ int main(int argc, char** argv) {
       throw BadInput("IN " + in + ", OUT " + out + ": expected one of them to end in .bag");
     }
     if (!is_bag(in)) {
-      write_bag(Dataset::load(in), out);
+      const Dataset recording = Dataset::load(in);
+      tool::say(app, recording.remarks);
+      const BagRemarks done = write_bag(recording, out);
+      tool::say(app, done.remarks);
+      say_not_carried(done.not_carried);
       return tool::kDone;
     }
     const BagContents contents = read_bag(in);
+    tool::say(app, contents.dataset.remarks);
     contents.dataset.save(out);
-    for (const std::string& what : contents.not_carried)
-      std::cout << "not carried: " << what << "\n";
+    say_not_carried(contents.not_carried);
     return tool::kDone;
   });
 }

@@ -9,13 +9,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <set>
+#include <string_view>
 
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/atomic_file.h"
 #include "anthrob_sim/recording/load_recording.h"
+#include "anthrob_sim/recording/topic_tables.h"
 
 namespace anthrob {
 
@@ -25,6 +29,10 @@ using anthrob_msgs::MuscleCommand;
 using anthrob_msgs::MuscleStates;
 using anthrob_msgs::SphericalJointStates;
 using sensor_msgs::JointState;
+
+/// How far commands of several publishers may overtake each other: no longer than a robot waits for
+/// the next one. Beyond, a clock was put back.
+constexpr Nanoseconds kMostOvertaken = 500000000;
 
 /// Bags cannot hold time 0; the first representable instant stands for it.
 constexpr Nanoseconds kFirstBagTime = 1;
@@ -105,6 +113,17 @@ bool to_cells(const SphericalJointStates& m, Cells& cells) {
   return true;
 }
 
+/// Whether names can head columns, and which value is whose.
+bool are_column_owners(const std::vector<std::string>& names) {
+  const auto bad = [](const std::string& name) {
+    return name.find_first_of("/,\r\n") != std::string::npos ||
+           (!name.empty() && (std::isspace(static_cast<unsigned char>(name.front())) ||
+                              std::isspace(static_cast<unsigned char>(name.back()))));
+  };
+  return std::none_of(names.begin(), names.end(), bad) &&
+         std::set<std::string_view>(names.begin(), names.end()).size() == names.size();
+}
+
 /// One row of a table, seen by owner.
 class RowView {
  public:
@@ -147,7 +166,7 @@ void from_row(const RowView& row, MuscleCommand& m) {
   m.name = row.owners();
   row.get("mode", m.mode);
   row.get("reference", m.reference);
-  if (m.reference.empty()) row.fail("a command without a reference");
+  if (m.reference.empty() && !m.name.empty()) row.fail("a command without a reference");
   if (m.mode.empty()) m.mode.assign(m.name.size(), MuscleCommand::POSITION);
 }
 
@@ -203,10 +222,11 @@ class TableBuilder {
   template <class Message>
   void add(const Message& message, const ros::Time& arrival) {
     Cells cells;
-    if (!to_cells(message, cells)) {
+    if (!are_column_owners(message.name) || !to_cells(message, cells)) {
       ++malformed_;
       return;
     }
+    if (cells.empty() && !message.name.empty()) ++bare_;
     Nanoseconds bag_time = to_nanoseconds(arrival);
     if (bag_time == kFirstBagTime) bag_time = 0;
     const Nanoseconds stamp = to_nanoseconds(message.header.stamp);
@@ -231,15 +251,16 @@ class TableBuilder {
       contents.not_carried.push_back(topic + " (" + std::to_string(malformed_) +
                                      " malformed messages)");
     }
-    if (table_.t.empty()) return;
-    if (!std::is_sorted(table_.t.begin(), table_.t.end())) {
-      throw BadInput(contents.dataset.folder + ": " + topic +
-                     ": time goes backwards; expected a recording of one run");
+    if (bare_ > 0) {
+      contents.not_carried.push_back(topic + " (" + std::to_string(bare_) +
+                                     " messages with names only)");
     }
+    if (table_.t.empty()) return;
     for (Column& column : table_.columns) {
       column.values.resize(table_.t.size(), 0.0);
       column.present.resize(table_.t.size(), 0);
     }
+    put_in_order(topic, contents.dataset);
     if (table_.stamp == table_.t) table_.stamp.clear();
     if (table_.bag_time == table_.t) table_.bag_time.clear();
     if (frames_differ_) contents.not_carried.push_back(topic + ": frame_id, which changes");
@@ -258,11 +279,48 @@ class TableBuilder {
     return table_.columns.back();
   }
 
+  /// Two publishers of commands may overtake each other; what one robot measures comes in order.
+  void put_in_order(const std::string& topic, Dataset& dataset) {
+    const std::vector<Nanoseconds> t = table_.t;
+    Nanoseconds latest = t.front(), worst = 0;
+    int late = 0;
+    for (const Nanoseconds stamp : t) {
+      latest = std::max(latest, stamp);
+      worst = std::max(worst, latest - stamp);
+      late += stamp < latest;
+    }
+    if (late == 0) return;
+    if (table_.name != "commands" || worst > kMostOvertaken) {
+      throw BadInput(dataset.folder + ": " + topic + ": time goes backwards by " +
+                     time_text(worst) + " s; expected a recording of one run");
+    }
+    std::vector<std::size_t> order(t.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return t[a] < t[b]; });
+    for (auto* times : {&table_.t, &table_.stamp, &table_.bag_time}) permute(*times, order);
+    for (Column& column : table_.columns) {
+      permute(column.values, order);
+      permute(column.present, order);
+    }
+    dataset.remarks.push_back(dataset.folder + ": " + topic + ": " + std::to_string(late) + " of " +
+                              std::to_string(t.size()) +
+                              " messages came after one with a later stamp, by up to " +
+                              time_text(worst) + " s: put in the order of their stamps");
+  }
+
+  template <class List>
+  static void permute(List& list, const std::vector<std::size_t>& order) {
+    const List old = list;
+    for (std::size_t i = 0; i < order.size(); ++i) list[i] = old[order[i]];
+  }
+
   Table table_;
   std::map<std::string, std::size_t> index_;
   std::string frame_;
   bool frames_differ_ = false;
   int malformed_ = 0;
+  int bare_ = 0;  ///< messages with names and no values
 };
 
 const std::pair<const char*, const char*> kTopics[] = {
@@ -342,7 +400,8 @@ BagContents contents_of(const std::string& file) {
   }
   const std::string robot = *namespaces.begin();
   const std::string beside = meta_beside(file);
-  if (std::filesystem::exists(beside)) contents.dataset.meta = load_meta(beside);
+  if (std::filesystem::exists(beside))
+    contents.dataset.meta = load_meta(beside);
   contents.dataset.meta.robot = robot.empty() ? "" : robot.substr(1);
   for (const auto& [topic, table] : kTopics) {
     if (!chosen.count(topic)) continue;
@@ -395,63 +454,20 @@ void write_rows(const Table& table, const Dataset& dataset, const std::string& t
   }
 }
 
-/// The topic table a column belongs to, whatever file it stands in.
-std::string table_of(const Column& column, const std::set<std::string>& muscles) {
-  const std::string q = column.quantity();
-  if (q == "w" || q == "x" || q == "y" || q == "z" || q == "wx" || q == "wy" || q == "wz") {
-    return "spherical_joints";
-  }
-  return muscles.count(column.owner()) ? "muscles" : "joints";
-}
-
-/// Tables in the four standard places; a file of another name is dealt out by its columns.
-std::vector<Table> standard_tables(const Dataset& dataset) {
-  std::set<std::string> muscles;
-  for (const Table& table : dataset.tables) {
-    for (const Column& column : table.columns) {
-      const std::string q = column.quantity();
-      if (q != "position" && q != "velocity" && q != "effort" && q != "load")
-        muscles.insert(column.owner());
-    }
-  }
-  std::vector<Table> tables;
-  for (const Table& table : dataset.tables) {
-    const bool standard =
-        std::any_of(std::begin(kTopics), std::end(kTopics),
-                    [&](const auto& known) { return table.name == known.second; });
-    for (const Column& column : table.columns) {
-      if (column.quantity() == "load") {
-        throw BadInput(table.name + ".csv: column '" + column.name +
-                       "': a bag's topics have no load");
-      }
-    }
-    if (standard) {
-      tables.push_back(table);
-      continue;
-    }
-    for (const char* name : {"muscles", "joints", "spherical_joints"}) {
-      Table part;
-      part.name = name;
-      part.t = table.t;
-      for (const Column& column : table.columns) {
-        if (table_of(column, muscles) == name) part.columns.push_back(column);
-      }
-      if (!part.columns.empty()) tables.push_back(part);
-    }
-  }
-  return tables;
-}
-
 }  // namespace
 
-void write_bag(const Dataset& dataset, const std::string& file) {
+BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
+  const TopicTables topics = topic_tables(dataset);
+  if (topics.tables.empty()) {
+    throw BadInput(dataset.folder + ": holds nothing that a bag's topics carry");
+  }
   const std::string prefix =
       "/" + (dataset.meta.robot.empty() ? std::string("robot") : dataset.meta.robot) + "/";
   const std::string temporary = file + ".part" + std::to_string(getpid());
   auto bag = std::make_unique<rosbag::Bag>();
   try {
     bag->open(temporary, rosbag::bagmode::Write);
-    for (const Table& table : standard_tables(dataset)) {
+    for (const Table& table : topics.tables) {
       if (table.name == "commands")
         write_rows<MuscleCommand>(table, dataset, prefix + "muscle_command", *bag);
       if (table.name == "muscles")
@@ -467,6 +483,7 @@ void write_bag(const Dataset& dataset, const std::string& file) {
     // First: a meta.yaml that waits for its bag misleads nobody, a bag with none or another's does.
     write_file_atomically(meta_beside(file), meta_text(dataset.meta));
     std::filesystem::rename(temporary, file);
+    return {topics.not_carried, topics.remarks};
   } catch (const rosbag::BagException& e) {
     (void)bag.release();  // its destructor would write again, and throw, which ends the program
     std::filesystem::remove(temporary);

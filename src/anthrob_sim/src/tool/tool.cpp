@@ -104,12 +104,14 @@ std::string find_model_file(const std::string& robot, const std::string& model) 
   return file.string();
 }
 
+void say(const CLI::App& app, const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) std::cerr << app.get_name() << ": " << remark << "\n";
+}
+
 std::shared_ptr<const RobotModel> load_model(const CLI::App& app, const std::string& file,
                                              const LoadOptions& options) {
   auto model = load_robot_model(file, options);
-  for (const std::string& remark : model->remarks) {
-    std::cerr << app.get_name() << ": " << remark << "\n";
-  }
+  say(app, model->remarks);
   return model;
 }
 

@@ -73,6 +73,7 @@ struct Dataset {
   std::string folder;  ///< where it came from, for messages
   DatasetMeta meta;
   std::vector<Table> tables;
+  std::vector<std::string> remarks;  ///< what was odd about it and does no harm; not saved
 
   /// @throws BadInput with one line: file, line or row, value, what was expected
   static Dataset load(const std::string& folder);

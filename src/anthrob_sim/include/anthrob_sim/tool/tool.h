@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "anthrob_sim/model/robot_model.h"
 
@@ -24,6 +25,9 @@ bool interrupted();
 /// Robots are folders under $ANTHROB_CONFIG, else under config/ of the package anthrob_bringup.
 /// @throws BadInput naming what was looked for and where
 std::string find_model_file(const std::string& robot, const std::string& model);
+
+/// Remarks on what was read, on standard error, one line each.
+void say(const CLI::App& app, const std::vector<std::string>& remarks);
 
 /// The model in a file; what was odd in it but put right is said on standard error, one line each.
 std::shared_ptr<const RobotModel> load_model(const CLI::App& app, const std::string& file,
