@@ -182,6 +182,17 @@ TEST_F(CalibrateTool, EvaluatingLeavesAFinishedCalibrationAlone) {
   EXPECT_EQ(calibrate("errors_only", "--evaluate").status, 0) << "again";
 }
 
+TEST_F(CalibrateTool, KeysOfARecordingThatNobodyKnowsAreMentioned) {
+  fs::copy(path("eq"), path("described"), fs::copy_options::recursive);
+  const fs::path meta = fs::path(path("described")) / "E2/meta.yaml";
+  write(meta, content(meta) + "weather: fine\n");
+  const Outcome outcome = run("--config " + path("c.yaml") + " --data " + path("described") +
+                              " --out " + path("mentioned") + " --evaluate");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.errors,
+            "anthrob_calibrate: " + meta.string() + ": weather: unknown key, kept\n");
+}
+
 TEST_F(CalibrateTool, NothingThatIsReadIsReplaced) {
   const auto refused = [](const std::string& out, const std::string& more, const char* file) {
     const std::string before = content(path(out + "/" + file));

@@ -403,6 +403,35 @@ TEST(Convert, AnOrientationIsWholeOrNotThere) {
   }
 }
 
+/// @return exit status of anthrob_convert; what it says goes to said.txt and errors.txt
+int convert(const Folder& folder, const std::string& in, const std::string& out) {
+  const std::string command = std::string(ANTHROB_CONVERT) + " " + in + " " + out + " >" +
+                              (folder / "said.txt") + " 2>" + (folder / "errors.txt");
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string content(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ConvertTool, TellsWhatIsOddAndWhatItDoesNotCarry) {
+  const Folder folder;
+  Dataset data = hinge();
+  data.table("joints").columns.push_back({"hinge/load", {1.0, 2.0}, {1, 1}});
+  data.save(folder / "set");
+  std::ofstream(folder / "set/meta.yaml", std::ios::app) << "weather: fine\n";
+  ASSERT_EQ(convert(folder, folder / "set", folder / "a.bag"), 0);
+  EXPECT_EQ(content(folder / "said.txt"), "not carried: joints.csv: hinge/load\n");
+  EXPECT_EQ(content(folder / "errors.txt"),
+            "anthrob_convert: " + (folder / "set/meta.yaml") + ": weather: unknown key, kept\n");
+  ASSERT_EQ(convert(folder, folder / "a.bag", folder / "back"), 0);
+  EXPECT_EQ(content(folder / "errors.txt"),
+            "anthrob_convert: " + (folder / "a.yaml") + ": weather: unknown key, kept\n");
+  EXPECT_EQ(Dataset::load(folder / "back").meta.other.at("weather"), "fine\n");
+}
+
 TEST(Plot, AnOrientationIsWhole) {
   const Folder folder;
   for (const char* missing : {"none", "w", "y", "z"}) {

@@ -115,8 +115,15 @@ CalibrationInput read_together(const Arguments& arguments, const MpiSession& ses
   return std::move(*input);
 }
 
-int calibrate(const Arguments& arguments, const MpiSession& session) {
+void say_remarks(const CLI::App& app, const CalibrationInput& input) {
+  for (const auto* runs : {&input.runs, &input.validation}) {
+    for (const MeasuredRun& run : *runs) tool::say(app, run.remarks);
+  }
+}
+
+int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession& session) {
   const CalibrationInput input = read_together(arguments, session);
+  say_remarks(app, input);
   const Problem problem = input.problem();
   ProblemEvaluator local(problem);
   if (session.rank() > 0) {
@@ -217,6 +224,6 @@ int main(int argc, char** argv) {
         arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(std::max(1, jobs)));
-    return calibrate(arguments, session);
+    return calibrate(app, arguments, session);
   });
 }

@@ -16,10 +16,11 @@ namespace {
 
 using namespace anthrob;
 
-std::vector<Dataset> load_all(const std::vector<std::string>& names) {
+std::vector<Dataset> load_all(const CLI::App& app, const std::vector<std::string>& names) {
   std::vector<Dataset> recordings;
   for (const std::string& name : names) {
     recordings.push_back(load_recording(name));
+    tool::say(app, recordings.back().remarks);
     leave_out_unanswered(recordings.back());
   }
   return recordings;
@@ -83,9 +84,9 @@ int main(int argc, char** argv) {
                 << " may be corrected: there is no calibration.yaml beside it, nor --calibration; "
                    "what a wrong length or radius does may be named as an effect\n";
     }
-    question.train = load_all(train);
-    question.test = load_all(test);
-    question.repeats = load_all(repeats);
+    question.train = load_all(app, train);
+    question.test = load_all(app, test);
+    question.repeats = load_all(app, repeats);
     tool::interrupted();
 
     std::unique_ptr<tool::Progress> bar;

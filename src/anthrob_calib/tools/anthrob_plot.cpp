@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "folder for the figures")->required();
   return tool::run(app, argc, argv, [&]() -> int {
     const Dataset data = load_recording(in);
+    tool::say(app, data.remarks);
     std::error_code error;
     std::filesystem::create_directories(out, error);
     write_file_atomically(out + "/joint_angles.svg", joint_figure(data));

@@ -43,7 +43,9 @@ TEST_F(RecordingStoreTest, ARecordingIsThereWhenItIsComplete) {
   EXPECT_FALSE(store.complete(names[0]));
   record(store, names[0], 0.1);
   EXPECT_TRUE(store.complete(names[0]));
-  const DatasetMeta meta = load_meta(folder + "/E0_to_E3_run1.yaml");
+  std::vector<std::string> remarks;
+  const DatasetMeta meta = load_meta(folder + "/E0_to_E3_run1.yaml", &remarks);
+  EXPECT_TRUE(remarks.empty());
   EXPECT_EQ(meta.robot, "anthrob");
   EXPECT_NE(meta.other.at("sample").find("lateral_deltoid: 0.25"), std::string::npos);
 }

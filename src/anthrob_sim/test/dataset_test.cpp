@@ -203,7 +203,7 @@ TEST(Dataset, BadOnesAreRefusedWithOneLine) {
   folder.write("meta.yaml", kMeta);
   EXPECT_THROW(Dataset::load(folder.path()), BadInput);  // no csv
   folder.write("m.csv", "t,a/position\n0,1\n");
-  for (const char* meta : {"kind: dance\n", "start: zero\n", "start: {refrence: zero}\n"}) {
+  for (const char* meta : {"kind: dance\n", "start: zero\n", "start: {reference: last}\n"}) {
     folder.write("meta.yaml", meta);
     EXPECT_THROW(Dataset::load(folder.path()), BadInput) << meta;
   }
@@ -244,6 +244,43 @@ TEST(Dataset, OtherKeysOfTheDescriptionAreKept) {
   const Dataset second = Dataset::load(copy.path());
   EXPECT_EQ(second.meta.other.size(), 5u);
   EXPECT_EQ(second.meta.other, first.meta.other);
+  EXPECT_EQ(first.remarks.size(), 4u);  // sensors are known
+  EXPECT_EQ(second.remarks.size(), 4u);
+  EXPECT_EQ(first.remarks[0], folder.path() + "/meta.yaml: operators: unknown key, kept");
+}
+
+TEST(Dataset, UnknownKeysOfTheStartAreKeptAndMentioned) {
+  const TemporaryFolder folder;
+  folder.write("meta.yaml",
+               std::string(kMeta) +
+                   "start: {refrence: zero, reference: {a: 0.5}, posture: [1, 2], settle_s: 2}\n");
+  folder.write("m.csv", "t,a/position\n0,1\n1,2\n");
+  const Dataset first = Dataset::load(folder.path());
+  EXPECT_EQ(
+      first.remarks,
+      (std::vector<std::string>{
+          folder.path() +
+              "/meta.yaml: start.refrence: unknown key, kept; expected reference or settle_s",
+          folder.path() +
+              "/meta.yaml: start.posture: unknown key, kept; expected reference or settle_s"}));
+  const TemporaryFolder copy;
+  first.save(copy.path());
+  const Dataset second = Dataset::load(copy.path());
+  EXPECT_EQ(second.meta.other_start.at("refrence"), "zero\n");
+  EXPECT_EQ(second.meta.other_start, first.meta.other_start);
+  EXPECT_EQ(second.meta.start_position.at("a"), 0.5);
+  EXPECT_EQ(second.meta.settle_s, 2.0);
+  EXPECT_TRUE(second.meta.other.empty());
+}
+
+TEST(Dataset, WhatTheSuiteWritesItselfIsNoSurprise) {
+  const TemporaryFolder folder;
+  folder.write("meta.yaml", std::string(kMeta) +
+                                "rate: 200\nstart: {reference: zero, settle_s: 1}\nnotes: none\n"
+                                "frame_id_muscles: base\nposture: E3\nspecimen: {number: 1}\n"
+                                "simulated_by: anthrob_replay\nlargest_gap: 0.005\n");
+  folder.write("m.csv", "t,a/position\n0,1\n1,2\n");
+  EXPECT_TRUE(Dataset::load(folder.path()).remarks.empty());
 }
 
 TEST(Dataset, ByteOrderMarksOfSpreadsheetsAreNoPartOfAName) {

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   return tool::run(app, argc, argv, [&]() -> int {
     const auto model = tool::load_model(app, model_file, {step, {}});
     Dataset recording = load_recording(in);
+    tool::say(app, recording.remarks);
     leave_out_unanswered(recording);
     const ReplayMode replay_mode = mode == "reference" ? ReplayMode::kReference
                                    : mode == "voltage" ? ReplayMode::kVoltage

@@ -332,6 +332,7 @@ std::vector<MeasuredRun> read_runs(const std::string& folder,
     Dataset recording = load_recording(path);
     leave_out_unanswered(recording);
     runs.push_back(read_run(recording, model, options));
+    runs.back().remarks = recording.remarks;
   }
   return runs;
 }

@@ -301,7 +301,55 @@ Series Dataset::series(const std::string& column) const {
   return series;
 }
 
-DatasetMeta load_meta(const std::string& file) {
+namespace {
+
+/// Keys of meta.yaml that say something to people or to identification: `sensors` and `notes`, and
+/// those of the recorder, of rigs, of anthrob_replay and of bags.
+bool is_told_of(const std::string& key) {
+  static const std::set<std::string> kKnown = {
+      "sensors", "notes",      "cut_short", "from", "hold",   "largest_gap",  "posture", "protocol",
+      "rest",    "rest_drift", "rig",       "run",  "sample", "simulated_by", "specimen"};
+  return kKnown.count(key) > 0 || key.rfind("frame_id_", 0) == 0;
+}
+
+void load_start(const ConfigNode& start, DatasetMeta& meta, std::vector<std::string>* remarks) {
+  if (!start.is_map()) start.fail_expected("a map of reference and settle_s");
+  for (const auto& [key, value] : start.entries()) {
+    if (key == "settle_s") {
+      meta.settle_s = value.as_number(Bounds::nonnegative(), "s");
+    } else if (key == "reference" && value.is_map()) {
+      meta.start = "given";
+      for (const auto& [muscle, position] : value.entries()) {
+        meta.start_position[muscle] = position.as_number(Bounds::any(), "rad");
+      }
+    } else if (key == "reference") {
+      meta.start = value.as_text();
+      if (meta.start != "first" && meta.start != "zero") {
+        value.fail_expected("first, zero or {muscle: rad}");
+      }
+    } else {
+      meta.other_start[key] = value.to_yaml();
+      remarks->push_back(value.file() + ": " + value.path() +
+                         ": unknown key, kept; expected reference or settle_s");
+    }
+  }
+}
+
+/// "key: value", or the value's lines below the key.
+void put_yaml(const std::string& indent, const std::string& key, const std::string& yaml,
+              std::ostream& out) {
+  std::istringstream lines(yaml);
+  std::string line;
+  out << indent << key << ":";
+  const bool beside =
+      ConfigNode::parse(yaml, key).is_scalar() && yaml.find('\n') == yaml.size() - 1;
+  while (std::getline(lines, line)) out << (beside ? " " : "\n  " + indent) << line;
+  out << "\n";
+}
+
+}  // namespace
+
+DatasetMeta load_meta(const std::string& file, std::vector<std::string>* remarks) {
   DatasetMeta meta;
   const ConfigNode node = ConfigNode::load(file);
   for (const auto& [key, value] : node.entries()) {
@@ -315,27 +363,12 @@ DatasetMeta load_meta(const std::string& file) {
     } else if (key == "rate") {
       meta.rate = value.as_number(Bounds::positive(), "Hz");
     } else if (key == "start") {
-      if (!value.is_map()) value.fail_expected("a map of reference and settle_s");
-      for (const auto& [name, entry] : value.entries()) {
-        if (name != "settle_s" && name != "reference") entry.fail("expected reference or settle_s");
-      }
-      if (value.has("settle_s"))
-        meta.settle_s = value.number("settle_s", Bounds::nonnegative(), "s");
-      if (!value.has("reference")) continue;
-      const ConfigNode reference = value.at("reference");
-      if (reference.is_map()) {
-        meta.start = "given";
-        for (const auto& [muscle, position] : reference.entries()) {
-          meta.start_position[muscle] = position.as_number(Bounds::any(), "rad");
-        }
-      } else {
-        meta.start = reference.as_text();
-        if (meta.start != "first" && meta.start != "zero") {
-          reference.fail_expected("first, zero or {muscle: rad}");
-        }
-      }
+      load_start(value, meta, remarks);
     } else {
       meta.other[key] = value.to_yaml();
+      if (!is_told_of(key)) {
+        remarks->push_back(value.file() + ": " + value.path() + ": unknown key, kept");
+      }
     }
   }
   return meta;
@@ -358,15 +391,8 @@ std::string meta_text(const DatasetMeta& meta) {
   } else {
     out << meta.start << "\n";
   }
-  for (const auto& [key, yaml] : meta.other) {
-    std::istringstream lines(yaml);
-    std::string line;
-    out << key << ":";
-    const bool beside =
-        ConfigNode::parse(yaml, key).is_scalar() && yaml.find('\n') == yaml.size() - 1;
-    while (std::getline(lines, line)) out << (beside ? " " : "\n  ") << line;
-    out << "\n";
-  }
+  for (const auto& [key, yaml] : meta.other_start) put_yaml("  ", key, yaml, out);
+  for (const auto& [key, yaml] : meta.other) put_yaml("", key, yaml, out);
   return out.str();
 }
 
@@ -445,7 +471,7 @@ Dataset Dataset::load(const std::string& folder) {
   const fs::path meta = fs::path(folder) / "meta.yaml";
   if (!fs::exists(meta))
     throw BadInput(folder + ": meta.yaml is missing; expected one in a dataset folder");
-  dataset.meta = load_meta(meta.string());
+  dataset.meta = load_meta(meta.string(), &dataset.remarks);
   const std::vector<fs::path> files = csv_files(folder);
   if (files.empty()) throw BadInput(folder + ": expected at least one .csv file beside meta.yaml");
   for (const auto& file : files) dataset.tables.push_back(TableReader(file).read());

@@ -401,7 +401,7 @@ BagContents contents_of(const std::string& file) {
   const std::string robot = *namespaces.begin();
   const std::string beside = meta_beside(file);
   if (std::filesystem::exists(beside))
-    contents.dataset.meta = load_meta(beside);
+    contents.dataset.meta = load_meta(beside, &contents.dataset.remarks);
   contents.dataset.meta.robot = robot.empty() ? "" : robot.substr(1);
   for (const auto& [topic, table] : kTopics) {
     if (!chosen.count(topic)) continue;

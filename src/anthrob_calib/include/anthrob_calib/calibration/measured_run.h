@@ -31,15 +31,16 @@ struct Command {
 /// Time starts when the references first change.
 struct MeasuredRun {
   std::string name;
-  bool is_trajectory = false;     ///< else: an equilibrium
-  std::vector<double> start;      ///< references at which the robot was at rest [rad]
-  std::vector<Command> commands;  ///< the first one at t = 0
-  Samples before;                 ///< one row, the posture at rest; none for an equilibrium
-  Samples path;                   ///< evenly spaced; none for an equilibrium
-  Samples after;                  ///< one row: the posture at the end
-  double settle = 5.0;            ///< at `start`, before the recording began [s]
-  double lead = 0.0;              ///< still there, from then to the first command [s]
-  double duration = 0.0;          ///< from then on [s]
+  bool is_trajectory = false;        ///< else: an equilibrium
+  std::vector<double> start;         ///< references at which the robot was at rest [rad]
+  std::vector<Command> commands;     ///< the first one at t = 0
+  Samples before;                    ///< one row, the posture at rest; none for an equilibrium
+  Samples path;                      ///< evenly spaced; none for an equilibrium
+  Samples after;                     ///< one row: the posture at the end
+  double settle = 5.0;               ///< at `start`, before the recording began [s]
+  double lead = 0.0;                 ///< still there, from then to the first command [s]
+  double duration = 0.0;             ///< from then on [s]
+  std::vector<std::string> remarks;  ///< of its recording
 };
 
 struct SamplingOptions {

@@ -56,16 +56,19 @@ struct Series {
 /// meta.yaml of a dataset folder. What is not listed here is kept in `other`.
 struct DatasetMeta {
   std::string robot;
-  std::string kind = "trajectory";               ///< equilibrium | trajectory | rig
-  double rate = 0.0;                             ///< [Hz], 0: not given
-  std::string start = "first";                   ///< first | zero | given
-  std::map<std::string, double> start_position;  ///< [rad] by muscle, if `given`
-  double settle_s = 5.0;                         ///< [s]
-  std::map<std::string, std::string> other;      ///< sensors, notes and unknown keys, as YAML text
+  std::string kind = "trajectory";                 ///< equilibrium | trajectory | rig
+  double rate = 0.0;                               ///< [Hz], 0: not given
+  std::string start = "first";                     ///< first | zero | given
+  std::map<std::string, double> start_position;    ///< [rad] by muscle, if `given`
+  double settle_s = 5.0;                           ///< [s]
+  std::map<std::string, std::string> other_start;  ///< unknown keys of `start`, as YAML text
+  std::map<std::string, std::string> other;  ///< sensors, notes and unknown keys, as YAML text
 };
 
-/// meta.yaml of a dataset folder, or NAME.yaml beside NAME.bag. @throws BadInput
-DatasetMeta load_meta(const std::string& file);
+/// meta.yaml of a dataset folder, or NAME.yaml beside NAME.bag.
+/// @param remarks gets a line for each key that nobody here knows
+/// @throws BadInput
+DatasetMeta load_meta(const std::string& file, std::vector<std::string>* remarks);
 std::string meta_text(const DatasetMeta& meta);
 
 /// A recording as a folder of CSV files and a meta.yaml.
