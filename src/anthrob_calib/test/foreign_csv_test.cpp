@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/bag.h"
 
 namespace anthrob {
 namespace {
@@ -73,6 +75,113 @@ TEST_F(ForeignCsv, RowsMayBeEvenlySpaced) {
   EXPECT_EQ(dataset.series("flexor/force").t, (std::vector<double>{0.0, 0.0025, 0.005}));
   EXPECT_EQ(dataset.tables.front().name, "muscles");
   EXPECT_EQ(dataset.meta.rate, 400.0);
+}
+
+TEST(ForeignOrientation, EulerAnglesAreIntrinsic) {
+  const auto expect = [](const std::string& order, const Eigen::Vector3d& degrees, double w,
+                         double x, double y, double z) {
+    const Eigen::Quaterniond q = from_euler(order, degrees * (M_PI / 180.0));
+    EXPECT_LT((q.coeffs() - Eigen::Vector4d(x, y, z, w)).norm(), 1e-15)
+        << order << " " << degrees.transpose() << ": " << q.coeffs().transpose();
+  };
+  const double half = std::sqrt(0.5);
+  expect("xyz", {90.0, 0.0, 0.0}, half, half, 0.0, 0.0);
+  expect("xyz", {90.0, 90.0, 0.0}, 0.5, 0.5, 0.5, 0.5);  // extrinsic: z -0.5
+  expect("yxz", {90.0, 90.0, 0.0}, 0.5, 0.5, 0.5, -0.5);
+  expect("zxz", {30.0, 0.0, 60.0}, half, 0.0, 0.0, half);
+  expect("zyx", {270.0, 0.0, 0.0}, half, 0.0, 0.0, -half);  // the one with w >= 0
+  // The matrix as books have it for x, y', z''.
+  const double a = 0.3, b = -0.7, c = 1.9;
+  const Eigen::Matrix3d R = from_euler("xyz", {a, b, c}).toRotationMatrix();
+  EXPECT_NEAR(R(0, 2), std::sin(b), 1e-15);
+  EXPECT_NEAR(R(1, 2), -std::sin(a) * std::cos(b), 1e-15);
+  EXPECT_NEAR(R(2, 2), std::cos(a) * std::cos(b), 1e-15);
+  EXPECT_NEAR(R(0, 1), -std::cos(b) * std::sin(c), 1e-15);
+  EXPECT_NEAR(R(0, 0), std::cos(b) * std::cos(c), 1e-15);
+}
+
+TEST(ForeignOrientation, RotationVectorsAreAxisTimesAngle) {
+  const double turn = M_PI / 3.0;
+  const Eigen::Quaterniond q = from_rotation_vector({0.0, 0.6 * turn, -0.8 * turn});
+  EXPECT_LT((q.coeffs() - Eigen::Vector4d(0.0, 0.3, -0.4, std::sqrt(0.75))).norm(), 1e-15);
+  EXPECT_EQ(from_rotation_vector(Eigen::Vector3d::Zero()).w(), 1.0);
+  const Eigen::Quaterniond small = from_rotation_vector({1e-200, 0.0, 0.0});
+  EXPECT_EQ(small.w(), 1.0);
+  EXPECT_NEAR(small.x(), 5e-201, 1e-215);
+  const Eigen::Quaterniond far = from_rotation_vector({1.5 * M_PI, 0.0, 0.0});
+  EXPECT_NEAR(far.x(), -std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(far.w(), std::sqrt(0.5), 1e-15);
+}
+
+const std::string kMuscleMap =
+    "robot: my_robot\n"
+    "rate: 100\n"
+    "mode: {flexor: FORCE, extensor: CURRENT}\n"
+    "columns:\n"
+    "  - {from: F, to: flexor/reference}\n"
+    "  - {from: I, to: extensor/reference}\n"
+    "  - {from: enc, to: flexor/position, scale: 0.5}\n"
+    "  - {from: elbow, to: elbow/position}\n"
+    "  - {to: shoulder, euler: {from: [roll, pitch, yaw], order: xyz, unit: deg}}\n"
+    "  - {to: hip, rotation_vector: {from: [rx, ry, rz]}}\n";
+const std::string kMuscleData =
+    "F,I,enc,elbow,roll,pitch,yaw,rx,ry,rz\n"
+    "20,1.5,3,0.1,90,0,0,0.1,0.2,0.3\n"
+    ",1.5,4,0.2,0,90,,0.1,0.2,0.4\n"
+    "25,1,5,0.3,0,0,180,0,0,0\n";
+
+TEST_F(ForeignCsv, MuscleRobotsSurviveTheFolderAndTheBag) {
+  const Dataset dataset = read(kMuscleMap, kMuscleData);
+  dataset.save((folder_ / "set").string());
+  const std::string bag = (folder_ / "a.bag").string();
+  const BagRemarks said = write_bag(Dataset::load((folder_ / "set").string()), bag);
+  EXPECT_TRUE(said.not_carried.empty());
+  EXPECT_TRUE(said.remarks.empty());
+  const Dataset back = read_bag(bag).dataset;
+  for (const char* table : {"commands", "muscles", "joints", "spherical_joints"}) {
+    EXPECT_NE(back.find_table(table), nullptr) << table;
+  }
+  for (const Dataset* data : {&dataset, &back}) {
+    EXPECT_EQ(data->series("flexor/mode").values, (std::vector<double>{3, 3}));
+    EXPECT_EQ(data->series("flexor/reference").values, (std::vector<double>{20, 25}));
+    EXPECT_EQ(data->series("extensor/mode").values, (std::vector<double>{2, 2, 2}));
+    EXPECT_NE(data->find_table("muscles")->find("flexor/position"), nullptr);
+    EXPECT_NE(data->find_table("joints")->find("elbow/position"), nullptr);
+    const Series w = data->series("shoulder/w"), z = data->series("shoulder/z");
+    ASSERT_EQ(w.t, (std::vector<double>{0.0, 0.02}));  // the second lacks an angle
+    EXPECT_NEAR(w.values[0], std::sqrt(0.5), 1e-15);
+    EXPECT_NEAR(z.values[1], 1.0, 1e-15);
+  }
+  for (const char* column : {"hip/w", "hip/x", "hip/y", "hip/z", "shoulder/x"}) {
+    EXPECT_EQ(back.series(column).values, dataset.series(column).values) << column;
+  }
+}
+
+TEST_F(ForeignCsv, OneModeForAll) {
+  const Dataset dataset = read(
+      "robot: r\nrate: 10\nmode: FORCE\ncolumns: [{from: a, to: a/reference}, {from: b, to: "
+      "b/reference}]\n",
+      "a,b\n1,2\n3,4\n");
+  EXPECT_EQ(dataset.series("a/mode").values, (std::vector<double>{3, 3}));
+  EXPECT_EQ(dataset.series("b/mode").values, (std::vector<double>{3, 3}));
+}
+
+TEST_F(ForeignCsv, WhatIsWrongWithModesAndAnglesIsSaid) {
+  const auto expect = [&](const std::string& from, const std::string& to, const std::string& said) {
+    std::string map = kMuscleMap;
+    map.replace(map.find(from), from.size(), to);
+    EXPECT_NE(error(map, kMuscleData).find(said), std::string::npos)
+        << to << ": " << error(map, kMuscleData);
+  };
+  expect("order: xyz", "order: xxy", "euler.order: xxy: expected three of x, y and z");
+  expect("unit: deg", "unit: turns", "euler.unit: turns: expected rad or deg");
+  expect("[roll, pitch, yaw]", "[roll, pitch]", "euler.from: expected three columns");
+  expect("to: shoulder", "to: shoulder/w", "expected the name of a ball joint");
+  expect("to: hip", "to: shoulder", "named twice");
+  expect("flexor: FORCE", "flexor: PUSH", "mode.flexor: PUSH: expected VOLTAGE, POSITION");
+  expect("flexor: FORCE", "flexor: 3", "expected VOLTAGE, POSITION");
+  expect("flexor: FORCE", "biceps: FORCE", "biceps: no column goes to such a reference");
+  expect("yaw]", "jaw]", "column 'jaw' is not in");
 }
 
 TEST_F(ForeignCsv, WhatIsWrongIsSaidInOneLine) {

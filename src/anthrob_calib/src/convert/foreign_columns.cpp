@@ -1,3 +1,4 @@
+#include <cmath>
 #include <set>
 
 #include "anthrob_calib/convert/foreign_csv.h"
@@ -7,16 +8,19 @@
 namespace anthrob {
 namespace {
 
+bool is_of_muscles(const std::string& quantity) {
+  for (const char* muscle : {"reference", "current", "voltage", "force"}) {
+    if (quantity == muscle) return true;
+  }
+  return false;
+}
+
 /// The file where such a quantity is expected first; readers find it in any.
-std::string table_of(const std::string& quantity) {
-  if (quantity == "mode" || quantity == "reference") return "commands";
-  for (const char* muscle : {"current", "voltage", "force", "ecu_state"}) {
-    if (quantity == muscle) return "muscles";
-  }
-  for (const char* joint : {"position", "velocity", "effort", "load"}) {
-    if (quantity == joint) return "joints";
-  }
-  return "spherical_joints";
+std::string table_of(const std::string& quantity, bool muscle) {
+  if (quantity == "reference") return "commands";
+  if (is_of_muscles(quantity)) return "muscles";
+  if (quantity == "position" || quantity == "velocity") return muscle ? "muscles" : "joints";
+  return quantity == "effort" || quantity == "load" ? "joints" : "spherical_joints";
 }
 
 ForeignColumns::Entry load_entry(const ConfigNode& node) {
@@ -30,8 +34,80 @@ ForeignColumns::Entry load_entry(const ConfigNode& node) {
   }
   entry.scale = node.number_or("scale", 1.0, Bounds::any(), "ours per theirs");
   entry.offset = node.number_or("offset", 0.0, Bounds::any(), "ours");
-  entry.table = node.text_or("table", table_of(named.quantity()));
+  entry.table = node.text_or("table", "");
   return entry;
+}
+
+bool is_order(const std::string& text) {
+  return text.size() == 3 && text.find_first_not_of("xyz") == std::string::npos &&
+         text[0] != text[1] && text[1] != text[2];
+}
+
+ForeignColumns::Orientation load_orientation(const ConfigNode& node) {
+  ForeignColumns::Orientation orientation;
+  orientation.joint = node.text("to");
+  if (orientation.joint.find('/') != std::string::npos) {
+    node.at("to").fail_expected("the name of a ball joint");
+  }
+  const bool euler = node.has("euler");
+  const ConfigNode angles = node.at(euler ? "euler" : "rotation_vector");
+  const std::vector<ConfigNode> from = angles.at("from").items();
+  if (from.size() != 3) angles.at("from").fail("expected three columns");
+  for (std::size_t i = 0; i < 3; ++i) orientation.from[i] = from[i].as_text();
+  if (euler) {
+    orientation.order = angles.text("order");
+    if (!is_order(orientation.order)) {
+      angles.at("order").fail_expected("three of x, y and z, no two neighbours the same");
+    }
+  }
+  const std::string unit = angles.text_or("unit", "rad");
+  if (unit != "rad" && unit != "deg") angles.at("unit").fail_expected("rad or deg");
+  orientation.unit = unit == "deg" ? M_PI / 180.0 : 1.0;
+  orientation.table = node.text_or("table", "spherical_joints");
+  return orientation;
+}
+
+int mode_of(const ConfigNode& node) {
+  const std::string word = node.as_text();
+  const int mode = number_of("mode", word);
+  if (mode < 0 || word_of("mode", mode) != word) {
+    node.fail_expected("VOLTAGE, POSITION, CURRENT or FORCE");
+  }
+  return mode;
+}
+
+/// Gives references their modes, one for all or by muscle.
+void load_modes(const ConfigNode& node, std::vector<ForeignColumns::Entry>& entries) {
+  const auto give = [&](const ConfigNode& word, const std::string& muscle) {
+    const int mode = mode_of(word);
+    bool any = false;
+    for (ForeignColumns::Entry& entry : entries) {
+      const Column named{entry.to, {}, {}};
+      if (named.quantity() != "reference") continue;
+      if (!muscle.empty() && named.owner() != muscle) continue;
+      entry.mode = mode;
+      any = true;
+    }
+    if (!any)
+      word.fail(muscle + (muscle.empty() ? "" : ": ") + "no column goes to such a reference");
+  };
+  if (!node.is_map()) return give(node, "");
+  for (const auto& [muscle, word] : node.entries()) give(word, muscle);
+}
+
+/// What is not said of tables: by what the whole list says of each name.
+void choose_tables(std::vector<ForeignColumns::Entry>& entries) {
+  std::set<std::string> muscles;
+  for (const ForeignColumns::Entry& entry : entries) {
+    const Column named{entry.to, {}, {}};
+    if (is_of_muscles(named.quantity())) muscles.insert(named.owner());
+  }
+  for (ForeignColumns::Entry& entry : entries) {
+    const Column named{entry.to, {}, {}};
+    if (entry.table.empty()) {
+      entry.table = table_of(named.quantity(), muscles.count(named.owner()) > 0);
+    }
+  }
 }
 
 }  // namespace
@@ -59,11 +135,23 @@ ForeignColumns ForeignColumns::load(const std::string& file) {
     columns.meta.rate = columns.rate;
   }
   std::set<std::string> seen;
+  const auto refuse_twice = [&](const ConfigNode& item, const std::string& to) {
+    if (!seen.insert(to).second) item.at("to").fail("named twice");
+  };
   for (const ConfigNode& item : node.at("columns").items()) {
-    columns.entries.push_back(load_entry(item));
-    if (!seen.insert(columns.entries.back().to).second) item.at("to").fail("named twice");
+    if (item.has("euler") || item.has("rotation_vector")) {
+      columns.orientations.push_back(load_orientation(item));
+      for (const char* part : {"/w", "/x", "/y", "/z"}) {
+        refuse_twice(item, columns.orientations.back().joint + part);
+      }
+    } else {
+      columns.entries.push_back(load_entry(item));
+      refuse_twice(item, columns.entries.back().to);
+    }
   }
-  if (columns.entries.empty()) node.at("columns").fail_expected("at least one column");
+  if (seen.empty()) node.at("columns").fail_expected("at least one column");
+  choose_tables(columns.entries);
+  if (node.has("mode")) load_modes(node.at("mode"), columns.entries);
   node.refuse_unknown_keys();
   return columns;
 }

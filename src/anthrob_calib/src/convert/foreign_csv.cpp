@@ -1,6 +1,7 @@
 #include "anthrob_calib/convert/foreign_csv.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -11,6 +12,7 @@
 namespace anthrob {
 namespace {
 
+constexpr const char* kParts[] = {"/w", "/x", "/y", "/z"};
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 std::string trimmed(const std::string& text) {
@@ -50,6 +52,12 @@ class ForeignReader {
     // Tables first: a reference to a column must not move.
     for (const ForeignColumns::Entry& entry : columns_.entries) {
       dataset.table(entry.table).column(entry.to);
+      if (entry.mode >= 0) dataset.table(entry.table).column(mode_column(entry));
+    }
+    for (const ForeignColumns::Orientation& orientation : columns_.orientations) {
+      for (const char* part : kParts) {
+        dataset.table(orientation.table).column(orientation.joint + part);
+      }
     }
     for (std::string line; std::getline(in_, line);) {
       ++row_;
@@ -76,6 +84,9 @@ class ForeignReader {
     if (!columns_.time.empty()) time_ = place_of(columns_.time);
     for (const ForeignColumns::Entry& entry : columns_.entries) {
       places_.push_back(place_of(entry.from));
+    }
+    for (const ForeignColumns::Orientation& orientation : columns_.orientations) {
+      for (const std::string& from : orientation.from) angle_places_.push_back(place_of(from));
     }
   }
 
@@ -124,12 +135,43 @@ class ForeignReader {
     for (Table& table : dataset->tables) table.t.push_back(t);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const ForeignColumns::Entry& entry = columns_.entries[i];
-      Column& column = dataset->table(entry.table).column(entry.to);
+      Table& table = dataset->table(entry.table);
       const double value = number(cells, places_[i]);
-      const bool present = std::isfinite(value);
-      column.values.push_back(present ? entry.scale * value + entry.offset : 0.0);
-      column.present.push_back(present);
+      put(table, entry.to, entry.scale * value + entry.offset);
+      if (entry.mode >= 0)
+        put(table, mode_column(entry), std::isfinite(value) ? entry.mode : value);
     }
+    for (std::size_t i = 0; i < columns_.orientations.size(); ++i) {
+      put_orientation(cells, columns_.orientations[i], &angle_places_[3 * i], dataset);
+    }
+  }
+
+  void put_orientation(const std::vector<std::string>& cells,
+                       const ForeignColumns::Orientation& orientation, const std::size_t* places,
+                       Dataset* dataset) {
+    Eigen::Vector3d angles;
+    for (int k = 0; k < 3; ++k) angles[k] = orientation.unit * number(cells, places[k]);
+    std::array<double, 4> parts;
+    parts.fill(kNotMeasured);
+    if (angles.allFinite()) {
+      const Eigen::Quaterniond q = orientation.order.empty()
+                                       ? from_rotation_vector(angles)
+                                       : from_euler(orientation.order, angles);
+      parts = {q.w(), q.x(), q.y(), q.z()};
+    }
+    Table& table = dataset->table(orientation.table);
+    for (std::size_t k = 0; k < 4; ++k) put(table, orientation.joint + kParts[k], parts[k]);
+  }
+
+  static void put(Table& table, const std::string& name, double value) {
+    Column& column = table.column(name);
+    const bool present = std::isfinite(value);
+    column.values.push_back(present ? value : 0.0);
+    column.present.push_back(present);
+  }
+
+  static std::string mode_column(const ForeignColumns::Entry& entry) {
+    return Column{entry.to, {}, {}}.owner() + "/mode";
   }
 
   std::string file_;
@@ -139,11 +181,31 @@ class ForeignReader {
   std::vector<std::string> header_;
   std::size_t time_ = 0;
   std::vector<std::size_t> places_;
+  std::vector<std::size_t> angle_places_;  ///< three an orientation
   int count_ = 0;
   Nanoseconds last_ = 0;
 };
 
+Eigen::Quaterniond one_of_two(const Eigen::Quaterniond& q) {
+  return q.w() < 0.0 ? Eigen::Quaterniond(-q.coeffs()) : q;
+}
+
 }  // namespace
+
+Eigen::Quaterniond from_euler(const std::string& order, const Eigen::Vector3d& angles) {
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(order[static_cast<std::size_t>(k)] - 'x');
+    q = q * Eigen::AngleAxisd(angles[k], axis);
+  }
+  return one_of_two(q.normalized());
+}
+
+Eigen::Quaterniond from_rotation_vector(const Eigen::Vector3d& rotation) {
+  const double angle = rotation.stableNorm();
+  if (angle == 0.0) return Eigen::Quaterniond::Identity();
+  return one_of_two(Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)).normalized());
+}
 
 Dataset read_foreign_csv(const std::string& file, const ForeignColumns& columns) {
   return ForeignReader(file, columns).read();
