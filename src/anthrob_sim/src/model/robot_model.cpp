@@ -6,6 +6,7 @@
 #include <set>
 
 #include "anthrob_sim/actuator/geared_motor.h"
+#include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 
@@ -16,11 +17,16 @@ namespace {
 /// How deep a path point may lie inside where an effect may have moved points or surfaces [m].
 constexpr double kAllowedByEffects = 0.003;
 
-void require_snake_case(const ConfigNode& node, const std::string& name) {
+/// Names become parts of topics, columns and diagnostics.
+bool is_snake_case(const std::string& name) {
   bool good = !name.empty() && name[0] >= 'a' && name[0] <= 'z';
   for (const char c : name)
     good = good && ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_');
-  if (!good) node.fail("'" + name + "': expected a name in lower_snake_case");
+  return good;
+}
+
+void require_snake_case(const ConfigNode& node, const std::string& name) {
+  if (!is_snake_case(name)) node.fail("'" + name + "': expected a name in lower_snake_case");
 }
 
 class Builder {
@@ -62,6 +68,11 @@ class Builder {
 
  private:
   void read_joints() {
+    for (const JointModel& joint : skeleton_->joints) {
+      if (is_snake_case(joint.name)) continue;
+      throw BadInput(model_->urdf_file + ": joint '" + joint.name +
+                     "': expected a name in lower_snake_case");
+    }
     std::vector<bool> seen(skeleton_->joints.size(), false);
     if (config_.has("joints")) {
       for (const auto& [name, node] : config_.at("joints").entries()) {
@@ -172,7 +183,10 @@ class Builder {
     muscle.spring_segment = spring.at("segment").as_integer(0, segments - 1);
     muscle.sensor_segment = node.at("force_sensor_segment").as_integer(0, segments - 1);
 
-    if (node.has("ecu")) muscle.ecu = node.text("ecu");
+    if (node.has("ecu")) {
+      muscle.ecu = node.text("ecu");
+      require_snake_case(node.at("ecu"), muscle.ecu);
+    }
     if (node.has("controller")) {
       if (!dynamic_cast<const GearedMotor*>(muscle.actuator.get())) {
         node.at("controller").fail("only a motor takes one; null for ligaments and Hill muscles");
@@ -306,6 +320,7 @@ class Builder {
   void read_touch_pads() {
     if (!config_.has("touch_pads")) return;
     for (const auto& [name, node] : config_.at("touch_pads").entries()) {
+      require_snake_case(node, name);
       TouchPadModel pad;
       pad.name = name;
       pad.joint = skeleton_->find_joint(node.text("joint"));
