@@ -59,6 +59,21 @@ TEST(Report, SaysWhyTheRestHasNoName) {
   EXPECT_TRUE(holds(report_html(answer, question, 1.0), "beyond the 1 effects that --max-effects"));
 }
 
+TEST(Report, SaysThatTheSearchEndedAtItsCap) {
+  const std::string said = "ended with the 1 effects that --max-effects lets be named";
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  Question question;
+  EXPECT_FALSE(holds(report_html(answer, question, 1.0), "--max-effects"));
+  EXPECT_TRUE(nlohmann::json::parse(report_json(answer, question, 1.0))["remarks"].empty());
+  question.max_effects = 1;
+  EXPECT_TRUE(holds(report_html(answer, question, 1.0), said));
+  const auto json = nlohmann::json::parse(report_json(answer, question, 1.0));
+  ASSERT_EQ(json["remarks"].size(), 1u);
+  EXPECT_TRUE(holds(json["remarks"][0], said)) << json["remarks"];
+}
+
 TEST(Report, ShowsDependencesOfWhatDisagrees) {
   Answer answer;
   answer.verdict = "no_missing_effect";

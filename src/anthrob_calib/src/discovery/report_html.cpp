@@ -362,6 +362,7 @@ std::string report_html(const Answer& answer, const Question& question, double r
     recordings += "<li>judged by: " + escaped(r.folder) + "</li>";
   for (const Dataset& r : question.repeats)
     recordings += "<li>repeat: " + escaped(r.folder) + "</li>";
+  const std::string cap = cap_remark(answer, question);
   return std::string(kHead) + "<h1>What the model misses</h1>\n<p class=\"small\">" +
          escaped(question.model_file) + ", seed " + std::to_string(question.seed) + ", " +
          short_number(runtime) + " s</p>\n<p class=\"answer\">" + sentence(answer, question) +
@@ -369,9 +370,9 @@ std::string report_html(const Answer& answer, const Question& question, double r
          effects_table(answer) + "<h2>Where the recalibrated model disagrees</h2>\n" +
          where_table(answer) + regime_map(answer) + seam_map(answer) +
          dependence_figures(dependences_where(answer)) + "<h2>What is left</h2>\n<p>" +
-         escaped(answer.remaining_description) + "</p>\n" + dependence_figures(answer.remaining) +
-         "<h2>Held-out gap by channel</h2>\n" + channel_table(answer) +
-         "<h2>What these recordings can show</h2>\n" + preflight(answer) +
+         escaped(answer.remaining_description) + (cap.empty() ? "" : "; " + escaped(cap)) +
+         ".</p>\n" + dependence_figures(answer.remaining) + "<h2>Held-out gap by channel</h2>\n" +
+         channel_table(answer) + "<h2>What these recordings can show</h2>\n" + preflight(answer) +
          "<h2>Recordings</h2><ul>" + recordings + "</ul>\n</body></html>\n";
 }
 

@@ -140,6 +140,9 @@ std::string report_json(const Answer& answer, const Question& question, double r
     add_recording(answer.effects[i], i + 1, effect);
     report["effects"].push_back(std::move(effect));
   }
+  report["remarks"] = Json::array();
+  const std::string cap = cap_remark(answer, question);
+  if (!cap.empty()) report["remarks"].push_back(cap);
   report["alternatives"] = alternatives_json(answer);
   report["dropped"] = answer.dropped;
   if (!answer.refused.id.empty()) {
@@ -194,6 +197,12 @@ std::string interval_text(const FoundParameter& p) {
   const std::string interval =
       p.known ? ", taken as known" : " [" + short_number(p.low) + ", " + short_number(p.high) + "]";
   return short_number(p.value) + (p.known ? " " + p.unit + interval : interval + " " + p.unit);
+}
+
+std::string cap_remark(const Answer& answer, const Question& question) {
+  if (answer.effects.size() < static_cast<std::size_t>(question.max_effects)) return "";
+  return "the search ended with the " + std::to_string(question.max_effects) +
+         " effects that --max-effects lets be named; no further one was looked for";
 }
 
 std::string alternative_text(const Alternative& alternative, const Answer& answer) {

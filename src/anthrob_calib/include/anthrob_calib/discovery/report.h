@@ -30,6 +30,9 @@ std::string separating_file(std::size_t number);
 /// A few lines for the terminal.
 std::string summary(const Answer& answer);
 
+/// Whether `max_effects` ended the search, and that in words; empty if it did not.
+std::string cap_remark(const Answer& answer, const Question& question);
+
 /// "payload @ hand instead of both ... and ..., probability 0.5".
 std::string alternative_text(const Alternative& alternative, const Answer& answer);
 
