@@ -41,6 +41,12 @@ die() {
   exit 1
 }
 
+# The same for what was asked for wrongly.
+refuse() {
+  printf 'catkin_ws.sh: %s\n' "$*" >&2
+  exit 2
+}
+
 help() {
   cat <<'TEXT'
 usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
@@ -192,7 +198,7 @@ tests() {
   local package run=(run_tests) built=(tests)
   for package in "$@"; do
     [ -f "src/$package/package.xml" ] ||
-      die "test: $package: expected packages: $(cd src && ls -d -- */ | tr -d / | tr '\n' ' ')"
+      refuse "test: $package: expected packages: $(cd src && ls -d -- */ | tr -d / | tr '\n' ' ')"
   done
   [ $# -eq 0 ] || run=("${@/#/run_tests_}")
   extras
@@ -208,7 +214,7 @@ tests() {
   rm -rf build/test_results
   list_tests "$@"
   for package in "$@"; do
-    grep -q "\"_ctest_${package}_" build/tests.json || die "test: $package: has no tests of its own"
+    grep -q "\"_ctest_${package}_" build/tests.json || refuse "test: $package: has no tests of its own"
   done
   # shellcheck disable=SC2207
   [ $# -eq 0 ] || built=($(sed -nE 's/.*"name" : "_ctest_.*_gtest_([a-z0-9_]+)".*/\1/p' build/tests.json))
@@ -258,7 +264,7 @@ study() {
   local name="${1:-}"
   # What begins with an underscore is shared by studies.
   [[ "$name" != _* && -f "scripts/study/$name.py" ]] ||
-    die "study: expected one of: $(cd scripts/study && ls -- [!_]*.py | sed 's/\.py$//' | tr '\n' ' ')"
+    refuse "study: expected one of: $(cd scripts/study && ls -- [!_]*.py | sed 's/\.py$//' | tr '\n' ' ')"
   shift
   build
   mkdir -p build/study
@@ -284,5 +290,5 @@ case "$command" in
   deps | build | sim | demo | bench | study | shell | clean | help) "$command" "$@" ;;
   test) tests "$@" ;;
   -h | --help) help ;;
-  *) die "unknown command '$command': ./catkin_ws.sh help lists them" ;;
+  *) refuse "unknown command '$command': ./catkin_ws.sh help lists them" ;;
 esac

@@ -20,6 +20,11 @@ KP, KV, LIMIT = 160.18, 243.45, 10.0
 FINER = 20                         # steps of the replay in one of the data
 
 
+def refuse(what):
+    print('emps_check.py: %s' % what, file=sys.stderr)
+    sys.exit(2)
+
+
 def load_model(file):
     """Keys of the file over those of the files it extends."""
     with open(file) as text:
@@ -39,7 +44,7 @@ def load_model(file):
 def numbers_of(model):
     """Mass [kg], viscous [Ns/m], Coulomb [N] and offset friction [N]."""
     if 'axis' not in model.get('joints', {}):
-        sys.exit('emps_check.py: expected a model of config/driven_axis')
+        refuse('expected a model of config/driven_axis')
     effects = {effect['id']: effect for effect in model.get('effects') or []}
     return (95.1089, model['joints']['axis']['friction']['viscous'],
             effects.get('joint_coulomb', {}).get('torque', 0.0),
@@ -92,11 +97,14 @@ def rms(values):
 
 def main():
     if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    numbers = numbers_of(load_model(sys.argv[1]))
+        refuse('expected MODEL.yaml DATA.csv...')
+    try:
+        numbers = numbers_of(load_model(sys.argv[1]))
+        recordings = [(file, numpy.genfromtxt(file, delimiter=',', skip_header=1)) for file in sys.argv[2:]]
+    except (OSError, ValueError, yaml.YAMLError) as error:
+        refuse(' '.join(str(error).split()))
     print('viscous %.1f Ns/m, Coulomb %.2f N, offset %.2f N' % numbers[1:])
-    for file in sys.argv[2:]:
-        data = numpy.genfromtxt(file, delimiter=',', skip_header=1)
+    for file, data in recordings:
         force, position, reference = data[:, 2], data[:, 3], data[:, 4]
         pulses = data[:, 5] if data.shape[1] > 5 else numpy.zeros(len(data))
         positions, forces = replay(numbers, position, reference, pulses)

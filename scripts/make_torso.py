@@ -340,9 +340,9 @@ def main():
     args = parser.parse_args()
     joints = all_joints()
     if not 1 <= args.joints <= len(joints):
-        sys.exit('make_torso.py: --joints %d: expected 1 to %d' % (args.joints, len(joints)))
+        parser.error('--joints %d: expected 1 to %d' % (args.joints, len(joints)))
     if args.muscles < 0:
-        sys.exit('make_torso.py: --muscles %d: expected 0 or more' % args.muscles)
+        parser.error('--muscles %d: expected 0 or more' % args.muscles)
     joints = joints[:args.joints]
     muscles = [make_muscle(i, joints) for i in range(args.muscles)]
     os.makedirs(os.path.join(args.out, os.path.dirname(KNOB)), exist_ok=True)

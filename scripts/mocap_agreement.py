@@ -10,6 +10,11 @@ import sys
 import rosbag
 
 
+def refuse(what):
+    print('mocap_agreement.py: %s' % what, file=sys.stderr)
+    sys.exit(2)
+
+
 def components(message, joint):
     q = message.orientation[joint]
     return q.w, q.x, q.y, q.z
@@ -58,12 +63,15 @@ def report(name, seen, truth):
 
 def main():
     if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    with rosbag.Bag(sys.argv[1]) as bag:
-        seen, truth = read(bag)
+        refuse('expected BAG')
+    try:
+        with rosbag.Bag(sys.argv[1]) as bag:
+            seen, truth = read(bag)
+    except (OSError, rosbag.ROSBagException) as error:
+        refuse('%s: %s' % (sys.argv[1], error))
     both = sorted(set(seen) & set(truth))
     if not both:
-        sys.exit('%s: expected spherical_joint_states and sim/spherical_joint_states' % sys.argv[1])
+        refuse('%s: expected spherical_joint_states and sim/spherical_joint_states' % sys.argv[1])
     for name in both:
         report(name, seen[name], sorted(truth[name]))
 

@@ -337,7 +337,10 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
   expect(config + out + " --data " + path("eq") + " --validation " + path("held_out"),
          "held_out: of_them is E2 of " + path("eq"));
   write(path("file"), "");
-  expect(config + " --out " + path("file") + "/x --data " + path("eq"), "--out");
+  const Outcome unwritable = run(config + " --out " + path("file") + "/x --data " + path("eq"));
+  EXPECT_EQ(unwritable.status, 1);  // no bad input
+  EXPECT_EQ(unwritable.lines(), 1) << unwritable.errors;
+  EXPECT_NE(unwritable.errors.find("--out"), std::string::npos) << unwritable.errors;
 
   // A result of a model that means something else by a path.
   write(path("other.json"), R"({"overrides": {"muscles.flexor.path.0.point.0": 0.5},

@@ -432,6 +432,13 @@ TEST(ConvertTool, TellsWhatIsOddAndWhatItDoesNotCarry) {
   EXPECT_EQ(Dataset::load(folder / "back").meta.other.at("weather"), "fine\n");
 }
 
+TEST(ConvertTool, WhatCannotBeWrittenIsNoBadInput) {
+  const Folder folder;
+  hinge().save(folder / "set");
+  EXPECT_EQ(convert(folder, folder / "set", "/proc/nowhere.bag"), 1);
+  EXPECT_EQ(convert(folder, folder / "nothing", folder / "a.bag"), 2);
+}
+
 TEST(Plot, AnOrientationIsWhole) {
   const Folder folder;
   for (const char* missing : {"none", "w", "y", "z"}) {

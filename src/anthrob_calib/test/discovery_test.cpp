@@ -283,6 +283,16 @@ TEST_F(InterruptedRun, ToolDoesNotReplaceTheModelThatItReads) {
   EXPECT_EQ(content(path("found/model.yaml")), text);
 }
 
+TEST_F(InterruptedRun, ToolSaysFirstThatItCannotWrite) {
+  const std::string command =
+      std::string(ANTHROB_DISCOVER) + " --model " + kConfig +
+      "/driven_axis/model_I.yaml --train x --test y --out /proc/nowhere 2>" + path("errors");
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_NE(content(path("errors")).find("--out /proc/nowhere"), std::string::npos);
+}
+
 TEST_F(InterruptedRun, ToolSaysHowToGoOn) {
   axis_recording(20.4, 0.0, 1).save(path("train"));
   axis_recording(20.4, 0.0, 2).save(path("test"));

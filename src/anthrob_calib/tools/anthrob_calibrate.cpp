@@ -92,6 +92,7 @@ void keep_input(const Arguments& arguments, const std::string& model_file) {
 
 /// What a process needs; all stop, with one complaint, if one of them cannot.
 CalibrationInput read_together(const Arguments& arguments, const MpiSession& session) {
+  constexpr char kBad = 'B', kOther = 'O';  // first letter of a complaint: whose fault it is
   std::optional<CalibrationInput> input;
   std::string complaint;
   try {
@@ -102,11 +103,14 @@ CalibrationInput read_together(const Arguments& arguments, const MpiSession& ses
       keep_input(arguments, input->config.model_file);
       identification::require_writable(arguments.out);
     }
-  } catch (const std::exception& error) {  // the others wait for what is said of it
-    complaint = error.what();
+  } catch (const BadInput& error) {  // the others wait for what is said of it
+    complaint = kBad + std::string(error.what());
+  } catch (const std::exception& error) {
+    complaint = kOther + std::string(error.what());
   }
   complaint = session.first_complaint(complaint);
-  if (!complaint.empty()) throw BadInput(complaint);
+  if (!complaint.empty() && complaint[0] == kBad) throw BadInput(complaint.substr(1));
+  if (!complaint.empty()) throw std::runtime_error(complaint.substr(1));
   if (!session.all_have(input->fingerprint())) {
     throw BadInput(arguments.config +
                    ": the processes read different configurations, models or recordings: expected "

@@ -33,7 +33,8 @@ anthrob_msgs::SetState state_of(const anthrob::RobotModel& model, const std::vec
   return state;
 }
 
-void hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
+/// @return whether the posture was commanded
+bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const std::string wanted = anthrob::required(settings, "posture", "the name of a posture");
   const auto model =
       anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
@@ -52,15 +53,18 @@ void hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
       anthrob::find_equilibrium(scratch, step->q, sequence.options);
 
   ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 1);
-  ros::service::waitForService("sim/set_state", ros::Duration(-1));
+  if (!ros::service::waitForService("sim/set_state", ros::Duration(-1))) return false;
   auto state = state_of(*model, step->q, equilibrium.position);
   if (!ros::service::call("sim/set_state", state) || !state.response.success) {
+    if (!ros::ok()) return false;
     throw anthrob::BadInput("sim/set_state: " + state.response.message);
   }
   while (ros::ok() && commands.getNumSubscribers() == 0) ros::WallDuration(0.05).sleep();
+  if (!ros::ok()) return false;
   commands.publish(
       anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, equilibrium.reference));
   ros::WallDuration(0.3).sleep();  // until it has gone out
+  return true;
 }
 
 }  // namespace
@@ -69,7 +73,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "hold_posture", ros::init_options::AnonymousName);
   ros::NodeHandle nh, settings("~");
   try {
-    hold(nh, settings);
+    return hold(nh, settings) ? 0 : 130;
   } catch (const anthrob::BadInput& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;
@@ -77,5 +81,4 @@ int main(int argc, char** argv) {
     ROS_FATAL_STREAM(error.what());
     return 1;
   }
-  return 0;
 }

@@ -46,14 +46,15 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
         "parameter ~calibration: missing; expected a folder with left.yaml and "
         "right.yaml");
   }
-  const mocap::StereoRig rig = calibration.empty()
-                                   ? mocap::wait_for_rig(ros::NodeHandle(nh, "mocap"))
-                                   : mocap::StereoRig::load(calibration);
-  mocap::MocapNode node(nh, rig, set, setup, options);
+  const std::optional<mocap::StereoRig> rig =
+      calibration.empty() ? mocap::wait_for_rig(ros::NodeHandle(nh, "mocap"))
+                          : mocap::StereoRig::load(calibration);
+  if (!rig) return;  // stopped while it waited
+  mocap::MocapNode node(nh, *rig, set, setup, options);
   if (source == "topics") {
     node.run();
   } else {
-    node.run(*mocap::open_source(source, rig, settings,
+    node.run(*mocap::open_source(source, *rig, settings,
                                  [&](const std::string& why) { node.refuse(why); }));
   }
 }

@@ -8,7 +8,7 @@
 namespace anthrob {
 namespace mocap {
 
-StereoRig wait_for_rig(ros::NodeHandle nh) {
+std::optional<StereoRig> wait_for_rig(ros::NodeHandle nh) {
   sensor_msgs::CameraInfoConstPtr info[2];
   for (const Side side : {kLeft, kRight}) {
     const std::string topic = nh.resolveName(std::string(name(side)) + "/camera_info");
@@ -17,7 +17,7 @@ StereoRig wait_for_rig(ros::NodeHandle nh) {
       if (!info[side]) ROS_WARN_STREAM("waiting for " << topic);
     }
   }
-  if (!ros::ok()) throw std::runtime_error("interrupted while waiting for camera_info");
+  if (!info[kLeft] || !info[kRight]) return std::nullopt;
   return StereoRig(camera_model(*info[kLeft], kLeft), camera_model(*info[kRight], kRight),
                    " camera_info");
 }

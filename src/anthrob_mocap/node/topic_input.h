@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "anthrob_mocap/camera/stereo_rig.h"
@@ -14,8 +15,9 @@ namespace anthrob {
 namespace mocap {
 
 /// The rig of left/camera_info and right/camera_info; waits for them.
+/// @return nothing if the node was stopped before they came
 /// @throws BadInput if they are no calibrated pair
-StereoRig wait_for_rig(ros::NodeHandle nh);
+std::optional<StereoRig> wait_for_rig(ros::NodeHandle nh);
 
 /// Pairs of left/image_raw and right/image_raw.
 class TopicInput {

@@ -50,6 +50,50 @@ TEST(Replay, ReproducesTheSimulationThatWasRecorded) {
   EXPECT_EQ(replayed.find_table("muscles")->t, joints.t);
 }
 
+/// 3 s in which the hinge is loaded from the second on, with rows in every 10 ms.
+Dataset loaded(double load) {
+  Dataset recording;
+  recording.meta.settle_s = 0.1;
+  Table& commands = recording.table("commands");
+  commands.t = {0};
+  commands.columns.push_back({"flexor/reference", {0.5}, {1}});
+  Table& joints = recording.table("joints");
+  Column position{"hinge/position", {}, {}}, applied{"hinge/load", {}, {}};
+  for (int i = 0; i <= 300; ++i) {
+    joints.t.push_back(Nanoseconds{10000000} * i);
+    position.values.push_back(0.0);
+    applied.values.push_back(i >= 200 ? load : 0.0);
+  }
+  position.present = applied.present = std::vector<char>(301, 1);
+  joints.columns = {position, applied};
+  return recording;
+}
+
+TEST(Replay, OneThatIsStoppedHasTheRowsUntilThen) {
+  const Dataset recording = loaded(0.1);
+  const Dataset whole = replay(rig(), recording, ReplayMode::kReference);
+  EXPECT_EQ(whole.meta.other.count("cut_short"), 0u);
+  int asked = 0;  // after 0, 1 and 2 s
+  const Dataset part =
+      replay(rig(), recording, ReplayMode::kReference, [&](double) { return ++asked < 3; });
+  const Table& joints = *part.find_table("joints");
+  ASSERT_EQ(joints.t.size(), 201u);
+  const std::vector<double>& all = whole.find_table("joints")->find("hinge/position")->values;
+  EXPECT_EQ(joints.find("hinge/position")->values,
+            std::vector<double>(all.begin(), all.begin() + 201));
+  EXPECT_EQ(part.meta.other.at("cut_short"), "at 2.001 s of 3 s\n");
+}
+
+TEST(Replay, OneThatFailsHasTheRowsUntilThen) {
+  const Dataset recording = loaded(1e200);
+  EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), NumericalFailure);
+  std::string failure;
+  const Dataset part = replay(rig(), recording, ReplayMode::kReference, {}, &failure);
+  EXPECT_NE(failure.find("numerical failure"), std::string::npos) << failure;
+  EXPECT_EQ(part.find_table("joints")->t.size(), 201u);
+  EXPECT_EQ(part.meta.other.count("cut_short"), 1u);
+}
+
 /// A robot's node in short: takes or refuses commands for the rig's flexor, records what it is told
 /// and what it says of itself.
 class Session {

@@ -1,4 +1,5 @@
 // Replays a recording's inputs in simulation and writes what the robot would have done.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -35,15 +36,24 @@ int main(int argc, char** argv) {
     recording.require_place(out);
     tool::Progress progress("replay");
     tool::interrupted();
-    const Dataset result = replay(model, recording, replay_mode, [&](double share) {
-      progress.update(share);
-      return !tool::interrupted();
-    });
-    if (tool::interrupted()) {
-      std::cerr << "anthrob_replay: interrupted; nothing written\n";
-      return tool::kInterrupted;
+    std::string failure;
+    const Dataset result = replay(
+        model, recording, replay_mode,
+        [&](double share) {
+          progress.update(share);
+          return !tool::interrupted();
+        },
+        &failure);
+    const auto cut = result.meta.other.find("cut_short");
+    if (cut == result.meta.other.end()) {
+      result.save(out);
+      return tool::kDone;
     }
-    result.save(out);
-    return tool::kDone;
+    const bool any = std::any_of(result.tables.begin(), result.tables.end(),
+                                 [](const Table& table) { return !table.t.empty(); });
+    if (any) result.save(out);
+    std::cerr << "anthrob_replay: " << (failure.empty() ? "interrupted" : failure)
+              << (any ? "; what was done until then is in " + out : "; nothing written") << "\n";
+    return failure.empty() ? tool::kInterrupted : tool::kFailed;
   });
 }

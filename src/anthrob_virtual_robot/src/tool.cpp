@@ -38,4 +38,12 @@ int run_tool(CLI::App& app, int argc, char** argv, const std::function<void()>& 
   }
 }
 
+reference::ArmParameters load_arm(const std::string& file) {
+  try {
+    return reference::Arm::load(file);
+  } catch (const std::exception& error) {
+    throw BadInput(error.what());
+  }
+}
+
 }  // namespace anthrob::virtual_robot

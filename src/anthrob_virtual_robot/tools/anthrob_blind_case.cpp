@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
     }
     refuse_inside(truth, out);
     const auto model_file = std::filesystem::weakly_canonical(model);
-    const auto believed = anthrob::reference::Arm::load(model_file.string());
+    const auto believed = load_arm(model_file.string());
     CaseSettings settings = CaseSettings::load(
         config.empty() ? (model_file.parent_path() / "virtual_robot.yaml").string() : config);
     settings.ordinary = anthrob::ordinary_parameters(model_file.string());

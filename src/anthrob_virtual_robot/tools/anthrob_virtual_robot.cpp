@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
                  "settings; default: virtual_robot_tables.yaml beside the model");
   app.add_option("--out", out, "folder for equilibria, trajectories, validation")->required();
   return run_tool(app, argc, argv, [&] {
-    const auto plain = anthrob::reference::Arm::load(model);
+    const auto plain = load_arm(model);
     const auto folder = std::filesystem::weakly_canonical(model).parent_path();
     const auto settings = CalibrationRobotSettings::load(
         config.empty() ? (folder / "virtual_robot_tables.yaml").string() : config);

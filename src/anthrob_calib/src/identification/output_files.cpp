@@ -16,17 +16,17 @@ void require_writable(const std::string& folder) {
   const bool made = fs::create_directories(folder, error);
   std::error_code unseen;
   if (!fs::is_directory(folder, unseen)) {
-    throw BadInput("--out " + folder + ": cannot be made: " +
-                   (error    ? error.message()
-                    : unseen ? unseen.message()
-                             : "it is a file") +
-                   "; expected a folder");
+    throw std::runtime_error("--out " + folder + ": cannot be made: " +
+                             (error    ? error.message()
+                              : unseen ? unseen.message()
+                                       : "it is a file") +
+                             "; expected a folder");
   }
   const std::string probe = (fs::path(folder) / ".writable").string();
   try {
     write_file_atomically(probe, "");
   } catch (const std::runtime_error& reason) {
-    throw BadInput("--out " + folder + ": " + reason.what());
+    throw std::runtime_error("--out " + folder + ": " + reason.what());
   }
   fs::remove(probe, error);
   // What is refused later shall leave nothing behind.

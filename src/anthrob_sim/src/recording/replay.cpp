@@ -5,6 +5,7 @@
 #include <set>
 
 #include "anthrob_ecu/state_machine.h"
+#include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/followed_commands.h"
 
 namespace anthrob {
@@ -333,7 +334,15 @@ class TableSampler {
     last_time_ = time;
   }
 
-  Table take() { return std::move(table_); }
+  /// The rows that were filled.
+  Table take() {
+    table_.t.resize(row_);
+    for (Column& column : table_.columns) {
+      column.values.resize(row_);
+      column.present.resize(row_);
+    }
+    return std::move(table_);
+  }
 
  private:
   Table table_;
@@ -396,29 +405,39 @@ std::vector<Table> output_tables(const RobotModel& model, const Dataset& recordi
 }  // namespace
 
 Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
-               ReplayMode mode, const std::function<bool(double)>& progress) {
+               ReplayMode mode, const std::function<bool(double)>& progress, std::string* failure) {
   const Replay input(model, recording, mode);
   std::vector<TableSampler> samplers;
   for (Table& table : output_tables(*model, recording)) {
     samplers.emplace_back(*model, std::move(table), recording.begin());
   }
 
-  Simulation sim(model);
-  input.start(sim);
   const auto steps = static_cast<std::int64_t>(std::ceil(input.duration() / model->step - 1e-6));
-  for (auto& sampler : samplers) sampler.sample(sim, 0.0);
-  for (std::int64_t i = 0; i < steps; ++i) {
-    const double time = static_cast<double>(i) * model->step;
-    input.drive(sim, time);
-    sim.step();
-    for (auto& sampler : samplers) sampler.sample(sim, time + model->step);
-    if (progress && i % 1000 == 0 && !progress(static_cast<double>(i) / static_cast<double>(steps)))
-      break;
+  std::int64_t done = 0;
+  try {
+    Simulation sim(model);
+    input.start(sim);
+    for (auto& sampler : samplers) sampler.sample(sim, 0.0);
+    for (bool wanted = true; wanted && done < steps; ++done) {
+      const double time = static_cast<double>(done) * model->step;
+      input.drive(sim, time);
+      sim.step();
+      for (auto& sampler : samplers) sampler.sample(sim, time + model->step);
+      wanted = !progress || done % 1000 != 0 ||
+               progress(static_cast<double>(done) / static_cast<double>(steps));
+    }
+  } catch (const NumericalFailure& error) {
+    if (!failure) throw;
+    *failure = error.what();
   }
 
   Dataset out;
   out.meta = recording.meta;
   out.meta.other["simulated_by"] = "anthrob_replay\n";
+  if (done < steps) {
+    out.meta.other["cut_short"] = "at " + exact_text(static_cast<double>(done) * model->step) +
+                                  " s of " + exact_text(input.duration()) + " s\n";
+  }
   for (auto& sampler : samplers) out.tables.push_back(sampler.take());
   // Commands are what they were, row by row; where a unit did not say, what the simulated one says.
   for (Table& table : out.tables) {

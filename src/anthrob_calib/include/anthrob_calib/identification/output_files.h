@@ -11,7 +11,7 @@ namespace identification {
 using OutputFiles = std::map<std::string, std::string>;
 
 /// Makes sure that files can be written into a folder, or that it can be made.
-/// @throws BadInput with one line: the folder and the reason
+/// @throws std::runtime_error with one line: the folder and the reason
 void require_writable(const std::string& folder);
 
 /// Makes sure that what is read is not replaced by what is written.

@@ -82,7 +82,11 @@ class Replay {
 /// every file of the recording with its own columns, and what no file has in muscles.csv,
 /// joints.csv and spherical_joints.csv. Between two steps values are interpolated.
 /// @param progress called with the share done in [0, 1]; returns false to stop early (may be empty)
+/// @param failure if given, gets what a NumericalFailure says instead of its being thrown
+/// @return of a replay that was stopped or failed, the rows up to there; none if it failed before
+/// the first. `cut_short` in its meta says up to when.
 Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
-               ReplayMode mode, const std::function<bool(double)>& progress = {});
+               ReplayMode mode, const std::function<bool(double)>& progress = {},
+               std::string* failure = nullptr);
 
 }  // namespace anthrob

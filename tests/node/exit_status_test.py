@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Exit statuses that docs/files.md promises, where no test of a single package sees them."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import rosgraph
+import rospkg
+import rostest
+
+ROOT = os.path.dirname(os.path.realpath(rospkg.RosPack().get_path('anthrob_bringup') + '/config'))
+CONFIG = os.path.join(ROOT, 'config', 'anthrob')
+
+
+def run(*command):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+
+
+def program(package, name):
+    return run('catkin_find', '--first-only', '--libexec', package, name).stdout.strip()
+
+
+class ExitStatus(unittest.TestCase):
+
+    def refused(self, *command):
+        done = run(*command)
+        self.assertEqual(done.returncode, 2, '%s: %s' % (command, done.stderr))
+        self.assertNotIn('Traceback', done.stderr)
+        return done.stderr
+
+    def script(self, name, *arguments):
+        return self.refused(sys.executable, os.path.join(ROOT, 'scripts', name), *arguments)
+
+    def test_scripts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, 'out')
+            self.assertIn('--joints 0: expected 1 to', self.script('make_torso.py', '--joints', '0', '--out', out))
+            self.assertIn('--muscles -1: expected', self.script('make_torso.py', '--muscles', '-1', '--out', out))
+            self.assertFalse(os.path.exists(out))
+            self.assertIn('expected BAG', self.script('mocap_agreement.py'))
+            self.assertIn('nowhere.bag', self.script('mocap_agreement.py', folder + '/nowhere.bag'))
+            model = os.path.join(ROOT, 'config', 'driven_axis', 'model_I.yaml')
+            self.assertIn('expected MODEL.yaml', self.script('emps_check.py', model))
+            self.assertIn('nowhere.csv', self.script('emps_check.py', model, folder + '/nowhere.csv'))
+            other = os.path.join(CONFIG, 'model_I.yaml')
+            self.assertIn('expected a model of', self.script('emps_check.py', other, folder + '/nowhere.csv'))
+
+    def test_workspace(self):
+        workspace = os.path.join(ROOT, 'catkin_ws.sh')
+        self.assertIn("unknown command 'biuld'", self.refused(workspace, 'biuld'))
+
+    def test_virtual_robot(self):
+        with tempfile.TemporaryDirectory() as folder:
+            nowhere = os.path.join(folder, 'model_I.yaml')
+            said = self.refused(program('anthrob_virtual_robot', 'anthrob_blind_case'), '--model', nowhere,
+                                '--out', folder + '/out', '--truth', folder + '/truth.json')
+            self.assertIn(nowhere, said)
+            os.makedirs(folder + '/truths')
+            os.makedirs(folder + '/reports/a')
+            for file in '/truths/a.json', '/reports/a/report.json':
+                with open(folder + file, 'w') as text:
+                    text.write('{')
+            said = self.refused(program('anthrob_virtual_robot', 'anthrob_score'), '--truths', folder + '/truths',
+                                '--reports', folder + '/reports')
+            self.assertIn('a.json', said)
+
+    def interrupt(self, package, name, *parameters):
+        """A node whose robot never comes. @return its exit status"""
+        node = name + '_that_waits'
+        process = subprocess.Popen([program(package, name), '__name:=' + node, '__ns:=nowhere'] + list(parameters),
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            self.until_it_waits('/nowhere/' + node, process)
+            process.send_signal(signal.SIGINT)
+            return process.wait(timeout=30)
+        finally:
+            process.kill()
+            process.wait()
+
+    def until_it_waits(self, node, process):
+        """For what it waits for stands behind its publications and subscriptions."""
+        master = rosgraph.Master('/exit_status')
+        while process.poll() is None:
+            publishers, subscribers, _ = master.getSystemState()
+            if any(node in nodes for topic, nodes in publishers + subscribers
+                   if 'muscle_command' in topic or 'camera_info' in topic):
+                return
+            time.sleep(0.1)
+        self.fail('%s ended by itself with %s' % (node, process.returncode))
+
+    def test_what_has_an_end_says_that_it_did_not_get_there(self):
+        model = '_model:=' + os.path.join(CONFIG, 'model_I.yaml')
+        postures = '_postures:=' + os.path.join(CONFIG, 'demo_postures.yaml')
+        self.assertEqual(self.interrupt('anthrob_control', 'anthrob_posture_player', model, postures), 130)
+        self.assertEqual(self.interrupt('anthrob_control', 'anthrob_hold_posture', model, postures,
+                                        '_posture:=flexed'), 130)
+
+    def test_what_runs_until_it_is_stopped_is_done(self):
+        targets = '_targets:=' + os.path.join(CONFIG, 'mocap', 'targets.yaml')
+        self.assertEqual(self.interrupt('anthrob_mocap', 'anthrob_mocap', targets), 0)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('anthrob_tests', 'exit_status', ExitStatus)
