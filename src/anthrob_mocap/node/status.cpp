@@ -1,7 +1,8 @@
 #include "status.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "anthrob_ros/diagnostics.h"
 
 namespace anthrob {
 namespace mocap {
@@ -10,16 +11,8 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof(buffer), "%.3f", value);
-  return buffer;
-}
-
 void add_value(DiagnosticStatus& status, const std::string& key, const std::string& value) {
-  diagnostic_msgs::KeyValue kv;
-  kv.key = key, kv.value = value;
-  status.values.push_back(kv);
+  status.values.push_back(key_value(key, value));
 }
 
 double quantile(std::vector<double>& values, double share) {
