@@ -232,6 +232,21 @@ TEST(Series, InterpolatesAndHolds) {
   EXPECT_EQ(s.held_at(-5.0), 5.0);
 }
 
+TEST(HeldSeries, SaysWhatTheSeriesHoldsAndWhenItChanges) {
+  const Series s{{0.0, 1.0, 1.0, 2.0, 2.5}, {5.0, 7.0, 6.0, 3.0, 3.0}};
+  const struct {
+    double time;
+    bool changed;
+  } asked[] = {{-1.0, true}, {-0.5, false},  {0.0, true}, {0.9, false}, {1.0, true},
+               {1.0, false}, {1.999, false}, {9.0, true}, {9.5, false}};
+  HeldSeries held(s);
+  for (const auto& [time, changed] : asked) {
+    EXPECT_EQ(held.advance(time), changed) << time;
+    EXPECT_EQ(held.value(), s.held_at(time)) << time;
+  }
+  EXPECT_TRUE(HeldSeries(s).advance(1.5));
+}
+
 TEST(Dataset, OtherKeysOfTheDescriptionAreKept) {
   const TemporaryFolder folder;
   folder.write("meta.yaml", std::string(kMeta) +

@@ -230,6 +230,7 @@ void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, St
   } else {
     sim.restore(start->second);
   }
+  Replay::Run run(input, sim);
   for (const Sampling& sampling : samplings_) {
     for (const Reader& reader : sampling.readers) {
       if (reader.kind == Reader::kBall) {
@@ -248,7 +249,7 @@ void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, St
   const auto steps = static_cast<std::int64_t>(std::ceil(duration_ / h - 1e-6));
   for (std::int64_t k = 0; k <= steps; ++k) {
     if (k > 0) {
-      input.drive(sim, static_cast<double>(k - 1) * h);
+      run.drive(static_cast<double>(k - 1) * h);
       sim.step();
     }
     for (std::size_t i = 0; i < samplings_.size(); ++i) {

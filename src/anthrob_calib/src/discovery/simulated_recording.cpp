@@ -84,6 +84,7 @@ Dataset simulated_recording(const std::shared_ptr<const RobotModel>& robot, cons
   own->sensors.seed = seed;
   Simulation sim(own);
   input.start(sim);
+  Replay::Run run(input, sim);
   std::vector<Sheet> sheets = {muscle_sheet(*robot), joint_sheet(*robot), ball_sheet(*robot)};
   const auto steps = static_cast<std::int64_t>(std::llround(input.duration() / robot->step));
   const auto every = std::max<std::int64_t>(1, std::llround(kPeriod / robot->step));
@@ -92,7 +93,7 @@ Dataset simulated_recording(const std::shared_ptr<const RobotModel>& robot, cons
     if (k % every == 0) {
       for (Sheet& sheet : sheets) sheet.write_row(sim, time);
     }
-    input.drive(sim, time);
+    run.drive(time);
     sim.step();
   }
   Dataset recording = commands;

@@ -246,6 +246,15 @@ double Series::held_at(double time) const {
   return values[next == 0 ? 0 : next - 1];
 }
 
+bool HeldSeries::advance(double time) {
+  const std::vector<double>& t = series_->t;
+  const std::size_t before = passed_;
+  while (passed_ < t.size() && t[passed_] <= time) ++passed_;
+  const bool changed = !begun_ || passed_ != before;
+  begun_ = true;
+  return changed;
+}
+
 const Table* Dataset::find_table(const std::string& name) const {
   for (const Table& table : tables) {
     if (table.name == name) return &table;

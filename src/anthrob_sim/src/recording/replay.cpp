@@ -17,6 +17,10 @@ const std::set<std::string> kMuscleQuantities = {"mode",    "reference", "positi
 const std::set<std::string> kBallQuantities = {"w", "x", "y", "z", "wx", "wy", "wz"};
 const std::set<std::string> kJointQuantities = {"position", "velocity", "effort", "load"};
 
+ecu::Mode mode_of(double word) {
+  return static_cast<ecu::Mode>(static_cast<int>(word));
+}
+
 }  // namespace
 
 Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode)
@@ -135,7 +139,8 @@ Replay::StartInput Replay::start_input(const MuscleInput& input) const {
   } else if (meta_.start == "zero") {
     return {false, ecu::Mode::kPosition, 0.0};
   } else if (mode_ != ReplayMode::kPosition && !input.reference.empty()) {
-    const ecu::Mode mode = mode_at(input, 0.0);
+    const ecu::Mode mode =
+        input.mode.empty() ? ecu::Mode::kPosition : mode_of(input.mode.held_at(0.0));
     const double reference = input.reference.held_at(0.0);
     // A motor without voltage stands where it was left, which its reference does not tell.
     const bool left = mode == ecu::Mode::kVoltage && reference == 0.0;
@@ -198,53 +203,68 @@ void Replay::start(Simulation& sim) const {
   for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
 }
 
-ecu::Mode Replay::mode_at(const MuscleInput& input, double time) const {
-  if (!input.mode.empty()) {
-    return static_cast<ecu::Mode>(static_cast<int>(input.mode.held_at(time)));
-  }
-  return unsaid_mode(static_cast<std::size_t>(input.muscle));
-}
-
 ecu::Mode Replay::unsaid_mode(std::size_t muscle) const {
   return model_->muscles[muscle].has_controller ? ecu::Mode::kPosition : ecu::Mode::kVoltage;
 }
 
-void Replay::drive(Simulation& sim, double time) const {
+Replay::Run::Run(const Replay& replay, Simulation& sim) : replay_(replay), sim_(sim) {
+  for (const MuscleInput& input : replay.muscles_) {
+    muscles_.push_back({&input, HeldSeries(input.mode), HeldSeries(input.reference),
+                        HeldSeries(input.voltage), HeldSeries(input.ecu_state)});
+  }
+  for (const JointInput& input : replay.joints_) {
+    const bool driven = replay.model_->skeleton->joints[input.joint].driven;
+    joints_.push_back({&input, driven, HeldSeries(input.effort), HeldSeries(input.load)});
+  }
+}
+
+void Replay::Run::drive(double time) {
   // Rows fall between steps by rounding of decimal times; one nanosecond is nobody's intention.
   const double now = time + 1e-9;
-  for (const MuscleInput& input : muscles_) {
-    if (mode_ == ReplayMode::kPosition) {
-      impose(sim, input, time);
-    } else if (mode_ == ReplayMode::kVoltage) {
-      if (!input.voltage.empty()) {
-        sim.apply_voltage(input.muscle, input.voltage.held_at(now));
+  for (MuscleRun& muscle : muscles_) {
+    const MuscleInput& input = *muscle.input;
+    if (replay_.mode_ == ReplayMode::kPosition) {
+      impose(input, time);
+    } else if (replay_.mode_ == ReplayMode::kVoltage) {
+      if (!input.voltage.empty() && muscle.voltage.advance(now)) {
+        sim_.apply_voltage(input.muscle, muscle.voltage.value());
       }
     } else {
-      command(sim, input, now);
+      command(muscle, now);
     }
   }
-  for (const JointInput& input : joints_) {
-    if (model_->skeleton->joints[input.joint].driven && !input.effort.empty()) {
-      sim.apply_effort(input.joint, input.effort.held_at(now));
+  for (JointRun& joint : joints_) {
+    const JointInput& input = *joint.input;
+    if (joint.driven && !input.effort.empty() && joint.effort.advance(now)) {
+      sim_.apply_effort(input.joint, joint.effort.value());
     }
-    if (!input.load.empty()) sim.apply_load(input.joint, input.load.held_at(now));
+    if (!input.load.empty() && joint.load.advance(now)) {
+      sim_.apply_load(input.joint, joint.load.value());
+    }
   }
 }
 
-void Replay::command(Simulation& sim, const MuscleInput& input, double now) const {
-  if (!input.ecu_state.empty()) {
-    sim.set_enabled(input.muscle,
-                    input.ecu_state.held_at(now) == static_cast<double>(ecu::State::kEnabled));
+void Replay::Run::command(MuscleRun& muscle, double now) {
+  const MuscleInput& input = *muscle.input;
+  if (!input.ecu_state.empty() && muscle.ecu_state.advance(now)) {
+    sim_.set_enabled(input.muscle,
+                     muscle.ecu_state.value() == static_cast<double>(ecu::State::kEnabled));
   }
-  if (!input.reference.empty() && now >= input.reference.t.front()) {
-    sim.command(input.muscle, mode_at(input, now), input.reference.held_at(now));
-  }
+  if (input.reference.empty() || now < input.reference.t.front()) return;
+  const bool other_mode = muscle.mode.advance(now);
+  const bool other_reference = muscle.reference.advance(now);
+  if (!other_mode && !other_reference) return;
+  const ecu::Mode mode = input.mode.empty()
+                             ? replay_.unsaid_mode(static_cast<std::size_t>(input.muscle))
+                             : mode_of(muscle.mode.value());
+  sim_.command(input.muscle, mode, muscle.reference.value());
 }
 
-void Replay::impose(Simulation& sim, const MuscleInput& input, double time) const {
+void Replay::Run::impose(const MuscleInput& input, double time) {
   if (input.position.empty()) return;
-  const double due = time + sim.position_lateness(input.muscle);
-  sim.impose_reading(input.muscle, input.position.at(due), input.position.at(due + model_->step));
+  const double due = time + sim_.position_lateness(input.muscle);
+  sim_.impose_reading(input.muscle, input.position.at(due),
+                      input.position.at(due + replay_.model_->step));
 }
 
 namespace {
@@ -417,10 +437,11 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
   try {
     Simulation sim(model);
     input.start(sim);
+    Replay::Run run(input, sim);
     for (auto& sampler : samplers) sampler.sample(sim, 0.0);
     for (bool wanted = true; wanted && done < steps; ++done) {
       const double time = static_cast<double>(done) * model->step;
-      input.drive(sim, time);
+      run.drive(time);
       sim.step();
       for (auto& sampler : samplers) sampler.sample(sim, time + model->step);
       wanted = !progress || done % 1000 != 0 ||

@@ -53,6 +53,24 @@ struct Series {
   double held_at(double time) const;
 };
 
+/// Series::held_at() for times that only go on, as a run asks for them: it looks for the next
+/// sample where the last one was, and tells when there is a new one.
+class HeldSeries {
+ public:
+  /// @param series must outlive this
+  explicit HeldSeries(const Series& series) : series_(&series) {}
+
+  /// Goes on to `time`. Whether another sample holds there than at the time before; true at first.
+  bool advance(double time);
+  /// Of the sample that holds now; the series must not be empty.
+  double value() const { return series_->values[passed_ == 0 ? 0 : passed_ - 1]; }
+
+ private:
+  const Series* series_;
+  std::size_t passed_ = 0;  ///< samples not later than the last time
+  bool begun_ = false;
+};
+
 /// meta.yaml of a dataset folder. What is not listed here is kept in `other`.
 struct DatasetMeta {
   std::string robot;

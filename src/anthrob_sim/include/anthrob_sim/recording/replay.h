@@ -17,9 +17,9 @@ enum class ReplayMode {
   kPosition,   ///< recorded actuator positions are imposed
 };
 
-/// Feeds a recording's inputs to a simulation and tells when which of its rows are due.
-/// Inputs hold from their row to the next; imposed positions are interpolated. Efforts and loads of
-/// driven joints are applied in every mode.
+/// Feeds a recording's inputs to simulations: start() and then one Run each. Inputs hold from their
+/// row to the next; imposed positions are interpolated. Efforts and loads of driven joints are
+/// applied in every mode.
 class Replay {
  public:
   /// @throws BadInput if the recording names muscles or joints that the robot lacks, or has no
@@ -35,8 +35,8 @@ class Replay {
   /// What start() depends on beside the model: recordings with equal ones start in equal states.
   std::vector<double> start_inputs() const;
 
-  /// Sets the inputs of the step from `time` [s] on.
-  void drive(Simulation& sim, double time) const;
+  /// Drives one simulation from the recording's start on.
+  class Run;
 
   /// [s]
   double duration() const { return duration_; }
@@ -66,9 +66,6 @@ class Replay {
   enum class Use { kNone, kStart, kAll };
   Use use_of(const Dataset& recording, const Column& column) const;
   ecu::Mode unsaid_mode(std::size_t muscle) const;
-  void command(Simulation& sim, const MuscleInput& input, double now) const;
-  ecu::Mode mode_at(const MuscleInput& input, double time) const;
-  void impose(Simulation& sim, const MuscleInput& input, double time) const;
 
   std::shared_ptr<const RobotModel> model_;
   ReplayMode mode_;
@@ -76,6 +73,34 @@ class Replay {
   std::vector<MuscleInput> muscles_;
   std::vector<JointInput> joints_;
   double duration_ = 0.0;
+};
+
+class Replay::Run {
+ public:
+  /// To be made after start(), or after the state that start() leads to was restored.
+  /// @param replay must outlive this   @param sim likewise; nobody else gives it inputs
+  Run(const Replay& replay, Simulation& sim);
+
+  /// Sets the inputs of the step from `time` [s] on, as far as they have changed. Times only go on.
+  void drive(double time);
+
+ private:
+  struct MuscleRun {
+    const MuscleInput* input;
+    HeldSeries mode, reference, voltage, ecu_state;
+  };
+  struct JointRun {
+    const JointInput* input;
+    bool driven;
+    HeldSeries effort, load;
+  };
+  void command(MuscleRun& muscle, double now);
+  void impose(const MuscleInput& input, double time);
+
+  const Replay& replay_;
+  Simulation& sim_;
+  std::vector<MuscleRun> muscles_;
+  std::vector<JointRun> joints_;
 };
 
 /// Runs a whole recording and samples the simulation, with ideal sensors, at the recording's rows:
