@@ -24,6 +24,13 @@ btTransform moved(const btRigidBody& body, const btTransform& from, btScalar ste
   return to;
 }
 
+/// Stays what it is: only limits and motors, which these joints lack, come and go.
+int row_count(btTypedConstraint& constraint) {
+  btTypedConstraint::btConstraintInfo1 size;
+  constraint.getInfo1(&size);
+  return size.m_numConstraintRows;
+}
+
 }  // namespace
 
 TreeConstraintSolver::TreeConstraintSolver(const std::vector<btTypedConstraint*>& constraints,
@@ -34,6 +41,7 @@ TreeConstraintSolver::TreeConstraintSolver(const std::vector<btTypedConstraint*>
     Node& node = nodes_[i];
     node.constraint = constraints[i];
     node.parent_moves = parent_joint[i] >= 0;
+    node.count = row_count(*node.constraint);
     if (!node.parent_moves) continue;
     node.couplings.push_back({parent_joint[i], false, {}});
     for (std::size_t k = 0; k < i; ++k) {
@@ -105,9 +113,6 @@ void TreeConstraintSolver::correct_gyroscopic_torque(double step,
 }
 
 void TreeConstraintSolver::read_rows(Node& node, double step, Row* rows) {
-  btTypedConstraint::btConstraintInfo1 size;
-  node.constraint->getInfo1(&size);
-  node.count = size.m_numConstraintRows;
   for (int i = 0; i < node.count; ++i) {
     Row& row = rows[i];
     row.linear_a.setZero(), row.angular_a.setZero();
