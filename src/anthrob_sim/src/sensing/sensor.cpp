@@ -29,18 +29,18 @@ SensorModel SensorModel::load(const ConfigNode& node, const std::string& unit) {
 Sensor::Sensor(const SensorModel& model, std::uint64_t seed, std::uint64_t stream, double step,
                int steps_per_tick)
     : model_(model),
+      ideal_(model.ideal()),
       random_(seed, stream),
       delay_steps_(static_cast<std::size_t>(std::lround(model.delay / step))),
       steps_per_tick_(static_cast<std::uint64_t>(steps_per_tick)) {}
 
 void Sensor::reset(double value, StateView state) const {
-  if (model_.ideal()) return;
+  if (ideal_) return;
   state[kDelayNext] = state[kAverageNext] = state[kAverageCount] = state[kAverageSum] = 0.0;
   for (std::size_t i = 0; i < delay_steps_; ++i) state[kLines + i] = value;
 }
 
-double Sensor::measure(double value, std::uint64_t index, StateView state) const {
-  if (model_.ideal()) return value;
+double Sensor::distorted(double value, std::uint64_t index, StateView state) const {
   if (delay_steps_ > 0) {
     double& slot =
         state[kLines + static_cast<std::size_t>(take_turn(state[kDelayNext], delay_steps_))];

@@ -31,17 +31,21 @@ class Sensor {
   Sensor(const SensorModel& model, std::uint64_t seed, std::uint64_t stream, double step,
          int steps_per_tick);
 
-  std::size_t state_size() const { return model_.ideal() ? 0 : 4 + delay_steps_ + model_.average; }
+  std::size_t state_size() const { return ideal_ ? 0 : 4 + delay_steps_ + model_.average; }
   /// As if the quantity had always had this value.
   void reset(double value, StateView state) const;
   /// To be called once every step with the true value; `index` counts the steps. An average changes
   /// where it is a multiple of `steps_per_tick`, and holds in between.
-  double measure(double value, std::uint64_t index, StateView state) const;
+  double measure(double value, std::uint64_t index, StateView state) const {
+    return ideal_ ? value : distorted(value, index, state);
+  }
 
  private:
+  double distorted(double value, std::uint64_t index, StateView state) const;
   double averaged(double value, bool tick, StateView state) const;
 
   SensorModel model_;
+  bool ideal_;
   CounterRandom random_;
   std::size_t delay_steps_;
   std::uint64_t steps_per_tick_;
