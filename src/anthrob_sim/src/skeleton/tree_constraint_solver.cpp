@@ -24,6 +24,13 @@ btTransform moved(const btRigidBody& body, const btTransform& from, btScalar ste
   return to;
 }
 
+/// value - a . b. The sum stays in a register, as it cannot in an element of what `a` and `b` may
+/// be parts of.
+double less(double value, const double* a, const double* b, int count) {
+  for (int k = 0; k < count; ++k) value -= a[k] * b[k];
+  return value;
+}
+
 /// Stays what it is: only limits and motors, which these joints lack, come and go.
 int row_count(btTypedConstraint& constraint) {
   btTypedConstraint::btConstraintInfo1 size;
@@ -142,7 +149,7 @@ void TreeConstraintSolver::add_responses(Node& node) {
   const btRigidBody& b = node.constraint->getRigidBodyB();
   for (int i = 0; i < node.count; ++i) {
     Row& row = node.rows[i];
-    row.response_a = a.getInvInertiaTensorWorld() * row.angular_a;
+    if (node.parent_moves) row.response_a = a.getInvInertiaTensorWorld() * row.angular_a;
     row.response_b = b.getInvInertiaTensorWorld() * row.angular_b;
   }
 }
@@ -190,19 +197,16 @@ void TreeConstraintSolver::factor() {
     Block& L = node.diagonal;
     const int n = node.count;
     for (int j = 0; j < n; ++j) {
-      for (int k = 0; k < j; ++k) L[j][j] -= L[j][k] * L[j][k];
-      node.inverse_pivot[j] = 1.0 / std::sqrt(L[j][j]);
+      node.inverse_pivot[j] = 1.0 / std::sqrt(less(L[j][j], L[j], L[j], j));
       for (int i = j + 1; i < n; ++i) {
-        for (int k = 0; k < j; ++k) L[i][j] -= L[i][k] * L[j][k];
-        L[i][j] *= node.inverse_pivot[j];
+        L[i][j] = less(L[i][j], L[i], L[j], j) * node.inverse_pivot[j];
       }
     }
     for (Coupling& coupling : node.couplings) {
       Block& Y = coupling.block;
       for (int i = 0; i < nodes_[coupling.later].count; ++i) {
         for (int j = 0; j < n; ++j) {
-          for (int k = 0; k < j; ++k) Y[i][j] -= Y[i][k] * L[j][k];
-          Y[i][j] *= node.inverse_pivot[j];
+          Y[i][j] = less(Y[i][j], Y[i], L[j], j) * node.inverse_pivot[j];
         }
       }
     }
@@ -212,7 +216,7 @@ void TreeConstraintSolver::factor() {
         Block& target = block(first.later, second.later);
         for (int i = 0; i < nodes_[first.later].count; ++i) {
           for (int j = 0; j < nodes_[second.later].count; ++j) {
-            for (int k = 0; k < n; ++k) target[i][j] -= first.block[i][k] * second.block[j][k];
+            target[i][j] = less(target[i][j], first.block[i], second.block[j], n);
           }
         }
       }
@@ -224,13 +228,12 @@ void TreeConstraintSolver::substitute() {
   for (int index = static_cast<int>(nodes_.size()) - 1; index >= 0; --index) {
     Node& node = nodes_[index];
     for (int j = 0; j < node.count; ++j) {
-      for (int k = 0; k < j; ++k) node.rhs[j] -= node.diagonal[j][k] * node.rhs[k];
-      node.rhs[j] *= node.inverse_pivot[j];
+      node.rhs[j] = less(node.rhs[j], node.diagonal[j], node.rhs, j) * node.inverse_pivot[j];
     }
     for (const Coupling& coupling : node.couplings) {
       Node& later = nodes_[coupling.later];
       for (int i = 0; i < later.count; ++i) {
-        for (int j = 0; j < node.count; ++j) later.rhs[i] -= coupling.block[i][j] * node.rhs[j];
+        later.rhs[i] = less(later.rhs[i], coupling.block[i], node.rhs, node.count);
       }
     }
   }
@@ -238,34 +241,36 @@ void TreeConstraintSolver::substitute() {
     for (const Coupling& coupling : node.couplings) {
       const Node& later = nodes_[coupling.later];
       for (int j = 0; j < node.count; ++j) {
-        for (int i = 0; i < later.count; ++i) node.rhs[j] -= coupling.block[i][j] * later.rhs[i];
+        double rest = node.rhs[j];
+        for (int i = 0; i < later.count; ++i) rest -= coupling.block[i][j] * later.rhs[i];
+        node.rhs[j] = rest;
       }
     }
     for (int j = node.count - 1; j >= 0; --j) {
-      for (int i = j + 1; i < node.count; ++i) node.rhs[j] -= node.diagonal[i][j] * node.rhs[i];
-      node.rhs[j] *= node.inverse_pivot[j];
+      double rest = node.rhs[j];
+      for (int i = j + 1; i < node.count; ++i) rest -= node.diagonal[i][j] * node.rhs[i];
+      node.rhs[j] = rest * node.inverse_pivot[j];
     }
   }
 }
 
 void TreeConstraintSolver::apply_impulses() {
   for (Node& node : nodes_) {
-    btRigidBody& a = node.constraint->getRigidBodyA();
-    btRigidBody& b = node.constraint->getRigidBodyB();
-    btVector3 linear_a(0, 0, 0), angular_a(0, 0, 0), linear_b(0, 0, 0), angular_b(0, 0, 0);
-    for (int i = 0; i < node.count; ++i) {
-      const Row& row = node.rows[i];
-      linear_a += row.linear_a * node.rhs[i];
-      angular_a += row.response_a * node.rhs[i];
-      linear_b += row.linear_b * node.rhs[i];
-      angular_b += row.response_b * node.rhs[i];
-    }
-    b.setLinearVelocity(b.getLinearVelocity() + linear_b * b.getInvMass());
-    b.setAngularVelocity(b.getAngularVelocity() + angular_b);
+    push(node, node.constraint->getRigidBodyB(), &Row::linear_b, &Row::response_b);
     if (!node.parent_moves) continue;
-    a.setLinearVelocity(a.getLinearVelocity() + linear_a * a.getInvMass());
-    a.setAngularVelocity(a.getAngularVelocity() + angular_a);
+    push(node, node.constraint->getRigidBodyA(), &Row::linear_a, &Row::response_a);
   }
+}
+
+void TreeConstraintSolver::push(const Node& node, btRigidBody& body, btVector3 Row::*direction,
+                                btVector3 Row::*response) {
+  btVector3 linear(0, 0, 0), angular(0, 0, 0);
+  for (int i = 0; i < node.count; ++i) {
+    linear += node.rows[i].*direction * node.rhs[i];
+    angular += node.rows[i].*response * node.rhs[i];
+  }
+  body.setLinearVelocity(body.getLinearVelocity() + linear * body.getInvMass());
+  body.setAngularVelocity(body.getAngularVelocity() + angular);
 }
 
 }  // namespace anthrob

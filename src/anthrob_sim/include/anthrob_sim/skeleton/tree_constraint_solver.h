@@ -76,6 +76,9 @@ class TreeConstraintSolver {
   /// Right-hand sides become impulses.
   void substitute();
   void apply_impulses();
+  /// Impulses of all rows of a joint on one of its bodies.
+  static void push(const Node& node, btRigidBody& body, btVector3 Row::*direction,
+                   btVector3 Row::*response);
   Block& block(int later, int earlier);
 
   std::vector<Node> nodes_;
