@@ -44,8 +44,10 @@ TreeConstraintSolver::TreeConstraintSolver(const std::vector<btTypedConstraint*>
                                            const std::vector<int>& parent_joint) {
   nodes_.resize(constraints.size());
   starts_.resize(constraints.size());
+  for (Row& row : trial_) row.clear();
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     Node& node = nodes_[i];
+    for (Row& row : node.rows) row.clear();
     node.constraint = constraints[i];
     node.parent_moves = parent_joint[i] >= 0;
     node.count = row_count(*node.constraint);
@@ -57,6 +59,13 @@ TreeConstraintSolver::TreeConstraintSolver(const std::vector<btTypedConstraint*>
       }
     }
   }
+}
+
+void TreeConstraintSolver::Row::clear() {
+  linear_a.setZero(), angular_a.setZero();
+  linear_b.setZero(), angular_b.setZero();
+  error = cfm = 0.0;
+  low = -SIMD_INFINITY, high = SIMD_INFINITY;
 }
 
 void TreeConstraintSolver::step(double step, const std::vector<btRigidBody*>& bodies) {
@@ -120,13 +129,6 @@ void TreeConstraintSolver::correct_gyroscopic_torque(double step,
 }
 
 void TreeConstraintSolver::read_rows(Node& node, double step, Row* rows) {
-  for (int i = 0; i < node.count; ++i) {
-    Row& row = rows[i];
-    row.linear_a.setZero(), row.angular_a.setZero();
-    row.linear_b.setZero(), row.angular_b.setZero();
-    row.error = row.cfm = 0.0;
-    row.low = -SIMD_INFINITY, row.high = SIMD_INFINITY;
-  }
   btTypedConstraint::btConstraintInfo2 data;
   data.fps = 1.0 / step;
   data.erp = 1.0;

@@ -39,6 +39,9 @@ class TreeConstraintSolver {
     btVector3 linear_a, angular_a, linear_b, angular_b;
     btVector3 response_a, response_b;  ///< inverse inertia times angular_a, angular_b
     btScalar error, cfm, low, high;
+
+    /// Once: a joint fills in the same elements in every step.
+    void clear();
   };
   using Block = double[kMaxRows][kMaxRows];
   /// Block (later, node) of the matrix, for a joint nearer the root that shares a body with `node`.
