@@ -8,19 +8,14 @@ namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
 
-/// Motion that one unit of a generalised velocity causes beyond its joint: angular velocity, and
-/// the velocity of the point at the world origin.
-struct UnitMotion {
-  Vec3 w, v;
-};
+}  // namespace
 
-UnitMotion unit_motion(const JointModel& joint, const KinematicTree::JointView& view, int k) {
+KinematicTree::UnitMotion KinematicTree::unit_motion(const JointModel& joint, const JointView& view,
+                                                     int k) {
   if (joint.type == JointType::kPrismatic) return {Vec3::Zero(), view.axis_W};
   const Vec3 w = joint.type == JointType::kBall ? Vec3(Vec3::Unit(k)) : view.axis_W;
   return {w, view.center_W.cross(w)};
 }
-
-}  // namespace
 
 KinematicTree::KinematicTree(const SkeletonModel& model) : model_(model) {
   const std::size_t bodies = model.bodies.size();
@@ -41,6 +36,7 @@ KinematicTree::KinematicTree(const SkeletonModel& model) : model_(model) {
   }
   views_.resize(model.joints.size());
   u_.resize(model.velocity_count, 0.0);
+  unit_motions_.resize(model.velocity_count);
   mass_.setZero(model.velocity_count, model.velocity_count);
   bias_.setZero(model.velocity_count);
   composite_.resize(bodies);
@@ -161,22 +157,29 @@ void KinematicTree::update_dynamics(const std::vector<BodyState>& bodies, const 
         inertia + body.mass * (p.squaredNorm() * Mat3::Identity() - p * p.transpose());
   }
 
+  for (int b = 1; b < count; ++b) {
+    const JointModel& joint = model_.joints[b - 1];
+    for (int k = 0; k < joint.dof(); ++k) {
+      unit_motions_[joint.velocity_offset + k] = unit_motion(joint, views_[b - 1], k);
+    }
+  }
   mass_.setZero();
   for (int b = count - 1; b >= 1; --b) {
     const JointModel& joint = model_.joints[b - 1];
     const CompositeInertia& c = composite_[b];
     for (int k = 0; k < joint.dof(); ++k) {
       const int row = joint.velocity_offset + k;
-      const UnitMotion motion = unit_motion(joint, views_[b - 1], k);
+      const UnitMotion& motion = unit_motions_[row];
       bias_[row] = motion.w.dot(torque_[b]) + motion.v.dot(force_[b]);
       const Vec3 momentum = c.mass * motion.v + motion.w.cross(c.moment);
       const Vec3 spin = c.inertia * motion.w + c.moment.cross(motion.v);
       // Against this joint and every joint it hangs on.
       for (int a = b; a >= 1; a = model_.joints[a - 1].parent) {
         const JointModel& other = model_.joints[a - 1];
-        for (int l = 0; l < other.dof(); ++l) {
-          const UnitMotion m = unit_motion(other, views_[a - 1], l);
+        const int columns = a == b ? k + 1 : other.dof();
+        for (int l = 0; l < columns; ++l) {
           const int column = other.velocity_offset + l;
+          const UnitMotion& m = unit_motions_[column];
           mass_(row, column) = mass_(column, row) = m.w.dot(spin) + m.v.dot(momentum);
         }
       }

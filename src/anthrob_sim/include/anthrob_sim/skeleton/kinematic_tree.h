@@ -66,6 +66,12 @@ class KinematicTree {
     Vec3 moment;   ///< mass times centre of mass, world [kg m]
     Mat3 inertia;  ///< about the world origin [kg m^2]
   };
+  /// Motion that one unit of a generalised velocity causes beyond its joint: angular velocity, and
+  /// the velocity of the point at the world origin.
+  struct UnitMotion {
+    Vec3 w, v;
+  };
+  static UnitMotion unit_motion(const JointModel& joint, const JointView& view, int k);
 
   const SkeletonModel& model_;
   std::vector<JointGeometry> geometry_;
@@ -73,6 +79,7 @@ class KinematicTree {
   std::vector<double> u_;
   Eigen::MatrixXd mass_;
   Eigen::VectorXd bias_;
+  std::vector<UnitMotion> unit_motions_;  ///< by generalised velocity
   std::vector<CompositeInertia> composite_;
   std::vector<Vec3> alpha_, accel_;   ///< bias accelerations of bodies
   std::vector<Vec3> force_, torque_;  ///< on subtrees, about the world origin
