@@ -82,7 +82,7 @@ class ResistanceSolver {
   std::vector<char> held_;  ///< by generalised velocity
   Eigen::VectorXd constant_, rhs_, u_, next_, joint_torque_;
   Eigen::VectorXd surprise_;  ///< torque of tendons that the last sweep did not foresee [Nm, N]
-  Eigen::MatrixXd system_, factor_;
+  Eigen::MatrixXd system_, factor_;  ///< above the diagonal complete only where joints are dry
   int iterations_ = 0;
   bool falling_ = false;  ///< friction that falls with speed may be taken so
 };
