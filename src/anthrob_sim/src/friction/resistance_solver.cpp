@@ -28,7 +28,7 @@ constexpr double kLeap = 6.0;
 double trusted_slope(const SlidingTendon::Contact& contact, double speed,
                      const FrictionLaw::Value& friction, double foreseen) {
   if (std::abs(foreseen - friction.mu) < kForeseen) return friction.slope;
-  const double rest = contact.law->evaluate(0.0, contact.state).mu;
+  const double rest = contact.law->coefficient(0.0, contact.state);
   const double grown = friction.mu - rest;
   if (speed == 0.0 || grown == 0.0) return friction.slope;
   const double chord = grown / speed;

@@ -23,6 +23,11 @@ FrictionLaw::Value SmoothStribeck::evaluate(double v, StateView) const {
   return {std::copysign(sign * level, v), slope};
 }
 
+/// Not inherited: where the compiler sees evaluate(), it leaves out the slope with its divisions.
+double SmoothStribeck::coefficient(double v, StateView state) const {
+  return evaluate(v, state).mu;
+}
+
 std::shared_ptr<const FrictionLaw> SmoothStribeck::load(const ConfigNode& node, double) {
   return std::make_shared<SmoothStribeck>(
       node.number("static", Bounds::nonnegative(), "1"),

@@ -255,7 +255,7 @@ void Muscle::update_tensions_before_spring(const KinematicTree& tree) {
       // The tendon between actuator and this place gets longer if the path there does.
       const double speed = winding + (path_before_spring_moves_ ? path_rate(i, tree) : 0.0);
       const StateView state = contact_state(i);
-      tension *= std::exp(law->evaluate(speed, state).mu * path_.obstacles()[i].turning);
+      tension *= std::exp(law->coefficient(speed, state) * path_.obstacles()[i].turning);
       law->commit(speed, state);
       power += (tension - tension_slot(i)) * speed;
     }

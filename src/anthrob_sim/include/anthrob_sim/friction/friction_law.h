@@ -25,6 +25,8 @@ class FrictionLaw {
   virtual std::size_t state_size() const = 0;
   /// @param v sliding speed at the end of the step [m/s]
   virtual Value evaluate(double v, StateView state) const = 0;
+  /// evaluate().mu, for those who do not ask for the slope.
+  virtual double coefficient(double v, StateView state) const { return evaluate(v, state).mu; }
   /// Coefficient while sliding at a speed >= 0, without its sign: the Stribeck curve [1].
   virtual double level(double speed) const = 0;
   /// The step is taken with sliding speed v.
