@@ -50,10 +50,11 @@ ReplayMode mode_of(const RobotModel& model, const Dataset& recording) {
 
 ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recording,
                                  const ExperimentOptions& options)
-    : recording_(recording), mode_(options.mode.value_or(mode_of(model, recording))) {
+    : mode_(options.mode.value_or(mode_of(model, recording))),
+      input_(std::make_shared<RobotModel>(model), recording, mode_) {
   name_ = recording.folder;
   bin_ = options.bin;
-  duration_ = Replay(std::make_shared<RobotModel>(model), recording, mode_).duration();
+  duration_ = input_.duration();
   bins_ = bin_of(duration_) + 1;
   if (options.seconds < duration_) {
     bins_ = std::max<std::size_t>(1, bin_of(options.seconds));
@@ -221,16 +222,15 @@ void ChainExperiment::finish_row(const Sampling& sampling, std::size_t row, doub
 
 void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
                               float* out) const {
-  const Replay input(model, recording_, mode_);
   Simulation sim(model);
-  const auto [start, is_new] = starts.try_emplace(input.start_inputs());
+  const auto [start, is_new] = starts.try_emplace(input_.start_inputs());
   if (is_new) {
-    input.start(sim);
+    input_.start(sim);
     start->second = sim.snapshot();
   } else {
     sim.restore(start->second);
   }
-  Replay::Run run(input, sim);
+  Replay::Run run(input_, sim);
   for (const Sampling& sampling : samplings_) {
     for (const Reader& reader : sampling.readers) {
       if (reader.kind == Reader::kBall) {

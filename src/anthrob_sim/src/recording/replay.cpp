@@ -168,14 +168,15 @@ std::vector<double> Replay::start_inputs() const {
 }
 
 void Replay::start(Simulation& sim) const {
-  std::vector<double> q = model_->skeleton->rest_configuration();
+  const RobotModel& model = sim.model();
+  std::vector<double> q = model.skeleton->rest_configuration();
   if (muscles_.empty()) {
     for (const JointInput& input : joints_) {
       if (input.position.empty()) continue;
-      q[model_->skeleton->joints[input.joint].position_offset] = input.position.values.front();
+      q[model.skeleton->joints[input.joint].position_offset] = input.position.values.front();
     }
   }
-  sim.place(q, std::vector<double>(model_->muscles.size(), 0.0));
+  sim.place(q, std::vector<double>(model.muscles.size(), 0.0));
   if (muscles_.empty()) return;
 
   std::vector<std::pair<int, double>> imposed;
@@ -213,7 +214,7 @@ Replay::Run::Run(const Replay& replay, Simulation& sim) : replay_(replay), sim_(
                         HeldSeries(input.voltage), HeldSeries(input.ecu_state)});
   }
   for (const JointInput& input : replay.joints_) {
-    const bool driven = replay.model_->skeleton->joints[input.joint].driven;
+    const bool driven = sim.model().skeleton->joints[input.joint].driven;
     joints_.push_back({&input, driven, HeldSeries(input.effort), HeldSeries(input.load)});
   }
 }
@@ -264,7 +265,7 @@ void Replay::Run::impose(const MuscleInput& input, double time) {
   if (input.position.empty()) return;
   const double due = time + sim_.position_lateness(input.muscle);
   sim_.impose_reading(input.muscle, input.position.at(due),
-                      input.position.at(due + replay_.model_->step));
+                      input.position.at(due + sim_.step_length()));
 }
 
 namespace {

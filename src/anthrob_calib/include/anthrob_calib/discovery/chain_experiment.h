@@ -49,8 +49,8 @@ class ChainExperiment final : public Experiment {
                   float* out) const;
   static void read(const Simulation& sim, const Sampling& sampling, std::vector<double>& values);
 
-  Dataset recording_;
   ReplayMode mode_;
+  Replay input_;
   std::size_t bins_;
   std::vector<std::vector<double>> times_;  ///< of each sampling
   std::vector<Sampling> samplings_;
