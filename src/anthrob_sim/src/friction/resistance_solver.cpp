@@ -192,11 +192,10 @@ void ResistanceSolver::add_tendon(const SlidingTendon& tendon) {
     const double speed = tendon.slide_speed[j];
     for (std::size_t a = 0; a < nd; ++a) {
       rhs_[tendon.dofs[a]] += step_ * after * piece[a] + steepness * speed * slide[a];
-      // What factors the system reads its lower triangle; only dry joints are asked for whole rows.
-      const std::size_t columns = dry_.empty() ? a + 1 : nd;
-      const double weight = steepness * slide[a];
-      for (std::size_t b = 0; b < columns; ++b) {
-        system_(tendon.dofs[a], tendon.dofs[b]) += weight * slide[b];
+      // What factors the system reads its lower triangle; only dry joints ask for whole rows.
+      auto column = system_.col(tendon.dofs[a]);
+      for (std::size_t b = dry_.empty() ? a : 0; b < nd; ++b) {
+        column[tendon.dofs[b]] += steepness * slide[b] * slide[a];
       }
     }
   }
