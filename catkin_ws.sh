@@ -52,7 +52,8 @@ help() {
 usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
 
   deps              install what is needed (as root or through sudo); nothing if all is there
-  build             compile the workspace
+  build             compile the workspace; build tests: its tests, too; build install: into install/, or elsewhere
+                    with -DCMAKE_INSTALL_PREFIX=DIR
   sim [ARG:=VALUE]  simulate Anthrob, with RViz if there is a display; arguments as of sim.launch:
                     robot:=anthrob model:=II rviz:=false rate:=1 (0: as fast as possible)
   demo              the arm raises, bends and returns; records demo.bag, converts it and draws build/demo/
@@ -67,10 +68,14 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
 TEXT
 }
 
-# A python from pyenv or conda in front of the system's breaks ROS: the system's comes first here.
+# A python from pyenv or conda in front of the system's breaks ROS: the system's comes first here. Another ROS that was
+# sourced would be built and run with: it is forgotten. Overlays of this workspace, whose ROS is Debian's, stay.
 clean_environment() {
   export PATH="/usr/local/sbin:/usr/sbin:/usr/bin:/sbin:/bin:/usr/local/bin"
   unset PYTHONHOME PYTHONPATH CONDA_PREFIX CONDA_DEFAULT_ENV VIRTUAL_ENV
+  [ "${ROS_DISTRO:-Debian}" = Debian ] ||
+    unset ROS_DISTRO ROS_VERSION ROS_ROOT ROS_ETC_DIR ROS_PACKAGE_PATH ROSLISP_PACKAGE_DIRECTORIES \
+      CMAKE_PREFIX_PATH LD_LIBRARY_PATH PKG_CONFIG_PATH AMENT_PREFIX_PATH COLCON_PREFIX_PATH
   export ROS_PYTHON_VERSION=3
   export LANG="${LANG:-C.UTF-8}"
 }
@@ -113,16 +118,26 @@ install_packages() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
 }
 
+# Elsewhere packages of these names are not there, or would put a second ROS beside the one of /opt/ros.
+require_debian_12() {
+  local release
+  release="$(cat /etc/os-release 2>/dev/null)"
+  grep -Eq '^VERSION_CODENAME="?bookworm"?$' <<<"$release" ||
+    die "packages are missing that only Debian 12 (bookworm) has, and this is $(
+      sed -nE 's/^PRETTY_NAME="?([^"]*)"?$/\1/p' <<<"$release" | grep . || echo 'another system'
+    ): use a container of debian:12 (README, On another system)"
+}
+
 deps() {
-  command -v dpkg-query >/dev/null || die "this is no Debian: install the packages listed in catkin_ws.sh by hand"
   local missing
   missing="$(lacking "${needed_packages[@]}")"
   [ -z "$missing" ] && return 0
+  require_debian_12
   say "installing $(wc -w <<<"$missing") packages"
   update_lists
   # shellcheck disable=SC2086
   install_packages $missing ||
-    die "apt-get install failed: see above; on other systems than Debian 12 the package names may differ"
+    die "apt-get install failed: see above"
 }
 
 extras() {
