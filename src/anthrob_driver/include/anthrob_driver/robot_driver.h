@@ -144,7 +144,7 @@ class RobotDriver {
   std::vector<EcuLink> links_;
   std::vector<int> link_of_node_;
   Home home_;
-  std::vector<char> restarted_;  ///< by ECU: no zero was confirmed since
+  std::vector<char> restarted_;       ///< by ECU: no zero was confirmed since
   std::vector<TendonWatch> tendons_;  ///< one a muscle
 
   Phase phase_ = Phase::kDisabled;
