@@ -9,7 +9,7 @@ import unittest
 import rospkg
 import rospy
 import rostest
-from anthrob_msgs.msg import MuscleCommand
+from anthrob_msgs.msg import MuscleCommand, MuscleStates
 from rosgraph_msgs.msg import Clock
 
 CONFIG = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'config')
@@ -86,6 +86,9 @@ class RosTime(unittest.TestCase):
         rospy.Subscriber('muscle_command', MuscleCommand,
                          lambda m: heard.append(dict(zip(m.name, m.reference))['flexor']))
         clock = rospy.Publisher('/clock', Clock, queue_size=1)
+        states = rospy.Publisher('muscle_states', MuscleStates, queue_size=1)
+        enabled = MuscleStates(name=['flexor', 'extensor'], ecu_state=[MuscleStates.ENABLED] * 2,
+                               **{field: [0.0, 0.0] for field in ('position', 'velocity', 'current', 'force')})
         self.start('anthrob_control', 'anthrob_posture_player', model=RIG, postures=self.postures())
 
         def let_pass(t, wanted):
@@ -95,6 +98,8 @@ class RosTime(unittest.TestCase):
             while not heard or heard[-1] != wanted:
                 self.assertLess(time.time(), end, heard)
                 clock.publish(Clock(clock=rospy.Time(t)))
+                enabled.header.stamp = rospy.Time(t)
+                states.publish(enabled)
                 t += 0.01
                 time.sleep(0.01)
             return t

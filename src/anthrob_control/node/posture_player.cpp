@@ -12,14 +12,16 @@ namespace {
 
 /// Commands are renewed faster than they time out.
 constexpr double kCommandRate = 50.0;  // [Hz]
-constexpr double kUndriven = 0.5;      // [s] motors may start with the first commands
+constexpr int kUnheeded = 25;          // 0.5 s of commands: motors may start with the first of them
 
-/// Whoever stopped the motors did not mean that the next enable takes up a posture.
-/// @param driven when they last were on   @throws std::runtime_error naming a motor that is off
-void check_motors(const anthrob::RobotLink& link, ros::Time& driven) {
+/// Whoever stopped the motors did not mean that the next enable takes up a posture. Commands are
+/// counted, not time: where the player itself was held up, the next one may start the motors again.
+/// @param unheeded commands in a row while one was off
+/// @throws std::runtime_error naming a motor that is off
+void check_motors(const anthrob::RobotLink& link, int& unheeded) {
   const std::string off = link.state().disabled_muscle();
-  if (off.empty() || driven.isZero()) driven = link.now();
-  if ((link.now() - driven).toSec() > kUndriven) {
+  unheeded = off.empty() ? 0 : unheeded + 1;
+  if (unheeded > kUnheeded) {
     throw std::runtime_error("the motor of " + off + " is not enabled; enable, then start again");
   }
 }
@@ -48,24 +50,26 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   options.period = 1.0 / kCommandRate;
   anthrob::RobotLink link(nh, model, options);
   if (!wait_for_states(link)) return false;
-  ros::Time end, driven;
+  ros::Time end;
+  int unheeded = 0;
   for (std::size_t i = 0; i < sequence.steps.size();) {
     if (link.time_jumped()) {
       ROS_WARN("time jumped back: begins anew");
       i = 0;
-      end = driven = ros::Time();
+      end = ros::Time();
+      unheeded = 0;
     }
     if (end.isZero()) {
       ROS_INFO_STREAM("posture " << i + 1 << " of " << sequence.steps.size() << ": "
                                  << sequence.steps[i].name);
       end = link.now() + ros::Duration(sequence.steps[i].hold);
     }
-    check_motors(link, driven);
     if (link.now() >= end) {
       ++i;
       end = ros::Time();
       continue;
     }
+    check_motors(link, unheeded);
     link.send(anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, references[i]));
     if (!link.wait()) return false;
   }
