@@ -81,7 +81,7 @@ double DriverNode::command_age(const ros::Time& stamp) const {
   const ros::Time now = ros::Time::now();
   // `rostopic pub` sends no stamp; simulated time may not have begun.
   if (!check_stamps_ || stamp.isZero() || now.isZero()) return 0.0;
-  return (now - stamp).toSec();
+  return now.toSec() - stamp.toSec();  // ros::Duration throws where it ends, at 68 years
 }
 
 void DriverNode::pass_commands() {
@@ -308,6 +308,10 @@ void DriverNode::run() {
   stops.start();
   ros::AsyncSpinner requests(kRequestThreads, &request_queue_);
   requests.start();
+  // Whatever ends this loop ends calls that wait for it, too, before their threads are joined.
+  struct End {
+    ~End() { ros::shutdown(); }
+  } end;
   report_time_ = monotonic_now();
   while (ros::ok()) {
     publish_measurements(0.002);
