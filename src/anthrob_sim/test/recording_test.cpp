@@ -82,6 +82,7 @@ TEST(Replay, OneThatIsStoppedHasTheRowsUntilThen) {
   EXPECT_EQ(joints.find("hinge/position")->values,
             std::vector<double>(all.begin(), all.begin() + 201));
   EXPECT_EQ(part.meta.other.at("cut_short"), "at 2.001 s of 3 s\n");
+  EXPECT_EQ(replay(rig(), part, ReplayMode::kReference).meta.other.count("cut_short"), 0u);
 }
 
 TEST(Replay, OneThatFailsHasTheRowsUntilThen) {

@@ -31,7 +31,8 @@ class Comparison {
     posture_.row(row) += weight * now_;
     for (Eigen::Index m = 0; m < differences.force.cols(); ++m) {
       const ecu::Measurement reading = sim.reading(static_cast<int>(m));
-      differences.force(row, m) += weight * (reading.force - measured_.force(row, m));
+      const double force = std::max(reading.force, 0.0);  // as units measure it
+      differences.force(row, m) += weight * (force - measured_.force(row, m));
       if (differences.actuator.cols() > 0) {
         differences.actuator(row, m) += weight * (reading.position - measured_.position(row, m));
       }

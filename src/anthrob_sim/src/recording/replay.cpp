@@ -295,7 +295,7 @@ class Probe {
     if (quantity_ == "velocity") return reading.velocity;
     if (quantity_ == "current") return reading.current;
     if (quantity_ == "voltage") return muscle.voltage();
-    if (quantity_ == "force") return reading.force;
+    if (quantity_ == "force") return std::max(reading.force, 0.0);  // as it is measured
     if (quantity_ == "reference") return muscle.reference();
     if (quantity_ == "mode") return static_cast<double>(muscle.mode());
     const ecu::State state = muscle.enabled() ? ecu::State::kEnabled : ecu::State::kStopping;
@@ -456,7 +456,8 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
   Dataset out;
   out.meta = recording.meta;
   out.meta.other["simulated_by"] = "anthrob_replay\n";
-  if (done < steps) {
+  out.meta.other.erase("cut_short");  // that of the recording was another's
+  if (done < steps || (failure && !failure->empty())) {
     out.meta.other["cut_short"] = "at " + exact_text(static_cast<double>(done) * model->step) +
                                   " s of " + exact_text(input.duration()) + " s\n";
   }
