@@ -27,18 +27,21 @@ bool is_turn(const geometry_msgs::Quaternion& q) {
 
 }  // namespace
 
-std::vector<std::string> measured_names(const anthrob_msgs::MuscleStates& m) {
-  // Forces are not measured where there is no sensor.
+std::vector<std::string> MeasuredNames::operator()(const anthrob_msgs::MuscleStates& m) {
   return names_where(m.name, [&](std::size_t i) {
-    return is_number(m.position, i) && is_number(m.velocity, i) && is_number(m.current, i);
+    const bool force = is_number(m.force, i);
+    if (force) with_force_.insert(m.name[i]);
+    return is_number(m.position, i) && is_number(m.velocity, i) && is_number(m.current, i) &&
+           (force || with_force_.count(m.name[i]) == 0);
   });
 }
 
-std::vector<std::string> measured_names(const sensor_msgs::JointState& m) {
+std::vector<std::string> MeasuredNames::operator()(const sensor_msgs::JointState& m) const {
   return names_where(m.name, [&](std::size_t i) { return is_number(m.position, i); });
 }
 
-std::vector<std::string> measured_names(const anthrob_msgs::SphericalJointStates& m) {
+std::vector<std::string> MeasuredNames::operator()(
+    const anthrob_msgs::SphericalJointStates& m) const {
   return names_where(
       m.name, [&](std::size_t i) { return i < m.orientation.size() && is_turn(m.orientation[i]); });
 }

@@ -7,8 +7,6 @@
 #include <future>
 #include <stdexcept>
 
-#include "measured_names.h"
-
 namespace anthrob {
 
 namespace {
@@ -43,8 +41,9 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
   const auto measure = [this, record](const char* topic) {
     return [this, write = record(topic)](const auto& message) {
       write(message);
+      const std::vector<std::string> names = measured_names_(message);
       if (!belongs(message.header)) return;
-      for (const auto& name : measured_names(message)) {
+      for (const std::string& name : names) {
         current_bag().gaps.see(name, message.header.stamp.toSec());
       }
     };

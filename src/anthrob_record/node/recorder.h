@@ -9,6 +9,7 @@
 #include "anthrob_record/recording_store.h"
 #include "anthrob_record/visit.h"
 #include "bag_file.h"
+#include "measured_names.h"
 
 namespace anthrob {
 
@@ -51,6 +52,7 @@ class Recorder {
   Protocol protocol_;
   RecordingStore store_;
   RobotLink link_;
+  MeasuredNames measured_names_;
   bool lock_step_;
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer sample_;
