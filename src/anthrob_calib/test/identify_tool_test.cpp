@@ -182,7 +182,9 @@ TEST_F(IdentifyTool, RefusesWhatIsNoRecording) {
 }
 
 TEST_F(IdentifyTool, RefusesTruncatedRecordings) {
-  const auto half_row = [](std::string text) { return text.substr(0, text.size() / 2 + 3); };
+  const auto half_row = [](std::string text) {
+    return text.substr(0, text.find('\n', text.size() / 2) + 4);  // of its first cell, three signs
+  };
   expect_refused("see", altered("ring_1", "muscles.csv", half_row), "muscles.csv:");
   expect_refused("see", altered("ring_1", "muscles.csv", [](auto text) { return cut(text, 0.56); }),
                  "cut off?");
