@@ -25,6 +25,8 @@ enum Stream : std::uint64_t {
 
 /// Of an effect that a calibration may partly correct at least half is left.
 constexpr double kBeyond = 2.0;
+/// So many places of a law are tried until it tells at one: slow ones take minutes at each.
+constexpr std::size_t kMostPlaces = 6;
 
 constexpr std::pair<const char*, CaseKind> kKinds[] = {{"effect", CaseKind::kEffect},
                                                        {"null", CaseKind::kNull},
@@ -106,25 +108,6 @@ std::vector<std::string> shuffled_places(const HiddenLaw& law, const reference::
   return places;
 }
 
-/// The k-th of them, where a law has a size that can be drawn such that it is seen. Else the first
-/// where it changes enough as it is (a surface that no tendon touches is not a case), counted from
-/// half a round further for each k; if there is none, the first.
-std::string telling_place(const HiddenLaw& law, const CaseSettings& settings,
-                          const BlindCase& blind, const Random& random, std::uint64_t k,
-                          std::uint64_t seed) {
-  const std::vector<std::string> places = shuffled_places(law, blind.built, seed);
-  if (!law.sizes.empty()) return places[k % places.size()];
-  const Change change(blind, settings);
-  const std::size_t first = k * (places.size() / 2);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::string& place = places[(first + i) % places.size()];
-    Random own = random;
-    const Hidden hidden{law.id, place, law.draw(blind.built, place, &own)};
-    if (worst(change.of({hidden})).second >= settings.least_change) return place;
-  }
-  return places[first % places.size()];
-}
-
 /// How far an ordinary calibration may move what a hidden thing adds to, in its direction.
 double correctable(const std::vector<ModelParameter>& ordinary, const Hidden& hidden) {
   const HiddenLaw& law = hidden_law(hidden.id);
@@ -137,22 +120,35 @@ double correctable(const std::vector<ModelParameter>& ordinary, const Hidden& hi
   return 0.0;
 }
 
-/// Sizes such that the worst channel changes by the target, one hidden thing after the other.
-void find_sizes(const CaseSettings& settings, BlindCase* blind) {
-  Random random(blind->seed, kSize);
-  const Change change(*blind, settings);
-  for (Hidden& hidden : blind->hidden) {
-    const HiddenLaw& law = hidden_law(hidden.id);
-    const double target = random.log_uniform(settings.least_change, settings.most_change);
-    if (law.sizes.empty()) continue;
-    const double least = std::max(law.least, kBeyond * correctable(settings.ordinary, hidden) /
-                                                 std::abs(hidden[law.sizes.front()]));
-    const double factor =
-        dose([&](double f) { return worst(change.of({scaled(hidden, f)})).second; }, target, least,
-             std::max(least, law.most));
-    hidden = scaled(hidden, factor);
+/// The dose ends as near to what is asked for as that, both ways [1].
+constexpr double kRoughly = 1.2;
+
+/// A hidden thing, and what it alone changes in the worst channel [sensor errors].
+struct Sized {
+  Hidden hidden;
+  double change = 0.0;
+
+  /// Whether that is what cases ask for. Of a law whose size is not drawn, at least.
+  bool tells(const CaseSettings& settings) const {
+    const bool is_drawn = !hidden_law(hidden.id).sizes.empty();
+    return change >= settings.least_change / kRoughly &&
+           (!is_drawn || change <= settings.most_change * kRoughly);
   }
-  if (!blind->hidden.empty()) blind->change = change.of(blind->hidden);
+};
+
+/// Of such a size that the worst channel changes by a target, as nearly as plausible sizes let it.
+Sized sized(const Change& change, const CaseSettings& settings, const Hidden& hidden,
+            Random* random) {
+  const HiddenLaw& law = hidden_law(hidden.id);
+  const double target = random->log_uniform(settings.least_change, settings.most_change);
+  const auto of = [&](const Hidden& one) { return worst(change.of({one})).second; };
+  if (law.sizes.empty()) return {hidden, of(hidden)};
+  const double least = std::max(law.least, kBeyond * correctable(settings.ordinary, hidden) /
+                                               std::abs(hidden[law.sizes.front()]));
+  const double factor = dose([&](double f) { return of(scaled(hidden, f)); }, target, least,
+                             std::max(least, law.most));
+  const Hidden drawn = scaled(hidden, factor);
+  return {drawn, of(drawn)};
 }
 
 /// What makes one null harder than another.
@@ -178,11 +174,64 @@ BlindCase empty_case(CaseKind kind, std::uint64_t seed, const reference::ArmPara
   return blind;
 }
 
-void hide(const HiddenLaw& law, const std::string& place, Random* random, BlindCase* blind) {
+/// @return what is hidden now, of a typical size
+Hidden& hide(const HiddenLaw& law, const std::string& place, Random* random, BlindCase* blind) {
   // One and the same number has no error of calibration beside the effect: it is found whole.
   if (law.same_as) law.same_as->in(&blind->built, place) = law.same_as->in(&blind->believed, place);
   blind->hidden.push_back({law.id, place, law.draw(blind->built, place, random)});
   blind->slow = blind->slow || law.slow;
+  return blind->hidden.back();
+}
+
+/// The same of a size that is drawn. @return whether that tells
+bool hide_sized(const HiddenLaw& law, const std::string& place, const CaseSettings& settings,
+                Random* random, Random* sizes, BlindCase* blind, double* change) {
+  Hidden& hidden = hide(law, place, random, blind);
+  const Sized drawn = sized(Change(*blind, settings), settings, hidden, sizes);
+  hidden = drawn.hidden;
+  *change = drawn.change;
+  return drawn.tells(settings);
+}
+
+/// At the first of its places at which it changes what cases ask for, counted from half a round
+/// further for each k; if it does at none of those that are tried, where it changes most.
+BlindCase with_effect(const BlindCase& bare, const HiddenLaw& law, std::uint64_t k,
+                      std::uint64_t seed, const CaseSettings& settings) {
+  const std::vector<std::string> places = shuffled_places(law, bare.built, seed);
+  const std::size_t first = k * (places.size() / 2);
+  BlindCase best;
+  double most = -1.0;
+  for (std::size_t i = 0; i < places.size() && i < kMostPlaces; ++i) {
+    BlindCase blind = bare;
+    Random random(blind.seed, kParameters), sizes(blind.seed, kSize);
+    double change = 0.0;
+    const std::string& place = places[(first + i) % places.size()];
+    const bool tells = hide_sized(law, place, settings, &random, &sizes, &blind, &change);
+    if (tells) return blind;
+    if (change > most) {
+      most = change;
+      best = std::move(blind);
+    }
+  }
+  return best;
+}
+
+/// Two quick ones of different ids, each where it changes what cases ask for.
+BlindCase with_pair(const BlindCase& bare, std::uint64_t seed, const CaseSettings& settings) {
+  BlindCase blind = bare;
+  Random random(blind.seed, kParameters), sizes(blind.seed, kSize);
+  const auto& laws = catalogue_laws();
+  while (blind.hidden.size() < 2) {
+    const HiddenLaw& law = laws[random.below(laws.size())];
+    if (law.slow || law.sizes.empty()) continue;
+    if (!blind.hidden.empty() && blind.hidden.front().id == law.id) continue;
+    const std::vector<std::string> places = shuffled_places(law, blind.built, seed);
+    const std::string& place = places[random.below(1000) % places.size()];
+    BlindCase more = blind;
+    double change = 0.0;
+    if (hide_sized(law, place, settings, &random, &sizes, &more, &change)) blind = std::move(more);
+  }
+  return blind;
 }
 
 }  // namespace
@@ -224,30 +273,27 @@ BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
   // Every case has an arm of its own.
   BlindCase blind =
       empty_case(kind, 1000003 * seed + 16 * number + static_cast<int>(kind), believed, settings);
-  Random random(blind.seed, kParameters);
-  const auto& laws = kind == CaseKind::kOutside ? outside_laws() : catalogue_laws();
-  const auto hide_kth = [&](std::uint64_t k) {
-    const HiddenLaw& law = laws[k % laws.size()];
-    hide(law, telling_place(law, settings, blind, random, k / laws.size(), seed), &random, &blind);
-  };
-  if (kind == CaseKind::kNull) vary_null(number, &blind);
-  if (kind == CaseKind::kEffect || kind == CaseKind::kOutside) hide_kth(number);
-  if (kind == CaseKind::kPair) {
-    // Quick ones, of two different ids.
-    while (blind.hidden.size() < 2) {
-      const std::uint64_t k = random.below(laws.size());
-      if (laws[k].slow || laws[k].sizes.empty()) continue;
-      if (!blind.hidden.empty() && blind.hidden.front().id == laws[k].id) continue;
-      const std::vector<std::string> places = shuffled_places(laws[k], blind.built, seed);
-      hide(laws[k], places[random.below(1000) % places.size()], &random, &blind);
+  switch (kind) {
+    case CaseKind::kNull:
+      vary_null(number, &blind);
+      return blind;
+    case CaseKind::kEffect:
+    case CaseKind::kOutside: {
+      const auto& laws = kind == CaseKind::kOutside ? outside_laws() : catalogue_laws();
+      blind = with_effect(blind, laws[number % laws.size()], number / laws.size(), seed, settings);
+      break;
+    }
+    case CaseKind::kPair:
+      blind = with_pair(blind, seed, settings);
+      break;
+    case CaseKind::kWrapped: {
+      Random random(blind.seed, kParameters);
+      for (const std::string& muscle : muscle_places(blind.built)) {
+        hide(hidden_law("wrapping_surface"), muscle, &random, &blind);
+      }
     }
   }
-  if (kind == CaseKind::kWrapped) {
-    for (const std::string& muscle : muscle_places(blind.built)) {
-      hide(hidden_law("wrapping_surface"), muscle, &random, &blind);
-    }
-  }
-  find_sizes(settings, &blind);
+  blind.change = Change(blind, settings).of(blind.hidden);
   return blind;
 }
 
@@ -255,16 +301,17 @@ BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws
                     std::uint64_t seed, const reference::ArmParameters& believed,
                     const CaseSettings& settings) {
   BlindCase blind = empty_case(CaseKind::kEffect, seed, believed, settings);
-  Random random(blind.seed, kParameters);
+  Random random(blind.seed, kParameters), sizes(blind.seed, kSize);
   for (const auto& [id, place] : laws_and_places) {
     const HiddenLaw& law = hidden_law(id);
     const std::vector<std::string> places = law.places(blind.built);
     if (std::find(places.begin(), places.end(), place) == places.end()) {
       throw std::invalid_argument(id + " cannot sit at " + place + "; it can at " + places.front());
     }
-    hide(law, place, &random, &blind);
+    double change = 0.0;
+    hide_sized(law, place, settings, &random, &sizes, &blind, &change);
   }
-  find_sizes(settings, &blind);
+  blind.change = Change(blind, settings).of(blind.hidden);
   return blind;
 }
 

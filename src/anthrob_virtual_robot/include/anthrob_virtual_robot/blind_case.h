@@ -46,9 +46,9 @@ struct BlindCase {
   std::map<std::string, double> change;
 };
 
-/// Case `number` of a kind: cycles through the laws, each time at another place (of a law whose
-/// size is not drawn: where it changes enough, if that is anywhere). Sizes follow from runs with
-/// and without: this takes some runs of train_0.
+/// Case `number` of a kind: cycles through the laws, each time at another place, and where the law
+/// changes as much as is asked for, if it does anywhere. Sizes follow from runs with and without:
+/// this takes some runs of train_0.
 BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
                     const reference::ArmParameters& believed, const CaseSettings& settings);
 /// The same of a given law and place.
