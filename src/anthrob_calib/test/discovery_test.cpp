@@ -116,6 +116,15 @@ TEST(BlockSignificance, DoesNotDoubtGainsThatDifferInSize) {
   EXPECT_LT(block_significance(noise), 2.5);
 }
 
+TEST(BlockSignificance, DoesNotDoubtGainsForSmallLossesBesideThem) {
+  Eigen::VectorXd gains(24);
+  for (int i = 0; i < 24; ++i) gains[i] = i % 2 == 0 ? 45.0 + i : -4.0;
+  EXPECT_GT(block_significance(gains), 4.0);
+  EXPECT_LT(block_significance(-gains), -1.0);
+  for (int i = 0; i < 24; ++i) gains[i] = i % 2 == 0 ? 45.0 : -44.0;
+  EXPECT_LT(block_significance(gains), 1.0);
+}
+
 // ---- a driven axis, made here by its closed equation
 // -----------------------------------------------
 

@@ -12,6 +12,17 @@ namespace {
 
 constexpr double kTelling = 1.0;  ///< gain of a block that says something [nat]
 
+/// 0 if there are fewer than three.
+double mean_over_its_error(const std::vector<double>& values) {
+  if (values.size() < 3) return 0.0;
+  const auto n = static_cast<double>(values.size());
+  const Eigen::Map<const Eigen::ArrayXd> value(values.data(),
+                                               static_cast<Eigen::Index>(values.size()));
+  const double mean = value.mean();
+  const double variance = (value - mean).square().sum() / (n - 1.0);
+  return variance > 0.0 ? mean / std::sqrt(variance / n) : 0.0;
+}
+
 }  // namespace
 
 Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales)
@@ -180,17 +191,13 @@ std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
 }
 
 double block_significance(const Eigen::VectorXd& gains) {
-  std::vector<double> sizes;
+  std::vector<double> telling, sizes;
   for (const double gain : gains) {
-    if (std::abs(gain) > kTelling) sizes.push_back(std::asinh(gain));
+    if (!(std::abs(gain) > kTelling)) continue;
+    telling.push_back(gain);
+    sizes.push_back(std::asinh(gain));
   }
-  if (sizes.size() < 3) return 0.0;
-  const auto n = static_cast<double>(sizes.size());
-  const Eigen::Map<const Eigen::ArrayXd> size(sizes.data(),
-                                              static_cast<Eigen::Index>(sizes.size()));
-  const double mean = size.mean();
-  const double variance = (size - mean).square().sum() / (n - 1.0);
-  return variance > 0.0 ? mean / std::sqrt(variance / n) : 0.0;
+  return std::max(mean_over_its_error(telling), mean_over_its_error(sizes));
 }
 
 }  // namespace discovery
