@@ -59,10 +59,12 @@ TEST(ModelFit, AtABoundOneSideHasToDo) {
 }
 
 TEST(ModelFit, SeesThroughRuggedGround) {
-  // Teeth as long as a step: to one side they hide the slope.
-  const Problem problem(
-      [](double x) { return 0.2 * (x - 20.0) + 2.0 * (x - std::floor(x)) - 1.0; });
-  Fitted fitted = problem.start(80.0);
+  // Teeth as long as steps to both sides: to one side they hide the slope.
+  const Problem problem([](double x) {
+    const double teeth = x / 0.7;
+    return 0.2 * (x - 20.0) + 2.0 * (teeth - std::floor(teeth)) - 1.0;
+  });
+  Fitted fitted = problem.start(77.07);
   EXPECT_GT(fitted.sensitivity(0, 0), 2.0);
   problem.fit.polish(fitted, 1);
   EXPECT_NEAR(fitted.sensitivity(0, 0), 0.2, 0.05);

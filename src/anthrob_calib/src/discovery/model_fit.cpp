@@ -23,9 +23,11 @@ struct Way {
 constexpr Way kWays[] = {{1e-7, 1.0, false}, {1e-4, 1.0, false}, {1.0, 1.0, false},
                          {1e-4, 0.5, true},  {1e-4, 0.25, true}, {10.0, 1.0, true},
                          {100.0, 1.0, true}};
-// Steps that tell a sensitivity [scales].
+// Steps that tell a sensitivity [scales]. Those to both sides average over where friction sticks a
+// little earlier or later, but no farther than the valley is straight: of three cases whole scales
+// took two to three times as many rounds to a ground that was no lower.
 constexpr double kOneSide = 0.5;
-constexpr double kBothSides = 1.0;
+constexpr double kBothSides = 0.35;
 
 /// Steps along single unknowns.
 struct Steps {
