@@ -24,6 +24,9 @@ double misfit(const Fitted& fitted) {
 
 LikelihoodProfile::LikelihoodProfile(const ModelFit& fit, Fitted base)
     : fit_(fit), base_(std::move(base)) {
+  Variant coarse = base_.variant;
+  coarse.step = fit_.coarse_step();
+  fit_.move(base_, coarse);  // else by the usual step
   fit_on(fit_, base_);
 }
 

@@ -102,6 +102,7 @@ class ModelFit {
   }
   const Experiments& experiments() const { return experiments_; }
   const Eigen::VectorXf& whitening() const { return whitener_; }
+  double coarse_step() const { return coarse_; }  ///< of changes() [s]; 0: the usual one
 
  private:
   /// Where a step leads.
