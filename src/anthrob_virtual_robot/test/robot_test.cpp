@@ -259,17 +259,11 @@ TEST(BlindCase, SurfaceSitsWhereATendonTouchesIt) {
 
 TEST(BlindCase, EffectsSitWhereTheirSizeCanBeWhatIsAskedFor) {
   const auto& laws = catalogue_laws();
-  const auto is_friction = [](const HiddenLaw& law) { return law.id == "eyelet_friction"; };
+  const auto is_backlash = [](const HiddenLaw& law) { return law.id == "gear_backlash"; };
   const auto number =
-      static_cast<std::uint64_t>(std::find_if(laws.begin(), laws.end(), is_friction) - laws.begin());
-  const CaseSettings asked = settings();
-  // At some of its muscles no plausible friction changes that much; drawn cases avoid those.
-  std::size_t too_faint = 0;
-  for (const std::string& place : laws[number].places(model_I())) {
-    const BlindCase there = make_case({{laws[number].id, place}}, 1, model_I(), asked);
-    too_faint += worst(there.change).second < 0.8 * asked.least_change;
-  }
-  EXPECT_GT(too_faint, 0u);
+      static_cast<std::uint64_t>(std::find_if(laws.begin(), laws.end(), is_backlash) - laws.begin());
+  CaseSettings asked = settings();
+  asked.train = 5.0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const BlindCase drawn = draw_case(CaseKind::kEffect, number, seed, model_I(), asked);
     EXPECT_GE(worst(drawn.change).second, 0.8 * asked.least_change) << drawn.hidden[0].place;
