@@ -239,7 +239,6 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
       if (shows && 1.0 / std::sqrt(left) < score.uncertainty) {
         score.uncertainty = 1.0 / std::sqrt(left);
         score.size = static_cast<std::size_t>(i);
-        score.left = left / whole[i];
       }
       if (!visible) h(i, i) += 1.0;
     }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kRough = 8;           ///< iterations by the first slopes
 constexpr int kPolish = 8;          ///< iterations by the same slopes
-constexpr int kSettling = 8;        ///< times that slopes are simulated anew
+constexpr int kSettling = 4;        ///< times that slopes are simulated anew
 constexpr double kSettled = 5e-4;   ///< share of the cost
 constexpr double kAtTheEnd = 5e-4;  ///< share of the cost
 constexpr int kFinishing = 5;       ///< rounds of exact slopes

@@ -20,7 +20,6 @@ struct Score {
   /// it is; infinite if a dose changes nothing that they cannot imitate.
   double uncertainty = 0.0;
   std::size_t size = 0;
-  double left = 1.0;     ///< share of that dose's squared change that they cannot imitate
   double seconds = 0.0;  ///< of recordings that say so; `gain` is per the shortest look at any
 };
 
