@@ -25,8 +25,13 @@ enum Stream : std::uint64_t {
 
 /// Of an effect that a calibration may partly correct at least half is left.
 constexpr double kBeyond = 2.0;
-/// So many places of a law are tried until it tells at one: slow ones take minutes at each.
+/// Doses end as near to what is asked for as that; a logarithm.
+constexpr double kRoughly = 0.18;
+constexpr double kNothing = 1e-6;  ///< [sensor errors]
+/// So many places of a law are tried: slow ones take minutes at each.
 constexpr std::size_t kMostPlaces = 6;
+/// So many laws and places of a pair are; then they are taken as they come.
+constexpr int kMostDraws = 100;
 
 constexpr std::pair<const char*, CaseKind> kKinds[] = {{"effect", CaseKind::kEffect},
                                                        {"null", CaseKind::kNull},
@@ -120,19 +125,16 @@ double correctable(const std::vector<ModelParameter>& ordinary, const Hidden& hi
   return 0.0;
 }
 
-/// The dose ends as near to what is asked for as that, both ways [1].
-constexpr double kRoughly = 1.2;
-
 /// A hidden thing, and what it alone changes in the worst channel [sensor errors].
 struct Sized {
   Hidden hidden;
   double change = 0.0;
 
-  /// Whether that is what cases ask for. Of a law whose size is not drawn, at least.
-  bool tells(const CaseSettings& settings) const {
+  /// By what factor that is less than cases ask for, or more if its size is drawn; a logarithm.
+  double off(const CaseSettings& settings) const {
+    const double less = std::log(settings.least_change / std::max(change, kNothing));
     const bool is_drawn = !hidden_law(hidden.id).sizes.empty();
-    return change >= settings.least_change / kRoughly &&
-           (!is_drawn || change <= settings.most_change * kRoughly);
+    return std::max({less, is_drawn ? std::log(change / settings.most_change) : 0.0, 0.0});
   }
 };
 
@@ -183,35 +185,31 @@ Hidden& hide(const HiddenLaw& law, const std::string& place, Random* random, Bli
   return blind->hidden.back();
 }
 
-/// The same of a size that is drawn. @return whether that tells
-bool hide_sized(const HiddenLaw& law, const std::string& place, const CaseSettings& settings,
-                Random* random, Random* sizes, BlindCase* blind, double* change) {
+/// The same of a size that is drawn. @return how far off what cases ask for (Sized::off)
+double hide_sized(const HiddenLaw& law, const std::string& place, const CaseSettings& settings,
+                  Random* random, Random* sizes, BlindCase* blind) {
   Hidden& hidden = hide(law, place, random, blind);
   const Sized drawn = sized(Change(*blind, settings), settings, hidden, sizes);
   hidden = drawn.hidden;
-  *change = drawn.change;
-  return drawn.tells(settings);
+  return drawn.off(settings);
 }
 
 /// At the first of its places at which it changes what cases ask for, counted from half a round
-/// further for each k; if it does at none of those that are tried, where it changes most.
+/// further for each k; if it does at none of those that are tried, where it comes closest to that.
 BlindCase with_effect(const BlindCase& bare, const HiddenLaw& law, std::uint64_t k,
                       std::uint64_t seed, const CaseSettings& settings) {
   const std::vector<std::string> places = shuffled_places(law, bare.built, seed);
   const std::size_t first = k * (places.size() / 2);
   BlindCase best;
-  double most = -1.0;
-  for (std::size_t i = 0; i < places.size() && i < kMostPlaces; ++i) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < places.size() && i < kMostPlaces && least > kRoughly; ++i) {
     BlindCase blind = bare;
     Random random(blind.seed, kParameters), sizes(blind.seed, kSize);
-    double change = 0.0;
     const std::string& place = places[(first + i) % places.size()];
-    const bool tells = hide_sized(law, place, settings, &random, &sizes, &blind, &change);
-    if (tells) return blind;
-    if (change > most) {
-      most = change;
-      best = std::move(blind);
-    }
+    const double off = hide_sized(law, place, settings, &random, &sizes, &blind);
+    if (off >= least) continue;
+    least = off;
+    best = std::move(blind);
   }
   return best;
 }
@@ -221,15 +219,15 @@ BlindCase with_pair(const BlindCase& bare, std::uint64_t seed, const CaseSetting
   BlindCase blind = bare;
   Random random(blind.seed, kParameters), sizes(blind.seed, kSize);
   const auto& laws = catalogue_laws();
-  while (blind.hidden.size() < 2) {
+  for (int draw = 0; blind.hidden.size() < 2; ++draw) {
     const HiddenLaw& law = laws[random.below(laws.size())];
     if (law.slow || law.sizes.empty()) continue;
     if (!blind.hidden.empty() && blind.hidden.front().id == law.id) continue;
     const std::vector<std::string> places = shuffled_places(law, blind.built, seed);
     const std::string& place = places[random.below(1000) % places.size()];
     BlindCase more = blind;
-    double change = 0.0;
-    if (hide_sized(law, place, settings, &random, &sizes, &more, &change)) blind = std::move(more);
+    const double off = hide_sized(law, place, settings, &random, &sizes, &more);
+    if (off <= kRoughly || draw >= kMostDraws) blind = std::move(more);
   }
   return blind;
 }
@@ -308,8 +306,7 @@ BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws
     if (std::find(places.begin(), places.end(), place) == places.end()) {
       throw std::invalid_argument(id + " cannot sit at " + place + "; it can at " + places.front());
     }
-    double change = 0.0;
-    hide_sized(law, place, settings, &random, &sizes, &blind, &change);
+    hide_sized(law, place, settings, &random, &sizes, &blind);
   }
   blind.change = Change(blind, settings).of(blind.hidden);
   return blind;
