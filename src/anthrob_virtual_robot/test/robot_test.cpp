@@ -260,8 +260,8 @@ TEST(BlindCase, SurfaceSitsWhereATendonTouchesIt) {
 TEST(BlindCase, EffectsSitWhereTheirSizeCanBeWhatIsAskedFor) {
   const auto& laws = catalogue_laws();
   const auto is_backlash = [](const HiddenLaw& law) { return law.id == "gear_backlash"; };
-  const auto number =
-      static_cast<std::uint64_t>(std::find_if(laws.begin(), laws.end(), is_backlash) - laws.begin());
+  const auto number = static_cast<std::uint64_t>(
+      std::find_if(laws.begin(), laws.end(), is_backlash) - laws.begin());
   CaseSettings asked = settings();
   asked.train = 5.0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
