@@ -25,12 +25,12 @@ enum Stream : std::uint64_t {
 
 /// Of an effect that a calibration may partly correct at least half is left.
 constexpr double kBeyond = 2.0;
-/// Doses end as near to what is asked for as that; a logarithm.
+/// A dose ends within 0.12 of its target; a little more is let pass. A logarithm.
 constexpr double kRoughly = 0.18;
 constexpr double kNothing = 1e-6;  ///< [sensor errors]
-/// So many places of a law are tried: slow ones take minutes at each.
+/// So many places of a law are tried if its size is drawn: slow ones take minutes at each.
 constexpr std::size_t kMostPlaces = 6;
-/// So many laws and places of a pair are; then they are taken as they come.
+/// Laws and places of a pair are drawn so often; then they are taken as they come.
 constexpr int kMostDraws = 100;
 
 constexpr std::pair<const char*, CaseKind> kKinds[] = {{"effect", CaseKind::kEffect},
@@ -125,16 +125,19 @@ double correctable(const std::vector<ModelParameter>& ordinary, const Hidden& hi
   return 0.0;
 }
 
-/// A hidden thing, and what it alone changes in the worst channel [sensor errors].
+/// A hidden thing, and what it alone changes in every channel [sensor errors].
 struct Sized {
   Hidden hidden;
-  double change = 0.0;
+  std::map<std::string, double> change;
 
-  /// By what factor that is less than cases ask for, or more if its size is drawn; a logarithm.
+  /// By what factor the worst channel changes less than cases ask for, or more, if the size is
+  /// drawn; a logarithm, 0 if it does neither.
   double off(const CaseSettings& settings) const {
-    const double less = std::log(settings.least_change / std::max(change, kNothing));
-    const bool is_drawn = !hidden_law(hidden.id).sizes.empty();
-    return std::max({less, is_drawn ? std::log(change / settings.most_change) : 0.0, 0.0});
+    const double worst_change = std::max(worst(change).second, kNothing);
+    const double less = std::log(settings.least_change / worst_change);
+    if (hidden_law(hidden.id).sizes.empty()) return std::max(less, 0.0);
+    const double more = std::log(worst_change / settings.most_change);
+    return std::max({less, more, 0.0}) <= kRoughly ? 0.0 : std::max(less, more);
   }
 };
 
@@ -143,14 +146,16 @@ Sized sized(const Change& change, const CaseSettings& settings, const Hidden& hi
             Random* random) {
   const HiddenLaw& law = hidden_law(hidden.id);
   const double target = random->log_uniform(settings.least_change, settings.most_change);
-  const auto of = [&](const Hidden& one) { return worst(change.of({one})).second; };
-  if (law.sizes.empty()) return {hidden, of(hidden)};
+  if (law.sizes.empty()) return {hidden, change.of({hidden})};
   const double least = std::max(law.least, kBeyond * correctable(settings.ordinary, hidden) /
                                                std::abs(hidden[law.sizes.front()]));
-  const double factor = dose([&](double f) { return of(scaled(hidden, f)); }, target, least,
-                             std::max(least, law.most));
-  const Hidden drawn = scaled(hidden, factor);
-  return {drawn, of(drawn)};
+  std::map<double, std::map<std::string, double>> tried;
+  const auto worst_of = [&](double factor) {
+    tried[factor] = change.of({scaled(hidden, factor)});
+    return worst(tried[factor]).second;
+  };
+  const double factor = dose(worst_of, target, least, std::max(least, law.most));
+  return {scaled(hidden, factor), tried.at(factor)};
 }
 
 /// What makes one null harder than another.
@@ -191,21 +196,25 @@ double hide_sized(const HiddenLaw& law, const std::string& place, const CaseSett
   Hidden& hidden = hide(law, place, random, blind);
   const Sized drawn = sized(Change(*blind, settings), settings, hidden, sizes);
   hidden = drawn.hidden;
+  blind->change = drawn.change;
   return drawn.off(settings);
 }
 
-/// At the first of its places at which it changes what cases ask for, counted from half a round
-/// further for each k; if it does at none of those that are tried, where it comes closest to that.
+/// At the first of its places, counted from the k-th, at which it changes what cases ask for; if it
+/// does at none of those that are tried, where it comes closest to that.
 BlindCase with_effect(const BlindCase& bare, const HiddenLaw& law, std::uint64_t k,
                       std::uint64_t seed, const CaseSettings& settings) {
   const std::vector<std::string> places = shuffled_places(law, bare.built, seed);
-  const std::size_t first = k * (places.size() / 2);
+  const std::size_t count = places.size();
+  // By turns in both halves, so that what is tried of one turn is not tried of the next.
+  const std::size_t first = k % 2 * (count / 2) + k / 2;
+  const std::size_t tried = law.sizes.empty() ? count : std::min(count, kMostPlaces);
   BlindCase best;
   double least = HUGE_VAL;
-  for (std::size_t i = 0; i < places.size() && i < kMostPlaces && least > kRoughly; ++i) {
+  for (std::size_t i = 0; i < tried && least > 0.0; ++i) {
     BlindCase blind = bare;
     Random random(blind.seed, kParameters), sizes(blind.seed, kSize);
-    const std::string& place = places[(first + i) % places.size()];
+    const std::string& place = places[(first + i) % count];
     const double off = hide_sized(law, place, settings, &random, &sizes, &blind);
     if (off >= least) continue;
     least = off;
@@ -227,8 +236,9 @@ BlindCase with_pair(const BlindCase& bare, std::uint64_t seed, const CaseSetting
     const std::string& place = places[random.below(1000) % places.size()];
     BlindCase more = blind;
     const double off = hide_sized(law, place, settings, &random, &sizes, &more);
-    if (off <= kRoughly || draw >= kMostDraws) blind = std::move(more);
+    if (off == 0.0 || draw >= kMostDraws) blind = std::move(more);
   }
+  blind.change = Change(blind, settings).of(blind.hidden);
   return blind;
 }
 
@@ -278,18 +288,16 @@ BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
     case CaseKind::kEffect:
     case CaseKind::kOutside: {
       const auto& laws = kind == CaseKind::kOutside ? outside_laws() : catalogue_laws();
-      blind = with_effect(blind, laws[number % laws.size()], number / laws.size(), seed, settings);
-      break;
+      return with_effect(blind, laws[number % laws.size()], number / laws.size(), seed, settings);
     }
     case CaseKind::kPair:
-      blind = with_pair(blind, seed, settings);
+      return with_pair(blind, seed, settings);
+    case CaseKind::kWrapped:
       break;
-    case CaseKind::kWrapped: {
-      Random random(blind.seed, kParameters);
-      for (const std::string& muscle : muscle_places(blind.built)) {
-        hide(hidden_law("wrapping_surface"), muscle, &random, &blind);
-      }
-    }
+  }
+  Random random(blind.seed, kParameters);
+  for (const std::string& muscle : muscle_places(blind.built)) {
+    hide(hidden_law("wrapping_surface"), muscle, &random, &blind);
   }
   blind.change = Change(blind, settings).of(blind.hidden);
   return blind;
@@ -306,9 +314,11 @@ BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws
     if (std::find(places.begin(), places.end(), place) == places.end()) {
       throw std::invalid_argument(id + " cannot sit at " + place + "; it can at " + places.front());
     }
-    hide_sized(law, place, settings, &random, &sizes, &blind);
+    hide(law, place, &random, &blind);
   }
-  blind.change = Change(blind, settings).of(blind.hidden);
+  const Change change(blind, settings);
+  for (Hidden& hidden : blind.hidden) hidden = sized(change, settings, hidden, &sizes).hidden;
+  if (!blind.hidden.empty()) blind.change = change.of(blind.hidden);
   return blind;
 }
 

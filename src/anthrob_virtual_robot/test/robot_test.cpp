@@ -269,6 +269,32 @@ TEST(BlindCase, EffectsSitWhereTheirSizeCanBeWhatIsAskedFor) {
     EXPECT_GE(worst(drawn.change).second, 0.8 * asked.least_change) << drawn.hidden[0].place;
     EXPECT_LE(worst(drawn.change).second, 1.2 * asked.most_change) << drawn.hidden[0].place;
   }
+  // There is a muscle at which no play does that: the order of places alone would not do.
+  bool all_do = true;
+  for (const char* place : {"lateral_deltoid", "infraspinatus", "anterior_deltoid"}) {
+    const BlindCase there = make_case({{"gear_backlash", place}}, 1, model_I(), asked);
+    all_do = all_do && worst(there.change).second > 0.8 * asked.least_change;
+  }
+  EXPECT_FALSE(all_do);
+  // Where none does there still is a case.
+  asked.least_change = asked.most_change = 1e6;
+  EXPECT_EQ(draw_case(CaseKind::kEffect, number, 1, model_I(), asked).hidden.size(), 1u);
+}
+
+TEST(BlindCase, PairsAreTwoLawsWhateverIsHiddenFirst) {
+  CaseSettings brief = settings();
+  brief.train = 3.0;
+  brief.slow_train = 6.0;
+  const BlindCase pair = draw_case(CaseKind::kPair, 0, 1, model_I(), brief);
+  ASSERT_EQ(pair.hidden.size(), 2u);
+  EXPECT_NE(pair.hidden[0].id, pair.hidden[1].id);
+  // A slow one makes recordings longer, by which the quick one is sized, too.
+  const std::pair<std::string, std::string> quick{"force_sensor_gain", "lateral_deltoid"},
+      slow{"tendon_creep", "biceps_brachii"};
+  const BlindCase a = make_case({quick, slow}, 1, model_I(), brief);
+  EXPECT_TRUE(a.slow);
+  const BlindCase alone = make_case({quick}, 1, model_I(), brief);
+  EXPECT_NE(a.hidden[0]["gain"], alone.hidden[0]["gain"]);
 }
 
 TEST(BlindCase, LengthThatACalibrationCorrectsIsNoChangeBySurfaces) {

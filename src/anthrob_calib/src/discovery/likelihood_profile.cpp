@@ -24,9 +24,11 @@ double misfit(const Fitted& fitted) {
 
 LikelihoodProfile::LikelihoodProfile(const ModelFit& fit, Fitted base)
     : fit_(fit), base_(std::move(base)) {
-  Variant coarse = base_.variant;
-  coarse.step = fit_.coarse_step();
-  fit_.move(base_, coarse);  // else by the usual step
+  if (fit_.coarse_step() > 0.0) {
+    Variant coarse = base_.variant;
+    coarse.step = fit_.coarse_step();
+    fit_.move(base_, coarse);  // stays at the usual step where it cannot be simulated so
+  }
   fit_on(fit_, base_);
 }
 

@@ -13,7 +13,7 @@ namespace discovery {
 class LikelihoodProfile {
  public:
   /// @param base fitted without the effect, its sensitivities known; it is fitted a little further,
-  /// like what is compared with it
+  /// like what is compared with it, both by the fit's coarse step, whose error is in both
   LikelihoodProfile(const ModelFit& fit, Fitted base);
 
   /// The mean of both sides: what is in the data already makes one of them higher and the other

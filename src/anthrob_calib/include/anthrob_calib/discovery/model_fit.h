@@ -60,7 +60,8 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator);
 /// which are few and less linear, once more after the first step.
 class ModelFit {
  public:
-  /// @param coarse step of the simulations of changes() [s]; 0: as usual
+  /// @param coarse step of simulations whose differences only count, as in changes() [s]; 0: as
+  /// usual
   ModelFit(const Evaluator& evaluator, Experiments experiments, Eigen::VectorXf whitener,
            double coarse = 0.0)
       : evaluator_(evaluator),
