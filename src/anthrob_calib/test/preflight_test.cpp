@@ -14,10 +14,11 @@ namespace {
 constexpr double kDose = 0.03;      // of a tilt [rad]
 constexpr double kDamping = 0.15;   // of the model's shoulder [Nms/rad]
 constexpr std::size_t kBins = 500;  // of each channel
+constexpr double kStep = 0.001;     // [s]
 
 /// A tilt of gravity by t doses and a shoulder's damping that is d tenths too high show as
 /// 20 (t - d) in one channel, so that d follows t; as t - cubic d^3 and a constant in another; and
-/// something that has nothing to do with either is large in a third one.
+/// something that has nothing to do with either is large in a third one, where a coarse step errs.
 class Tilted final : public Experiment {
  public:
   Tilted(double cubic, double constant, double large, std::size_t bins = kBins)
@@ -35,7 +36,8 @@ class Tilted final : public Experiment {
     const double t = std::asin(model->gravity.y() / model->gravity.norm()) / kDose;
     const auto shoulder = static_cast<std::size_t>(model->skeleton->find_joint("shoulder"));
     const double d = (model->skeleton->joints[shoulder].friction.viscous - kDamping) / 0.1;
-    const double change[] = {20.0 * (t - d), t - cubic_ * d * d * d, 0.0};
+    const double error = model->step > kStep ? 5.0 : 0.0;
+    const double change[] = {20.0 * (t - d), t - cubic_ * d * d * d, error};
     for (std::size_t b = 0; b < kChannels * bins_; ++b) {
       const std::size_t channel = b / bins_;
       out[b] = static_cast<float>(shown_[channel] + change[channel]);
@@ -51,13 +53,13 @@ class Tilted final : public Experiment {
 };
 
 struct TiltProblem {
-  explicit TiltProblem(double cubic, double constant = 0.0, double large = 0.0)
+  explicit TiltProblem(double cubic, double constant = 0.0, double large = 0.0, double coarse = 0.0)
       : half{{std::make_shared<Tilted>(cubic, constant, large, kBins / 2)}, {}},
         evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
                   {{"joints.shoulder.friction.viscous", "Nms/rad", kDamping, -10.0, 10.0, 0.01}},
-                  0.001, 1),
+                  kStep, 1),
         fit(evaluator, {std::make_shared<Tilted>(cubic, constant, large)},
-            Eigen::VectorXf::Ones(Tilted::kChannels * kBins)),
+            Eigen::VectorXf::Ones(Tilted::kChannels * kBins), coarse),
         judge(fit.experiments(), fit.whitening(), {}),
         candidates(list_candidates(evaluator, {"gravity_tilt"})),
         base(fit.start(Variant{{kDamping}}, nuisance_unknowns(evaluator))) {
@@ -99,6 +101,11 @@ TEST(LikelihoodProfile, IsWhatOrdinaryParametersCannotTakeUp) {
           << large;
     }
   }
+}
+
+TEST(LikelihoodProfile, ComparesWithTheCoarseStepWhereThereIsOne) {
+  const double usual = TiltProblem(0.5).rise(1.0);
+  EXPECT_NEAR(TiltProblem(0.5, 0.0, 0.0, 2.0 * kStep).rise(1.0), usual, 0.01 * usual);
 }
 
 TEST(PreFlight, WhatIsImitatedNotLinearlyMustBeLarger) {
