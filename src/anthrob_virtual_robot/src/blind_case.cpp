@@ -200,8 +200,8 @@ double hide_sized(const HiddenLaw& law, const std::string& place, const CaseSett
   return drawn.off(settings);
 }
 
-/// At the first of its places, counted from the k-th, at which it changes what cases ask for; if it
-/// does at none of those that are tried, where it comes closest to that.
+/// At the first of its places at which it changes what cases ask for, counted from another one for
+/// each k; if it does at none of those that are tried, where it comes closest to that.
 BlindCase with_effect(const BlindCase& bare, const HiddenLaw& law, std::uint64_t k,
                       std::uint64_t seed, const CaseSettings& settings) {
   const std::vector<std::string> places = shuffled_places(law, bare.built, seed);

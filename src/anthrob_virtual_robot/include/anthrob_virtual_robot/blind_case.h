@@ -47,8 +47,8 @@ struct BlindCase {
 };
 
 /// Case `number` of a kind: cycles through the laws, each time at another place, and where the law
-/// changes as much as is asked for, if it does anywhere. Sizes follow from runs with and without:
-/// this takes some runs of train_0.
+/// changes as much as is asked for, if it does at one of those that are tried. Sizes follow from
+/// runs with and without: this takes some runs of train_0 a place.
 BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
                     const reference::ArmParameters& believed, const CaseSettings& settings);
 /// The same of a given law and place.
