@@ -206,7 +206,7 @@ BlindCase with_effect(const BlindCase& bare, const HiddenLaw& law, std::uint64_t
                       std::uint64_t seed, const CaseSettings& settings) {
   const std::vector<std::string> places = shuffled_places(law, bare.built, seed);
   const std::size_t count = places.size();
-  // By turns in both halves, so that what is tried of one turn is not tried of the next.
+  // By turns in both halves, so that of many places two turns hardly try the same ones.
   const std::size_t first = k % 2 * (count / 2) + k / 2;
   const std::size_t tried = law.sizes.empty() ? count : std::min(count, kMostPlaces);
   BlindCase best;
