@@ -9,6 +9,7 @@
 
 #include "anthrob_calib/discovery/bootstrap.h"
 #include "anthrob_calib/discovery/run_off.h"
+#include "anthrob_calib/discovery/scatter.h"
 #include "anthrob_calib/discovery/screening.h"
 #include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/trials.h"
@@ -358,6 +359,36 @@ TEST(RunOff, WhatIsNoBetterThanFitsScatterStaysOpen) {
   EXPECT_EQ(laws.id(0), "joint_coulomb");
   EXPECT_NEAR(laws.list.named[0].probability, 0.63, 0.05);
   EXPECT_NEAR(laws.list.named[1].probability, 0.37, 0.05);
+}
+
+TEST(Scatter, OnlyLeadsBeyondItDecide) {
+  const Problem problem([](double, double, double) { return 0.0; });
+  const Tested base = problem.base(0.15);
+  const auto with_cost = [&](double cost) {
+    Tested tested = base;
+    tested.fit.cost = cost;
+    return tested;
+  };
+  const Tested far = with_cost(base.fit.cost + 1e5), end = base;
+  const auto sure = [&](double by_blocks, double lead) {
+    return allowing_for_scatter(by_blocks, problem.settling, far, end,
+                                with_cost(end.fit.cost + lead));
+  };
+  const auto sure_of_other = [&](double by_blocks, double lead) {
+    return allowing_for_scatter(by_blocks, problem.settling, far,
+                                with_cost(end.fit.cost + lead), end);
+  };
+  // 1 % of the gain: 1000 nat.
+  EXPECT_NEAR(sure(0.999, 1000.0), 0.841, 1e-3);
+  EXPECT_NEAR(sure_of_other(0.001, 1000.0), 0.159, 1e-3);
+  EXPECT_NEAR(sure(0.999, 0.0), 0.5, 1e-9);
+  EXPECT_EQ(sure(0.999, 4000.0), 0.999);
+  EXPECT_EQ(sure_of_other(0.001, 4000.0), 0.001);
+  EXPECT_EQ(sure(0.6, 1000.0), 0.6);  // what the blocks leave open stays open
+  EXPECT_EQ(sure_of_other(0.4, 1000.0), 0.4);
+  // Blocks and sums may disagree: then neither is sure.
+  EXPECT_EQ(sure_of_other(0.9, 1000.0), 0.5);
+  EXPECT_EQ(sure(0.1, 1000.0), 0.5);
 }
 
 TEST(RunOff, WhatIsLeftFarBehindIsLost) {

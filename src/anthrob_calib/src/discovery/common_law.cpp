@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/discovery/scatter.h"
 
 namespace anthrob {
 namespace discovery {
@@ -33,7 +34,9 @@ std::optional<Naming::Odds> CommonLaw::odds(std::size_t law, const Tested& with,
   if (rough.cost - with.fit.cost > kOutOfReach * gained) return std::nullopt;
   const Tested alone = bench_.tested(bench_.settling.to_the_end(rough));
   if (alone.test.size() == 0) return std::nullopt;
-  return bench_.naming.odds(alone.test, with.test);
+  Naming::Odds odds = bench_.naming.odds(alone.test, with.test);
+  odds.probability = allowing_for_scatter(odds.probability, bench_.settling, base, alone, with);
+  return odds;
 }
 
 }  // namespace discovery

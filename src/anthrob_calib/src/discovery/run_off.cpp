@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "anthrob_calib/discovery/merit.h"
+#include "anthrob_calib/discovery/scatter.h"
 
 namespace anthrob {
 namespace discovery {
@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kComesNear = 0.5;   ///< share of the first one's gain
 constexpr double kLagsBehind = 0.4;  ///< lacking that after rough steps is lost
-constexpr double kScatter = 0.01;    ///< the same, by which ends of fits differ for no reason
 
 }  // namespace
 
@@ -41,21 +40,12 @@ bool RunOff::finish(Named& named, double level) const {
   return true;
 }
 
-/// Of what two laws have together, that of the better one. Fits of one law to one recording end as
-/// far apart as kScatter, or as what a last round may leave, and the true law may differ from both
-/// by as much: evidence of that size decides nothing, however many blocks agree.
+/// Of what two laws have together, that of the better one.
 double RunOff::share_of_better(const Tested& base, const ShortList& end) const {
   if (end.named.size() == 1) return 1.0;
   const Named &better = end.named[0], &other = end.named[1];
-  const auto total = [](const Tested& t) {
-    return t.fit.cost + 0.5 * t.test.cast<double>().squaredNorm();
-  };
-  const double lead = total(other) - total(better), gain = total(base) - total(better);
-  const double scatter = std::max({kScatter * gain, bench_.settling.left_open(better.fit),
-                                   bench_.settling.left_open(other.fit)});
-  const double by_scatter = 0.5 * std::erfc(-lead / scatter * M_SQRT1_2);
   const double by_blocks = better.probability / (better.probability + other.probability);
-  return std::min(by_blocks, std::max(0.5, by_scatter));
+  return allowing_for_scatter(by_blocks, bench_.settling, base, better, other);
 }
 
 void RunOff::decide(const Tested& base, ShortList& list) const {
