@@ -95,11 +95,13 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
     status.message += ", zero lost: home first";
   }
   if (report.fault != ecu::Fault::kNone) {
-    status.message += std::string("; ") + ecu::name(report.fault) + " (" +
-                      muscle_of(driver, link, report.muscle).name + ")";
+    status.message += std::string("; ") + ecu::name(report.fault);
+    if (!ecu::concerns_unit(report.fault)) {
+      status.message += " (" + muscle_of(driver, link, report.muscle).name + ")";
+    }
   }
   status.values = {
-      key_value("stop_latched", driver.supervisor().stop_latched() ? "true" : "false"),
+      key_value("stop_latched", link.stop_latched() ? "true" : "false"),
       key_value("fault", ecu::name(report.fault)),
       key_value("session", std::to_string(report.session)),
       key_value("configured", link.configured() ? "true" : "false"),

@@ -87,7 +87,8 @@ double DriverNode::command_age(const ros::Time& stamp) const {
 void DriverNode::pass_commands() {
   // The round that runs now may have begun before the last of them came.
   const std::uint64_t passed = command_rounds_ + 2;
-  while (command_rounds_ < passed && ros::ok()) std::this_thread::sleep_for(kPause);
+  while (command_rounds_ < passed && !ros::isShuttingDown())
+    std::this_thread::sleep_for(kPause);
 }
 
 DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, Commands commands) {
@@ -99,7 +100,7 @@ DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, C
     refusing = pending && commands == Commands::kRefused;
     if (refusing) ++dropping_;
   });
-  while (pending && ros::ok()) {
+  while (pending && !ros::isShuttingDown()) {
     std::this_thread::sleep_for(kPause);
     thread_.call([&](RobotDriver& driver, double now) { pending = look(driver, now, outcome); });
   }
@@ -178,20 +179,28 @@ double DriverNode::age(double time, std::int64_t kernel_ns) const {
   return measurement_age(pace_ * monotonic_now() - time, since_wire);
 }
 
-ros::Time DriverNode::stamp(double age) {
-  // ROS time may be another than both clocks of the driver: what carries over is the age.
+ros::Time DriverNode::ros_now() {
   ros::Time now = ros::Time::now();
   if (ros::Time::isSimTime()) {
     now.fromSec(stamp_clock_.now(now.toSec(), pace_ * monotonic_now()));
   }
-  return now.toSec() > age ? now - ros::Duration(age) : now;
+  return now;
+}
+
+std::optional<ros::Time> DriverNode::stamp(double time, std::int64_t kernel_ns) {
+  // ROS time may be another than both clocks of the driver: what carries over is the age. ROS time
+  // comes first: if this thread is held up between the two a stamp is too old, never too new.
+  const ros::Time now = ros_now();
+  const double old = age(time, kernel_ns);
+  if (!(old <= kOldestMeasurement)) return std::nullopt;
+  return now.toSec() > old ? now - ros::Duration(old) : now;
 }
 
 void DriverNode::publish_measurements(double wait) {
   const DriverThread::Batch batch = thread_.wait(wait);
   for (const Sample& sample : batch.samples) {
-    const double old = age(sample.time, sample.stamp_ns);
-    if (old <= kOldestMeasurement) publish(sample, stamp(old));
+    const std::optional<ros::Time> measured = stamp(sample.time, sample.stamp_ns);
+    if (measured) publish(sample, *measured);
   }
   for (const AnalogSample& sample : batch.analogs) {
     if (sample.kind == AnalogSample::Kind::kJoint) {
@@ -224,10 +233,10 @@ void DriverNode::publish(const Sample& sample, const ros::Time& stamp) {
 
 void DriverNode::publish_joints(const std::vector<AnalogSample>& readings) {
   if (readings.empty()) return;
-  const double old = age(readings.front().time, readings.front().stamp_ns);
-  if (old > kOldestMeasurement) return;
+  const auto measured = stamp(readings.front().time, readings.front().stamp_ns);
+  if (!measured) return;
   sensor_msgs::JointState states;
-  states.header.stamp = stamp(old);
+  states.header.stamp = *measured;
   for (const AnalogSample& reading : readings) {
     states.name.push_back(hardware_.joints[reading.sensor].joint);
     states.position.push_back(reading.value);
@@ -238,10 +247,10 @@ void DriverNode::publish_joints(const std::vector<AnalogSample>& readings) {
 
 void DriverNode::publish_touch(const std::vector<AnalogSample>& readings) {
   if (readings.empty()) return;
-  const double old = age(readings.front().time, readings.front().stamp_ns);
-  if (old > kOldestMeasurement) return;
+  const auto measured = stamp(readings.front().time, readings.front().stamp_ns);
+  if (!measured) return;
   anthrob_msgs::TouchStates touch;
-  touch.header.stamp = stamp(old);
+  touch.header.stamp = *measured;
   for (const AnalogSample& reading : readings) {
     touch.name.push_back(hardware_.touch[reading.sensor].name);
     touch.force.push_back(reading.value);
@@ -308,12 +317,18 @@ void DriverNode::run() {
   stops.start();
   ros::AsyncSpinner requests(kRequestThreads, &request_queue_);
   requests.start();
-  // Whatever ends this loop ends calls that wait for it, too, before their threads are joined.
+  // Whatever ends this loop stops the motors, and then ends calls that wait for it, before their
+  // threads are joined. ros::ok() would end it only after those calls, for which shutting down
+  // waits: `home` would go on winding.
   struct End {
-    ~End() { ros::shutdown(); }
-  } end;
+    DriverThread& thread;
+    ~End() {
+      thread.call([](RobotDriver& driver, double) { driver.disable(); });
+      ros::shutdown();
+    }
+  } end{thread_};
   report_time_ = monotonic_now();
-  while (ros::ok()) {
+  while (!ros::isShuttingDown()) {
     publish_measurements(0.002);
     ros::getGlobalCallbackQueue()->callAvailable();
     command_queue_.callAvailable();

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "anthrob_driver/driver_thread.h"
@@ -59,7 +60,9 @@ class DriverNode {
   void publish_measurements(double wait);
   /// [s] of the driver's time. @param time, kernel_ns of a Sample
   double age(double time, std::int64_t kernel_ns) const;
-  ros::Time stamp(double age);
+  ros::Time ros_now();
+  /// When it was measured; none if that is too long ago. @param time, kernel_ns of a Sample
+  std::optional<ros::Time> stamp(double time, std::int64_t kernel_ns);
   void publish(const Sample& sample, const ros::Time& stamp);
   /// @param readings of one instant, if any
   void publish_joints(const std::vector<AnalogSample>& readings);

@@ -99,7 +99,7 @@ void EcuLink::on_report(const ecu::StateReport& report, double now) {
   }
   if (heard_ && report.session != report_.session) {
     restarted_ = true;
-    next_ = 0;
+    next_ = passes_ = 0;
     waiting_ = false;
     findings_.add(Finding::kEcuRestarted, index_, now);
   }
@@ -138,6 +138,11 @@ bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
   if (waiting_ && now - sent_ < kReplyTimeout) return false;
   if (next_ >= count) {
     // All was read back, yet the checksum differs: once more, not too fast.
+    if (++passes_ > 1) {
+      findings_.add(Finding::kConfigurationRefused, index_, now,
+                    "all parameters read back, but not the checksum of all: it has another number "
+                    "of muscles than hardware.yaml gives it, or other firmware");
+    }
     next_ = 0;
     resume_ = now + kRetryPause;
     return false;

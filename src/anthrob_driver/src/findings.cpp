@@ -24,7 +24,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kEcuSilent, "ecu_silent", false, "an ECU that is configured was never heard", "switch it on; check its node number"},
     {Finding::kEcuLost, "ecu_lost", true, "no complete answer of an ECU to two SYNCs in a row", "check its power and cable; clear_faults, enable"},
     {Finding::kEcuRestarted, "ecu_restarted", true, "an ECU started anew: its zero is lost", "check its power; clear_faults, enable, home"},
-    {Finding::kEcuFault, "ecu_fault", true, "an ECU reports a fault, named in its diagnostics", "see the ECU's fault codes; clear_faults, enable"},
+    {Finding::kEcuFault, "ecu_fault", true, "an ECU reports a fault, named in its diagnostics", "see the ECU's fault codes; clear_faults, enable; home if its zero is lost"},
     {Finding::kEcuStopped, "ecu_stopped", true, "an ECU stopped by itself while enabled", "see its reason in diagnostics; enable again"},
     {Finding::kStopLatched, "stop_latched", true, "an ECU holds an emergency stop that did not come from here", "find who sent it; clear_faults, enable"},
     {Finding::kWrongVersion, "wrong_version", true, "an ECU speaks another version of the protocol", "flash the firmware that belongs to this driver"},

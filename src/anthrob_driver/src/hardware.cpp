@@ -300,6 +300,11 @@ class Loader {
     if (home.force_limit <= home.pretension) {
       node.at("force_limit").fail_expected("more than pretension");
     }
+    // A tendon grips from half of it on, and is held from four fifths on.
+    if (home.tolerance >= 0.5 * home.pretension) {
+      node.at("tolerance").fail_expected("less than half of pretension");
+    }
+    if (home.slip_drop <= 0.2) node.at("slip_drop").fail_expected("more than 0.2");
   }
 
   /// What is not given is taken from `home`.

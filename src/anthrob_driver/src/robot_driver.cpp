@@ -345,18 +345,19 @@ std::string RobotDriver::not_cleared() const {
 
 // ---- watching ----
 
-void RobotDriver::stop(Finding finding, int ecu) {
+void RobotDriver::stop(Finding finding, int ecu, const std::string& detail) {
   if (phase_ == Phase::kDisabled) return;
-  const FindingInfo& what = info(finding);
   const std::string who = ecu < 0 ? "" : links_[static_cast<std::size_t>(ecu)].own().name + ": ";
-  home_.abort(who + what.meaning);
-  if (phase_ == Phase::kEnabling) finish_enable(false, who + what.meaning);
+  const std::string what =
+      who + info(finding).meaning + (detail.empty() ? "" : " (" + detail + ")");
+  home_.abort(what);
+  if (phase_ == Phase::kEnabling) finish_enable(false, what);
   disable();
   // The unit that failed must be cleared by the user; the others are only disabled.
   if (ecu >= 0 && finding != Finding::kEcuStopped)
     supervisor_.fault(links_[static_cast<std::size_t>(ecu)].own().name);
-  last_outcome_ = {false, who + what.meaning};
-  note_stop(finding, who + what.meaning);
+  last_outcome_ = {false, what};
+  note_stop(finding, what);
 }
 
 void RobotDriver::obey_stop(int ecu) {
@@ -392,6 +393,10 @@ void RobotDriver::check_ecus(double now) {
       // While nothing runs too: its zero is lost, and the user must know before enabling.
       supervisor_.fault(link.own().name);
     }
+    if (ecu::loses_zero(link.report().fault)) {
+      supervisor_.lose_zero(link.own().name);
+      restarted_[e] = true;
+    }
     if (link.take_wrong_version()) stop(Finding::kWrongVersion, index);
     if (!link.heard()) {
       if (now - started_ > kSilence) findings_.add(Finding::kEcuSilent, index, now);
@@ -402,9 +407,10 @@ void RobotDriver::check_ecus(double now) {
       stop(Finding::kEcuLost, index);
       continue;
     }
-    if (link.state() == ecu::State::kFault) {
+    // One that is just being cleared is not found anew.
+    if (link.state() == ecu::State::kFault && !(phase_ == Phase::kDisabled && clearing(now))) {
       findings_.add(Finding::kEcuFault, index, now, ecu::name(link.report().fault));
-      stop(Finding::kEcuFault, index);
+      stop(Finding::kEcuFault, index, ecu::name(link.report().fault));
     }
     if (link.stop_latched() && !supervisor_.stop_latched() && now - cleared_ > kClearGrace) {
       findings_.add(Finding::kStopLatched, index, now);
@@ -412,7 +418,7 @@ void RobotDriver::check_ecus(double now) {
     }
     if (phase_ == Phase::kEnabled && link.state() != ecu::State::kEnabled) {
       findings_.add(Finding::kEcuStopped, index, now, ecu::name(link.report().fault));
-      stop(Finding::kEcuStopped, index);
+      stop(Finding::kEcuStopped, index, ecu::name(link.report().fault));
     }
     // A late enable from a queue, or from somebody else: nothing may be enabled now.
     if (phase_ == Phase::kDisabled && link.state() == ecu::State::kEnabled) disable_repeats_ = 1;
@@ -436,8 +442,7 @@ void RobotDriver::check_tendons(double now) {
     if (wrong.empty()) continue;
     const std::string detail = wired.name + ": " + wrong;
     findings_.add(Finding::kTendonSlack, wired.ecu, now, detail);
-    stop(Finding::kTendonSlack, wired.ecu);
-    last_stop_ += " (" + detail + ")";
+    stop(Finding::kTendonSlack, wired.ecu, detail);
   }
 }
 

@@ -383,7 +383,7 @@ class TableWriter : public testing::Environment {
     const char* file = std::getenv("FAULT_TABLE");
     if (file == nullptr) return;
     std::ofstream out(file);
-    out << "| fault, injected in motion | unit concerned [ms] | all units [ms] | of it by "
+    out << "| fault, injected in motion | unit concerned [ms] | all units [ms] | allowed by "
            "definition [ms] "
            "| named in diagnostics | afterwards |\n|---|---|---|---|---|---|\n";
     for (const std::string& row : table_rows) out << row << "\n";

@@ -176,6 +176,8 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"sensors.yaml", "gain: 0.01", "gain: 0.005", "units.type_1.current_limit: 16"},
       {"sensors.yaml", "gain: 0.06", "gain: 0.03", "which the sensor of lateral_deltoid reads"},
       {"hardware.yaml", "force_limit: 20.0", "force_limit: 2.0", "home.force_limit"},
+      {"hardware.yaml", "tolerance: 1.0", "tolerance: 2.5", "home.tolerance"},
+      {"hardware.yaml", "slip_drop: 0.5", "slip_drop: 0.2", "home.slip_drop"},
       {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_9}", "ecu_9"},
       {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_1}",
        "already has 2"},

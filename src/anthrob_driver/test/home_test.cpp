@@ -320,6 +320,27 @@ TEST_F(HomeTest, AUnitThatRestartedTakesNoPositionsBeforeIt) {
   EXPECT_TRUE(command("infraspinatus", ecu::Mode::kPosition, 1.0).accepted);
 }
 
+TEST_F(HomeTest, ASpindleThatMayHaveTurnedUncountedTakesNoPositionsBeforeIt) {
+  const auto muscle = static_cast<std::size_t>(rig.hardware.ecus[2].muscles.front());
+  const std::string& name = rig.hardware.muscles[muscle].name;
+  ASSERT_TRUE(command(name, ecu::Mode::kPosition, 0.0).accepted);
+  rig.plant.jam(muscle);
+  ASSERT_TRUE(command(name, ecu::Mode::kVoltage, 8.0).accepted);
+  rig.run(400);
+  ASSERT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
+  EXPECT_NE(rig.driver().last_stop().find("ecu_3: an ECU reports a fault"), std::string::npos);
+  EXPECT_NE(rig.driver().last_stop().find("(encoder)"), std::string::npos)
+      << rig.driver().last_stop();
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kEcuFault), 0u) << "it was cleared";
+  ASSERT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+  EXPECT_EQ(command(name, ecu::Mode::kPosition, 0.0).reason,
+            "muscle '" + name + "': ecu_3 has lost its zero: call home first");
+  EXPECT_TRUE(command(name, ecu::Mode::kForce, 2.0).accepted);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+}
+
 TEST_F(HomeTest, AHomeThatFailedBringsNoZeroBack) {
   restart(2);
   rig.plant.cut(3);

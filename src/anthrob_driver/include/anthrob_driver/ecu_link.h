@@ -105,6 +105,7 @@ class EcuLink {
 
   // Upload of the configuration: one parameter at a time, each read back.
   int next_ = 0;
+  int passes_ = 0;  ///< over all parameters, since the unit started
   std::uint8_t sequence_ = 0;
   bool waiting_ = false;     ///< for a reply
   bool zero_asked_ = false;  ///< which is to a zero

@@ -122,7 +122,8 @@ class RobotDriver {
   void continue_zero(double now);
   void fail_home(double now);
   void finish_enable(bool success, const std::string& reason);
-  void stop(Finding finding, int ecu);
+  /// @param detail which fault, which tendon; may be empty
+  void stop(Finding finding, int ecu, const std::string& detail = "");
   /// Somebody else pressed stop. @param ecu which holds it; -1: a frame on the bus
   void obey_stop(int ecu);
   void note_stop(Finding finding, const std::string& what);

@@ -43,5 +43,15 @@ constexpr bool stops_gently(Fault fault) {
   return fault == Fault::kSyncLost || fault == Fault::kReferenceLost || fault == Fault::kBusOff;
 }
 
+/// Of the whole unit, not of one of its muscles.
+constexpr bool concerns_unit(Fault fault) {
+  return stops_gently(fault) || fault == Fault::kSupplyLow || fault == Fault::kSupplyHigh;
+}
+
+/// Whether the spindle may have turned uncounted: positions mean nothing until `home`.
+constexpr bool loses_zero(Fault fault) {
+  return fault == Fault::kPositionLimit || fault == Fault::kOverSpeed || fault == Fault::kEncoder;
+}
+
 }  // namespace ecu
 }  // namespace anthrob
