@@ -57,6 +57,7 @@ class ComputedForceNode {
                     const anthrob::RobotLink::Options& options)
       : name_(nh.getNamespace() + ": computed_force"),
         settings_(settings),
+        options_(options),
         controller_(model, settings),
         link_(nh, model, options),
         diagnostics_(nh.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
@@ -66,12 +67,17 @@ class ComputedForceNode {
 
   void run() {
     while (link_.wait()) {
-      if (link_.time_jumped()) controller_.reset();
+      check_period();
+      if (link_.time_jumped()) {
+        controller_.reset();
+        silent_ = 0.0;
+      }
       trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
       if (trouble_.empty()) trouble_ = missing_force();
       if (!trouble_.empty()) {
-        // Nothing is sent on stale measurements: after command_timeout the motors stop.
-        controller_.reset();
+        // Nothing is sent on stale measurements: after command_timeout the motors stop. The
+        // controller is told how long it was, and decides what is past.
+        silent_ += link_.dt();
       } else {
         control();
       }
@@ -80,6 +86,15 @@ class ComputedForceNode {
   }
 
  private:
+  /// @throws BadInput if simulation steps make another period than the settings ask for
+  void check_period() const {
+    const double dt = link_.dt(), period = 1.0 / settings_.rate;
+    if (!options_.lock_step || dt == 0.0 || std::abs(dt - period) < 1e-6) return;
+    throw BadInput("parameter ~steps: " + std::to_string(options_.steps) + ": take " +
+                   std::to_string(dt) + " s; expected as many as make " + std::to_string(period) +
+                   " s, the period of the settings' rate");
+  }
+
   /// Voltages are this node's own force law; FORCE and POSITION are the units'.
   std::string missing_force() const {
     const bool needed = settings_.hold_output == anthrob::ecu::Mode::kVoltage ||
@@ -95,7 +110,8 @@ class ComputedForceNode {
     // Also of those that were, and are again, while this node had no processor.
     if (link_.take_disabled() || !idle_.empty()) controller_.reset();
     const anthrob::ForceCommand& wanted =
-        controller_.update(link_.state().measurement(), link_.dt());
+        controller_.update(link_.state().measurement(), silent_ + link_.dt());
+    silent_ = 0.0;
     shortfall_ = wanted.shortfall.norm();
     converged_ = wanted.converged;
     link_.send(anthrob::make_command(controller_.model(), wanted.mode, wanted.reference));
@@ -158,12 +174,14 @@ class ComputedForceNode {
 
   std::string name_;
   anthrob::ControlSettings settings_;
+  anthrob::RobotLink::Options options_;
   anthrob::ComputedForce controller_;
   anthrob::RobotLink link_;
   ros::Publisher diagnostics_;
   std::vector<ros::ServiceServer> services_;
   std::string trouble_ = "nothing measured yet", reported_trouble_, idle_;
   double shortfall_ = 0.0;
+  double silent_ = 0.0;  ///< since the last command [s]
   bool converged_ = true;
   ros::WallTime reported_;
 };

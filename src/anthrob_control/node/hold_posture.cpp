@@ -51,6 +51,7 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   anthrob::Simulation scratch(model);
   const anthrob::Equilibrium equilibrium =
       anthrob::find_equilibrium(scratch, step->q, sequence.options);
+  anthrob::refuse_if_not_holdable(wanted, *model, equilibrium);
 
   ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 1);
   if (!ros::service::waitForService("sim/set_state", ros::Duration(-1))) return false;

@@ -74,6 +74,14 @@ PostureSequence PostureSequence::load(const std::string& file, const RobotModel&
   return sequence;
 }
 
+void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
+                            const Equilibrium& equilibrium) {
+  const double shortfall = equilibrium.shortfall.norm();
+  if (shortfall <= kHoldable) return;
+  throw BadInput("posture '" + name + "': the muscles of " + model.file + " cannot hold it: " +
+                 std::to_string(shortfall) + " Nm short");
+}
+
 std::vector<std::vector<double>> PostureSequence::references(
     const std::shared_ptr<const RobotModel>& model) const {
   Simulation scratch(model);
@@ -84,11 +92,7 @@ std::vector<std::vector<double>> PostureSequence::references(
       continue;
     }
     const Equilibrium equilibrium = find_equilibrium(scratch, step.q, options);
-    if (equilibrium.shortfall.norm() > kHoldable) {
-      throw BadInput("posture '" + step.name + "': the muscles of " + model->file +
-                     " cannot hold it: " + std::to_string(equilibrium.shortfall.norm()) +
-                     " Nm short");
-    }
+    refuse_if_not_holdable(step.name, *model, equilibrium);
     list.push_back(equilibrium.reference);
   }
   return list;

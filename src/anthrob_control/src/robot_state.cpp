@@ -50,8 +50,8 @@ void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, 
                             double stamp) {
   const int index = model_->find_muscle(name);
   if (index < 0) return;
-  was_disabled_ = was_disabled_ || (!enabled && model_->muscles[index].has_controller);
   if (!std::isfinite(m.position + m.velocity + m.current) || std::isinf(m.force)) return;
+  was_disabled_ = was_disabled_ || (!enabled && model_->muscles[index].has_controller);
   measured_.muscles[index] = m;
   enabled_[index] = enabled;
   muscle_stamps_[index] = stamp;

@@ -81,8 +81,10 @@ TEST_F(RobotStateTest, RemembersAStopUntilItIsAskedFor) {
   EXPECT_EQ(state.disabled_muscle(), "");
   EXPECT_TRUE(state.take_disabled());
   EXPECT_FALSE(state.take_disabled());
-  // A unit that was lost measures nothing.
+  // A unit that did not answer once may well follow; one that was lost says so when it is back.
   state.see_muscle("brachialis", {NAN, NAN, NAN, NAN}, false, 1.3);
+  EXPECT_FALSE(state.take_disabled());
+  state.see_muscle("brachialis", {0.1, 0.0, 0.0, 5.0}, false, 1.4);
   EXPECT_TRUE(state.take_disabled());
 }
 

@@ -101,7 +101,7 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
   bool running = true;
   try {
     while (running && visit.outcome() == Visit::Outcome::kRunning) running = advance(visit, target);
-    switch_recording(0, target);  // of a trajectory, the last one ends with the visit
+    switch_recording(0);  // of a trajectory, the last one ends with the visit
   } catch (...) {
     drop();
     throw;
@@ -139,10 +139,13 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   }
   heard_ = ros::WallTime::now();
   check_motors();
+  // However short: whoever reads the recording would find a stop in it.
+  if (link_.take_disabled() && recording_ > 0) visit.fail("a motor stopped while it was recorded");
   const Visit::Order order = visit.step(link_.state().measurement(), link_.now().toSec());
   if (visit.outcome() != Visit::Outcome::kRunning) return true;
-  switch_recording(order.recording, target);
-  follow(order, target);
+  switch_recording(order.recording);
+  const std::string refused = follow(order, target);
+  if (!refused.empty()) visit.fail(refused);
   return true;
 }
 
@@ -155,16 +158,17 @@ void Recorder::check_motors() {
   }
 }
 
-void Recorder::follow(const Visit::Order& order, const Protocol::Target& target) {
+std::string Recorder::follow(const Visit::Order& order, const Protocol::Target& target) {
   const bool changed = !aimed_ || order.aim != aim_;
   aimed_ = true;
   aim_ = order.aim;
   if (protocol_.kind == Protocol::Kind::kZeroGravity) {
-    if (changed) call_controller(order.aim, target);
-    return;
+    return changed ? call_controller(order.aim, target) : "";
   }
-  if (!changed && (link_.now() - sent_).toSec() < kCommandPeriod - 1e-6) return;
-  send_references(order.aim == Visit::Aim::kRest ? protocol_.rest.reference : target.reference);
+  if (changed || (link_.now() - sent_).toSec() >= kCommandPeriod - 1e-6) {
+    send_references(order.aim == Visit::Aim::kRest ? protocol_.rest.reference : target.reference);
+  }
+  return "";
 }
 
 void Recorder::send_references(const std::vector<double>& references) {
@@ -173,14 +177,12 @@ void Recorder::send_references(const std::vector<double>& references) {
   if (recording_ > 0) current_bag().write("muscle_command", command);
 }
 
-void Recorder::call_controller(Visit::Aim aim, const Protocol::Target& target) {
+std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& target) {
   if (aim == Visit::Aim::kRelease) {
     std_srvs::Trigger call;
     if (!ros::service::call(nh_.resolveName("controller/zero_gravity"), call))
       throw std::runtime_error("controller/zero_gravity: no controller answers");
-    if (!call.response.success)
-      throw std::runtime_error("controller/zero_gravity: " + call.response.message);
-    return;
+    return call.response.success ? "" : "controller/zero_gravity: " + call.response.message;
   }
   anthrob_msgs::GoTo call;
   call.request.duration = protocol_.go_duration;
@@ -199,11 +201,10 @@ void Recorder::call_controller(Visit::Aim aim, const Protocol::Target& target) {
   }
   if (!ros::service::call(nh_.resolveName("controller/go_to"), call))
     throw std::runtime_error("controller/go_to: no controller answers");
-  if (!call.response.success)
-    throw std::runtime_error("controller/go_to: " + call.response.message);
+  return call.response.success ? "" : "controller/go_to: " + call.response.message;
 }
 
-void Recorder::switch_recording(int recording, const Protocol::Target&) {
+void Recorder::switch_recording(int recording) {
   if (recording == recording_) return;
   if (recording_ > 0) current_bag().gaps.finish(link_.now().toSec() - kUnderWay);
   recording_ = recording;

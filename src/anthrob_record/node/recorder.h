@@ -31,10 +31,11 @@ class Recorder {
   bool advance(Visit& visit, const Protocol::Target& target);
   /// @throws std::runtime_error if motors are off: what hangs there is no equilibrium
   void check_motors();
-  void follow(const Visit::Order& order, const Protocol::Target& target);
+  /// @return why the controller refused; empty: it did not
+  std::string follow(const Visit::Order& order, const Protocol::Target& target);
   void send_references(const std::vector<double>& references);
-  void call_controller(Visit::Aim aim, const Protocol::Target& target);
-  void switch_recording(int recording, const Protocol::Target& target);
+  std::string call_controller(Visit::Aim aim, const Protocol::Target& target);
+  void switch_recording(int recording);
   void store(const Visit& visit, const Protocol::Target& target, int repeat);
   void write_files(const Visit& visit, const Protocol::Target& target, int repeat);
   /// Whether a message is of the recording that runs. Not by its arrival: topics overtake each

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
+#include <sstream>
 
 namespace anthrob {
 
@@ -36,6 +38,18 @@ std::vector<Protocol::Target> read_targets(const std::string& file,
   return targets;
 }
 
+/// What the model makes of the postures; rounded, so that another build of the program goes on.
+std::string references_text(const Protocol& protocol) {
+  std::ostringstream text;
+  text << std::setprecision(4) << std::fixed;
+  std::vector<Protocol::Target> all = protocol.targets;
+  all.push_back(protocol.rest);
+  for (const Protocol::Target& target : all) {
+    for (const double reference : target.reference) text << reference << " ";
+  }
+  return text.str();
+}
+
 const Protocol::Target& pick(const std::vector<Protocol::Target>& all, const ConfigNode& name) {
   const std::string text = name.as_text();
   const auto it = std::find_if(all.begin(), all.end(),
@@ -65,8 +79,15 @@ Protocol Protocol::load(const std::string& file, const std::shared_ptr<const Rob
   }
   protocol.rest = pick(all, node.at("rest"));
   if (node.has("visit")) {
-    for (const ConfigNode& name : node.at("visit").items())
-      protocol.targets.push_back(pick(all, name));
+    for (const ConfigNode& name : node.at("visit").items()) {
+      const Target& target = pick(all, name);
+      const auto again = [&](const Target& other) { return other.name == target.name; };
+      if (std::any_of(protocol.targets.begin(), protocol.targets.end(), again))
+        name.fail("is there twice; repeats: tells how often all are visited");
+      if (target.name == protocol.rest.name && protocol.kind == Kind::kTrajectories)
+        name.fail("there is no way from the rest posture to itself");
+      protocol.targets.push_back(target);
+    }
   } else {
     for (const Target& target : all) {
       // There is no way from the rest posture to itself.
@@ -88,7 +109,8 @@ Protocol Protocol::load(const std::string& file, const std::shared_ptr<const Rob
         node.number_or("go_duration", protocol.go_duration, Bounds::positive(), "s");
   }
   node.refuse_unknown_keys();
-  protocol.text = node.to_yaml() + "\n" + ConfigNode::load(postures).to_yaml();
+  protocol.text = node.to_yaml() + "\n" + ConfigNode::load(postures).to_yaml() + "\n" +
+                  references_text(protocol);
   return protocol;
 }
 

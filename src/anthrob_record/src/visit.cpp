@@ -70,8 +70,14 @@ Visit::Visit(std::shared_ptr<const RobotModel> model, const Protocol& protocol,
 }
 
 void Visit::fail(const std::string& reason) {
+  if (outcome_ != Outcome::kRunning) return;
   outcome_ = Outcome::kFailed;
   reason_ = reason;
+}
+
+double Visit::duration_of(Aim aim) const {
+  const bool goes = protocol_.kind == Protocol::Kind::kZeroGravity && aim != Aim::kRelease;
+  return goes ? protocol_.go_duration : 0.0;
 }
 
 void Visit::begin(double time) {
@@ -90,8 +96,9 @@ Visit::Order Visit::step(const RobotMeasurement& measured, double time) {
   bool over = false;
   switch (now.end) {
     case End::kSettled:
-      over = settle_.step(measured, time);
-      if (!over && elapsed > protocol_.settle.timeout)
+      // Who sets out slowly seems to stand.
+      over = elapsed >= duration_of(now.aim) && settle_.step(measured, time);
+      if (!over && elapsed > duration_of(now.aim) + protocol_.settle.timeout)
         fail(std::string(now.name) + ": not settled after " + seconds_text(elapsed));
       break;
     case End::kElapsed:

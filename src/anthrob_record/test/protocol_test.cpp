@@ -39,6 +39,7 @@ TEST(Protocol, RefusesWhatItCannotUse) {
       {"rest: E0", "rest: E99", "no posture of that name"},
       {"rest: E0", "rest: E0\nvisit: [E77]", "no posture of that name"},
       {"rest: E0", "rest: E0\nvisit: []", "no posture to visit"},
+      {"rest: E0", "rest: E0\nvisit: [E1, E3, E1]", "is there twice"},
       {"repeats: 1", "repeats: 0", "repeats"},
       {"hold: 0.5", "hold: .nan", "hold"},
       {"average: 0.1", "average: 3", "average"},
@@ -64,6 +65,25 @@ TEST(Protocol, RefusesWhatItCannotUse) {
       EXPECT_EQ(what.find('\n'), std::string::npos) << what;
     }
   }
+}
+
+TEST(Protocol, NoTrajectoryLeadsFromRestToRest) {
+  const Folder folder;
+  folder.write("equilibria_tier1.yaml", content(anthrob_folder() + "equilibria_tier1.yaml"));
+  const std::string text = content(anthrob_folder() + "record_tier1_trajectories.yaml");
+  folder.write("p.yaml", text + "\nvisit: [E1, E2]\n");
+  EXPECT_EQ(Protocol::load(folder.file("p.yaml"), tier1()).targets.size(), 2u);
+  folder.write("p.yaml", text + "\nvisit: [E1, E0]\n");
+  EXPECT_THROW(Protocol::load(folder.file("p.yaml"), tier1()), BadInput);
+}
+
+TEST(Protocol, ASessionKnowsWhatReferencesItHas) {
+  const auto load = [](const std::string& model) {
+    return Protocol::load(anthrob_folder() + "record_tier1_equilibria.yaml",
+                          load_robot_model(anthrob_folder() + model));
+  };
+  EXPECT_EQ(load("model_I_tier1.yaml").text, load("model_I_tier1.yaml").text);
+  EXPECT_NE(load("model_I_tier1.yaml").text, load("model_II_tier1.yaml").text);
 }
 
 TEST(Protocol, RefusesTwoPosturesOfOneName) {

@@ -68,6 +68,36 @@ TEST_F(VisitTest, ZeroGravityIsRecordedOnceTheArmHangs) {
   EXPECT_NEAR(ticks[1] * kTick, 1.0, 0.1);
 }
 
+TEST_F(VisitTest, ZeroGravityWaitsForAControllerThatSetsOutSlowly) {
+  load("tier1_zero_gravity");
+  protocol.go_duration = 15.0;
+  Visit visit(model, protocol, nullptr);
+  RobotMeasurement at = standing(*model, protocol.rest);
+  double left = 0.0;
+  for (double t = 0.0; t < 200.0 && visit.outcome() == Visit::Outcome::kRunning; t += kTick) {
+    const Visit::Order order = visit.step(at, t);
+    if (order.aim == Visit::Aim::kRest) left = t;
+    // There only at the end of its time, and nowhere before.
+    if (order.aim == Visit::Aim::kTarget && t > left + 14.0) {
+      at = standing(*model, protocol.targets[3]);
+    }
+    if (order.aim == Visit::Aim::kRest) at = standing(*model, protocol.rest);
+  }
+  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason();
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(visit.target().q[k], protocol.targets[3].q[k], 1e-12);
+}
+
+TEST_F(VisitTest, WhatWentWrongOutsideFailsIt) {
+  load("tier1_equilibria");
+  Visit visit(model, protocol, nullptr);
+  visit.step(standing(*model, protocol.rest), 0.0);
+  visit.fail("a motor stopped");
+  EXPECT_EQ(visit.outcome(), Visit::Outcome::kFailed);
+  EXPECT_EQ(visit.reason(), "a motor stopped");
+  visit.fail("and another one");
+  EXPECT_EQ(visit.reason(), "a motor stopped");
+}
+
 TEST_F(VisitTest, AnOperatorTakesHisTime) {
   load("tier1_zero_gravity");
   protocol.by_hand = true;

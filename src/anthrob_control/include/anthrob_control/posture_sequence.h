@@ -8,6 +8,10 @@
 
 namespace anthrob {
 
+/// @throws BadInput naming posture and model where the muscles lack more than 0.02 Nm
+void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
+                            const Equilibrium& equilibrium);
+
 /// A posture to visit, and how long to stay.
 struct PostureStep {
   std::string name;

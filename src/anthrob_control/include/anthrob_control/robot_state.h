@@ -32,6 +32,7 @@ class RobotState {
   std::string muscle_without_force() const;
   /// Whether any muscle was seen that did not follow references since the last call: one that was
   /// stopped and enabled again between two looks is enabled now, and elsewhere than it was told.
+  /// One that was not measured was not seen.
   bool take_disabled();
   /// Forgets all, as when time jumps back.
   void clear();

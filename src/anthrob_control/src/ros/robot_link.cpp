@@ -137,11 +137,19 @@ ros::Time RobotLink::call_step() {
   call.request.steps = static_cast<std::uint32_t>(options_.steps);
   call.request.command_stamp = unstepped_command_;
   unstepped_command_ = ros::Time();
-  if (!step_.call(call)) {
-    if (!ros::ok()) return now_;
-    throw std::runtime_error("sim/step: the simulator does not answer");
+  const bool commanded = !call.request.command_stamp.isZero();
+  for (int attempt = 1;; ++attempt) {
+    if (!step_.call(call)) {
+      if (!ros::ok()) return now_;
+      throw std::runtime_error("sim/step: the simulator does not answer");
+    }
+    if (call.response.success) break;
+    // As the first states, the first command may be lost.
+    if (!commanded || command_arrived_ || attempt == kFirstAttempts)
+      throw std::runtime_error("sim/step: " + call.response.message);
+    commands_.publish(command_);
   }
-  if (!call.response.success) throw std::runtime_error("sim/step: " + call.response.message);
+  command_arrived_ = command_arrived_ || commanded;
   return call.response.stamp;
 }
 
@@ -157,6 +165,7 @@ bool RobotLink::states_arrive(const ros::Time& stamp, double patience) {
 ros::Time RobotLink::send(anthrob_msgs::MuscleCommand command) {
   command.header.stamp = now_;
   commands_.publish(command);
+  command_ = std::move(command);
   unstepped_command_ = now_;
   return now_;
 }

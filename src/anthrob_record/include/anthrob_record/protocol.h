@@ -34,7 +34,7 @@ struct Protocol {
   double drift_limit = 0.0524;  ///< of the rest posture against the first one [rad]
   int redo = 1;                 ///< how often a run is done again if the rest posture has drifted
   double go_duration = 3.0;     ///< zero gravity: how long to go to a posture [s]
-  std::string text;             ///< of the file, and of the postures, to know it again
+  std::string text;             ///< of file, postures and references, to know it again
 
   /// @throws BadInput with one line
   static Protocol load(const std::string& file, const std::shared_ptr<const RobotModel>& model);

@@ -34,6 +34,8 @@ class Visit {
   Order step(const RobotMeasurement& measured, double time);
   /// The operator says: the posture is set.
   void trigger() { triggered_ = true; }
+  /// Something went wrong meanwhile that steps do not show. @param reason one line
+  void fail(const std::string& reason);
 
   Outcome outcome() const { return outcome_; }
   /// Whether it has ever been stepped.
@@ -65,7 +67,8 @@ class Visit {
   void begin(double time);
   void finish_step(double time);
   void check_drift(const Sample& rest);
-  void fail(const std::string& reason);
+  /// How long a controller takes to go there [s]; 0: references are given at once.
+  double duration_of(Aim aim) const;
 
   std::shared_ptr<const RobotModel> model_;
   const Protocol& protocol_;

@@ -71,6 +71,8 @@ class RobotLink {
   ros::ServiceClient step_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Time now_, next_, unstepped_command_;
+  anthrob_msgs::MuscleCommand command_;  ///< the last one
+  bool command_arrived_ = false;         ///< of any that the simulator knows of
   ClockWait clock_wait_;
   double dt_ = 0.0;
   bool jumped_ = false;
