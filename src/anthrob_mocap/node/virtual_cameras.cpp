@@ -46,7 +46,6 @@ ros::Time VirtualRig::latest() const {
 }
 
 void VirtualRig::run() {
-  const ros::Duration period(1.0 / setup_.rate);
   const ros::Duration half_exposure(0.5 * setup_.exposure);
   ros::Time next;
   while (ros::ok()) {

@@ -1,6 +1,5 @@
 // Calibrates a stereo rig from pairs of pictures of a checkerboard.
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 
@@ -41,10 +40,19 @@ std::map<std::string, std::string> by_key(const std::string& folder) {
   return files;
 }
 
-void write(const std::string& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(file + ": cannot be written");
+/// Both or none: two cameras of two calibrations are no rig.
+void write(const std::string& folder, const mocap::StereoRig& rig) {
+  const auto file = [&](mocap::Side side) { return folder + "/" + mocap::name(side) + ".yaml"; };
+  mocap::tool::NewFile left(file(mocap::kLeft)), right(file(mocap::kRight));
+  left.stream() << rig.camera(mocap::kLeft).to_yaml();
+  right.stream() << rig.camera(mocap::kRight).to_yaml();
+  left.close();
+  right.close();
+  left.put_in_place();
+  right.put_in_place();
+  for (const auto side : {mocap::kLeft, mocap::kRight}) {
+    std::cout << "written            " << file(side) << "\n";
+  }
 }
 
 int calibrate(const Arguments& arguments) {
@@ -84,11 +92,7 @@ int calibrate(const Arguments& arguments) {
   const auto result = mocap::calibrate_stereo(views, board, width, height, arguments.limits);
   std::cout << result.report();
   fs::create_directories(arguments.out);
-  for (const auto side : {mocap::kLeft, mocap::kRight}) {
-    const std::string file = arguments.out + "/" + mocap::name(side) + ".yaml";
-    write(file, result.rig.camera(side).to_yaml());
-    std::cout << "written            " << file << "\n";
-  }
+  write(arguments.out, result.rig);
   return mocap::tool::kDone;
 }
 

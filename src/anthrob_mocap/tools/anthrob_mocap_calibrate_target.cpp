@@ -1,6 +1,5 @@
 // Measures where the markers of a target are, from a recording in which it moves.
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -72,9 +71,10 @@ int calibrate(const Arguments& arguments) {
     mocap::TargetSet::parse(text, arguments.out, mocap::TargetSet::kUnchecked);
     const std::string why = mocap::find_ambiguity(target, target, edge_tolerance);
     if (!why.empty()) throw mocap::BadInput("target " + target.name + ": " + why);
-    std::ofstream out(arguments.out);
-    out << text;
-    if (!out.flush()) throw std::runtime_error(arguments.out + ": cannot be written");
+    mocap::tool::NewFile out(arguments.out);
+    out.stream() << text;
+    out.close();
+    out.put_in_place();
     note_others(set, target.name, edge_tolerance);
     return mocap::tool::kDone;
   }

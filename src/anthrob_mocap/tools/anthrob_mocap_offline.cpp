@@ -1,6 +1,5 @@
 // Tracks targets in recorded pairs of images: the same pipeline as the node's.
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 
 #include "anthrob_mocap/core/errors.h"
@@ -56,9 +55,8 @@ int track(const Arguments& arguments) {
   const auto rig = mocap::StereoRig::load(recording.calibration);
   const auto set = mocap::TargetSet::load(arguments.targets, options.labelling.edge_tolerance);
   mocap::FolderSource source(recording.left, recording.right, recording.folder);
-  std::ofstream out(arguments.out);
-  if (!out) throw std::runtime_error(arguments.out + ": cannot be written");
-  mocap::PoseTable table(out, set);
+  mocap::tool::NewFile out(arguments.out);
+  mocap::PoseTable table(out.stream(), set);
   mocap::Health health(rig, mocap::matching_of(set, options));
   Report report(set);
   mocap::Pipeline pipeline(mocap::tracking_stages(rig, set, options),
@@ -68,9 +66,10 @@ int track(const Arguments& arguments) {
                              table.add(frame), health.add(frame), report.add(frame);
                            });
   const bool done = mocap::tool::track_all(source, rig, recording, pipeline);
-  if (!out.flush()) throw std::runtime_error(arguments.out + ": cannot be written");
+  if (done) recording.refuse_contradiction(health);
+  out.close();
+  out.put_in_place();
   if (!done) return mocap::tool::kInterrupted;
-  recording.refuse_contradiction(health);
   report.print();
   if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
   if (health.given_up() > 0) {

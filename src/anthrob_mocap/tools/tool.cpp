@@ -1,7 +1,11 @@
 #include "tool.h"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <filesystem>
 #include <iostream>
+#include <stdexcept>
 
 #include "anthrob_mocap/core/errors.h"
 
@@ -44,6 +48,31 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
     std::cerr << "\n";
     return kFailed;
   }
+}
+
+NewFile::NewFile(const std::string& name)
+    : name_(name), part_(name + ".part" + std::to_string(getpid())), out_(part_) {
+  if (!out_) fail();
+}
+
+NewFile::~NewFile() {
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+}
+
+void NewFile::close() {
+  out_.close();
+  if (!out_) fail();
+}
+
+void NewFile::put_in_place() {
+  std::error_code error;
+  std::filesystem::rename(part_, name_, error);
+  if (error) fail();
+}
+
+void NewFile::fail() const {
+  throw std::runtime_error(name_ + ": cannot be written");
 }
 
 bool interrupted() {
