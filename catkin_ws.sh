@@ -186,7 +186,7 @@ demo() {
   roslaunch anthrob_bringup demo.launch "bag:=$out/demo.bag" rviz:=$rviz >"$out/demo.log" 2>&1 ||
     die "the demo did not finish: see build/demo/demo.log"
   # roslaunch ends with 0 also where a node failed.
-  ! grep -q 'exit code [1-9]' "$out/demo.log" || die "the demo did not finish: see build/demo/demo.log"
+  ! grep -q 'exit code -\?[1-9]' "$out/demo.log" || die "the demo did not finish: see build/demo/demo.log"
   [ -f "$out/demo.bag" ] || die "nothing was recorded: see build/demo/demo.log"
   rosrun anthrob_calib anthrob_convert "$out/demo.bag" "$out/recording" >>"$out/demo.log" ||
     die "converting the bag failed: see above"
