@@ -111,7 +111,7 @@ class ComputedForceNode {
     idle_ = link_.state().disabled_muscle();
     // Whatever posture the arm is in when the motors are enabled is the one that is held.
     // Also of those that were, and are again, while this node had no processor.
-    if (link_.take_disabled() || !idle_.empty()) controller_.reset();
+    if (!link_.take_disabled().empty() || !idle_.empty()) controller_.reset();
     const anthrob::ForceCommand& wanted =
         controller_.update(link_.state().measurement(), silent_ + link_.dt());
     silent_ = 0.0;

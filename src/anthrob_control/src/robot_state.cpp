@@ -43,7 +43,7 @@ void RobotState::clear() {
   muscle_stamps_.assign(model_->muscles.size(), kNever);
   joint_stamps_.assign(model_->skeleton->joints.size(), kNever);
   enabled_.assign(model_->muscles.size(), 0);
-  was_disabled_ = false;
+  was_disabled_ = -1;
 }
 
 void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, bool enabled,
@@ -51,7 +51,7 @@ void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, 
   const int index = model_->find_muscle(name);
   if (index < 0) return;
   if (!std::isfinite(m.position + m.velocity + m.current) || std::isinf(m.force)) return;
-  was_disabled_ = was_disabled_ || (!enabled && model_->muscles[index].has_controller);
+  if (was_disabled_ < 0 && !enabled && model_->muscles[index].has_controller) was_disabled_ = index;
   measured_.muscles[index] = m;
   enabled_[index] = enabled;
   muscle_stamps_[index] = stamp;
@@ -125,8 +125,9 @@ std::string RobotState::muscle_without_force() const {
   return "";
 }
 
-bool RobotState::take_disabled() {
-  return std::exchange(was_disabled_, false);
+std::string RobotState::take_disabled() {
+  const int muscle = std::exchange(was_disabled_, -1);
+  return muscle < 0 ? "" : model_->muscles[static_cast<std::size_t>(muscle)].name;
 }
 
 }  // namespace anthrob

@@ -74,18 +74,18 @@ TEST(RobotStateOfALigament, NeedsNoMeasurementOfWhatTakesNoCommand) {
 
 TEST_F(RobotStateTest, RemembersAStopUntilItIsAskedFor) {
   see_all(1.0);
-  EXPECT_FALSE(state.take_disabled());
+  EXPECT_EQ(state.take_disabled(), "");
   // Stopped and enabled again between two looks.
   state.see_muscle("brachialis", {0.1, 0.0, 0.0, 5.0}, false, 1.1);
   state.see_muscle("brachialis", {0.1, 0.0, 0.0, 5.0}, true, 1.2);
   EXPECT_EQ(state.disabled_muscle(), "");
-  EXPECT_TRUE(state.take_disabled());
-  EXPECT_FALSE(state.take_disabled());
+  EXPECT_EQ(state.take_disabled(), "brachialis");
+  EXPECT_EQ(state.take_disabled(), "");
   // A unit that did not answer once may well follow; one that was lost says so when it is back.
   state.see_muscle("brachialis", {NAN, NAN, NAN, NAN}, false, 1.3);
-  EXPECT_FALSE(state.take_disabled());
+  EXPECT_EQ(state.take_disabled(), "");
   state.see_muscle("brachialis", {0.1, 0.0, 0.0, 5.0}, false, 1.4);
-  EXPECT_TRUE(state.take_disabled());
+  EXPECT_EQ(state.take_disabled(), "brachialis");
 }
 
 TEST_F(RobotStateTest, AMuscleWithoutForceSensorIsMeasured) {

@@ -82,8 +82,8 @@ bool Recorder::run() {
         result = record(target, repeat);
       if (result == Result::kShutdown) return false;
       if (result == Result::kAgain) {
-        throw std::runtime_error(names_.front() +
-                                 ": given up; what is complete stays, the same command goes on");
+        throw std::runtime_error(names_.front() + ": " + trouble_ +
+                                 "; given up, what is complete stays, the same command goes on");
       }
     }
   }
@@ -111,17 +111,17 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
     drop();
     return Result::kShutdown;
   }
-  std::string trouble = visit.reason();
+  trouble_ = visit.reason();
   for (const auto& bag : bags_) {
-    if (!trouble.empty() || !bag || bag->gaps.largest() <= kLargestGap) continue;
-    trouble =
+    if (!trouble_.empty() || !bag || bag->gaps.largest() <= kLargestGap) continue;
+    trouble_ =
         bag->gaps.longest() + " was not measured for " + std::to_string(bag->gaps.largest()) + " s";
   }
-  if (trouble.empty()) {
+  if (trouble_.empty()) {
     store(visit, target, repeat);
     return Result::kDone;
   }
-  ROS_WARN_STREAM(names_.front() << ": " << trouble);
+  ROS_WARN_STREAM(names_.front() << ": " << trouble_);
   drop();
   return Result::kAgain;
 }
@@ -140,7 +140,9 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   heard_ = ros::WallTime::now();
   check_motors();
   // However short: whoever reads the recording would find a stop in it.
-  if (link_.take_disabled() && recording_ > 0) visit.fail("a motor stopped while it was recorded");
+  const std::string stopped = link_.take_disabled();
+  if (!stopped.empty() && recording_ > 0)
+    visit.fail("the motor of " + stopped + " stopped while it was recorded");
   const Visit::Order order = visit.step(link_.state().measurement(), link_.now().toSec());
   if (visit.outcome() != Visit::Outcome::kRunning) return true;
   switch_recording(order.recording);

@@ -59,6 +59,7 @@ class Recorder {
   ros::ServiceServer sample_;
   std::vector<std::unique_ptr<BagFile>> bags_;  ///< of the visit, by recording
   std::vector<std::string> names_;
+  std::string trouble_;  ///< why the last visit is not stored
   int recording_ = 0;
   ros::Time since_;  ///< what the recording that runs begins after
   Visit* visit_ = nullptr;

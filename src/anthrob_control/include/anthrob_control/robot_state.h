@@ -30,10 +30,10 @@ class RobotState {
   std::string disabled_muscle() const;
   /// The first muscle with a controller whose force is not a number, or empty: it has no sensor.
   std::string muscle_without_force() const;
-  /// Whether any muscle was seen that did not follow references since the last call: one that was
-  /// stopped and enabled again between two looks is enabled now, and elsewhere than it was told.
-  /// One that was not measured was not seen.
-  bool take_disabled();
+  /// The first muscle that was seen not to follow references since the last call, or empty: one
+  /// that was stopped and enabled again between two looks is enabled now, and elsewhere than it was
+  /// told. One that was not measured was not seen.
+  std::string take_disabled();
   /// Forgets all, as when time jumps back.
   void clear();
 
@@ -47,7 +47,7 @@ class RobotState {
   RobotMeasurement measured_;
   std::vector<double> muscle_stamps_, joint_stamps_;
   std::vector<char> enabled_;
-  bool was_disabled_ = false;
+  int was_disabled_ = -1;  // index of the muscle that take_disabled names
 };
 
 }  // namespace anthrob

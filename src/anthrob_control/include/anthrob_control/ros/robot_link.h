@@ -40,7 +40,7 @@ class RobotLink {
 
   const RobotState& state() const { return state_; }
   /// Of the state, see there.
-  bool take_disabled() { return state_.take_disabled(); }
+  std::string take_disabled() { return state_.take_disabled(); }
   ros::Time now() const { return now_; }
   /// Time since the last return of wait [s]; 0 the first time and when time jumped back.
   double dt() const { return dt_; }
