@@ -60,8 +60,8 @@ DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std:
       key_value("last_rejection", supervisor.last_rejection()),
       key_value("command_age", text(supervisor.command_age(now))),
       key_value("last_outcome", driver.last_outcome().reason),
-      key_value("stops", std::to_string(driver.stops())),
-      key_value("last_stop", driver.last_stop()),
+      key_value("stops", std::to_string(driver.stops().count())),
+      key_value("last_stop", driver.stops().last()),
       key_value("frames_received", std::to_string(driver.bus_watch().frames())),
       key_value("late_cycles", std::to_string(late)),
   };

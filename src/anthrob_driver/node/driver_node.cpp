@@ -87,8 +87,7 @@ double DriverNode::command_age(const ros::Time& stamp) const {
 void DriverNode::pass_commands() {
   // The round that runs now may have begun before the last of them came.
   const std::uint64_t passed = command_rounds_ + 2;
-  while (command_rounds_ < passed && !ros::isShuttingDown())
-    std::this_thread::sleep_for(kPause);
+  while (command_rounds_ < passed && !ros::isShuttingDown()) std::this_thread::sleep_for(kPause);
 }
 
 DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, Commands commands) {
@@ -286,14 +285,12 @@ void DriverNode::log_stops() {
   const double time = monotonic_now();
   if (time - look_time_ < 0.05) return;
   look_time_ = time;
-  std::uint64_t stops = 0;
-  std::string reason;
+  std::vector<std::string> reasons;
   thread_.call([&](RobotDriver& driver, double) {
-    stops = driver.stops();
-    reason = driver.last_stop();
+    reasons = driver.stops().since(logged_stops_);
+    logged_stops_ = driver.stops().count();
   });
-  if (stops != logged_stops_) ROS_ERROR_STREAM("motors stopped: " << reason);
-  logged_stops_ = stops;
+  for (const std::string& reason : reasons) ROS_ERROR_STREAM("motors stopped: " << reason);
 }
 
 void DriverNode::run() {

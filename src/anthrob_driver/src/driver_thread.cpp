@@ -73,17 +73,12 @@ DriverThread::DriverThread(Hardware hardware, const Options& options, const std:
       wakeup_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   watch(epoll_, timer_);
   watch(epoll_, wakeup_);
-  bool started = false;
-  const std::function<void(RobotDriver&, double)> nothing = [](RobotDriver&, double) {};
-  work_.push_back({&nothing, &started});
   thread_ = std::thread([this] {
     if (options_.realtime) note_ = become_realtime(kPriority);
     start_timer(timer_, options_.driver.rate * options_.pace);
-    serve_requests();
     loop();
   });
-  std::unique_lock<std::mutex> lock(mutex_);
-  done_.wait(lock, [&] { return started; });
+  call([](RobotDriver&, double) {});  // until it runs, and note_ is there
 }
 
 DriverThread::~DriverThread() {
@@ -98,15 +93,15 @@ DriverThread::~DriverThread() {
 }
 
 void DriverThread::call(const std::function<void(RobotDriver&, double now)>& work) {
-  bool done = false;
-  std::unique_lock<std::mutex> lock(mutex_);
-  work_.push_back({&work, &done});
+  const auto done = std::make_shared<std::promise<void>>();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    work_.push_back({&work, done});
+  }
   // The thread that this wakes may be of a higher priority: it must not find the mutex taken.
-  lock.unlock();
   const std::uint64_t one = 1;
   (void)!::write(wakeup_, &one, sizeof(one));
-  lock.lock();
-  done_.wait(lock, [&] { return done; });
+  done->get_future().wait();
 }
 
 DriverThread::Batch DriverThread::wait(double seconds) {
@@ -118,18 +113,20 @@ DriverThread::Batch DriverThread::wait(double seconds) {
   return batch;
 }
 
-void DriverThread::serve_requests() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  while (!work_.empty()) {
-    const Work next = work_.front();
-    work_.pop_front();
-    lock.unlock();
+bool DriverThread::serve_requests() {
+  {
+    // Whoever has the mutex may be of a lower priority, and held up: the bus does not wait for it.
+    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock) return false;
+    std::swap(work_, current_);
+  }
+  for (const Work& next : current_) {
     (*next.run)(driver_, now());
     halts_ = driver_.halts();
-    lock.lock();
-    *next.done = true;
-    done_.notify_all();
+    next.done->set_value();
   }
+  current_.clear();
+  return true;
 }
 
 void DriverThread::collect() {
@@ -138,7 +135,7 @@ void DriverThread::collect() {
   while (driver_.take_sample(sample)) fresh_.samples.push_back(sample);
   while (driver_.take_analog(analog)) fresh_.analogs.push_back(analog);
   if (fresh_.samples.empty() && fresh_.analogs.empty()) return;
-  // Whoever has the mutex may be of a lower priority, and held up: the next turn will do.
+  // As above: the next turn will do.
   const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
   if (!lock) return;
   hand_over(fresh_.samples, batch_.samples);
@@ -155,6 +152,7 @@ void DriverThread::watch_socket() {
 }
 
 void DriverThread::loop() {
+  bool requests = false;
   while (!quit_) {
     watch_socket();
     epoll_event events[4];
@@ -162,7 +160,8 @@ void DriverThread::loop() {
     (void)count;
     BusEvent event;
     for (int i = 0; i < kMostFrames && bus_.receive(event); ++i) driver_.receive(event, now());
-    if (take_count(wakeup_) > 0) serve_requests();
+    if (take_count(wakeup_) > 0) requests = true;
+    if (requests) requests = !serve_requests();
     if (take_count(timer_) > 0) driver_.cycle(now());
     halts_ = driver_.halts();
     collect();

@@ -92,9 +92,9 @@ void EcuLink::finish_answer(double now) {
 void EcuLink::on_report(const ecu::StateReport& report, double now) {
   if (report.version != ecu::kProtocolVersion) {
     wrong_version_ = true;
-    findings_.add(Finding::kWrongVersion, index_, now,
-                  "version " + std::to_string(report.version) + ", expected " +
-                      std::to_string(ecu::kProtocolVersion));
+    other_version_ = "version " + std::to_string(report.version) + ", expected " +
+                     std::to_string(ecu::kProtocolVersion);
+    findings_.add(Finding::kWrongVersion, index_, now, other_version_);
     return;
   }
   if (heard_ && report.session != report_.session) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "anthrob_config/errors.h"
 
@@ -15,7 +14,6 @@ namespace {
 using ecu::Function;
 using ecu::Operation;
 
-constexpr double kRetry = 0.05;       // [s] between two enable requests to one ECU
 constexpr double kClearGrace = 0.15;  // [s] until ECUs have cleared their latches
 constexpr int kIdleNode = -2;         // on the bus, but not used
 constexpr int kRepeats = 3;           // cycles in which disable and clear are sent
@@ -39,6 +37,14 @@ ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options)
   return result;
 }
 
+std::vector<EcuLink> make_links(const Hardware& hardware, Findings& findings) {
+  std::vector<EcuLink> links;
+  for (std::size_t e = 0; e < hardware.ecus.size(); ++e) {
+    links.emplace_back(hardware, static_cast<int>(e), findings);
+  }
+  return links;
+}
+
 std::string too_old(double age, double limit) {
   if (std::abs(age) <= limit) return "";
   char text[120];
@@ -56,10 +62,12 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
       bus_(bus),
       watch_(findings_, options.rate),
       supervisor_(hardware_.channels(), supervisor_options(options)),
+      links_(make_links(hardware_, findings_)),
       link_of_node_(ecu::kMaxNode + 1, -1),
-      home_(hardware_) {
+      sampler_(hardware_),
+      home_(hardware_),
+      zeros_(links_, supervisor_) {
   for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
-    links_.emplace_back(hardware_, static_cast<int>(e), findings_);
     link_of_node_[static_cast<std::size_t>(hardware_.ecus[e].node)] = static_cast<int>(e);
   }
   for (const int node : hardware_.idle_nodes) {
@@ -68,12 +76,7 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
     references_.push_back({static_cast<int>(m), ecu::Mode::kVoltage, 0.0});
   }
-  sent_ = references_;
   tendons_.assign(hardware_.muscles.size(), TendonWatch(hardware_.tendons));
-  enabling_.sequence.resize(links_.size());
-  restarted_.resize(links_.size());
-  sample_.muscles.resize(hardware_.muscles.size());
-  joint_slopes_.resize(hardware_.joints.size());
 }
 
 // ---- in ----
@@ -84,11 +87,11 @@ void RobotDriver::receive(const BusEvent& event, double now) {
     // The echo says when SYNC was on the wire: that is when the ECUs measured.
     const bool ours = ecu::function_of(event.frame) == static_cast<int>(Function::kSync) &&
                       event.frame.data[0] == counter_;
-    if (ours) sync_stamp_ = event.stamp_ns;
+    if (ours) sampler_.on_wire(event.stamp_ns);
   } else if (event.kind == BusEvent::Kind::kFrame) {
-    if (sync_stamp_ == 0) sync_stamp_ = event.stamp_ns;
+    sampler_.on_frame(event.stamp_ns);
     on_frame(event.frame, now);
-    if (sample_open_ && all_complete()) close_sample(now);
+    if (sampler_.is_open() && all_complete()) sampler_.close(links_, supervisor_, now);
   }
 }
 
@@ -121,45 +124,7 @@ void RobotDriver::on_frame(const ecu::Frame& frame, double now) {
   if (index < 0) return findings_.add(Finding::kForeignFrame, -1, now);
   EcuLink& link = links_[static_cast<std::size_t>(index)];
   link.receive(frame, now);
-  if (link.take_analog()) keep_analog(link, index, now);
-}
-
-void RobotDriver::keep_analog(const EcuLink& link, int ecu, double now) {
-  const auto& count = link.analog().count;
-  for (std::size_t j = 0; j < hardware_.joints.size(); ++j) {
-    const JointSensor& joint = hardware_.joints[j];
-    if (joint.ecu != ecu) continue;
-    if (!LinearSensor::measures(count[joint.input])) {
-      findings_.add(Finding::kJointSensor, ecu, now, joint.joint);
-      continue;
-    }
-    const double angle = joint.sensor.value(count[joint.input]);
-    joint_slopes_[j].add(sample_.time, angle);
-    analogs_.push_back(
-        {sync_stamp_, sample_.time, AnalogSample::Kind::kJoint, j, angle, joint_slopes_[j].rate()});
-  }
-  for (std::size_t t = 0; t < hardware_.touch.size(); ++t) {
-    const TouchSensor& touch = hardware_.touch[t];
-    if (touch.ecu != ecu) continue;
-    analogs_.push_back({sync_stamp_, sample_.time, AnalogSample::Kind::kTouch, t,
-                        touch.sensor.force(count[touch.input]), 0.0});
-  }
-  // Nobody takes them: the newest are worth most.
-  while (analogs_.size() > 64) analogs_.pop_front();
-}
-
-bool RobotDriver::take_sample(Sample& sample) {
-  if (!sample_ready_) return false;
-  sample_ready_ = false;
-  sample = finished_;
-  return true;
-}
-
-bool RobotDriver::take_analog(AnalogSample& sample) {
-  if (analogs_.empty()) return false;
-  sample = analogs_.front();
-  analogs_.pop_front();
-  return true;
+  if (link.take_analog()) sampler_.add_analog(link, index, now, findings_);
 }
 
 // ---- requests ----
@@ -193,7 +158,7 @@ std::string RobotDriver::too_far(const std::vector<std::string>& names,
       if (hardware_.muscles[m].name != names[i]) continue;
       if (references_[m].mode == ecu::Mode::kPosition) continue;  // it follows already
       // Enabled, so that there was a measurement; NaN if there is none just now.
-      const double step = std::abs(references[i] - finished_.muscles[m].position);
+      const double step = std::abs(references[i] - sampler_.last().muscles[m].position);
       if (step <= options_.first_step) continue;
       char text[160];
       std::snprintf(text, sizeof(text),
@@ -214,6 +179,8 @@ std::string RobotDriver::why_not_enable() const {
     if (supervisor_.state(link.own().muscles.front()) == ecu::State::kFault) {
       return who + "is in FAULT: call clear_faults first";
     }
+    if (!link.heard() && !link.other_version().empty())
+      return who + "speaks another protocol: " + link.other_version();
     if (!link.heard()) return who + "was never heard; is it switched on?";
     if (!link.alive()) return who + "does not answer";
     if (!link.configured()) return who + "is being configured; try again in a second";
@@ -240,9 +207,7 @@ RobotDriver::Outcome RobotDriver::start_enable(double now) {
   // What stays if somebody disables meanwhile.
   last_outcome_ = {false, "disabled before every ECU confirmed"};
   disable_repeats_ = clear_repeats_ = 0;
-  enabling_.deadline = now + kEnableTimeout;
-  enabling_.retry = now;
-  std::fill(enabling_.sequence.begin(), enabling_.sequence.end(), std::uint8_t{0});
+  enabling_.start(links_.size(), now);
   for (ecu::MuscleReference& reference : references_) {
     reference.mode = ecu::Mode::kVoltage;
     reference.reference = 0.0;
@@ -251,29 +216,20 @@ RobotDriver::Outcome RobotDriver::start_enable(double now) {
 }
 
 void RobotDriver::continue_enable(double now) {
-  const bool retry = now >= enabling_.retry;
-  if (retry) enabling_.retry = now + kRetry;
-  bool all = true;
-  for (std::size_t e = 0; e < links_.size(); ++e) {
-    const EcuLink& link = links_[e];
-    const ecu::StateReport& report = link.report();
-    const bool answered = enabling_.sequence[e] != 0 && report.sequence == enabling_.sequence[e];
-    if (answered && report.refusal != ecu::Refusal::kAccepted) {
-      return finish_enable(false, link.own().name + " refuses: " + ecu::name(report.refusal));
-    }
-    if (answered && report.state == ecu::State::kEnabled) continue;
-    all = false;
-    if (retry) {
-      request(Operation::kEnable, link.own().node, link.own().configuration, report.session);
-      enabling_.sequence[e] = sequence_;
-    }
-    if (now >= enabling_.deadline) {
-      return finish_enable(false, link.own().name + " does not confirm enable");
+  const auto ask = [this](const EcuLink& link) {
+    return request(Operation::kEnable, link.own().node, link.own().configuration,
+                   link.report().session);
+  };
+  switch (enabling_.step(links_, now, ask)) {
+    case Enabling::State::kWaiting:
+      return;
+    case Enabling::State::kRefused:
+      return finish_enable(false, enabling_.refusal());
+    case Enabling::State::kConfirmed: {
+      const Outcome outcome = supervisor_.enable(now);
+      return finish_enable(outcome.accepted, outcome.reason);
     }
   }
-  if (!all) return;
-  const Outcome outcome = supervisor_.enable(now);
-  finish_enable(outcome.accepted, outcome.reason);
 }
 
 void RobotDriver::finish_enable(bool success, const std::string& reason) {
@@ -291,29 +247,6 @@ RobotDriver::Outcome RobotDriver::start_home(double now) {
   if (home_.running()) return {false, "home is running already"};
   home_.start(now);
   return {true, "homing"};
-}
-
-RobotDriver::Outcome RobotDriver::disable() {
-  ++halts_;
-  home_.abort("disabled");
-  phase_ = Phase::kDisabled;
-  disable_repeats_ = kRepeats;
-  for (ecu::MuscleReference& reference : references_) {
-    reference.mode = ecu::Mode::kVoltage;
-    reference.reference = 0.0;
-  }
-  request(Operation::kDisable, 0);
-  watch_.sent(bus_.flush(), last_cycle_);
-  return supervisor_.disable();
-}
-
-RobotDriver::Outcome RobotDriver::emergency_stop() {
-  if (phase_ == Phase::kEnabling) last_outcome_ = {false, "emergency stop"};
-  ecu::Frame stop;
-  send(stop);
-  clear_repeats_ = 0;
-  disable();
-  return supervisor_.emergency_stop();
 }
 
 RobotDriver::Outcome RobotDriver::clear_faults(double now) {
@@ -343,13 +276,35 @@ std::string RobotDriver::not_cleared() const {
   return "";
 }
 
-// ---- watching ----
+// ---- stopping ----
+
+RobotDriver::Outcome RobotDriver::disable() {
+  ++halts_;
+  home_.abort("disabled");
+  phase_ = Phase::kDisabled;
+  disable_repeats_ = kRepeats;
+  for (ecu::MuscleReference& reference : references_) {
+    reference.mode = ecu::Mode::kVoltage;
+    reference.reference = 0.0;
+  }
+  request(Operation::kDisable, 0);
+  watch_.sent(bus_.flush(), last_cycle_);
+  return supervisor_.disable();
+}
+
+RobotDriver::Outcome RobotDriver::emergency_stop() {
+  if (phase_ == Phase::kEnabling) last_outcome_ = {false, "emergency stop"};
+  ecu::Frame stop;
+  send(stop);
+  clear_repeats_ = 0;
+  disable();
+  return supervisor_.emergency_stop();
+}
 
 void RobotDriver::stop(Finding finding, int ecu, const std::string& detail) {
   if (phase_ == Phase::kDisabled) return;
-  const std::string who = ecu < 0 ? "" : links_[static_cast<std::size_t>(ecu)].own().name + ": ";
   const std::string what =
-      who + info(finding).meaning + (detail.empty() ? "" : " (" + detail + ")");
+      prefix(ecu) + info(finding).meaning + (detail.empty() ? "" : " (" + detail + ")");
   home_.abort(what);
   if (phase_ == Phase::kEnabling) finish_enable(false, what);
   disable();
@@ -362,15 +317,25 @@ void RobotDriver::stop(Finding finding, int ecu, const std::string& detail) {
 
 void RobotDriver::obey_stop(int ecu) {
   emergency_stop();
-  const std::string who = ecu < 0 ? "" : links_[static_cast<std::size_t>(ecu)].own().name + ": ";
   note_stop(Finding::kStopLatched, ecu < 0 ? "a STOP frame came from elsewhere on the bus"
-                                           : who + info(Finding::kStopLatched).meaning);
+                                           : prefix(ecu) + info(Finding::kStopLatched).meaning);
+}
+
+void RobotDriver::fail_home(double now) {
+  findings_.add(Finding::kHomeFailed, -1, now, home_.failure());
+  disable();
+  note_stop(Finding::kHomeFailed, home_.failure());
 }
 
 void RobotDriver::note_stop(Finding finding, const std::string& what) {
-  ++stops_;
-  last_stop_ = std::string(info(finding).name) + ": " + what + "; " + info(finding).remedy;
+  stops_.add(std::string(info(finding).name) + ": " + what + "; " + info(finding).remedy);
 }
+
+std::string RobotDriver::prefix(int ecu) const {
+  return ecu < 0 ? "" : links_[static_cast<std::size_t>(ecu)].own().name + ": ";
+}
+
+// ---- watching ----
 
 void RobotDriver::check_bus(double now) {
   const double period = 1.0 / options_.rate;
@@ -388,18 +353,15 @@ void RobotDriver::check_ecus(double now) {
     const int index = static_cast<int>(e);
     if (link.take_restart()) {
       stop(Finding::kEcuRestarted, index);
-      supervisor_.lose_zero(link.own().name);
-      restarted_[e] = true;
+      zeros_.lose(e);
       // While nothing runs too: its zero is lost, and the user must know before enabling.
       supervisor_.fault(link.own().name);
     }
-    if (ecu::loses_zero(link.report().fault)) {
-      supervisor_.lose_zero(link.own().name);
-      restarted_[e] = true;
-    }
+    if (ecu::loses_zero(link.report().fault)) zeros_.lose(e);
     if (link.take_wrong_version()) stop(Finding::kWrongVersion, index);
     if (!link.heard()) {
-      if (now - started_ > kSilence) findings_.add(Finding::kEcuSilent, index, now);
+      if (link.other_version().empty() && now - started_ > kSilence)
+        findings_.add(Finding::kEcuSilent, index, now);
       continue;
     }
     if (link.sample_time() > 0.0 && !link.alive()) {
@@ -433,12 +395,12 @@ void RobotDriver::check_tendons(double now) {
       tendons_[m].restart();
       continue;
     }
-    const MuscleSample& muscle = finished_.muscles[m];
+    const MuscleSample& muscle = sampler_.last().muscles[m];
     if (!muscle.measured || !std::isfinite(muscle.force)) continue;
     const bool pulled =
         muscle.mode == ecu::Mode::kForce && muscle.reference > hardware_.home.pretension;
     const std::string wrong =
-        tendons_[m].step(muscle.position, muscle.force, pulled, finished_.time);
+        tendons_[m].step(muscle.position, muscle.force, pulled, sampler_.last().time);
     if (wrong.empty()) continue;
     const std::string detail = wired.name + ": " + wrong;
     findings_.add(Finding::kTendonSlack, wired.ecu, now, detail);
@@ -450,7 +412,7 @@ void RobotDriver::continue_home(double now) {
   if (home_.state() == Home::State::kReached) return continue_zero(now);
   if (home_.state() != Home::State::kRunning) return;
   std::vector<Home::Reading> readings;
-  for (const MuscleSample& muscle : finished_.muscles) {
+  for (const MuscleSample& muscle : sampler_.last().muscles) {
     readings.push_back({muscle.position, muscle.force});
   }
   home_.step(readings, now);
@@ -458,41 +420,20 @@ void RobotDriver::continue_home(double now) {
     references_[m] = home_.command(m, now);
   }
   if (home_.state() == Home::State::kFailed) return fail_home(now);
-  if (home_.state() != Home::State::kReached) return;
-  zero_deadline_ = now + kZeroTimeout;
-  for (std::size_t e = 0; e < links_.size(); ++e) {
-    // Muscles that were not pulled keep their zero, unless it is lost anyway.
-    links_[e].start_zero(restarted_[e]);
-    // From here on it is the old one or the new one, until it is confirmed.
-    if (!links_[e].zeroed()) supervisor_.lose_zero(links_[e].own().name);
-  }
+  if (home_.state() == Home::State::kReached) zeros_.start(now);
 }
 
 void RobotDriver::continue_zero(double now) {
   // The tendons are held meanwhile. The zero counts only if every ECU confirms it.
-  bool all = true;
-  for (std::size_t e = 0; e < links_.size(); ++e) {
-    EcuLink& link = links_[e];
-    if (link.zeroed()) {
-      supervisor_.regain_zero(link.own().name);
-      restarted_[e] = false;
-      continue;
-    }
-    all = false;
-    if (link.zero_refused() || now > zero_deadline_) {
-      home_.abort(link.zeroing().name + ": " + link.own().name + " does not take the zero");
+  switch (zeros_.step(now, [this](const ecu::Frame& frame) { send(frame); })) {
+    case Zeros::State::kWaiting:
+      return;
+    case Zeros::State::kRefused:
+      home_.abort(zeros_.refusal());
       return fail_home(now);
-    }
-    ecu::Frame frame;
-    if (link.next_zero(now, frame)) send(frame);
+    case Zeros::State::kTaken:
+      return home_.finish();
   }
-  if (all) home_.finish();
-}
-
-void RobotDriver::fail_home(double now) {
-  findings_.add(Finding::kHomeFailed, -1, now, home_.failure());
-  disable();
-  note_stop(Finding::kHomeFailed, home_.failure());
 }
 
 // ---- out ----
@@ -501,8 +442,8 @@ void RobotDriver::send(const ecu::Frame& frame) {
   watch_.sent(bus_.send(frame), last_cycle_);
 }
 
-void RobotDriver::request(Operation operation, int node, std::uint16_t configuration,
-                          std::uint8_t session) {
+std::uint8_t RobotDriver::request(Operation operation, int node, std::uint16_t configuration,
+                                  std::uint8_t session) {
   // 0 is what an ECU reports before any request.
   sequence_ = sequence_ == 255 ? std::uint8_t{1} : static_cast<std::uint8_t>(sequence_ + 1);
   ecu::Request message;
@@ -511,6 +452,7 @@ void RobotDriver::request(Operation operation, int node, std::uint16_t configura
   message.session = session;
   message.configuration = configuration;
   send(ecu::encode(message, node));
+  return sequence_;
 }
 
 void RobotDriver::cycle(double now) {
@@ -518,7 +460,7 @@ void RobotDriver::cycle(double now) {
   check_bus(now);
   last_cycle_ = now;
   if (watch_.condition() == BusWatch::Condition::kDown) bus_.recover();
-  close_sample(now);
+  sampler_.close(links_, supervisor_, now);
   ++cycles_;
   ++counter_;
   for (EcuLink& link : links_) link.start_cycle(counter_, now);
@@ -539,17 +481,14 @@ void RobotDriver::cycle(double now) {
 
 void RobotDriver::send_cycle(double now) {
   if (supervisor_.stop_latched()) send(ecu::Frame{});
-  sample_open_ = true;
-  sync_stamp_ = 0;
-  sample_.time = now;
-  sent_ = references_;
+  sampler_.open(references_, now);
   send(ecu::encode(ecu::Sync{counter_, ecu::kProtocolVersion, phase_ == Phase::kEnabled}));
   for (EcuLink& link : links_) {
     if (phase_ == Phase::kDisabled) break;
     ecu::Reference reference;
     reference.counter = static_cast<std::uint8_t>(counter_ & 0xF);
     for (std::size_t c = 0; c < link.own().muscles.size(); ++c) {
-      const auto& wanted = sent_[static_cast<std::size_t>(link.own().muscles[c])];
+      const auto& wanted = references_[static_cast<std::size_t>(link.own().muscles[c])];
       reference.mode[c] = wanted.mode;
       reference.reference[c] = wanted.reference;
     }
@@ -573,36 +512,6 @@ void RobotDriver::send_cycle(double now) {
 bool RobotDriver::all_complete() const {
   return std::all_of(links_.begin(), links_.end(),
                      [](const EcuLink& link) { return link.complete(); });
-}
-
-void RobotDriver::close_sample(double now) {
-  if (!sample_open_) return;
-  sample_open_ = false;
-  bool anything = false;
-  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
-    const MuscleHardware& wired = hardware_.muscles[m];
-    const EcuLink& link = links_[static_cast<std::size_t>(wired.ecu)];
-    MuscleSample& muscle = sample_.muscles[m];
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    muscle = {false, nan, nan, nan, nan, nan, 0.0, ecu::Mode::kVoltage, ecu::State::kFault};
-    if (!link.complete()) continue;
-    anything = muscle.measured = true;
-    const ecu::Motion& motion = link.motion(wired.channel);
-    muscle.position = motion.position;
-    muscle.velocity = motion.velocity;
-    muscle.current = motion.current;
-    muscle.voltage = link.effort().voltage[wired.channel];
-    muscle.force = link.effort().force[wired.channel];
-    muscle.mode = sent_[m].mode;
-    muscle.reference = sent_[m].reference;
-    const bool failed = supervisor_.state(static_cast<int>(m)) == ecu::State::kFault;
-    muscle.state = failed ? ecu::State::kFault : motion.state;
-  }
-  if (!anything) return;
-  sample_.stamp_ns = sync_stamp_;
-  sample_.round_trip = now - sample_.time;
-  finished_ = sample_;
-  sample_ready_ = true;
 }
 
 }  // namespace driver

@@ -88,8 +88,8 @@ TEST(Docs, HaveEveryTimeOut) {
   expect(ms(0.001 * ecu::Firmware::kWatchdogTicks), "Firmware::kWatchdogTicks");
   EXPECT_EQ(EcuLink::kLostSyncs, 2);
   expect("two SYNCs", "EcuLink::kLostSyncs");
-  expect(ms(RobotDriver::kEnableTimeout), "RobotDriver::kEnableTimeout");
-  expect(ms(RobotDriver::kZeroTimeout), "RobotDriver::kZeroTimeout");
+  expect(ms(Enabling::kTimeout), "Enabling::kTimeout");
+  expect(ms(Zeros::kTimeout), "Zeros::kTimeout");
   expect(number(RobotDriver::kSilence) + " s", "RobotDriver::kSilence");
   expect(ms(EcuLink::kReplyTimeout), "EcuLink::kReplyTimeout");
   expect(number(EcuLink::kRetryPause) + " s", "EcuLink::kRetryPause");

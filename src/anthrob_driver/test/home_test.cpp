@@ -134,8 +134,8 @@ TEST_F(HomeTest, NamesABrokenTendonAndStops) {
   home();
   EXPECT_NE(failure().find("supraspinatus"), std::string::npos) << failure();
   EXPECT_NE(failure().find("broken"), std::string::npos) << failure();
-  EXPECT_EQ(rig.driver().stops(), 1u);
-  EXPECT_EQ(rig.driver().last_stop(),
+  EXPECT_EQ(rig.driver().stops().count(), 1u);
+  EXPECT_EQ(rig.driver().stops().last(),
             "home_failed: " + failure() + "; " + info(Finding::kHomeFailed).remedy);
   rig.run(20);
   EXPECT_EQ(rig.moving(), 0);
@@ -328,9 +328,9 @@ TEST_F(HomeTest, ASpindleThatMayHaveTurnedUncountedTakesNoPositionsBeforeIt) {
   ASSERT_TRUE(command(name, ecu::Mode::kVoltage, 8.0).accepted);
   rig.run(400);
   ASSERT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
-  EXPECT_NE(rig.driver().last_stop().find("ecu_3: an ECU reports a fault"), std::string::npos);
-  EXPECT_NE(rig.driver().last_stop().find("(encoder)"), std::string::npos)
-      << rig.driver().last_stop();
+  EXPECT_NE(rig.driver().stops().last().find("ecu_3: an ECU reports a fault"), std::string::npos);
+  EXPECT_NE(rig.driver().stops().last().find("(encoder)"), std::string::npos)
+      << rig.driver().stops().last();
   rig.driver().clear_faults(rig.now());
   rig.run(200);
   EXPECT_EQ(rig.driver().findings().count(Finding::kEcuFault), 0u) << "it was cleared";

@@ -93,14 +93,14 @@ TEST(RobotDriver, AStopFromElsewhereIsCountedAndNamed) {
   ASSERT_TRUE(rig.start());
   rig.driver().emergency_stop();
   rig.run(20);
-  EXPECT_EQ(rig.driver().stops(), 0u);  // whoever called it here knows
+  EXPECT_EQ(rig.driver().stops().count(), 0u);  // whoever called it here knows
   rig.driver().clear_faults(rig.now());
   rig.run(200);
   ASSERT_TRUE(rig.enable());
   rig.stranger.send(ecu::Frame{});
   rig.run(200);
-  EXPECT_EQ(rig.driver().stops(), 1u);
-  EXPECT_EQ(rig.driver().last_stop(),
+  EXPECT_EQ(rig.driver().stops().count(), 1u);
+  EXPECT_EQ(rig.driver().stops().last(),
             "stop_latched: a STOP frame came from elsewhere on the bus; find who sent it; "
             "clear_faults, enable");
   rig.driver().clear_faults(rig.now());
@@ -108,8 +108,8 @@ TEST(RobotDriver, AStopFromElsewhereIsCountedAndNamed) {
   // One that only the unit heard, while nothing ran.
   rig.rack.board(2).receive(ecu::Frame{});
   rig.run(200);
-  EXPECT_EQ(rig.driver().stops(), 2u);
-  EXPECT_EQ(rig.driver().last_stop().substr(0, 20), "stop_latched: ecu_3:");
+  EXPECT_EQ(rig.driver().stops().count(), 2u);
+  EXPECT_EQ(rig.driver().stops().last().substr(0, 20), "stop_latched: ecu_3:");
   EXPECT_TRUE(rig.driver().supervisor().stop_latched());
 }
 
@@ -453,7 +453,7 @@ TEST(RobotDriver, ALateHostIsNotTakenForADeadBus) {
   EXPECT_EQ(rig.driver().findings().count(Finding::kNoAcknowledge), 0u);
   EXPECT_EQ(rig.driver().bus_watch().trouble(), "");
   EXPECT_EQ(rig.driver().phase(), Phase::kDisabled);  // the units stopped by themselves
-  EXPECT_EQ(rig.driver().last_stop().substr(0, 11), "ecu_stopped");
+  EXPECT_EQ(rig.driver().stops().last().substr(0, 11), "ecu_stopped");
   EXPECT_EQ(rig.moving(), 0);
 }
 
@@ -476,8 +476,66 @@ TEST(RobotDriver, AUnitOfAnotherVersionStopsTheMotors) {
   rig.stranger.send(ecu::encode(report, rig.hardware.ecus[2].node));
   rig.run(20);
   EXPECT_EQ(rig.driver().phase(), Phase::kDisabled);
-  EXPECT_EQ(rig.driver().last_stop().substr(0, 13), "wrong_version");
+  EXPECT_EQ(rig.driver().stops().last().substr(0, 13), "wrong_version");
   EXPECT_EQ(rig.moving(), 0);
+}
+
+TEST(RobotDriver, AUnitThatSpeaksOnlyAnotherVersionIsNamed) {
+  Rig rig;
+  rig.rack.board(2).set_power(false);
+  rig.run(1500);
+  EXPECT_EQ(rig.driver().start_enable(rig.now()).reason,
+            "ecu_3: was never heard; is it switched on?");
+  EXPECT_EQ(rig.driver().findings().count(Finding::kWrongVersion), 0u);
+  ecu::StateReport report;
+  report.version = ecu::kProtocolVersion + 1;
+  rig.stranger.send(ecu::encode(report, rig.hardware.ecus[2].node));
+  rig.run(20);
+  const std::uint64_t silences = rig.driver().findings().count(Finding::kEcuSilent);
+  rig.run(100);
+  EXPECT_EQ(rig.driver().start_enable(rig.now()).reason,
+            "ecu_3: speaks another protocol: version " + std::to_string(report.version) +
+                ", expected " + std::to_string(ecu::kProtocolVersion));
+  EXPECT_GT(rig.driver().findings().count(Finding::kWrongVersion), 0u);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kEcuSilent), silences);  // it is not silent
+}
+
+TEST(RobotDriver, AUnitThatCannotBeConfiguredIsNamed) {
+  Rig rig;
+  const int node = rig.hardware.ecus[2].node;
+  // As if it had another number of muscles: it takes all parameters, but has others beside them.
+  rig.bus.tamper = [node](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool report = ecu::function_of(f) == static_cast<int>(ecu::Function::kState);
+    if (!report || ecu::node_of(f) != node) return std::vector<ecu::Frame>{f};
+    ecu::StateReport state = ecu::decode_state(f);
+    state.configuration = static_cast<std::uint16_t>(state.configuration ^ 1);
+    return std::vector<ecu::Frame>{ecu::encode(state, node)};
+  };
+  rig.run(5000);
+  const auto& entries = rig.driver().findings().entries();
+  const auto refused = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
+    return entry.finding == Finding::kConfigurationRefused;
+  });
+  ASSERT_NE(refused, entries.end());
+  EXPECT_EQ(refused->ecu, 2);
+  EXPECT_NE(refused->detail.find("another number of muscles"), std::string::npos);
+  EXPECT_EQ(rig.driver().start_enable(rig.now()).accepted, false);
+}
+
+TEST(StopLog, GivesAllSinceTheLastLook) {
+  StopLog log;
+  EXPECT_EQ(log.last(), "");
+  EXPECT_TRUE(log.since(0).empty());
+  log.add("a");
+  log.add("b");
+  EXPECT_EQ(log.since(0), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(log.since(1), std::vector<std::string>{"b"});
+  EXPECT_TRUE(log.since(2).empty());
+  for (int i = 0; i < 20; ++i) log.add(std::to_string(i));
+  EXPECT_EQ(log.count(), 22u);
+  EXPECT_EQ(log.last(), "19");
+  ASSERT_EQ(log.since(2).size(), StopLog::kRemembered);
+  EXPECT_EQ(log.since(2).front(), "12");
 }
 
 TEST(RobotDriver, AnalogSensorsAreCalibrated) {

@@ -116,8 +116,8 @@ TEST(TendonWatch, AnUnloadedTendonThatBreaksUnderForceControlStopsAll) {
   std::printf("stopped after %d ms\n", static_cast<int>(rig.ms - cut));
   EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
   EXPECT_EQ(rig.driver().findings().count(Finding::kTendonSlack), 1u);
-  EXPECT_NE(rig.driver().last_stop().find("(supraspinatus: wound in by 12.0"), std::string::npos)
-      << rig.driver().last_stop();
+  EXPECT_NE(rig.driver().stops().last().find("(supraspinatus: wound in by 12.0"), std::string::npos)
+      << rig.driver().stops().last();
   // Its unit is to be cleared, as after any fault.
   EXPECT_FALSE(rig.driver().start_enable(rig.now()).accepted);
   rig.driver().clear_faults(rig.now());

@@ -102,7 +102,7 @@ class OrdinaryMotion : public testing::Test {
 TEST_F(OrdinaryMotion, PosturesAtFullSpeedAreNoBrokenTendons) {
   for (const auto* posture : {&kTense, &kReach, &kRest, &kReach, &kTense, &kRest, &kTense}) {
     command(ecu::Mode::kPosition, *posture, 2500);
-    ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.last_stop();
+    ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.stops().last();
   }
   // Loaded enough for the watch to look at, and moved.
   EXPECT_GT(highest_force, 3.0 * hardware.tendons.loaded);
@@ -114,7 +114,7 @@ TEST_F(OrdinaryMotion, PosturesAtFullSpeedAreNoBrokenTendons) {
 TEST_F(OrdinaryMotion, ForcesThatComeAndGoAreNoBrokenTendons) {
   for (const double force : {30.0, 1.0, 60.0, 0.0, 8.0, 2.0}) {
     command(ecu::Mode::kForce, std::vector<double>(11, force), 2500);
-    ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.last_stop();
+    ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.stops().last();
   }
 }
 
@@ -129,9 +129,9 @@ TEST_F(OrdinaryMotion, ATendonThatLosesItsForceIsNamed) {
   command(ecu::Mode::kPosition, kReach, 300);
   EXPECT_EQ(robot.phase(), Phase::kDisabled);
   EXPECT_EQ(robot.findings().count(Finding::kTendonSlack), 1u);
-  EXPECT_NE(robot.last_stop().find("(" + hardware.muscles[loaded].name + ": held"),
+  EXPECT_NE(robot.stops().last().find("(" + hardware.muscles[loaded].name + ": held"),
             std::string::npos)
-      << robot.last_stop();
+      << robot.stops().last();
 }
 
 }  // namespace

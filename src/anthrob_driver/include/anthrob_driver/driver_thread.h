@@ -4,6 +4,8 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <future>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -52,7 +54,8 @@ class DriverThread {
  private:
   double now() const { return options_.pace * monotonic_now(); }
   void loop();
-  void serve_requests();
+  /// @return false if somebody holds the mutex: try again at the next turn
+  bool serve_requests();
   void collect();
   void watch_socket();
 
@@ -64,13 +67,13 @@ class DriverThread {
   std::uint64_t watched_ = 0;  ///< SocketCanBus::openings() of the socket that is waited on
 
   std::mutex mutex_;
-  std::condition_variable done_, arrived_;
+  std::condition_variable arrived_;
   struct Work {
     const std::function<void(RobotDriver&, double)>* run;
-    bool* done;
+    std::shared_ptr<std::promise<void>> done;  ///< shared: whoever waits is gone at once
   };
-  std::deque<Work> work_;
-  Batch batch_, fresh_;  ///< fresh_: of the thread, not handed over yet
+  std::deque<Work> work_, current_;  ///< current_: of the thread, taken from work_
+  Batch batch_, fresh_;              ///< fresh_: of the thread, not handed over yet
   std::atomic<bool> quit_{false};
   std::atomic<std::uint64_t> halts_{0};
   std::thread thread_;

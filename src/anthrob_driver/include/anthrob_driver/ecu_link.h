@@ -54,6 +54,8 @@ class EcuLink {
   /// A report in another version of the protocol came, perhaps of a second unit with this number.
   /// True once.
   bool take_wrong_version();
+  /// What the last report in another version said; empty: there was none.
+  const std::string& other_version() const { return other_version_; }
 
   /// Of the last complete answer.
   const ecu::Motion& motion(int channel) const { return sample_.motion[channel]; }
@@ -101,6 +103,7 @@ class EcuLink {
   ecu::State state_ = ecu::State::kBoot;
   bool latched_ = false;
   bool heard_ = false, sampled_ = false, restarted_ = false, wrong_version_ = false;
+  std::string other_version_;
   double sample_time_ = 0.0;
 
   // Upload of the configuration: one parameter at a time, each read back.

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "anthrob_driver/robot_driver.h"
+#include "anthrob_driver/sampler.h"
 
 namespace anthrob {
 namespace driver {

@@ -1,47 +1,21 @@
 #pragma once
 
-#include <deque>
 #include <string>
 #include <vector>
 
 #include "anthrob_driver/bus/bus.h"
 #include "anthrob_driver/bus_watch.h"
 #include "anthrob_driver/ecu_link.h"
+#include "anthrob_driver/enabling.h"
 #include "anthrob_driver/home.h"
-#include "anthrob_driver/slope.h"
+#include "anthrob_driver/sampler.h"
+#include "anthrob_driver/stop_log.h"
 #include "anthrob_driver/tendon_watch.h"
+#include "anthrob_driver/zeros.h"
 #include "anthrob_ecu/supervisor.h"
 
 namespace anthrob {
 namespace driver {
-
-/// One muscle at one SYNC.
-struct MuscleSample {
-  bool measured = false;  ///< its ECU answered this SYNC; else the numbers mean nothing
-  double position = 0.0, velocity = 0.0, current = 0.0, voltage = 0.0, force = 0.0;
-  double reference = 0.0;  ///< it and mode: what went out with this SYNC
-  ecu::Mode mode = ecu::Mode::kVoltage;
-  ecu::State state = ecu::State::kBoot;
-};
-
-/// All muscles at one SYNC.
-struct Sample {
-  std::int64_t stamp_ns = 0;  ///< wall clock of the kernel when the SYNC was on the wire
-  double time = 0.0;          ///< [s] of the driver's clock when the SYNC was sent
-  double round_trip = 0.0;    ///< [s] from SYNC and references to the last answer
-  std::vector<MuscleSample> muscles;
-};
-
-/// What an analogue sensor said to one SYNC.
-struct AnalogSample {
-  enum class Kind { kJoint, kTouch };
-  std::int64_t stamp_ns = 0;  ///< as Sample's
-  double time = 0.0;          ///< as Sample's
-  Kind kind = Kind::kJoint;
-  std::size_t sensor = 0;  ///< index in Hardware::joints or touch
-  double value = 0.0;      ///< [rad] or [N]
-  double rate = 0.0;       ///< [rad/s] of joints; NaN for the first value after a gap
-};
 
 /// The robot behind a bus: sends SYNC and references, collects answers, decides who may move.
 /// No ROS, no clock, no thread: somebody calls cycle() at the rate and receive() for what comes in.
@@ -68,8 +42,8 @@ class RobotDriver {
   void cycle(double now);
   void receive(const BusEvent& event, double now);
   /// @return false if there is no new one
-  bool take_sample(Sample& sample);
-  bool take_analog(AnalogSample& sample);
+  bool take_sample(Sample& sample) { return sampler_.take(sample); }
+  bool take_analog(AnalogSample& sample) { return sampler_.take(sample); }
 
   /// @param age [s] since it was sent, by its stamp; 0 without one. More than command_timeout, or
   /// as far ahead of time, is refused: nobody sends it now
@@ -77,7 +51,7 @@ class RobotDriver {
                   const std::vector<double>& references, double now, double age = 0.0);
   /// A command that is not even looked at; counted and named as the others that are refused.
   Outcome refuse(const std::string& reason) { return supervisor_.refuse(reason); }
-  /// Begins; phase() and last_outcome() tell how it went, within kEnableTimeout.
+  /// Begins; phase() and last_outcome() tell how it went, within Enabling::kTimeout.
   Outcome start_enable(double now);
   /// Begins; home().running() and its outcome tell how it went.
   Outcome start_home(double now);
@@ -101,40 +75,43 @@ class RobotDriver {
   std::uint64_t cycles() const { return cycles_; }
   /// How often everything was disabled, by whomever and whether anything ran or not.
   std::uint64_t halts() const { return halts_; }
-  /// How often motors were stopped for a reason, and the last one.
-  std::uint64_t stops() const { return stops_; }
-  const std::string& last_stop() const { return last_stop_; }
+  /// Why motors were stopped, when nobody had asked for it here.
+  const StopLog& stops() const { return stops_; }
 
-  static constexpr double kEnableTimeout = 0.25;  ///< [s]
-  static constexpr double kZeroTimeout = 0.5;     ///< [s] for all ECUs to take over home's zero
-  static constexpr double kSilence = 1.0;         ///< [s] before an unheard ECU is reported
+  static constexpr double kSilence = 1.0;  ///< [s] before an unheard ECU is reported
 
  private:
   void send(const ecu::Frame& frame);
-  void request(ecu::Operation operation, int node, std::uint16_t configuration = 0,
-               std::uint8_t session = 0);
+  /// @return the number of the request
+  std::uint8_t request(ecu::Operation operation, int node, std::uint16_t configuration = 0,
+                       std::uint8_t session = 0);
   void on_frame(const ecu::Frame& frame, double now);
   void check_bus(double now);
   void check_ecus(double now);
   void check_tendons(double now);
   void continue_enable(double now);
+  void finish_enable(bool success, const std::string& reason);
   void continue_home(double now);
   void continue_zero(double now);
-  void fail_home(double now);
-  void finish_enable(bool success, const std::string& reason);
-  /// @param detail which fault, which tendon; may be empty
-  void stop(Finding finding, int ecu, const std::string& detail = "");
-  /// Somebody else pressed stop. @param ecu which holds it; -1: a frame on the bus
-  void obey_stop(int ecu);
-  void note_stop(Finding finding, const std::string& what);
   void send_cycle(double now);
-  void close_sample(double now);
-  void keep_analog(const EcuLink& link, int ecu, double now);
   bool all_complete() const;
   std::string why_not_enable() const;
   /// What first_step has against a command; empty: nothing.
   std::string too_far(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                       const std::vector<double>& references) const;
+  /// The name of an ECU and a colon; nothing for -1.
+  std::string prefix(int ecu) const;
+
+  // Whatever stops motors ends in disable(). Beside the user's two: what was found (stop), a STOP
+  // that somebody else sent (obey_stop), home that fails (fail_home). Those say why in stops().
+
+  /// @param ecu that failed: it stays in FAULT until cleared; -1: none
+  /// @param detail which fault, which tendon; may be empty
+  void stop(Finding finding, int ecu, const std::string& detail = "");
+  /// @param ecu which holds the stop; -1: a frame on the bus
+  void obey_stop(int ecu);
+  void fail_home(double now);
+  void note_stop(Finding finding, const std::string& what);
 
   Hardware hardware_;
   Options options_;
@@ -144,31 +121,21 @@ class RobotDriver {
   ecu::Supervisor supervisor_;
   std::vector<EcuLink> links_;
   std::vector<int> link_of_node_;
+  Sampler sampler_;
+  Enabling enabling_;
   Home home_;
-  std::vector<char> restarted_;       ///< by ECU: no zero was confirmed since
+  Zeros zeros_;
   std::vector<TendonWatch> tendons_;  ///< one a muscle
+  StopLog stops_;
 
   Phase phase_ = Phase::kDisabled;
   Outcome last_outcome_{true, ""};
   std::vector<ecu::MuscleReference> references_;  ///< one a muscle
-  std::vector<ecu::MuscleReference> sent_;        ///< the same as they went out with the last SYNC
   std::vector<ecu::MuscleReference> accepted_;
-  struct Enabling {
-    double deadline = 0.0, retry = 0.0;
-    std::vector<std::uint8_t> sequence;  ///< of the request, by ECU
-  } enabling_;
-
-  std::uint64_t cycles_ = 0, stops_ = 0, halts_ = 0;
-  std::string last_stop_;
+  std::uint64_t cycles_ = 0, halts_ = 0;
   std::uint8_t counter_ = 0, sequence_ = 0;
   double last_cycle_ = 0.0, started_ = 0.0, cleared_ = -1.0;
-  double zero_deadline_ = 0.0;
   int disable_repeats_ = 0, clear_repeats_ = 0;
-  Sample sample_, finished_;
-  bool sample_open_ = false, sample_ready_ = false;
-  std::int64_t sync_stamp_ = 0;  ///< of the last SYNC; 0: not known yet
-  std::deque<AnalogSample> analogs_;
-  std::vector<Slope> joint_slopes_;
 };
 
 }  // namespace driver
