@@ -5,6 +5,7 @@
 
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace {
@@ -194,8 +195,7 @@ class ComputedForceNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "computed_force");
-  ros::NodeHandle nh, settings("~");
-  try {
+  return anthrob::run_node("computed_force", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =
         anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
     const auto control = anthrob::ControlSettings::load(
@@ -206,12 +206,6 @@ int main(int argc, char** argv) {
     anthrob::take(settings, "steps", anthrob::whole_number_of, options.steps);
     if (options.steps < 1) throw BadInput("parameter ~steps: expected a number >= 1");
     ComputedForceNode(nh, model, control, options).run();
-  } catch (const BadInput& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM("computed_force: " << error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -8,6 +8,7 @@
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
 
 namespace {
 
@@ -72,14 +73,7 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "hold_posture", ros::init_options::AnonymousName);
-  ros::NodeHandle nh, settings("~");
-  try {
+  return anthrob::run_node("hold_posture", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     return hold(nh, settings) ? 0 : 130;
-  } catch (const anthrob::BadInput& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 1;
-  }
+  });
 }

@@ -7,6 +7,7 @@
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
 
 namespace {
 
@@ -80,14 +81,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "posture_player");
-  ros::NodeHandle nh, settings("~");
-  try {
+  return anthrob::run_node("posture_player", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     return play(nh, settings) ? 0 : 130;
-  } catch (const anthrob::BadInput& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 1;
-  }
+  });
 }

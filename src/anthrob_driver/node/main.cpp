@@ -4,14 +4,14 @@
 #include "anthrob_config/errors.h"
 #include "anthrob_ros/clock_wait.h"
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
 #include "anthrob_ros/single_backend.h"
 #include "driver_node.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "driver");
   if (anthrob::name_is_taken()) return 2;
-  ros::NodeHandle nh, settings("~");
-  try {
+  return anthrob::run_node("driver", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
     using namespace anthrob::driver;
     const std::string file = required(settings, "hardware", "the path of hardware.yaml");
@@ -52,12 +52,6 @@ int main(int argc, char** argv) {
     }
     DriverNode node(hardware, options, can, check_stamps, nh);
     node.run();
-  } catch (const anthrob::BadInput& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM("driver: " << error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

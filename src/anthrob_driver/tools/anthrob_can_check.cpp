@@ -4,15 +4,14 @@
 // that hold another configuration get that of hardware.yaml.
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <thread>
 
+#include "anthrob_config/command_line.h"
 #include "anthrob_config/errors.h"
 #include "anthrob_driver/bus/bit_count.h"
 #include "anthrob_driver/driver_thread.h"
@@ -23,9 +22,6 @@
 namespace anthrob {
 namespace driver {
 namespace {
-
-std::atomic<bool> interrupted{false};
-constexpr int kInterrupted = 130;  // as a shell calls a program that ^C ended
 
 struct Arguments {
   std::string can = "can0", hardware;
@@ -63,7 +59,8 @@ class Listener {
   explicit Listener(const std::string& can) : bus_(can) {}
   void listen(double seconds) {
     BusEvent event;
-    for (const double end = monotonic_now() + seconds; monotonic_now() < end && !interrupted;) {
+    for (const double end = monotonic_now() + seconds;
+         monotonic_now() < end && !tool::interrupted();) {
       if (!bus_.receive(event)) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       } else if (event.kind == BusEvent::Kind::kFrame) {
@@ -98,7 +95,7 @@ double processor_time() {
 
 bool enable(DriverThread& thread) {
   RobotDriver::Outcome outcome;
-  for (int attempt = 0; attempt < 100 && !interrupted; ++attempt) {
+  for (int attempt = 0; attempt < 100 && !tool::interrupted(); ++attempt) {
     bool waiting = true;
     thread.call([](RobotDriver& driver, double now) { driver.start_enable(now); });
     while (waiting) {
@@ -111,7 +108,7 @@ bool enable(DriverThread& thread) {
     if (outcome.accepted) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  if (!interrupted) std::cerr << "anthrob_can_check: " << outcome.reason << "\n";
+  if (!tool::interrupted()) std::cerr << "anthrob_can_check: " << outcome.reason << "\n";
   return false;
 }
 
@@ -147,7 +144,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   // On a robot a latched stop, or a fault, is somebody's: it stays.
   if (arguments.emulate) {
     thread.call([](RobotDriver& driver, double now) { driver.clear_faults(now); });
-    if (!enable(thread)) return interrupted ? kInterrupted : 1;
+    if (!enable(thread)) return tool::interrupted() ? tool::kInterrupted : 1;
   }
   thread.wait(0.0);
 
@@ -162,7 +159,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   };
   count(cycles, frames);
   const double start = robot_time(arguments), processor = processor_time();
-  while (robot_time(arguments) - start < arguments.seconds && !interrupted) {
+  while (robot_time(arguments) - start < arguments.seconds && !tool::interrupted()) {
     if (arguments.emulate) command(thread, hardware);
     for (const double end = robot_time(arguments) + 0.1; robot_time(arguments) < end;) {
       for (const Sample& sample : thread.wait(0.02).samples) {
@@ -187,7 +184,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   constexpr double kListen = 2.0;
   const double listen_start = robot_time(arguments);
   std::thread listening([&] { listener.listen(kListen / arguments.pace); });
-  while (robot_time(arguments) - listen_start < kListen && !interrupted) {
+  while (robot_time(arguments) - listen_start < kListen && !tool::interrupted()) {
     if (arguments.emulate) command(thread, hardware);
     thread.wait(0.1);
   }
@@ -217,7 +214,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   }
   std::printf("%s",
               findings.empty() ? "nothing was found wrong\n" : ("found:\n" + findings).c_str());
-  if (interrupted) return kInterrupted;
+  if (tool::interrupted()) return tool::kInterrupted;
   return stopped || incomplete > 0 || round_trips.empty() ? 1 : 0;
 }
 
@@ -253,6 +250,7 @@ class EmulatedRobot {
 constexpr double kLongest = 1e6;  // [s], eleven days
 
 int run(const Arguments& arguments) {
+  if (tool::interrupted()) return tool::kInterrupted;  // listens from here on
   const bool hand = arguments.hand && has_hand(arguments.hardware);
   const Hardware hardware = load_hardware(arguments.hardware, hand);
   if (!(arguments.seconds > 0.0 && arguments.seconds <= kLongest)) {
@@ -291,20 +289,5 @@ int main(int argc, char** argv) {
   app.add_flag("--hand,!--no-hand", arguments.hand,
                "with the hand's ECU, if the robot has a hand (default)");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
-  std::signal(SIGINT, [](int) { driver::interrupted = true; });
-  try {
-    app.parse(argc, argv);
-    return driver::run(arguments);
-  } catch (const CLI::Success& e) {
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    std::cerr << "anthrob_can_check: " << e.what() << " (--help explains)\n";
-    return 2;
-  } catch (const BadInput& e) {
-    std::cerr << "anthrob_can_check: " << e.what() << "\n";
-    return 2;
-  } catch (const std::exception& e) {
-    std::cerr << "anthrob_can_check: " << e.what() << "\n";
-    return 1;
-  }
+  return tool::run(app, argc, argv, [&] { return driver::run(arguments); });
 }

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 #include "conversions.h"
 
 namespace anthrob {

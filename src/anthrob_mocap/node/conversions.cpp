@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,8 +1,9 @@
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/pipeline/tracker_file.h"
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
 #include "mocap_node.h"
 #include "open_source.h"
-#include "run_node.h"
 
 namespace mocap = anthrob::mocap;
 
@@ -26,7 +27,7 @@ mocap::MocapNode::Options read_options(const ros::NodeHandle& settings) {
   const std::string source = optional_text(settings, "source", "topics");
   options.recorded = source == "folder" || source == "bag";
   if (!(options.sync_tolerance >= 0.0)) {
-    throw mocap::BadInput("parameter ~sync_tolerance: expected a number >= 0 [s]");
+    throw anthrob::BadInput("parameter ~sync_tolerance: expected a number >= 0 [s]");
   }
   return options;
 }
@@ -42,7 +43,7 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const std::string calibration = optional_text(settings, "calibration");
   const std::string source = optional_text(settings, "source", "topics");
   if (source != "topics" && calibration.empty()) {
-    throw mocap::BadInput(
+    throw anthrob::BadInput(
         "parameter ~calibration: missing; expected a folder with left.yaml and "
         "right.yaml");
   }
@@ -63,8 +64,8 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "mocap");
-  return mocap::run_node([] {
-    ros::NodeHandle nh, settings("~");
+  return anthrob::run_node("mocap", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     track(nh, settings);
+    return 0;
   });
 }

@@ -1,6 +1,6 @@
 #include "open_source.h"
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/source/aravis_source.h"
 #include "anthrob_mocap/source/folder_source.h"
 #include "anthrob_ros/parameters.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
 #include "conversions.h"
-#include "run_node.h"
 #include "virtual_rig.h"
 
 namespace anthrob {
@@ -121,8 +121,7 @@ void VirtualRig::publish(const ros::Time& stamp, const std::vector<Scene>& insta
 int main(int argc, char** argv) {
   namespace mocap = anthrob::mocap;
   ros::init(argc, argv, "virtual_rig");
-  return mocap::run_node([] {
-    ros::NodeHandle nh("mocap"), settings("~");
+  return anthrob::run_node("virtual_rig", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto rig = mocap::StereoRig::load(
         anthrob::required(settings, "calibration", "a folder with left.yaml and right.yaml"));
     // It only draws: what looks alike is the tracker's affair.
@@ -131,6 +130,7 @@ int main(int argc, char** argv) {
                                mocap::TargetSet::kUnchecked);
     const auto setup =
         mocap::Setup::load(anthrob::required(settings, "rig", "the path of rig.yaml"), set);
-    mocap::VirtualRig(nh, rig, set, setup).run();
+    mocap::VirtualRig(ros::NodeHandle(nh, "mocap"), rig, set, setup).run();
+    return 0;
   });
 }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {

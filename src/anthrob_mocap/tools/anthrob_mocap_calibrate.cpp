@@ -3,10 +3,11 @@
 #include <iostream>
 #include <map>
 
+#include "anthrob_config/atomic_file.h"
+#include "anthrob_config/command_line.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/calibration/stereo_calibration.h"
-#include "anthrob_mocap/core/errors.h"
 #include "anthrob_mocap/source/image_file.h"
-#include "tool.h"
 
 namespace mocap = anthrob::mocap;
 namespace fs = std::filesystem;
@@ -33,8 +34,8 @@ std::map<std::string, std::string> by_key(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const std::string& file : mocap::list_images(folder)) {
     if (!files.emplace(key_of(file), folder + "/" + file).second) {
-      throw mocap::BadInput(folder + "/" + file + ": another image has the same number " +
-                            key_of(file));
+      throw anthrob::BadInput(folder + "/" + file + ": another image has the same number " +
+                              key_of(file));
     }
   }
   return files;
@@ -43,13 +44,8 @@ std::map<std::string, std::string> by_key(const std::string& folder) {
 /// Both or none: two cameras of two calibrations are no rig.
 void write(const std::string& folder, const mocap::StereoRig& rig) {
   const auto file = [&](mocap::Side side) { return folder + "/" + mocap::name(side) + ".yaml"; };
-  mocap::tool::NewFile left(file(mocap::kLeft)), right(file(mocap::kRight));
-  left.stream() << rig.camera(mocap::kLeft).to_yaml();
-  right.stream() << rig.camera(mocap::kRight).to_yaml();
-  left.close();
-  right.close();
-  left.put_in_place();
-  right.put_in_place();
+  anthrob::write_files_atomically({{file(mocap::kLeft), rig.camera(mocap::kLeft).to_yaml()},
+                                   {file(mocap::kRight), rig.camera(mocap::kRight).to_yaml()}});
   for (const auto side : {mocap::kLeft, mocap::kRight}) {
     std::cout << "written            " << file(side) << "\n";
   }
@@ -61,7 +57,7 @@ int calibrate(const Arguments& arguments) {
   std::vector<mocap::BoardView> views;
   int width = 0, height = 0;
   for (const auto& [key, file] : left) {
-    if (mocap::tool::interrupted()) return mocap::tool::kInterrupted;
+    if (anthrob::tool::interrupted()) return anthrob::tool::kInterrupted;
     const auto partner = right.find(key);
     if (partner == right.end()) {
       std::cout << file << ": no partner in " << arguments.right << "\n";
@@ -74,10 +70,10 @@ int calibrate(const Arguments& arguments) {
       const mocap::Image image = mocap::read_any_image(name);
       if (width == 0) width = image.width, height = image.height;
       if (image.width != width || image.height != height) {
-        throw mocap::BadInput(name + ": " + std::to_string(image.width) + "x" +
-                              std::to_string(image.height) + " pixels: expected " +
-                              std::to_string(width) + "x" + std::to_string(height) +
-                              " as the others");
+        throw anthrob::BadInput(name + ": " + std::to_string(image.width) + "x" +
+                                std::to_string(image.height) + " pixels: expected " +
+                                std::to_string(width) + "x" + std::to_string(height) +
+                                " as the others");
       }
       const auto corners = mocap::find_corners(image, board);
       if (corners)
@@ -93,7 +89,7 @@ int calibrate(const Arguments& arguments) {
   std::cout << result.report();
   fs::create_directories(arguments.out);
   write(arguments.out, result.rig);
-  return mocap::tool::kDone;
+  return anthrob::tool::kDone;
 }
 
 }  // namespace
@@ -113,5 +109,5 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.01, 100.0));
   app.add_option("--min-coverage", a.limits.least_coverage, "refuse less of the picture")
       ->check(CLI::Range(0.0, 1.0));
-  return mocap::tool::run(app, argc, argv, [&] { return calibrate(a); });
+  return anthrob::tool::run(app, argc, argv, [&] { return calibrate(a); });
 }

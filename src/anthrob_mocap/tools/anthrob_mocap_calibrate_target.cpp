@@ -3,24 +3,25 @@
 #include <iostream>
 #include <optional>
 
+#include "anthrob_config/atomic_file.h"
+#include "anthrob_config/command_line.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/calibration/target_calibration.h"
-#include "anthrob_mocap/core/errors.h"
 #include "anthrob_mocap/pipeline/tracker_file.h"
 #include "recording.h"
-#include "tool.h"
 
 namespace mocap = anthrob::mocap;
 
 namespace {
 
 struct Arguments {
-  mocap::tool::Recording recording;
+  mocap::Recording recording;
   std::string targets, name, out, settings;
 };
 
 /// Points in space of every pair of images; nothing if interrupted.
 std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
-    const mocap::tool::Recording& recording, const mocap::TargetSet& set,
+    const mocap::Recording& recording, const mocap::TargetSet& set,
     const mocap::TrackerOptions& options) {
   const auto rig = mocap::StereoRig::load(recording.calibration);
   std::vector<std::vector<mocap::MarkerPoint>> frames;
@@ -31,7 +32,7 @@ std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
                              health.add(frame), frames.push_back(frame.points);
                            });
   mocap::FolderSource source(recording.left, recording.right, recording.folder);
-  if (!mocap::tool::track_all(source, rig, recording, pipeline)) return std::nullopt;
+  if (!mocap::track_all(source, rig, recording, pipeline)) return std::nullopt;
   recording.refuse_contradiction(health);
   if (!health.bend().empty()) std::cerr << "warning: " << health.bend() << "\n";
   return frames;
@@ -58,7 +59,7 @@ int calibrate(const Arguments& arguments) {
   for (mocap::MarkerTarget& target : set.targets) {
     if (target.name != arguments.name) continue;
     const auto points = read_points(arguments.recording, set, options);
-    if (!points) return mocap::tool::kInterrupted;
+    if (!points) return anthrob::tool::kInterrupted;
     const auto result = mocap::calibrate_target(target, *points);
     for (std::size_t i = 0; i < result.seen.size(); ++i) {
       std::printf("marker %zu: moved by %.2f mm, seen in %d frames, %.3f mm rms\n", i,
@@ -70,15 +71,12 @@ int calibrate(const Arguments& arguments) {
     const std::string text = set.to_yaml();
     mocap::TargetSet::parse(text, arguments.out, mocap::TargetSet::kUnchecked);
     const std::string why = mocap::find_ambiguity(target, target, edge_tolerance);
-    if (!why.empty()) throw mocap::BadInput("target " + target.name + ": " + why);
-    mocap::tool::NewFile out(arguments.out);
-    out.stream() << text;
-    out.close();
-    out.put_in_place();
+    if (!why.empty()) throw anthrob::BadInput("target " + target.name + ": " + why);
+    anthrob::write_file_atomically(arguments.out, text);
     note_others(set, target.name, edge_tolerance);
-    return mocap::tool::kDone;
+    return anthrob::tool::kDone;
   }
-  throw mocap::BadInput("--name " + arguments.name + ": no such target in " + arguments.targets);
+  throw anthrob::BadInput("--name " + arguments.name + ": no such target in " + arguments.targets);
 }
 
 }  // namespace
@@ -93,5 +91,5 @@ int main(int argc, char** argv) {
   app.add_option("--name", a.name, "the target to calibrate")->required();
   app.add_option("--out", a.out, "targets.yaml to be written")->required();
   app.add_option("--settings", a.settings, "options of the stages (YAML)");
-  return mocap::tool::run(app, argc, argv, [&] { return calibrate(a); });
+  return anthrob::tool::run(app, argc, argv, [&] { return calibrate(a); });
 }

@@ -2,18 +2,19 @@
 #include <algorithm>
 #include <iostream>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/atomic_file.h"
+#include "anthrob_config/command_line.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/output/pose_table.h"
 #include "anthrob_mocap/pipeline/tracker_file.h"
 #include "recording.h"
-#include "tool.h"
 
 namespace mocap = anthrob::mocap;
 
 namespace {
 
 struct Arguments {
-  mocap::tool::Recording recording;
+  mocap::Recording recording;
   std::string targets, out, settings, pipeline = "sequential";
   int threshold = 0;
 };
@@ -48,14 +49,14 @@ class Report {
 };
 
 int track(const Arguments& arguments) {
-  const mocap::tool::Recording& recording = arguments.recording;
+  const mocap::Recording& recording = arguments.recording;
   mocap::TrackerOptions options;
   if (!arguments.settings.empty()) options = mocap::load_tracker_options(arguments.settings);
   if (arguments.threshold > 0) options.segmentation.threshold = arguments.threshold;
   const auto rig = mocap::StereoRig::load(recording.calibration);
   const auto set = mocap::TargetSet::load(arguments.targets, options.labelling.edge_tolerance);
   mocap::FolderSource source(recording.left, recording.right, recording.folder);
-  mocap::tool::NewFile out(arguments.out);
+  anthrob::AtomicFile out(arguments.out);
   mocap::PoseTable table(out.stream(), set);
   mocap::Health health(rig, mocap::matching_of(set, options));
   Report report(set);
@@ -65,11 +66,11 @@ int track(const Arguments& arguments) {
                              const auto& frame = static_cast<const mocap::StereoFrame&>(*packet);
                              table.add(frame), health.add(frame), report.add(frame);
                            });
-  const bool done = mocap::tool::track_all(source, rig, recording, pipeline);
+  const bool done = mocap::track_all(source, rig, recording, pipeline);
   if (done) recording.refuse_contradiction(health);
   out.close();
-  out.put_in_place();
-  if (!done) return mocap::tool::kInterrupted;
+  out.move_into_place();
+  if (!done) return anthrob::tool::kInterrupted;
   report.print();
   if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
   if (health.given_up() > 0) {
@@ -77,7 +78,7 @@ int track(const Arguments& arguments) {
               << " searches of targets were given up at step_limit: too many bright blobs\n";
   }
   if (!health.bend().empty()) std::cerr << "warning: " << health.bend() << "\n";
-  return mocap::tool::kDone;
+  return anthrob::tool::kDone;
 }
 
 }  // namespace
@@ -95,5 +96,5 @@ int main(int argc, char** argv) {
   app.add_option("--rate", a.recording.folder.rate, "pairs a second where there is no times.csv")
       ->check(CLI::Range(0.001, 100000.0));
   app.add_option("--pipeline", a.pipeline, "sequential or threaded: same results");
-  return mocap::tool::run(app, argc, argv, [&] { return track(a); });
+  return anthrob::tool::run(app, argc, argv, [&] { return track(a); });
 }

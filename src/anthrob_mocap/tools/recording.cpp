@@ -1,11 +1,10 @@
 #include "recording.h"
 
-#include "anthrob_mocap/core/errors.h"
-#include "tool.h"
+#include "anthrob_config/command_line.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {
-namespace tool {
 
 namespace {
 
@@ -38,7 +37,7 @@ void Recording::refuse_contradiction(const Health& health) const {
 
 bool track_all(FolderSource& source, const StereoRig& rig, const Recording& recording,
                Pipeline& pipeline) {
-  while (!interrupted()) {
+  while (!tool::interrupted()) {
     auto frame = std::make_unique<StereoFrame>();
     if (source.next(*frame, 0.0) == FrameSource::Grab::kEnd) {
       pipeline.drain();
@@ -51,6 +50,5 @@ bool track_all(FolderSource& source, const StereoRig& rig, const Recording& reco
   return false;
 }
 
-}  // namespace tool
 }  // namespace mocap
 }  // namespace anthrob

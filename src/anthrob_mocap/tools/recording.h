@@ -9,7 +9,6 @@
 
 namespace anthrob {
 namespace mocap {
-namespace tool {
 
 /// What a command line says about a recording: its images, and the calibration of their cameras.
 struct Recording {
@@ -28,6 +27,5 @@ struct Recording {
 bool track_all(FolderSource& source, const StereoRig& rig, const Recording& recording,
                Pipeline& pipeline);
 
-}  // namespace tool
 }  // namespace mocap
 }  // namespace anthrob

@@ -1,5 +1,6 @@
 // Records a robot by protocol; interrupted, the same command goes on.
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
 #include "anthrob_sim/core/errors.h"
 #include "recorder.h"
 
@@ -17,8 +18,7 @@ void enable(ros::NodeHandle& nh) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "recorder");
-  ros::NodeHandle nh, settings("~");
-  try {
+  return anthrob::run_node("recorder", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =
         anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
     const auto protocol =
@@ -37,11 +37,5 @@ int main(int argc, char** argv) {
     anthrob::Recorder recorder(nh, settings, model, protocol, folder, options);
     if (enable_first) enable(nh);
     return recorder.run() ? 0 : 130;
-  } catch (const anthrob::BadInput& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM("recorder: " << error.what());
-    return 1;
-  }
+  });
 }

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "anthrob_sim/recording/atomic_file.h"
+#include "anthrob_config/atomic_file.h"
 
 namespace anthrob {
 

@@ -1,6 +1,7 @@
 #include <ros/ros.h>
 
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
 #include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/core/errors.h"
 #include "simulator_node.h"
@@ -8,8 +9,7 @@
 int main(int argc, char** argv) {
   ros::init(argc, argv, "simulator");
   if (anthrob::name_is_taken()) return 2;
-  ros::NodeHandle nh, settings("~");
-  try {
+  return anthrob::run_node("simulator", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
     const std::string file = required(settings, "model", "the path of a model file");
     LoadOptions load;
@@ -36,12 +36,6 @@ int main(int argc, char** argv) {
                      " publishes it already; stop that back end first");
     }
     node.run();
-  } catch (const anthrob::BadInput& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM("simulator: " << error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "anthrob_config/atomic_file.h"
 #include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/recording/atomic_file.h"
 
 namespace anthrob {
 namespace identification {

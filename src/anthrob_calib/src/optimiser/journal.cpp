@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "anthrob_calib/resume/fingerprint.h"
+#include "anthrob_config/atomic_file.h"
 #include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/recording/atomic_file.h"
 #include "anthrob_sim/recording/dataset.h"
 
 namespace anthrob {

@@ -5,7 +5,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -6,8 +6,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/calibration/rectification.h"
-#include "anthrob_mocap/core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/labelling/clique_search.h"
 
 namespace anthrob {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {

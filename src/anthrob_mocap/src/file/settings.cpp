@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {

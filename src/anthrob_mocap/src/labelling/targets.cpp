@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/file/settings.h"
 
 namespace anthrob {

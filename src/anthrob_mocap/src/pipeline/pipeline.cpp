@@ -7,7 +7,7 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <thread>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/source/live_pair.h"
 
 namespace anthrob {
@@ -42,7 +42,6 @@ class Camera {
     Check check;
     camera_.reset(arv_camera_new(options.name[side].c_str(), check));
     check.raise();
-    if (!camera_) throw std::runtime_error("no camera called " + options.name[side]);
     configure(options);
     stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, check));
     check.raise();

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/source/live_pair.h"
 
 namespace anthrob {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_mocap/source/image_file.h"
 
 namespace anthrob {

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "anthrob_config/atomic_file.h"
 #include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/recording/atomic_file.h"
 
 namespace anthrob {
 

@@ -16,8 +16,8 @@
 #include <set>
 #include <string_view>
 
+#include "anthrob_config/atomic_file.h"
 #include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/recording/atomic_file.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/topic_tables.h"
 

@@ -3,14 +3,11 @@
 #include <ros/package.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <sstream>
 #include <vector>
 
@@ -21,57 +18,11 @@ namespace tool {
 
 namespace {
 
-volatile std::sig_atomic_t interrupt_seen = 0;
-
-std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
-}
-
-/// What roslaunch adds to a command line: "__name:=discover", "__log:=..."
-bool is_remapping(const std::string& argument) {
-  return argument.rfind("__", 0) == 0 && argument.find(":=") != std::string::npos;
-}
-
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
-
-int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
-  std::vector<char*> arguments;
-  std::copy_if(argv, argv + argc, std::back_inserter(arguments),
-               [](const char* argument) { return !is_remapping(argument); });
-  try {
-    app.parse(static_cast<int>(arguments.size()), arguments.data());
-    return body();
-  } catch (const CLI::Success& e) {
-    app.exit(e);
-    return kDone;
-  } catch (const CLI::ParseError& e) {
-    std::cerr << app.get_name() << ": " << one_line(e.what()) << " (--help explains)\n";
-    return kBadInput;
-  } catch (const BadInput& e) {
-    std::cerr << app.get_name() << ": " << e.what() << "\n";
-    return kBadInput;
-  } catch (const std::exception& e) {
-    std::cerr << app.get_name() << ": " << one_line(e.what()) << "\n";
-    return kFailed;
-  }
-}
-
-bool interrupted() {
-  static const bool kListening = [] {
-    std::signal(SIGINT, [](int) { interrupt_seen = 1; });
-    std::signal(SIGTERM, [](int) { interrupt_seen = 1; });
-    return true;
-  }();
-  return kListening && interrupt_seen != 0;
-}
 
 std::string find_model_file(const std::string& robot, const std::string& model) {
   namespace fs = std::filesystem;

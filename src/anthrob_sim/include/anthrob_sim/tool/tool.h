@@ -1,25 +1,14 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "anthrob_config/command_line.h"
 #include "anthrob_sim/model/robot_model.h"
 
 namespace anthrob {
 namespace tool {
-
-/// Exit statuses of every command.
-enum Exit { kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130 };
-
-/// Parses the command line, runs `body`, and turns whatever goes wrong into one line on standard
-/// error and the exit status of its kind. What roslaunch adds to the command line is left out.
-int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
-
-/// Whether Ctrl-C was pressed. The first call starts listening.
-bool interrupted();
 
 /// `--robot NAME` or folder, and `--model NAME` ("II" for model_II.yaml): the model file.
 /// Robots are folders under $ANTHROB_CONFIG, else under config/ of the package anthrob_bringup.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,8 +12,29 @@ namespace anthrob {
 /// @throws std::runtime_error if the disk does not take it
 void keep_on_disk(const std::string& path);
 
-/// Writes beside the target and renames, so that the target is either the old or the complete new
-/// file.
+/// A file that is written beside its place and moved there when it is whole, so that its place has
+/// the old file or the complete new one. What is not moved is removed.
+class AtomicFile {
+ public:
+  /// @throws std::runtime_error naming the file and the reason, like the others
+  explicit AtomicFile(const std::string& file);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  std::ostream& stream() { return out_; }
+  /// All that was written is on the disk, beside its place.
+  void close();
+  /// After close().
+  void move_into_place();
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  std::string file_, part_;
+  std::ofstream out_;
+};
+
 /// @throws std::runtime_error naming the file and the reason
 void write_file_atomically(const std::string& file, const std::string& content);
 

@@ -1,16 +1,15 @@
-#include "tool.h"
+#include "anthrob_config/command_line.h"
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <csignal>
-#include <filesystem>
 #include <iostream>
-#include <stdexcept>
+#include <iterator>
+#include <string>
+#include <vector>
 
-#include "anthrob_mocap/core/errors.h"
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
-namespace mocap {
 namespace tool {
 
 namespace {
@@ -25,54 +24,33 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// What roslaunch adds to a command line: "__name:=discover", "__log:=..."
+bool is_remapping(const std::string& argument) {
+  return argument.rfind("__", 0) == 0 && argument.find(":=") != std::string::npos;
+}
+
 }  // namespace
 
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
-  const auto say = [&](const char* what) { std::cerr << app.get_name() << ": " << one_line(what); };
+  std::vector<char*> arguments;
+  std::copy_if(argv, argv + argc, std::back_inserter(arguments),
+               [](const char* argument) { return !is_remapping(argument); });
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
     return body();
   } catch (const CLI::Success& e) {
     app.exit(e);
     return kDone;
   } catch (const CLI::ParseError& e) {
-    say(e.what());
-    std::cerr << " (--help explains)\n";
+    std::cerr << app.get_name() << ": " << one_line(e.what()) << " (--help explains)\n";
     return kBadInput;
   } catch (const BadInput& e) {
-    say(e.what());
-    std::cerr << "\n";
+    std::cerr << app.get_name() << ": " << e.what() << "\n";
     return kBadInput;
   } catch (const std::exception& e) {
-    say(e.what());
-    std::cerr << "\n";
+    std::cerr << app.get_name() << ": " << one_line(e.what()) << "\n";
     return kFailed;
   }
-}
-
-NewFile::NewFile(const std::string& name)
-    : name_(name), part_(name + ".part" + std::to_string(getpid())), out_(part_) {
-  if (!out_) fail();
-}
-
-NewFile::~NewFile() {
-  std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
-}
-
-void NewFile::close() {
-  out_.close();
-  if (!out_) fail();
-}
-
-void NewFile::put_in_place() {
-  std::error_code error;
-  std::filesystem::rename(part_, name_, error);
-  if (error) fail();
-}
-
-void NewFile::fail() const {
-  throw std::runtime_error(name_ + ": cannot be written");
 }
 
 bool interrupted() {
@@ -85,5 +63,4 @@ bool interrupted() {
 }
 
 }  // namespace tool
-}  // namespace mocap
 }  // namespace anthrob

@@ -1,0 +1,66 @@
+#include "anthrob_config/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <iterator>
+
+namespace anthrob {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFileTest : public testing::Test {
+ protected:
+  AtomicFileTest() : folder_("/tmp/anthrob_atomic_file_" + std::to_string(getpid())) {
+    fs::create_directory(folder_);
+  }
+  ~AtomicFileTest() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::string text(const std::string& name) const {
+    std::ifstream in(path(name));
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  }
+
+  std::string folder_;
+};
+
+TEST_F(AtomicFileTest, TheOldOneStaysUntilTheNewOneIsWhole) {
+  write_file_atomically(path("a"), "old");
+  {
+    AtomicFile file(path("a"));
+    file.stream() << "new";
+    file.close();
+    EXPECT_EQ(text("a"), "old");
+    file.move_into_place();
+    EXPECT_EQ(text("a"), "new");
+  }
+  {
+    AtomicFile file(path("a"));
+    file.stream() << "half";
+  }
+  EXPECT_EQ(text("a"), "new");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFileTest, OfSeveralAllAreReplacedOrNone) {
+  write_files_atomically({{path("a"), "1"}, {path("b"), "2"}});
+  EXPECT_EQ(text("a") + text("b"), "12");
+  try {
+    write_files_atomically({{path("a"), "3"}, {path("nowhere/b"), "4"}});
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              path("nowhere/b") + ": cannot be written: No such file or directory");
+  }
+  EXPECT_EQ(text("a") + text("b"), "12");
+  EXPECT_EQ(files(), 2);
+}
+
+}  // namespace
+}  // namespace anthrob
