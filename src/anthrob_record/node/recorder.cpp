@@ -13,11 +13,9 @@ namespace {
 
 /// Commands are renewed faster than they time out [s].
 constexpr double kCommandPeriod = 0.02;
-/// Silence after which a measurement counts as old and the robot as gone, and gap after which a
-/// recording counts as broken [s].
-constexpr double kSilence = 1.0, kLargestGap = 0.05;
-constexpr double kUnderWay = 0.05;  ///< a measurement may be so late [s]
-constexpr double kUndriven = 0.5;   // motors may start with the first commands
+/// Silence after which a measurement counts as old and the robot as gone [s].
+constexpr double kSilence = 1.0;
+constexpr double kUndriven = 0.5;  ///< [s]: motors may start with the first commands
 /// How long a robot may take to appear, of wall time [s].
 constexpr double kPatience = 30.0;
 constexpr double kDegree = 0.017453292519943295;
@@ -31,21 +29,13 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
       model_(model),
       protocol_(protocol),
       store_(folder, model, protocol),
+      bags_(store_, model, nh.getNamespace() + "/"),
       link_(nh, model, options),
       lock_step_(options.lock_step) {
-  const auto record = [this](const char* topic) {
+  const auto measure = [this](const char* topic) {
     return [this, topic](const auto& message) {
-      if (belongs(message.header)) current_bag().write(topic, message);
-    };
-  };
-  const auto measure = [this, record](const char* topic) {
-    return [this, write = record(topic)](const auto& message) {
-      write(message);
-      const std::vector<std::string> names = measured_names_(message);
-      if (!belongs(message.header)) return;
-      for (const std::string& name : names) {
-        current_bag().gaps.see(name, message.header.stamp.toSec());
-      }
+      bags_.write(topic, message);
+      bags_.see(measured_names_(message), message.header);
     };
   };
   link_.on_joints = measure("joint_states");
@@ -55,9 +45,7 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
   // The controller commands; what it says belongs to the recording.
   subscribers_ = {nh_.subscribe<anthrob_msgs::MuscleCommand>(
       "muscle_command", 2000,
-      [write = record("muscle_command")](const anthrob_msgs::MuscleCommandConstPtr& m) {
-        write(*m);
-      },
+      [this](const anthrob_msgs::MuscleCommandConstPtr& m) { bags_.write("muscle_command", *m); },
       ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())};
   if (protocol_.by_hand) sample_ = own.advertiseService("sample", &Recorder::on_sample, this);
 }
@@ -73,16 +61,16 @@ bool Recorder::run() {
   for (int repeat = 1; repeat <= protocol_.repeats; ++repeat) {
     for (const Protocol::Target& target : protocol_.targets) {
       ++done_;
-      names_ = store_.names(target, repeat);
+      bags_.begin(store_.names(target, repeat));
       bool complete = true;
-      for (const std::string& name : names_) complete = complete && store_.complete(name);
+      for (const std::string& name : bags_.names()) complete = complete && store_.complete(name);
       if (complete) continue;
       Result result = Result::kAgain;
       for (int attempt = 0; result == Result::kAgain && attempt <= protocol_.redo; ++attempt)
         result = record(target, repeat);
       if (result == Result::kShutdown) return false;
       if (result == Result::kAgain) {
-        throw std::runtime_error(names_.front() + ": " + trouble_ +
+        throw std::runtime_error(bags_.names().front() + ": " + trouble_ +
                                  "; given up, what is complete stays, the same command goes on");
       }
     }
@@ -96,12 +84,11 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
   Visit visit(model_, protocol_, store_.baseline());
   visit_ = &visit;
   aimed_ = false;
-  bags_.resize(names_.size());
   if (protocol_.by_hand) ROS_INFO_STREAM(target.name << ": set the posture, then call ~sample");
   bool running = true;
   try {
     while (running && visit.outcome() == Visit::Outcome::kRunning) running = advance(visit, target);
-    switch_recording(0);  // of a trajectory, the last one ends with the visit
+    bags_.record(0, link_.now());  // of a trajectory, the last one ends with the visit
   } catch (...) {
     drop();
     throw;
@@ -111,17 +98,12 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
     drop();
     return Result::kShutdown;
   }
-  trouble_ = visit.reason();
-  for (const auto& bag : bags_) {
-    if (!trouble_.empty() || !bag || bag->gaps.largest() <= kLargestGap) continue;
-    trouble_ =
-        bag->gaps.longest() + " was not measured for " + std::to_string(bag->gaps.largest()) + " s";
-  }
+  trouble_ = visit.reason().empty() ? bags_.trouble() : visit.reason();
   if (trouble_.empty()) {
     store(visit, target, repeat);
     return Result::kDone;
   }
-  ROS_WARN_STREAM(names_.front() << ": " << trouble_);
+  ROS_WARN_STREAM(bags_.names().front() << ": " << trouble_);
   drop();
   return Result::kAgain;
 }
@@ -141,11 +123,11 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   check_motors();
   // However short: whoever reads the recording would find a stop in it.
   const std::string stopped = link_.take_disabled();
-  if (!stopped.empty() && recording_ > 0)
+  if (!stopped.empty() && bags_.recording())
     visit.fail("the motor of " + stopped + " stopped while it was recorded");
   const Visit::Order order = visit.step(link_.state().measurement(), link_.now().toSec());
   if (visit.outcome() != Visit::Outcome::kRunning) return true;
-  switch_recording(order.recording);
+  bags_.record(order.recording, link_.now());
   const std::string refused = follow(order, target);
   if (!refused.empty()) visit.fail(refused);
   return true;
@@ -176,7 +158,7 @@ std::string Recorder::follow(const Visit::Order& order, const Protocol::Target& 
 void Recorder::send_references(const std::vector<double>& references) {
   anthrob_msgs::MuscleCommand command = make_command(*model_, ecu::Mode::kPosition, references);
   command.header.stamp = sent_ = link_.send(command);
-  if (recording_ > 0) current_bag().write("muscle_command", command);
+  bags_.write_sent("muscle_command", command);
 }
 
 std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& target) {
@@ -206,37 +188,9 @@ std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& ta
   return call.response.success ? "" : "controller/go_to: " + call.response.message;
 }
 
-void Recorder::switch_recording(int recording) {
-  if (recording == recording_) return;
-  if (recording_ > 0) current_bag().gaps.finish(link_.now().toSec() - kUnderWay);
-  recording_ = recording;
-  if (recording == 0) return;
-  since_ = link_.now();
-  const std::size_t i = static_cast<std::size_t>(recording - 1);
-  bags_[i] = std::make_unique<BagFile>(store_.partial_bag(names_[i]), nh_.getNamespace() + "/");
-  for (const MuscleModel& muscle : model_->muscles) {
-    // Nobody measures a ligament on a robot.
-    if (!muscle.actuator->takes_input()) continue;
-    current_bag().gaps.expect(muscle.name, since_.toSec());
-  }
-  for (const JointModel& joint : model_->skeleton->joints) {
-    current_bag().gaps.expect(joint.name, since_.toSec());
-  }
-}
-
-bool Recorder::belongs(const std_msgs::Header& header) const {
-  return recording_ > 0 && header.stamp > since_;
-}
-
-BagFile& Recorder::current_bag() {
-  return *bags_[static_cast<std::size_t>(recording_ - 1)];
-}
-
 void Recorder::drop() {
-  recording_ = 0;
   visit_ = nullptr;
-  for (auto& bag : bags_) bag.reset();
-  for (const std::string& name : names_) store_.discard(name);
+  bags_.discard();
 }
 
 DatasetMeta Recorder::describe(const Visit& visit, const Protocol::Target& target, int repeat,
@@ -249,8 +203,7 @@ DatasetMeta Recorder::describe(const Visit& visit, const Protocol::Target& targe
   meta.other["protocol"] = std::string(word(protocol_.kind)) + "\n";
   meta.other["run"] = std::to_string(repeat) + "\n";
   meta.other["hold"] = exact_text(protocol_.hold) + "\n";
-  const BagFile& bag = *bags_[static_cast<std::size_t>(recording - 1)];
-  meta.other["largest_gap"] = exact_text(bag.gaps.largest()) + "\n";
+  meta.other["largest_gap"] = exact_text(bags_.largest_gap(recording)) + "\n";
   if (protocol_.by_hand) return meta;
   meta.other["rest_drift"] = exact_text(visit.drift()) + "\n";
   meta.other["rest"] = sample_yaml(*model_, visit.rest_before()) + "\n";
@@ -274,18 +227,19 @@ void Recorder::store(const Visit& visit, const Protocol::Target& target, int rep
     if (jumped) throw std::runtime_error("time jumped back");
   }
   ++recorded_;
-  report(names_.front(), visit);
+  report(bags_.names().front(), visit);
 }
 
 /// Touches nothing that commands or callbacks do between two visits.
 void Recorder::write_files(const Visit& visit, const Protocol::Target& target, int repeat) {
   if (!store_.baseline() && !protocol_.by_hand) store_.set_baseline(visit.rest_before());
-  for (auto& bag : bags_) bag->close();
-  for (int i = 0; i < static_cast<int>(names_.size()); ++i) {
-    store_.finish(names_[static_cast<std::size_t>(i)], describe(visit, target, repeat, i + 1),
+  bags_.close();
+  for (int i = 0; i < static_cast<int>(bags_.names().size()); ++i) {
+    store_.finish(bags_.names()[static_cast<std::size_t>(i)],
+                  describe(visit, target, repeat, i + 1),
                   i == 0 ? visit.target() : visit.rest_after());
   }
-  for (auto& bag : bags_) bag.reset();
+  bags_.release();
   store_.summarise();
 }
 

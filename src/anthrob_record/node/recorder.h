@@ -8,8 +8,8 @@
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_record/recording_store.h"
 #include "anthrob_record/visit.h"
-#include "bag_file.h"
 #include "measured_names.h"
+#include "visit_bags.h"
 
 namespace anthrob {
 
@@ -35,13 +35,8 @@ class Recorder {
   std::string follow(const Visit::Order& order, const Protocol::Target& target);
   void send_references(const std::vector<double>& references);
   std::string call_controller(Visit::Aim aim, const Protocol::Target& target);
-  void switch_recording(int recording);
   void store(const Visit& visit, const Protocol::Target& target, int repeat);
   void write_files(const Visit& visit, const Protocol::Target& target, int repeat);
-  /// Whether a message is of the recording that runs. Not by its arrival: topics overtake each
-  /// other, and a straggler of the instant before would be in one recording and not in the next.
-  bool belongs(const std_msgs::Header& header) const;
-  BagFile& current_bag();
   void drop();
   DatasetMeta describe(const Visit& visit, const Protocol::Target& target, int repeat,
                        int recording) const;
@@ -52,16 +47,13 @@ class Recorder {
   std::shared_ptr<const RobotModel> model_;
   Protocol protocol_;
   RecordingStore store_;
+  VisitBags bags_;
   RobotLink link_;
   MeasuredNames measured_names_;
   bool lock_step_;
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer sample_;
-  std::vector<std::unique_ptr<BagFile>> bags_;  ///< of the visit, by recording
-  std::vector<std::string> names_;
   std::string trouble_;  ///< why the last visit is not stored
-  int recording_ = 0;
-  ros::Time since_;  ///< what the recording that runs begins after
   Visit* visit_ = nullptr;
   bool aimed_ = false;
   Visit::Aim aim_ = Visit::Aim::kRest;
