@@ -49,11 +49,26 @@ class Pairs:
 
     def add(self, stamp, left, right):
         """stamp: text [s]; images: PNG"""
-        for side, image in (('left', left), ('right', right)):
-            (self.out / side / ('%06d.png' % len(self.times))).write_bytes(image)
+        files = [self.out / side / ('%06d.png' % len(self.times)) for side in ('left', 'right')]
+        try:
+            for file, image in zip(files, (left, right)):
+                file.write_bytes(image)
+        except OSError:
+            for file in files:
+                file.unlink(missing_ok=True)  # no half of a pair
+            raise
         self.times.append(stamp)
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        """What was saved until something went wrong has its times, too."""
+        self.close()
+
     def close(self):
+        if not self.times:
+            return
         lines = ['index,t'] + ['%d,%s' % row for row in enumerate(self.times)]
         (self.out / 'times.csv').write_text('\n'.join(lines) + '\n')
         print('%d pairs in %s' % (len(self.times), self.out))
@@ -104,25 +119,26 @@ def save_bag(arguments):
         if topic not in images:
             raise ValueError('%s: no images on topic %s; there are %s' %
                              (arguments.bag, topic, ', '.join(sorted(images)) or 'none'))
-    folder = Pairs(arguments.out)
-    messages = bag.read_messages(topics=arguments.topics)
     bad = None
-    for i, (left, right) in enumerate(matched(messages, arguments.topics, arguments.tolerance)):
-        if stop_asked:
-            break
-        if i % arguments.every:
-            continue
-        stamp = '%d.%09d' % (left.header.stamp.secs, left.header.stamp.nsecs)
-        try:
-            folder.add(stamp, of_message(left, arguments.topics[0]), of_message(right, arguments.topics[1]))
-        except BadImage as error:
-            bad = error
-            print('left out: %s' % error, file=sys.stderr)
+    with Pairs(arguments.out) as folder:
+        messages = bag.read_messages(topics=arguments.topics)
+        for i, (left, right) in enumerate(matched(messages, arguments.topics, arguments.tolerance)):
+            if stop_asked:
+                break
+            if i % arguments.every:
+                continue
+            stamp = '%d.%09d' % (left.header.stamp.secs, left.header.stamp.nsecs)
+            try:
+                folder.add(stamp, of_message(left, arguments.topics[0]), of_message(right, arguments.topics[1]))
+            except BadImage as error:
+                bad = error
+                print('left out: %s' % error, file=sys.stderr)
+    if stop_asked:
+        return
     if bad and not folder.times:
         raise ValueError('%s: no pair that can be read' % arguments.bag)
     if not folder.times:
         raise ValueError('%s: no pair with stamps within %g s: see --tolerance' % (arguments.bag, arguments.tolerance))
-    folder.close()
 
 
 class Camera:
@@ -163,8 +179,7 @@ def save_cameras(arguments):
     Aravis.enable_interface('Fake')
     try:
         cameras = [Camera(Aravis, name, arguments.exposure) for name in arguments.cameras]
-        folder = Pairs(arguments.out)
-        try:
+        with Pairs(arguments.out) as folder:
             while len(folder.times) < arguments.count and not stop_asked:
                 now = time.time()
                 for camera in cameras:
@@ -175,10 +190,8 @@ def save_cameras(arguments):
                 else:
                     print('no image from %s' % cameras[0 if not left else 1].name, file=sys.stderr)
                 time.sleep(max(0.0, now + 1.0 / arguments.rate - time.time()))
-        finally:
-            folder.close()
     except GLib.Error as error:
-        raise ValueError('cameras %s: %s' % (', '.join(arguments.cameras), error.message))
+        raise OSError('cameras %s: %s' % (', '.join(arguments.cameras), error.message))
 
 
 def main():
@@ -195,12 +208,20 @@ def main():
     parser.add_argument('--count', type=int, default=600, metavar='N')
     parser.add_argument('--exposure', type=float, default=0.0005, metavar='S')
     arguments = parser.parse_args()
+    for name in ('every', 'count', 'rate', 'exposure'):
+        if not getattr(arguments, name) > 0:
+            parser.error('--%s: expected a number above 0' % name)
+    if not arguments.tolerance >= 0:
+        parser.error('--tolerance: expected a number of 0 or more')
     signal.signal(signal.SIGINT, lambda *_: stop_asked.append(True))
     try:
         (save_bag if arguments.bag else save_cameras)(arguments)
     except (ImportError, OSError, ValueError) as error:
         print('save_pairs.py: %s' % error, file=sys.stderr)
-        sys.exit(2)
+        # Devices and disks that fail are no bad input; files that are not there are.
+        sys.exit(1 if isinstance(error, OSError) and not isinstance(error, FileNotFoundError) else 2)
+    if stop_asked:
+        sys.exit(130)
 
 
 if __name__ == '__main__':

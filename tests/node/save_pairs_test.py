@@ -101,6 +101,9 @@ class SavePairs(unittest.TestCase):
             self.assertEqual(done.stdout.count('\n'), 1, done.stdout)
             self.assertIn(expected, done.stdout)
             shutil.rmtree(self.path('out'), ignore_errors=True)
+        done = self.save('--every', '0')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('--every: expected a number above 0', done.stdout)
         self.record([(0, image(1.0, 1)), (1, image(1.004, 1))])
         self.assertEqual(self.save('--tolerance', '0.005').returncode, 0)
 
