@@ -11,12 +11,17 @@ drive's own controller.
 import os
 import sys
 
-import numpy
 import yaml
+
+try:
+    import numpy
+except ImportError:
+    numpy = None  # said once the command line is right
 
 STEP = 1e-3                        # [s] of the data
 FORCE_CONSTANT = 35.15065188       # [N/V]
 KP, KV, LIMIT = 160.18, 243.45, 10.0
+KNOWN = ('joint_coulomb', 'joint_offset_torque')  # effects that residual and replay have
 FINER = 20                         # steps of the replay in one of the data
 
 
@@ -31,6 +36,8 @@ def load_model(file):
         own = yaml.safe_load(text)
     if 'extends' not in own:
         return own
+    if not isinstance(own['extends'], str):
+        refuse('%s: extends: expected one file' % file)
     base = load_model(os.path.join(os.path.dirname(os.path.abspath(file)), own['extends']))
 
     def over(low, high):
@@ -46,6 +53,8 @@ def numbers_of(model):
     if 'axis' not in model.get('joints', {}):
         refuse('expected a model of config/driven_axis')
     effects = {effect['id']: effect for effect in model.get('effects') or []}
+    for unknown in sorted(set(effects) - set(KNOWN)):
+        refuse('effects: %s: expected %s only' % (unknown, ' and '.join(KNOWN)))
     return (95.1089, model['joints']['axis']['friction']['viscous'],
             effects.get('joint_coulomb', {}).get('torque', 0.0),
             -effects.get('joint_offset_torque', {}).get('torque', 0.0))
@@ -98,8 +107,13 @@ def rms(values):
 def main():
     if len(sys.argv) < 3:
         refuse('expected MODEL.yaml DATA.csv...')
+    for file in sys.argv[1:]:
+        if not os.path.isfile(file):
+            refuse('%s: no such file' % file)
     try:
         numbers = numbers_of(load_model(sys.argv[1]))
+        if numpy is None:
+            refuse('numpy is missing: apt-get install python3-numpy')
         recordings = [(file, numpy.genfromtxt(file, delimiter=',', skip_header=1)) for file in sys.argv[2:]]
     except (OSError, ValueError, yaml.YAMLError) as error:
         refuse(' '.join(str(error).split()))

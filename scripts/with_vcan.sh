@@ -13,7 +13,8 @@ host_has_vcan() {
   ip link show vcan0 2>/dev/null | grep -q 'UP' && return 0
   [ "$(id -u)" -eq 0 ] || return 1
   modprobe vcan 2>/dev/null
-  ip link add dev vcan0 type vcan 2>/dev/null && ip link set vcan0 up 2>/dev/null
+  ip link add dev vcan0 type vcan 2>/dev/null  # unless it is there already, but down
+  ip link set vcan0 up 2>/dev/null
 }
 
 if [ "${ANTHROB_VCAN:-auto}" != uml ] && host_has_vcan; then

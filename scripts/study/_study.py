@@ -3,6 +3,7 @@
 import html
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -91,7 +92,10 @@ def machine():
 
 
 def commit():
-    """With -dirty where files are not as committed; documents, which studies write, do not count."""
+    """With -dirty where files are not as committed; documents, which studies write, do not count. Without git, unknown."""
+    if not shutil.which("git"):
+        return "unknown"
+
     def git(*words):
         return subprocess.run(["git", *words], capture_output=True, text=True).stdout.strip()
 

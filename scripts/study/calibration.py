@@ -94,8 +94,7 @@ class Robot:
         for tier in "12":
             must([RECORDER, "--seed", str(self.seed), "--tier", tier, "--model",
                   "config/anthrob/model_II.yaml", "--out", f"{self.data}/tier{tier}"], self.log)
-        with open(f"{self.data}/complete", "w") as text:
-            text.write(commit() + "\n")
+        write(f"{self.data}/complete", commit() + "\n")
 
     def step(self, stage, model, name, start, more):
         """One run of anthrob_calibrate, unless the same was done before."""
@@ -164,15 +163,20 @@ class Robot:
             return self.adopted(stage, model)
         best = f"{folder}/{open(f'{folder}/best').read().strip()}"
         result = load(f"{best}/result.json")
-        before = load(f"{folder}/uncalibrated/result.json")["calibration"]["mean"]["after"]
+        before = load(f"{folder}/uncalibrated/result.json")["calibration"]
+        if not (before and result["calibration"] and result["validation"]):
+            say(f"robot {self.seed}: model {model}, {stage}: some recording cannot be simulated in full: left out")
+            return None
         out = {
-            "before": errors(before),
+            "before": errors(before["mean"]["after"]),
             "after": errors(result["calibration"]["mean"]["after"]),
             "fitness": [result["fitness"]["before"], result["fitness"]["after"]],
             "evaluations": result["optimiser"]["evaluations"],
             "seconds": load(f"{best}/step.json")["seconds"],
             "commit": load(f"{best}/step.json")["commit"],
             "machine": machine(),
+            "optimiser": " ".join([self.options.optimiser] + search_words(self.options)),
+            "searches": searches(self.options),
         }
         out["validation"] = errors(result["validation"]["mean"]["after"])
         return out
@@ -280,8 +284,8 @@ def summarise(options):
     done = [result for entry in table for result in entry["robots"].values()]
     facts = {
         "commit": several(result["commit"] for result in done),
-        "optimiser": " ".join([options.optimiser] + search_words(options)),
-        "searches a stage": searches(options),
+        "optimiser": several(result["optimiser"] for result in done),
+        "searches a stage": several(result["searches"] for result in done),
         "Jacobians a search, at most": ", ".join(f"{n} ({kind})" for kind, n in JACOBIANS.items()),
         "machine": several(result["machine"] for result in done),
         "notes": several(result["note"] for result in done if "note" in result) or "none",

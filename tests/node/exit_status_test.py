@@ -47,11 +47,25 @@ class ExitStatus(unittest.TestCase):
             self.assertIn('expected MODEL.yaml', self.script('emps_check.py', model))
             self.assertIn('nowhere.csv', self.script('emps_check.py', model, folder + '/nowhere.csv'))
             other = os.path.join(CONFIG, 'model_I.yaml')
-            self.assertIn('expected a model of', self.script('emps_check.py', other, folder + '/nowhere.csv'))
+            data = os.path.join(folder, 'data.csv')
+            open(data, 'w').close()
+            self.assertIn('expected a model of', self.script('emps_check.py', other, data))
+            more = os.path.join(folder, 'model_more.yaml')
+            with open(more, 'w') as file:
+                file.write('extends: %s\neffects:\n- {id: joint_coulomb_asymmetric, place: axis}\n' % model)
+            self.assertIn('joint_coulomb_asymmetric: expected', self.script('emps_check.py', more, data))
 
     def test_workspace(self):
         workspace = os.path.join(ROOT, 'catkin_ws.sh')
         self.assertIn("unknown command 'biuld'", self.refused(workspace, 'biuld'))
+
+    def test_muscles(self):
+        muscles = program('anthrob_sim', 'anthrob_muscles')
+        for robot, option, value in (('anthrob', '--joint', 'elbow=9'), ('two_muscle_rig', '--position', 'flexor=1e9'),
+                                     ('anthrob', '--joint', 'shoulder=1,1,0,0')):
+            said = self.refused(muscles, '--robot', robot, '--model', 'I', option, value)
+            self.assertEqual(said.count('\n'), 1, said)
+            self.assertIn(value.split('=')[0], said)
 
     def test_virtual_robot(self):
         with tempfile.TemporaryDirectory() as folder:
