@@ -44,6 +44,16 @@ TEST_F(ResultFileTest, KnowsWhatWasWrittenBitForBit) {
   EXPECT_FALSE(journal.find(4).has_value());
 }
 
+TEST_F(ResultFileTest, AProgramIsAnotherOneWithAnotherLibrary) {
+  const std::uint64_t program = program_fingerprint();
+  EXPECT_EQ(program_fingerprint(program, {}), program);
+  const std::uint64_t before = program_fingerprint(program, {file_});
+  EXPECT_NE(before, program);
+  EXPECT_EQ(program_fingerprint(program, {file_}), before);
+  std::ofstream(file_, std::ios::app) << "rebuilt";
+  EXPECT_NE(program_fingerprint(program, {file_}), before);
+}
+
 TEST_F(ResultFileTest, LosesOnlyTheRecordThatIsCutOff) {
   fs::resize_file(file_, fs::file_size(file_) - 3);
   {
@@ -66,7 +76,12 @@ TEST_F(ResultFileTest, DoesNotBelieveABrokenRecord) {
 }
 
 TEST_F(ResultFileTest, OfAnotherContextIsBegunAnew) {
-  EXPECT_EQ(File(file_, kContext + 1).inherited(), 0u);
+  EXPECT_FALSE(File(file_, kContext).begun_anew());
+  {
+    const File journal(file_, kContext + 1);
+    EXPECT_EQ(journal.inherited(), 0u);
+    EXPECT_TRUE(journal.begun_anew());
+  }
   EXPECT_FALSE(fs::exists(file_));  // an empty one stays nowhere
 }
 

@@ -1,5 +1,6 @@
 // Calibrates a model against recordings.
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "anthrob_calib/report/calibration_report.h"
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_config/extended_files.h"
+#include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/tool/tool.h"
 
 namespace anthrob {
@@ -90,6 +92,11 @@ void keep_input(const Arguments& arguments, const std::string& model_file) {
   identification::require_kept(arguments.out, {"model.yaml", "result.json"}, read);
 }
 
+/// This build, with the libraries of effects that the model has loaded.
+std::uint64_t program_of(const Arguments& arguments) {
+  return resume::program_fingerprint(arguments.program, effect_library_files());
+}
+
 /// What a process needs; all stop, with one complaint, if one of them cannot.
 CalibrationInput read_together(const Arguments& arguments, const MpiSession& session) {
   constexpr char kBad = 'B', kOther = 'O';  // first letter of a complaint: whose fault it is
@@ -115,6 +122,9 @@ CalibrationInput read_together(const Arguments& arguments, const MpiSession& ses
     throw BadInput(arguments.config +
                    ": the processes read different configurations, models or recordings: expected "
                    "the same on all hosts");
+  }
+  if (!session.all_have(std::to_string(program_of(arguments)))) {
+    throw BadInput("the processes are of different builds: expected the same on all hosts");
   }
   return std::move(*input);
 }
@@ -145,7 +155,7 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   options.resume = arguments.resume;
   options.batch = settings.offspring;
   options.stop = tool::interrupted;
-  options.program = arguments.program;
+  options.program = program_of(arguments);
   options.progress = [&](int done) { progress.update(std::min(1.0, done / expected)); };
   fs::create_directories(arguments.out);
   Journal journal(everywhere, options);
@@ -218,6 +228,11 @@ int main(int argc, char** argv) {
   const MpiSession session(&argc, &argv);
   tool::interrupted();                               // listens from now on; rank 0 decides
   if (session.rank() > 0) std::cerr.rdbuf(nullptr);  // one process speaks for all
+  const unsigned may = std::thread::hardware_concurrency();
+  if (session.size() > 1 && static_cast<long>(may) < sysconf(_SC_NPROCESSORS_ONLN)) {
+    std::cerr << "anthrob_calibrate: mpirun lets this process have " << may << " of "
+              << sysconf(_SC_NPROCESSORS_ONLN) << " processors; with --bind-to none it has all\n";
+  }
   CLI::App app(
       "Calibrates a model against recordings: fits parameters within their ranges so that the "
       "simulated robot does what the recorded one did. Threads by itself, hosts by mpirun.",

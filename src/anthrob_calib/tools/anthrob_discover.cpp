@@ -96,6 +96,9 @@ int main(int argc, char** argv) {
     if (journal.inherited() > 0) {
       std::cerr << "going on with " << journal.inherited()
                 << " simulations of an interrupted run\n";
+    } else if (journal.begun_anew()) {
+      std::cerr << out << "/journal.bin: was of another model, --dt, --calibration or build of the "
+                << "program: what it held is simulated anew\n";
     }
     evaluator.on_progress([&](double share) {
       if (bar) bar->update(share);

@@ -95,5 +95,13 @@ std::uint64_t program_fingerprint() {
   return fingerprint.value();
 }
 
+std::uint64_t program_fingerprint(std::uint64_t program, const std::vector<std::string>& files) {
+  if (files.empty()) return program;
+  Fingerprint fingerprint;
+  fingerprint.add(program);
+  for (const std::string& file : files) fingerprint.add(content(file));
+  return fingerprint.value();
+}
+
 }  // namespace resume
 }  // namespace anthrob

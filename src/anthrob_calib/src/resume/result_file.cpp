@@ -81,7 +81,9 @@ ResultFile<Scalar>::ResultFile(std::string file, std::uint64_t context) : file_(
   char wanted[kHeader];
   std::memcpy(wanted, kTitle, kTitleSize);
   std::memcpy(wanted + kTitleSize, &context, sizeof(context));
-  if (read_all(descriptor_, title, kHeader, 0) && std::memcmp(title, wanted, kHeader) == 0) {
+  const bool there = read_all(descriptor_, title, kHeader, 0);
+  begun_anew_ = there && std::memcmp(title, wanted, kHeader) != 0;
+  if (there && !begun_anew_) {
     read_index();
   } else if (ftruncate(descriptor_, 0) != 0 || !write_all(descriptor_, wanted, kHeader, 0)) {
     close(descriptor_);

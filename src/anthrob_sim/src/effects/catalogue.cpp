@@ -1,6 +1,7 @@
 #include "anthrob_sim/effects/catalogue.h"
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,7 +17,7 @@ namespace {
 
 /// Built by the first registration: registrations run before main, in any order.
 struct Registry {
-  std::mutex mutex;
+  std::mutex mutex, loading;  // two, for loading registers
   std::multimap<std::string, const Effect*> effects;
   std::map<std::string, void*> libraries;
 };
@@ -121,8 +122,7 @@ void load_effect_library(const std::string& library, const ConfigNode& origin) {
     const auto folder = std::filesystem::absolute(origin.file()).parent_path();
     file = (folder / file).lexically_normal().string();
   }
-  static std::mutex loading;  // not the registry's: loading registers
-  const std::lock_guard<std::mutex> lock(loading);
+  const std::lock_guard<std::mutex> lock(registry().loading);
   if (registry().libraries.count(file)) return;
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!handle) {
@@ -130,6 +130,16 @@ void load_effect_library(const std::string& library, const ConfigNode& origin) {
                          dlerror() + ")");
   }
   registry().libraries[file] = handle;
+}
+
+std::vector<std::string> effect_library_files() {
+  const std::lock_guard<std::mutex> lock(registry().loading);
+  std::vector<std::string> files;
+  for (const auto& [name, handle] : registry().libraries) {
+    link_map* loaded = nullptr;
+    if (dlinfo(handle, RTLD_DI_LINKMAP, &loaded) == 0) files.emplace_back(loaded->l_name);
+  }
+  return files;
 }
 
 std::vector<EffectSetting> read_effects(const ConfigNode& config,

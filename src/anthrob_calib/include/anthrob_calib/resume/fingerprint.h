@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "anthrob_sim/recording/dataset.h"
 
@@ -28,6 +29,8 @@ class Fingerprint {
 std::uint64_t model_fingerprint(const ConfigNode& model);
 /// Of this program and its libraries, as the linker marked them.
 std::uint64_t program_fingerprint();
+/// Of a program that has loaded more since. @param files by content; none: the program as it was
+std::uint64_t program_fingerprint(std::uint64_t program, const std::vector<std::string>& files);
 
 }  // namespace resume
 }  // namespace anthrob

@@ -32,6 +32,8 @@ class ResultFile {
 
   /// Results that were there when it was opened.
   std::size_t inherited() const { return inherited_; }
+  /// Whether there were some of another context, which are gone now.
+  bool begun_anew() const { return begun_anew_; }
   std::optional<Result> find(std::uint64_t key) const;
   void append(std::uint64_t key, const Result& result);
   /// It has served: the file goes.
@@ -46,7 +48,7 @@ class ResultFile {
   void read_index();
 
   std::string file_;
-  bool made_folder_ = false;
+  bool made_folder_ = false, begun_anew_ = false;
   int descriptor_ = -1;
   std::int64_t end_ = 0;
   std::size_t inherited_ = 0;

@@ -30,6 +30,8 @@ class EffectRegistration {
 /// a name that the loader finds ("my_effects" is libmy_effects.so).
 /// @param origin where it is named  @throws BadInput if it cannot be loaded
 void load_effect_library(const std::string& library, const ConfigNode& origin);
+/// Where the loader found those that were loaded.
+std::vector<std::string> effect_library_files();
 
 /// The effects that a model file and a caller ask for, neutral ones too, in the order in which
 /// they are built in; this does not depend on the order in which they are asked for.
