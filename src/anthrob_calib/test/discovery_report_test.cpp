@@ -39,12 +39,26 @@ TEST(Report, WhatWasNotFittedHasNoInterval) {
   EXPECT_TRUE(holds(page, "0.004 to 0.006"));
   EXPECT_TRUE(holds(page, "taken as known"));
   EXPECT_FALSE(holds(page, "12 to 12"));
-  EXPECT_TRUE(holds(summary(answer), "periods 12 1, taken as known")) << summary(answer);
+  EXPECT_TRUE(holds(summary(answer), "periods 12, taken as known")) << summary(answer);
   EXPECT_TRUE(holds(summary(answer), "amplitude 0.005 [0.004, 0.006] Nm")) << summary(answer);
   const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
   const auto& parameters = json["effects"][0]["parameters"];
   EXPECT_FALSE(parameters["amplitude"].contains("known"));
   EXPECT_EQ(parameters["periods"]["known"], true);
+}
+
+TEST(Report, CallsNothingCertain) {
+  EXPECT_EQ(probability_text(0.934), "probability 0.934");
+  EXPECT_EQ(probability_text(1.0), "probability above 0.999");
+  EXPECT_EQ(probability_text(0.0), "probability below 0.001");
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  answer.effects[0].rivals.resize(1);
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "These data do not exclude"));
+  // A rival of what is not it either is not something the data leave possible.
+  answer.verdict = "unexplained";
+  EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "These data do not exclude"));
 }
 
 TEST(Report, SaysWhyTheRestHasNoName) {

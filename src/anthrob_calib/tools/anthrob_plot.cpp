@@ -4,8 +4,8 @@
 #include <iostream>
 #include <set>
 
+#include "anthrob_config/atomic_file.h"
 #include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/recording/atomic_file.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/report/svg_figure.h"
 #include "anthrob_sim/tool/tool.h"
@@ -80,8 +80,9 @@ std::string joint_figure(const Dataset& data) {
   SvgFigure figure("Joint angles");
   for (const std::string& joint : owners(data, "w", false)) add_ball_joint(data, joint, figure);
   for (const std::string& joint : owners(data, "position", false)) {
-    auto& panel = figure.add_panel("time [s]", joint + " [deg]");
-    panel.lines.push_back(line(joint, data.series(joint + "/position"), kDegrees));
+    // A recording does not say whether a joint turns or slides.
+    auto& panel = figure.add_panel("time [s]", joint + " [rad or m]");
+    panel.lines.push_back(line(joint, data.series(joint + "/position"), 1.0));
   }
   return figure.render();
 }

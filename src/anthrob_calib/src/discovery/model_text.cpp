@@ -35,8 +35,8 @@ std::string model_text(const Answer& answer, const Evaluator& evaluator, const Q
   std::string comment = "Written by anthrob_discover, seed " + std::to_string(question.seed) +
                         ".\nVerdict: " + answer.verdict + ".\n";
   for (const FoundEffect& effect : answer.effects) {
-    comment += "Found: " + effect.id + " at " + effect.place + ", probability " +
-               short_number(effect.probability) + ", " + short_number(effect.evidence) +
+    comment += "Found: " + effect.id + " at " + effect.place + ", " +
+               probability_text(effect.probability) + ", " + short_number(effect.evidence) +
                " nat on held-out data";
     for (const FoundParameter& p : effect.parameters) {
       comment += ", " + p.name + " " + interval_text(p);

@@ -32,7 +32,7 @@ std::string cell(const std::string& text) {
 
 /// Not to be broken between lines.
 std::string with_unit(double value, const std::string& unit) {
-  return short_number(value) + "\u00a0" + unit;
+  return short_number(value) + (unit == "1" ? "" : "\u00a0" + unit);
 }
 
 const char* const kHead = R"(<!DOCTYPE html>
@@ -73,17 +73,17 @@ std::string sentence(const Answer& answer, const Question& question) {
     text += "<b>" + escaped(effect.name) + "</b> at <b>" + escaped(effect.place) + "</b>";
     if (!effect.parameters.empty()) {
       const FoundParameter& p = effect.parameters.front();
-      text += " (" + escaped(p.name) + " " + short_number(p.value) + " " + escaped(p.unit) + ", " +
+      text += " (" + escaped(p.name) + " " + escaped(with_unit(p.value, p.unit)) + ", " +
               (p.known ? "taken as known" : "95 % interval " + range_text(p)) + ")";
     }
-    text += ", probability " + short_number(effect.probability) + ". ";
+    text += ", " + probability_text(effect.probability) + ". ";
   }
   for (const Alternative& other : answer.alternatives) {
     const FoundEffect &one = answer.effects[other.instead_of[0]],
                       &two = answer.effects[other.instead_of[1]];
     text += "Or, instead of " + escaped(one.name) + " and " + escaped(two.name) + ", <b>" +
-            escaped(other.id) + "</b> at <b>" + escaped(other.place) + "</b> alone, probability " +
-            short_number(other.probability) + ". ";
+            escaped(other.id) + "</b> at <b>" + escaped(other.place) + "</b> alone, " +
+            probability_text(other.probability) + ". ";
   }
   if (answer.verdict == "effects_found") {
     return "The model misses: " + text + "With it, the held-out gap falls from " +
@@ -93,7 +93,9 @@ std::string sentence(const Answer& answer, const Question& question) {
   }
   text = answer.effects.empty() ? "" : "The catalogue offers: " + text;
   return nameless(answer, question) + text + "Held-out gap " + short_number(answer.test.after) +
-         " times the floor; what is left: " + escaped(answer.remaining_description) + ".";
+         " times the floor, where the recalibrated model has " +
+         short_number(answer.test.recalibrated) +
+         "; what is left: " + escaped(answer.remaining_description) + ".";
 }
 
 std::string gap_table(const Answer& answer) {
@@ -133,15 +135,18 @@ std::string effects_table(const Answer& answer) {
       html += "<tr>" + cell(p.name) + cell(short_number(p.value)) +
               cell(p.known ? "taken as known" : range_text(p)) + cell(p.unit) + "</tr>\n";
     }
-    html += "</table>\n<p>Probability " + short_number(effect.probability) +
-            ", gain in held-out log score " + short_number(effect.evidence) + " nat.</p>\n";
+    html += "</table>\n<p>Gain in held-out log score " + short_number(effect.evidence) + " nat, " +
+            probability_text(effect.probability) + ".</p>\n";
     if (effect.rivals.empty()) continue;
-    html += "<p>These data do not exclude:</p><ul>\n";
+    // Where too much is left for any of them, they are rivals of something that is not it either.
+    html += answer.verdict == "unexplained" ? "<p>Others that come as near:</p><ul>\n"
+                                            : "<p>These data do not exclude:</p><ul>\n";
     for (const Rival& rival : effect.rivals) {
-      html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", probability " +
-              short_number(rival.probability) + "</li>\n";
+      html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", " +
+              probability_text(rival.probability) + "</li>\n";
     }
-    html += "</ul><p>What would: " + escaped(effect.separating_experiment) + ".</p>\n";
+    html +=
+        "</ul><p>What would tell them apart: " + escaped(effect.separating_experiment) + ".</p>\n";
     if (!effect.separating_recording.targets.empty()) {
       html += "<p>As a protocol of the recorder: " + separating_file(number) +
               ", expected to tell " + short_number(effect.separating_recording.distance()) +

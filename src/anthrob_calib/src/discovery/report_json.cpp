@@ -193,10 +193,17 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string probability_text(double probability) {
+  if (probability > 0.999) return "probability above 0.999";
+  if (probability < 0.001) return "probability below 0.001";
+  return "probability " + short_number(probability);
+}
+
 std::string interval_text(const FoundParameter& p) {
-  const std::string interval =
-      p.known ? ", taken as known" : " [" + short_number(p.low) + ", " + short_number(p.high) + "]";
-  return short_number(p.value) + (p.known ? " " + p.unit + interval : interval + " " + p.unit);
+  const std::string unit = p.unit == "1" ? "" : " " + p.unit;
+  if (p.known) return short_number(p.value) + unit + ", taken as known";
+  return short_number(p.value) + " [" + short_number(p.low) + ", " + short_number(p.high) + "]" +
+         unit;
 }
 
 std::string cap_remark(const Answer& answer, const Question& question) {
@@ -210,21 +217,21 @@ std::string alternative_text(const Alternative& alternative, const Answer& answe
     return answer.effects[e].id + " @ " + answer.effects[e].place;
   };
   return alternative.id + " @ " + alternative.place + " instead of both " +
-         name(alternative.instead_of[0]) + " and " + name(alternative.instead_of[1]) +
-         ", probability " + short_number(alternative.probability);
+         name(alternative.instead_of[0]) + " and " + name(alternative.instead_of[1]) + ", " +
+         probability_text(alternative.probability);
 }
 
 std::string summary(const Answer& answer) {
   std::string text = answer.verdict + "\n";
   for (const FoundEffect& effect : answer.effects) {
-    text += "  " + effect.id + " @ " + effect.place + ", probability " +
-            short_number(effect.probability) + "\n";
+    text += "  " + effect.id + " @ " + effect.place + ", " + probability_text(effect.probability) +
+            "\n";
     for (const FoundParameter& p : effect.parameters) {
       text += "    " + p.name + " " + interval_text(p) + "\n";
     }
     for (const Rival& rival : effect.rivals) {
-      text += "    or " + rival.id + " @ " + rival.place + ", probability " +
-              short_number(rival.probability) + "\n";
+      text += "    or " + rival.id + " @ " + rival.place + ", " +
+              probability_text(rival.probability) + "\n";
     }
   }
   for (const Alternative& alternative : answer.alternatives) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "anthrob_calib/report/joint_unit.h"
 #include "anthrob_sim/report/svg_figure.h"
 
 namespace anthrob {
@@ -32,28 +33,30 @@ void add_joint_panels(SvgFigure& figure, const MeasuredRun& run, const RunDiffer
                       const RunDifferences& after, const JointModel& joint) {
   const int rows = after.path.count();
   const std::vector<double> t = times_of(run.path, rows);
+  const auto [scale, unit] = unit_of(joint);
+  const std::string bracket = std::string(" [") + unit + "]";
   if (joint.type != JointType::kBall) {
-    auto& panel = figure.add_panel("time [s]", joint.name + " [deg]");
+    auto& panel = figure.add_panel("time [s]", joint.name + bracket);
     const Eigen::MatrixXd measured = run.path.q.topRows(rows);
-    panel.lines.push_back({"robot", t, column(measured, joint.position_offset, kDegrees), true});
+    panel.lines.push_back({"robot", t, column(measured, joint.position_offset, scale), true});
     std::vector<double> simulated;
     for (int row = 0; row < rows; ++row) {
-      simulated.push_back(kDegrees * (measured(row, joint.position_offset) +
-                                      after.path.posture(row, joint.velocity_offset)));
+      simulated.push_back(scale * (measured(row, joint.position_offset) +
+                                   after.path.posture(row, joint.velocity_offset)));
     }
     panel.lines.push_back({"simulation", t, simulated});
   } else {
-    auto& panel = figure.add_panel("time [s]", joint.name + " error [deg]");
+    auto& panel = figure.add_panel("time [s]", joint.name + " error" + bracket);
     const char* const axes[] = {"x", "y", "z"};
     for (int k = 0; k < 3; ++k) {
       panel.lines.push_back(
-          {axes[k], t, column(after.path.posture, joint.velocity_offset + k, kDegrees)});
+          {axes[k], t, column(after.path.posture, joint.velocity_offset + k, scale)});
     }
   }
-  auto& panel = figure.add_panel("time [s]", joint.name + " distance [deg]");
+  auto& panel = figure.add_panel("time [s]", joint.name + " distance" + bracket);
   panel.lines.push_back({"before", times_of(run.path, before.path.count()),
-                         scaled(before.path.joint_error(joint), kDegrees), true});
-  panel.lines.push_back({"after", t, scaled(after.path.joint_error(joint), kDegrees)});
+                         scaled(before.path.joint_error(joint), scale), true});
+  panel.lines.push_back({"after", t, scaled(after.path.joint_error(joint), scale)});
 }
 
 }  // namespace
@@ -92,8 +95,10 @@ std::string run_error_figure(const BeforeAfter& both, const RobotModel& model,
     }
   };
   for (std::size_t j = 0; j < model.skeleton->joints.size(); ++j) {
-    add(model.skeleton->joints[j].name + " error [deg]",
-        [j](const MeanErrors& e) { return kDegrees * e.joints[j]; });
+    const JointModel& joint = model.skeleton->joints[j];
+    const JointUnit unit = unit_of(joint);
+    add(joint.name + " error [" + unit.name + "]",
+        [j, unit](const MeanErrors& e) { return unit.scale * e.joints[j]; });
   }
   add("mean force error [N]", [](const MeanErrors& e) { return e.force; });
   return figure.render();

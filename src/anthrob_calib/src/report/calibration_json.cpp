@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anthrob_calib/report/calibration_report.h"
+#include "anthrob_calib/report/joint_unit.h"
 
 namespace anthrob {
 namespace calibration {
@@ -21,7 +22,9 @@ ordered_json number(double value) {
 ordered_json errors_json(const MeanErrors& errors, const RobotModel& model) {
   ordered_json out;
   for (std::size_t j = 0; j < errors.joints.size(); ++j) {
-    out["joints_deg"][model.skeleton->joints[j].name] = number(kDegrees * errors.joints[j]);
+    const JointModel& joint = model.skeleton->joints[j];
+    const JointUnit unit = unit_of(joint);
+    out[std::string("joints_") + unit.name][joint.name] = number(unit.scale * errors.joints[j]);
   }
   out["force_N"] = number(errors.force);
   return out;

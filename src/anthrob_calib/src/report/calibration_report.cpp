@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "anthrob_calib/report/calibration_figures.h"
+#include "anthrob_calib/report/joint_unit.h"
 
 namespace anthrob {
 namespace calibration {
@@ -38,13 +39,17 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
 
 std::string error_table(const BeforeAfter& both, const RobotModel& model) {
   std::vector<std::string> head = {""};
-  for (const JointModel& joint : model.skeleton->joints) head.push_back(joint.name + " [deg]");
+  for (const JointModel& joint : model.skeleton->joints) {
+    head.push_back(joint.name + " [" + unit_of(joint).name + "]");
+  }
   head.push_back("force [N]");
   std::string out = "<table>" + row(head, "th");
   for (const bool after : {false, true}) {
     const MeanErrors errors = mean_errors(after ? both.after : both.before, model);
     std::vector<std::string> cells = {after ? "after" : "before"};
-    for (const double e : errors.joints) cells.push_back(text(kDegrees * e, "%.2f"));
+    for (std::size_t j = 0; j < errors.joints.size(); ++j) {
+      cells.push_back(text(unit_of(model.skeleton->joints[j]).scale * errors.joints[j], "%.2f"));
+    }
     cells.push_back(text(errors.force, "%.2f"));
     out += row(cells);
   }
@@ -148,9 +153,10 @@ std::string headline(const CalibrationOutcome& o) {
   std::string out =
       held_out ? "On recordings it never saw, " : "On the recordings it was fitted to, ";
   for (std::size_t j = 0; j < after.joints.size(); ++j) {
-    out += escaped(o.model->skeleton->joints[j].name) + " errs by <b>" +
-           text(kDegrees * after.joints[j], "%.2f") + " deg</b> instead of " +
-           text(kDegrees * before.joints[j], "%.2f") + ", ";
+    const JointModel& joint = o.model->skeleton->joints[j];
+    const auto [scale, unit] = unit_of(joint);
+    out += escaped(joint.name) + " errs by <b>" + text(scale * after.joints[j], "%.2f") + " " +
+           unit + "</b> instead of " + text(scale * before.joints[j], "%.2f") + ", ";
   }
   return "<p class=\"headline\">" + out + "muscle forces by <b>" + text(after.force, "%.2f") +
          " N</b> instead of " + text(before.force, "%.2f") + ".</p>\n";
@@ -199,9 +205,10 @@ std::string summary(const CalibrationOutcome& o) {
     const MeanErrors after = mean_errors(both.after, *o.model);
     out += std::string(what) + ":";
     for (std::size_t j = 0; j < before.joints.size(); ++j) {
-      out += " " + o.model->skeleton->joints[j].name + " " +
-             text(kDegrees * before.joints[j], "%.2f") + " -> " +
-             text(kDegrees * after.joints[j], "%.2f") + " deg,";
+      const JointModel& joint = o.model->skeleton->joints[j];
+      const auto [scale, unit] = unit_of(joint);
+      out += " " + joint.name + " " + text(scale * before.joints[j], "%.2f") + " -> " +
+             text(scale * after.joints[j], "%.2f") + " " + unit + ",";
     }
     out += " force " + text(before.force, "%.2f") + " -> " + text(after.force, "%.2f") + " N\n";
   };

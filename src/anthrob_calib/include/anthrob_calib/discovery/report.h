@@ -36,11 +36,14 @@ std::string cap_remark(const Answer& answer, const Question& question);
 /// "payload @ hand instead of both ... and ..., probability 0.5".
 std::string alternative_text(const Alternative& alternative, const Answer& answer);
 
-/// "0.0421 [0.038, 0.047] Nm".
+/// "0.0421 [0.038, 0.047] Nm"; without unit where there is none.
 std::string interval_text(const FoundParameter& parameter);
 
 /// "0.0421", three significant digits.
 std::string short_number(double value);
+
+/// "probability 0.93", or that it is above 0.999 or below 0.001: none is certain.
+std::string probability_text(double probability);
 
 }  // namespace discovery
 }  // namespace anthrob
