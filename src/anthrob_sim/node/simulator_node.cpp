@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -83,7 +84,8 @@ ros::Time SimulatorNode::stamp() const {
 // ---- commands
 
 void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
-  last_command_stamp_ = command.header.stamp;
+  // Somebody else may send an older one, or one without stamp.
+  last_command_stamp_ = std::max(last_command_stamp_, command.header.stamp);
   const auto outcome =
       supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_);
   if (!outcome.accepted) return warn_of_refusal("muscle_command", outcome.reason);

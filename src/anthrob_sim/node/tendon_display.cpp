@@ -103,7 +103,8 @@ void TendonDisplay::draw() {
     return;
   }
   if (!is_fresh(forces_stamp_, now)) std::fill(forces_.begin(), forces_.end(), kNotMeasured);
-  const ros::Time oldest = *std::min_element(stamps_.begin(), stamps_.end());
+  const ros::Time oldest =
+      stamps_.empty() ? now : *std::min_element(stamps_.begin(), stamps_.end());
   visualization_msgs::MarkerArray markers = muscle_markers(sim_, forces_, oldest);
   for (auto& marker : markers.markers) marker.lifetime = ros::Duration(kStaleAfter);
   paths_.publish(markers);

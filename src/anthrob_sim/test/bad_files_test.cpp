@@ -197,6 +197,12 @@ const Case kCases[] = {
      "radius: 0.02}",
      "radius: 0.02, start: left}",
      {"start", "left", "positive"}},
+    {"friction at the end of a path",
+     false,
+     "- {point: [0.05, 0, 0.6], body: base}",
+     "- {point: [0.05, 0, 0.6], body: base, friction: {law: smooth_stribeck, static: 0.2, kinetic: "
+     "0.1, stribeck_velocity: 0.001, steepness: 10}}",
+     {"path.0.friction", "nothing slides at the ends"}},
     {"same point twice", false, "[0.05, 0, 0.4]", "[0.05, 0, 0.6]", {"path.1", "same place"}},
     {"point of two numbers",
      false,
@@ -443,6 +449,23 @@ TEST(ConfigNode, OverridesReachNumbersByPath) {
   EXPECT_NEAR(model->muscles[0].path->obstacles()[1].point_B.z(), 0.45, 1e-12);
   EXPECT_THROW(robot.load(1e-3, {{"muscles.biceps.path.1.point.5", 0.45}}), BadInput);
   EXPECT_THROW(robot.load(1e-3, {{"muscles.biceps.actuator", 1.0}}), BadInput);
+}
+
+TEST(BadFiles, CollisionShapesWithoutSize) {
+  for (const char* shape : {"<sphere radius=\"-0.05\"/>", "<box size=\"0.1 0 0.1\"/>",
+                            "<cylinder radius=\"0\" length=\"0.1\"/>"}) {
+    std::string urdf = kUrdf;
+    const std::string link = "<link name=\"lower\">";
+    urdf.replace(urdf.find(link), link.size(),
+                 link + "<collision><geometry>" + shape + "</geometry></collision>");
+    const TemporaryRobot robot(urdf, std::string("collisions: true\n") + kModel);
+    try {
+      robot.load(1e-3);
+      ADD_FAILURE() << shape << " was accepted";
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find("lower"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(BadFiles, ImpossibleTimeStep) {

@@ -42,6 +42,34 @@ TEST(CommandLatency, WhatStopsForgetsWhatIsOnItsWay) {
   EXPECT_EQ(sim.muscle(0).voltage(), 0.5);
 }
 
+TEST(CommandLatency, AStopBetweenTwoStepsForgetsItTooAndTheControllersMemory) {
+  const auto robot = robot_with(kRig, {{"command_latency", "flexor", {{"delay", 0.1}}}});
+  Simulation sim(robot);
+  sim.command(0, ecu::Mode::kPosition, 1.0);
+  sim.step(150);
+  const auto stop = [&sim](int muscle) {
+    sim.set_enabled(muscle, false);
+    sim.set_enabled(muscle, true);
+    sim.command(muscle, ecu::Mode::kVoltage, 0.0);
+  };
+  ASSERT_NE(sim.muscle(0).voltage(), 0.0);
+  stop(0);
+  for (int i = 0; i < 120; ++i) {
+    sim.step();
+    EXPECT_EQ(sim.muscle(0).voltage(), 0.0) << i;
+  }
+  // Without the effect: what the integral of FORCE mode has gathered does not go on.
+  sim.command(1, ecu::Mode::kForce, 30.0);
+  sim.step(300);
+  Simulation going_on(robot);
+  going_on.restore(sim.snapshot());
+  stop(1);
+  sim.command(1, ecu::Mode::kForce, 30.0);
+  sim.step();
+  going_on.step();
+  EXPECT_GT(std::abs(going_on.muscle(1).voltage() - sim.muscle(1).voltage()), 0.02);
+}
+
 TEST(CommandLatency, AChangeOfModeIsNoBlendOfTwoQuantities) {
   const auto robot = robot_with(kRig, {{"command_latency", "flexor", {{"delay", 0.0044}}}});
   Simulation sim(robot);

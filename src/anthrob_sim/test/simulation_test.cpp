@@ -431,6 +431,16 @@ TEST(Simulation, SkippedStepsMoveNothingButTime) {
   EXPECT_EQ(after.state, before.state);
 }
 
+TEST(Simulation, AVoltageThatIsAppliedDoesNotWaitForTheController) {
+  Simulation sim(load_robot_model(config("rig_oring_stretcher/model_I.yaml")));
+  ASSERT_EQ(sim.model().muscles[0].steps_per_tick, 2);
+  for (int i = 1; i <= 6; ++i) {
+    sim.apply_voltage(0, 0.1 * i);
+    sim.step();
+    EXPECT_EQ(sim.muscle(0).voltage(), 0.1 * i);
+  }
+}
+
 TEST(Simulation, RobotWithoutJointsRuns) {
   // A motor pulls a rubber ring at a wall; 3 N at rest, some 20 N a radian.
   Simulation sim(load_robot_model(config("rig_oring_stretcher/model_I.yaml"), {0.002, {}}));

@@ -6,7 +6,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "anthrob_sim/recording/atomic_file.h"
+#include "anthrob_config/atomic_file.h"
+#include "anthrob_sim/placement.h"
 #include "anthrob_sim/recording/dataset.h"
 #include "anthrob_sim/report/muscle_sweep.h"
 #include "anthrob_sim/simulation.h"
@@ -159,34 +160,28 @@ void print_table(const Simulation& sim) {
   }
 }
 
-void set_joint(const RobotModel& model, const std::string& option, std::vector<double>& q) {
+void set_joint(const RobotModel& model, const std::string& option, Placement& placement) {
   const tool::Assignment a = tool::parse_assignment("--joint", option);
   const int index = model.skeleton->find_joint(a.name);
   if (index < 0)
     throw BadInput("--joint " + option + ": " + model.file + " has no movable joint '" + a.name +
                    "'");
   const JointModel& joint = model.skeleton->joints[index];
+  const bool ball = joint.type == JointType::kBall;
   if (a.values.size() != static_cast<std::size_t>(joint.position_size())) {
     throw BadInput("--joint " + option + ": expected " +
-                   (joint.type == JointType::kBall ? "a quaternion w,x,y,z" : "one number"));
+                   (ball ? "a quaternion w,x,y,z" : "one number"));
   }
-  std::copy(a.values.begin(), a.values.end(), q.begin() + joint.position_offset);
-  if (joint.type != JointType::kBall) return;
-  const double norm = std::sqrt(a.values[0] * a.values[0] + a.values[1] * a.values[1] +
-                                a.values[2] * a.values[2] + a.values[3] * a.values[3]);
-  if (std::abs(norm - 1.0) > 1e-3)
-    throw BadInput("--joint " + option + ": expected a unit quaternion");
-  for (int k = 0; k < 4; ++k) q[joint.position_offset + k] /= norm;
+  if (!ball) return placement.set_joint(a.name, a.values[0]);
+  placement.set_ball_joint(a.name, Quat(a.values[0], a.values[1], a.values[2], a.values[3]));
 }
 
-void set_position(const RobotModel& model, const std::string& option,
-                  std::vector<double>& positions) {
+void set_position(const RobotModel& model, const std::string& option, Placement& placement) {
   const tool::Assignment a = tool::parse_assignment("--position", option);
-  const int index = model.find_muscle(a.name);
-  if (index < 0)
+  if (model.find_muscle(a.name) < 0)
     throw BadInput("--position " + option + ": " + model.file + " has no muscle '" + a.name + "'");
   if (a.values.size() != 1) throw BadInput("--position " + option + ": expected one number [rad]");
-  positions[index] = a.values[0];
+  placement.set_muscle(a.name, a.values[0]);
 }
 
 /// elbow=0:2:50 or shoulder_x=-1:1:50
@@ -261,13 +256,12 @@ int main(int argc, char** argv) {
   app.add_flag("--json", json, "JSON, SI units")->excludes("--csv");
   return tool::run(app, argc, argv, [&]() -> int {
     const auto model = tool::load_model(app, tool::find_model_file(robot, model_name));
-    std::vector<double> q = model->skeleton->rest_configuration();
-    for (const std::string& option : joints) set_joint(*model, option, q);
-    std::vector<double> actuators(model->muscles.size(), 0.0);
-    for (const std::string& option : positions) set_position(*model, option, actuators);
+    Placement placement(*model);
+    for (const std::string& option : joints) set_joint(*model, option, placement);
+    for (const std::string& option : positions) set_position(*model, option, placement);
     check_muscles(*model, only);
     if (!sweep.empty()) {
-      const MuscleSweep result = run_sweep(model, sweep, q, actuators);
+      const MuscleSweep result = run_sweep(model, sweep, placement.q(), placement.positions());
       if (!plot.empty()) write_file_atomically(plot, draw_sweep(result, only).render());
       if (json) {
         print_json(report(result, only));
@@ -277,7 +271,7 @@ int main(int argc, char** argv) {
       return tool::kDone;
     }
     Simulation sim(model);
-    sim.place(q, actuators);
+    sim.place(placement.q(), placement.positions());
     if (json) {
       print_json(report(sim));
     } else if (csv) {

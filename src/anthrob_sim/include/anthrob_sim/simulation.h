@@ -84,7 +84,7 @@ class Simulation {
   const KinematicTree& tree() const { return tree_; }
   /// Joint positions: 1 number, or w, x, y, z of a ball joint.
   const std::vector<double>& configuration() const { return q_; }
-  /// What the joint sensors saw: hinge and prismatic joints with noise; ball joints as they are.
+  /// What the sensor of a hinge or prismatic joint saw; of a ball joint the first number, w.
   double measured_joint_position(int joint) const;
   /// What ideal sensors say: the truth, with the systematic errors that are effects of the model.
   ecu::Measurement reading(int muscle) const;

@@ -241,6 +241,9 @@ class Builder {
       if (obstacles[i].surface && end) {
         entries[i].fail("a path begins and ends with a point, not with a surface");
       }
+      if (end && entries[i].has("friction")) {
+        entries[i].at("friction").fail("nothing slides at the ends of a path");
+      }
       if (end) obstacles[i].friction = nullptr;
       if (i == 0) continue;
       const PathObstacle& last = obstacles[i - 1];

@@ -108,6 +108,14 @@ void Muscle::command(ecu::Mode mode, double reference) {
 
 void Muscle::set_enabled(bool enabled) {
   memory().enabled = enabled ? 1.0 : 0.0;
+  // At once, for it may be enabled again before the next tick.
+  if (!enabled) forget();
+}
+
+void Muscle::forget() {
+  memory().controller = {};
+  const double nothing[] = {static_cast<double>(ecu::Mode::kVoltage), 0.0};
+  if (command_delay_) command_delay_->fill(nothing, store_.at(command_delay_offset_));
 }
 
 void Muscle::apply_voltage(double voltage) {
@@ -154,10 +162,11 @@ void Muscle::control(std::uint64_t step_index) {
   ecu::Mode heard_mode = mode();
   double heard = c.reference;
   if (command_delay_) delay_command(heard_mode, heard);
-  if (step_index % static_cast<std::uint64_t>(model_.steps_per_tick) != 0) return;
+  // What is applied past the control law does not wait for its tick either.
+  const bool applied = drive() == Drive::kVoltage && c.enabled != 0.0;
+  if (!applied && step_index % static_cast<std::uint64_t>(model_.steps_per_tick) != 0) return;
   if (c.enabled == 0.0) {
     c.voltage = 0.0;
-    c.controller = {};
   } else if (model_.has_controller) {
     c.voltage = ecu::control(heard_mode, heard, c.measured, model_.controller, c.controller);
   } else {
@@ -170,8 +179,7 @@ void Muscle::delay_command(ecu::Mode& mode, double& reference) {
   const double now[] = {static_cast<double>(mode), reference};
   // What stops forgets what is still on its way, too: enabling it never makes it jump.
   if (memory().enabled == 0.0) {
-    const double nothing[] = {static_cast<double>(ecu::Mode::kVoltage), 0.0};
-    command_delay_->fill(nothing, state);
+    forget();
   } else if (drive() == Drive::kVoltage) {
     command_delay_->fill(now, state);  // not on its way but there
   } else {

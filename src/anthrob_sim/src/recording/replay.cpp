@@ -278,7 +278,12 @@ class Probe {
     quantity_ = column.substr(column.find('/') + 1);
     muscle_ = kMuscleQuantities.count(quantity_) ? model.find_muscle(owner) : -1;
     joint_ = muscle_ < 0 ? model.skeleton->find_joint(owner) : -1;
+    const bool part = quantity_ == "w" || quantity_ == "x" || quantity_ == "y" || quantity_ == "z";
+    turn_ = part ? joint_ : -1;
   }
+
+  /// The ball joint that this is a number of the orientation of, or -1.
+  int turn() const { return turn_; }
 
   /// Words jump; angles of orientations and numbers move.
   bool interpolates() const { return !holds_words(quantity_) && quantity_ != "reference"; }
@@ -319,7 +324,7 @@ class Probe {
   }
 
   std::string quantity_;
-  int muscle_, joint_;
+  int muscle_, joint_, turn_;
 };
 
 /// Fills one table of the output, row after row as time goes by.
@@ -334,19 +339,21 @@ class TableSampler {
     }
     last_.resize(probes_.size(), 0.0);
     now_.resize(probes_.size(), 0.0);
+    turned_.resize(probes_.size(), 0);
   }
 
   /// The simulation has arrived at `time`; fills the rows up to there.
   void sample(const Simulation& sim, double time) {
     std::swap(last_, now_);
     for (std::size_t c = 0; c < probes_.size(); ++c) now_[c] = probes_[c].read(sim);
+    find_turned_signs();
     for (; row_ < table_.t.size(); ++row_) {
       const double due = seconds(table_.t[row_] - start_);
       if (due > time + 1e-9) break;
       const bool exact = first_ || due >= time - 1e-9;
       const double share = exact ? 1.0 : (due - last_time_) / (time - last_time_);
       for (std::size_t c = 0; c < probes_.size(); ++c) {
-        const bool blend = !exact && probes_[c].interpolates();
+        const bool blend = !exact && probes_[c].interpolates() && !turned_[c];
         const double before = exact ? now_[c] : last_[c];
         table_.columns[c].values[row_] = blend ? before + share * (now_[c] - before) : before;
       }
@@ -366,10 +373,23 @@ class TableSampler {
   }
 
  private:
+  /// The same orientation has two signs; between them there is none.
+  void find_turned_signs() {
+    for (std::size_t c = 0; c < probes_.size(); ++c) {
+      if (probes_[c].turn() < 0) continue;
+      double product = 0.0;
+      for (std::size_t d = 0; d < probes_.size(); ++d) {
+        if (probes_[d].turn() == probes_[c].turn()) product += last_[d] * now_[d];
+      }
+      turned_[c] = product < 0.0;
+    }
+  }
+
   Table table_;
   Nanoseconds start_;
   std::vector<Probe> probes_;
   std::vector<double> last_, now_;
+  std::vector<char> turned_;  ///< numbers that must not be interpolated in this step
   std::size_t row_ = 0;
   double last_time_ = 0.0;
   bool first_ = true;

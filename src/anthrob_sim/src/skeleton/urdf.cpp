@@ -241,6 +241,13 @@ class Builder {
       default:
         fail("link " + link + ": collision: expected a box, a sphere or a cylinder");
     }
+    const int sizes = model.type == ShapeType::kBox        ? 3
+                      : model.type == ShapeType::kCylinder ? 2
+                                                           : 1;
+    for (int k = 0; k < sizes; ++k) {
+      if (std::isfinite(model.size[k]) && model.size[k] > 0.0) continue;
+      fail("link " + link + ": collision: expected sizes > 0 [m]");
+    }
     return model;
   }
 

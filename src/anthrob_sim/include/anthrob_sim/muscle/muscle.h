@@ -115,6 +115,8 @@ class Muscle {
   /// Rate at which the path from the origin to an obstacle gets longer [m/s].
   double path_rate(std::size_t obstacle, const KinematicTree& tree) const;
   void relax();
+  /// What a stop forgets: the controller's memory and commands on their way.
+  void forget();
   double sliding_power() const;
   /// The command that arrives at the controller in this step.
   void delay_command(ecu::Mode& mode, double& reference);

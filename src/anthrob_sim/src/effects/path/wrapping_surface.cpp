@@ -117,6 +117,8 @@ class WrappingSurfaceEffect final : public Effect {
   }
 
  private:
+  static constexpr double kShortestLine = 1e-6;  // [m]
+
   /// The outermost joint between the ends of the segment that ends at obstacle i, or -1.
   static int joint_of(const SkeletonModel& skeleton, const PathModel& path, std::size_t i) {
     const PathObstacle &a = path.obstacles()[i - 1], &b = path.obstacles()[i];
@@ -127,7 +129,9 @@ class WrappingSurfaceEffect final : public Effect {
         std::max_element(joints.begin(), joints.end(), [](const auto& x, const auto& y) {
           return x.joint < y.joint;
         })->joint;
-    return skeleton.joints[joint].type == JointType::kPrismatic ? -1 : joint;
+    if (skeleton.joints[joint].type == JointType::kPrismatic) return -1;
+    // A ball joint in the middle of the next one, or of its body's mass, has no line.
+    return direction(skeleton, joint).norm() > kShortestLine ? joint : -1;
   }
 
   static Spot find(const RobotModel& robot, const std::string& place) {
@@ -143,19 +147,21 @@ class WrappingSurfaceEffect final : public Effect {
     return spot;
   }
 
+  /// Along a hinge's axis; from a ball joint to the next joint, or to its body's centre of mass.
+  static Vec3 direction(const SkeletonModel& skeleton, int index) {
+    const JointModel& joint = skeleton.joints[index];
+    if (joint.type != JointType::kBall) return joint.axis_C;
+    for (const JointModel& next : skeleton.joints) {
+      if (next.parent == joint.child) return next.X_PC_rest * next.center_C - joint.center_C;
+    }
+    return skeleton.bodies[joint.child].com_L - joint.center_C;
+  }
+
   /// The line in the link frame of the body beyond the joint; y along it.
   static Pose line(const SkeletonModel& skeleton, int index) {
     const JointModel& joint = skeleton.joints[index];
-    Vec3 axis = joint.axis_C;
-    if (joint.type == JointType::kBall) {
-      axis = skeleton.bodies[joint.child].com_L - joint.center_C;
-      for (const JointModel& next : skeleton.joints) {
-        if (next.parent != joint.child) continue;
-        axis = next.X_PC_rest * next.center_C - joint.center_C;
-        break;
-      }
-      axis.normalize();
-    }
+    Vec3 axis = direction(skeleton, index);
+    if (joint.type == JointType::kBall) axis.normalize();
     const Vec3 across = axis.unitOrthogonal();
     Pose X_LC;
     X_LC.R << across, axis, across.cross(axis);
