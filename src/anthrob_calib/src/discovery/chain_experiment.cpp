@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "anthrob_calib/discovery/cut_off_noise.h"
 #include "anthrob_calib/discovery/noise_floor.h"
 #include "anthrob_calib/resume/fingerprint.h"
 
@@ -137,6 +138,9 @@ void ChainExperiment::add(Reader reader, const Series& series, const Channel& ch
   channels_.back().offset = reader.offset;
   channels_.back().count = bins_;
   channels_.back().resolution = resolution_of(series.values);
+  if (reader.kind == Reader::kForce) {
+    reader.noise = cut_off_noise(series, channels_.back().resolution);
+  }
   for (const double share : sampling.per_bin) present_.push_back(share > 0.0);
   sampling.readers.push_back(std::move(reader));
 }
@@ -181,7 +185,7 @@ void ChainExperiment::read(const Simulation& sim, const Sampling& sampling,
         values.push_back(sim.muscle(i).voltage());
         break;
       case Reader::kForce:
-        values.push_back(sim.muscle(i).measured().force);
+        values.push_back(mean_above_zero(sim.muscle(i).force_reading(), reader.noise));
         break;
       case Reader::kJoint:
         values.push_back(sim.measured_joint_position(i));

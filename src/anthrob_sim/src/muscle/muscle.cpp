@@ -154,7 +154,8 @@ void Muscle::sense(std::uint64_t step_index, const ecu::Measurement& seen) {
   m.velocity = measure(kVelocity, seen.velocity);
   m.current = measure(kCurrent, seen.current);
   // As the ECU: a tendon does not push, below zero there are only noise and offset.
-  m.force = std::max(measure(kForce, seen.force), 0.0);
+  memory().force_reading = measure(kForce, seen.force);
+  m.force = std::max(memory().force_reading, 0.0);
 }
 
 void Muscle::control(std::uint64_t step_index) {
@@ -293,6 +294,10 @@ Actuator::Readout Muscle::actuator() const {
 }
 const ecu::Measurement& Muscle::measured() const {
   return memory().measured;
+}
+
+double Muscle::force_reading() const {
+  return memory().force_reading;
 }
 ecu::Mode Muscle::mode() const {
   return static_cast<ecu::Mode>(static_cast<int>(memory().mode));

@@ -77,6 +77,8 @@ class Muscle {
   double expansion() const;
   Actuator::Readout actuator() const;
   const ecu::Measurement& measured() const;
+  /// What its force sensor says [N]; measured() is not below zero.
+  double force_reading() const;
   ecu::Mode mode() const;
   double reference() const;
   bool enabled() const;
@@ -103,6 +105,7 @@ class Muscle {
     double sliding_power;   ///< of friction beyond the spring, over the last step [W]
     ecu::ControllerMemory controller;
     ecu::Measurement measured;
+    double force_reading;  ///< [N] what was measured before it is cut off at zero
   };
 
   StateView spring_state() const { return store_.at(spring_offset_); }

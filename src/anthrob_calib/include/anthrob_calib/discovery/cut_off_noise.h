@@ -1,0 +1,19 @@
+#pragma once
+
+#include "anthrob_sim/recording/dataset.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// Mean of readings that are never below zero, of a value with normal noise about it. Where nothing
+/// pulls it is 0.4 standard deviations, which no offset of a sensor has to explain.
+/// @param value, noise standard deviation [N]
+double mean_above_zero(double value, double noise);
+
+/// Standard deviation of the noise of readings that were cut off at zero [N], from the windows of
+/// time in which about half of them are zero; 0 if there are few of those, or readings below zero.
+/// @param count step of the readings [N]; 0: none
+double cut_off_noise(const Series& readings, double count);
+
+}  // namespace discovery
+}  // namespace anthrob
