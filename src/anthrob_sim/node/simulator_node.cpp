@@ -84,8 +84,9 @@ ros::Time SimulatorNode::stamp() const {
 // ---- commands
 
 void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
-  // Somebody else may send an older one, or one without stamp.
-  last_command_stamp_ = std::max(last_command_stamp_, command.header.stamp);
+  // Somebody else may send an older one, one without stamp, or one by another clock, far ahead.
+  if (command.header.stamp <= stamp())
+    last_command_stamp_ = std::max(last_command_stamp_, command.header.stamp);
   const auto outcome =
       supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_);
   if (!outcome.accepted) return warn_of_refusal("muscle_command", outcome.reason);
