@@ -313,6 +313,16 @@ class SimContract(unittest.TestCase):
         self.assertFalse(answer.success)
         self.assertIn('expected a number > 0', answer.message)
 
+    def test_lock_step_waits_for_its_command_whatever_another_clock_stamped(self):
+        now = self.step(1).stamp
+        ahead = MuscleCommand(name=['lateral_deltoid'], mode=[1], reference=[1.0])
+        ahead.header.stamp = now + rospy.Duration(3600)
+        self.command.publish(ahead)
+        wait_for(lambda: self.step(1).success and self.states.last().reference[0] == 1.0, 5, 'the command ahead')
+        answer = self.step(1, self.states.last().header.stamp)
+        self.assertFalse(answer.success)
+        self.assertIn('no muscle_command with the stamp asked for', answer.message)
+
     def test_paused_time_stands_still(self):
         stamp = self.step(1).stamp
         time.sleep(0.3)

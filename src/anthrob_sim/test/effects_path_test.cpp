@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "effects_support.h"
 
@@ -273,6 +274,41 @@ TEST(WrappingSurface, MovesSegmentsBehindItUp) {
   a.place(q, std::vector<double>(11, 0.0));
   b.place(q, std::vector<double>(11, 0.0));
   EXPECT_NEAR(a.muscle(0).length(), b.muscle(0).length(), 5e-4);
+}
+
+TEST(WrappingSurface, IsNotOfferedWhereThereIsNoLineToBeRound) {
+  // The bob's mass: off the ball joint's centre, which makes a line; or in it.
+  const std::map<std::string, bool> masses = {{"0 0 -0.3", true}, {"0 0 0", false}};
+  for (const auto& [mass, line] : masses) {
+    const testing_support::TemporaryRobot robot(
+        R"(<robot name="p"><link name="world"/>
+        <joint name="ball" type="floating"><parent link="world"/><child link="bob"/></joint>
+        <link name="bob"><inertial><origin xyz=")" +
+            mass + R"("/><mass value="1"/>
+        <inertia ixx="1e-2" ixy="0" ixz="0" iyy="1e-2" iyz="0" izz="1e-2"/></inertial></link>
+        </robot>)",
+        R"(robot: robot.urdf
+gravity: [0, 0, -9.81]
+joints:
+  ball: {type: ball, center: [0, 0, 0]}
+springs:
+  band: {type: spring_damper, rest_length: 0.02, stiffness: 100, damping: 1}
+actuators:
+  ligament: {type: ligament}
+muscles:
+  band:
+    actuator: ligament
+    rest_tendon_length: 0.2
+    spring: {kind: band, segment: 0}
+    force_sensor_segment: 0
+    path:
+      - {point: [0.05, 0, 0.1], body: world}
+      - {point: [0.05, 0, -0.1], body: bob}
+)");
+    const std::vector<std::string> expected =
+        line ? std::vector<std::string>{"band/1", "band"} : std::vector<std::string>{};
+    EXPECT_EQ(find_effect("wrapping_surface")->places(*robot.load()), expected) << mass;
+  }
 }
 
 TEST(ViaPointShift, MovesOnePointAlongItsAxis) {

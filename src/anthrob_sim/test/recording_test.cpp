@@ -366,6 +366,45 @@ TEST(Replay, RowsBetweenStepsAreInterpolated) {
   EXPECT_GT(values.back(), 0.1);
 }
 
+TEST(Replay, AnOrientationIsNotBlendedBetweenItsTwoSigns) {
+  // A bob on a ball joint falls from 30 degrees above the horizontal and swings through the turn
+  // by 180 degrees, where the number w of its orientation would get negative.
+  const testing_support::TemporaryRobot robot(R"(<robot name="p"><link name="world"/>
+      <joint name="ball" type="floating"><parent link="world"/><child link="bob"/></joint>
+      <link name="bob"><inertial><origin xyz="0 0.433 0.25"/><mass value="2"/>
+      <inertia ixx="1e-3" ixy="0" ixz="0" iyy="1e-3" iyz="0" izz="1e-3"/></inertial></link>
+      <joint name="axis" type="prismatic"><parent link="world"/><child link="carriage"/>
+      <axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="0" velocity="0"/></joint>
+      <link name="carriage"><inertial><mass value="1"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>)",
+                                              R"(robot: robot.urdf
+gravity: [0, 0, -9.81]
+joints:
+  ball: {type: ball, center: [0, 0, 0]}
+  axis: {driven: true, stop: {stiffness: 1000, damping: 1}}
+)");
+  Dataset recording;
+  Table& joints = recording.table("joints");
+  joints.columns.push_back({"axis/effort", {}, {}});
+  for (int i = 0; i < 6000; ++i) {
+    joints.t.push_back(Nanoseconds{333333} * i);
+    joints.columns[0].values.push_back(0.0);
+    joints.columns[0].present.push_back(1);
+  }
+  const Dataset replayed = replay(robot.load(), recording, ReplayMode::kReference);
+  const Table& balls = *replayed.find_table("spherical_joints");
+  const auto turn = [&](std::size_t i) {
+    const auto part = [&](const char* name) { return balls.find(name)->values[i]; };
+    return Eigen::Vector4d(part("ball/w"), part("ball/x"), part("ball/y"), part("ball/z"));
+  };
+  int changes = 0;
+  for (std::size_t i = 1; i < balls.t.size(); ++i) {
+    EXPECT_NEAR(turn(i).norm(), 1.0, 1e-4) << "row " << i;
+    changes += turn(i).dot(turn(i - 1)) < 0.0;
+  }
+  EXPECT_GE(changes, 1);
+}
+
 TEST(Replay, RefusesWhatTheRobotLacks) {
   Dataset recording;
   Table& table = recording.table("muscles");
