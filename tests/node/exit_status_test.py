@@ -59,6 +59,18 @@ class ExitStatus(unittest.TestCase):
         workspace = os.path.join(ROOT, 'catkin_ws.sh')
         self.assertIn("unknown command 'biuld'", self.refused(workspace, 'biuld'))
 
+    def test_output_that_cannot_be_written(self):
+        for command in (program('anthrob_sim', 'anthrob_effects'), '--format', 'json'), (
+                program('anthrob_sim', 'anthrob_muscles'), '--robot', 'anthrob', '--model', 'I'):
+            with open('/dev/full', 'w') as full:
+                done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn('standard output: cannot be written', done.stderr)
+
+    def test_folder_for_a_file(self):
+        said = self.refused(program('anthrob_sim', 'anthrob_replay'), '--model', CONFIG, '--in', CONFIG, '--out', '/tmp/none')
+        self.assertIn(CONFIG + ': expected a YAML file, not a folder', said)
+
     def test_muscles(self):
         muscles = program('anthrob_sim', 'anthrob_muscles')
         for robot, option, value in (('anthrob', '--joint', 'elbow=9'), ('two_muscle_rig', '--position', 'flexor=1e9'),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <iterator>
 #include <string>
@@ -37,7 +38,13 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
                [](const char* argument) { return !is_remapping(argument); });
   try {
     app.parse(static_cast<int>(arguments.size()), arguments.data());
-    return body();
+    const int status = body();
+    // What a full disk has cut off is no answer.
+    if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      std::cerr << app.get_name() << ": standard output: cannot be written\n";
+      return kFailed;
+    }
+    return status;
   } catch (const CLI::Success& e) {
     app.exit(e);
     return kDone;

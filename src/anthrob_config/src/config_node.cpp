@@ -121,6 +121,15 @@ std::string base_file(const std::string& path, const Data& name) {
   return base.string();
 }
 
+/// What comes behind a second "---" must not be passed over without a word.
+YAML::Node only_document(const std::vector<YAML::Node>& documents, const std::string& path) {
+  if (documents.size() > 1) {
+    const int line = documents[1].Mark().line;
+    fail_at(path, line < 0 ? 1 : line + 1, "a second document: expected one");
+  }
+  return documents.empty() ? YAML::Node() : documents.front();
+}
+
 DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
   const std::string canonical = std::filesystem::weakly_canonical(path).string();
   for (const auto& seen : chain) {
@@ -128,9 +137,12 @@ DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
   }
   chain.push_back(canonical);
 
+  if (std::filesystem::is_directory(path)) {
+    throw BadInput(path + ": expected a YAML file, not a folder");
+  }
   YAML::Node root;
   try {
-    root = YAML::LoadFile(path);
+    root = only_document(YAML::LoadAllFromFile(path), path);
   } catch (const YAML::BadFile&) {
     throw BadInput(path + ": cannot be read; expected a YAML file");
   } catch (const YAML::Exception& e) {
@@ -227,7 +239,8 @@ ConfigNode ConfigNode::load(const std::string& file) {
 
 ConfigNode ConfigNode::parse(const std::string& text, const std::string& name) {
   try {
-    return ConfigNode(convert(YAML::Load(text), std::make_shared<const std::string>(name)), "");
+    const YAML::Node root = only_document(YAML::LoadAll(text), name);
+    return ConfigNode(convert(root, std::make_shared<const std::string>(name)), "");
   } catch (const YAML::Exception& e) {
     fail_at(name, e.mark.line + 1, "not valid YAML: " + e.msg);
   }

@@ -13,6 +13,9 @@ namespace {
 
 /// Without what it extends.
 ConfigNode alone(const std::string& file) {
+  if (std::filesystem::is_directory(file)) {
+    throw BadInput(file + ": expected a YAML file, not a folder");
+  }
   std::ifstream in(file);
   if (!in) throw BadInput(file + ": cannot be read; expected a YAML file");
   return ConfigNode::parse({std::istreambuf_iterator<char>(in), {}}, file);

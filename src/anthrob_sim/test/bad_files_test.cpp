@@ -443,6 +443,25 @@ TEST(ConfigNode, ErrorsInExtendingFilesNameTheRightFile) {
   }
 }
 
+TEST(ConfigNode, ASecondDocumentAndAFolderAreRefused) {
+  TemporaryRobot robot(kUrdf, std::string(kModel) + "---\nmuscels: {}\n");
+  const std::string folder = robot.file().substr(0, robot.file().rfind('/'));
+  robot.write("more.yaml", "extends: .\n");
+  const auto refusal = [](const std::string& file) -> std::string {
+    try {
+      load_robot_model(file);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "(accepted)";
+  };
+  EXPECT_NE(refusal(robot.file()).find("a second document: expected one"), std::string::npos)
+      << refusal(robot.file());
+  EXPECT_EQ(refusal(folder), folder + ": expected a YAML file, not a folder");
+  EXPECT_NE(refusal(folder + "/more.yaml").find(": expected a YAML file, not a folder"),
+            std::string::npos);
+}
+
 TEST(ConfigNode, OverridesReachNumbersByPath) {
   const TemporaryRobot robot(kUrdf, kModel);
   const auto model = robot.load(1e-3, {{"muscles.biceps.path.1.point.2", 0.45}});

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "anthrob_config/names.h"
 #include "anthrob_sim/actuator/geared_motor.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
@@ -16,14 +17,6 @@ namespace {
 
 /// How deep a path point may lie inside where an effect may have moved points or surfaces [m].
 constexpr double kAllowedByEffects = 0.003;
-
-/// Names become parts of topics, columns and diagnostics.
-bool is_snake_case(const std::string& name) {
-  bool good = !name.empty() && name[0] >= 'a' && name[0] <= 'z';
-  for (const char c : name)
-    good = good && ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_');
-  return good;
-}
 
 void require_snake_case(const ConfigNode& node, const std::string& name) {
   if (!is_snake_case(name)) node.fail("'" + name + "': expected a name in lower_snake_case");
