@@ -51,11 +51,26 @@ FrameSource::Grab BagSource::next(StereoFrame& frame, double) {
     ++position_;
     return Grab::kFrame;
   }
+  if (ended_) return Grab::kEnd;
+  ended_ = true;
+  pairing_.end();
+  take_counts();
   if (index_ == 0) {
-    const std::string why = Pairing::complaint(pairing_.take_counts(), pairing_.tolerance());
+    const std::string why = Pairing::complaint(total_, pairing_.tolerance());
     throw BadInput(last_refusal_.empty() ? file_ + ": " + why : last_refusal_);
   }
+  const std::string loss = Pairing::loss(total_);
+  if (!loss.empty()) refuse_(file_ + ": " + loss);
   return Grab::kEnd;
+}
+
+Pairing::Counts BagSource::take_counts() {
+  const Pairing::Counts counts = pairing_.take_counts();
+  for (const Side side : {kLeft, kRight}) total_.images[side] += counts.images[side];
+  total_.pairs += counts.pairs;
+  total_.lost += counts.lost;
+  if (counts.nearest != 0.0) total_.nearest = counts.nearest;
+  return counts;
 }
 
 }  // namespace mocap

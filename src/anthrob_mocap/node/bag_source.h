@@ -19,13 +19,16 @@ class BagSource final : public FrameSource {
   using Refuse = std::function<void(const std::string& why)>;
 
   /// @param left, right topics
-  /// @param refuse is told of every image that is left out because it cannot be used
+  /// @param refuse is told of every image that is left out because it cannot be used, and at the
+  /// end
+  ///   of those without a partner if they are many
   /// @throws BadInput if there is no such bag or topic
   BagSource(const std::string& file, const std::string& left, const std::string& right,
             double sync_tolerance, Refuse refuse);
 
   /// @throws BadInput at the end of a bag without a pair
   Grab next(StereoFrame& frame, double timeout) override;
+  Pairing::Counts take_counts() override;
 
  private:
   std::string file_, topics_[2];
@@ -33,8 +36,10 @@ class BagSource final : public FrameSource {
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator position_;
   Pairing pairing_;
+  Pairing::Counts total_;  ///< of what take_counts has taken
   Refuse refuse_;
   std::string last_refusal_;
+  bool ended_ = false;
   std::uint64_t index_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "anthrob_config/errors.h"
 
@@ -11,6 +12,8 @@ namespace anthrob {
 namespace mocap {
 
 namespace {
+
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 geometry_msgs::Quaternion quaternion_message(const Quat& q) {
   geometry_msgs::Quaternion message;
@@ -34,23 +37,36 @@ geometry_msgs::Point point_message(const Vec3& v) {
 
 CameraModel camera_model(const sensor_msgs::CameraInfo& info, Side side) {
   const std::string who = std::string(name(side)) + " camera_info: ";
-  if (info.K[0] <= 0.0 || info.P[0] <= 0.0) throw BadInput(who + "the camera is not calibrated");
+  if (info.K[0] == 0.0) throw BadInput(who + "the camera is not calibrated");
+  const Mat3 K = Eigen::Map<const RowMajor3>(info.K.data());
+  if (!is_camera_matrix(K)) {
+    throw BadInput(who + "K: expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0");
+  }
   if (info.distortion_model != sensor_msgs::distortion_models::PLUMB_BOB &&
       info.distortion_model != sensor_msgs::distortion_models::RATIONAL_POLYNOMIAL) {
     throw BadInput(who + "distortion_model " + info.distortion_model +
                    ": expected plumb_bob or rational_polynomial");
   }
-  if (info.D.size() > 8) throw BadInput(who + "D: expected at most 8 coefficients");
+  const bool finite =
+      std::all_of(info.D.begin(), info.D.end(), [](double d) { return std::isfinite(d); });
+  if (!finite || (!info.D.empty() && !is_distortion_count(info.D.size()))) {
+    throw BadInput(who + "D: expected 4, 5 or 8 numbers, or none");
+  }
+  if (info.width == 0 || info.height == 0) {
+    throw BadInput(who + "width, height: expected the size of the images");
+  }
   CameraModel camera;
   camera.name = name(side);
   camera.width = static_cast<int>(info.width), camera.height = static_cast<int>(info.height);
-  camera.fx = info.K[0], camera.cx = info.K[2], camera.fy = info.K[4], camera.cy = info.K[5];
+  camera.fx = K(0, 0), camera.cx = K(0, 2), camera.fy = K(1, 1), camera.cy = K(1, 2);
   std::copy(info.D.begin(), info.D.end(), camera.distortion.begin());
-  camera.R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(info.R.data());
+  camera.R = Eigen::Map<const RowMajor3>(info.R.data());
   camera.P = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(info.P.data());
-  if ((camera.R * camera.R.transpose() - Mat3::Identity()).norm() > 1e-4 ||
-      camera.R.determinant() < 0.0) {
+  if (!is_rotation(camera.R)) {
     throw BadInput(who + "R: expected a rotation; the calibration is mirrored or broken");
+  }
+  if (!is_rectified(camera.P)) {
+    throw BadInput(who + "P: expected a rectified camera [f, 0, cx, Tx, 0, f, cy, ...]");
   }
   return camera;
 }

@@ -40,6 +40,9 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   std::optional<mocap::Setup> setup;
   const std::string rig_file = optional_text(settings, "rig");
   if (!rig_file.empty()) setup = mocap::Setup::load(rig_file, set);
+  if (options.joint_tf && !setup) {
+    throw anthrob::BadInput("parameter ~joint_tf: true needs ~rig, which says where joints are");
+  }
   const std::string calibration = optional_text(settings, "calibration");
   const std::string source = optional_text(settings, "source", "topics");
   if (source != "topics" && calibration.empty()) {

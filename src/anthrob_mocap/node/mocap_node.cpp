@@ -75,25 +75,28 @@ void MocapNode::run() {
       images_, options_.sync_tolerance, [this](const TimedImage pair[2]) { on_pair(pair); },
       [this](const std::string& why) { refuse(why); });
   const ros::WallTimer timer = nh_.createWallTimer(
-      ros::WallDuration(kReportPeriod),
-      [&](const ros::WallTimerEvent&) { publish_diagnostics(trouble_of(input)); });
+      ros::WallDuration(kReportPeriod), [&](const ros::WallTimerEvent&) { report_on(input); });
   ros::spin();
   pipeline_.drain();
 }
 
-/// Half a second must have passed by simulated time, too: where it runs slowly pictures are rare,
-/// and while it stands still there is nothing to see.
-std::string MocapNode::trouble_of(TopicInput& input) {
+/// Slow cameras are judged by three of their periods. Half a second must have passed by simulated
+/// time, too: where it runs slowly pictures are rare, and while it stands still there is nothing to
+/// see.
+void MocapNode::report_on(TopicInput& input) {
   const ros::Time now = ros::Time::now();
-  const bool still = ros::Time::isSimTime() && now == last_report_time_;
+  const bool simulated = ros::Time::isSimTime();
+  const bool still = simulated && now == last_report_time_;
   last_report_time_ = now;
   if (last_asked_.isZero()) last_asked_ = now;
   const double passed = now.toSec() - last_asked_.toSec();
-  if (!ros::Time::isSimTime() || passed < 0.0 || passed >= kReportPeriod) {
+  const double needed = std::max(simulated ? kReportPeriod : 0.0, 3.0 * input.period());
+  if (passed < 0.0 || passed >= needed) {
     last_asked_ = now;
-    last_trouble_ = input.take_trouble();
+    last_counts_ = input.take_counts();
+    last_trouble_ = Pairing::complaint(last_counts_, input.tolerance());
   }
-  return still ? "" : last_trouble_;
+  publish_diagnostics(still ? "" : last_trouble_, last_counts_);
 }
 
 void MocapNode::run(FrameSource& source) {
@@ -106,13 +109,13 @@ void MocapNode::run(FrameSource& source) {
     if (grab == FrameSource::Grab::kFrame) take(std::move(frame));
     ended = grab == FrameSource::Grab::kEnd;
     if ((ros::WallTime::now() - last_report_).toSec() > kReportPeriod) {
-      publish_diagnostics(source.trouble());
+      publish_diagnostics(source.trouble(), source.take_counts());
     }
     ros::spinOnce();
   }
   pipeline_.drain();
   if (!ended) return;
-  publish_diagnostics(source.trouble());
+  publish_diagnostics(source.trouble(), source.take_counts());
   ros::WallDuration(kFarewell).sleep();
 }
 
@@ -239,11 +242,11 @@ void MocapNode::publish_pictures(const StereoFrame& frame, const std_msgs::Heade
   }
 }
 
-void MocapNode::publish_diagnostics(const std::string& trouble) {
+void MocapNode::publish_diagnostics(const std::string& trouble, const Pairing::Counts& images) {
   const ros::WallTime now = ros::WallTime::now();
   diagnostic_msgs::DiagnosticArray array;
   array.header.stamp = ros::Time::now();
-  array.status.push_back(status_.report((now - last_report_).toSec(), trouble));
+  array.status.push_back(status_.report((now - last_report_).toSec(), trouble, images));
   last_report_ = now;
   diagnostics_.publish(array);
 }

@@ -52,10 +52,10 @@ class MocapNode {
   std_msgs::Header joint_header(const ros::Time& stamp, std::size_t joint) const;
   void publish_transforms(const StereoFrame& frame, const std_msgs::Header& header);
   void publish_pictures(const StereoFrame& frame, const std_msgs::Header& header);
-  void publish_diagnostics(const std::string& trouble);
+  void publish_diagnostics(const std::string& trouble, const Pairing::Counts& images);
   void check_size(const StereoFrame& frame) const;
   void check_stamp(const StereoFrame& frame) const;
-  std::string trouble_of(TopicInput& input);
+  void report_on(TopicInput& input);
 
   ros::NodeHandle nh_, images_;
   StereoRig rig_;
@@ -70,6 +70,7 @@ class MocapNode {
   ros::WallTime last_markers_, last_debug_, last_report_;
   ros::Time last_report_time_, last_asked_;
   std::string last_trouble_;
+  Pairing::Counts last_counts_;
 
   Status status_;
   std::uint64_t index_ = 0;

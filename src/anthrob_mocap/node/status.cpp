@@ -64,18 +64,21 @@ void Status::refuse(const std::string& why) {
   last_refusal_ = why;
 }
 
-DiagnosticStatus Status::report(double elapsed, const std::string& trouble) {
+DiagnosticStatus Status::report(double elapsed, const std::string& trouble,
+                                const Pairing::Counts& images) {
   const std::lock_guard<std::mutex> lock(mutex_);
   DiagnosticStatus status;
   status.name = name_;
   status.hardware_id = "stereo rig";
-  judge(trouble, status);
+  judge(trouble, images, status);
   list_values(elapsed, status);
+  add_value(status, "lost_images", std::to_string(images.lost));
   clear();
   return status;
 }
 
-void Status::judge(const std::string& trouble, DiagnosticStatus& status) const {
+void Status::judge(const std::string& trouble, const Pairing::Counts& images,
+                   DiagnosticStatus& status) const {
   const std::string error = refused_ > 0       ? last_refusal_
                             : !trouble.empty() ? trouble
                                                : health_.contradiction();
@@ -85,10 +88,13 @@ void Status::judge(const std::string& trouble, DiagnosticStatus& status) const {
   status.level = DiagnosticStatus::WARN;
   status.message = health_.bend();
   if (!status.message.empty()) return;
+  status.message = Pairing::loss(images);
+  if (!status.message.empty()) return;
   if (health_.frames() > 0) {
     for (std::size_t k = 0; k < targets_.size(); ++k) {
       if (seen_[k] > 0) continue;
       status.message = targets_[k] + " is not seen";
+      if (health_.cut() > 0) status.message += "; more points than most_points: the lowest are cut";
       if (health_.poses() == 0) status.message = health_.advice();
       return;
     }
@@ -117,6 +123,7 @@ void Status::list_values(double elapsed, DiagnosticStatus& status) {
   }
   add_value(status, "residual_px", text(health_.pixel_rms()));
   add_value(status, "row_error_px", text(health_.row_error()));
+  add_value(status, "pictures_cut", std::to_string(health_.cut()));
   add_value(status, "searches_given_up", std::to_string(health_.given_up()));
   add_value(status, "refused_images", std::to_string(refused_));
 }

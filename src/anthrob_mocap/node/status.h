@@ -8,6 +8,7 @@
 
 #include "anthrob_mocap/pipeline/health.h"
 #include "anthrob_mocap/pipeline/tracker.h"
+#include "anthrob_mocap/source/pairing.h"
 
 namespace anthrob {
 namespace mocap {
@@ -25,10 +26,13 @@ class Status {
 
   /// @param elapsed [s] since the last report
   /// @param trouble of the source: an error, if not empty
-  diagnostic_msgs::DiagnosticStatus report(double elapsed, const std::string& trouble);
+  /// @param images of the source since it was asked last
+  diagnostic_msgs::DiagnosticStatus report(double elapsed, const std::string& trouble,
+                                           const Pairing::Counts& images);
 
  private:
-  void judge(const std::string& trouble, diagnostic_msgs::DiagnosticStatus& status) const;
+  void judge(const std::string& trouble, const Pairing::Counts& images,
+             diagnostic_msgs::DiagnosticStatus& status) const;
   void list_values(double elapsed, diagnostic_msgs::DiagnosticStatus& status);
   void clear();
 

@@ -45,9 +45,5 @@ void TopicInput::on_image(Side side, const sensor_msgs::ImageConstPtr& message) 
   }
 }
 
-std::string TopicInput::take_trouble() {
-  return Pairing::complaint(pairing_.take_counts(), pairing_.tolerance());
-}
-
 }  // namespace mocap
 }  // namespace anthrob

@@ -28,8 +28,10 @@ class TopicInput {
   /// @param tolerance [s] between stamps of a pair; 0 for cameras that are triggered together
   TopicInput(ros::NodeHandle nh, double tolerance, Handler handler, Refuse refuse);
 
-  /// What is wrong since the last call; empty if nothing is.
-  std::string take_trouble();
+  /// What became of the images since the last call.
+  Pairing::Counts take_counts() { return pairing_.take_counts(); }
+  double tolerance() const { return pairing_.tolerance(); }  ///< [s] as Pairing's
+  double period() const { return pairing_.period(); }        ///< [s] as Pairing's
 
  private:
   void on_image(Side side, const sensor_msgs::ImageConstPtr& message);

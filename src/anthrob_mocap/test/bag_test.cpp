@@ -52,7 +52,21 @@ TEST_F(Bag, GoesOnAfterImagesThatCannotBeUsed) {
                 file_ + ": /l: image of 1.100000000 s: encoding mono16: expected mono8",
                 file_ + ": /r: image of 0.000000000 s: stamp 0: expected the time of the exposure",
                 file_ + ": /l: image of 1.300000000 s: stamp 1.300000 s: expected one after "
-                        "1.300000 s, the last"}));
+                        "1.300000 s, the last",
+                file_ + ": 2 of 7 images have no partner, or came too late"}));
+}
+
+TEST_F(Bag, SaysHowManyImagesHaveNoPartner) {
+  rosbag::Bag bag(file_, rosbag::bagmode::Write);
+  for (int i = 0; i < 100; ++i) {
+    record(bag, "/l", 1.0 + 0.1 * i);
+    if (i % 10 == 0) record(bag, "/r", 1.0 + 0.1 * i);
+  }
+  bag.close();
+  EXPECT_EQ(read().size(), 10u);
+  EXPECT_EQ(
+      refused_,
+      (std::vector<std::string>{file_ + ": 90 of 110 images have no partner, or came too late"}));
 }
 
 TEST_F(Bag, WithoutAPairIsRefused) {

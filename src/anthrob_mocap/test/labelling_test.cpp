@@ -46,6 +46,10 @@ TEST(Targets, ThatAreWrongAreRefused) {
   refuse("[0, 0.07, 0]", "[0, 0.07]",
          "targets.yaml:4: targets.scapula.markers.2: a list of 2: "
          "expected 3 numbers");
+  refuse("  scapula:", "  left-arm:",
+         "targets.yaml:4: targets.left-arm: 'left-arm': expected a name in lower_snake_case");
+  refuse("  shoulder:", "  'a,b':", "joints.a,b: 'a,b': expected a name in lower_snake_case");
+  refuse("  shoulder:", "  humerus:", "joints.humerus: a target has this name");
   refuse("parent: scapula", "parent: spacula",
          "targets.yaml:8: joints.shoulder.parent: spacula: "
          "expected the name of a target");
@@ -189,6 +193,24 @@ TEST(CliqueSearch, SaysWhenThreeMarkersCanBeTwoThings) {
   EXPECT_EQ(search(target, points).count, 4);
 }
 
+TEST(CliqueSearch, RivalsAreAsFarApartWhereverTheFrameIs) {
+  // Two points half a millimetre before and behind a marker make one pose, not two.
+  for (const double away : {0.0, 1.0}) {
+    MarkerTarget target{"t", {{0, 0, 0}, {0.1, 0, 0}, {0, 0.07, 0}, {0.08, 0.09, 0}}};
+    for (Vec3& marker : target.markers) marker.x() += away;
+    std::vector<MarkerPoint> points;
+    for (int i = 0; i < 3; ++i) {
+      points.push_back(point_at(target.markers[static_cast<std::size_t>(i)], i));
+    }
+    for (const int side : {-1, 1}) {
+      points.push_back(point_at(target.markers[3] + Vec3(0, 0, 0.0005 * side), 4 + side));
+    }
+    const Labelling labelling = search(target, points);
+    EXPECT_EQ(labelling.count, 4);
+    EXPECT_FALSE(labelling.ambiguous) << away;
+  }
+}
+
 TEST(CliqueSearch, StaysWithinItsStepsInACrowd) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> place(-0.1, 0.1);
@@ -247,8 +269,37 @@ TEST(Labeller, UsesNoBlobTwice) {
   EXPECT_EQ(labels[1].point[3], -1);
 }
 
+TEST(Labeller, GivesNobodyWhatTwoTargetsCanClaim) {
+  // Alike but for one marker: what is seen of the others can be either's. A target that has more
+  // takes what is its own, and leaves the other one to what remains.
+  const MarkerTarget a = make_targets().targets[0];
+  MarkerTarget b = a;
+  b.name = "other";
+  b.markers[4] += Vec3(0.03, 0.01, -0.02);
+  ASSERT_EQ(find_ambiguity(a, b, 0.003), "");
+  Labeller labeller({a, b}, {}, {});
+  std::vector<MarkerPoint> points;
+  const auto label = [&] {
+    std::vector<Edge> edges;
+    find_edges(points, labeller.longest_edge(), edges);
+    std::vector<Labelling> labels;
+    labeller.label(0.0, points, edges, labels);
+    return std::vector<int>{labels[0].count, labels[1].count};
+  };
+  for (int i = 0; i < 4; ++i) {
+    points.push_back(point_at(a.markers[static_cast<std::size_t>(i)], i));
+  }
+  EXPECT_EQ(label(), (std::vector<int>{0, 0}));
+  points.push_back(point_at(b.markers[4], 4));
+  EXPECT_EQ(label(), (std::vector<int>{0, 5}));
+  for (int i = 0; i < 4; ++i) {
+    points.push_back(point_at(a.markers[static_cast<std::size_t>(i)] + Vec3(0.5, 0, 0), 10 + i));
+  }
+  EXPECT_EQ(label(), (std::vector<int>{4, 5}));
+}
+
 TEST(MotionPrior, DoubtsOnlyWhatContradictsSteadyMotion) {
-  MotionPrior prior{MotionOptions()};
+  MotionPrior prior(MotionOptions(), Vec3::Zero());
   const Pose here{Mat3::Identity(), {0, 0, 1}}, there{exp_rotation({0.5, 0, 0}), {0, 0, 1}};
   EXPECT_FALSE(prior.contradicts(0.0, there));  // nothing known
   for (int i = 0; i < 6; ++i) {
@@ -261,6 +312,20 @@ TEST(MotionPrior, DoubtsOnlyWhatContradictsSteadyMotion) {
   EXPECT_FALSE(prior.contradicts(0.001, there));  // time has stepped back
   prior.accept(0.06, there);
   EXPECT_FALSE(prior.contradicts(0.07, here));  // it does jump
+}
+
+TEST(MotionPrior, MeasuresSpeedWhereTheMarkersAre) {
+  // A target 0.4 m from the origin of its frame begins to turn on the spot, slower than it may.
+  const Vec3 centre(0.4, 0.0, 0.0);
+  MotionPrior prior(MotionOptions(), centre);
+  const auto turned = [&](double angle) {
+    Pose X{exp_rotation({0.0, 0.0, angle}), {0.0, 0.0, 1.0}};
+    X.p += centre - X.R * centre;
+    return X;
+  };
+  for (int i = 0; i < 6; ++i) prior.accept(i / 60.0, turned(0.0));
+  EXPECT_FALSE(prior.contradicts(6 / 60.0, turned(5.5 / 60.0)));
+  EXPECT_TRUE(prior.contradicts(6 / 60.0, turned(9.0 / 60.0)));
 }
 
 }  // namespace

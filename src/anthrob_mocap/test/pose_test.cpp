@@ -142,6 +142,69 @@ TEST(JointEstimator, UndoesRestAndMount) {
   EXPECT_NEAR(estimate.covariance.trace(), 6e-6, 1e-9);
 }
 
+/// Uncertain by 0.01 rad about an axis, by a tenth of that about others [rad^2].
+Mat3 spread_along(const Vec3& axis) {
+  return 1e-6 * Mat3::Identity() + 1e-4 * axis.normalized() * axis.normalized().transpose();
+}
+
+TEST(JointEstimator, KnowsItsCovarianceInTheChildsAxes) {
+  // Both targets are uncertain about other axes of the camera; so is the joint, as draws are.
+  BallJoint joint{"j", 0, 1, Quat(exp_rotation({0.2, 0.9, -0.4})),
+                  Quat(exp_rotation({-0.7, 0.1, 1.1}))};
+  TargetPose parent = valid_pose(exp_rotation({1, 2, 3})),
+             child = valid_pose(exp_rotation({-0.4, 0.8, 0.3}));
+  parent.covariance.bottomRightCorner<3, 3>() = spread_along({1, 0.2, 0});
+  child.covariance.bottomRightCorner<3, 3>() = spread_along({0, -0.3, 1});
+  const JointEstimate mean = JointEstimator(joint).estimate(0.0, parent, child);
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const auto draw = [&](const TargetPose& pose) {
+    const Mat3 root = pose.covariance.bottomRightCorner<3, 3>().llt().matrixL();
+    TargetPose drawn = pose;
+    drawn.X.R =
+        exp_rotation(root * Vec3(normal(random), normal(random), normal(random))) * pose.X.R;
+    return drawn;
+  };
+  Mat3 seen = Mat3::Zero();
+  const int draws = 20000;
+  for (int i = 0; i < draws; ++i) {
+    const JointEstimate one = JointEstimator(joint).estimate(0.0, draw(parent), draw(child));
+    const Vec3 error = log_rotation((mean.q.conjugate() * one.q).toRotationMatrix());
+    seen += error * error.transpose() / draws;
+  }
+  EXPECT_LT((seen - mean.covariance).norm(), 0.05 * mean.covariance.norm());
+  // Which its isotropic likeness would miss by far.
+  const Mat3 likeness = mean.covariance.trace() / 3.0 * Mat3::Identity();
+  EXPECT_GT((seen - likeness).norm(), 0.3 * mean.covariance.norm());
+}
+
+TEST(JointEstimator, KnowsTheCovarianceOfItsVelocity) {
+  // At rest, seen with noise about one axis: velocities scatter as they are said to.
+  const JointEstimator fresh(BallJoint{"j", 0, 1, Quat::Identity(), Quat::Identity()});
+  const TargetPose still = valid_pose(Mat3::Identity());
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0.0, 0.01);
+  for (const int pictures : {2, 6}) {
+    Mat3 seen = Mat3::Zero(), said = Mat3::Zero();
+    const int draws = 4000;
+    for (int i = 0; i < draws; ++i) {
+      JointEstimator estimator = fresh;
+      JointEstimate estimate;
+      for (int k = 0; k < pictures; ++k) {
+        TargetPose noisy = valid_pose(exp_rotation(Vec3(0.0, normal(random), 0.0)));
+        noisy.covariance.setZero();
+        noisy.covariance(4, 4) = 1e-4;
+        TargetPose exact = still;
+        exact.covariance.setZero();
+        estimate = estimator.estimate(k / 60.0, exact, noisy);
+      }
+      seen += estimate.velocity * estimate.velocity.transpose() / draws;
+      said += estimate.velocity_covariance / draws;
+    }
+    EXPECT_LT((seen - said).norm(), 0.1 * said.norm()) << pictures;
+  }
+}
+
 TEST(JointEstimator, HasVelocityInTheChildsAxes) {
   const Vec3 w(0.5, -1.0, 2.0), turn(0.3, 0.8, -0.1);
   JointEstimator estimator(BallJoint{"j", 0, 1, Quat::Identity(), Quat::Identity()});

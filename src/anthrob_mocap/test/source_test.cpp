@@ -62,6 +62,23 @@ TEST(Pairing, SaysWhatIsWrong) {
   EXPECT_NE(why.find("nearest 8.0 ms apart"), std::string::npos) << why;
 }
 
+TEST(Pairing, CountsWhatIsLost) {
+  // Every third image of the right camera is missing.
+  Pairing pairing(0.002);
+  TimedImage pair[2];
+  int pairs = 0;
+  for (int i = 0; i < 60; ++i) {
+    pairs += pairing.add(kLeft, at(i / 60.0), pair) ? 1 : 0;
+    if (i % 3 > 0) pairs += pairing.add(kRight, at(i / 60.0), pair) ? 1 : 0;
+  }
+  pairing.end();
+  const Pairing::Counts counts = pairing.take_counts();
+  EXPECT_EQ(counts.lost, counts.images[kLeft] + counts.images[kRight] - 2 * pairs);
+  EXPECT_EQ(Pairing::complaint(counts, 0.002), "");
+  EXPECT_EQ(Pairing::loss(counts), "20 of 100 images have no partner, or came too late");
+  EXPECT_EQ(pairing.take_counts().lost, 0);
+}
+
 TEST(Pairing, SurvivesTimeThatStepsBack) {
   Pairing pairing(0.0);
   TimedImage pair[2];
@@ -131,6 +148,20 @@ TEST(LivePair, NamesTheCameraThatHasBeenSilentForLonger) {
   live.add(kLeft, at(0.1));  // its last trigger before that of the right one blocks
   std::this_thread::sleep_for(std::chrono::milliseconds(350));
   EXPECT_EQ(live.trouble().find("right camera: no image for "), 0u) << live.trouble();
+}
+
+TEST(LivePair, CountsWhatNobodyTookInTime) {
+  LivePair live(0.002);
+  for (int i = 0; i < 7; ++i) {
+    for (const Side side : {kLeft, kRight}) live.add(side, at(0.1 * i));
+  }
+  StereoFrame frame;
+  int taken = 0;
+  while (live.next(frame, 0.0)) ++taken;
+  const Pairing::Counts counts = live.take_counts();
+  EXPECT_EQ(counts.pairs, 7);
+  EXPECT_EQ(counts.lost, 2 * (7 - taken));
+  EXPECT_GT(counts.lost, 0);
 }
 
 TEST(CameraOptions, GiveSlowCamerasTheirTime) {

@@ -48,6 +48,12 @@ void note_others(const mocap::TargetSet& set, const std::string& name, double ed
       }
     }
   }
+  const int triples = mocap::count_ambiguous_triples(set.targets, edge_tolerance);
+  if (triples > 0) {
+    std::cerr << "note: " << triples
+              << " triples of markers can be taken for others: where no more "
+              << "than such a one is seen there is no pose\n";
+  }
 }
 
 int calibrate(const Arguments& arguments) {

@@ -12,10 +12,10 @@ void check_size(const StereoFrame& frame, const StereoRig& rig, const std::strin
   for (const auto side : {kLeft, kRight}) {
     const ImageView& image = frame.image[side];
     if (image.width == rig.width() && image.height == rig.height()) continue;
-    throw BadInput(std::string(name(side)) + " image " + std::to_string(frame.index) + ": " +
-                   std::to_string(image.width) + "x" + std::to_string(image.height) +
-                   " pixels: expected " + std::to_string(rig.width()) + "x" +
-                   std::to_string(rig.height()) + ", as in " + calibration);
+    throw BadInput(frame.file[side] + ": " + std::to_string(image.width) + "x" +
+                   std::to_string(image.height) + " pixels: expected " +
+                   std::to_string(rig.width()) + "x" + std::to_string(rig.height()) + ", as in " +
+                   calibration);
   }
 }
 

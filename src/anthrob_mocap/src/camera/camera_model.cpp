@@ -11,6 +11,8 @@ namespace mocap {
 
 namespace {
 
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
 std::vector<double> matrix(const Settings& parent, const std::string& key, int rows, int cols) {
   const Settings node = parent.at(key);
   node.at("rows").integer(rows, rows);
@@ -30,12 +32,33 @@ void read_distortion(const Settings& file, CameraModel& camera) {
   const Settings node = file.at("distortion_coefficients");
   const Settings data = node.at("data");
   const std::size_t count = data.items().size();
-  if (count != 4 && count != 5 && count != 8) data.fail_expected("4, 5 or 8 numbers");
+  if (!is_distortion_count(count)) data.fail_expected("4, 5 or 8 numbers");
   const std::vector<double> values = data.numbers(count);
   std::copy(values.begin(), values.end(), camera.distortion.begin());
 }
 
 }  // namespace
+
+// All comparisons are such that a NaN is refused.
+
+bool is_camera_matrix(const Mat3& K) {
+  return K(0, 0) > 0.0 && K(1, 1) > 0.0 && K(0, 1) == 0.0 && K(1, 0) == 0.0 && K(2, 2) == 1.0 &&
+         K.allFinite();
+}
+
+bool is_rotation(const Mat3& R) {
+  // A mirrored calibration passes every test of distances; its determinant gives it away.
+  return (R * R.transpose() - Mat3::Identity()).norm() < 1e-4 && R.determinant() > 0.0;
+}
+
+bool is_rectified(const CameraModel::Projection& P) {
+  return P(0, 0) > 0.0 && std::abs(P(0, 0) - P(1, 1)) <= 1e-6 * P(0, 0) && P(2, 2) == 1.0 &&
+         P.allFinite();
+}
+
+bool is_distortion_count(std::size_t coefficients) {
+  return coefficients == 4 || coefficients == 5 || coefficients == 8;
+}
 
 CameraModel CameraModel::load(const std::string& path) {
   const Settings file = Settings::load(path);
@@ -45,22 +68,20 @@ CameraModel CameraModel::load(const std::string& path) {
   camera.name = file.has("camera_name") ? file.at("camera_name").text() : "camera";
   const std::vector<double> K = matrix(file, "camera_matrix", 3, 3);
   camera.fx = K[0], camera.cx = K[2], camera.fy = K[4], camera.cy = K[5];
-  if (!(K[0] > 0.0 && K[4] > 0.0) || K[1] != 0.0 || K[3] != 0.0 || K[8] != 1.0) {
+  if (!is_camera_matrix(Eigen::Map<const RowMajor3>(K.data()))) {
     file.at("camera_matrix").fail("expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0");
   }
   read_distortion(file, camera);
   const std::vector<double> R = matrix(file, "rectification_matrix", 3, 3);
-  camera.R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
-  // A mirrored calibration passes every test of distances; its determinant gives it away.
-  const bool rotation = (camera.R * camera.R.transpose() - Mat3::Identity()).norm() < 1e-4;
-  if (!rotation || camera.R.determinant() < 0.0) {
+  camera.R = Eigen::Map<const RowMajor3>(R.data());
+  if (!is_rotation(camera.R)) {
     file.at("rectification_matrix")
         .fail("expected a rotation; this one is " +
-              std::string(rotation ? "mirrored" : "not orthonormal"));
+              std::string(is_rotation(-camera.R) ? "mirrored" : "not orthonormal"));
   }
   const std::vector<double> P = matrix(file, "projection_matrix", 3, 4);
   camera.P = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(P.data());
-  if (!(P[0] > 0.0) || std::abs(P[0] - P[5]) > 1e-6 * P[0] || P[10] != 1.0) {
+  if (!is_rectified(camera.P)) {
     file.at("projection_matrix").fail("expected a rectified camera [f, 0, cx, Tx, 0, f, cy, ...]");
   }
   return camera;

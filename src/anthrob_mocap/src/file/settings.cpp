@@ -73,7 +73,12 @@ Settings Settings::parse(const std::string& text, const std::string& name) {
   try {
     // Files of OpenCV and of older ROS calibrators begin "%YAML:1.0", which is not YAML.
     const bool odd_header = text.rfind("%YAML:", 0) == 0;
-    const YAML::Node node = YAML::Load(odd_header ? "#" + text : text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(odd_header ? "#" + text : text);
+    if (documents.size() > 1) {
+      throw BadInput(name + ":" + std::to_string(documents[1].Mark().line + 1) +
+                     ": a second document: expected one");
+    }
+    const YAML::Node node = documents.empty() ? YAML::Node() : documents.front();
     refuse_repeated_keys(node, name);
     if (!node.IsMap()) throw BadInput(name + ":1: " + shown(node) + ": expected a map");
     return Settings(
@@ -147,14 +152,6 @@ int Settings::integer(int lo, int hi) const {
   return static_cast<int>(value);
 }
 
-bool Settings::boolean() const {
-  bool value = false;
-  if (!data_->node.IsScalar() || !YAML::convert<bool>::decode(data_->node, value)) {
-    fail_expected("true or false");
-  }
-  return value;
-}
-
 std::string Settings::text() const {
   if (!data_->node.IsScalar() || data_->node.Scalar().empty()) fail_expected("a word");
   return data_->node.Scalar();
@@ -183,7 +180,6 @@ Quat Settings::unit_quaternion() const {
 
 void Settings::refuse_unknown_keys() const {
   const YAML::Node& node = data_->node;
-  if (data_->read->count(join(path_, "*"))) return;
   if (node.IsMap()) {
     for (const auto& entry : node) {
       const std::string path = join(path_, entry.first.Scalar());
@@ -200,10 +196,6 @@ void Settings::refuse_unknown_keys() const {
   } else if (node.IsSequence()) {
     for (const Settings& item : items()) item.refuse_unknown_keys();
   }
-}
-
-void Settings::ignore() const {
-  data_->read->insert(join(path_, "*"));
 }
 
 }  // namespace mocap

@@ -10,15 +10,10 @@ namespace {
 
 constexpr int kFewest = 3;  // markers that make a pose
 
-/// Poses this far apart are different answers, not one answer twice.
-bool differ(const Pose& a, const Pose& b) {
-  return (a.p - b.p).norm() > 0.005 || angular_distance(a.R, b.R) > 0.03;
-}
-
 }  // namespace
 
 CliqueSearch::CliqueSearch(const MarkerTarget& target, const LabellingOptions& options)
-    : target_(target), options_(options) {
+    : target_(target), centre_(target.centre()), options_(options) {
   const int count = static_cast<int>(target.markers.size());
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
@@ -56,8 +51,7 @@ const Labelling& CliqueSearch::find(const std::vector<MarkerPoint>& points,
     build(points, edges, usable);
     descend(0, 0);
   }
-  best_.ambiguous = best_.count > 0 && rival_.count == best_.count &&
-                    rival_.fit.rms < 2.0 * best_.fit.rms + options_.tie_margin;
+  best_.ambiguous = best_.ties_with(rival_, options_);
   best_.gave_up = steps_ > options_.step_limit;
   return best_;
 }
@@ -149,6 +143,11 @@ void CliqueSearch::judge(int chosen) {
   } else if (differ(fit.X, best_.fit.X) && (rival_.count < chosen || fit.rms < rival_.fit.rms)) {
     remember(rival_);
   }
+}
+
+/// Poses this far apart are different answers, not one answer twice.
+bool CliqueSearch::differ(const Pose& a, const Pose& b) const {
+  return (a * centre_ - b * centre_).norm() > 0.005 || angular_distance(a.R, b.R) > 0.03;
 }
 
 bool CliqueSearch::mirrored(int chosen) const {

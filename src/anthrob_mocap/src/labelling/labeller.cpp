@@ -8,9 +8,10 @@ namespace mocap {
 
 Labeller::Labeller(const std::vector<MarkerTarget>& targets, const LabellingOptions& options,
                    const MotionOptions& motion)
-    : priors_(targets.size(), MotionPrior(motion)), order_(targets.size()) {
+    : options_(options) {
   for (const MarkerTarget& target : targets) {
     searches_.emplace_back(target, options);
+    priors_.emplace_back(motion, target.centre());
     longest_ = std::max(longest_, searches_.back().longest_edge() + options.edge_tolerance);
   }
 }
@@ -19,26 +20,49 @@ void Labeller::label(double t, const std::vector<MarkerPoint>& points,
                      const std::vector<Edge>& edges, std::vector<Labelling>& result) {
   result.resize(searches_.size());
   usable_.assign(points.size(), 1);
-  for (std::size_t k = 0; k < searches_.size(); ++k) {
-    result[k] = searches_[k].find(points, edges, usable_);
-  }
-  // The surest first; whoever comes later and wants the same blobs has to look again.
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-    return result[a].count != result[b].count ? result[a].count > result[b].count
-                                              : result[a].fit.rms < result[b].fit.rms;
-  });
-  for (const std::size_t k : order_) {
+  open_.resize(searches_.size());
+  std::iota(open_.begin(), open_.end(), std::size_t{0});
+  for (const std::size_t k : open_) result[k] = searches_[k].find(points, edges, usable_);
+  while (!open_.empty()) {
+    // The surest first; whoever comes later and wants the same blobs has to look again.
+    const auto surest =
+        std::min_element(open_.begin(), open_.end(), [&](std::size_t a, std::size_t b) {
+          return result[a].count != result[b].count ? result[a].count > result[b].count
+                                                    : result[a].fit.rms < result[b].fit.rms;
+        });
+    const std::size_t k = *surest;
+    open_.erase(surest);
     Labelling& labelling = result[k];
-    if (collides(labelling)) labelling = searches_[k].find(points, edges, usable_);
     const bool doubtful =
-        labelling.ambiguous ||
+        contested(labelling, points, result) || labelling.ambiguous ||
         (labelling.count == 3 && (labelling.gave_up || priors_[k].contradicts(t, labelling.fit.X)));
     if (doubtful) labelling.count = 0;
     if (labelling.count == 0) continue;
     priors_[k].accept(t, labelling.fit.X);
     withdraw_used(labelling, points);
+    for (const std::size_t other : open_) {
+      // What was ambiguous may have one answer only among the blobs that are left.
+      if (!result[other].ambiguous && !collides(result[other])) continue;
+      result[other] = searches_[other].find(points, edges, usable_);
+    }
   }
+}
+
+/// Whether targets that are not decided yet want the same blobs and fit them as well. Then nobody
+/// knows whose they are: those targets are not found either.
+bool Labeller::contested(const Labelling& labelling, const std::vector<MarkerPoint>& points,
+                         std::vector<Labelling>& result) {
+  const std::size_t before = open_.size();
+  const auto claims = [&](std::size_t other) {
+    Labelling& claim = result[other];
+    if (!labelling.ties_with(claim, options_) || !share_blobs(labelling, claim, points)) {
+      return false;
+    }
+    claim.count = 0;
+    return true;
+  };
+  open_.erase(std::remove_if(open_.begin(), open_.end(), claims), open_.end());
+  return open_.size() < before;
 }
 
 bool Labeller::collides(const Labelling& labelling) const {
@@ -48,15 +72,32 @@ bool Labeller::collides(const Labelling& labelling) const {
   });
 }
 
+namespace {
+
+bool share_blob(const MarkerPoint& a, const MarkerPoint& b) {
+  return a.blob[kLeft] == b.blob[kLeft] || a.blob[kRight] == b.blob[kRight];
+}
+
+}  // namespace
+
+bool Labeller::share_blobs(const Labelling& a, const Labelling& b,
+                           const std::vector<MarkerPoint>& points) {
+  for (const int i : a.point) {
+    for (const int j : b.point) {
+      if (i >= 0 && j >= 0 &&
+          share_blob(points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(j)])) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 void Labeller::withdraw_used(const Labelling& labelling, const std::vector<MarkerPoint>& points) {
   for (const int used : labelling.point) {
     if (used < 0) continue;
-    const MarkerPoint& marker = points[static_cast<std::size_t>(used)];
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points[i].blob[kLeft] == marker.blob[kLeft] ||
-          points[i].blob[kRight] == marker.blob[kRight]) {
-        usable_[i] = 0;
-      }
+      if (share_blob(points[static_cast<std::size_t>(used)], points[i])) usable_[i] = 0;
     }
   }
 }

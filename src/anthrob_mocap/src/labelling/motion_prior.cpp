@@ -14,7 +14,7 @@ constexpr double kPositionNoise = 0.003;  // [m]
 bool MotionPrior::near(double t, const Pose& X) const {
   const double dt = t - t_;
   return angular_distance(X.R, X_.R) <= kAngleNoise + options_.max_turn_rate * dt &&
-         (X.p - X_.p).norm() <= kPositionNoise + options_.max_speed * dt;
+         (X * centre_ - X_ * centre_).norm() <= kPositionNoise + options_.max_speed * dt;
 }
 
 void MotionPrior::accept(double t, const Pose& X) {

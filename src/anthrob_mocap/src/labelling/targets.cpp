@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "anthrob_config/errors.h"
+#include "anthrob_config/names.h"
 #include "anthrob_mocap/file/settings.h"
 
 namespace anthrob {
@@ -47,6 +48,10 @@ bool assign(const MarkerTarget& a, const MarkerTarget& b, double tolerance, std:
     image.pop_back();
   }
   return false;
+}
+
+void require_snake_case(const Settings& node, const std::string& name) {
+  if (!is_snake_case(name)) node.fail("'" + name + "': expected a name in lower_snake_case");
 }
 
 MarkerTarget read_target(const std::string& name, const Settings& node, double marker_diameter) {
@@ -99,12 +104,19 @@ TargetSet read(const Settings& file, double edge_tolerance) {
   set.marker_diameter = file.at("marker_diameter").number(0.0, 1.0, "m");
   const Settings targets = file.at("targets");
   for (const std::string& name : targets.keys()) {
+    require_snake_case(targets.at(name), name);
     set.targets.push_back(read_target(name, targets.at(name), set.marker_diameter));
   }
   if (set.targets.empty()) targets.fail_expected("at least one target");
   if (file.has("joints")) {
     const Settings joints = file.at("joints");
     for (const std::string& name : joints.keys()) {
+      require_snake_case(joints.at(name), name);
+      for (const MarkerTarget& target : set.targets) {
+        if (target.name == name) {
+          joints.at(name).fail("a target has this name: expected another, for tables name both");
+        }
+      }
       set.joints.push_back(read_joint(name, joints.at(name), set.targets));
     }
   }
@@ -119,6 +131,12 @@ TargetSet read(const Settings& file, double edge_tolerance) {
 }
 
 }  // namespace
+
+Vec3 MarkerTarget::centre() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& marker : markers) sum += marker;
+  return sum / static_cast<double>(markers.size());
+}
 
 TargetSet TargetSet::load(const std::string& file, double edge_tolerance) {
   return read(Settings::load(file), edge_tolerance);

@@ -1,8 +1,6 @@
 #include "anthrob_mocap/output/annotation.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 namespace anthrob {
 namespace mocap {
@@ -16,7 +14,6 @@ cv::Point at(const Vec2& pixel, int offset) {
   return {cvRound(pixel.x()) + offset, cvRound(pixel.y())};
 }
 
-/// Darker parts lifted, so that the picture shows the robot and not only its markers.
 void draw_image(const ImageView& view, cv::Mat part) {
   const cv::Mat grey(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.pixels),
                      view.stride);
@@ -62,12 +59,6 @@ ColourImage annotate(const StereoFrame& frame, const StereoRig& rig, const Targe
     }
   }
   return image;
-}
-
-void write_colour_image(const std::string& file, const ColourImage& image) {
-  const cv::Mat view(image.height, image.width, CV_8UC3,
-                     const_cast<std::uint8_t*>(image.pixels.data()));
-  if (!cv::imwrite(file, view)) throw std::runtime_error(file + ": cannot be written");
 }
 
 }  // namespace mocap

@@ -28,6 +28,7 @@ Health::Health(const StereoRig& rig, const MatchingOptions& options)
 void Health::add(const StereoFrame& frame) {
   ++sums_.frames;
   sums_.cluttered += frame.cluttered[kLeft] || frame.cluttered[kRight] ? 1 : 0;
+  sums_.cut += frame.cut ? 1 : 0;
   sums_.matches += static_cast<long>(frame.matches.size());
   for (const Side side : {kLeft, kRight}) {
     sums_.blobs[side] += static_cast<long>(frame.blobs[side].size());

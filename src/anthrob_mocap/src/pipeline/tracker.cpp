@@ -64,7 +64,8 @@ std::vector<Stage> tracking_stages(const StereoRig& rig, const TargetSet& set,
             }),
       stage("triangulation",
             [triangulator, most_points](StereoFrame& frame) {
-              if (frame.matches.size() > most_points) frame.matches.resize(most_points);
+              frame.cut = frame.matches.size() > most_points;
+              if (frame.cut) frame.matches.resize(most_points);
               triangulator.triangulate(frame.rectified, frame.matches, frame.points);
             }),
       stage("edges",

@@ -217,5 +217,9 @@ std::string AravisSource::trouble() const {
   return implementation_->live().trouble();
 }
 
+Pairing::Counts AravisSource::take_counts() {
+  return implementation_->live().take_counts();
+}
+
 }  // namespace mocap
 }  // namespace anthrob

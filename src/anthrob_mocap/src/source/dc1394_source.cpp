@@ -170,5 +170,9 @@ std::string Dc1394Source::trouble() const {
   return implementation_->live().trouble();
 }
 
+Pairing::Counts Dc1394Source::take_counts() {
+  return implementation_->live().take_counts();
+}
+
 }  // namespace mocap
 }  // namespace anthrob

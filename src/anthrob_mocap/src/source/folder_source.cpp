@@ -71,7 +71,7 @@ void FolderSource::load_times(const Options& options) {
   if (fs::exists(folder_[kRight] + "/times.csv"))
     right = read_times(folder_[kRight] + "/times.csv");
   if (!times.empty() && !right.empty()) check_times(times, right, options.sync_tolerance);
-  if (times.empty()) times = right, file = folder_[kRight] + "/times.csv";
+  if (times.empty()) times.swap(right), file = folder_[kRight] + "/times.csv";
   const fs::path beside = fs::absolute(folder_[kLeft]).lexically_normal();
   const fs::path parent = (beside.has_filename() ? beside : beside.parent_path()).parent_path();
   if (times.empty() && fs::exists(parent / "times.csv")) {
@@ -86,6 +86,10 @@ void FolderSource::load_times(const Options& options) {
     const auto t = times.find(index);
     if (!times.empty() && t == times.end()) {
       throw BadInput(file + ": no time for " + names_[i]);
+    }
+    if (!right.empty() && right.count(index) == 0) {
+      throw BadInput(folder_[kRight] + "/times.csv: no time for " + names_[i] +
+                     ", which the other one has");
     }
     times_.push_back(times.empty() ? static_cast<double>(index) / options.rate : t->second);
     if (i > 0 && !(times_[i] > times_[i - 1])) {
@@ -115,7 +119,8 @@ void FolderSource::check_times(const Times& left, const Times& right, double tol
 FrameSource::Grab FolderSource::next(StereoFrame& frame, double) {
   if (position_ == names_.size()) return Grab::kEnd;
   for (const Side side : {kLeft, kRight}) {
-    auto image = std::make_shared<Image>(read_grey_image(folder_[side] + "/" + names_[position_]));
+    frame.file[side] = folder_[side] + "/" + names_[position_];
+    auto image = std::make_shared<Image>(read_grey_image(frame.file[side]));
     frame.image[side] = image->view();
     frame.owner[side] = image;
   }

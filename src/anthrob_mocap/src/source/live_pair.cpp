@@ -31,7 +31,7 @@ void LivePair::add(Side side, const TimedImage& image) {
   }
   last_pair_ = now();
   pairs_.push_back(pair);
-  if (pairs_.size() > kMostPairs) pairs_.pop_front();
+  if (pairs_.size() > kMostPairs) pairs_.pop_front(), late_ += 2;
   arrived_.notify_one();
 }
 
@@ -53,6 +53,14 @@ bool LivePair::next(StereoFrame& frame, double timeout) {
   frame.index = index_++;
   pairs_.pop_front();
   return true;
+}
+
+Pairing::Counts LivePair::take_counts() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Pairing::Counts counts = pairing_.take_counts();
+  counts.lost += late_;
+  late_ = 0;
+  return counts;
 }
 
 std::string LivePair::trouble() const {

@@ -15,6 +15,7 @@ constexpr std::size_t kMostWaiting = 8;  // more than this long no partner comes
 constexpr std::size_t kIntervals = 9;    // whose median is the cameras' period
 constexpr double kAnotherTime = 1.0;     // [s] back: a bag that loops, a simulator anew
 constexpr int kAdvancing = 4;            // refused stamps in a row: a bag of less than that
+constexpr double kBearableLoss = 0.05;   // [1] of all images: some get lost wherever one starts
 
 }  // namespace
 
@@ -30,7 +31,7 @@ void Pairing::advance(Side side, double t) {
                     *last);
       throw BadInput(text);
     }
-    waiting_[side].clear();  // worth nothing any more
+    lose(side, waiting_[side].size());  // worth nothing any more
   } else if (last) {
     intervals_.push_back(t - *last);
     if (intervals_.size() > kIntervals) intervals_.pop_front();
@@ -39,13 +40,28 @@ void Pairing::advance(Side side, double t) {
   refused_[side].reset();
 }
 
-double Pairing::tolerance() const {
-  if (intervals_.empty()) return tolerance_;
+/// The oldest that wait have no partner.
+void Pairing::lose(Side side, std::size_t count) {
+  std::deque<TimedImage>& waiting = waiting_[side];
+  waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
+  counts_.lost += static_cast<int>(count);
+}
+
+void Pairing::end() {
+  for (const Side side : {kLeft, kRight}) lose(side, waiting_[side].size());
+}
+
+double Pairing::period() const {
+  if (intervals_.empty()) return 0.0;
   // The median: late images come in bursts, lost ones leave gaps.
   std::deque<double> sorted = intervals_;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  return std::min(tolerance_, 0.5 * *middle);
+  return *middle;
+}
+
+double Pairing::tolerance() const {
+  return intervals_.empty() ? tolerance_ : std::min(tolerance_, 0.5 * period());
 }
 
 bool Pairing::add(Side side, const TimedImage& image, TimedImage pair[2]) {
@@ -60,8 +76,9 @@ bool Pairing::add(Side side, const TimedImage& image, TimedImage pair[2]) {
   }
   if (best < theirs.size() && std::abs(theirs[best].t - image.t) <= tolerance()) {
     pair[side] = image, pair[other] = theirs[best];
-    theirs.erase(theirs.begin(), theirs.begin() + static_cast<std::ptrdiff_t>(best) + 1);
-    mine.clear();
+    lose(other, best);
+    theirs.pop_front();
+    lose(side, mine.size());
     ++counts_.pairs;
     return true;
   }
@@ -70,7 +87,7 @@ bool Pairing::add(Side side, const TimedImage& image, TimedImage pair[2]) {
     if (counts_.nearest == 0.0 || std::abs(gap) < std::abs(counts_.nearest)) counts_.nearest = gap;
   }
   mine.push_back(image);
-  if (mine.size() > kMostWaiting) mine.pop_front();
+  if (mine.size() > kMostWaiting) lose(side, 1);
   return false;
 }
 
@@ -95,6 +112,13 @@ std::string Pairing::complaint(const Counts& counts, double tolerance) {
                   1e3 * std::abs(counts.nearest));
   }
   return text;
+}
+
+std::string Pairing::loss(const Counts& counts) {
+  const int images = counts.images[kLeft] + counts.images[kRight];
+  if (counts.lost <= kBearableLoss * images) return "";
+  return std::to_string(counts.lost) + " of " + std::to_string(images) +
+         " images have no partner, or came too late";
 }
 
 }  // namespace mocap

@@ -39,5 +39,11 @@ struct CameraModel {
   Vec2 ideal(const Vec2& pixel) const;
 };
 
+/// What any calibration must be, from a file or a topic.
+bool is_camera_matrix(const Mat3& K);  ///< [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0
+bool is_rotation(const Mat3& R);       ///< a mirrored one is none
+bool is_rectified(const CameraModel::Projection& P);  ///< [f, 0, cx, Tx, 0, f, cy, ...], f > 0
+bool is_distortion_count(std::size_t coefficients);   ///< 4, 5 or 8
+
 }  // namespace mocap
 }  // namespace anthrob

@@ -26,7 +26,6 @@ class Settings {
 
   double number(double lo, double hi, const std::string& unit = "") const;
   int integer(int lo, int hi) const;
-  bool boolean() const;
   std::string text() const;
   std::vector<double> numbers(std::size_t count) const;
   Vec3 vector3() const;
@@ -38,8 +37,6 @@ class Settings {
 
   /// Refuses keys of this map, at any depth, that nobody asked for.
   void refuse_unknown_keys() const;
-  /// Somebody else's part of the file.
-  void ignore() const;
 
   [[noreturn]] void fail(const std::string& message) const;
   [[noreturn]] void fail_expected(const std::string& expectation) const;

@@ -25,6 +25,11 @@ struct Labelling {
   RigidFit fit;            ///< target frame to rectified left frame
   bool ambiguous = false;  ///< another labelling fits as well, with another pose
   bool gave_up = false;    ///< at the step limit: more markers, or a rival, may have been missed
+
+  /// Whether another one of as many markers fits so well that either can be the true one.
+  bool ties_with(const Labelling& other, const LabellingOptions& options) const {
+    return count > 0 && other.count == count && other.fit.rms < 2.0 * fit.rms + options.tie_margin;
+  }
 };
 
 /// Finds the largest part of one target's reference graph in the candidate graph: a maximum clique
@@ -60,8 +65,10 @@ class CliqueSearch {
   void descend(int level, int chosen);
   void judge(int chosen);
   bool mirrored(int chosen) const;
+  bool differ(const Pose& a, const Pose& b) const;
 
   MarkerTarget target_;
+  Vec3 centre_;
   LabellingOptions options_;
   std::vector<ReferenceEdge> reference_;
   double longest_ = 0.0;

@@ -8,7 +8,8 @@
 namespace anthrob {
 namespace mocap {
 
-/// Finds all targets among the points; no blob is used twice. Frames come in the order of time.
+/// Finds all targets among the points; no blob is used twice, and none that two targets claim with
+/// the same right. Frames come in the order of time.
 class Labeller {
  public:
   Labeller(const std::vector<MarkerTarget>& targets, const LabellingOptions& options,
@@ -24,12 +25,17 @@ class Labeller {
  private:
   void withdraw_used(const Labelling& labelling, const std::vector<MarkerPoint>& points);
   bool collides(const Labelling& labelling) const;
+  bool contested(const Labelling& labelling, const std::vector<MarkerPoint>& points,
+                 std::vector<Labelling>& result);
+  static bool share_blobs(const Labelling& a, const Labelling& b,
+                          const std::vector<MarkerPoint>& points);
 
+  LabellingOptions options_;
   std::vector<CliqueSearch> searches_;
   std::vector<MotionPrior> priors_;
   double longest_ = 0.0;
   std::vector<char> usable_;
-  std::vector<std::size_t> order_;
+  std::vector<std::size_t> open_;  ///< targets that are not decided yet
 };
 
 }  // namespace mocap

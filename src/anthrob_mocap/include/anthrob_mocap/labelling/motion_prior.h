@@ -17,7 +17,9 @@ struct MotionOptions {
 /// show that there is no motion to go by.
 class MotionPrior {
  public:
-  explicit MotionPrior(const MotionOptions& options) : options_(options) {}
+  /// @param centre of the target, in its frame [m]
+  MotionPrior(const MotionOptions& options, const Vec3& centre)
+      : options_(options), centre_(centre) {}
 
   bool contradicts(double t, const Pose& X) const {
     return streak_ >= kSteady && recent(t) && !near(t, X);
@@ -31,6 +33,7 @@ class MotionPrior {
   bool near(double t, const Pose& X) const;
 
   MotionOptions options_;
+  Vec3 centre_;
   bool known_ = false;  ///< there is a last pose
   int streak_ = 0;      ///< poses in a row that followed from the one before
   double t_ = 0.0;

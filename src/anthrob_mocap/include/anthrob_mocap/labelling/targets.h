@@ -12,6 +12,10 @@ namespace mocap {
 struct MarkerTarget {
   std::string name;
   std::vector<Vec3> markers;  ///< in the target's frame [m]
+
+  /// Mean of the markers [m]. How far two poses are apart is asked there: the frame's origin may
+  /// lie anywhere.
+  Vec3 centre() const;
 };
 
 /// A ball joint between two targets: R_parent^-1 R_child = rest R(q) child_mount.

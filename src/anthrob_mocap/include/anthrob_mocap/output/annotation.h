@@ -20,7 +20,5 @@ struct ColourImage {
 /// colour with their numbers, and crosses where the pose expects markers that are not seen.
 ColourImage annotate(const StereoFrame& frame, const StereoRig& rig, const TargetSet& set);
 
-void write_colour_image(const std::string& file, const ColourImage& image);
-
 }  // namespace mocap
 }  // namespace anthrob

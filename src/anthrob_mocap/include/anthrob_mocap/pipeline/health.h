@@ -19,6 +19,7 @@ class Health {
   int frames() const { return sums_.frames; }
   int poses() const { return sums_.poses; }
   int given_up() const { return sums_.given_up; }  ///< searches of targets, at their step limit
+  int cut() const { return sums_.cut; }            ///< frames with more matches than are looked at
   /// Mean of v_left - v_right over the markers used [pixel]; far from 0: the rig has moved.
   double row_error() const { return sums_.poses > 0 ? sums_.row_error / sums_.poses : 0.0; }
   double pixel_rms() const { return sums_.poses > 0 ? sums_.pixel_rms / sums_.poses : 0.0; }
@@ -36,7 +37,7 @@ class Health {
 
  private:
   struct Sums {
-    int frames = 0, poses = 0, cluttered = 0, given_up = 0;
+    int frames = 0, poses = 0, cluttered = 0, cut = 0, given_up = 0;
     long matches = 0, matches_if_swapped = 0, on_common_rows = 0, blobs[2] = {0, 0};
     double row_error = 0.0, pixel_rms = 0.0;
   };

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "anthrob_mocap/core/image.h"
@@ -23,11 +24,13 @@ struct StereoFrame final : Packet {
   std::int64_t ns = 0;  ///< the same [ns], exactly as the source says it; of the left image
   std::array<ImageView, 2> image;
   std::array<std::shared_ptr<const void>, 2> owner;  ///< keeps the pixels alive
+  std::array<std::string, 2> file;                   ///< whence it was read; else empty
 
   std::array<std::vector<Blob>, 2> blobs;      ///< segmentation
   std::array<bool, 2> cluttered{};             ///< too many specks to be a scene of markers
   std::array<std::vector<Vec2>, 2> rectified;  ///< undistortion
   std::vector<Match> matches;                  ///< matching
+  bool cut = false;                            ///< too many matches: the lowest were left out
   std::vector<MarkerPoint> points;             ///< triangulation
   std::vector<Edge> edges;                     ///< points to edges
   std::vector<Labelling> labels;               ///< labelling, by target

@@ -19,6 +19,7 @@ class AravisSource final : public FrameSource {
 
   Grab next(StereoFrame& frame, double timeout) override;
   std::string trouble() const override;
+  Pairing::Counts take_counts() override;
 
  private:
   class Implementation;

@@ -20,6 +20,7 @@ class Dc1394Source final : public FrameSource {
 
   Grab next(StereoFrame& frame, double timeout) override;
   std::string trouble() const override;
+  Pairing::Counts take_counts() override;
 
  private:
   class Implementation;

@@ -9,8 +9,9 @@
 namespace anthrob {
 namespace mocap {
 
-/// Pairs of images 000000.png, ... of two folders. Times are in times.csv ("index,t") in one or
-/// both of the folders or beside them; without it, the index divided by the rate.
+/// Pairs of images 000000.png, ... of two folders. Times are in times.csv ("index,t") in one of the
+/// folders, in both (then for all images), or beside them; without it, the index divided by the
+/// rate.
 class FolderSource final : public FrameSource {
  public:
   struct Options {
@@ -21,10 +22,8 @@ class FolderSource final : public FrameSource {
   /// @throws BadInput if folders, names or times of left and right do not belong together
   FolderSource(const std::string& left, const std::string& right, const Options& options);
 
-  /// @throws BadInput if an image is missing, truncated, not 8-bit grey, or of another size
+  /// @throws BadInput if an image is missing, truncated, or not 8-bit grey
   Grab next(StereoFrame& frame, double timeout) override;
-
-  std::size_t count() const { return names_.size(); }
 
  private:
   using Times = std::map<long, double>;

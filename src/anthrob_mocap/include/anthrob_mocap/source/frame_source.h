@@ -3,6 +3,7 @@
 #include <string>
 
 #include "anthrob_mocap/pipeline/stereo_frame.h"
+#include "anthrob_mocap/source/pairing.h"
 
 namespace anthrob {
 namespace mocap {
@@ -21,6 +22,9 @@ class FrameSource {
   /// What is wrong with the cameras at the moment, in one line; empty if nothing is. Sources heal
   /// themselves: keep calling next.
   virtual std::string trouble() const { return ""; }
+
+  /// What became of the images since the last call, where they have to be paired.
+  virtual Pairing::Counts take_counts() { return {}; }
 };
 
 }  // namespace mocap

@@ -29,6 +29,8 @@ class LivePair {
   /// Of the camera that has been silent for longer first: cameras that are triggered together may
   /// all fall silent when one of them is pulled.
   std::string trouble() const;
+  /// Since the last call.
+  Pairing::Counts take_counts();
 
  private:
   struct Pair {
@@ -41,6 +43,7 @@ class LivePair {
   std::deque<Pair> pairs_;
   std::string trouble_[2];
   double last_image_[2] = {0.0, 0.0}, last_pair_ = 0.0;  ///< [s] steady clock; 0: none yet
+  int late_ = 0;  ///< images since the last take_counts that nobody took in time
   std::uint64_t index_ = 0;
 };
 

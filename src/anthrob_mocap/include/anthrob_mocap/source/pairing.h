@@ -36,18 +36,26 @@ class Pairing {
   struct Counts {
     int images[2] = {0, 0};
     int pairs = 0;
+    int lost = 0;          ///< images of either side without a partner, or not taken in time
     double nearest = 0.0;  ///< [s] right minus left stamp of the nearest that did not pair
   };
   /// Since the last call.
   Counts take_counts();
+  /// Nothing more will come: what still waits has no partner.
+  void end();
   /// Why there are images but no pairs, or none of one camera; empty if all is well.
   static std::string complaint(const Counts& counts, double tolerance);
+  /// How many images were lost, if that is more than one in twenty; else empty.
+  static std::string loss(const Counts& counts);
   /// [s] as given, but at most half the time between images of a camera, once that is known: a
   /// wider one would bring together images one period apart, and go on so.
   double tolerance() const;
+  /// [s] between images of a camera, the median of the last; 0: not known yet.
+  double period() const;
 
  private:
   void advance(Side side, double t);
+  void lose(Side side, std::size_t count);
 
   double tolerance_;
   std::optional<double> last_[2];     ///< [s] stamps
