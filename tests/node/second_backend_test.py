@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Two back ends must not speak for one robot: the second one refuses, and the first goes on."""
 import os
+import signal
 import subprocess
 import unittest
 
@@ -17,7 +18,7 @@ class SecondBackend(unittest.TestCase):
         config = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'config', 'anthrob')
         return subprocess.Popen(['rosrun', 'anthrob_sim', 'anthrob_simulator', '__name:=' + name, '__ns:=' + namespace,
                                  '_model:=' + os.path.join(config, 'model_I.yaml')],
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
 
     def check_refused(self, name, why):
         first = rosnode.get_api_uri(rospy.get_master(), '/anthrob/simulator')
@@ -34,6 +35,19 @@ class SecondBackend(unittest.TestCase):
 
     def test_a_second_one_of_the_same_name_is_refused(self):
         self.check_refused('simulator', '/anthrob/simulator runs already')
+
+    def test_one_that_is_held_up_is_refused_to(self):
+        held = self.start('held', '/held')
+        try:
+            rospy.wait_for_message('/held/muscle_states', MuscleStates, 40)
+            os.killpg(held.pid, signal.SIGSTOP)  # it accepts connections and answers nothing
+            second = self.start('held', '/held')
+            said = second.communicate(timeout=40)[0]
+            self.assertEqual(second.returncode, 2, said)
+            self.assertIn('/held/held runs already', said)
+        finally:
+            os.killpg(held.pid, signal.SIGKILL)
+            held.communicate()
 
     def test_a_dead_one_of_the_same_name_is_no_obstacle(self):
         dead = self.start('simulator', '/elsewhere')

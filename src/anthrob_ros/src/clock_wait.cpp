@@ -2,6 +2,10 @@
 
 #include <ros/console.h>
 
+#include <stdexcept>
+
+#include "anthrob_ros/single_backend.h"
+
 namespace anthrob {
 
 namespace {
@@ -19,6 +23,20 @@ void ClockWait::look() {
   if (now < next_) return;
   next_ = now + kAgain;
   ROS_WARN_STREAM("waiting for /clock: " << kStands);
+}
+
+void ClockWatch::look(const ros::Time& time) {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (next_.isZero() || time != last_) {
+    last_ = time;
+    next_ = now + kFirst;
+  }
+  if (now < next_) return;
+  next_ = now + kAgain;
+  if (living_publisher("/clock").empty()) {
+    throw std::runtime_error("simulated time stands still and nobody publishes /clock any more");
+  }
+  ROS_WARN("simulated time stands still: the simulator is paused or held up");
 }
 
 std::string standing_clock(const ros::WallDuration& patience) {

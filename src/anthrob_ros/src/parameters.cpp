@@ -1,6 +1,7 @@
 #include "anthrob_ros/parameters.h"
 
 #include <cmath>
+#include <sstream>
 
 #include "anthrob_config/errors.h"
 
@@ -10,32 +11,41 @@ namespace {
 
 using Value = XmlRpc::XmlRpcValue;
 
-[[noreturn]] void refuse(const std::string& key, const char* expected) {
-  throw BadInput("parameter ~" + key + ": expected " + expected);
+[[noreturn]] void refuse(const std::string& key, const Value& value, const char* expected) {
+  std::ostringstream text;
+  text << "parameter ~" << key << ": ";
+  if (value.getType() == Value::TypeString) {
+    text << "'" << static_cast<std::string>(const_cast<Value&>(value)) << "'";
+  } else if (value.getType() == Value::TypeBoolean) {
+    text << (static_cast<bool>(const_cast<Value&>(value)) ? "true" : "false");
+  } else {
+    text << value;
+  }
+  throw BadInput(text.str() + ": expected " + expected);
 }
 
 }  // namespace
 
 double number_of(const std::string& key, Value value) {
   if (value.getType() == Value::TypeInt) return static_cast<int&>(value);
-  if (value.getType() != Value::TypeDouble) refuse(key, "a number");
+  if (value.getType() != Value::TypeDouble) refuse(key, value, "a number");
   const double number = static_cast<double&>(value);
-  if (!std::isfinite(number)) refuse(key, "a finite number");
+  if (!std::isfinite(number)) refuse(key, value, "a finite number");
   return number;
 }
 
 int whole_number_of(const std::string& key, Value value) {
-  if (value.getType() != Value::TypeInt) refuse(key, "a whole number");
+  if (value.getType() != Value::TypeInt) refuse(key, value, "a whole number");
   return static_cast<int&>(value);
 }
 
 bool truth_of(const std::string& key, Value value) {
-  if (value.getType() != Value::TypeBoolean) refuse(key, "true or false");
+  if (value.getType() != Value::TypeBoolean) refuse(key, value, "true or false");
   return static_cast<bool&>(value);
 }
 
 std::string text_of(const std::string& key, Value value) {
-  if (value.getType() != Value::TypeString) refuse(key, "a text");
+  if (value.getType() != Value::TypeString) refuse(key, value, "a text");
   return static_cast<std::string&>(value);
 }
 

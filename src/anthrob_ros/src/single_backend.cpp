@@ -2,13 +2,41 @@
 
 #include <ros/network.h>
 #include <ros/xmlrpc_manager.h>
+#include <sys/socket.h>
 #include <xmlrpcpp/XmlRpc.h>
 
 namespace anthrob {
 
 namespace {
 
-/// Whether the node answers; the master also lists those that were killed.
+constexpr double kPatience = 2.0;  // [s] for an answer
+
+/// Whether somebody answers there, or is connected and says nothing: a process that was stopped, or
+/// that a debugger holds, may go on at any time. A host that is gone takes the patience.
+bool answers(const std::string& host, std::uint32_t port) {
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpc::XmlRpcValue caller, answer;
+  caller[0] = ros::this_node::getName();
+  if (!client.executeNonBlock("getPid", caller)) return false;
+  XmlRpc::XmlRpcDispatch dispatch;
+  dispatch.addSource(&client,
+                     XmlRpc::XmlRpcDispatch::WritableEvent | XmlRpc::XmlRpcDispatch::Exception);
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+  while (client.getfd() >= 0 && ros::WallTime::now() < end) {
+    dispatch.work(0.05);
+    // Done is also who was refused, without an answer.
+    if (client.executeCheckDone(answer)) return answer.valid();
+  }
+  sockaddr_storage peer;
+  socklen_t size = sizeof(peer);
+  const bool connected =
+      client.getfd() >= 0 &&
+      ::getpeername(client.getfd(), reinterpret_cast<sockaddr*>(&peer), &size) == 0;
+  dispatch.removeSource(&client);
+  return connected;
+}
+
+/// Whether the node is there; the master also lists those that were killed.
 bool lives(const std::string& node) {
   XmlRpc::XmlRpcValue args, result, uri;
   args[0] = ros::this_node::getName();
@@ -16,22 +44,18 @@ bool lives(const std::string& node) {
   if (!ros::master::execute("lookupNode", args, result, uri, false)) return false;
   std::string host;
   std::uint32_t port;
-  if (!ros::network::splitURI(uri, host, port)) return false;
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller, answer;
-  caller[0] = ros::this_node::getName();
-  return client.execute("getPid", caller, answer);
+  return ros::network::splitURI(uri, host, port) && answers(host, port);
 }
 
 }  // namespace
 
-std::string other_publisher(const ros::Publisher& own) {
+std::string living_publisher(const std::string& topic) {
   XmlRpc::XmlRpcValue args, result, state;
   args[0] = ros::this_node::getName();
   if (!ros::master::execute("getSystemState", args, result, state, false)) return "";
   XmlRpc::XmlRpcValue& publishers = state[0];
   for (int i = 0; i < publishers.size(); ++i) {
-    if (static_cast<std::string>(publishers[i][0]) != own.getTopic()) continue;
+    if (static_cast<std::string>(publishers[i][0]) != topic) continue;
     XmlRpc::XmlRpcValue& nodes = publishers[i][1];
     for (int k = 0; k < nodes.size(); ++k) {
       const std::string node = nodes[k];
@@ -39,6 +63,10 @@ std::string other_publisher(const ros::Publisher& own) {
     }
   }
   return "";
+}
+
+std::string other_publisher(const ros::Publisher& own) {
+  return living_publisher(own.getTopic());
 }
 
 bool name_is_taken() {

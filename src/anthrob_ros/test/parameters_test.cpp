@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "anthrob_config/errors.h"
 
@@ -32,18 +31,19 @@ TEST(Parameters, AreTakenInTheirType) {
 
 TEST(Parameters, OfAnotherTypeAreRefused) {
   // roslaunch and rosparam make a text of it.
-  EXPECT_EQ(refusal(number_of, Value("1e-1")), "parameter ~k: expected a number");
-  EXPECT_EQ(refusal(number_of, Value(true)), "parameter ~k: expected a number");
-  EXPECT_EQ(refusal(whole_number_of, Value(2.5)), "parameter ~k: expected a whole number");
-  EXPECT_EQ(refusal(truth_of, Value("yes")), "parameter ~k: expected true or false");
-  EXPECT_EQ(refusal(truth_of, Value(1)), "parameter ~k: expected true or false");
-  EXPECT_EQ(refusal(text_of, Value(0)), "parameter ~k: expected a text");
+  EXPECT_EQ(refusal(number_of, Value("1e-1")), "parameter ~k: '1e-1': expected a number");
+  EXPECT_EQ(refusal(number_of, Value(true)), "parameter ~k: true: expected a number");
+  EXPECT_EQ(refusal(whole_number_of, Value(2.5)), "parameter ~k: 2.5: expected a whole number");
+  EXPECT_EQ(refusal(truth_of, Value("yes")), "parameter ~k: 'yes': expected true or false");
+  EXPECT_EQ(refusal(truth_of, Value(1)), "parameter ~k: 1: expected true or false");
+  EXPECT_EQ(refusal(text_of, Value(0)), "parameter ~k: 0: expected a text");
 }
 
 TEST(Parameters, ThatAreNotFiniteAreRefused) {
-  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(), -HUGE_VAL}) {
-    EXPECT_EQ(refusal(number_of, Value(value)), "parameter ~k: expected a finite number");
-  }
+  EXPECT_EQ(refusal(number_of, Value(HUGE_VAL)), "parameter ~k: inf: expected a finite number");
+  EXPECT_EQ(refusal(number_of, Value(-HUGE_VAL)), "parameter ~k: -inf: expected a finite number");
+  EXPECT_NE(refusal(number_of, Value(std::nan(""))).find(": expected a finite number"),
+            std::string::npos);
 }
 
 }  // namespace

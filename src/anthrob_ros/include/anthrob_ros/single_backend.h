@@ -6,10 +6,14 @@
 
 namespace anthrob {
 
+/// @param topic as the master knows it, from the root
+/// @return name of another living node that publishes it; empty if there is none. A node that died
+///   without saying so does not count; one that is held up does.
+std::string living_publisher(const std::string& topic);
+
 /// Simulator and driver must not both speak for one robot. To be called after `muscle_states` was
 /// advertised, so that of two that start together both notice.
-/// @return name of another living node that publishes this topic; empty if there is none. A node
-///   that died without saying so does not count.
+/// @return as living_publisher
 std::string other_publisher(const ros::Publisher& own);
 
 /// A launch file that is started twice gives two nodes one name, and ROS ends the first when the
