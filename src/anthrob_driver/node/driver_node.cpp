@@ -103,6 +103,8 @@ DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, C
     std::this_thread::sleep_for(kPause);
     thread_.call([&](RobotDriver& driver, double now) { pending = look(driver, now, outcome); });
   }
+  // What the last look saw was not the end of it.
+  if (pending) outcome = {false, "the driver is being stopped"};
   if (refusing) {
     pass_commands();
     thread_.call([this](RobotDriver&, double) { --dropping_; });
