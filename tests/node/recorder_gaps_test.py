@@ -52,9 +52,9 @@ class RecorderGaps(unittest.TestCase):
         if not self.aims or self.aims[-1][1] != command.reference:
             self.aims.append((self.time, command.reference))
 
-    def since_it_came_back(self):
-        """[s] since the command from E1 to E0; negative before."""
-        return self.time - self.aims[2][0] if len(self.aims) > 2 else -1.0
+    def since(self, order):
+        """[s] since the command to E0, to E1 or back to E0; negative before."""
+        return self.time - self.aims[order][0] if len(self.aims) > order else -1.0
 
     def publish(self, force, shoulder):
         """What is measured at an instant, and then the instant."""
@@ -73,10 +73,11 @@ class RecorderGaps(unittest.TestCase):
         self.clock.publish(Clock(clock=stamp))
         time.sleep(0.003)
 
-    def record(self, redo=0, lost=None, silent=None):
-        """What the recorder says; `lost`: when a muscle's force is NaN, `silent`: when the shoulder is not seen."""
+    def record(self, redo=0, lost=None, silent=None, order=2):
+        """What the recorder says; `lost`: when a muscle's force is NaN, `silent`: when the shoulder is not seen,
+        since that order."""
         def is_in(span):
-            return span is not None and span[0] <= self.since_it_came_back() < span[1]
+            return span is not None and span[0] <= self.since(order) < span[1]
 
         protocol = os.path.join(self.folder, 'protocol.yaml')
         with open(protocol, 'w') as file:
@@ -108,10 +109,21 @@ class RecorderGaps(unittest.TestCase):
         self.assertIn('supraspinatus was not measured for 0.3', output)
         self.assertEqual(bags, [])
 
-    def test_the_end_of_the_visit_is_the_end_of_the_last_recording(self):
-        output, bags = self.record(silent=(0.5, 5.0))
-        self.assertIn('shoulder was not measured for', output)
+    def test_a_joint_out_of_sight_for_a_while(self):
+        output, bags = self.record(silent=(0.5, 0.9))
+        self.assertIn('shoulder was not measured for 0.4', output)
         self.assertEqual(bags, [])
+
+    def test_a_joint_out_of_sight_for_good(self):
+        output, bags = self.record(silent=(0.5, 1e9))
+        self.assertIn('the robot is silent: joint shoulder', output)
+        self.assertEqual(bags, [])
+
+    def test_what_is_not_seen_has_not_settled(self):
+        output, bags = self.record(silent=(0.1, 0.7), order=0)
+        self.assertIn('all recorded', output)
+        self.assertEqual(len(bags), 2)
+        self.assertGreater(self.aims[1][0] - self.aims[0][0], 0.7 + 0.9 - 0.05)  # seen again, then a lead of 0.9 s
 
 
 if __name__ == '__main__':

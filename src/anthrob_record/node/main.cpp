@@ -6,12 +6,24 @@
 
 namespace {
 
-void enable(ros::NodeHandle& nh) {
+constexpr double kPatience = 30.0;  // [s] of wall time that a robot may take to appear
+
+/// @return false if ROS shut down first
+/// @throws std::runtime_error if the robot does not let itself be enabled
+bool enable(ros::NodeHandle& nh) {
   std_srvs::Trigger call;
   const std::string name = nh.resolveName("enable");
-  if (!ros::service::waitForService(name, ros::Duration(-1)) || !ros::service::call(name, call))
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+  // In short waits: by a clock that stands a long one would not end.
+  while (ros::ok() && !ros::service::exists(name, false) && ros::WallTime::now() < end)
+    ros::WallDuration(0.1).sleep();
+  if (!ros::ok()) return false;
+  if (!ros::service::call(name, call)) {
+    if (!ros::ok()) return false;
     throw std::runtime_error("enable: no robot answers");
+  }
   if (!call.response.success) throw std::runtime_error("enable: " + call.response.message);
+  return true;
 }
 
 }  // namespace
@@ -35,7 +47,7 @@ int main(int argc, char** argv) {
           "parameter ~lock_step: in zero gravity it is the controller that may step the simulator");
     }
     anthrob::Recorder recorder(nh, settings, model, protocol, folder, options);
-    if (enable_first) enable(nh);
-    return recorder.run() ? 0 : 130;
+    const bool ready = !enable_first || enable(nh);
+    return ready && recorder.run() ? 0 : 130;
   });
 }

@@ -13,9 +13,12 @@ namespace {
 
 /// Commands are renewed faster than they time out [s].
 constexpr double kCommandPeriod = 0.02;
-/// Silence after which a measurement counts as old and the robot as gone [s].
+/// What is older is no measurement: what is not seen does not stand still [s].
+constexpr double kFresh = 0.1;
+/// Silence after which the robot counts as gone, and the time that a refusal may last [s].
 constexpr double kSilence = 1.0;
-constexpr double kUndriven = 0.5;  ///< [s]: motors may start with the first commands
+constexpr double kAskAgain = 0.05;  ///< [s] of wall time
+constexpr double kUndriven = 0.5;   ///< [s]: motors may start with the first commands
 /// How long a robot may take to appear, of wall time [s].
 constexpr double kPatience = 30.0;
 constexpr double kDegree = 0.017453292519943295;
@@ -51,9 +54,9 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
 }
 
 bool Recorder::on_sample(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  response.success = visit_ != nullptr;
-  response.message = visit_ ? "the posture is recorded when the arm is at rest" : "nothing to do";
-  if (visit_) visit_->trigger();
+  response.success = visit_ && visit_->trigger();
+  response.message = response.success ? "the posture is recorded when the arm is at rest"
+                                      : "no posture is waited for; call again when one is";
   return true;
 }
 
@@ -84,6 +87,8 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
   Visit visit(model_, protocol_, store_.baseline());
   visit_ = &visit;
   aimed_ = false;
+  order_ = {Visit::Aim::kRest, 0};
+  refused_since_ = ros::WallTime();
   if (protocol_.by_hand) ROS_INFO_STREAM(target.name << ": set the posture, then call ~sample");
   bool running = true;
   try {
@@ -111,12 +116,14 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
 bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   if (!link_.wait()) return false;
   if (link_.time_jumped()) throw std::runtime_error("time jumped back");
-  const std::string silence = link_.state().complaint(link_.now().toSec(), kSilence);
+  const double now = link_.now().toSec();
+  const std::string silence = link_.state().complaint(now, kFresh);
   if (!silence.empty()) {
-    // By the wall's clock: simulated time may outrun the messages. Nothing is sent meanwhile, so
-    // that the watchdog stops the motors.
+    // By the wall's clock: simulated time may outrun the messages.
     if ((ros::WallTime::now() - heard_).toSec() > (visit.begun() ? kSilence : kPatience))
       throw std::runtime_error("the robot is silent: " + silence);
+    // Nothing is sent to one that is gone, so that the watchdog stops the motors.
+    if (visit.begun() && link_.state().complaint(now, kSilence).empty()) carry_out(visit, target);
     return true;
   }
   heard_ = ros::WallTime::now();
@@ -125,12 +132,28 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   const std::string stopped = link_.take_disabled();
   if (!stopped.empty() && bags_.recording())
     visit.fail("the motor of " + stopped + " stopped while it was recorded");
-  const Visit::Order order = visit.step(link_.state().measurement(), link_.now().toSec());
-  if (visit.outcome() != Visit::Outcome::kRunning) return true;
-  bags_.record(order.recording, link_.now());
-  const std::string refused = follow(order, target);
-  if (!refused.empty()) visit.fail(refused);
+  if (refused_since_.isZero()) {
+    order_ = visit.step(link_.state().measurement(), now);
+    if (visit.outcome() == Visit::Outcome::kRunning) bags_.record(order_.recording, link_.now());
+  }
+  if (visit.outcome() == Visit::Outcome::kRunning) carry_out(visit, target);
   return true;
+}
+
+void Recorder::carry_out(Visit& visit, const Protocol::Target& target) {
+  const ros::WallTime now = ros::WallTime::now();
+  if (!refused_since_.isZero() && (now - asked_).toSec() < kAskAgain) return;
+  asked_ = now;
+  const std::string refused = follow(order_, target);
+  if (refused.empty()) {
+    obeyed_ = true;
+    refused_since_ = ros::WallTime();
+    return;
+  }
+  // A controller that is not there yet, or that has missed a measurement.
+  aimed_ = false;
+  if (refused_since_.isZero()) refused_since_ = now;
+  if ((now - refused_since_).toSec() > (obeyed_ ? kSilence : kPatience)) visit.fail(refused);
 }
 
 void Recorder::check_motors() {
@@ -165,7 +188,7 @@ std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& ta
   if (aim == Visit::Aim::kRelease) {
     std_srvs::Trigger call;
     if (!ros::service::call(nh_.resolveName("controller/zero_gravity"), call))
-      throw std::runtime_error("controller/zero_gravity: no controller answers");
+      return "controller/zero_gravity: no controller answers";
     return call.response.success ? "" : "controller/zero_gravity: " + call.response.message;
   }
   anthrob_msgs::GoTo call;
@@ -184,7 +207,7 @@ std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& ta
     }
   }
   if (!ros::service::call(nh_.resolveName("controller/go_to"), call))
-    throw std::runtime_error("controller/go_to: no controller answers");
+    return "controller/go_to: no controller answers";
   return call.response.success ? "" : "controller/go_to: " + call.response.message;
 }
 

@@ -29,6 +29,8 @@ class Recorder {
   Result record(const Protocol::Target& target, int repeat);
   /// One instant of a visit. @return false if ROS shut down
   bool advance(Visit& visit, const Protocol::Target& target);
+  /// Lets the robot follow; whoever refuses is asked again for a while.
+  void carry_out(Visit& visit, const Protocol::Target& target);
   /// @throws std::runtime_error if motors are off: what hangs there is no equilibrium
   void check_motors();
   /// @return why the controller refused; empty: it did not
@@ -57,6 +59,10 @@ class Recorder {
   Visit* visit_ = nullptr;
   bool aimed_ = false;
   Visit::Aim aim_ = Visit::Aim::kRest;
+  Visit::Order order_{Visit::Aim::kRest, 0};
+  bool obeyed_ = false;          ///< somebody has ever followed an order
+  ros::WallTime refused_since_;  ///< zero: the last order is followed
+  ros::WallTime asked_;
   ros::Time sent_, driven_;
   int done_ = 0, recorded_ = 0;
   ros::WallTime start_ = ros::WallTime::now(), heard_ = start_;

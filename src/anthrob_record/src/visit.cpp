@@ -69,6 +69,13 @@ Visit::Visit(std::shared_ptr<const RobotModel> model, const Protocol& protocol,
   if (baseline) baseline_ = *baseline;
 }
 
+bool Visit::trigger() {
+  const bool waited_for =
+      outcome_ == Outcome::kRunning && begun_ && steps_[at_].end == End::kTrigger;
+  triggered_ = triggered_ || waited_for;
+  return waited_for;
+}
+
 void Visit::fail(const std::string& reason) {
   if (outcome_ != Outcome::kRunning) return;
   outcome_ = Outcome::kFailed;

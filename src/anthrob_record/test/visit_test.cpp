@@ -102,9 +102,10 @@ TEST_F(VisitTest, AnOperatorTakesHisTime) {
   load("tier1_zero_gravity");
   protocol.by_hand = true;
   Visit visit(model, protocol, nullptr);
+  EXPECT_FALSE(visit.trigger());  // nobody has seen the robot yet
   run(visit, protocol.rest, protocol.targets[3], 300.0);
   EXPECT_EQ(visit.outcome(), Visit::Outcome::kRunning);
-  visit.trigger();
+  EXPECT_TRUE(visit.trigger());
   run(visit, protocol.rest, protocol.targets[3], 300.0);
   EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone);
 }

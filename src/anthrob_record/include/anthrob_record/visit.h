@@ -32,8 +32,8 @@ class Visit {
 
   /// @param time [s]   @return what to do until the next call
   Order step(const RobotMeasurement& measured, double time);
-  /// The operator says: the posture is set.
-  void trigger() { triggered_ = true; }
+  /// The operator says: the posture is set. @return whether that is what is waited for
+  bool trigger();
   /// Something went wrong meanwhile that steps do not show. @param reason one line
   void fail(const std::string& reason);
 
