@@ -27,6 +27,24 @@ void check_motors(const anthrob::RobotLink& link, int& unheeded) {
   }
 }
 
+/// Nobody follows a player whose robot is gone.
+class Silence {
+ public:
+  /// @throws std::runtime_error naming a muscle that was not measured for long
+  void check(const anthrob::RobotLink& link) {
+    const std::string silence = link.state().complaint_of_muscles(link.now().toSec(), kStale);
+    const ros::WallTime now = ros::WallTime::now();
+    if (silence.empty()) heard_ = now;
+    // By the wall's clock: simulated time may outrun the messages.
+    if ((now - heard_).toSec() > kStale)
+      throw std::runtime_error("the robot is silent: " + silence);
+  }
+
+ private:
+  static constexpr double kStale = 0.5;  // [s]
+  ros::WallTime heard_ = ros::WallTime::now();
+};
+
 /// Until there is a robot.
 /// @return false when ROS shuts down
 bool wait_for_states(anthrob::RobotLink& link) {
@@ -53,6 +71,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   if (!wait_for_states(link)) return false;
   ros::Time end;
   int unheeded = 0;
+  Silence silence;
   for (std::size_t i = 0; i < sequence.steps.size();) {
     if (link.time_jumped()) {
       ROS_WARN("time jumped back: begins anew");
@@ -70,6 +89,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
       end = ros::Time();
       continue;
     }
+    silence.check(link);
     check_motors(link, unheeded);
     link.send(anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, references[i]));
     if (!link.wait()) return false;

@@ -1,5 +1,7 @@
 #include "anthrob_control/posture_sequence.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace anthrob {
@@ -29,6 +31,18 @@ void read_joint(const ConfigNode& node, const JointModel& joint, std::vector<dou
   for (int k = 0; k < 4; ++k) p[k] /= norm;
 }
 
+/// Names become files, cells of tables and keys.
+std::string read_name(const ConfigNode& item) {
+  const std::string name = item.text("name");
+  const bool good = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == ' ' || c == '_' || c == '-' || c == '.';
+  });
+  if (!good || name.empty() || name.front() == '.' || name.front() == ' ' || name.back() == ' ') {
+    item.at("name").fail_expected("letters, digits, '_', '-', '.' and spaces between them");
+  }
+  return name;
+}
+
 std::vector<double> read_references(const ConfigNode& node, const RobotModel& model) {
   std::vector<double> references(model.muscles.size(), NAN);
   for (const auto& [name, value] : node.entries()) {
@@ -56,7 +70,7 @@ PostureSequence PostureSequence::load(const std::string& file, const RobotModel&
       node.number_or("lowest_tension", 1.0, Bounds::nonnegative(), "N");
   for (const ConfigNode& item : node.at("postures").items()) {
     PostureStep step;
-    step.name = item.text("name");
+    step.name = read_name(item);
     step.hold = item.number_or("hold", step.hold, Bounds::positive(), "s");
     step.q = model.skeleton->rest_configuration();
     if (item.has("joints")) {
@@ -78,8 +92,8 @@ void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
                             const Equilibrium& equilibrium) {
   const double shortfall = equilibrium.shortfall.norm();
   if (shortfall <= kHoldable) return;
-  throw BadInput("posture '" + name + "': the muscles of " + model.file + " cannot hold it: " +
-                 std::to_string(shortfall) + " Nm short");
+  throw BadInput("posture '" + name + "': the muscles of " + model.file +
+                 " cannot hold it: " + std::to_string(shortfall) + " Nm short");
 }
 
 std::vector<std::vector<double>> PostureSequence::references(

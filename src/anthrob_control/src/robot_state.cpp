@@ -92,6 +92,10 @@ std::string RobotState::complaint(double now, double stale_after) const {
         check_age("joint " + model_->skeleton->joints[j].name, joint_stamps_[j], now, stale_after);
     if (!why.empty()) return why;
   }
+  return complaint_of_muscles(now, stale_after);
+}
+
+std::string RobotState::complaint_of_muscles(double now, double stale_after) const {
   for (std::size_t m = 0; m < muscle_stamps_.size(); ++m) {
     if (!must_be_measured(m)) continue;
     const std::string why =

@@ -46,6 +46,9 @@ TEST(PostureSequence, RefusesWhatItCannotUse) {
   } cases[] = {
       {"postures: []\n", "at least one"},
       {"postures: [{name: a, hold: 0}]\n", "hold"},
+      {"postures: [{name: abduction/60}]\n", "abduction/60: expected letters, digits"},
+      {"postures: [{name: 'a, b'}]\n", "a, b: expected letters, digits"},
+      {"postures: [{name: '[x'}]\n", "[x: expected letters, digits"},
       {"postures: [{name: a, hold: 1, joints: {knee: 1}}]\n", "knee"},
       {"postures: [{name: a, hold: 1, joints: {elbow: 3}}]\n", "elbow"},
       {"postures: [{name: a, hold: 1, joints: {shoulder: [1, 1, 0, 0]}}]\n", "unit quaternion"},

@@ -24,6 +24,8 @@ class RobotState {
   /// finite, or no rotation, count as not measured; forces alone may be NaN, where there is no
   /// sensor. Muscles that take no input, such as ligaments, need no measurement: no unit has them.
   std::string complaint(double now, double stale_after) const;
+  /// The same of the muscles alone.
+  std::string complaint_of_muscles(double now, double stale_after) const;
   /// Whether all that must be was measured at `stamp` or later.
   bool complete_since(double stamp) const;
   /// The first muscle whose ECU does not follow references, or empty.

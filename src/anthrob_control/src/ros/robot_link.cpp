@@ -88,7 +88,10 @@ bool RobotLink::wait_for_period() {
       clock_wait_.look();
       continue;
     }
-    if (time >= now_ && time < next_) continue;
+    if (time >= now_ && time < next_) {
+      if (ros::Time::isSimTime()) clock_watch_.look(time);
+      continue;
+    }
     advance_to(time);
     // Late periods are left out rather than made up for.
     next_ += ros::Duration(options_.period);

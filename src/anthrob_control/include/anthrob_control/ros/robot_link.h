@@ -19,7 +19,7 @@ namespace anthrob {
 ///   RobotLink link(nh, model, options);
 ///   while (link.wait()) link.send(my_controller(link.state().measurement(), link.dt()));
 ///
-/// In real time `wait` returns once a period of ROS time, and warns while that stands at zero. In
+/// In real time `wait` returns once a period of ROS time, and warns while that stands. In
 /// lock-step it lets the simulator take its steps, with the command that was sent last, and returns
 /// when their outcome is in: the same run gives the same bits, at whatever speed.
 class RobotLink {
@@ -33,7 +33,7 @@ class RobotLink {
   RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model, const Options& options);
 
   /// Serves callbacks until the next period. @return false when ROS shuts down
-  /// @throws std::runtime_error if the simulator does not step
+  /// @throws std::runtime_error if the simulator does not step, or is gone
   bool wait();
   /// Stamps and publishes. @return the stamp
   ros::Time send(anthrob_msgs::MuscleCommand command);
@@ -74,6 +74,7 @@ class RobotLink {
   anthrob_msgs::MuscleCommand command_;  ///< the last one
   bool command_arrived_ = false;         ///< of any that the simulator knows of
   ClockWait clock_wait_;
+  ClockWatch clock_watch_;
   double dt_ = 0.0;
   bool jumped_ = false;
 };
