@@ -53,11 +53,20 @@ class LaunchFiles(unittest.TestCase):
     def test_unknown_words_are_refused(self):
         for asked in ['robot.launch', 'backend:=emulate'], ['robot.launch', 'backend:=Sim'], ['robot.launch', 'backend:=true'], \
                 ['robot.launch', 'mocap:=yes'], ['robot.launch', 'mocap:=virtual'], ['sim.launch', 'mocap:=cameras'], \
-                ['demo.launch', 'mocap:=cameras'], ['robot.launch', 'backend:=sim', 'mocap:=cameras']:
+                ['demo.launch', 'mocap:=cameras'], ['sim.launch', 'hand:=no'], ['robot.launch', 'backend:=sim', 'hand:=no'], \
+                ['robot.launch', 'backend:=sim', 'mocap:=cameras']:
             with self.subTest(' '.join(asked)):
                 wrong = asked[-1]
                 with self.assertRaisesRegex(roslaunch.core.RLException, re.escape(wrong).replace('true', 'True') + '.*: expected '):
                     load(*asked)
+
+    def test_names_that_are_numbers(self):
+        given = dict(model='m', train='a', test='b', out='c')
+        for name in 'repeat', 'effects', 'calibration', 'close_the_loop':
+            node, = load('discover.launch', *['%s:=%s' % pair for pair in {**given, name: '0'}.items()]).nodes
+            self.assertIn('--%s 0' % name.replace('_', '-'), node.args)
+        recorder = load('record.launch', 'protocol:=1', 'out:=/tmp/1').params['/anthrob/recorder/protocol']
+        self.assertTrue(recorder.value.endswith('/record_1.yaml'), recorder.value)
 
     def test_motion_capture_is_asked_for_by_the_same_words(self):
         for file in ['sim.launch'], ['demo.launch'], ['robot.launch', 'backend:=sim']:
