@@ -117,6 +117,9 @@ def main():
         recordings = [(file, numpy.genfromtxt(file, delimiter=',', skip_header=1)) for file in sys.argv[2:]]
     except (OSError, ValueError, yaml.YAMLError) as error:
         refuse(' '.join(str(error).split()))
+    for file, data in recordings:
+        if data.ndim != 2 or data.shape[1] < 5 or len(data) <= 400 or not numpy.isfinite(data).all():
+            refuse('%s: expected more than 400 rows of t, u_vir, force, position, reference, all numbers' % file)
     print('viscous %.1f Ns/m, Coulomb %.2f N, offset %.2f N' % numbers[1:])
     for file, data in recordings:
         force, position, reference = data[:, 2], data[:, 3], data[:, 4]

@@ -51,6 +51,8 @@ def interpolated(truth, t):
 def report(name, seen, truth):
     pairs = [(q, interpolated(truth, t)) for t, q in seen]
     errors = sorted(angle_deg(q, p) for q, p in pairs if p)
+    if not errors or len(seen) < 2:
+        refuse('%s: expected two measurements or more, at times of which the truth is known' % name)
     motion = max(angle_deg(p, (1, 0, 0, 0)) for _, p in pairs if p)
     gaps = [b[0] - a[0] for a, b in zip(seen, seen[1:])]
     seconds = seen[-1][0] - seen[0][0]

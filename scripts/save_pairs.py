@@ -87,6 +87,10 @@ def matched(messages, topics, tolerance):
     """(left, right) of near stamps, as they come; what has no partner is left out."""
     waiting, intervals, last = {topic: [] for topic in topics}, [], {}
     for topic, image, _ in messages:
+        # Of stamps that stand still nobody knows which belong together.
+        if image.header.stamp.is_zero() or image.header.stamp == last.get(topic):
+            raise ValueError('%s: image of %.6f s: expected the time of the exposure, after that of the image before'
+                             % (topic, image.header.stamp.to_sec()))
         others = waiting[topics[1 - topics.index(topic)]]
         if topic in last and image.header.stamp > last[topic]:
             intervals = (intervals + [(image.header.stamp - last[topic]).to_nsec()])[-9:]
@@ -110,9 +114,12 @@ def matched(messages, topics, tolerance):
 def save_bag(arguments):
     import rosbag
     try:
-        bag = rosbag.Bag(arguments.bag)
+        save_images(arguments, rosbag.Bag(arguments.bag))
     except rosbag.ROSBagException as error:
         raise ValueError('%s: no bag that can be read (%s)' % (arguments.bag, error))
+
+
+def save_images(arguments, bag):
     images = [name for name, what in bag.get_type_and_topic_info().topics.items()
               if what.msg_type == 'sensor_msgs/Image']
     for topic in arguments.topics:

@@ -24,7 +24,9 @@ fi
 command -v linux.uml >/dev/null ||
   { echo "with_vcan.sh: this kernel has no vcan and linux.uml is missing: apt-get install user-mode-linux" >&2; exit 1; }
 
-out="${ANTHROB_VCAN_OUT:-$(mktemp -d /tmp/vcan.XXXXXX)}"
+own_out=
+[ -n "${ANTHROB_VCAN_OUT:-}" ] || own_out="$(mktemp -d /tmp/vcan.XXXXXX)"
+out="${ANTHROB_VCAN_OUT:-$own_out}"
 mkdir -p "$out" || exit 1
 script="$(mktemp /tmp/vcan_init.XXXXXX)"
 status="$out/.status"
@@ -66,7 +68,10 @@ trap 'exit 143' TERM INT
 wait "$uml"
 exec 3>&-
 if [ -f "$status" ]; then
-  exit "$(cat "$status")"
+  ended="$(cat "$status")"
+  # Logs of what went well are nobody's; those of a folder that was asked for are.
+  [ "$ended" != 0 ] || [ -z "$own_out" ] || rm -rf "$own_out"
+  exit "$ended"
 fi
 echo "with_vcan.sh: the command did not end; messages of the kernel: $out/.kernel" >&2
 exit 1

@@ -70,6 +70,16 @@ class SavePairs(unittest.TestCase):
             self.assertEqual(times.read(), 'index,t\n0,1.000000000\n1,3.000000000\n')
         self.assertIn('expected an empty folder', self.save().stdout)
 
+    def test_stamps_that_stand_still_are_refused(self):
+        for stamp, images in (('0.000000', [(0, image(0.0, 1)), (1, image(0.0, 1))]),
+                              ('2.000000', [(0, image(2.0, 1)), (0, image(2.0, 1)), (1, image(2.0, 1))])):
+            with rosbag.Bag(self.path('run.bag'), 'w') as bag:
+                for i, (side, message) in enumerate(images):
+                    bag.write(TOPICS[side], message, t=rospy.Time(1 + i))
+            done = self.save()
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn(TOPICS[0] + ': image of ' + stamp + ' s: expected the time of the exposure', done.stdout)
+
     def test_bad_images_are_left_out_and_named(self):
         self.record([(0, image(1.0, 1, 'rgb8')), (1, image(1.0, 1)), (0, image(2.0, 1)), (1, image(2.0, 1))])
         done = self.save()
