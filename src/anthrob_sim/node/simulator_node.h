@@ -100,8 +100,8 @@ class SimulatorNode {
   std::map<std::string, ros::WallTime> last_warnings_;  ///< by topic
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
-  ros::Publisher clock_, muscles_, joints_, spherical_joints_, efforts_, muscle_paths_, touch_,
-      solved_paths_, surfaces_, diagnostics_;
+  ros::Publisher clock_, muscles_, joints_, spherical_joints_, muscle_paths_, touch_, solved_paths_,
+      surfaces_, diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
 
   Clock::time_point deadline_, report_time_, marker_time_, clock_time_;
