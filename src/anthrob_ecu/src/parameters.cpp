@@ -54,12 +54,36 @@ ControllerSettings ParameterSet::controller() const {
   ControllerSettings settings;
   settings.period = 0.001;
   settings.voltage_limit = get(Parameter::kVoltageLimit);
-  settings.position = {get(Parameter::kPositionProportional), get(Parameter::kPositionDerivative),
-                       get(Parameter::kPositionForceFeedforward)};
-  settings.current = {get(Parameter::kCurrentProportional), get(Parameter::kCurrentIntegral)};
-  settings.force = {get(Parameter::kForceProportional), get(Parameter::kForceIntegral),
-                    get(Parameter::kForceDerivative), get(Parameter::kForceForceFeedforward)};
+  for (const ParameterInfo& info : kParameters) {
+    double* gain = gain_of(settings, info.parameter);
+    if (gain) *gain = get(info.parameter);
+  }
   return settings;
+}
+
+double* gain_of(ControllerSettings& settings, Parameter parameter) {
+  switch (parameter) {
+    case Parameter::kPositionProportional:
+      return &settings.position.proportional;
+    case Parameter::kPositionDerivative:
+      return &settings.position.derivative;
+    case Parameter::kPositionForceFeedforward:
+      return &settings.position.force_feedforward;
+    case Parameter::kCurrentProportional:
+      return &settings.current.proportional;
+    case Parameter::kCurrentIntegral:
+      return &settings.current.integral;
+    case Parameter::kForceProportional:
+      return &settings.force.proportional;
+    case Parameter::kForceIntegral:
+      return &settings.force.integral;
+    case Parameter::kForceDerivative:
+      return &settings.force.derivative;
+    case Parameter::kForceForceFeedforward:
+      return &settings.force.force_feedforward;
+    default:
+      return nullptr;
+  }
 }
 
 std::uint16_t configuration_checksum(const ParameterSet* muscles, int count) {

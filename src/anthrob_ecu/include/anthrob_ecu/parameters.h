@@ -75,6 +75,9 @@ class ParameterSet {
   std::array<float, kParameterCount> values_;
 };
 
+/// Where a control law keeps a gain; null if the parameter is none.
+double* gain_of(ControllerSettings& settings, Parameter parameter);
+
 /// CRC-16/CCITT over all parameters of the muscles in order: how host and ECU agree that they
 /// speak of the same configuration.
 std::uint16_t configuration_checksum(const ParameterSet* muscles, int count);
