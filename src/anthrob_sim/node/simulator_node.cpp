@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "anthrob_ecu/gains.h"
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/placement.h"
@@ -66,6 +67,7 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       nh_.advertiseService("disable", &SimulatorNode::on_disable, this),
       nh_.advertiseService("emergency_stop", &SimulatorNode::on_emergency_stop, this),
       nh_.advertiseService("clear_faults", &SimulatorNode::on_clear_faults, this),
+      nh_.advertiseService("gains", &SimulatorNode::on_gains, this),
       nh_.advertiseService("sim/pause", &SimulatorNode::on_pause, this),
       nh_.advertiseService("sim/step", &SimulatorNode::on_step, this),
       nh_.advertiseService("sim/reset", &SimulatorNode::on_reset, this),
@@ -174,6 +176,24 @@ bool SimulatorNode::on_emergency_stop(std_srvs::Trigger::Request&,
 bool SimulatorNode::on_clear_faults(std_srvs::Trigger::Request&,
                                     std_srvs::Trigger::Response& response) {
   supervise([](ecu::Supervisor& all) { return all.clear_faults(); }, &response);
+  return true;
+}
+
+bool SimulatorNode::on_gains(anthrob_msgs::Gains::Request& request,
+                             anthrob_msgs::Gains::Response& response) {
+  std::vector<ecu::GainChange> changes;
+  response.message = ecu::read_gain_changes(supervisor_.muscles(), request.muscle, request.gain,
+                                            request.value, changes);
+  response.success = response.message.empty();
+  for (const ecu::GainChange& change : changes) {
+    sim_.set_gain(change.gain.muscle, change.gain.parameter, change.value);
+  }
+  for (const ecu::Gain& gain : ecu::gains_of(supervisor_.muscles())) {
+    ecu::ControllerSettings held = sim_.muscle(gain.muscle).controller();
+    response.held_muscle.push_back(sim_.muscle(gain.muscle).model().name);
+    response.held_gain.push_back(ecu::name(gain.parameter));
+    response.held_value.push_back(*ecu::gain_of(held, gain.parameter));
+  }
   return true;
 }
 

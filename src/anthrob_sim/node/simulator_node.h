@@ -1,5 +1,6 @@
 #pragma once
 
+#include <anthrob_msgs/Gains.h>
 #include <anthrob_msgs/MuscleCommand.h>
 #include <anthrob_msgs/SetState.h>
 #include <anthrob_msgs/Step.h>
@@ -59,6 +60,7 @@ class SimulatorNode {
   bool on_disable(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_emergency_stop(std_srvs::Trigger::Request& request,
                          std_srvs::Trigger::Response& response);
+  bool on_gains(anthrob_msgs::Gains::Request& request, anthrob_msgs::Gains::Response& response);
   bool on_clear_faults(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_step(anthrob_msgs::Step::Request& request, anthrob_msgs::Step::Response& response);

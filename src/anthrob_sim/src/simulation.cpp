@@ -151,6 +151,11 @@ void Simulation::set_enabled(int muscle, bool enabled) {
   muscles_[muscle].set_enabled(enabled);
 }
 
+void Simulation::set_gain(int muscle, ecu::Parameter gain, double value) {
+  check_muscle(muscle);
+  muscles_[muscle].set_gain(gain, value);
+}
+
 void Simulation::apply_voltage(int muscle, double voltage) {
   check_muscle(muscle);
   muscles_[muscle].apply_voltage(voltage);

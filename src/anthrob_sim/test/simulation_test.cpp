@@ -307,6 +307,28 @@ TEST(Simulation, DisabledMuscleGetsZeroVolts) {
   EXPECT_EQ(sim.muscle(0).voltage(), 0.0);
 }
 
+TEST(Simulation, AGainCountsFromTheNextTickOn) {
+  Simulation sim(anthrob_model("I")), plain(anthrob_model("I"));
+  for (Simulation* each : {&sim, &plain}) {
+    each->command(0, ecu::Mode::kPosition, 1.0);
+    each->step(50);
+  }
+  EXPECT_EQ(sim.muscle(0).voltage(), plain.muscle(0).voltage());
+  sim.set_gain(0, ecu::Parameter::kPositionDerivative, 0.0);
+  sim.set_gain(0, ecu::Parameter::kPositionForceFeedforward, 0.0);
+  sim.set_gain(0, ecu::Parameter::kPositionProportional, 0.5);
+  const double seen = sim.muscle(0).measured().position;
+  sim.step(1);
+  EXPECT_EQ(sim.muscle(0).voltage(), 0.5 * (1.0 - seen));
+  EXPECT_EQ(sim.muscle(1).controller().position.proportional,
+            plain.muscle(1).controller().position.proportional);
+  sim.reset();
+  EXPECT_EQ(sim.muscle(0).controller().position.proportional, 0.5);
+  EXPECT_THROW(sim.set_gain(0, ecu::Parameter::kVoltageLimit, 1.0), BadInput);
+  Simulation hill(load_robot_model(testing_support::config("two_muscle_rig/model_hill.yaml")));
+  EXPECT_THROW(hill.set_gain(0, ecu::Parameter::kPositionProportional, 1.0), BadInput);
+}
+
 TEST(Simulation, ImposedPositionIsTakenExactly) {
   Simulation sim(anthrob_model("I"));
   for (int i = 1; i <= 100; ++i) {

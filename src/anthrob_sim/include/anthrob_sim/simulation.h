@@ -45,6 +45,10 @@ class Simulation {
   /// lacks
   void command(int muscle, ecu::Mode mode, double reference);
   void set_enabled(int muscle, bool enabled);
+  /// A gain of the muscle's controller from the next tick on. Like a model's number it is no state:
+  /// snapshots and reset() do not know of it.
+  /// @throws BadInput if the muscle has no controller, or the parameter is no gain
+  void set_gain(int muscle, ecu::Parameter gain, double value);
   /// The power stage gets this voltage [V], past the control law and what delays its commands,
   /// until release().
   void apply_voltage(int muscle, double voltage);

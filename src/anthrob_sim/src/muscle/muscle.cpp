@@ -13,7 +13,7 @@ enum SensorIndex { kPosition, kVelocity, kCurrent, kForce, kSensorCount };
 
 Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const SensorsModel& sensors,
                int index, double step, StateStore& store)
-    : model_(model), store_(store), step_(step), path_(*model.path) {
+    : model_(model), controller_(model.controller), store_(store), step_(step), path_(*model.path) {
   const PathModel& path = *model.path;
   const SensorModel* kinds[] = {&sensors.position, &sensors.velocity, &sensors.current,
                                 &sensors.force};
@@ -106,6 +106,15 @@ void Muscle::command(ecu::Mode mode, double reference) {
   memory().reference = reference;
 }
 
+void Muscle::set_gain(ecu::Parameter gain, double value) {
+  if (!model_.has_controller) {
+    throw BadInput("muscle " + model_.name + ": it has no controller, and no gains");
+  }
+  double* place = ecu::gain_of(controller_, gain);
+  if (!place) throw BadInput("muscle " + model_.name + ": expected a gain");
+  *place = value;
+}
+
 void Muscle::set_enabled(bool enabled) {
   memory().enabled = enabled ? 1.0 : 0.0;
   // At once, for it may be enabled again before the next tick.
@@ -169,7 +178,7 @@ void Muscle::control(std::uint64_t step_index) {
   if (c.enabled == 0.0) {
     c.voltage = 0.0;
   } else if (model_.has_controller) {
-    c.voltage = ecu::control(heard_mode, heard, c.measured, model_.controller, c.controller);
+    c.voltage = ecu::control(heard_mode, heard, c.measured, controller_, c.controller);
   } else {
     c.voltage = std::clamp(heard, model_.actuator->input_low(), model_.actuator->input_high());
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "anthrob_ecu/control_law.h"
+#include "anthrob_ecu/parameters.h"
 #include "anthrob_sim/core/delay_line.h"
 #include "anthrob_sim/friction/sliding_tendon.h"
 #include "anthrob_sim/model/robot_model.h"
@@ -40,6 +41,9 @@ class Muscle {
   void command(ecu::Mode mode, double reference);
   /// Whether the ECU follows its reference; if not, its output is zero volts.
   void set_enabled(bool enabled);
+  void set_gain(ecu::Parameter gain, double value);
+  /// The control law with the gains of now.
+  const ecu::ControllerSettings& controller() const { return controller_; }
   /// What comes from behind the ECU's control law until release(): no command, which could be late.
   void apply_voltage(double voltage);
   /// The actuator arrives at `position` at the end of the next step.
@@ -125,6 +129,7 @@ class Muscle {
   void delay_command(ecu::Mode& mode, double& reference);
 
   const MuscleModel& model_;
+  ecu::ControllerSettings controller_;
   StateStore& store_;
   double step_;
   MusclePath path_;
