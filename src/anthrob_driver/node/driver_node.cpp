@@ -170,6 +170,30 @@ bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response)
   return true;
 }
 
+bool DriverNode::on_gains(anthrob_msgs::Gains::Request& request,
+                          anthrob_msgs::Gains::Response& response) {
+  const auto begin = [&](RobotDriver& driver, double now, Outcome& outcome) {
+    outcome = driver.start_gains(request.muscle, request.gain, request.value, now);
+    return outcome.accepted && driver.gains().changing();
+  };
+  const auto look = [](RobotDriver& driver, double, Outcome& outcome) {
+    outcome = driver.gains().outcome();
+    return driver.gains().changing();
+  };
+  const Outcome outcome = carry_out(begin, look, Commands::kTaken);
+  response.success = outcome.accepted;
+  response.message = outcome.reason;
+  thread_.call([&](RobotDriver& driver, double) {
+    for (const ecu::Gain& gain : ecu::gains_of(driver.supervisor().muscles())) {
+      const auto& muscle = driver.hardware().muscles[static_cast<std::size_t>(gain.muscle)];
+      response.held_muscle.push_back(muscle.name);
+      response.held_gain.push_back(ecu::name(gain.parameter));
+      response.held_value.push_back(muscle.parameters.get(gain.parameter));
+    }
+  });
+  return true;
+}
+
 // ---- measurements ----
 
 double DriverNode::age(double time, std::int64_t kernel_ns) const {
@@ -309,6 +333,7 @@ void DriverNode::run() {
       request_nh_.advertiseService("enable", &DriverNode::on_enable, this),
       request_nh_.advertiseService("home", &DriverNode::on_home, this),
       request_nh_.advertiseService("clear_faults", &DriverNode::on_clear_faults, this),
+      request_nh_.advertiseService("gains", &DriverNode::on_gains, this),
       stop_nh_.advertiseService("disable", &DriverNode::on_disable, this),
       stop_nh_.advertiseService("emergency_stop", &DriverNode::on_emergency_stop, this),
   };

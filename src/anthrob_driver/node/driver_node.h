@@ -1,5 +1,6 @@
 #pragma once
 
+#include <anthrob_msgs/Gains.h>
 #include <anthrob_msgs/MuscleCommand.h>
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/callback_queue.h>
@@ -56,6 +57,7 @@ class DriverNode {
   bool on_disable(Trigger::Request& request, Trigger::Response& response);
   bool on_emergency_stop(Trigger::Request& request, Trigger::Response& response);
   bool on_clear_faults(Trigger::Request& request, Trigger::Response& response);
+  bool on_gains(anthrob_msgs::Gains::Request& request, anthrob_msgs::Gains::Response& response);
 
   void publish_measurements(double wait);
   /// [s] of the driver's time. @param time, kernel_ns of a Sample

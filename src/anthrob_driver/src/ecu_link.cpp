@@ -148,16 +148,40 @@ bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
     return false;
   }
   ecu::ParameterMessage message;
-  message.write = true;
   message.muscle = static_cast<std::uint8_t>(next_ / ecu::kParameterCount);
   message.index = static_cast<std::uint8_t>(wanted_index());
-  message.sequence = ++sequence_;
   message.value = wanted_value();
-  frame = ecu::encode_parameter_request(message, own().node);
-  waiting_ = true;
-  zero_asked_ = false;
-  sent_ = now;
+  frame = ask(Asked::kConfiguration, message, now);
   return true;
+}
+
+ecu::Frame EcuLink::ask(Asked what, ecu::ParameterMessage& message, double now) {
+  message.write = true;
+  message.sequence = ++sequence_;
+  waiting_ = true;
+  asked_ = what;
+  sent_ = now;
+  return ecu::encode_parameter_request(message, own().node);
+}
+
+void EcuLink::start_write(int channel, ecu::Parameter parameter, float value) {
+  written_ = {};
+  written_.muscle = static_cast<std::uint8_t>(channel);
+  written_.index = static_cast<std::uint8_t>(parameter);
+  written_.value = value;
+  write_ = Write::kAsked;
+  waiting_ = false;
+}
+
+bool EcuLink::next_write(double now, ecu::Frame& frame) {
+  if (write_ != Write::kAsked || (waiting_ && now - sent_ < kReplyTimeout)) return false;
+  frame = ask(Asked::kGain, written_, now);
+  return true;
+}
+
+void EcuLink::expect_configuration(double now) {
+  next_ = passes_ = 0;
+  resume_ = now + kRetryPause;
 }
 
 void EcuLink::start_zero(bool all) {
@@ -178,21 +202,23 @@ const MuscleHardware& EcuLink::zeroing() const {
 bool EcuLink::next_zero(double now, ecu::Frame& frame) {
   if (zeroed() || (waiting_ && now - sent_ < kReplyTimeout)) return false;
   ecu::ParameterMessage message;
-  message.write = true;
   message.muscle = static_cast<std::uint8_t>(zero_);
   message.index = ecu::kPresentPosition;
-  message.sequence = ++sequence_;
   message.value = static_cast<float>(zeroing().home_position);
-  frame = ecu::encode_parameter_request(message, own().node);
-  waiting_ = zero_asked_ = true;
-  sent_ = now;
+  frame = ask(Asked::kZero, message, now);
   return true;
 }
 
 void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
   if (!waiting_ || reply.sequence != sequence_) return;
   waiting_ = false;
-  if (zero_asked_) {
+  if (asked_ == Asked::kGain) {
+    const bool taken = reply.result == ecu::ParameterResult::kOk && reply.index == written_.index &&
+                       reply.muscle == written_.muscle && reply.value == written_.value;
+    if (write_ == Write::kAsked) write_ = taken ? Write::kTaken : Write::kRefused;
+    return;
+  }
+  if (asked_ == Asked::kZero) {
     const bool taken = reply.result == ecu::ParameterResult::kOk &&
                        reply.index == ecu::kPresentPosition && reply.muscle == zero_;
     if (taken) ++zero_;

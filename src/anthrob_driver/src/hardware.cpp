@@ -345,12 +345,8 @@ class Loader {
     for (auto& m : hardware_.muscles) m.ecu = new_index[static_cast<std::size_t>(m.ecu)];
     for (auto& j : hardware_.joints) j.ecu = new_index[static_cast<std::size_t>(j.ecu)];
     for (auto& t : hardware_.touch) t.ecu = new_index[static_cast<std::size_t>(t.ecu)];
-    for (EcuHardware& ecu : hardware_.ecus) {
-      std::vector<ecu::ParameterSet> sets;
-      for (const int m : ecu.muscles) {
-        sets.push_back(hardware_.muscles[static_cast<std::size_t>(m)].parameters);
-      }
-      ecu.configuration = ecu::configuration_checksum(sets.data(), static_cast<int>(sets.size()));
+    for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
+      update_configuration(hardware_, static_cast<int>(e));
     }
   }
 
@@ -370,6 +366,16 @@ std::vector<ecu::MuscleChannel> Hardware::channels() const {
 
 Hardware load_hardware(const std::string& file, bool hand, const std::string& model) {
   return Loader(file, hand, model).load();
+}
+
+void update_configuration(Hardware& hardware, int index) {
+  EcuHardware& unit = hardware.ecus[static_cast<std::size_t>(index)];
+  ecu::ParameterSet sets[ecu::kMusclesPerEcu];
+  int count = 0;
+  for (const int m : unit.muscles) {
+    sets[count++] = hardware.muscles[static_cast<std::size_t>(m)].parameters;
+  }
+  unit.configuration = ecu::configuration_checksum(sets, count);
 }
 
 bool has_hand(const std::string& file) {

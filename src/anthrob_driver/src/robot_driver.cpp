@@ -66,7 +66,8 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
       link_of_node_(ecu::kMaxNode + 1, -1),
       sampler_(hardware_),
       home_(hardware_),
-      zeros_(links_, supervisor_) {
+      zeros_(links_, supervisor_),
+      gains_(hardware_, links_) {
   for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
     link_of_node_[static_cast<std::size_t>(hardware_.ecus[e].node)] = static_cast<int>(e);
   }
@@ -174,6 +175,7 @@ std::string RobotDriver::too_far(const std::vector<std::string>& names,
 std::string RobotDriver::why_not_enable() const {
   if (supervisor_.stop_latched()) return "emergency stop is latched: call clear_faults first";
   if (!watch_.trouble().empty()) return watch_.trouble();
+  if (gains_.changing()) return "gains are being changed; try again in a second";
   for (const EcuLink& link : links_) {
     const std::string who = link.own().name + ": ";
     if (supervisor_.state(link.own().muscles.front()) == ecu::State::kFault) {
@@ -245,6 +247,7 @@ void RobotDriver::finish_enable(bool success, const std::string& reason) {
 RobotDriver::Outcome RobotDriver::start_home(double now) {
   if (phase_ != Phase::kEnabled) return {false, "not enabled: call enable first"};
   if (home_.running()) return {false, "home is running already"};
+  if (gains_.changing()) return {false, "gains are being changed; try again in a second"};
   home_.start(now);
   return {true, "homing"};
 }
@@ -257,6 +260,27 @@ RobotDriver::Outcome RobotDriver::clear_faults(double now) {
   disable_repeats_ = 0;
   clear_repeats_ = kRepeats;
   return outcome;
+}
+
+RobotDriver::Outcome RobotDriver::start_gains(const std::vector<std::string>& names,
+                                              const std::vector<std::string>& gains,
+                                              const std::vector<double>& values, double now) {
+  std::vector<ecu::GainChange> changes;
+  const std::string wrong =
+      ecu::read_gain_changes(supervisor_.muscles(), names, gains, values, changes);
+  if (!wrong.empty()) return {false, wrong};
+  if (changes.empty()) return {true, ""};
+  if (gains_.changing()) return {false, "gains are being changed already"};
+  if (home_.running()) return {false, "home is running"};
+  if (phase_ == Phase::kEnabling) return {false, "enable is under way"};
+  for (const ecu::GainChange& change : changes) {
+    const int ecu = hardware_.muscles[static_cast<std::size_t>(change.gain.muscle)].ecu;
+    const EcuLink& link = links_[static_cast<std::size_t>(ecu)];
+    if (!link.alive()) return {false, link.own().name + ": does not answer"};
+    if (!link.configured()) return {false, link.own().name + ": is being configured"};
+  }
+  gains_.start(std::move(changes), now);
+  return {true, ""};
 }
 
 bool RobotDriver::clearing(double now) const {
@@ -352,6 +376,7 @@ void RobotDriver::check_ecus(double now) {
     EcuLink& link = links_[e];
     const int index = static_cast<int>(e);
     if (link.take_restart()) {
+      gains_.abort(link.own().name + " restarted", now);
       stop(Finding::kEcuRestarted, index);
       zeros_.lose(e);
       // While nothing runs too: its zero is lost, and the user must know before enabling.
@@ -502,6 +527,7 @@ void RobotDriver::send_cycle(double now) {
     --clear_repeats_;
     request(Operation::kClear, 0);
   }
+  gains_.step(now, [this](const ecu::Frame& frame) { send(frame); });
   if (phase_ != Phase::kDisabled) return;
   for (EcuLink& link : links_) {
     ecu::Frame frame;

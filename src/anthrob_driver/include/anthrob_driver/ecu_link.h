@@ -41,6 +41,17 @@ class EcuLink {
   /// The muscle whose zero is not confirmed yet; not if zeroed().
   const MuscleHardware& zeroing() const;
 
+  /// A gain is to become this from now on; `write` tells how it went.
+  void start_write(int channel, ecu::Parameter parameter, float value);
+  /// @return whether `frame` is the write, to be sent now
+  bool next_write(double now, ecu::Frame& frame);
+  enum class Write { kNone, kAsked, kTaken, kRefused };
+  Write write() const { return write_; }
+  void end_write() { write_ = Write::kNone; }
+  /// The configuration that it should hold has changed: what it reports then may be on its way, and
+  /// is written anew only if it does not come.
+  void expect_configuration(double now);
+
   bool heard() const { return heard_; }
   /// Whether it answers.
   bool alive() const { return sampled_ && !returning_ && unanswered_ < kLostSyncs; }
@@ -72,6 +83,7 @@ class EcuLink {
   const EcuHardware& own() const { return hardware_.ecus[static_cast<std::size_t>(index_)]; }
 
  private:
+  enum class Asked { kConfiguration, kZero, kGain };
   struct Sample {
     ecu::Motion motion[ecu::kMusclesPerEcu];
     ecu::Effort effort;
@@ -82,6 +94,8 @@ class EcuLink {
   void finish_answer(double now);
   void on_report(const ecu::StateReport& report, double now);
   void on_reply(const ecu::ParameterMessage& reply, double now);
+  /// @param message its sequence number is filled in
+  ecu::Frame ask(Asked what, ecu::ParameterMessage& message, double now);
   int wanted_index() const;
   float wanted_value() const;
   void pass_over_unasked_zeros();
@@ -110,11 +124,13 @@ class EcuLink {
   int next_ = 0;
   int passes_ = 0;  ///< over all parameters, since the unit started
   std::uint8_t sequence_ = 0;
-  bool waiting_ = false;     ///< for a reply
-  bool zero_asked_ = false;  ///< which is to a zero
+  bool waiting_ = false;  ///< for a reply
+  Asked asked_ = Asked::kConfiguration;
   double sent_ = 0.0, resume_ = 0.0;
   std::size_t zero_ = 0;  ///< channel
   bool zero_refused_ = false, zero_all_ = false;
+  Write write_ = Write::kNone;
+  ecu::ParameterMessage written_;
 };
 
 }  // namespace driver

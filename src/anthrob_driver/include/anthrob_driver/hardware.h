@@ -84,6 +84,9 @@ struct Hardware {
 /// @throws BadInput with one line: file, line, key, value, what was expected
 Hardware load_hardware(const std::string& file, bool hand, const std::string& model = "");
 
+/// After parameters of a muscle of this ECU have changed.
+void update_configuration(Hardware& hardware, int ecu);
+
 /// Whether hardware.yaml describes a hand at all.
 /// @throws BadInput if it cannot be read
 bool has_hand(const std::string& file);

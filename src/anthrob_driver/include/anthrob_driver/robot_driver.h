@@ -8,6 +8,7 @@
 #include "anthrob_driver/ecu_link.h"
 #include "anthrob_driver/enabling.h"
 #include "anthrob_driver/home.h"
+#include "anthrob_driver/live_gains.h"
 #include "anthrob_driver/sampler.h"
 #include "anthrob_driver/stop_log.h"
 #include "anthrob_driver/tendon_watch.h"
@@ -55,6 +56,10 @@ class RobotDriver {
   Outcome start_enable(double now);
   /// Begins; home().running() and its outcome tell how it went.
   Outcome start_home(double now);
+  /// Begins, enabled or not; gains() tells how it goes. Held gains are in hardware().
+  /// @param names, gains, values as of read_gain_changes
+  Outcome start_gains(const std::vector<std::string>& names, const std::vector<std::string>& gains,
+                      const std::vector<double>& values, double now);
   Outcome disable();
   Outcome emergency_stop();
   Outcome clear_faults(double now);
@@ -67,6 +72,7 @@ class RobotDriver {
   Phase phase() const { return phase_; }
   const Outcome& last_outcome() const { return last_outcome_; }
   const Home& home() const { return home_; }
+  const LiveGains& gains() const { return gains_; }
   const Hardware& hardware() const { return hardware_; }
   const ecu::Supervisor& supervisor() const { return supervisor_; }
   const EcuLink& link(std::size_t ecu) const { return links_[ecu]; }
@@ -125,6 +131,7 @@ class RobotDriver {
   Enabling enabling_;
   Home home_;
   Zeros zeros_;
+  LiveGains gains_;
   std::vector<TendonWatch> tendons_;  ///< one a muscle
   StopLog stops_;
 

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "anthrob_driver/ecu_link.h"
+#include "anthrob_ecu/gains.h"
+
+namespace anthrob {
+namespace driver {
+
+/// Gains that the user changes, on their way to the units, enabled or not: one after the other,
+/// each read back. What a unit has confirmed is the configuration from then on.
+class LiveGains {
+ public:
+  static constexpr double kTimeout = 0.5;  ///< [s] for one gain, and for a unit to report them all
+  /// A write so often, however fast answers come: REFERENCE frames have the right of way.
+  static constexpr int kCyclesPerWrite = 4;
+  using Outcome = ecu::Supervisor::Outcome;
+  using Send = std::function<void(const ecu::Frame& frame)>;
+
+  /// @param links one an ECU of the hardware   Both must outlive the gains.
+  LiveGains(Hardware& hardware, std::vector<EcuLink>& links) : hardware_(hardware), links_(links) {}
+
+  /// Not while changing().
+  void start(std::vector<ecu::GainChange> changes, double now);
+  /// One cycle after start().
+  void step(double now, const Send& send);
+  /// Ends changes that are under way.
+  void abort(const std::string& reason, double now) {
+    if (changing_) finish(reason, now);
+  }
+  bool changing() const { return changing_; }
+  /// Of the last changes.
+  const Outcome& outcome() const { return outcome_; }
+
+ private:
+  const MuscleHardware& muscle() const;
+  EcuLink& link() { return links_[static_cast<std::size_t>(muscle().ecu)]; }
+  void begin_next(double now);
+  void take(double now);
+  void finish(const std::string& refusal, double now);
+
+  Hardware& hardware_;
+  std::vector<EcuLink>& links_;
+  std::vector<ecu::GainChange> changes_;
+  std::size_t at_ = 0;
+  int cycles_ = 0;
+  bool changing_ = false;
+  double deadline_ = 0.0;
+  Outcome outcome_{true, ""};
+};
+
+}  // namespace driver
+}  // namespace anthrob
