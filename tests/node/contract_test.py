@@ -11,6 +11,7 @@ import unittest
 import rospy
 import rostest
 from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
+from anthrob_msgs.srv import Gains
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
@@ -82,6 +83,8 @@ class Contract(unittest.TestCase):
         for name in ['enable', 'home', 'disable', 'emergency_stop', 'clear_faults']:
             rospy.wait_for_service(name, 60)
             cls.services[name] = rospy.ServiceProxy(name, Trigger)
+        rospy.wait_for_service('gains', 60)
+        cls.gains = staticmethod(rospy.ServiceProxy('gains', Gains))
         wait_for(lambda: cls.states.messages and cls.publisher.get_num_connections() > 0
                  and cls.stop_topic.get_num_connections() > 0, 'connections', 60)
         cls.commander = Commander(cls.publisher)
@@ -224,6 +227,40 @@ class Contract(unittest.TestCase):
             self.await_value('mode', 'lateral_deltoid', mode, 0)
             wait_for(lambda: abs(getattr(self.states.last(), field)[0] - reference) <= delta,
                      '%s of %g' % (field, reference), 30)
+
+    def held(self, *changes):
+        """All gains after these changes of (muscle, gain, value)."""
+        answer = self.gains([c[0] for c in changes], [c[1] for c in changes], [c[2] for c in changes])
+        self.assertTrue(answer.success, answer.message)
+        return dict(zip(zip(answer.held_muscle, answer.held_gain), answer.held_value))
+
+    def test_gains_are_changed_in_motion_and_read_back(self):
+        before = self.held()
+        self.assertEqual({muscle for muscle, _ in before}, set(self.states.last().name))
+        self.assertEqual(len(before), 9 * len(self.states.last().name))
+        self.send(['lateral_deltoid'], [POSITION], [1.0])
+        wait_for(lambda: self.states.last().position[0] > 0.5, 'motion', 30)
+        laws = ['position_proportional', 'position_derivative', 'position_force_feedforward']
+        try:
+            held = self.held(*[('lateral_deltoid', gain, 0.0) for gain in laws], ('', 'force_integral', 0.75))
+            wanted = {key: 0.75 if key[1] == 'force_integral' else value for key, value in before.items()}
+            wanted.update({('lateral_deltoid', gain): 0.0 for gain in laws})
+            self.assertEqual(held, wanted)
+            self.await_value('voltage', 'lateral_deltoid', 0.0)
+            self.assertEqual(set(self.states.last().ecu_state), {MuscleStates.ENABLED})
+        finally:
+            after = self.held(*[key + (value,) for key, value in before.items() if key[1] in laws + ['force_integral']])
+        self.assertEqual(after, before)
+        wait_for(lambda: abs(self.states.last().position[0] - 1.0) < 0.2, 'the reference', 30)
+
+    def test_gains_that_are_wrong_are_refused_whole(self):
+        before = self.held()
+        for muscle, gain, value in [('nobody', 'force_integral', 1.0), ('lateral_deltoid', 'voltage_limit', 1.0),
+                                    ('lateral_deltoid', 'force_integral', -1.0), ('', 'force_integral', NAN)]:
+            answer = self.gains(['lateral_deltoid', muscle], ['position_proportional', gain], [1.5, value])
+            self.assertFalse(answer.success)
+            self.assertIn('expected', answer.message)
+            self.assertEqual(self.held(), before)
 
     def test_malformed_commands_are_refused_whole(self):
         self.send(['lateral_deltoid'], [POSITION], [0.8])

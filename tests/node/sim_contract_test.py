@@ -1,11 +1,16 @@
 #!/usr/bin/env python3
 """The ROS contract of the simulator node: rates, commands, stops, lock-step, time."""
 import math
+import os
+import subprocess
+import tempfile
 import time
 import unittest
 
+import rospkg
 import rospy
 import rostest
+import yaml
 from anthrob_msgs.msg import MuscleCommand, MusclePaths, MuscleStates, SphericalJointStates
 from anthrob_msgs.srv import SetState, SetStateRequest, Step
 from diagnostic_msgs.msg import DiagnosticArray
@@ -200,6 +205,42 @@ class SimContract(unittest.TestCase):
                 self.assertAlmostEqual(state.current[0], reference, delta=0.05)
             if mode == 3:
                 self.assertAlmostEqual(state.force[0], reference, delta=0.5)
+
+    def run_gains(self, *arguments):
+        return subprocess.run(['rosrun', 'anthrob_control', 'anthrob_gains'] + list(arguments), stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, timeout=60)
+
+    def test_gains_from_the_command_line(self):
+        before = self.run_gains()
+        self.assertEqual(before.returncode, 0, before.stderr)
+        self.assertEqual(len(before.stdout.splitlines()), 9 * len(MUSCLES))
+        try:
+            done = self.run_gains('lateral_deltoid/position_proportional=5.5', 'all/force_integral=0.625')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn('lateral_deltoid/position_proportional=5.5\n', done.stdout)
+            self.assertEqual(done.stdout.count('/force_integral=0.625\n'), len(MUSCLES))
+            for wrong in 'lateral_deltoid', 'lateral_deltoid/force_integral', 'nobody/force_integral=1', 'all/force_integral=x', \
+                    'all/force_integral=-1':
+                refused = self.run_gains(wrong)
+                self.assertEqual(refused.returncode, 2, wrong)
+                self.assertIn('expected', refused.stderr)
+                self.assertEqual(refused.stderr.count('\n'), 1, refused.stderr)
+            model = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'config', 'anthrob', 'model_II.yaml')
+            with tempfile.TemporaryDirectory() as folder:
+                file = os.path.join(folder, 'model_tuned.yaml')
+                saved = self.run_gains('--model', model, '--save', file)
+                self.assertEqual(saved.returncode, 0, saved.stderr)
+                with open(file) as text:
+                    content = yaml.safe_load(text)
+            self.assertEqual(set(content['muscles']), set(MUSCLES))
+            own = content['controllers'][content['muscles']['lateral_deltoid']['controller']]
+            self.assertEqual((own['position']['proportional'], own['force']['integral']), (5.5, 0.625))
+        finally:
+            restored = self.run_gains(*before.stdout.splitlines())
+        self.assertEqual(restored.stdout, before.stdout)
+        nobody = self.run_gains('--robot', 'nobody')
+        self.assertEqual(nobody.returncode, 1)
+        self.assertIn('/nobody/gains: no robot answers', nobody.stderr)
 
     def test_malformed_commands_are_refused_whole(self):
         self.send(['lateral_deltoid'], [1], [0.8])

@@ -1,0 +1,107 @@
+// Reads, changes and saves the gains of a robot that runs, simulated or real.
+#include <anthrob_msgs/Gains.h>
+#include <ros/ros.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "anthrob_config/atomic_file.h"
+#include "anthrob_config/command_line.h"
+#include "anthrob_control/gains_file.h"
+#include "anthrob_sim/core/errors.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using anthrob::BadInput;
+using anthrob_msgs::Gains;
+
+constexpr double kPatience = 5.0;  // [s] for the robot's service
+
+struct Arguments {
+  std::string robot = "anthrob", save, model;
+  std::vector<std::string> changes;
+};
+
+/// "MUSCLE/GAIN=VALUE"
+void read_change(const std::string& text, Gains::Request& request) {
+  const std::size_t slash = text.find('/'), equals = text.find('=');
+  char* end = nullptr;
+  const double value =
+      equals == std::string::npos ? 0.0 : std::strtod(text.c_str() + equals + 1, &end);
+  if (slash == std::string::npos || equals == std::string::npos || slash > equals ||
+      end == text.c_str() + equals + 1 || *end != 0) {
+    throw BadInput(text + ": expected MUSCLE/GAIN=VALUE, or all/GAIN=VALUE");
+  }
+  const std::string muscle = text.substr(0, slash);
+  request.muscle.push_back(muscle == "all" ? "" : muscle);
+  request.gain.push_back(text.substr(slash + 1, equals - slash - 1));
+  request.value.push_back(value);
+}
+
+Gains::Response ask(const std::string& robot, Gains::Request& request) {
+  if (!ros::master::check()) throw std::runtime_error("no ROS master: is a launch file running?");
+  const std::string service = "/" + robot + "/gains";
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+  while (!ros::service::exists(service, false)) {
+    if (ros::WallTime::now() > end) throw std::runtime_error(service + ": no robot answers");
+    ros::WallDuration(0.1).sleep();
+  }
+  Gains::Response response;
+  if (!ros::service::call(service, request, response)) {
+    throw std::runtime_error(service + ": the call failed");
+  }
+  return response;
+}
+
+void save(const Gains::Response& response, const Arguments& arguments) {
+  const fs::path out = fs::absolute(arguments.save), base = fs::absolute(arguments.model);
+  if (fs::weakly_canonical(out) == fs::weakly_canonical(base)) {
+    throw BadInput("--save " + arguments.save + ": expected another file than the model");
+  }
+  const auto model = anthrob::load_robot_model(arguments.model);
+  anthrob::HeldGains held;
+  for (std::size_t i = 0; i < response.held_muscle.size(); ++i) {
+    held[response.held_muscle[i]][response.held_gain[i]] = response.held_value[i];
+  }
+  const std::string text =
+      anthrob::gains_file(*model, held, fs::proximate(base, out.parent_path()).string());
+  if (text.empty()) {
+    std::fprintf(stderr, "all gains are those of %s: nothing saved\n", arguments.model.c_str());
+    return;
+  }
+  anthrob::write_file_atomically(arguments.save, text);
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.save.empty() != arguments.model.empty()) {
+    throw BadInput("--save FILE and --model FILE: expected both or none");
+  }
+  Gains::Request request;
+  for (const std::string& change : arguments.changes) read_change(change, request);
+  const Gains::Response response = ask(arguments.robot, request);
+  for (std::size_t i = 0; i < response.held_muscle.size(); ++i) {
+    std::printf("%s/%s=%.9g\n", response.held_muscle[i].c_str(), response.held_gain[i].c_str(),
+                response.held_value[i]);
+  }
+  if (!response.success) throw BadInput(response.message);
+  if (!arguments.save.empty()) save(response, arguments);
+  return anthrob::tool::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "gains", ros::init_options::AnonymousName);
+  CLI::App app(
+      "Reads, changes and saves the gains of a robot that runs. Prints all gains as they are held, "
+      "in the form in which they are changed.",
+      "anthrob_gains");
+  Arguments arguments;
+  app.add_option("changes", arguments.changes, "MUSCLE/GAIN=VALUE, or all/GAIN=VALUE");
+  app.add_option("--robot", arguments.robot, "namespace of the robot")->capture_default_str();
+  app.add_option("--save", arguments.save, "model file to be written: it extends --model");
+  app.add_option("--model", arguments.model, "model file that the robot was started with");
+  return anthrob::tool::run(app, argc, argv, [&] { return run(arguments); });
+}
