@@ -172,13 +172,16 @@ bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response)
 
 bool DriverNode::on_gains(anthrob_msgs::Gains::Request& request,
                           anthrob_msgs::Gains::Response& response) {
+  std::uint64_t ended = 0;
   const auto begin = [&](RobotDriver& driver, double now, Outcome& outcome) {
+    ended = driver.gains().ended();
     outcome = driver.start_gains(request.muscle, request.gain, request.value, now);
     return outcome.accepted && driver.gains().changing();
   };
-  const auto look = [](RobotDriver& driver, double, Outcome& outcome) {
+  // Somebody else's may have begun since.
+  const auto look = [&](RobotDriver& driver, double, Outcome& outcome) {
     outcome = driver.gains().outcome();
-    return driver.gains().changing();
+    return driver.gains().ended() == ended;
   };
   const Outcome outcome = carry_out(begin, look, Commands::kTaken);
   response.success = outcome.accepted;

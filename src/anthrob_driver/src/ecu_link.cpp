@@ -181,6 +181,7 @@ bool EcuLink::next_write(double now, ecu::Frame& frame) {
 
 void EcuLink::expect_configuration(double now) {
   next_ = passes_ = 0;
+  waiting_ = false;  // what was asked before is answered in vain
   resume_ = now + kRetryPause;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "anthrob_config/config_node.h"
+#include "anthrob_ecu/gains.h"
 
 namespace anthrob {
 namespace driver {
@@ -64,6 +65,15 @@ void load_controller(const ConfigNode& node, MuscleHardware& muscle) {
   const double newtons = limits.number("force", Bounds::nonnegative(), "N");
   muscle.limits.lowest = {-volts, -radians, -amperes, 0.0};
   muscle.limits.highest = {volts, radians, amperes, newtons};
+}
+
+/// What a muscle of a model file has otherwise than its controller's kind.
+void load_gains(const ConfigNode& node, MuscleHardware& muscle) {
+  for (const auto& [name, value] : node.entries()) {
+    const ecu::ParameterInfo* gain = ecu::find_gain(name);
+    if (!gain) value.fail("no gain; expected position_proportional and the like");
+    set(muscle, gain->parameter, value.as_number(Bounds::nonnegative(), gain->unit), value);
+  }
 }
 
 LinearSensor load_linear(const ConfigNode& node, const std::string& unit) {
@@ -205,6 +215,7 @@ class Loader {
     }
     ecu.muscles.push_back(static_cast<int>(hardware_.muscles.size()));
     load_controller(controller, muscle);
+    if (where.has("gains")) load_gains(where.at("gains"), muscle);
     load_unit(config_.at("units").at(kind), muscle);
     load_sensors(sensors.at(name), muscle);
     check_limits(config_.at("units").at(kind), muscle);

@@ -5,8 +5,8 @@
 namespace anthrob {
 namespace driver {
 
-const MuscleHardware& LiveGains::muscle() const {
-  return hardware_.muscles[static_cast<std::size_t>(changes_[at_].gain.muscle)];
+const MuscleHardware& LiveGains::muscle_of(const ecu::GainChange& change) const {
+  return hardware_.muscles[static_cast<std::size_t>(change.gain.muscle)];
 }
 
 void LiveGains::start(std::vector<ecu::GainChange> changes, double now) {
@@ -23,15 +23,17 @@ void LiveGains::begin_next(double now) {
                      static_cast<float>(changes_[at_].value));
 }
 
-void LiveGains::step(double now, const Send& send) {
+void LiveGains::step(double now, bool disabled, const Send& send) {
   if (!changing_) return;
   ++cycles_;
   if (at_ == changes_.size()) {
-    // The next enable wants the units' word for all of their parameters.
-    const auto differs = [](const EcuLink& link) { return link.alive() && !link.configured(); };
-    const auto silent = std::find_if(links_.begin(), links_.end(), differs);
-    if (silent == links_.end()) return finish("", now);
-    if (now > deadline_) finish(silent->own().name + " does not report what it was given", now);
+    const auto differs = [&](const ecu::GainChange& change) {
+      return link_of(change).alive() && !link_of(change).configured();
+    };
+    const auto change = std::find_if(changes_.begin(), changes_.end(), differs);
+    if (!disabled || change == changes_.end()) return finish("", now);
+    if (now > deadline_)
+      finish(link_of(*change).own().name + " does not report what it should hold", now);
     return;
   }
   const EcuLink::Write write = link().write();
@@ -41,14 +43,22 @@ void LiveGains::step(double now, const Send& send) {
     return begin_next(now);
   }
   if (write == EcuLink::Write::kRefused || now > deadline_) {
-    return finish(muscle().name + ": " + link().own().name + " does not take " +
+    return finish(muscle().name + ": " + link().own().name + " does not confirm " +
                       ecu::name(changes_[at_].gain.parameter) +
-                      "; it is written anew when the motors are disabled",
+                      ": it may hold either; try again, or disable the motors, and it is given the "
+                      "old one",
                   now);
   }
   if (cycles_ % kCyclesPerWrite != 0) return;
   ecu::Frame frame;
   if (link().next_write(now, frame)) send(frame);
+}
+
+void LiveGains::abort(int ecu, const std::string& reason, double now) {
+  const bool concerned =
+      std::any_of(changes_.begin(), changes_.end(),
+                  [&](const ecu::GainChange& change) { return muscle_of(change).ecu == ecu; });
+  if (changing_ && concerned) finish(reason, now);
 }
 
 void LiveGains::take(double now) {
@@ -60,11 +70,12 @@ void LiveGains::take(double now) {
 
 void LiveGains::finish(const std::string& refusal, double now) {
   changing_ = false;
+  ++ended_;
   outcome_ = {refusal.empty(), refusal};
-  // Whatever it holds now: it is compared, and mended, as any configuration.
-  for (EcuLink& each : links_) {
-    each.end_write();
-    if (!refusal.empty()) each.expect_configuration(now);
+  for (const ecu::GainChange& change : changes_) {
+    link_of(change).end_write();
+    // Whatever it holds now: it is compared, and mended, as any configuration.
+    if (!refusal.empty()) link_of(change).expect_configuration(now);
   }
 }
 

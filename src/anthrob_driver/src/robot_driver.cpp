@@ -175,7 +175,7 @@ std::string RobotDriver::too_far(const std::vector<std::string>& names,
 std::string RobotDriver::why_not_enable() const {
   if (supervisor_.stop_latched()) return "emergency stop is latched: call clear_faults first";
   if (!watch_.trouble().empty()) return watch_.trouble();
-  if (gains_.changing()) return "gains are being changed; try again in a second";
+  if (gains_.changing()) return "gains are being changed; try again when they are";
   for (const EcuLink& link : links_) {
     const std::string who = link.own().name + ": ";
     if (supervisor_.state(link.own().muscles.front()) == ecu::State::kFault) {
@@ -247,7 +247,7 @@ void RobotDriver::finish_enable(bool success, const std::string& reason) {
 RobotDriver::Outcome RobotDriver::start_home(double now) {
   if (phase_ != Phase::kEnabled) return {false, "not enabled: call enable first"};
   if (home_.running()) return {false, "home is running already"};
-  if (gains_.changing()) return {false, "gains are being changed; try again in a second"};
+  if (gains_.changing()) return {false, "gains are being changed; try again when they are"};
   home_.start(now);
   return {true, "homing"};
 }
@@ -277,7 +277,8 @@ RobotDriver::Outcome RobotDriver::start_gains(const std::vector<std::string>& na
     const int ecu = hardware_.muscles[static_cast<std::size_t>(change.gain.muscle)].ecu;
     const EcuLink& link = links_[static_cast<std::size_t>(ecu)];
     if (!link.alive()) return {false, link.own().name + ": does not answer"};
-    if (!link.configured()) return {false, link.own().name + ": is being configured"};
+    if (phase_ == Phase::kDisabled && !link.configured())
+      return {false, link.own().name + ": is being configured; try again in a second"};
   }
   gains_.start(std::move(changes), now);
   return {true, ""};
@@ -376,7 +377,7 @@ void RobotDriver::check_ecus(double now) {
     EcuLink& link = links_[e];
     const int index = static_cast<int>(e);
     if (link.take_restart()) {
-      gains_.abort(link.own().name + " restarted", now);
+      gains_.abort(index, link.own().name + " restarted", now);
       stop(Finding::kEcuRestarted, index);
       zeros_.lose(e);
       // While nothing runs too: its zero is lost, and the user must know before enabling.
@@ -527,7 +528,7 @@ void RobotDriver::send_cycle(double now) {
     --clear_repeats_;
     request(Operation::kClear, 0);
   }
-  gains_.step(now, [this](const ecu::Frame& frame) { send(frame); });
+  gains_.step(now, phase_ == Phase::kDisabled, [this](const ecu::Frame& frame) { send(frame); });
   if (phase_ != Phase::kDisabled) return;
   for (EcuLink& link : links_) {
     ecu::Frame frame;

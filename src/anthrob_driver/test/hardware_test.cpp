@@ -56,6 +56,27 @@ TEST(Hardware, GainsAndLimitsAreTheModels) {
   EXPECT_EQ(triceps.channel, 1);
 }
 
+TEST(Hardware, AMuscleMayHaveGainsOfItsOwn) {
+  // As anthrob_gains saves them.
+  const fs::path file =
+      fs::temp_directory_path() / ("anthrob_tuned_" + std::to_string(::getpid()) + ".yaml");
+  std::ofstream(file) << "extends: \"" << (kConfig / "model_II.yaml").string()
+                      << "\"\nmuscles:\n  teres_minor: {gains: {force_integral: 0.1}}\n";
+  const Hardware plain = load_hardware(kConfig / "hardware.yaml", false);
+  const Hardware tuned = load_hardware(kConfig / "hardware.yaml", false, file.string());
+  std::ofstream(file) << "extends: \"" << (kConfig / "model_II.yaml").string()
+                      << "\"\nmuscles:\n  teres_minor: {gains: {voltage_limit: 1}}\n";
+  EXPECT_THROW(load_hardware(kConfig / "hardware.yaml", false, file.string()), BadInput);
+  fs::remove(file);
+  EXPECT_EQ(tuned.muscles[5].parameters.raw(static_cast<int>(Parameter::kForceIntegral)), 0.1f);
+  EXPECT_EQ(tuned.muscles[5].parameters.get(Parameter::kPositionProportional),
+            plain.muscles[5].parameters.get(Parameter::kPositionProportional));
+  EXPECT_EQ(tuned.muscles[4].parameters.get(Parameter::kForceIntegral),
+            plain.muscles[4].parameters.get(Parameter::kForceIntegral));
+  EXPECT_NE(tuned.ecus[2].configuration, plain.ecus[2].configuration);
+  EXPECT_NE(difference(plain, tuned), "");
+}
+
 TEST(Hardware, TheCarefulRobotIsTheSameButSlow) {
   Hardware careful = load_hardware(kConfig / "hardware_careful.yaml", true);
   const Hardware own = load_hardware(kConfig / "hardware.yaml", true);

@@ -53,6 +53,7 @@ TEST_F(LiveGainsTest, ChangeInMotionAndTheRobotGoesOn) {
   EXPECT_EQ(held(3, Parameter::kPositionProportional), 3.25);
   EXPECT_EQ(believed(3, Parameter::kPositionProportional), 3.25);
   EXPECT_NE(held(2, Parameter::kPositionProportional), 3.25);
+  rig.run(200);  // the unit says what it holds now and then
   EXPECT_TRUE(all_configured());
   EXPECT_EQ(rig.driver().phase(), Phase::kEnabled);
   EXPECT_EQ(rig.moving(), 13);
@@ -120,7 +121,8 @@ TEST_F(LiveGainsTest, WhatIsNotConfirmedIsNamedAndTheOldOneComesBack) {
     const double before = believed(5, Parameter::kPositionDerivative);
     lose(Parameter::kPositionDerivative, lost);
     const std::string why = change("teres_minor", "position_derivative", 0.75);
-    EXPECT_NE(why.find("teres_minor: ecu_3 does not take position_derivative"), std::string::npos)
+    EXPECT_NE(why.find("teres_minor: ecu_3 does not confirm position_derivative"),
+              std::string::npos)
         << why;
     EXPECT_EQ(believed(5, Parameter::kPositionDerivative), before);
     rig.bus.tamper = nullptr;
@@ -131,9 +133,48 @@ TEST_F(LiveGainsTest, WhatIsNotConfirmedIsNamedAndTheOldOneComesBack) {
   }
 }
 
+TEST_F(LiveGainsTest, ThatWereNotConfirmedInMotionCanBeTriedAgain) {
+  ASSERT_TRUE(rig.start());
+  lose(Parameter::kPositionDerivative, ecu::Function::kParameterReply);
+  EXPECT_NE(change("teres_minor", "position_derivative", 0.75), "");
+  // Another unit's do not suffer from it.
+  EXPECT_EQ(change("brachialis", "force_integral", 0.5), "");
+  rig.bus.tamper = nullptr;
+  EXPECT_EQ(change("teres_minor", "position_derivative", 0.75), "");
+  EXPECT_EQ(held(5, Parameter::kPositionDerivative), 0.75);
+  rig.run(500);
+  EXPECT_TRUE(all_configured());
+  EXPECT_EQ(rig.driver().phase(), Phase::kEnabled);
+}
+
+TEST_F(LiveGainsTest, EndWhenTheUnitRestartsAmongThem) {
+  rig.run(1000);
+  ASSERT_TRUE(rig.driver().start_gains({""}, {"force_integral"}, {0.5}, rig.now()).accepted);
+  rig.run(15);
+  ASSERT_TRUE(rig.driver().gains().changing());
+  rig.rack.board(0).set_power(false);
+  rig.rack.board(0).set_power(true);
+  rig.run(400);
+  EXPECT_FALSE(rig.driver().gains().changing());
+  EXPECT_EQ(rig.driver().gains().outcome().reason, "ecu_1 restarted");
+  rig.run(4000);
+  EXPECT_TRUE(all_configured());
+}
+
+TEST_F(LiveGainsTest, DoNotWaitForUnitsThatTheyAreNotFor) {
+  rig.run(1000);
+  rig.rack.board(6).set_power(false);
+  rig.run(50);
+  rig.rack.board(6).set_power(true);
+  for (int ms = 0; ms < 2000 && rig.driver().link(6).configured(); ++ms) rig.step();
+  ASSERT_FALSE(rig.driver().link(6).configured());
+  EXPECT_EQ(change("lateral_deltoid", "force_integral", 0.5), "");
+}
+
 TEST_F(LiveGainsTest, AreRefusedWhereTheyCannotBeWritten) {
   rig.run(20);
-  EXPECT_NE(change("brachialis", "current_integral", 1.0), "");  // is being configured
+  EXPECT_NE(change("brachialis", "current_integral", 1.0).find("is being configured"),
+            std::string::npos);
   rig.run(1000);
   EXPECT_EQ(change("nobody", "current_integral", 1.0), "'nobody': expected the name of a muscle");
   ASSERT_TRUE(rig.enable());
@@ -145,7 +186,7 @@ TEST_F(LiveGainsTest, AreRefusedWhereTheyCannotBeWritten) {
   EXPECT_EQ(rig.driver().start_gains({""}, {"current_integral"}, {2.0}, rig.now()).reason,
             "gains are being changed already");
   EXPECT_EQ(rig.driver().start_enable(rig.now()).reason,
-            "gains are being changed; try again in a second");
+            "gains are being changed; try again when they are");
 }
 
 }  // namespace

@@ -11,14 +11,6 @@ bool has_gains(const MuscleChannel& muscle) {
   return muscle.takes_commands && muscle.modes[static_cast<std::size_t>(Mode::kPosition)];
 }
 
-/// Null: there is no such gain.
-const ParameterInfo* find_gain(const std::string& wanted) {
-  for (const ParameterInfo& info : kParameters) {
-    if (info.live && info.name == wanted) return &info;
-  }
-  return nullptr;
-}
-
 std::string check_value(const std::string& muscle, const ParameterInfo& info, double value) {
   // As it goes over the wire; written so that NaN is refused too.
   const float held = static_cast<float>(value);
@@ -33,6 +25,13 @@ std::string check_value(const std::string& muscle, const ParameterInfo& info, do
 
 const char* name(Parameter parameter) {
   return kParameters[static_cast<std::size_t>(parameter)].name;
+}
+
+const ParameterInfo* find_gain(const std::string& wanted) {
+  for (const ParameterInfo& info : kParameters) {
+    if (info.live && info.name == wanted) return &info;
+  }
+  return nullptr;
 }
 
 std::vector<Gain> gains_of(const std::vector<MuscleChannel>& muscles) {
@@ -56,6 +55,10 @@ std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
            std::to_string(gains.size()) + " and " + std::to_string(values.size()) +
            " entries: expected as many of each";
   }
+  // Each takes its time on a bus.
+  const std::size_t most = gains_of(muscles).size();
+  const std::string too_many = "more entries than there are gains, " + std::to_string(most);
+  if (names.size() > most) return too_many;
   std::vector<GainChange> wanted;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const ParameterInfo* info = find_gain(gains[i]);
@@ -73,6 +76,7 @@ std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
       any = true;
     }
     if (!any) return "'" + names[i] + "': expected the name of a muscle";
+    if (wanted.size() > most) return too_many;
   }
   changes = std::move(wanted);
   return "";

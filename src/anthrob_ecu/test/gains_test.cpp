@@ -81,6 +81,9 @@ TEST(Gains, ThatAreWrongAreRefusedWhole) {
             "'voltage_limit': expected the name of a gain, as in held_gain");
   EXPECT_EQ(refusal({"motor", ""}, {good, good}, {1.0, -1.0}),
             "muscle 'motor': position_proportional: -1: expected 0 to 1000 V/rad");
+  EXPECT_EQ(refusal(std::vector<std::string>(10, "motor"), std::vector<std::string>(10, good),
+                    std::vector<double>(10, 1.0)),
+            "more entries than there are gains, 9");
   EXPECT_NE(refusal({"motor"}, {good}, {std::nan("")}), "");
   EXPECT_NE(refusal({"motor"}, {good}, {1000.1}), "");
 }

@@ -443,6 +443,25 @@ TEST(ConfigNode, ErrorsInExtendingFilesNameTheRightFile) {
   }
 }
 
+TEST(BadFiles, GainsOfOneMuscle) {
+  const auto load = [](const std::string& gains, const std::string& controller = "pd") {
+    std::string text = kModel;
+    const std::string from = "    controller: pd\n";
+    text.replace(text.find(from), from.size(),
+                 "    controller: " + controller + "\n    gains: " + gains + "\n");
+    return TemporaryRobot(kUrdf, text).load();
+  };
+  const auto model = load("{position_proportional: 7, force_integral: 0.25}");
+  EXPECT_EQ(model->muscles[0].controller.position.proportional, 7.0);
+  EXPECT_EQ(model->muscles[0].controller.force.integral, 0.25);
+  EXPECT_EQ(model->muscles[0].controller.position.derivative, 0.5);  // its kind's
+  for (const char* bad : {"{voltage_limit: 7}", "{position_proportional: -1}",
+                          "{position_proportional: 1001}", "{K_P: 7}", "7"}) {
+    EXPECT_THROW(load(bad), BadInput) << bad;
+  }
+  EXPECT_THROW(load("{force_integral: 1}", "null"), BadInput);
+}
+
 TEST(ConfigNode, ASecondDocumentAndAFolderAreRefused) {
   TemporaryRobot robot(kUrdf, std::string(kModel) + "---\nmuscels: {}\n");
   const std::string folder = robot.file().substr(0, robot.file().rfind('/'));

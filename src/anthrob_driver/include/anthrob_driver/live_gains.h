@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,18 +27,24 @@ class LiveGains {
   /// Not while changing().
   void start(std::vector<ecu::GainChange> changes, double now);
   /// One cycle after start().
-  void step(double now, const Send& send);
-  /// Ends changes that are under way.
-  void abort(const std::string& reason, double now) {
-    if (changing_) finish(reason, now);
-  }
+  /// @param disabled the motors are: enable may follow, which wants the units' word for all of
+  /// their
+  ///   parameters, so that the changes end with that
+  void step(double now, bool disabled, const Send& send);
+  /// Ends changes that are under way to this ECU.
+  void abort(int ecu, const std::string& reason, double now);
   bool changing() const { return changing_; }
-  /// Of the last changes.
+  /// Of the last changes that ended; how many have.
   const Outcome& outcome() const { return outcome_; }
+  std::uint64_t ended() const { return ended_; }
 
  private:
-  const MuscleHardware& muscle() const;
-  EcuLink& link() { return links_[static_cast<std::size_t>(muscle().ecu)]; }
+  const MuscleHardware& muscle_of(const ecu::GainChange& change) const;
+  const MuscleHardware& muscle() const { return muscle_of(changes_[at_]); }
+  EcuLink& link_of(const ecu::GainChange& change) {
+    return links_[static_cast<std::size_t>(muscle_of(change).ecu)];
+  }
+  EcuLink& link() { return link_of(changes_[at_]); }
   void begin_next(double now);
   void take(double now);
   void finish(const std::string& refusal, double now);
@@ -50,6 +57,7 @@ class LiveGains {
   bool changing_ = false;
   double deadline_ = 0.0;
   Outcome outcome_{true, ""};
+  std::uint64_t ended_ = 0;
 };
 
 }  // namespace driver

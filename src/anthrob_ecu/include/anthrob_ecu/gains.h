@@ -21,6 +21,8 @@ struct GainChange {
 };
 
 const char* name(Parameter parameter);
+/// @return null if there is no such gain
+const ParameterInfo* find_gain(const std::string& name);
 
 /// Of all muscles that have gains: a motor with a controller takes POSITION.
 std::vector<Gain> gains_of(const std::vector<MuscleChannel>& muscles);

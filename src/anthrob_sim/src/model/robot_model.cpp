@@ -6,6 +6,7 @@
 #include <set>
 
 #include "anthrob_config/names.h"
+#include "anthrob_ecu/gains.h"
 #include "anthrob_sim/actuator/geared_motor.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
@@ -187,7 +188,19 @@ class Builder {
       muscle.has_controller = true;
       read_controller(kind("controllers", node.at("controller")), muscle);
     }
+    if (node.has("gains")) read_gains(node.at("gains"), muscle);
     return muscle;
+  }
+
+  /// What this muscle has otherwise than its controller's kind.
+  static void read_gains(const ConfigNode& node, MuscleModel& muscle) {
+    if (!muscle.has_controller) node.fail("only a muscle with a controller has gains");
+    for (const auto& [name, value] : node.entries()) {
+      const ecu::ParameterInfo* gain = ecu::find_gain(name);
+      if (!gain) value.fail("no gain; expected position_proportional and the like");
+      *ecu::gain_of(muscle.controller, gain->parameter) =
+          value.as_number(Bounds::between(gain->lowest, gain->highest), gain->unit);
+    }
   }
 
   void read_controller(const ConfigNode& node, MuscleModel& muscle) {
