@@ -232,9 +232,13 @@ class SimContract(unittest.TestCase):
                 self.assertEqual(saved.returncode, 0, saved.stderr)
                 with open(file) as text:
                     content = yaml.safe_load(text)
-            self.assertEqual(set(content['muscles']), set(MUSCLES))
-            own = content['controllers'][content['muscles']['lateral_deltoid']['controller']]
-            self.assertEqual((own['position']['proportional'], own['force']['integral']), (5.5, 0.625))
+            self.assertEqual(content['muscles'], {muscle: {'gains': dict(
+                {'force_integral': 0.625}, **({'position_proportional': 5.5} if muscle == 'lateral_deltoid' else {}))}
+                for muscle in MUSCLES})
+            for over in model, os.path.join(os.path.dirname(model), 'model_I.yaml'):
+                refused = self.run_gains('--model', model, '--save', over)
+                self.assertEqual(refused.returncode, 2, refused.stderr)
+                self.assertIn('expected another file', refused.stderr)
         finally:
             restored = self.run_gains(*before.stdout.splitlines())
         self.assertEqual(restored.stdout, before.stdout)

@@ -2,13 +2,16 @@
 #include <anthrob_msgs/Gains.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
 #include "anthrob_config/atomic_file.h"
 #include "anthrob_config/command_line.h"
+#include "anthrob_config/extended_files.h"
 #include "anthrob_control/gains_file.h"
+#include "anthrob_ecu/gains.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace {
@@ -55,18 +58,53 @@ Gains::Response ask(const std::string& robot, Gains::Request& request) {
   return response;
 }
 
-void save(const Gains::Response& response, const Arguments& arguments) {
-  const fs::path out = fs::absolute(arguments.save), base = fs::absolute(arguments.model);
-  if (fs::weakly_canonical(out) == fs::weakly_canonical(base)) {
-    throw BadInput("--save " + arguments.save + ": expected another file than the model");
+/// What the robot would refuse, before it is asked to change anything.
+/// @param held what it says when nothing is changed
+void check(const Gains::Request& request, const Gains::Response& held) {
+  const auto known = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (std::size_t i = 0; i < request.muscle.size(); ++i) {
+    const anthrob::ecu::ParameterInfo* info = anthrob::ecu::find_gain(request.gain[i]);
+    if (!request.muscle[i].empty() && !known(held.held_muscle, request.muscle[i])) {
+      throw BadInput(request.muscle[i] + ": expected one of the robot's muscles, or all");
+    }
+    if (!info || !known(held.held_gain, request.gain[i])) {
+      throw BadInput(request.gain[i] + ": expected a gain, as position_proportional");
+    }
+    const double value = request.value[i];
+    if (value >= info->lowest && value <= info->highest) continue;
+    char text[160];
+    std::snprintf(text, sizeof(text), "%s=%g: expected %g to %g %s", info->name, value,
+                  static_cast<double>(info->lowest), static_cast<double>(info->highest),
+                  info->unit);
+    throw BadInput(text);
   }
+}
+
+/// @throws BadInput if the model that is to be extended would be written over
+std::shared_ptr<const anthrob::RobotModel> load(const Arguments& arguments) {
   const auto model = anthrob::load_robot_model(arguments.model);
+  const std::string out = fs::weakly_canonical(arguments.save).string();
+  for (const std::string& file : anthrob::extended_files(arguments.model)) {
+    if (file == out) {
+      throw BadInput("--save " + arguments.save +
+                     ": expected another file than the model, or what "
+                     "it extends");
+    }
+  }
+  return model;
+}
+
+void save(const Gains::Response& response, const anthrob::RobotModel& model,
+          const Arguments& arguments) {
   anthrob::HeldGains held;
   for (std::size_t i = 0; i < response.held_muscle.size(); ++i) {
     held[response.held_muscle[i]][response.held_gain[i]] = response.held_value[i];
   }
+  const fs::path base = fs::absolute(arguments.model), out = fs::absolute(arguments.save);
   const std::string text =
-      anthrob::gains_file(*model, held, fs::proximate(base, out.parent_path()).string());
+      anthrob::gains_file(model, held, fs::proximate(base, out.parent_path()).string());
   if (text.empty()) {
     std::fprintf(stderr, "all gains are those of %s: nothing saved\n", arguments.model.c_str());
     return;
@@ -78,22 +116,26 @@ int run(const Arguments& arguments) {
   if (arguments.save.empty() != arguments.model.empty()) {
     throw BadInput("--save FILE and --model FILE: expected both or none");
   }
-  Gains::Request request;
+  const auto model = arguments.save.empty() ? nullptr : load(arguments);
+  Gains::Request request, nothing;
   for (const std::string& change : arguments.changes) read_change(change, request);
-  const Gains::Response response = ask(arguments.robot, request);
+  Gains::Response response = ask(arguments.robot, nothing);
+  check(request, response);
+  if (!arguments.changes.empty()) response = ask(arguments.robot, request);
   for (std::size_t i = 0; i < response.held_muscle.size(); ++i) {
     std::printf("%s/%s=%.9g\n", response.held_muscle[i].c_str(), response.held_gain[i].c_str(),
                 response.held_value[i]);
   }
-  if (!response.success) throw BadInput(response.message);
-  if (!arguments.save.empty()) save(response, arguments);
+  if (!response.success) throw std::runtime_error(response.message);
+  if (model) save(response, *model, arguments);
   return anthrob::tool::kDone;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "gains", ros::init_options::AnonymousName);
+  ros::init(argc, argv, "gains",
+            ros::init_options::AnonymousName | ros::init_options::NoSigintHandler);
   CLI::App app(
       "Reads, changes and saves the gains of a robot that runs. Prints all gains as they are held, "
       "in the form in which they are changed.",
