@@ -5,22 +5,13 @@ import signal
 import subprocess
 import tempfile
 import threading
-import time
 import unittest
 
 import rospy
 import rostest
 from anthrob_msgs.msg import MuscleStates
 from std_srvs.srv import Trigger, TriggerResponse
-
-
-def wait_for(condition, what, seconds):
-    end = time.time() + seconds
-    while time.time() < end:
-        if condition():
-            return
-        time.sleep(0.01)
-    raise AssertionError('waited %.1f s for: %s' % (seconds, what))
+from waiting import wait_for
 
 
 class InterruptDriver(unittest.TestCase):
@@ -55,11 +46,11 @@ class InterruptDriver(unittest.TestCase):
 
     def test_while_home_winds(self):
         rospy.wait_for_service('home', 60)
-        wait_for(lambda: self.states is not None, 'states', 30 * self.slow)
-        wait_for(lambda: rospy.ServiceProxy('enable', Trigger)().success, 'enable', 30 * self.slow)
+        wait_for(lambda: self.states is not None, 30 * self.slow, 'states')
+        wait_for(lambda: rospy.ServiceProxy('enable', Trigger)().success, 30 * self.slow, 'enable')
         home = threading.Thread(target=self.home, daemon=True)
         home.start()
-        wait_for(lambda: any(volts > 0.0 for volts in self.states.voltage), 'home to pull', 30 * self.slow)
+        wait_for(lambda: any(volts > 0.0 for volts in self.states.voltage), 30 * self.slow, 'home to pull')
         self.assertIsNone(self.answer)
         self.robot.send_signal(signal.SIGINT)
         self.robot.wait(60)

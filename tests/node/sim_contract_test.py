@@ -21,6 +21,7 @@ from std_msgs.msg import Empty
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
+from waiting import wait_for
 
 MUSCLES = ['lateral_deltoid', 'anterior_deltoid', 'posterior_deltoid', 'supraspinatus', 'infraspinatus',
            'teres_minor', 'teres_major', 'pectoralis_major', 'biceps_brachii', 'triceps_brachii', 'brachialis']
@@ -36,15 +37,6 @@ class Collector:
 
     def last(self):
         return self.messages[-1] if self.messages else None
-
-
-def wait_for(condition, seconds, what):
-    end = time.time() + seconds
-    while time.time() < end:
-        if condition():
-            return
-        time.sleep(0.01)
-    raise AssertionError('waited %.1f s for: %s' % (seconds, what))
 
 
 class SimContract(unittest.TestCase):
