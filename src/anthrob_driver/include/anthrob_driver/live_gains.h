@@ -27,9 +27,8 @@ class LiveGains {
   /// Not while changing().
   void start(std::vector<ecu::GainChange> changes, double now);
   /// One cycle after start().
-  /// @param disabled the motors are: enable may follow, which wants the units' word for all of
-  /// their
-  ///   parameters, so that the changes end with that
+  /// @param disabled the motors are: the changes end with the units' word for all of their
+  ///   parameters, which the next enable wants
   void step(double now, bool disabled, const Send& send);
   /// Ends changes that are under way to this ECU.
   void abort(int ecu, const std::string& reason, double now);
