@@ -5,11 +5,19 @@ import signal
 import subprocess
 import unittest
 
+import rosgraph
 import rosnode
 import rospkg
+import rosservice
 import rospy
 import rostest
 from anthrob_msgs.msg import MuscleStates
+from std_srvs.srv import Trigger
+
+
+def where(node):
+    """Its address by the master, which changes when another process takes the name."""
+    return rosnode.get_api_uri(rosgraph.Master('/test'), node, skip_cache=True)
 
 
 class SecondBackend(unittest.TestCase):
@@ -20,21 +28,40 @@ class SecondBackend(unittest.TestCase):
                                  '_model:=' + os.path.join(config, 'model_I.yaml')],
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
 
-    def check_refused(self, name, why):
-        first = rosnode.get_api_uri(rospy.get_master(), '/anthrob/simulator')
+    def check_goes_on(self):
+        """The first one's states and services: a second one that offers the same would take their place."""
         rospy.wait_for_message('muscle_states', MuscleStates, 20)
+        self.assertEqual(rosservice.get_service_node('/anthrob/emergency_stop'), '/anthrob/simulator')
+        for service in 'disable', 'enable':
+            self.assertTrue(rospy.ServiceProxy(service, Trigger)().success, service)
+
+    def check_refused(self, name, why):
+        first = where('/anthrob/simulator')
+        self.check_goes_on()
         second = self.start(name)
         said = second.communicate(timeout=40)[0]
         self.assertEqual(second.returncode, 2, said)
         self.assertIn(why, said)
-        rospy.wait_for_message('muscle_states', MuscleStates, 20)
-        self.assertEqual(rosnode.get_api_uri(rospy.get_master(), '/anthrob/simulator'), first)
+        self.check_goes_on()
+        self.assertEqual(where('/anthrob/simulator'), first)
 
     def test_a_second_simulator_is_refused(self):
         self.check_refused('second', '/anthrob/simulator publishes it already')
 
     def test_a_second_one_of_the_same_name_is_refused(self):
         self.check_refused('simulator', '/anthrob/simulator runs already')
+
+    def test_a_second_launch_ends_no_node_of_the_first(self):
+        first = {node: where(node) for node in rosnode.get_node_names('/anthrob')}
+        self.assertGreater(len(first), 2, first)
+        outside = {key: value for key, value in os.environ.items() if key != 'ROS_NAMESPACE'}
+        second = subprocess.run(['roslaunch', 'anthrob_bringup', 'sim.launch', 'model:=I'], env=outside, timeout=40,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertIn('/anthrob/simulator runs already', second.stdout)
+        self.check_goes_on()
+        for node, uri in first.items():
+            self.assertEqual(where(node), uri, node)
+            self.assertTrue(rosnode.rosnode_ping(node, max_count=1, skip_cache=True), node)
 
     def test_one_that_is_held_up_is_refused_to(self):
         held = self.start('held', '/held')

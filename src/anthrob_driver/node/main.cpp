@@ -1,4 +1,3 @@
-#include <anthrob_msgs/MuscleStates.h>
 #include <ros/ros.h>
 
 #include "anthrob_config/errors.h"
@@ -44,12 +43,7 @@ int main(int argc, char** argv) {
     const std::string no_time = options.pace < 1.0 ? "" : standing_clock(ros::WallDuration(5.0));
     if (!no_time.empty()) throw BadInput("measurements cannot be stamped: " + no_time);
     // Before the bus is opened: our first SYNC would stop the motors of a driver that is there.
-    const ros::Publisher claim = nh.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
-    const std::string other = other_publisher(claim);
-    if (!other.empty()) {
-      throw BadInput(claim.getTopic() + ": " + other +
-                     " publishes it already; stop that back end first");
-    }
+    const ros::Publisher claim = claim_robot(nh);
     DriverNode node(hardware, options, can, check_stamps, nh);
     node.run();
     return 0;

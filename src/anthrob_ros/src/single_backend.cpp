@@ -1,9 +1,12 @@
 #include "anthrob_ros/single_backend.h"
 
+#include <anthrob_msgs/MuscleStates.h>
 #include <ros/network.h>
 #include <ros/xmlrpc_manager.h>
 #include <sys/socket.h>
 #include <xmlrpcpp/XmlRpc.h>
+
+#include "anthrob_config/errors.h"
 
 namespace anthrob {
 
@@ -65,8 +68,13 @@ std::string living_publisher(const std::string& topic) {
   return "";
 }
 
-std::string other_publisher(const ros::Publisher& own) {
-  return living_publisher(own.getTopic());
+ros::Publisher claim_robot(ros::NodeHandle& nh) {
+  const ros::Publisher claim = nh.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
+  const std::string other = living_publisher(claim.getTopic());
+  if (other.empty()) return claim;
+  ros::param::set("/use_sim_time", !living_publisher("/clock").empty());
+  throw BadInput(claim.getTopic() + ": " + other +
+                 " publishes it already; stop that back end first");
 }
 
 bool name_is_taken() {

@@ -29,12 +29,8 @@ int main(int argc, char** argv) {
     }
     const auto model = load_robot_model(file, load);
     for (const std::string& remark : model->remarks) ROS_WARN_STREAM(remark);
+    const ros::Publisher claim = claim_robot(nh);
     SimulatorNode node(model, options, nh);
-    const std::string other = node.other_backend();
-    if (!other.empty()) {
-      throw BadInput(nh.resolveName("muscle_states") + ": " + other +
-                     " publishes it already; stop that back end first");
-    }
     node.run();
     return 0;
   });

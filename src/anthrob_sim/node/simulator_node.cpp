@@ -9,7 +9,6 @@
 
 #include "anthrob_ecu/gains.h"
 #include "anthrob_ros/diagnostics.h"
-#include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/placement.h"
 #include "conversions.h"
 
@@ -417,10 +416,6 @@ void SimulatorNode::pace() {
     deadline_ = now;
   }
   std::this_thread::sleep_until(deadline_);
-}
-
-std::string SimulatorNode::other_backend() const {
-  return other_publisher(muscles_);
 }
 
 void SimulatorNode::run() {

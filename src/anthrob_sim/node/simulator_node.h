@@ -41,8 +41,6 @@ class SimulatorNode {
 
   /// Until ROS shuts down.
   void run();
-  /// Name of another back end in this namespace; empty if there is none.
-  std::string other_backend() const;
 
  private:
   using Clock = std::chrono::steady_clock;

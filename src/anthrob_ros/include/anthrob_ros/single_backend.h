@@ -11,10 +11,13 @@ namespace anthrob {
 ///   without saying so does not count; one that is held up does.
 std::string living_publisher(const std::string& topic);
 
-/// Simulator and driver must not both speak for one robot. To be called after `muscle_states` was
-/// advertised, so that of two that start together both notice.
-/// @return as living_publisher
-std::string other_publisher(const ros::Publisher& own);
+/// Simulator and driver must not both speak for one robot. To be called before anything else is
+/// advertised or sent: a service of the same name would take the place of the other one's.
+/// @return the claim, `muscle_states`, to be held while the back end runs; it is advertised before
+///   the look round, so that of two that start together both notice
+/// @throws BadInput naming who publishes it already; `/use_sim_time`, which the refused launch file
+///   may have set, is then what the clock of those who run asks for
+ros::Publisher claim_robot(ros::NodeHandle& nh);
 
 /// A launch file that is started twice gives two nodes one name, and ROS ends the first when the
 /// second one registers, in motion or not. To be called between ros::init and the first NodeHandle,
