@@ -256,7 +256,11 @@ bool ConfigNode::is_scalar() const {
   return data_->kind == Kind::kScalar;
 }
 bool ConfigNode::has(const std::string& key) const {
-  return data_->find(key) != nullptr;
+  // Else what stands there would be passed over: no key was asked for, so none is unknown.
+  if (data_->kind == Kind::kScalar || data_->kind == Kind::kSequence) fail_expected("a map");
+  const DataPtr child = data_->find(key);
+  if (child && child->kind == Kind::kNull) child->read = true;
+  return child && child->kind != Kind::kNull;
 }
 
 const std::string& ConfigNode::file() const {

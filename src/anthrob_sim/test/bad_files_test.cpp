@@ -294,6 +294,35 @@ const Case kCases[] = {
      "<axis xyz=\"0 1 0\"/>",
      "<axis xyz=\"0 0 0\"/>",
      {"robot.urdf", "elbow", "axis"}},
+    {"mass of a fixed link with a comma",
+     true,
+     "</robot>",
+     "<link name=\"tool\"><inertial><mass value=\"2,0\"/><inertia ixx=\"1e-4\" ixy=\"0\" ixz=\"0\" "
+     "iyy=\"1e-4\" iyz=\"0\" izz=\"1e-4\"/></inertial></link><joint name=\"mount\" "
+     "type=\"fixed\"><parent link=\"lower\"/><child link=\"tool\"/></joint></robot>",
+     {"robot.urdf", "tool", "mass", "2,0"}},
+    {"inertia that is no number",
+     true,
+     "izz=\"2e-5\"",
+     "izz=\"2e-5x\"",
+     {"robot.urdf", "lower", "izz"}},
+    {"sensor without its keys",
+     false,
+     "gravity:",
+     "sensors: {force: 0.3}\ngravity:",
+     {"model.yaml:2", "sensors.force", "0.3", "a map"}},
+    {"sensors that are a list",
+     false,
+     "gravity:",
+     "sensors: [force, 0.3]\ngravity:",
+     {"model.yaml:2", "sensors", "a map"}},
+    {"empty key that is unknown",
+     false,
+     "gravity:",
+     "sensor:\ngravity:",
+     {"model.yaml:2", "sensor", "unknown key"}},
+    {"muscle called all", false, "  biceps:\n", "  all:\n", {"muscles.all", "all muscles"}},
+    {"unit called global", false, "ecu: ecu_1", "ecu: global", {"muscles.biceps.ecu", "global"}},
     {"limits swapped",
      true,
      "lower=\"0\" upper=\"2\"",
@@ -429,6 +458,34 @@ muscles:
   EXPECT_EQ(model->muscles[0].path->obstacles()[1].friction, nullptr);
   EXPECT_NEAR(model->muscles[0].actuator->position_for(0.343), 1.0, 1e-9);
   EXPECT_TRUE(model->muscles[0].has_controller);
+}
+
+TEST(ConfigNode, AKeyThatIsNullIsNotThere) {
+  std::string text = kModel;
+  const std::string end = "    force_sensor_segment: 0\n";
+  text.replace(text.find(end), end.size(), end + "    surface_friction: null\n");
+  const std::string unit = "    controller: pd\n    ecu: ecu_1\n";
+  text.replace(text.find(unit), unit.size(), "    controller: null\n    ecu:\n");
+  const auto model = TemporaryRobot(kUrdf, text + "effects:\nsensors: null\n").load();
+  EXPECT_FALSE(model->muscles[0].has_controller);
+  EXPECT_EQ(model->muscles[0].ecu, "");
+}
+
+TEST(BadFiles, WhatAllMusclesHaveOfTheirOwnMayStandForTheRobotToo) {
+  std::string text = kModel;
+  const std::string end = "    force_sensor_segment: 0\n";
+  text.replace(text.find(end), end.size(),
+               end +
+                   "    eyelet_friction: {law: smooth_stribeck, static: 0.1, kinetic: 0.1, "
+                   "stribeck_velocity: 0.001, steepness: 10}\n");
+  const auto model = TemporaryRobot(kUrdf, text).load();
+  EXPECT_NE(model->muscles[0].path->obstacles()[1].friction, nullptr);
+
+  // Nor are springs unknown without muscles.
+  TemporaryRobot robot(kUrdf, kModel);
+  robot.write("bones.yaml", "extends: model.yaml\nmuscles: null\n");
+  const std::string folder = robot.file().substr(0, robot.file().rfind('/'));
+  EXPECT_TRUE(load_robot_model(folder + "/bones.yaml")->muscles.empty());
 }
 
 TEST(ConfigNode, ErrorsInExtendingFilesNameTheRightFile) {

@@ -258,6 +258,10 @@ TEST_F(MeshFile, PreparedOnceForEveryDescription) {
   const auto part = load(file, half);
   EXPECT_NE(part, first);
   EXPECT_EQ(load(file, half), part);
+  // An unknown key is refused however often the surface was prepared.
+  for (int i = 0; i < 2; ++i) {
+    expect_refusal(file, "colour", ", part: [{point: [0, 0, 0], normal: [0, 1, 0], colour: red}]");
+  }
   write("box.stl", binary_stl(box(0.021)));  // the file has changed
   const auto larger = load(file);
   EXPECT_NE(larger, first);

@@ -42,6 +42,8 @@ class ConfigNode {
   bool is_map() const;
   bool is_sequence() const;
   bool is_scalar() const;
+  /// A key without value, or null, is not there: so a file takes away what it extends.
+  /// @throws BadInput if this is a word, a number or a list
   bool has(const std::string& key) const;
 
   /// A required member of a map.

@@ -129,14 +129,11 @@ class Builder {
   }
 
   void read_muscles() {
-    if (!config_.has("muscles")) return;
-    for (const auto& [name, node] : config_.at("muscles").entries()) {
-      require_snake_case(node, name);
-      if (skeleton_->find_joint(name) >= 0) {
-        node.fail("a joint of " + model_->urdf_file +
-                  " has this name: expected another, for recordings name both");
-      }
-      model_->muscles.push_back(read_muscle(name, node));
+    // Also where every muscle has its own.
+    eyelet_friction_ = friction_of(config_, "eyelet_friction", nullptr);
+    surface_friction_ = friction_of(config_, "surface_friction", nullptr);
+    if (config_.has("muscles")) {
+      for (const auto& [name, node] : config_.at("muscles").entries()) add_muscle(name, node);
     }
     for (const char* library : {"springs", "actuators", "controllers"}) {
       if (!config_.has(library)) continue;
@@ -144,6 +141,16 @@ class Builder {
         if (!used_kinds_.count(std::string(library) + "." + name)) node.ignore();
       }
     }
+  }
+
+  void add_muscle(const std::string& name, const ConfigNode& node) {
+    require_snake_case(node, name);
+    if (name == "all") node.fail("'all' stands for all muscles: expected another name");
+    if (skeleton_->find_joint(name) >= 0) {
+      node.fail("a joint of " + model_->urdf_file +
+                " has this name: expected another, for recordings name both");
+    }
+    model_->muscles.push_back(read_muscle(name, node));
   }
 
   /// The entry of a library of kinds that a muscle names.
@@ -180,6 +187,9 @@ class Builder {
     if (node.has("ecu")) {
       muscle.ecu = node.text("ecu");
       require_snake_case(node.at("ecu"), muscle.ecu);
+      if (muscle.ecu == "all" || muscle.ecu == "global") {
+        node.at("ecu").fail_expected("another name: this one stands for all of them");
+      }
     }
     if (node.has("controller")) {
       if (!dynamic_cast<const GearedMotor*>(muscle.actuator.get())) {
@@ -237,8 +247,8 @@ class Builder {
     const ConfigNode path = muscle.at("path");
     const auto entries = path.items();
     if (entries.size() < 2) path.fail("expected at least two points: origin and insertion");
-    const auto eyelets = friction_of(muscle, "eyelet_friction");
-    const auto surfaces = friction_of(muscle, "surface_friction");
+    const auto eyelets = friction_of(muscle, "eyelet_friction", eyelet_friction_);
+    const auto surfaces = friction_of(muscle, "surface_friction", surface_friction_);
     std::vector<PathObstacle> obstacles;
     for (std::size_t i = 0; i < entries.size(); ++i) {
       obstacles.push_back(read_obstacle(entries[i], eyelets, surfaces));
@@ -264,11 +274,10 @@ class Builder {
     return std::make_shared<PathModel>(*skeleton_, std::move(obstacles));
   }
 
-  /// The muscle's own friction law, else the robot's, else none.
-  std::shared_ptr<const FrictionLaw> friction_of(const ConfigNode& muscle, const std::string& key) {
-    if (muscle.has(key)) return make_friction_law(muscle.at(key), options_.step);
-    if (config_.has(key)) return make_friction_law(config_.at(key), options_.step);
-    return nullptr;
+  std::shared_ptr<const FrictionLaw> friction_of(
+      const ConfigNode& node, const std::string& key,
+      const std::shared_ptr<const FrictionLaw>& otherwise) const {
+    return node.has(key) ? make_friction_law(node.at(key), options_.step) : otherwise;
   }
 
   PathObstacle read_obstacle(const ConfigNode& entry,
@@ -379,6 +388,7 @@ class Builder {
   std::shared_ptr<RobotModel> model_;
   std::shared_ptr<SkeletonModel> skeleton_;
   std::set<std::string> used_kinds_;
+  std::shared_ptr<const FrictionLaw> eyelet_friction_, surface_friction_;  ///< null: none
 };
 
 }  // namespace

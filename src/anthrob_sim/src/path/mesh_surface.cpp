@@ -282,6 +282,21 @@ std::string description(const ConfigNode& node, const Pose& X_BL) {
   return out.str();
 }
 
+/// What was read when the surface was prepared, and no more: an unknown key is refused every time.
+void pass_over(const ConfigNode& node) {
+  for (const char* key : kKeys) {
+    if (!node.has(key)) continue;
+    if (!node.at(key).is_sequence()) {
+      node.at(key).ignore();
+      continue;
+    }
+    for (const ConfigNode& item : node.at(key).items()) {
+      if (!item.is_map()) continue;
+      for (const char* part : {"point", "normal"}) item.at(part).ignore();
+    }
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const WrappingSurface> MeshSurface::load(const ConfigNode& node, const Pose& X_BL) {
@@ -291,9 +306,7 @@ std::shared_ptr<const WrappingSurface> MeshSurface::load(const ConfigNode& node,
     known = false;
     return prepare(node, X_BL);
   });
-  for (const char* key : kKeys) {
-    if (known && node.has(key)) node.at(key).ignore();
-  }
+  if (known) pass_over(node);
   return surface;
 }
 

@@ -70,7 +70,8 @@ class Builder {
       const std::lock_guard<std::mutex> lock(one_at_a_time);
       MessageCollector messages;
       robot = urdf::parseURDF(text.str());
-      if (!robot) {
+      // A number that cannot be read leaves a robot without what it belongs to.
+      if (!robot || !messages.text().empty()) {
         throw BadInput(file_ + ": not a valid URDF: " +
                        (messages.text().empty() ? "no XML" : messages.text()));
       }
