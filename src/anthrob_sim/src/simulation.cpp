@@ -438,12 +438,14 @@ const double* Simulation::read_positions() const {
 }
 
 double Simulation::read_velocity(int joint) const {
+  check_joint(joint);
   const int dof = model_->skeleton->joints[joint].velocity_offset;
   if (model_->reading_effects.empty()) return tree_.velocities()[dof];
   return read_positions()[model_->skeleton->position_count + dof];
 }
 
 Vec3 Simulation::read_ball_velocity(int joint) const {
+  check_joint(joint);
   if (model_->reading_effects.empty()) return tree_.ball_velocity(joint);
   const double* w = read_positions() + model_->skeleton->position_count +
                     model_->skeleton->joints[joint].velocity_offset;
@@ -482,13 +484,29 @@ void Simulation::check_finite() const {
   }
 }
 
+const Muscle& Simulation::muscle(int i) const {
+  check_muscle(i);
+  return muscles_[i];
+}
+
+double Simulation::joint_effort(int joint) const {
+  check_joint(joint);
+  return effort_[joint];
+}
+
+double Simulation::joint_load(int joint) const {
+  check_joint(joint);
+  return load_[joint];
+}
+
 double Simulation::measured_joint_position(int joint) const {
+  check_joint(joint);
   return store_.at(measured_offset_)[joint];
 }
 
 std::vector<double> Simulation::moment_arms(int index) const {
   const SkeletonModel& skeleton = *model_->skeleton;
-  const MusclePath& path = muscles_.at(index).path();
+  const MusclePath& path = muscle(index).path();
   std::vector<double> arms(skeleton.velocity_count, 0.0);
   for (std::size_t i = 0; i < path.segments().size(); ++i)
     path.add_moment_arms(i, 1.0, tree_, arms.data());
@@ -501,7 +519,12 @@ std::vector<double> Simulation::moment_arms(int index) const {
 }
 
 Pose Simulation::link_pose(int frame) const {
-  const FrameModel& model = model_->skeleton->frames.at(frame);
+  const auto& frames = model_->skeleton->frames;
+  if (frame < 0 || frame >= static_cast<int>(frames.size())) {
+    throw BadInput("frame " + std::to_string(frame) + ": expected an index below " +
+                   std::to_string(frames.size()));
+  }
+  const FrameModel& model = frames[frame];
   const BodyModel& body = model_->skeleton->bodies[model.body];
   return bodies()[model.body].X_WB * body.X_LB.inverse() * model.X_LF;
 }
@@ -531,7 +554,9 @@ Snapshot Simulation::snapshot() const {
 }
 
 void Simulation::restore(const Snapshot& snapshot) {
-  if (snapshot.state.size() != store_.data().size() || snapshot.bodies.size() != bodies().size()) {
+  if (snapshot.state.size() != store_.data().size() || snapshot.bodies.size() != bodies().size() ||
+      snapshot.q.size() != q_.size() || snapshot.effort.size() != effort_.size() ||
+      snapshot.load.size() != load_.size()) {
     throw BadInput("snapshot: it belongs to another model");
   }
   step_index_ = snapshot.step_index;

@@ -259,6 +259,21 @@ TEST(Simulation, RestoringAndPlacingBringTheLastStepsLossesToo) {
 TEST(Simulation, SnapshotOfAnotherModelIsRefused) {
   Simulation one(anthrob_model("I")), two(anthrob_model("II"));
   EXPECT_THROW(one.restore(two.snapshot()), BadInput);
+  Snapshot other = one.snapshot();
+  other.q.pop_back();
+  EXPECT_THROW(one.restore(other), BadInput);
+}
+
+TEST(Simulation, WhatIsNotThereIsRefused) {
+  Simulation sim(anthrob_model("I"));
+  const int nobody = sim.model().find_muscle("nobody");
+  EXPECT_THROW(sim.muscle(nobody), BadInput);
+  EXPECT_THROW(sim.moment_arms(nobody), BadInput);
+  EXPECT_THROW(sim.link_pose(99), BadInput);
+  EXPECT_THROW(sim.measured_joint_position(2), BadInput);
+  EXPECT_THROW(sim.read_velocity(-1), BadInput);
+  EXPECT_THROW(sim.joint_effort(2), BadInput);
+  EXPECT_THROW(sim.joint_load(2), BadInput);
 }
 
 TEST(Simulation, DoesNotAllocateWhileStepping) {
@@ -325,6 +340,8 @@ TEST(Simulation, AGainCountsFromTheNextTickOn) {
   sim.reset();
   EXPECT_EQ(sim.muscle(0).controller().position.proportional, 0.5);
   EXPECT_THROW(sim.set_gain(0, ecu::Parameter::kVoltageLimit, 1.0), BadInput);
+  EXPECT_THROW(sim.set_gain(0, ecu::Parameter::kPositionProportional, -1.0), BadInput);
+  EXPECT_THROW(sim.set_gain(0, ecu::Parameter::kPositionProportional, std::nan("")), BadInput);
   Simulation hill(load_robot_model(testing_support::config("two_muscle_rig/model_hill.yaml")));
   EXPECT_THROW(hill.set_gain(0, ecu::Parameter::kPositionProportional, 1.0), BadInput);
 }

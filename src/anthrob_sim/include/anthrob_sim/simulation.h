@@ -47,7 +47,8 @@ class Simulation {
   void set_enabled(int muscle, bool enabled);
   /// A gain of the muscle's controller from the next tick on. Like a model's number it is no state:
   /// snapshots and reset() do not know of it.
-  /// @throws BadInput if the muscle has no controller, or the parameter is no gain
+  /// @throws BadInput if the muscle has no controller, the parameter is no gain, or the value is
+  /// outside of its range
   void set_gain(int muscle, ecu::Parameter gain, double value);
   /// The power stage gets this voltage [V], past the control law and what delays its commands,
   /// until release().
@@ -74,7 +75,7 @@ class Simulation {
   /// @param q size position_count   @param positions one a muscle
   /// @throws BadInput for other sizes or numbers that are not finite; nothing has changed then
   void place(const std::vector<double>& q, const std::vector<double>& positions);
-  /// Back to the start, but time goes on.
+  /// Back to the start, but time goes on; muscles are enabled or not as they were.
   void reset();
   /// Time in which nothing moves: what is placed next gets an instant of its own.
   void skip(int steps) { step_index_ += static_cast<std::uint64_t>(steps); }
@@ -83,7 +84,8 @@ class Simulation {
   void step(int count = 1);
 
   std::size_t muscle_count() const { return muscles_.size(); }
-  const Muscle& muscle(int i) const { return muscles_[i]; }
+  /// Here and below, @throws BadInput for an index out of range, such as -1 for an unknown name.
+  const Muscle& muscle(int i) const;
   const std::vector<BodyState>& bodies() const { return skeleton_.bodies(); }
   const KinematicTree& tree() const { return tree_; }
   /// Joint positions: 1 number, or w, x, y, z of a ball joint.
@@ -97,8 +99,8 @@ class Simulation {
   const double* read_positions() const;
   Vec3 read_ball_velocity(int joint) const;
   double read_velocity(int joint) const;
-  double joint_effort(int joint) const { return effort_[joint]; }
-  double joint_load(int joint) const { return load_[joint]; }
+  double joint_effort(int joint) const;
+  double joint_load(int joint) const;
   /// Moment arms -dl/dq of a muscle [m]: one a generalised velocity, ball joints in the child's
   /// axes.
   std::vector<double> moment_arms(int muscle) const;

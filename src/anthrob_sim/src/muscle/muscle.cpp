@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_ecu/gains.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -102,6 +103,9 @@ void Muscle::command(ecu::Mode mode, double reference) {
   if (mode != ecu::Mode::kVoltage && !model_.has_controller) {
     throw BadInput("muscle " + model_.name + ": mode: it has no controller and takes VOLTAGE only");
   }
+  if (mode == ecu::Mode::kForce && !(model_.limits.force > 0.0)) {
+    throw BadInput("muscle " + model_.name + ": mode: it has no mode FORCE");
+  }
   memory().mode = static_cast<double>(mode);
   memory().reference = reference;
 }
@@ -112,6 +116,12 @@ void Muscle::set_gain(ecu::Parameter gain, double value) {
   }
   double* place = ecu::gain_of(controller_, gain);
   if (!place) throw BadInput("muscle " + model_.name + ": expected a gain");
+  const ecu::ParameterInfo& info = *ecu::find_gain(ecu::name(gain));
+  const Bounds range = Bounds::between(info.lowest, info.highest);
+  if (!range.contains(value)) {
+    throw BadInput("muscle " + model_.name + ": " + info.name + ": " + std::to_string(value) +
+                   ": expected " + range.text() + " [" + info.unit + "]");
+  }
   *place = value;
 }
 
