@@ -355,6 +355,34 @@ TEST(Skeleton, JointsDoNotDriftApart) {
   }
 }
 
+TEST(Skeleton, LargeRatiosOfMassesHoldAndKeepTheEnergy) {
+  for (const double ratio : {1e-3, 1e3}) {
+    SkeletonModel model = anthrob_without_friction();
+    model.bodies[2].mass *= ratio;  // the forearm
+    model.bodies[2].principal *= ratio;
+    KinematicTree tree(model);
+    std::vector<BodyState> bodies;
+    const Quat raised(Eigen::AngleAxisd(1.2, Vec3(0.2, 0.9, 0.3).normalized()));
+    tree.place({raised.w(), raised.x(), raised.y(), raised.z(), 1.0}, {1, -1, 1, 2}, bodies);
+    const Vec3 gravity(0, 0, -9.81);
+    Skeleton skeleton(model, gravity, 1e-4, false);
+    skeleton.set_bodies(bodies);
+    const Vec3 center_B = model.bodies[1].X_LB.inverse() * Vec3(0, 0.22, 0);
+    std::vector<double> q = model.rest_configuration();
+    const double begun = total_energy(model, bodies, gravity);
+    double turned_over = 0.0;  // between kinetic and potential energy
+    for (int i = 0; i < 20000; ++i) {
+      skeleton.clear_wrenches();
+      skeleton.step();
+      tree.update(skeleton.bodies(), q);
+      ASSERT_LT((skeleton.bodies()[1].X_WB * center_B - tree.joint(0).center_W).norm(), 1e-6) << i;
+      turned_over = std::max(turned_over, kinetic_energy(model, skeleton.bodies()));
+    }
+    const double lost = total_energy(model, skeleton.bodies(), gravity) - begun;
+    EXPECT_LT(std::abs(lost), 5e-3 * turned_over) << ratio;
+  }
+}
+
 TEST(Skeleton, CollisionShapesStopAFallingBody) {
   // A ball, hinged to a light carriage on a vertical slide, falls onto the ground plate and rests
   // there. (Bodies that share a joint do not collide with each other.)
@@ -388,6 +416,61 @@ TEST(Skeleton, CollisionShapesStopAFallingBody) {
   }
   EXPECT_NEAR(skeleton.bodies()[2].X_WB.p.z(), 0.05, 1e-3);
   EXPECT_NEAR(skeleton.bodies()[2].v_W.norm(), 0.0, 1e-6);
+}
+
+TEST(Skeleton, ContactsOfSeveralShapesContinueWithTheSameBits) {
+  // A bar with a ball at each end, hinged to a carriage on a slide, falls aslant onto two plates:
+  // the pairs of shapes meet one after the other, and a restored world meets them all at once.
+  SkeletonModel model;
+  model.bodies.resize(3);
+  for (const double side : {-0.6, 0.6}) {
+    CollisionModel plate, ball;
+    plate.type = ShapeType::kBox, plate.size = Vec3(1, 1, 0.1);
+    plate.X_LS.p = Vec3(side, 0, -0.05);
+    ball.type = ShapeType::kSphere, ball.size = Vec3(0.05, 0, 0);
+    ball.X_LS.p = Vec3(side / 3.0, 0, 0);
+    model.bodies[0].collisions.push_back(plate);
+    model.bodies[2].collisions.push_back(ball);
+  }
+  for (int i : {1, 2}) {
+    model.bodies[i].mass = 0.2;
+    model.bodies[i].principal = Vec3::Constant(2e-4);
+  }
+  JointModel slide, hinge;
+  slide.type = JointType::kPrismatic;
+  slide.child = 1;
+  slide.X_PC_rest.p = Vec3(0, 0, 0.3);
+  hinge.parent = 1, hinge.child = 2;
+  hinge.axis_C = Vec3::UnitY();
+  hinge.position_offset = hinge.velocity_offset = 1;
+  model.joints = {slide, hinge};
+  model.position_count = model.velocity_count = 2;
+  KinematicTree tree(model);
+  std::vector<BodyState> bodies;
+  tree.place({0.0, 0.4}, {}, bodies);
+  const auto advance = [](Skeleton& skeleton, int steps) {
+    for (int i = 0; i < steps; ++i) {
+      skeleton.clear_wrenches();
+      skeleton.step();
+    }
+  };
+  Skeleton original(model, Vec3(0, 0, -9.81), 1e-3, true);
+  original.set_bodies(bodies);
+  bool met = false;
+  for (int round = 0; round < 20; ++round) {
+    advance(original, 37);
+    Skeleton fresh(model, Vec3(0, 0, -9.81), 1e-3, true);
+    fresh.set_bodies(original.bodies());
+    advance(original, 37);
+    advance(fresh, 37);
+    met = met || original.bodies()[2].X_WB.p.z() < 0.15;
+    for (int i : {1, 2}) {
+      ASSERT_EQ(original.bodies()[i].X_WB.p, fresh.bodies()[i].X_WB.p) << round;
+      ASSERT_EQ(original.bodies()[i].X_WB.R, fresh.bodies()[i].X_WB.R) << round;
+      ASSERT_EQ(original.bodies()[i].w_W, fresh.bodies()[i].w_W) << round;
+    }
+  }
+  EXPECT_TRUE(met);
 }
 
 }  // namespace

@@ -84,14 +84,16 @@ std::unique_ptr<btCollisionShape> make_shape(const CollisionModel& model) {
 }
 
 /// What Bullet needs to find and solve contacts. Nothing of it may remember earlier steps, so that
-/// a restored snapshot continues with the same bits: pairs are sorted and contact points made anew.
+/// a restored snapshot continues with the same bits: pairs are sorted, and all that they found is
+/// made anew, for the order in which several shapes of two bodies first met is memory, too.
 struct ContactWorld {
   ContactWorld() : solver(&dantzig), world(&dispatcher, &broadphase, &solver, &configuration) {
     world.getDispatchInfo().m_deterministicOverlappingPairs = true;
   }
   void forget_contacts() {
-    for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
-      dispatcher.getManifoldByIndexInternal(i)->clearManifold();
+    btOverlappingPairCache& pairs = *broadphase.getOverlappingPairCache();
+    for (int i = 0; i < pairs.getNumOverlappingPairs(); ++i) {
+      pairs.cleanOverlappingPair(pairs.getOverlappingPairArray()[i], &dispatcher);
     }
   }
 
