@@ -87,7 +87,7 @@ class ComputedForce(unittest.TestCase):
     def test_refuses_nonsense(self):
         cases = [
             (dict(joint_name=['knee'], joint_position=[0.0], duration=1.0), 'knee'),
-            (dict(joint_name=['elbow'], joint_position=[NAN], duration=1.0), 'limits'),
+            (dict(joint_name=['elbow'], joint_position=[NAN], duration=1.0), 'finite'),
             (dict(joint_name=['elbow'], joint_position=[3.0], duration=1.0), 'limits'),
             (dict(joint_name=['elbow'], joint_position=[], duration=1.0), 'differ'),
             (dict(ball_joint_name=['shoulder'], ball_joint_orientation=[Quaternion()], duration=1.0), 'quaternion'),

@@ -7,48 +7,30 @@
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/placement.h"
 
 namespace {
 
 using anthrob::BadInput;
-using anthrob::Quat;
 
-/// @throws BadInput
+/// @param q where joints that are not named go   @throws BadInput
 std::vector<double> posture_of(const anthrob_msgs::GoTo::Request& request,
-                               const anthrob::SkeletonModel& skeleton, std::vector<double> q) {
+                               const anthrob::RobotModel& model, const std::vector<double>& q) {
   if (request.joint_name.size() != request.joint_position.size() ||
       request.ball_joint_name.size() != request.ball_joint_orientation.size()) {
     throw BadInput("names and values differ in number");
   }
+  anthrob::Placement posture(model, q);
   for (std::size_t i = 0; i < request.joint_name.size(); ++i) {
-    const int index = skeleton.find_joint(request.joint_name[i]);
-    if (index < 0 || skeleton.joints[index].type == anthrob::JointType::kBall) {
-      throw BadInput("joint '" + request.joint_name[i] +
-                     "': no hinge or prismatic joint of that name");
-    }
-    const anthrob::JointModel& joint = skeleton.joints[index];
-    const double value = request.joint_position[i];
-    if (!std::isfinite(value) ||
-        (joint.stop.enabled && (value < joint.stop.lower || value > joint.stop.upper))) {
-      throw BadInput("joint '" + joint.name + "': expected a position within its limits");
-    }
-    q[joint.position_offset] = value;
+    posture.set_joint(request.joint_name[i], request.joint_position[i]);
   }
   for (std::size_t i = 0; i < request.ball_joint_name.size(); ++i) {
-    const int index = skeleton.find_joint(request.ball_joint_name[i]);
-    if (index < 0 || skeleton.joints[index].type != anthrob::JointType::kBall)
-      throw BadInput("ball joint '" + request.ball_joint_name[i] + "': no ball joint of that name");
     const auto& o = request.ball_joint_orientation[i];
-    const Quat turn(o.w, o.x, o.y, o.z);
-    if (!(std::abs(turn.norm() - 1.0) < 1e-3))
-      throw BadInput("ball joint '" + request.ball_joint_name[i] + "': expected a unit quaternion");
-    const Quat unit = anthrob::canonical(turn.normalized());
-    double* p = &q[skeleton.joints[index].position_offset];
-    p[0] = unit.w(), p[1] = unit.x(), p[2] = unit.y(), p[3] = unit.z();
+    posture.set_ball_joint(request.ball_joint_name[i], anthrob::Quat(o.w, o.x, o.y, o.z));
   }
   if (!(request.duration > 0.0) || !std::isfinite(request.duration))
     throw BadInput("duration: expected a number > 0 [s]");
-  return q;
+  return posture.q();
 }
 
 class ComputedForceNode {
@@ -137,7 +119,7 @@ class ComputedForceNode {
   bool on_go_to(anthrob_msgs::GoTo::Request& request, anthrob_msgs::GoTo::Response& response) {
     if (!ready(response.message)) return true;
     try {
-      controller_.go_to(posture_of(request, *controller_.model().skeleton, controller_.target()),
+      controller_.go_to(posture_of(request, controller_.model(), controller_.target()),
                         request.duration);
       response.success = true;
     } catch (const BadInput& error) {

@@ -29,6 +29,11 @@ void read_joint(const ConfigNode& node, const JointModel& joint, std::vector<dou
   norm = std::sqrt(norm);
   if (std::abs(norm - 1.0) > 1e-3) node.fail_expected("a unit quaternion [w, x, y, z]");
   for (int k = 0; k < 4; ++k) p[k] /= norm;
+  const double angle = angular_distance(Quat(p[0], p[1], p[2], p[3]), Quat::Identity());
+  if (joint.stop.enabled && angle > joint.stop.upper + 1e-6) {
+    node.fail("turned by " + std::to_string(angle) + " rad: expected at most " +
+              std::to_string(joint.stop.upper) + ", the joint's stop");
+  }
 }
 
 /// Names become files, cells of tables and keys.
@@ -96,6 +101,22 @@ void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
                  " cannot hold it: " + std::to_string(shortfall) + " Nm short");
 }
 
+namespace {
+
+/// Back ends would refuse such a command whole.
+void refuse_beyond_limits(const std::string& posture, const RobotModel& model,
+                          const std::vector<double>& reference) {
+  for (std::size_t m = 0; m < reference.size(); ++m) {
+    const MuscleModel& muscle = model.muscles[m];
+    if (!muscle.has_controller || std::abs(reference[m]) <= muscle.limits.position) continue;
+    throw BadInput("posture '" + posture + "': muscle '" + muscle.name + "' would have to go to " +
+                   std::to_string(reference[m]) + " rad, more than its limit in " + model.file +
+                   ", " + std::to_string(muscle.limits.position));
+  }
+}
+
+}  // namespace
+
 std::vector<std::vector<double>> PostureSequence::references(
     const std::shared_ptr<const RobotModel>& model) const {
   Simulation scratch(model);
@@ -107,6 +128,7 @@ std::vector<std::vector<double>> PostureSequence::references(
     }
     const Equilibrium equilibrium = find_equilibrium(scratch, step.q, options);
     refuse_if_not_holdable(step.name, *model, equilibrium);
+    refuse_beyond_limits(step.name, *model, equilibrium.reference);
     list.push_back(equilibrium.reference);
   }
   return list;

@@ -102,6 +102,20 @@ TEST(PostureSequence, TakesReferencesAsTheyWereRecorded) {
   EXPECT_EQ(sequence.references(model)[0], (std::vector<double>{1.5, -0.5}));
 }
 
+TEST(PostureSequence, RefusesWhatIsBeyondAStopOrALimit) {
+  const auto torso = load_robot_model(kConfig + "/torso_100/model_II.yaml");
+  const File near("postures: [{name: a, joints: {neck: [0.9553, 0.2955, 0, 0]}}]\n");  // 0.6 rad
+  EXPECT_EQ(PostureSequence::load(near.path(), *torso).steps.size(), 1u);
+  const File far("postures: [{name: a, joints: {neck: [0.5403, 0.8415, 0, 0]}}]\n");  // 2 rad
+  EXPECT_THROW(PostureSequence::load(far.path(), *torso), BadInput);
+
+  const auto model = load_robot_model(kConfig + "/two_muscle_rig/model_I.yaml",
+                                      {1e-3, {{"controllers.pd.limits.position", 0.2}}});
+  PostureSequence sequence;
+  sequence.steps.push_back({"bent", {1.0}, 1.0, {}});
+  EXPECT_THROW(sequence.references(model), BadInput);
+}
+
 TEST(PostureSequence, SaysWhenAPostureCannotBeHeld) {
   const auto model =
       load_robot_model(kConfig + "/two_muscle_rig/model_I.yaml", {1e-3, {{"gravity.2", -9.81}}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/simulation.h"
@@ -27,7 +28,10 @@ std::string text(double value) {
 }  // namespace
 
 Placement::Placement(const RobotModel& model)
-    : model_(model), q_(model.skeleton->rest_configuration()), positions_(model.muscles.size()) {}
+    : Placement(model, model.skeleton->rest_configuration()) {}
+
+Placement::Placement(const RobotModel& model, std::vector<double> q)
+    : model_(model), q_(std::move(q)), positions_(model.muscles.size()) {}
 
 Placement::Placement(const Simulation& sim) : model_(sim.model()), q_(sim.configuration()) {
   for (std::size_t i = 0; i < sim.muscle_count(); ++i) {

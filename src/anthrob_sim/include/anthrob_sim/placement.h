@@ -19,6 +19,8 @@ class Placement {
 
   /// Starts from rest, with all actuators at 0.   @param model must outlive the object
   explicit Placement(const RobotModel& model);
+  /// Starts from joint positions as Simulation::place takes them, with all actuators at 0.
+  Placement(const RobotModel& model, std::vector<double> q);
   /// Starts from where a simulation is.
   explicit Placement(const Simulation& sim);
 

@@ -79,7 +79,7 @@ class RobotLink {
   bool jumped_ = false;
 };
 
-/// References for all muscles with a controller, in one mode.
+/// References for all muscles that have the mode: a command with another would be refused whole.
 anthrob_msgs::MuscleCommand make_command(const RobotModel& model, ecu::Mode mode,
                                          const std::vector<double>& references);
 
