@@ -52,6 +52,19 @@ class DrivenAxis(unittest.TestCase):
         """However long the command is under way: time stands still but for these steps."""
         self.wait_until(lambda: self.effort_after(1) == newtons)
 
+    def test_lock_step_waits_for_its_effort(self):
+        for k in range(1, 40):
+            command = JointState(name=['axis'], effort=[float(k)])
+            command.header.stamp = rospy.Time(0, k)
+            self.effort.publish(command)
+            answer = self.step(steps=1, command_stamp=command.header.stamp)
+            self.assertTrue(answer.success, answer.message)
+            self.wait_until(lambda: self.states and self.states[-1].header.stamp >= answer.stamp)
+            self.assertEqual(self.states[-1].effort[0], float(k))
+        answer = self.step(steps=1, command_stamp=rospy.Time(0, 40))
+        self.assertFalse(answer.success)
+        self.assertIn('no joint_effort_command', answer.message)
+
     def check_stop_is_latched(self):
         self.assertEqual(self.effort_after(2), 0.0)
         self.push(50.0)

@@ -22,7 +22,10 @@ void ClockWait::look() {
   if (next_.isZero()) next_ = now + kFirst;
   if (now < next_) return;
   next_ = now + kAgain;
-  ROS_WARN_STREAM("waiting for /clock: " << kStands);
+  ROS_WARN_STREAM("waiting for /clock: "
+                  << (living_publisher("/clock").empty()
+                          ? kStands
+                          : "the simulator is paused at its start; sim/step or sim/pause false"));
 }
 
 void ClockWatch::look(const ros::Time& time) {

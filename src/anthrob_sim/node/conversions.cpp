@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_ecu/fault.h"
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_sim/path/cylinder.h"
 #include "anthrob_sim/path/mesh_surface.h"
@@ -52,6 +53,15 @@ void read_state(const anthrob_msgs::SetState::Request& request, Placement& place
   }
 }
 
+namespace {
+
+/// As on the robot: a unit that does not measure a muscle's force has no mode FORCE for it.
+bool has_force_sensor(const MuscleModel& muscle) {
+  return !muscle.has_controller || muscle.limits.force > 0.0;
+}
+
+}  // namespace
+
 anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Supervisor& supervisor,
                                          const ros::Time& stamp) {
   anthrob_msgs::MuscleStates states;
@@ -64,7 +74,7 @@ anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Super
     states.velocity.push_back(measured.velocity);
     states.current.push_back(measured.current);
     states.voltage.push_back(muscle.voltage());
-    states.force.push_back(measured.force);
+    states.force.push_back(has_force_sensor(muscle.model()) ? measured.force : NAN);
     states.reference.push_back(muscle.reference());
     states.mode.push_back(static_cast<std::uint8_t>(muscle.mode()));
     states.ecu_state.push_back(static_cast<std::uint8_t>(supervisor.state(static_cast<int>(i))));
@@ -128,7 +138,10 @@ std::vector<diagnostic_msgs::DiagnosticStatus> ecu_statuses(const ecu::Superviso
                  : state == ecu::State::kStopping ? diagnostic_msgs::DiagnosticStatus::WARN
                                                   : diagnostic_msgs::DiagnosticStatus::OK;
     unit.message = ecu::name(state);
-    unit.values = {key_value("stop_latched", supervisor.stop_latched() ? "true" : "false")};
+    // As the driver has them; nothing goes wrong with simulated units.
+    unit.values = {key_value("stop_latched", supervisor.stop_latched() ? "true" : "false"),
+                   key_value("fault", ecu::name(ecu::Fault::kNone)),
+                   key_value("zero_lost", "false")};
     statuses.push_back(unit);
   }
   return statuses;

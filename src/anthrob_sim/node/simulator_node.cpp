@@ -52,7 +52,7 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
   commands.setCallbackQueue(&command_queue_);
   subscribers_ = {
       commands.subscribe("muscle_command", 100, &SimulatorNode::on_command, this, kNoDelay),
-      nh_.subscribe("joint_effort_command", 100, &SimulatorNode::on_effort, this, kNoDelay),
+      commands.subscribe("joint_effort_command", 100, &SimulatorNode::on_effort, this, kNoDelay),
       nh_.subscribe<std_msgs::Empty>(
           "emergency_stop", 1,
           [this](const std_msgs::EmptyConstPtr&) {
@@ -85,9 +85,7 @@ ros::Time SimulatorNode::stamp() const {
 // ---- commands
 
 void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
-  // Somebody else may send an older one, one without stamp, or one by another clock, far ahead.
-  if (command.header.stamp <= stamp())
-    last_command_stamp_ = std::max(last_command_stamp_, command.header.stamp);
+  note_stamp(command.header.stamp);
   const auto outcome =
       supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_);
   if (!outcome.accepted) return warn_of_refusal("muscle_command", outcome.reason);
@@ -99,7 +97,13 @@ void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   }
 }
 
+void SimulatorNode::note_stamp(const ros::Time& commanded) {
+  // Somebody else may send an older one, one without stamp, or one by another clock, far ahead.
+  if (commanded <= stamp()) last_command_stamp_ = std::max(last_command_stamp_, commanded);
+}
+
 void SimulatorNode::on_effort(const sensor_msgs::JointState& command) {
+  if (supervisor_.muscles().empty()) note_stamp(command.header.stamp);
   const auto outcome = driven_.command(command.name, command.effort, sim_);
   if (!outcome.accepted) warn_of_refusal("joint_effort_command", outcome.reason);
 }
@@ -214,7 +218,9 @@ bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
   } else if (request.steps > kMostSteps) {
     response.message = "steps: expected at most " + std::to_string(kMostSteps);
   } else if (!wait_for_command(request.command_stamp)) {
-    response.message = "no muscle_command with the stamp asked for came within 1 s";
+    response.message = std::string("no ") +
+                       (supervisor_.muscles().empty() ? "joint_effort_command" : "muscle_command") +
+                       " with the stamp asked for came within 1 s";
   } else if (!failure_.empty()) {
     response.message = failure_ + "; call sim/reset";
   } else {
@@ -231,7 +237,8 @@ bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   last_command_stamp_ = ros::Time();
   publish(true);
   response.success = true;
-  response.message = "at rest; simulated time goes on";
+  response.message = options_.paused ? "at rest, paused; sim/pause false lets time go on"
+                                     : "at rest; simulated time goes on";
   return true;
 }
 
@@ -300,7 +307,7 @@ bool SimulatorNode::advance(int steps) {
   } catch (const NumericalFailure& failure) {
     failure_ = failure.what();
     options_.paused = true;
-    ROS_ERROR_STREAM(failure_ << "; simulation paused, sim/reset brings it back");
+    ROS_ERROR_STREAM(failure_ << "; paused: sim/reset brings it back, then sim/pause false");
     return false;
   }
 }

@@ -47,6 +47,8 @@ class SimulatorNode {
 
   void on_command(const anthrob_msgs::MuscleCommand& command);
   void on_effort(const sensor_msgs::JointState& command);
+  /// Of a command that sim/step may wait for.
+  void note_stamp(const ros::Time& commanded);
   void warn_of_refusal(const char* topic, const std::string& reason);
   /// Puts a request to muscles and driven joints.
   template <typename Request>

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "anthrob_sim/report/solved_path.h"
 #include "support.h"
@@ -35,6 +36,16 @@ TEST(MuscleChannels, AMuscleWithoutForceSensorTakesNoForces) {
   const auto& hand = channels[12];
   EXPECT_EQ(hand.name, "hand_antagonist");
   EXPECT_EQ(hand.highest, (std::array<double, ecu::kModeCount>{6.0, 15.0, 1.0, 0.0}));
+}
+
+TEST(MuscleStates, AMuscleWithoutForceSensorHasNoForce) {
+  const Simulation sim(load_robot_model(config("anthrob/model_II_hand.yaml")));
+  const ecu::Supervisor supervisor(muscle_channels(sim.model()), {});
+  const auto states = muscle_states(sim, supervisor, ros::Time(1.0));
+  ASSERT_EQ(states.force.size(), 13u);
+  for (std::size_t m = 0; m < 13; ++m) {
+    EXPECT_EQ(std::isnan(states.force[m]), m >= 11) << states.name[m];
+  }
 }
 
 TEST(SurfaceMarkers, HaveAShapeAndASize) {
