@@ -6,9 +6,10 @@ import unittest
 
 import rospy
 import rostest
-from anthrob_msgs.msg import MuscleStates
+from anthrob_msgs.msg import MusclePaths, MuscleStates
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
+from waiting import wait_for
 
 ANGLE = 0.6  # [rad]
 
@@ -16,8 +17,9 @@ ANGLE = 0.6  # [rad]
 class Tendons(unittest.TestCase):
 
     def setUp(self):
-        self.drawn = []
+        self.drawn, self.told = [], []
         rospy.Subscriber('muscle_paths', MarkerArray, self.drawn.append)
+        rospy.Subscriber('solved_paths', MusclePaths, self.told.append)
         self.joints = rospy.Publisher('joint_states', JointState, queue_size=1)
         self.muscles = rospy.Publisher('muscle_states', MuscleStates, queue_size=1)
         end = time.time() + 20
@@ -64,6 +66,16 @@ class Tendons(unittest.TestCase):
 
         # Forces that are not measured any more are not shown.
         self.see(ANGLE, None, lambda markers: markers[0].color.r == markers[0].color.b)
+
+        # Numbers are those of the picture; what nobody measured is not a number.
+        self.see(ANGLE, [40.0, 0.2], near)
+        wait_for(lambda: self.measure(ANGLE, [40.0, 0.2]) and self.told and self.told[-1].muscles[1].slack, 20, 'lengths')
+        path, points = self.told[-1].muscles[0], self.drawn[-1].markers[0].points
+        drawn = sum(math.dist((a.x, a.y, a.z), (b.x, b.y, b.z)) for a, b in zip(points, points[1:]))
+        self.assertEqual(path.name, 'flexor')
+        self.assertAlmostEqual(path.length, drawn, delta=1e-4)
+        self.assertFalse(path.slack)
+        self.assertTrue(math.isnan(path.velocity) and math.isnan(path.spring_expansion))
 
         # Half a second later the robot may be anywhere.
         time.sleep(1.0)

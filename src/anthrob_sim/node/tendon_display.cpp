@@ -1,5 +1,6 @@
 #include "tendon_display.h"
 
+#include <anthrob_msgs/MusclePaths.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@ namespace {
 constexpr double kPeriod = 0.05;     // [s] of wall time
 constexpr double kStaleAfter = 0.5;  // [s] what is older, or ahead, is not where the robot is
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSlackForce = 1.0;  // [N] three times the noise of a sensor
 
 /// Stamps lie ahead where clocks differ, or time was set back.
 bool is_fresh(const ros::Time& stamp, const ros::Time& now) {
@@ -32,6 +34,7 @@ TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeH
   paths_ = nh.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
   surfaces_ = nh.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
   surfaces_.publish(surface_markers(sim_.model()));
+  solved_paths_ = nh.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
       nh.subscribe("muscle_states", 1, &TendonDisplay::see_muscles, this, no_delay),
@@ -108,6 +111,19 @@ void TendonDisplay::draw() {
   visualization_msgs::MarkerArray markers = muscle_markers(sim_, forces_, oldest);
   for (auto& marker : markers.markers) marker.lifetime = ros::Duration(kStaleAfter);
   paths_.publish(markers);
+  if (solved_paths_.getNumSubscribers() > 0) tell(oldest);
+}
+
+void TendonDisplay::tell(const ros::Time& stamp) {
+  anthrob_msgs::MusclePaths paths = solved_paths(sim_, stamp);
+  // What the simulation has to say of a robot at rest with motors at zero is not of this one.
+  for (std::size_t m = 0; m < paths.muscles.size(); ++m) {
+    anthrob_msgs::MusclePath& path = paths.muscles[m];
+    path.velocity = path.spring_expansion = kNotMeasured;
+    path.slack = forces_[m] < kSlackForce;
+    for (auto& contact : path.contacts) contact.tension_in = contact.tension_out = kNotMeasured;
+  }
+  solved_paths_.publish(paths);
 }
 
 }  // namespace anthrob

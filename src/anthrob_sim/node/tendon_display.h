@@ -15,7 +15,8 @@
 namespace anthrob {
 
 /// Draws a robot's tendons where its measured joints put them, in the colours of the measured
-/// forces: what the simulator shows of itself. Sends nothing but markers.
+/// forces, and tells their lengths and contacts: what the simulator shows of itself. Commands
+/// nothing.
 class TendonDisplay {
  public:
   TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeHandle nh);
@@ -29,6 +30,7 @@ class TendonDisplay {
   void see_joint(const std::string& name, const std::vector<double>& position,
                  const ros::Time& stamp);
   void draw();
+  void tell(const ros::Time& stamp);
   /// The first joint that was not measured lately; empty if all were.
   std::string missing(const ros::Time& now) const;
 
@@ -37,7 +39,7 @@ class TendonDisplay {
   std::vector<double> forces_;  ///< of all muscles [N]; NaN: not measured
   ros::Time forces_stamp_;
   std::vector<ros::Time> stamps_;  ///< of all joints
-  ros::Publisher paths_, surfaces_;
+  ros::Publisher paths_, surfaces_, solved_paths_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
   ClockWait clock_wait_;
