@@ -1,5 +1,7 @@
 // The effect catalogue: lists and explains, and says where an effect can sit on a robot.
+#include <algorithm>
 #include <cstdio>
+#include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -58,16 +60,32 @@ void print_list(const std::vector<View>& views) {
   }
 }
 
-void print_parameters(const std::vector<EffectParameter>& parameters) {
-  std::printf("  %-20s %-9s %-6s %-10s %-10s %-22s %s\n", "parameter", "unit", "kind", "neutral",
-              "typical", "bounds", "meaning");
+/// One line of the table, however long its last column.
+std::string row(const std::string& name, const std::string& unit, const std::string& kind,
+                const std::string& neutral, const std::string& typical, const std::string& bounds,
+                const std::string& meaning) {
+  std::ostringstream line;
+  line << std::left << "  " << std::setw(20) << name << " " << std::setw(9) << unit << " "
+       << std::setw(6) << kind << " " << std::setw(10) << neutral << " " << std::setw(10) << typical
+       << " " << std::setw(22) << bounds << " " << meaning << "\n";
+  return line.str();
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string table(const std::vector<EffectParameter>& parameters) {
+  std::string text = row("parameter", "unit", "kind", "neutral", "typical", "bounds", "meaning");
   for (const EffectParameter& p : parameters) {
-    char bounds[64];
-    std::snprintf(bounds, sizeof(bounds), "%c%g, %g]", p.bounds.lo_open ? '(' : '[', p.bounds.lo,
-                  p.bounds.hi);
-    std::printf("  %-20s %-9s %-6s %-10g %-10g %-22s %s\n", p.name.c_str(), p.unit.c_str(),
-                kind_name(p.kind), p.neutral, p.typical, bounds, p.meaning.c_str());
+    const std::string bounds =
+        (p.bounds.lo_open ? "(" : "[") + number(p.bounds.lo) + ", " + number(p.bounds.hi) + "]";
+    text += row(p.name, p.unit, kind_name(p.kind), number(p.neutral), number(p.typical), bounds,
+                p.meaning);
   }
+  return text;
 }
 
 void explain(const View& view) {
@@ -78,12 +96,24 @@ void explain(const View& view) {
             << "\n  places:     " << info.where << "\n  shows in:   " << joined(info.channels)
             << "\n  dissipates: " << (info.dissipates ? "yes" : "no")
             << (info.slow ? "\n  builds up over minutes" : "") << "\n\n";
-  const std::vector<std::string> places = view.places();
-  print_parameters(places.empty() ? info.parameters
-                                  : view.effect->parameters_at(*view.robot, places.front()));
-  if (!view.robot) return;
-  std::cout << "\n  on this robot at:\n"
-            << wrapped(places.empty() ? "nowhere" : joined(places), "    ");
+  // Bounds may differ from place to place, as room for a surface does.
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+  for (const std::string& place : view.places()) {
+    const std::string there = table(view.effect->parameters_at(*view.robot, place));
+    const auto group = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& known) { return known.first == there; });
+    if (group != groups.end()) {
+      group->second.push_back(place);
+    } else {
+      groups.push_back({there, {place}});
+    }
+  }
+  if (groups.empty()) std::cout << table(info.parameters);
+  if (groups.empty() && view.robot) std::cout << "\n  on this robot: nowhere\n";
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    std::cout << (g > 0 ? "\n" : "") << groups[g].first << "\n  on this robot at:\n"
+              << wrapped(joined(groups[g].second), "    ");
+  }
 }
 
 Json to_json(const EffectParameter& p) {
