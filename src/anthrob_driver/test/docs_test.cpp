@@ -56,6 +56,10 @@ TEST(Docs, HaveEveryParameter) {
                          " | " + (p.live ? "any time" : "not while enabled") + " | " + p.meaning +
                          " |");
   }
+  const std::string zero = "| " + std::to_string(ecu::kPresentPosition) + " | `present_position` |";
+  EXPECT_NE(text.find(zero), std::string::npos) << zero;
+  const std::string known = "| " + std::to_string(ecu::kZeroKnown) + " | `zero_known` |";
+  EXPECT_NE(text.find(known), std::string::npos) << known;
 }
 
 TEST(Docs, HaveEveryRefusal) {

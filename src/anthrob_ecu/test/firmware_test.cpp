@@ -414,6 +414,95 @@ TEST_F(Desk, LimitsStandStillWhileEnabledGainsMayChange) {
   EXPECT_EQ(write(Parameter::kPositionProportional, -7.0f).value, 7.0f);
 }
 
+/// What the unit answers to index 65 of a muscle.
+class ZeroDesk : public Desk {
+ protected:
+  ParameterMessage tell(bool write, int index, float value, int muscle = 0) {
+    ParameterMessage message;
+    message.write = write;
+    message.muscle = static_cast<std::uint8_t>(muscle);
+    message.index = static_cast<std::uint8_t>(index);
+    message.value = value;
+    sent.clear();
+    firmware.receive(encode_parameter_request(message, 3));
+    tick();
+    for (const Frame& frame : sent) {
+      if (function_of(frame) == static_cast<int>(Function::kParameterReply)) {
+        return decode_parameter(frame);
+      }
+    }
+    ADD_FAILURE() << "no reply";
+    return message;
+  }
+  float known(int muscle = 0) { return tell(false, kZeroKnown, 0.0f, muscle).value; }
+  void set_zeros() {
+    for (int m = 0; m < 2; ++m) {
+      EXPECT_EQ(tell(true, kPresentPosition, 0.0f, m).result, ParameterResult::kOk);
+    }
+  }
+};
+
+TEST_F(ZeroDesk, AZeroIsKnownFromThePositionOnThatWasWritten) {
+  configuration[static_cast<int>(Parameter::kPositionHigh)] = 50.0f;
+  configure();
+  const std::uint16_t configuration_before = report.configuration;
+  EXPECT_EQ(tell(false, kZeroKnown, 7.0f).result, ParameterResult::kOk);
+  EXPECT_EQ(known(0), 0.0f);
+  tell(true, kPresentPosition, 51.0f);
+  EXPECT_EQ(known(0), 0.0f);
+  EXPECT_EQ(tell(true, kPresentPosition, 50.0f).result, ParameterResult::kOk);
+  EXPECT_EQ(known(0), 1.0f);
+  EXPECT_EQ(known(1), 0.0f);
+  run(100);
+  EXPECT_EQ(report.configuration, configuration_before);
+  // It cannot be claimed, only given up.
+  EXPECT_EQ(tell(true, kZeroKnown, 1.0f, 1).result, ParameterResult::kOutOfRange);
+  EXPECT_EQ(known(1), 0.0f);
+  EXPECT_EQ(tell(true, kZeroKnown, 0.0f, 0).result, ParameterResult::kOk);
+  EXPECT_EQ(known(0), 0.0f);
+}
+
+TEST_F(ZeroDesk, AZeroOutlivesStopsAndFaultsThatLoseNoCounts) {
+  start();
+  set_zeros();
+  readings.muscle[0].temperature = 86;
+  run(10);
+  ASSERT_EQ(firmware.fault(), Fault::kOverTemperature);
+  readings.muscle[0].temperature = 30;
+  request(Operation::kClear);
+  firmware.receive(Frame{});
+  run(10);
+  request(Operation::kClear);
+  EXPECT_EQ(known(0), 1.0f);
+  EXPECT_EQ(known(1), 1.0f);
+}
+
+TEST_F(ZeroDesk, AnEncoderThatMayHaveMissedCountsHasNoZero) {
+  start();
+  set_zeros();
+  volts = 8.0;
+  run(400);
+  ASSERT_EQ(firmware.fault(), Fault::kEncoder);
+  request(Operation::kClear);
+  EXPECT_EQ(known(0), 0.0f);
+}
+
+TEST_F(ZeroDesk, AFaultThatLosesTheZeroDoesNotHideBehindAnother) {
+  start();
+  set_zeros();
+  // In FAULT already, and with the force sensor at its stop.
+  readings.muscle[0].force = 0;
+  run(25);
+  ASSERT_EQ(firmware.fault(), Fault::kForceSensor);
+  for (int i = 0; i < 20; ++i) {
+    readings.muscle[0].encoder += 150;  // 15 rad/s
+    tick();
+  }
+  EXPECT_EQ(firmware.fault(), Fault::kForceSensor);
+  EXPECT_EQ(known(0), 0.0f);
+  EXPECT_EQ(known(1), 1.0f);
+}
+
 TEST_F(Desk, AnotherProtocolVersionIsNoSync) {
   configure();
   host = false;

@@ -53,15 +53,16 @@ Fault Channel::judge(const MuscleReadings& readings) {
   const bool no_force_sensor = force_sensor_.lasted(force_at_stop, 20);
   const bool no_encoder = encoder_.lasted(pushes && stands, 300);
   if (!limits_set_) return Fault::kNone;
-  if (no_force_sensor) return Fault::kForceSensor;
-  if (too_much_current) return Fault::kOverCurrent;
-  if (too_much_force) return Fault::kOverForce;
+  // Those that lose the zero come first: they must not hide behind another one.
   if (too_fast) return Fault::kOverSpeed;
   if (no_encoder) return Fault::kEncoder;
   if (measured_.position < limit(Parameter::kPositionLow) - kPositionMargin ||
       measured_.position > limit(Parameter::kPositionHigh) + kPositionMargin) {
     return Fault::kPositionLimit;
   }
+  if (no_force_sensor) return Fault::kForceSensor;
+  if (too_much_current) return Fault::kOverCurrent;
+  if (too_much_force) return Fault::kOverForce;
   if (readings.temperature > limit(Parameter::kTemperatureLimit)) return Fault::kOverTemperature;
   return Fault::kNone;
 }
@@ -107,6 +108,7 @@ void Channel::set_position(double position) {
   zero_ = last_encoder_;
   zero_position_ = position;
   measured_.position = position;
+  zero_known_ = true;
 }
 
 void Channel::reconfigure() {

@@ -122,12 +122,18 @@ void Firmware::on_reference(const Reference& reference) {
 
 ParameterResult Firmware::write(const ParameterMessage& message, Channel& channel) {
   if (message.index == kPresentPosition) {
-    if (!(message.value > -50.0f && message.value < 50.0f)) return ParameterResult::kOutOfRange;
+    if (!(message.value >= -50.0f && message.value <= 50.0f)) return ParameterResult::kOutOfRange;
     // A moved zero would make a muscle jump that follows positions.
     if (machine_.follows_references() && channel.mode() == Mode::kPosition) {
       return ParameterResult::kNotNow;
     }
     channel.set_position(message.value);
+    return ParameterResult::kOk;
+  }
+  if (message.index == kZeroKnown) {
+    // A zero comes with a position only.
+    if (message.value != 0.0f) return ParameterResult::kOutOfRange;
+    channel.lose_zero();
     return ParameterResult::kOk;
   }
   if (message.index >= kParameterCount) return ParameterResult::kUnknown;
@@ -145,14 +151,17 @@ void Firmware::on_parameter(const ParameterMessage& message) {
     reply.result = ParameterResult::kUnknown;
   } else {
     Channel& channel = channels_[message.muscle];
-    reply.result = message.write                       ? write(message, channel)
-                   : message.index < kParameterCount   ? ParameterResult::kOk
-                   : message.index == kPresentPosition ? ParameterResult::kOk
-                                                       : ParameterResult::kUnknown;
+    const bool known = message.index < kParameterCount || message.index == kPresentPosition ||
+                       message.index == kZeroKnown;
+    reply.result = message.write ? write(message, channel)
+                   : known       ? ParameterResult::kOk
+                                 : ParameterResult::kUnknown;
     if (message.index < kParameterCount) {
       reply.value = channel.parameters.raw(message.index);
     } else if (message.index == kPresentPosition) {
       reply.value = static_cast<float>(channel.measured().position);
+    } else if (message.index == kZeroKnown) {
+      reply.value = channel.zero_known() ? 1.0f : 0.0f;
     }
   }
   queue_.push(encode_parameter_reply(reply, wiring_.node));
@@ -210,6 +219,7 @@ std::array<double, kMusclesPerEcu> Firmware::tick(const Readings& readings) {
   for (int m = 0; m < wiring_.muscles; ++m) {
     const auto i = static_cast<std::size_t>(m);
     const Fault fault = channels_[i].measure(readings.muscle[i]);
+    if (loses_zero(fault)) channels_[i].lose_zero();
     if (fault != Fault::kNone) stop(fault, m);
   }
   std::array<double, kMusclesPerEcu> volts{};

@@ -52,10 +52,14 @@ class Channel {
   bool refer(Mode mode, double reference);
   /// What is measured now becomes `position` [rad].
   void set_position(double position);
-  /// Calibration or limits were written: filters and zero start again from the next reading.
+  /// Counts were missed, or the tendon is no longer where it was on its spindle.
+  void lose_zero() { zero_known_ = false; }
+  /// Calibration or limits were written: the filter starts again from the next reading.
   void reconfigure();
 
   const Measurement& measured() const { return measured_; }
+  /// set_position() was called, and no lose_zero() since.
+  bool zero_known() const { return zero_known_; }
   double force_or_nan() const;
   double voltage() const { return voltage_; }
   Mode mode() const { return mode_; }
@@ -72,6 +76,7 @@ class Channel {
   bool started_ = false;
   std::int32_t zero_ = 0;  ///< [counts] where the position is zero_position_
   double zero_position_ = 0.0;
+  bool zero_known_ = false;
   std::int32_t last_encoder_ = 0;
   Mode mode_ = Mode::kVoltage;
   double target_ = 0.0, reference_ = 0.0;
