@@ -91,6 +91,12 @@ class Contract(unittest.TestCase):
         cls.commander.start()
         # Hardware is configured first.
         wait_for(lambda: cls.call('enable').success, 'the first enable', 30)
+        wait_for(lambda: cls.diagnostics.last() is not None, 'diagnostics', 30)
+        if cls.diagnostics.last().status[0].name == '/anthrob: driver':
+            # Units that were just switched on have no zero.
+            answer = cls.call('home')
+            if not answer.success:
+                raise AssertionError('home: ' + answer.message)
 
     @classmethod
     def call(cls, name):

@@ -1,5 +1,6 @@
 #include "anthrob_driver/ecu_link.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -85,8 +86,16 @@ void EcuLink::finish_answer(double now) {
   sample_ = incoming_;
   sampled_ = true;
   sample_time_ = now;
-  state_ = sample_.motion[0].state;
+  take_state(sample_.motion[0].state);
   latched_ = sample_.motion[0].stop_latched;
+}
+
+void EcuLink::take_state(ecu::State state) {
+  if (state == ecu::State::kFault && state_ != ecu::State::kFault) {
+    // Some faults lose the zero: the unit knows which.
+    std::replace(zeros_.begin(), zeros_.end(), Zero::kKnown, Zero::kNotTold);
+  }
+  state_ = state;
 }
 
 void EcuLink::on_report(const ecu::StateReport& report, double now) {
@@ -101,11 +110,12 @@ void EcuLink::on_report(const ecu::StateReport& report, double now) {
     restarted_ = true;
     next_ = passes_ = 0;
     waiting_ = false;
+    zeros_.fill(Zero::kNotTold);
     findings_.add(Finding::kEcuRestarted, index_, now);
   }
   heard_ = true;
   report_ = report;
-  state_ = report.state;
+  take_state(report.state);
   latched_ = report.stop_latched;
 }
 
@@ -151,12 +161,12 @@ bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
   message.muscle = static_cast<std::uint8_t>(next_ / ecu::kParameterCount);
   message.index = static_cast<std::uint8_t>(wanted_index());
   message.value = wanted_value();
+  message.write = true;
   frame = ask(Asked::kConfiguration, message, now);
   return true;
 }
 
 ecu::Frame EcuLink::ask(Asked what, ecu::ParameterMessage& message, double now) {
-  message.write = true;
   message.sequence = ++sequence_;
   waiting_ = true;
   asked_ = what;
@@ -169,6 +179,7 @@ void EcuLink::start_write(int channel, ecu::Parameter parameter, float value) {
   written_.muscle = static_cast<std::uint8_t>(channel);
   written_.index = static_cast<std::uint8_t>(parameter);
   written_.value = value;
+  written_.write = true;
   write_ = Write::kAsked;
   waiting_ = false;
 }
@@ -185,15 +196,44 @@ void EcuLink::expect_configuration(double now) {
   resume_ = now + kRetryPause;
 }
 
-void EcuLink::start_zero(bool all) {
+bool EcuLink::zero_known() const {
+  const auto end = zeros_.begin() + static_cast<std::ptrdiff_t>(own().muscles.size());
+  return std::all_of(zeros_.begin(), end, [](Zero zero) { return zero == Zero::kKnown; });
+}
+
+void EcuLink::revoke_zero(int channel) {
+  zeros_[static_cast<std::size_t>(channel)] = Zero::kRevoked;
+}
+
+bool EcuLink::next_zero_question(double now, ecu::Frame& frame) {
+  if (!configured() || write_ == Write::kAsked) return false;
+  if (waiting_ && now - sent_ < kReplyTimeout) return false;
+  for (std::size_t c = 0; c < own().muscles.size(); ++c) {
+    if (zeros_[c] != Zero::kNotTold && zeros_[c] != Zero::kRevoked) continue;
+    ecu::ParameterMessage message;
+    message.muscle = static_cast<std::uint8_t>(c);
+    message.index = ecu::kZeroKnown;
+    message.write = zeros_[c] == Zero::kRevoked;
+    frame = ask(Asked::kZeroKnown, message, now);
+    return true;
+  }
+  return false;
+}
+
+void EcuLink::start_zero() {
+  for (std::size_t c = 0; c < own().muscles.size(); ++c) {
+    const auto muscle = static_cast<std::size_t>(own().muscles[c]);
+    const bool pulled = hardware_.muscles[muscle].parameters.has_force_sensor();
+    // From here on it is the old one or the new one, until it is confirmed.
+    if (pulled || zeros_[c] != Zero::kKnown) zeros_[c] = Zero::kRevoked;
+  }
   zero_ = 0;
-  zero_all_ = all;
   zero_refused_ = waiting_ = false;
   pass_over_unasked_zeros();
 }
 
 void EcuLink::pass_over_unasked_zeros() {
-  while (!zeroed() && !zero_all_ && !zeroing().parameters.has_force_sensor()) ++zero_;
+  while (!zeroed() && zeros_[zero_] != Zero::kRevoked) ++zero_;
 }
 
 const MuscleHardware& EcuLink::zeroing() const {
@@ -206,8 +246,26 @@ bool EcuLink::next_zero(double now, ecu::Frame& frame) {
   message.muscle = static_cast<std::uint8_t>(zero_);
   message.index = ecu::kPresentPosition;
   message.value = static_cast<float>(zeroing().home_position);
+  message.write = true;
   frame = ask(Asked::kZero, message, now);
   return true;
+}
+
+void EcuLink::on_zero_reply(const ecu::ParameterMessage& reply) {
+  const bool taken = reply.result == ecu::ParameterResult::kOk &&
+                     reply.index == ecu::kPresentPosition && reply.muscle == zero_;
+  zero_refused_ = !taken;
+  if (!taken) return;
+  zeros_[zero_] = Zero::kKnown;
+  pass_over_unasked_zeros();
+}
+
+void EcuLink::on_zero_answer(const ecu::ParameterMessage& reply) {
+  if (reply.index != ecu::kZeroKnown || reply.muscle >= own().muscles.size()) return;
+  Zero& zero = zeros_[reply.muscle];
+  // Also of a unit that does not understand the question.
+  const bool known = reply.result == ecu::ParameterResult::kOk && reply.value == 1.0f;
+  zero = known && zero == Zero::kNotTold ? Zero::kKnown : Zero::kLost;
 }
 
 void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
@@ -219,14 +277,8 @@ void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
     if (write_ == Write::kAsked) write_ = taken ? Write::kTaken : Write::kRefused;
     return;
   }
-  if (asked_ == Asked::kZero) {
-    const bool taken = reply.result == ecu::ParameterResult::kOk &&
-                       reply.index == ecu::kPresentPosition && reply.muscle == zero_;
-    if (taken) ++zero_;
-    pass_over_unasked_zeros();
-    zero_refused_ = !taken;
-    return;
-  }
+  if (asked_ == Asked::kZero) return on_zero_reply(reply);
+  if (asked_ == Asked::kZeroKnown) return on_zero_answer(reply);
   const int index = wanted_index();
   if (reply.result == ecu::ParameterResult::kOk && reply.index == index &&
       reply.value == wanted_value()) {

@@ -17,6 +17,7 @@ using ecu::Operation;
 constexpr double kClearGrace = 0.15;  // [s] until ECUs have cleared their latches
 constexpr int kIdleNode = -2;         // on the bus, but not used
 constexpr int kRepeats = 3;           // cycles in which disable and clear are sent
+constexpr int kCyclesPerQuestion = 4; // of what is asked of enabled units
 
 ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options) {
   if (!(options.rate >= 100.0 && options.rate <= 1000.0)) {
@@ -379,11 +380,9 @@ void RobotDriver::check_ecus(double now) {
     if (link.take_restart()) {
       gains_.abort(index, link.own().name + " restarted", now);
       stop(Finding::kEcuRestarted, index);
-      zeros_.lose(e);
       // While nothing runs too: its zero is lost, and the user must know before enabling.
       supervisor_.fault(link.own().name);
     }
-    if (ecu::loses_zero(link.report().fault)) zeros_.lose(e);
     if (link.take_wrong_version()) stop(Finding::kWrongVersion, index);
     if (!link.heard()) {
       if (link.other_version().empty() && now - started_ > kSilence)
@@ -491,6 +490,7 @@ void RobotDriver::cycle(double now) {
   ++counter_;
   for (EcuLink& link : links_) link.start_cycle(counter_, now);
   check_ecus(now);
+  zeros_.update();
   // While homing no command is taken: their age says nothing then.
   if (home_.running()) supervisor_.restart_watch(now);
   if (supervisor_.update(now)) {
@@ -529,10 +529,23 @@ void RobotDriver::send_cycle(double now) {
     request(Operation::kClear, 0);
   }
   gains_.step(now, phase_ == Phase::kDisabled, [this](const ecu::Frame& frame) { send(frame); });
-  if (phase_ != Phase::kDisabled) return;
+  send_parameters(now);
+}
+
+void RobotDriver::send_parameters(double now) {
+  const bool disabled = phase_ == Phase::kDisabled;
+  // Nearly all was asked before enable. What is left goes as gains do: REFERENCE frames have the
+  // right of way.
+  if (!disabled && (home_.running() || gains_.changing() || cycles_ % kCyclesPerQuestion != 0)) {
+    return;
+  }
   for (EcuLink& link : links_) {
     ecu::Frame frame;
-    if (link.next_parameter(now, frame)) send(frame);
+    const bool asks =
+        (disabled && link.next_parameter(now, frame)) || link.next_zero_question(now, frame);
+    if (!asks) continue;
+    send(frame);
+    if (!disabled) return;
   }
 }
 

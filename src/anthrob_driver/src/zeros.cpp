@@ -3,30 +3,31 @@
 namespace anthrob {
 namespace driver {
 
-void Zeros::lose(std::size_t ecu) {
-  lost_[ecu] = true;
-  supervisor_.lose_zero(links_[ecu].own().name);
+Zeros::Zeros(std::vector<EcuLink>& links, ecu::Supervisor& supervisor)
+    : links_(links), supervisor_(supervisor) {
+  update();
+}
+
+void Zeros::update() {
+  for (const EcuLink& link : links_) {
+    if (link.zero_known()) {
+      supervisor_.regain_zero(link.own().name);
+    } else {
+      supervisor_.lose_zero(link.own().name);
+    }
+  }
 }
 
 void Zeros::start(double now) {
   deadline_ = now + kTimeout;
-  for (std::size_t e = 0; e < links_.size(); ++e) {
-    // Muscles that were not pulled keep their zero, unless it is lost anyway.
-    links_[e].start_zero(lost_[e]);
-    // From here on it is the old one or the new one, until it is confirmed.
-    if (!links_[e].zeroed()) supervisor_.lose_zero(links_[e].own().name);
-  }
+  for (EcuLink& link : links_) link.start_zero();
+  update();
 }
 
 Zeros::State Zeros::step(double now, const Send& send) {
   bool all = true;
-  for (std::size_t e = 0; e < links_.size(); ++e) {
-    EcuLink& link = links_[e];
-    if (link.zeroed()) {
-      supervisor_.regain_zero(link.own().name);
-      lost_[e] = false;
-      continue;
-    }
+  for (EcuLink& link : links_) {
+    if (link.zeroed()) continue;
     all = false;
     if (link.zero_refused() || now > deadline_) {
       refusal_ = link.zeroing().name + ": " + link.own().name + " does not take the zero";

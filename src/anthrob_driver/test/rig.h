@@ -15,7 +15,7 @@ namespace anthrob {
 namespace driver {
 
 /// A driver and seven emulated ECUs on a bus in memory, in simulated time: one call of step() is
-/// one millisecond, the same every time.
+/// one millisecond, the same every time. The ECUs know their zeros, as after a `home`.
 class Rig {
  public:
   explicit Rig(bool hand = true, const RobotDriver::Options& options = RobotDriver::Options{})
@@ -31,7 +31,9 @@ class Rig {
         period_ms(static_cast<int>(std::lround(1000.0 / options.rate))),
         modes(hardware.muscles.size(), 0),
         volts(hardware.muscles.size(), 0.5),
-        driver_(std::make_unique<RobotDriver>(hardware, options, host)) {}
+        driver_(std::make_unique<RobotDriver>(hardware, options, host)) {
+    rack.set_zeros();
+  }
 
   double now() const { return 0.001 * ms; }
   std::int64_t stamp() const {
@@ -43,6 +45,14 @@ class Rig {
   void restart_driver() {
     driver_ = std::make_unique<RobotDriver>(hardware, driver_options, host);
     driver_runs = true;
+  }
+
+  /// All ECUs are switched off and on.
+  void power_cycle() {
+    for (std::size_t e = 0; e < rack.size(); ++e) {
+      rack.board(e).set_power(false);
+      rack.board(e).set_power(true);
+    }
   }
 
   /// One millisecond of everybody.

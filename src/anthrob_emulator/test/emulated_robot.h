@@ -14,7 +14,8 @@
 namespace anthrob {
 namespace testing_support {
 
-/// Driver, bus and seven emulated ECUs around the simulator's physics, a millisecond at a time.
+/// Driver, bus and seven emulated ECUs around the simulator's physics, a millisecond at a time. The
+/// zero is the model's, and the ECUs know it.
 class EmulatedRobot {
  public:
   EmulatedRobot(const std::string& model, const std::string& hardware_file)
@@ -23,7 +24,9 @@ class EmulatedRobot {
         host_(bus_.attach()),
         ecus_(bus_.attach()),
         rack_(hardware_, plant_, ecus_),
-        robot_(hardware_, {}, host_) {}
+        robot_(hardware_, {}, host_) {
+    rack_.set_zeros();
+  }
 
   void step() {
     if (ms_ % kCycle == 0) robot_.cycle(now());

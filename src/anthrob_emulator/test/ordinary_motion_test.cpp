@@ -46,6 +46,7 @@ class BreakingPlant final : public driver::Plant {
 class OrdinaryMotion : public testing::Test {
  protected:
   void SetUp() override {
+    rack.set_zeros();
     run(1000);
     robot.start_enable(now());
     while (robot.phase() == Phase::kEnabling) run(1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 
@@ -30,9 +31,17 @@ class EcuLink {
   /// @return the next parameter frame to send, if there is one to send now
   bool next_parameter(double now, ecu::Frame& frame);
 
-  /// The positions of its muscles are to become their home_position from now on.
-  /// @param all those without force sensor too
-  void start_zero(bool all);
+  /// Whether positions of all its muscles count from a zero, by its own word in this session. It is
+  /// asked once it is configured, and again after every fault.
+  bool zero_known() const;
+  /// This muscle's zero is none any more, and the unit is told so: it outlives this driver.
+  void revoke_zero(int channel);
+  /// @return whether `frame` is the next of these, to be sent now
+  bool next_zero_question(double now, ecu::Frame& frame);
+
+  /// The positions of its muscles are to become their home_position from now on: of those with a
+  /// force sensor, which were pulled, and of those that have no zero anyway.
+  void start_zero();
   /// @return whether `frame` is the next write of a position, to be sent now
   bool next_zero(double now, ecu::Frame& frame);
   /// All of them were confirmed, or none was asked for.
@@ -83,7 +92,9 @@ class EcuLink {
   const EcuHardware& own() const { return hardware_.ecus[static_cast<std::size_t>(index_)]; }
 
  private:
-  enum class Asked { kConfiguration, kZero, kGain };
+  enum class Asked { kConfiguration, kZero, kZeroKnown, kGain };
+  /// Of one muscle. kRevoked: the unit must still be told, or given a new one.
+  enum class Zero { kNotTold, kRevoked, kLost, kKnown };
   struct Sample {
     ecu::Motion motion[ecu::kMusclesPerEcu];
     ecu::Effort effort;
@@ -92,8 +103,11 @@ class EcuLink {
   /// Whether this part of the answer is the current SYNC's first; only then its values count.
   bool take_part(unsigned part, std::uint8_t counter, double now);
   void finish_answer(double now);
+  void take_state(ecu::State state);
   void on_report(const ecu::StateReport& report, double now);
   void on_reply(const ecu::ParameterMessage& reply, double now);
+  void on_zero_reply(const ecu::ParameterMessage& reply);
+  void on_zero_answer(const ecu::ParameterMessage& reply);
   /// @param message its sequence number is filled in
   ecu::Frame ask(Asked what, ecu::ParameterMessage& message, double now);
   int wanted_index() const;
@@ -127,8 +141,9 @@ class EcuLink {
   bool waiting_ = false;  ///< for a reply
   Asked asked_ = Asked::kConfiguration;
   double sent_ = 0.0, resume_ = 0.0;
-  std::size_t zero_ = 0;  ///< channel
-  bool zero_refused_ = false, zero_all_ = false;
+  std::array<Zero, ecu::kMusclesPerEcu> zeros_{};  ///< by channel
+  std::size_t zero_ = 0;                           ///< channel whose new one is written
+  bool zero_refused_ = false;
   Write write_ = Write::kNone;
   ecu::ParameterMessage written_;
 };

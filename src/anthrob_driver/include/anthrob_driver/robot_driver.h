@@ -100,6 +100,7 @@ class RobotDriver {
   void continue_home(double now);
   void continue_zero(double now);
   void send_cycle(double now);
+  void send_parameters(double now);
   bool all_complete() const;
   std::string why_not_enable() const;
   /// What first_step has against a command; empty: nothing.

@@ -10,8 +10,8 @@
 namespace anthrob {
 namespace driver {
 
-/// Whether positions mean what they say: which ECUs have lost their zero, and the new one of `home`
-/// on its way to all of them. Without a zero the supervisor refuses POSITION.
+/// Whether positions mean what they say: which ECUs have no zero, by their own word, and the new
+/// one of `home` on its way to all of them. Without a zero the supervisor refuses POSITION.
 class Zeros {
  public:
   static constexpr double kTimeout = 0.5;  ///< [s] for all ECUs to take over home's zero
@@ -19,11 +19,10 @@ class Zeros {
   using Send = std::function<void(const ecu::Frame& frame)>;
 
   /// @param links one an ECU   Both must outlive the zeros.
-  Zeros(std::vector<EcuLink>& links, ecu::Supervisor& supervisor)
-      : links_(links), supervisor_(supervisor), lost_(links.size()) {}
+  Zeros(std::vector<EcuLink>& links, ecu::Supervisor& supervisor);
 
-  /// This ECU restarted, or may have missed counts.
-  void lose(std::size_t ecu);
+  /// Every cycle: the supervisor learns what the ECUs have said meanwhile.
+  void update();
   /// The posture of now is to be the zero.
   void start(double now);
   /// One cycle after start().
@@ -34,7 +33,6 @@ class Zeros {
  private:
   std::vector<EcuLink>& links_;
   ecu::Supervisor& supervisor_;
-  std::vector<char> lost_;  ///< by ECU
   double deadline_ = 0.0;
   std::string refusal_;
 };

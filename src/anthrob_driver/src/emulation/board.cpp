@@ -32,6 +32,20 @@ bool Board::next_frame(ecu::Frame& frame) {
   return powered_ && !frozen_ && !peripherals.bus_off && firmware_.next_frame(frame);
 }
 
+void Board::set_zeros() {
+  for (int channel = 0; channel < wiring_.muscles; ++channel) {
+    ecu::ParameterMessage zero;
+    zero.write = true;
+    zero.muscle = static_cast<std::uint8_t>(channel);
+    zero.index = ecu::kPresentPosition;
+    firmware_.receive(ecu::encode_parameter_request(zero, wiring_.node));
+  }
+  // Nobody asked: nobody wants the answers.
+  ecu::Frame answer;
+  while (firmware_.next_frame(answer)) {
+  }
+}
+
 void Board::boot() {
   ++wiring_.session;
   firmware_ = ecu::Firmware(wiring_);

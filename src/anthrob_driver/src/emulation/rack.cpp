@@ -10,6 +10,10 @@ Rack::Rack(const Hardware& hardware, Plant& plant, Bus& bus, std::uint8_t sessio
   }
 }
 
+void Rack::set_zeros() {
+  for (Board& board : boards_) board.set_zeros();
+}
+
 void Rack::receive() {
   BusEvent event;
   while (bus_.receive(event)) {

@@ -19,6 +19,8 @@ class Board {
   /// @param session what the first boot draws its session from
   Board(const Hardware& hardware, int ecu, std::uint8_t session = 0);
 
+  /// As Rack::set_zeros.
+  void set_zeros();
   /// A frame on the bus.
   void receive(const ecu::Frame& frame);
   /// One millisecond; drives the plant, does not advance it.

@@ -16,6 +16,9 @@ class Rack {
   /// @param hardware, plant, bus must outlive the rack   @param session as a Board's
   Rack(const Hardware& hardware, Plant& plant, Bus& bus, std::uint8_t session = 0);
 
+  /// Every muscle is at 0 rad and its unit knows it, as after a `home` that found the plant's zero.
+  /// For comparisons with a simulator; units that were just switched on know no zero.
+  void set_zeros();
   /// Hands out what came in from the bus.
   void receive();
   /// One millisecond: boards tick, the plant moves, what is to be sent is sent.

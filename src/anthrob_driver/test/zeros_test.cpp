@@ -1,0 +1,153 @@
+// Whether positions mean what they say: the units know, and the driver asks them.
+#include "anthrob_driver/zeros.h"
+
+#include <gtest/gtest.h>
+
+#include "rig.h"
+
+namespace anthrob {
+namespace driver {
+namespace {
+
+constexpr std::size_t kUnit = 2;  // ecu_3, of infraspinatus and teres_minor
+const char* const kNoZero = "muscle 'infraspinatus': ecu_3 has lost its zero: call home first";
+
+class ZerosTest : public testing::Test {
+ protected:
+  static bool is_question(const ecu::Frame& f) {
+    return ecu::function_of(f) == static_cast<int>(ecu::Function::kParameterRequest) &&
+           ecu::decode_parameter(f).index == ecu::kZeroKnown;
+  }
+  static bool is_answer(const ecu::Frame& f) {
+    return ecu::function_of(f) == static_cast<int>(ecu::Function::kParameterReply) &&
+           ecu::decode_parameter(f).index == ecu::kZeroKnown;
+  }
+  void SetUp() override {
+    for (std::size_t m = 0; m < rig.hardware.muscles.size(); ++m) rig.plant.slacken(m, 1.0);
+  }
+  RobotDriver::Outcome command(const std::string& muscle, ecu::Mode mode, double reference) {
+    return rig.driver().command({muscle}, {static_cast<std::uint8_t>(mode)}, {reference},
+                                rig.now());
+  }
+  std::string refusal() { return command("infraspinatus", ecu::Mode::kPosition, 0.0).reason; }
+  void enable() {
+    rig.driver().disable();
+    rig.driver().clear_faults(rig.now());
+    rig.run(1000);
+    ASSERT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+  }
+  void home() {
+    ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+    for (int ms = 0; ms < 30000 && rig.driver().home().running(); ++ms) rig.step();
+    ASSERT_EQ(rig.driver().home().failure(), "");
+  }
+
+  Rig rig;
+};
+
+TEST_F(ZerosTest, UnitsThatWereJustSwitchedOnTakeNoPositionsBeforeHome) {
+  rig.power_cycle();
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  for (const MuscleHardware& muscle : rig.hardware.muscles) {
+    EXPECT_FALSE(command(muscle.name, ecu::Mode::kPosition, 0.0).accepted) << muscle.name;
+    EXPECT_TRUE(command(muscle.name, ecu::Mode::kVoltage, 0.0).accepted) << muscle.name;
+  }
+  home();
+  for (const MuscleHardware& muscle : rig.hardware.muscles) {
+    EXPECT_TRUE(command(muscle.name, ecu::Mode::kPosition, 0.0).accepted) << muscle.name;
+  }
+}
+
+TEST_F(ZerosTest, ADriverThatIsStartedAnewNeedsNoHomeWhileTheUnitsStayOn) {
+  rig.power_cycle();
+  enable();
+  home();
+  rig.restart_driver();
+  enable();
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(ZerosTest, ADriverThatIsStartedAnewLearnsOfAZeroThatWasLostBefore) {
+  enable();
+  ASSERT_EQ(refusal(), "");
+  rig.plant.jam(4);
+  ASSERT_TRUE(command("infraspinatus", ecu::Mode::kVoltage, 8.0).accepted);
+  rig.run(400);
+  ASSERT_EQ(rig.driver().link(kUnit).report().fault, ecu::Fault::kEncoder);
+  rig.restart_driver();
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+}
+
+TEST_F(ZerosTest, AHomeThatWasInterruptedIsRememberedByTheUnits) {
+  enable();
+  // One unit takes its zero, and nobody hears that it did.
+  int unheard = 0;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool lost = ecu::function_of(f) == static_cast<int>(ecu::Function::kParameterReply) &&
+                      ecu::node_of(f) == rig.hardware.ecus[kUnit].node;
+    unheard += lost;
+    return lost ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  while (unheard == 0 && rig.driver().home().running()) rig.step();
+  rig.driver().disable();
+  rig.run(200);
+  rig.bus.tamper = nullptr;
+  rig.run(200);
+  rig.restart_driver();
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+}
+
+TEST_F(ZerosTest, EveryMuscleIsAskedOnceASession) {
+  int asked = 0;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    asked += is_question(f);
+    EXPECT_FALSE(is_question(f) && !rig.driver().link(0).heard());
+    return std::vector<ecu::Frame>{f};
+  };
+  rig.run(1000);
+  EXPECT_EQ(asked, 13);
+  ASSERT_TRUE(rig.start());
+  rig.run(2000);
+  EXPECT_EQ(asked, 13);
+  rig.rack.board(kUnit).set_power(false);
+  rig.rack.board(kUnit).set_power(true);
+  rig.run(1000);
+  EXPECT_EQ(asked, 15);
+}
+
+TEST_F(ZerosTest, WithoutAnAnswerThereIsNoZeroAndTheQuestionGoesOnWhileEnabled) {
+  bool drop = true;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool lost = drop && is_answer(f) && ecu::node_of(f) == rig.hardware.ecus[kUnit].node;
+    return lost ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+  drop = false;
+  rig.run(200);
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(ZerosTest, AUnitThatDoesNotUnderstandTheQuestionNeedsAHome) {
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    if (!is_answer(f)) return std::vector<ecu::Frame>{f};
+    ecu::ParameterMessage reply = ecu::decode_parameter(f);
+    reply.result = ecu::ParameterResult::kUnknown;
+    return std::vector<ecu::Frame>{ecu::encode_parameter_reply(reply, ecu::node_of(f))};
+  };
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  home();
+  EXPECT_EQ(refusal(), "");
+}
+
+}  // namespace
+}  // namespace driver
+}  // namespace anthrob
