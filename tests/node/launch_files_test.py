@@ -91,6 +91,12 @@ class LaunchFiles(unittest.TestCase):
                 seen = any(node.package == 'anthrob_mocap' for node in config.nodes)
                 self.assertEqual(seen, backend != 'emulated')
 
+    def test_emulated_units_know_a_zero_only_if_asked(self):
+        for asked, homed in ([], False), (['homed:=true'], True):
+            emulator, = [node for node in load('robot.launch', 'backend:=emulated', *asked).nodes
+                         if node.package == 'anthrob_emulator']
+            self.assertEqual('--homed' in emulator.args, homed)
+
     def test_whose_time_it_is_is_said_by_every_back_end(self):
         for asked, simulated in (['backend:=hardware'], False), (['backend:=hardware', 'mocap:=true'], False), \
                 (['backend:=emulated'], False), (['backend:=emulated', 'pace:=0.5'], True), (['backend:=sim'], True), \

@@ -24,7 +24,7 @@ namespace {
 
 struct Arguments {
   std::string hardware, model, can = "can0";
-  bool hand = false, realtime = false, ros = false, clock = false;
+  bool hand = false, realtime = false, ros = false, clock = false, homed = false;
   double rate = 100.0, pace = 1.0;
 };
 
@@ -122,6 +122,7 @@ int run(const Arguments& arguments) {
   }
   driver::SocketCanBus bus(arguments.can);
   driver::Rack rack(hardware, *plant, bus, session_now());
+  if (arguments.homed) rack.set_zeros();
   if (arguments.realtime) {
     const std::string refused = driver::become_realtime(driver::Emulator::kPriority);
     if (!refused.empty()) std::cerr << "anthrob_emulator: " << refused << "\n";
@@ -157,6 +158,7 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1.0));
   app.add_flag("--hand", arguments.hand, "with the hand's muscles, if the robot has a hand");
+  app.add_flag("--homed", arguments.homed, "the units know the model's zero; else they want `home`");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
   app.add_flag("--ros", arguments.ros, "publish the ball joints, as motion capture would");
   app.add_flag("--clock", arguments.clock, "publish /clock, the robot's time at --pace");
