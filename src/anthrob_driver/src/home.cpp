@@ -22,6 +22,7 @@ std::string text(const char* format, double a, double b) {
 void Home::start(double now) {
   state_ = State::kRunning;
   failure_.clear();
+  tendons_.clear();
   begun_ = false;
   started_ = settled_ = now;
 }
@@ -75,12 +76,14 @@ std::string Home::check(const Reading& reading, Tendon& tendon) const {
                 reading.position, tendon.start);
   }
   if (wound > limits.travel_limit && !grips) {
+    tendon.lost = true;
     return text("wound in by %.2f rad and only %.1f N: the tendon is broken or off its pulley",
                 wound, reading.force);
   }
   tendon.gripped = tendon.gripped || grips;
   tendon.held = tendon.held || reading.force > 0.8 * pretension;
   if (tendon.held && reading.force < (1.0 - limits.slip_drop) * pretension) {
+    tendon.lost = true;
     return text("held %.1f N, now %.1f N: the tendon slips or broke", pretension, reading.force);
   }
   return "";

@@ -349,8 +349,15 @@ void RobotDriver::obey_stop(int ecu) {
 
 void RobotDriver::fail_home(double now) {
   findings_.add(Finding::kHomeFailed, -1, now, home_.failure());
+  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+    if (home_.tendon_lost(m)) revoke_zero(hardware_.muscles[m]);
+  }
   disable();
   note_stop(Finding::kHomeFailed, home_.failure());
+}
+
+void RobotDriver::revoke_zero(const MuscleHardware& muscle) {
+  links_[static_cast<std::size_t>(muscle.ecu)].revoke_zero(muscle.channel);
 }
 
 void RobotDriver::note_stop(Finding finding, const std::string& what) {
@@ -429,6 +436,7 @@ void RobotDriver::check_tendons(double now) {
     if (wrong.empty()) continue;
     const std::string detail = wired.name + ": " + wrong;
     findings_.add(Finding::kTendonSlack, wired.ecu, now, detail);
+    revoke_zero(wired);
     stop(Finding::kTendonSlack, wired.ecu, detail);
   }
 }

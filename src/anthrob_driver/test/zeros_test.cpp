@@ -30,6 +30,7 @@ class ZerosTest : public testing::Test {
                                 rig.now());
   }
   std::string refusal() { return command("infraspinatus", ecu::Mode::kPosition, 0.0).reason; }
+  std::string failure() { return rig.driver().home().failure(); }
   void enable() {
     rig.driver().disable();
     rig.driver().clear_faults(rig.now());
@@ -101,6 +102,67 @@ TEST_F(ZerosTest, AHomeThatWasInterruptedIsRememberedByTheUnits) {
   enable();
   EXPECT_EQ(refusal(), kNoZero);
   EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+}
+
+TEST_F(ZerosTest, ATendonThatBrokeTakesTheZeroOfItsMuscleAlong) {
+  rig.plant.slacken(4, 0.0);
+  enable();
+  rig.commander_runs = true;
+  rig.modes[4] = static_cast<std::uint8_t>(ecu::Mode::kPosition);
+  rig.volts[4] = 1.5;
+  rig.run(3000);
+  rig.plant.cut(4);
+  rig.run(300);
+  rig.commander_runs = false;
+  ASSERT_EQ(rig.driver().findings().count(Finding::kTendonSlack), 1u);
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+  // The tendon is mended while no driver runs: the unit remembers.
+  EXPECT_FALSE(rig.rack.board(kUnit).firmware().channel(0).zero_known());
+  EXPECT_TRUE(rig.rack.board(kUnit).firmware().channel(1).zero_known());
+  rig.restart_driver();
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+}
+
+TEST_F(ZerosTest, ATendonThatHomeFindsBrokenTakesTheZeroAlong) {
+  enable();
+  rig.plant.slacken(4, 1e3);
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  rig.run(10000);
+  ASSERT_NE(failure().find("infraspinatus: wound in"), std::string::npos) << failure();
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+  rig.plant.slacken(4, rig.plant.muscle(4).position + 1.0);
+  home();
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(ZerosTest, ATendonThatSlipsInHomeTakesTheZeroAlong) {
+  enable();
+  rig.plant.slacken(4, 0.3);
+  rig.plant.slacken(9, 5.0);  // keeps the others waiting
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  rig.run(4000);
+  rig.plant.slacken(4, 9.0);
+  rig.run(1000);
+  ASSERT_NE(failure().find("infraspinatus: held 5.0 N"), std::string::npos) << failure();
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+}
+
+TEST_F(ZerosTest, AHomeThatFailsOtherwiseLeavesTheZeros) {
+  enable();
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  rig.plant.slacken(4, -5.0);  // more than force_limit
+  rig.run(2000);
+  ASSERT_NE(failure().find("unwind it by hand"), std::string::npos) << failure();
+  rig.plant.slacken(4, 1.0);
+  enable();
+  EXPECT_EQ(refusal(), "");
 }
 
 TEST_F(ZerosTest, EveryMuscleIsAskedOnceASession) {

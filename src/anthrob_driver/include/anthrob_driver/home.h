@@ -32,6 +32,10 @@ class Home {
   bool running() const { return state_ == State::kRunning || state_ == State::kReached; }
   /// Empty after success.
   const std::string& failure() const { return failure_; }
+  /// Whether it ended because this muscle's tendon broke, slipped or is off its pulley.
+  bool tendon_lost(std::size_t muscle) const {
+    return muscle < tendons_.size() && tendons_[muscle].lost;
+  }
   /// What a muscle is to do in this cycle.
   ecu::MuscleReference command(std::size_t muscle, double now) const;
 
@@ -40,6 +44,7 @@ class Home {
     double start = 0.0;    ///< [rad]
     bool gripped = false;  ///< was seen at half the pretension
     bool held = false;     ///< was seen near the pretension
+    bool lost = false;     ///< broke, slipped or is off its pulley
   };
   bool pulls(std::size_t muscle) const;
   /// Names of the muscles that pull and have no measurement in this cycle.

@@ -118,6 +118,8 @@ class RobotDriver {
   /// @param ecu which holds the stop; -1: a frame on the bus
   void obey_stop(int ecu);
   void fail_home(double now);
+  /// Its tendon is no longer where it was on its spindle.
+  void revoke_zero(const MuscleHardware& muscle);
   void note_stop(Finding finding, const std::string& what);
 
   Hardware hardware_;
