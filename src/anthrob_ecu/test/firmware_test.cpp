@@ -291,6 +291,26 @@ TEST_F(Desk, Encoder) {
   volts = 8.0;
   expect_fault(Fault::kEncoder, 310);
 }
+TEST_F(Desk, AnEncoderThatFlickersStandsStill) {
+  start();
+  volts = 8.0;
+  int within = 0;
+  for (; output[0] != 0.0 && within < 1000; ++within) {
+    readings.muscle[0].encoder = within / 7 % 3;
+    tick();
+  }
+  EXPECT_LE(within, 310);
+  EXPECT_EQ(firmware.fault(), Fault::kEncoder);
+}
+TEST_F(Desk, AnEncoderThatCountsSlowlyMoves) {
+  start();
+  volts = 8.0;
+  for (int i = 0; i < 3000; ++i) {
+    readings.muscle[0].encoder -= i % 20 == 0;  // 5 mrad/s
+    tick();
+  }
+  EXPECT_EQ(firmware.fault(), Fault::kNone) << name(firmware.fault());
+}
 TEST_F(Desk, BusOff) {
   start();
   readings.bus_off = true;

@@ -8,6 +8,9 @@ namespace ecu {
 namespace {
 
 constexpr double kPositionMargin = 0.5;  // [rad] for overshoot beyond the clipped reference
+// A spindle that was pushed no further stands; the counts of a torn encoder may flicker.
+constexpr double kStandstill = 0.001;  // [rad]
+constexpr int kFlicker = 2;            // [counts]
 
 double magnitude(double value) {
   return value < 0.0 ? -value : value;
@@ -42,8 +45,6 @@ Fault Channel::judge(const MuscleReadings& readings) {
   const auto limit = [this](Parameter p) { return parameters.get(p); };
   const bool force_at_stop = parameters.has_force_sensor() &&
                              (readings.force < kLowestCount || readings.force > kHighestCount);
-  const bool pushes = magnitude(voltage_) > 0.5 * limit(Parameter::kVoltageLimit);
-  const bool stands = readings.encoder == last_encoder_;
   const bool too_much_current =
       current_.lasted(magnitude(measured_.current) > limit(Parameter::kCurrentLimit), 20);
   const bool too_much_force = force_.lasted(
@@ -51,7 +52,7 @@ Fault Channel::judge(const MuscleReadings& readings) {
   const bool too_fast =
       speed_.lasted(magnitude(measured_.velocity) > limit(Parameter::kSpeedLimit), 5);
   const bool no_force_sensor = force_sensor_.lasted(force_at_stop, 20);
-  const bool no_encoder = encoder_.lasted(pushes && stands, 300);
+  const bool no_encoder = encoder_.lasted(stands_though_pushed(readings.encoder), 300);
   if (!limits_set_) return Fault::kNone;
   // Those that lose the zero come first: they must not hide behind another one.
   if (too_fast) return Fault::kOverSpeed;
@@ -65,6 +66,15 @@ Fault Channel::judge(const MuscleReadings& readings) {
   if (too_much_force) return Fault::kOverForce;
   if (readings.temperature > limit(Parameter::kTemperatureLimit)) return Fault::kOverTemperature;
   return Fault::kNone;
+}
+
+bool Channel::stands_though_pushed(std::int32_t encoder) {
+  const int travel = encoder < pushed_from_ ? pushed_from_ - encoder : encoder - pushed_from_;
+  const bool pushes = magnitude(voltage_) > 0.5 * parameters.get(Parameter::kVoltageLimit);
+  const bool stands =
+      travel <= kFlicker || parameters.get(Parameter::kEncoderScale) * travel <= kStandstill;
+  if (!pushes || !stands) pushed_from_ = encoder;
+  return pushes && stands;
 }
 
 bool Channel::refer(Mode mode, double reference) {

@@ -66,6 +66,7 @@ class Channel {
 
  private:
   Fault judge(const MuscleReadings& readings);
+  bool stands_though_pushed(std::int32_t encoder);
   double towards(double target, double rate) const;
 
   static constexpr int kSpeedWindow = 8;  ///< [ticks] over which counts are differenced
@@ -78,6 +79,7 @@ class Channel {
   double zero_position_ = 0.0;
   bool zero_known_ = false;
   std::int32_t last_encoder_ = 0;
+  std::int32_t pushed_from_ = 0;  ///< [counts] where it was when the push began, or has moved since
   Mode mode_ = Mode::kVoltage;
   double target_ = 0.0, reference_ = 0.0;
   bool limits_set_ = false;
