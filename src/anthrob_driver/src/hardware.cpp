@@ -84,6 +84,16 @@ LinearSensor load_linear(const ConfigNode& node, const std::string& unit) {
   return sensor;
 }
 
+/// What EncoderWatch wants to know: one entry of `actuators`.
+void load_motor(const ConfigNode& node, MuscleHardware& muscle) {
+  if (node.text("type") != "dc_motor") return;
+  const ConfigNode motor = node.at("motor"), gear = node.at("gear"), stage = node.at("power_stage");
+  muscle.resistance = motor.number("resistance", Bounds::positive(), "ohm") +
+                      stage.number("resistance", Bounds::nonnegative(), "ohm");
+  muscle.back_emf = motor.number("back_emf_constant", Bounds::positive(), "Vs/rad") *
+                    gear.number("ratio", Bounds::positive(), "1");
+}
+
 /// Limits that the ECU watches, and its sensors: one entry of `units`.
 void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
   const auto limit = [&](const char* key, Parameter parameter, const char* unit) {
@@ -169,6 +179,9 @@ class Loader {
       add_muscle(name, node.text("ecu"), kind, model_.at("controllers").at(kind),
                  of_hand ? calibration_.at("hand").at("muscles") : calibration_.at("muscles"),
                  node);
+      if (node.has("actuator")) {
+        load_motor(model_.at("actuators").at(node.text("actuator")), hardware_.muscles.back());
+      }
     }
     load_hand();
     load_joints();

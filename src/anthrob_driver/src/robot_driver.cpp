@@ -14,10 +14,10 @@ namespace {
 using ecu::Function;
 using ecu::Operation;
 
-constexpr double kClearGrace = 0.15;  // [s] until ECUs have cleared their latches
-constexpr int kIdleNode = -2;         // on the bus, but not used
-constexpr int kRepeats = 3;           // cycles in which disable and clear are sent
-constexpr int kCyclesPerQuestion = 4; // of what is asked of enabled units
+constexpr double kClearGrace = 0.15;   // [s] until ECUs have cleared their latches
+constexpr int kIdleNode = -2;          // on the bus, but not used
+constexpr int kRepeats = 3;            // cycles in which disable and clear are sent
+constexpr int kCyclesPerQuestion = 4;  // of what is asked of enabled units
 
 ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options) {
   if (!(options.rate >= 100.0 && options.rate <= 1000.0)) {
@@ -79,6 +79,9 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
     references_.push_back({static_cast<int>(m), ecu::Mode::kVoltage, 0.0});
   }
   tendons_.assign(hardware_.muscles.size(), TendonWatch(hardware_.tendons));
+  for (const MuscleHardware& muscle : hardware_.muscles) {
+    encoders_.emplace_back(muscle.resistance, muscle.back_emf);
+  }
 }
 
 // ---- in ----
@@ -441,6 +444,25 @@ void RobotDriver::check_tendons(double now) {
   }
 }
 
+void RobotDriver::check_encoders(double now) {
+  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+    if (phase_ != Phase::kEnabled) {
+      encoders_[m].restart();
+      continue;
+    }
+    const MuscleHardware& wired = hardware_.muscles[m];
+    const MuscleSample& muscle = sampler_.last().muscles[m];
+    if (!muscle.measured) continue;
+    const std::string wrong =
+        encoders_[m].step(muscle.position, muscle.voltage, muscle.current, sampler_.last().time);
+    if (wrong.empty()) continue;
+    const std::string detail = wired.name + ": " + wrong;
+    findings_.add(Finding::kEncoderDead, wired.ecu, now, detail);
+    revoke_zero(wired);
+    stop(Finding::kEncoderDead, wired.ecu, detail);
+  }
+}
+
 void RobotDriver::continue_home(double now) {
   if (home_.state() == Home::State::kReached) return continue_zero(now);
   if (home_.state() != Home::State::kRunning) return;
@@ -507,6 +529,7 @@ void RobotDriver::cycle(double now) {
     stop(Finding::kCommandTimeout, -1);
   }
   check_tendons(now);
+  check_encoders(now);
   if (phase_ == Phase::kEnabled) continue_home(now);
   send_cycle(now);
   if (phase_ == Phase::kEnabling) continue_enable(now);

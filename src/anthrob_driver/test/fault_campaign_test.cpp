@@ -71,6 +71,12 @@ void let_pull_by_volts(Rig& rig) {
   rig.volts[kVictimMuscles[0]] = 0.5;
 }
 
+using Encoder = Board::Peripherals::Encoder;
+void mend_encoder(Rig& rig) {
+  rig.rack.board(kVictim).peripherals.encoder = Encoder::kCounts;
+  let_pull_by_volts(rig);
+}
+
 std::vector<Kind> kinds() {
   using K = Kind;
   std::vector<Kind> k;
@@ -250,6 +256,22 @@ std::vector<Kind> kinds() {
                  r.volts[kVictimMuscles[0]] = 8.0;
                },
                [](Rig& r) { r.volts[kVictimMuscles[0]] = 0.5; }, 320});
+  k.push_back({"encoder's cable cut, POSITION", K::kEverybody, int(Finding::kEncoderDead),
+               [](Rig& r) {
+                 const auto muscle = static_cast<std::size_t>(kVictimMuscles[0]);
+                 pull(r, muscle, ecu::Mode::kPosition, 1.0);
+                 r.rack.board(kVictim).peripherals.encoder = Encoder::kCut;
+                 r.volts[muscle] = 1.4;
+               },
+               mend_encoder, 230});
+  k.push_back({"encoder's count flickers, POSITION", K::kEverybody, int(Finding::kEncoderDead),
+               [](Rig& r) {
+                 const auto muscle = static_cast<std::size_t>(kVictimMuscles[0]);
+                 pull(r, muscle, ecu::Mode::kPosition, 1.0);
+                 r.rack.board(kVictim).peripherals.encoder = Encoder::kFlickers;
+                 r.volts[muscle] = 1.4;
+               },
+               mend_encoder, 230});
   k.push_back({"tendon cut, POSITION", K::kEverybody, int(Finding::kTendonSlack),
                [](Rig& r) {
                  const auto muscle = static_cast<std::size_t>(kVictimMuscles[0]);

@@ -14,6 +14,16 @@
 namespace anthrob {
 namespace driver {
 
+/// All motors are the bench's.
+inline Hardware with_bench_motors(Hardware robot) {
+  const TendonPlant::Parameters bench;
+  for (MuscleHardware& muscle : robot.muscles) {
+    muscle.resistance = bench.resistance;
+    muscle.back_emf = bench.constant * bench.ratio;
+  }
+  return robot;
+}
+
 /// A driver and seven emulated ECUs on a bus in memory, in simulated time: one call of step() is
 /// one millisecond, the same every time. The ECUs know their zeros, as after a `home`.
 class Rig {
@@ -21,11 +31,11 @@ class Rig {
   explicit Rig(bool hand = true, const RobotDriver::Options& options = RobotDriver::Options{})
       : Rig(load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", hand), options) {}
   explicit Rig(Hardware robot, const RobotDriver::Options& options = RobotDriver::Options{})
-      : hardware(std::move(robot)),
+      : hardware(with_bench_motors(std::move(robot))),
         host(bus.attach()),
         ecus(bus.attach()),
         stranger(bus.attach()),
-        plant(hardware.muscles.size(), hardware.joints.size(), hardware.touch.size()),
+        plant(hardware),
         rack(hardware, plant, ecus),
         driver_options(options),
         period_ms(static_cast<int>(std::lround(1000.0 / options.rate))),

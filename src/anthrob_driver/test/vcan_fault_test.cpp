@@ -148,7 +148,7 @@ class EmulatedRobot {
  public:
   EmulatedRobot()
       : hardware_(load_hardware(kHardwareFile, true)),
-        plant_(hardware_.muscles.size(), hardware_.joints.size(), hardware_.touch.size()),
+        plant_(hardware_),
         bus_(kInterface),
         rack_(hardware_, plant_, bus_),
         thread_([this] {

@@ -126,6 +126,23 @@ TEST_F(ZerosTest, ATendonThatBrokeTakesTheZeroOfItsMuscleAlong) {
   EXPECT_EQ(refusal(), kNoZero);
 }
 
+TEST_F(ZerosTest, AnEncoderThatDiesTakesTheZeroAlong) {
+  enable();
+  rig.commander_runs = true;
+  rig.volts[4] = 2.0;
+  rig.rack.board(kUnit).peripherals.encoder = Board::Peripherals::Encoder::kCut;
+  rig.run(400);
+  rig.commander_runs = false;
+  ASSERT_EQ(rig.driver().findings().count(Finding::kEncoderDead), 1u);
+  EXPECT_EQ(rig.driver().stops().last().substr(0, 20), "encoder_dead: ecu_3:");
+  EXPECT_NE(rig.driver().stops().last().find("infraspinatus: at 2.0 V"), std::string::npos)
+      << rig.driver().stops().last();
+  rig.rack.board(kUnit).peripherals.encoder = Board::Peripherals::Encoder::kCounts;
+  enable();
+  EXPECT_EQ(refusal(), kNoZero);
+  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+}
+
 TEST_F(ZerosTest, ATendonThatHomeFindsBrokenTakesTheZeroAlong) {
   enable();
   rig.plant.slacken(4, 1e3);

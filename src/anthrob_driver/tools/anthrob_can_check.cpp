@@ -222,7 +222,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
 class EmulatedRobot {
  public:
   EmulatedRobot(const Hardware& hardware, const Arguments& arguments)
-      : plant_(hardware.muscles.size(), hardware.joints.size(), hardware.touch.size()),
+      : plant_(hardware),
         bus_(arguments.can),
         rack_(hardware, plant_, bus_),
         emulator_(rack_, bus_, arguments.pace),

@@ -113,8 +113,7 @@ int run(const Arguments& arguments) {
   std::unique_ptr<RobotClock> clock;
   if (arguments.clock) clock = std::make_unique<RobotClock>(arguments.pace);
   if (arguments.model.empty()) {
-    plant = std::make_unique<driver::TendonPlant>(hardware.muscles.size(), hardware.joints.size(),
-                                                  hardware.touch.size());
+    plant = std::make_unique<driver::TendonPlant>(hardware);
   } else {
     auto simulated = std::make_unique<SimulatorPlant>(load_robot_model(arguments.model), hardware);
     if (arguments.ros) balls = std::make_unique<BallJoints>(simulated->simulation());

@@ -37,8 +37,9 @@ enum class Finding : std::uint8_t {
   kCommandTimeout,
   kHomeFailed,
   kTendonSlack,
+  kEncoderDead,
 };
-constexpr int kFindingCount = 28;
+constexpr int kFindingCount = 29;
 
 struct FindingInfo {
   Finding finding;

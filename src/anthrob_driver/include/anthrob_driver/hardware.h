@@ -21,6 +21,8 @@ struct MuscleHardware {
   LinearSensor force, current;
   double encoder_scale = 0.0;  ///< [rad/count]
   double home_position = 0.0;  ///< [rad] what home makes of the pretensioned posture
+  /// Of the model's motor: with its power stage [ohm], at the gear output [Vs/rad]; 0: not known
+  double resistance = 0.0, back_emf = 0.0;
 };
 
 struct EcuHardware {

@@ -7,6 +7,7 @@
 #include "anthrob_driver/bus_watch.h"
 #include "anthrob_driver/ecu_link.h"
 #include "anthrob_driver/enabling.h"
+#include "anthrob_driver/encoder_watch.h"
 #include "anthrob_driver/home.h"
 #include "anthrob_driver/live_gains.h"
 #include "anthrob_driver/sampler.h"
@@ -95,6 +96,7 @@ class RobotDriver {
   void check_bus(double now);
   void check_ecus(double now);
   void check_tendons(double now);
+  void check_encoders(double now);
   void continue_enable(double now);
   void finish_enable(bool success, const std::string& reason);
   void continue_home(double now);
@@ -135,7 +137,8 @@ class RobotDriver {
   Home home_;
   Zeros zeros_;
   LiveGains gains_;
-  std::vector<TendonWatch> tendons_;  ///< one a muscle
+  std::vector<TendonWatch> tendons_;    ///< one a muscle
+  std::vector<EncoderWatch> encoders_;  ///< one a muscle
   StopLog stops_;
 
   Phase phase_ = Phase::kDisabled;

@@ -65,7 +65,16 @@ void Board::freeze(bool frozen) {
   frozen_ = frozen;
 }
 
-ecu::Readings Board::read(const Plant& plant) const {
+std::int32_t Board::count(double position, double scale) {
+  using Encoder = Peripherals::Encoder;
+  if (peripherals.encoder == Encoder::kCounts) {
+    counted_ = static_cast<std::int32_t>(std::lround(position / scale));
+  }
+  flicker_ = peripherals.encoder == Encoder::kFlickers && !flicker_;
+  return counted_ + flicker_;
+}
+
+ecu::Readings Board::read(const Plant& plant) {
   ecu::Readings readings;
   const EcuHardware& own = hardware_.ecus[static_cast<std::size_t>(ecu_)];
   for (std::size_t c = 0; c < own.muscles.size(); ++c) {
@@ -73,7 +82,9 @@ ecu::Readings Board::read(const Plant& plant) const {
     const MuscleHardware& wired = hardware_.muscles[index];
     const Plant::Muscle truth = plant.muscle(index);
     ecu::MuscleReadings& r = readings.muscle[c];
-    r.encoder = static_cast<std::int32_t>(std::lround(truth.position / wired.encoder_scale));
+    r.encoder = c == 0
+                    ? count(truth.position, wired.encoder_scale)
+                    : static_cast<std::int32_t>(std::lround(truth.position / wired.encoder_scale));
     r.current = static_cast<std::uint16_t>(wired.current.count(truth.current));
     r.force = peripherals.force_sensor_cut
                   ? std::uint16_t{0}

@@ -36,6 +36,8 @@ class Board {
   const ecu::Firmware& firmware() const { return firmware_; }
   /// What the board's peripherals read besides the plant; tests break things here.
   struct Peripherals {
+    /// Of the first muscle. kCut: stands where it was; kFlickers: and toggles by a count
+    enum class Encoder { kCounts, kCut, kFlickers } encoder = Encoder::kCounts;
     double supply = 12.0;
     int temperature = 30;
     bool force_sensor_cut = false;
@@ -44,7 +46,8 @@ class Board {
   } peripherals;
 
  private:
-  ecu::Readings read(const Plant& plant) const;
+  ecu::Readings read(const Plant& plant);
+  std::int32_t count(double position, double scale);
   void boot();
 
   const Hardware& hardware_;
@@ -53,6 +56,8 @@ class Board {
   ecu::Firmware firmware_;
   bool powered_ = true, frozen_ = false;
   int unfed_ = 0;
+  std::int32_t counted_ = 0;  ///< by the first muscle's encoder, before it was cut
+  bool flicker_ = false;
 };
 
 }  // namespace driver

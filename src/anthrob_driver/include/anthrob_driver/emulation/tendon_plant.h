@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "anthrob_driver/emulation/plant.h"
+#include "anthrob_driver/hardware.h"
 
 namespace anthrob {
 namespace driver {
@@ -28,6 +29,8 @@ class TendonPlant final : public Plant {
       : TendonPlant(muscles, joints, pads, Parameters{}) {}
   TendonPlant(std::size_t muscles, std::size_t joints, std::size_t pads,
               const Parameters& parameters);
+  /// With the motors of this robot, where they are known: their windings, the bench's else.
+  explicit TendonPlant(const Hardware& hardware);
 
   Muscle muscle(std::size_t muscle) const override;
   double joint(std::size_t joint) const override { return joints_[joint]; }
@@ -51,6 +54,7 @@ class TendonPlant final : public Plant {
  private:
   struct Tendon {
     double voltage = 0.0, current = 0.0, velocity = 0.0, position = 0.0, slack = 0.0;
+    double resistance = 0.0, back_emf = 0.0;  ///< [ohm], [Vs/rad] at the gear output
     bool cut = false, jammed = false, reversed = false;
   };
   double force(const Tendon& tendon) const;

@@ -1,0 +1,36 @@
+#include "anthrob_driver/encoder_watch.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace anthrob {
+namespace driver {
+
+std::string EncoderWatch::step(double position, double voltage, double current, double now) {
+  if (resistance_ <= 0.0 || back_emf_ <= 0.0) return "";
+  const double drop = resistance_ * current, emf = voltage - drop;
+  const bool turns = std::abs(emf) > kLeast + kHot * std::abs(drop);
+  const int direction = !turns ? 0 : emf > 0.0 ? 1 : -1;
+  if (direction != turning_ || now - last_ > kLongestGap) {
+    turning_ = direction;
+    since_ = now;
+    start_ = position;
+    turned_ = 0.0;
+  } else if (direction != 0) {
+    turned_ += emf / back_emf_ * (now - last_);
+  }
+  last_ = now;
+  if (direction == 0 || now - since_ < kLasts) return "";
+  const double counted = position - start_;
+  const double turned = turned_;
+  turning_ = 0;  // looked at; anew from the next measurement on
+  if (std::abs(counted) >= kCounted * std::abs(turned)) return "";
+  char text[160];
+  std::snprintf(text, sizeof(text),
+                "at %.1f V and %.2f A its motor turned by %.2f rad, and the encoder counted %.3f",
+                voltage, current, turned, counted);
+  return text;
+}
+
+}  // namespace driver
+}  // namespace anthrob
