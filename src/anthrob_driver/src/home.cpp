@@ -80,7 +80,14 @@ std::string Home::check(const Reading& reading, Tendon& tendon) const {
     return text("wound in by %.2f rad and only %.1f N: the tendon is broken or off its pulley",
                 wound, reading.force);
   }
+  if (grips && !tendon.gripped) tendon.grip = reading.position;
   tendon.gripped = tendon.gripped || grips;
+  // By force control from here on, which a sensor that always reads the same would lead anywhere.
+  const double turned = reading.position - tendon.grip;
+  if (tendon.gripped && std::abs(turned) > limits.travel_limit) {
+    return text("turned by %.2f rad since it gripped, and %.1f N: the force sensor does not follow",
+                turned, reading.force);
+  }
   tendon.held = tendon.held || reading.force > 0.8 * pretension;
   if (tendon.held && reading.force < (1.0 - limits.slip_drop) * pretension) {
     tendon.lost = true;

@@ -177,6 +177,39 @@ TEST_F(HomeTest, ATightTendonMayPayOutDownToThePretension) {
   EXPECT_TRUE(home.running()) << home.failure();
 }
 
+TEST_F(HomeTest, AForceSensorThatDoesNotFollowEndsItEitherWay) {
+  for (const double force : {8.0, 4.0}) {
+    const double turn = force > 5.0 ? -1.0 : 1.0;
+    Home home(rig.hardware);
+    std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.3, 5.0});
+    readings[3].force = force;
+    home.start(0.0);
+    for (double t = 0.0; home.running() && std::abs(readings[3].position - 0.3) < 7.0; t += 0.005) {
+      home.step(readings, t);
+      readings[3].position += 0.07 * turn;
+    }
+    char expected[160];
+    std::snprintf(expected, sizeof(expected),
+                  "supraspinatus: turned by %.2f rad since it gripped, and %.1f N: the force sensor "
+                  "does not follow",
+                  6.02 * turn, force);
+    EXPECT_EQ(home.failure(), expected);
+  }
+}
+
+TEST_F(HomeTest, ATravelBeforeItGrippedIsNoneAfterIt) {
+  Home home(rig.hardware);
+  std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.0, 5.0});
+  readings[3].force = 0.0;
+  home.start(0.0);
+  home.step(readings, 0.0);
+  readings[3].position = 5.9;
+  home.step(readings, 0.005);
+  readings[3] = {6.5, 4.5};
+  home.step(readings, 0.01);
+  EXPECT_TRUE(home.running()) << home.failure();
+}
+
 TEST_F(HomeTest, AMotorWiredTheWrongWayStopsBeforeItPaysOutItsTendon) {
   rig.plant.reverse(3);
   home();

@@ -43,6 +43,7 @@ class Home {
   struct Tendon {
     double start = 0.0;    ///< [rad]
     bool gripped = false;  ///< was seen at half the pretension
+    double grip = 0.0;     ///< [rad] where that was
     bool held = false;     ///< was seen near the pretension
     bool lost = false;     ///< broke, slipped or is off its pulley
   };
