@@ -17,6 +17,8 @@ namespace {
 
 using ecu::Parameter;
 
+constexpr double kLongestHome = 120.0;  // [s]
+
 std::string text(double value) {
   std::ostringstream out;
   out << value;
@@ -136,6 +138,23 @@ void load_sensors(const ConfigNode& node, MuscleHardware& muscle) {
   }
   const bool takes_forces = muscle.limits.highest[static_cast<int>(ecu::Mode::kForce)] > 0.0;
   muscle.limits.modes = {true, true, true, has_force && takes_forces};
+}
+
+/// `home` may ask nothing of a muscle that its unit does not stand. Others are not pulled.
+void check_home(const ConfigNode& node, const HomeRoutine& home, const MuscleHardware& muscle) {
+  if (!muscle.parameters.has_force_sensor()) return;
+  const auto limit = [&](Parameter p) { return muscle.parameters.get(p); };
+  const auto at_most = [&](const char* key, double value, double most, const std::string& what) {
+    if (value > most) {
+      node.at(key).fail_expected("at most " + text(most) + " " + what + " of " + muscle.name);
+    }
+  };
+  at_most("wind_speed", home.wind_speed, 0.5 * limit(Parameter::kSpeedLimit),
+          "rad/s, half of speed_limit");
+  at_most("travel_limit", home.travel_limit,
+          limit(Parameter::kPositionHigh) - limit(Parameter::kPositionLow),
+          "rad, the width of position_range");
+  at_most("force_limit", home.force_limit, limit(Parameter::kForceLimit), "N, force_limit");
 }
 
 /// A limit that its sensor cannot read is none.
@@ -329,6 +348,10 @@ class Loader {
       node.at("tolerance").fail_expected("less than half of pretension");
     }
     if (home.slip_drop <= 0.2) node.at("slip_drop").fail_expected("more than 0.2");
+    if (home.time_limit > kLongestHome) {
+      node.at("time_limit").fail_expected("at most " + text(kLongestHome) + " s");
+    }
+    for (const MuscleHardware& muscle : hardware_.muscles) check_home(node, home, muscle);
   }
 
   /// What is not given is taken from `home`.

@@ -205,6 +205,13 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"sensors.yaml", "gain: 0.01", "gain: 0.005", "units.type_1.current_limit: 16"},
       {"sensors.yaml", "gain: 0.06", "gain: 0.03", "which the sensor of lateral_deltoid reads"},
       {"hardware.yaml", "force_limit: 20.0", "force_limit: 2.0", "home.force_limit"},
+      {"hardware.yaml", "force_limit: 20.0", "force_limit: 151.0",
+       "home.force_limit: 151.0: expected at most 150 N, force_limit of triceps_brachii"},
+      {"hardware.yaml", "wind_speed: 1.0", "wind_speed: 6.1",
+       "home.wind_speed: 6.1: expected at most 6 rad/s, half of speed_limit of lateral_deltoid"},
+      {"hardware.yaml", "travel_limit: 6.0", "travel_limit: 61",
+       "home.travel_limit: 61: expected at most 60 rad, the width of position_range of lateral"},
+      {"hardware.yaml", "time_limit: 20.0", "time_limit: 1e5", "expected at most 120 s"},
       {"hardware.yaml", "tolerance: 1.0", "tolerance: 2.5", "home.tolerance"},
       {"hardware.yaml", "slip_drop: 0.5", "slip_drop: 0.2", "home.slip_drop"},
       {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_9}", "ecu_9"},
@@ -228,6 +235,15 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
     EXPECT_NE(error.find(".yaml:"), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
+}
+
+TEST(Hardware, HomeMayAskWhatEveryUnitStands) {
+  EXPECT_EQ(error_of("hardware.yaml", "wind_speed: 1.0", "wind_speed: 6.0", "travel_limit: 6.0",
+                     "travel_limit: 60.0"),
+            "no error");
+  EXPECT_EQ(error_of("hardware.yaml", "force_limit: 20.0", "force_limit: 150.0", "time_limit: 20.0",
+                     "time_limit: 120.0"),
+            "no error");
 }
 
 TEST(Hardware, ASensorOnAUnitThatIsNotListenedToIsRefused) {

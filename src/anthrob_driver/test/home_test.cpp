@@ -189,10 +189,11 @@ TEST_F(HomeTest, AForceSensorThatDoesNotFollowEndsItEitherWay) {
       readings[3].position += 0.07 * turn;
     }
     char expected[160];
-    std::snprintf(expected, sizeof(expected),
-                  "supraspinatus: turned by %.2f rad since it gripped, and %.1f N: the force sensor "
-                  "does not follow",
-                  6.02 * turn, force);
+    std::snprintf(
+        expected, sizeof(expected),
+        "supraspinatus: turned by %.2f rad since it gripped, and %.1f N: the force sensor "
+        "does not follow",
+        6.02 * turn, force);
     EXPECT_EQ(home.failure(), expected);
   }
 }
