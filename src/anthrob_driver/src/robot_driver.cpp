@@ -116,8 +116,13 @@ void RobotDriver::on_frame(const ecu::Frame& frame, double now) {
   if (ecu::function_of(frame) == static_cast<int>(Function::kStop)) {
     // Somebody else on the bus pressed stop.
     findings_.add(Finding::kStopLatched, -1, now);
-    // Passed on once; each cycle repeats it. Two hosts that answered each other would never end.
-    if (!supervisor_.stop_latched()) obey_stop(-1);
+    if (!supervisor_.stop_latched()) {
+      obey_stop(-1);
+    } else {
+      // Passed on already, and each cycle repeats it: two hosts that answered each other would
+      // never end. But no call that came before it may undo it.
+      ++halts_;
+    }
     return;
   }
   if (ecu::function_of(frame) <= static_cast<int>(Function::kReference) ||

@@ -164,6 +164,12 @@ TEST(RobotDriver, EveryDisableIsAHalt) {
   rig.stranger.send(ecu::Frame{});
   rig.run(2);
   EXPECT_TRUE(halted());
+  // Again, while that stop is latched: whoever sends it has not seen it clear.
+  rig.run(200);
+  EXPECT_FALSE(halted());
+  rig.stranger.send(ecu::Frame{});
+  rig.run(2);
+  EXPECT_TRUE(halted());
 }
 
 /// As another driver on the bus does, which passes on every stop that it hears.

@@ -80,7 +80,8 @@ class RobotDriver {
   const Findings& findings() const { return findings_; }
   const BusWatch& bus_watch() const { return watch_; }
   std::uint64_t cycles() const { return cycles_; }
-  /// How often everything was disabled, by whomever and whether anything ran or not.
+  /// How often everything was disabled, by whomever and whether anything ran or not, or was told to
+  /// stop again.
   std::uint64_t halts() const { return halts_; }
   /// Why motors were stopped, when nobody had asked for it here.
   const StopLog& stops() const { return stops_; }
