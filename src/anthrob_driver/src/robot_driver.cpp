@@ -504,8 +504,12 @@ void RobotDriver::send(const ecu::Frame& frame) {
 
 std::uint8_t RobotDriver::request(Operation operation, int node, std::uint16_t configuration,
                                   std::uint8_t session) {
-  // 0 is what an ECU reports before any request.
-  sequence_ = sequence_ == 255 ? std::uint8_t{1} : static_cast<std::uint8_t>(sequence_ + 1);
+  // 0 is what an ECU reports before any request. The number that it reported last, perhaps to a
+  // driver before this one, it would take for that request come again.
+  const auto is_used = [this](const EcuLink& link) { return link.report().sequence == sequence_; };
+  do {
+    ++sequence_;
+  } while (sequence_ == 0 || std::any_of(links_.begin(), links_.end(), is_used));
   ecu::Request message;
   message.operation = operation;
   message.sequence = sequence_;

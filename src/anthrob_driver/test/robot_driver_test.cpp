@@ -286,6 +286,20 @@ TEST(RobotDriver, AnEnableThatIsDisabledUnderWayDidNotSucceed) {
   EXPECT_TRUE(rig.driver().last_outcome().accepted);
 }
 
+/// As a driver before this one left it.
+TEST(RobotDriver, AnEnableHasANumberThatNoUnitReportedLast) {
+  Rig rig;
+  rig.run(1000);
+  ecu::Request old;
+  old.operation = ecu::Operation::kEnable;
+  old.sequence = 1;
+  rig.rack.board(2).receive(ecu::encode(old, rig.hardware.ecus[2].node));
+  rig.run(20);
+  ASSERT_EQ(rig.driver().link(2).report().sequence, 1);
+  ASSERT_EQ(rig.driver().link(2).report().refusal, ecu::Refusal::kWrongSession);
+  EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+}
+
 TEST(RobotDriver, OneEcuMissingAndNoneIsEnabled) {
   Rig rig;
   rig.rack.board(5).set_power(false);
