@@ -10,6 +10,7 @@
 #include <limits>
 #include <thread>
 
+#include "anthrob_driver/call_guard.h"
 #include "anthrob_driver/measurement_age.h"
 #include "anthrob_ros/diagnostics.h"
 #include "driver_diagnostics.h"
@@ -91,11 +92,11 @@ void DriverNode::pass_commands() {
 }
 
 DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, Commands commands) {
-  const std::uint64_t received = RequestQueue::received();
-  Outcome outcome{false, "the motors were stopped after this was called; call it again"};
+  const CallGuard guard(RequestQueue::received());
+  Outcome outcome{false, ""};
   bool pending = false, refusing = false;
   thread_.call([&](RobotDriver& driver, double now) {
-    pending = driver.halts() == received && begin(driver, now, outcome);
+    pending = guard.may_begin(driver, outcome) && begin(driver, now, outcome);
     refusing = pending && commands == Commands::kRefused;
     if (refusing) ++dropping_;
   });
@@ -107,7 +108,10 @@ DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, C
   if (pending) outcome = {false, "the driver is being stopped"};
   if (refusing) {
     pass_commands();
-    thread_.call([this](RobotDriver&, double) { --dropping_; });
+    thread_.call([&](RobotDriver& driver, double) {
+      --dropping_;
+      guard.confirm(driver, outcome);
+    });
   }
   return outcome;
 }
