@@ -42,11 +42,12 @@ DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std:
   DiagnosticStatus status;
   status.name = robot + ": driver";
   status.level = DiagnosticStatus::OK;
-  const bool enabled = driver.phase() == RobotDriver::Phase::kEnabled;
-  status.message = driver.supervisor().stop_latched() ? "emergency stop"
-                   : driver.home().running()          ? "homing"
-                   : enabled                          ? "enabled"
-                                                      : "disabled";
+  using Phase = RobotDriver::Phase;
+  status.message = driver.supervisor().stop_latched()   ? "emergency stop"
+                   : driver.home().running()            ? "homing"
+                   : driver.phase() == Phase::kEnabled  ? "enabled"
+                   : driver.phase() == Phase::kEnabling ? "enabling"
+                                                        : "disabled";
   if (driver.supervisor().stop_latched()) raise(status, DiagnosticStatus::WARN);
   const std::string trouble = driver.bus_watch().trouble();
   if (!trouble.empty()) {
@@ -77,11 +78,18 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
   DiagnosticStatus status;
   status.name = robot + ": " + link.own().name;
   status.hardware_id = link.own().name;
-  const ecu::State state = link.state();
+  // The unit may be idle again while the driver wants it cleared, as after a restart.
+  const int first = link.own().muscles.front();
+  const bool held = driver.supervisor().state(first) == ecu::State::kFault;
+  const ecu::State state = held ? ecu::State::kFault : link.state();
   status.level = DiagnosticStatus::OK;
   if (state == ecu::State::kFault) raise(status, DiagnosticStatus::ERROR);
   if (state == ecu::State::kStopping) raise(status, DiagnosticStatus::WARN);
   status.message = ecu::name(state);
+  if (held && link.state() != ecu::State::kFault) {
+    status.message += std::string(", held by the driver: clear_faults (the unit: ") +
+                      ecu::name(link.state()) + ")";
+  }
   if (!link.heard() || !link.alive()) {
     raise(status, DiagnosticStatus::ERROR);
     status.message = link.heard() ? "lost" : "never heard";
@@ -89,7 +97,7 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
     raise(status, DiagnosticStatus::WARN);
     status.message += ", not configured";
   }
-  const bool zero_lost = driver.supervisor().zero_lost(link.own().muscles.front());
+  const bool zero_lost = driver.supervisor().zero_lost(first);
   if (zero_lost) {
     raise(status, DiagnosticStatus::WARN);
     status.message += ", zero lost: home first";

@@ -26,6 +26,32 @@ TEST(DriverDiagnostics, WarnWhileAStopIsLatched) {
   EXPECT_EQ(status().message, "disabled");
 }
 
+TEST(DriverDiagnostics, NameTheFaultThatTheDriverHolds) {
+  Rig rig;
+  rig.run(1000);
+  const auto status = [&] { return ecu_status(rig.driver(), 2, rig.now(), "/anthrob"); };
+  EXPECT_EQ(status().level, DiagnosticStatus::OK);
+  EXPECT_EQ(status().message, "IDLE");
+  rig.rack.board(2).set_power(false);
+  rig.rack.board(2).set_power(true);
+  rig.run(10000);  // nothing of it is recent
+  ASSERT_EQ(rig.driver().link(2).state(), ecu::State::kIdle);
+  EXPECT_EQ(status().level, DiagnosticStatus::ERROR);
+  EXPECT_EQ(status().message,
+            "FAULT, held by the driver: clear_faults (the unit: IDLE), zero lost: home first");
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  EXPECT_EQ(status().level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status().message, "IDLE, zero lost: home first");
+}
+
+TEST(DriverDiagnostics, SayThatEnableIsUnderWay) {
+  Rig rig;
+  rig.run(1000);
+  ASSERT_TRUE(rig.driver().start_enable(rig.now()).accepted);
+  EXPECT_EQ(driver_status(rig.driver(), rig.now(), "/anthrob").message, "enabling");
+}
+
 }  // namespace
 }  // namespace driver
 }  // namespace anthrob
