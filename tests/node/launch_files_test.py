@@ -97,6 +97,13 @@ class LaunchFiles(unittest.TestCase):
                          if node.package == 'anthrob_emulator']
             self.assertEqual('--homed' in emulator.args, homed)
 
+    def test_a_robot_takes_no_first_step_that_is_far(self):
+        for asked, step in ([], 0.5), (['backend:=hardware'], 0.5), (['backend:=emulated'], 0.0), (['first_step:=0'], 0.0), \
+                (['backend:=emulated', 'first_step:=0.2'], 0.2):
+            with self.subTest(' '.join(asked)):
+                found = load('robot.launch', *asked).params['/anthrob/driver/first_step'].value
+                self.assertEqual((found, type(found)), (step, float))
+
     def test_whose_time_it_is_is_said_by_every_back_end(self):
         for asked, simulated in (['backend:=hardware'], False), (['backend:=hardware', 'mocap:=true'], False), \
                 (['backend:=emulated'], False), (['backend:=emulated', 'pace:=0.5'], True), (['backend:=sim'], True), \
