@@ -45,6 +45,7 @@ modules=/usr/lib/uml/modules/$(uname -r)/kernel
 for module in net/can/can net/can/can-raw drivers/net/can/dev/can-dev drivers/net/can/vcan; do
   [ -f "$modules/$module.ko" ] && insmod "$modules/$module.ko"
 done
+echo localhost >/proc/sys/kernel/hostname  # anonymous nodes are named by it, and "(none)" is no name
 ip link set lo up
 ip link add dev vcan0 type vcan && ip link set vcan0 txqueuelen 1000 up || echo "with_vcan.sh: no vcan0 in user-mode Linux" >&2
 INIT
