@@ -26,7 +26,7 @@ namespace {
 struct Arguments {
   std::string can = "can0", hardware;
   double seconds = 10.0, rate = 200.0, pace = 1.0;
-  bool emulate = false, hand = true, realtime = false;
+  bool emulate = false, physical = false, hand = true, realtime = false;
 };
 
 /// Bits a second on the wire in a steady, enabled robot.
@@ -261,6 +261,7 @@ int run(const Arguments& arguments) {
     throw BadInput("--pace: a robot has no other pace than 1; expected --emulate");
   }
   if (!arguments.emulate) return measure(arguments, hardware);
+  refuse_physical_bus(arguments.can, arguments.physical);
   EmulatedRobot robot(hardware, arguments);
   const int status = measure(arguments, hardware);
   robot.stop();
@@ -285,7 +286,9 @@ int main(int argc, char** argv) {
   app.add_option("--pace", arguments.pace, "with --emulate: below 1 all time runs slower")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1.0));
-  app.add_flag("--emulate", arguments.emulate, "run the ECUs in software");
+  app.add_flag("--emulate", arguments.emulate, "run the ECUs in software, on a vcan");
+  app.add_flag("--physical", arguments.physical,
+               "with --emulate: on a physical interface, too, where no robot is");
   app.add_flag("--hand,!--no-hand", arguments.hand,
                "with the hand's ECU, if the robot has a hand (default)");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");

@@ -23,8 +23,8 @@ namespace anthrob {
 namespace {
 
 struct Arguments {
-  std::string hardware, model, can = "can0";
-  bool hand = false, realtime = false, ros = false, clock = false, homed = false;
+  std::string hardware, model, can = "vcan0";
+  bool hand = false, realtime = false, ros = false, clock = false, homed = false, physical = false;
   double rate = 100.0, pace = 1.0;
 };
 
@@ -105,6 +105,7 @@ std::uint8_t session_now() {
 }
 
 int run(const Arguments& arguments) {
+  driver::refuse_physical_bus(arguments.can, arguments.physical);
   if ((arguments.ros || arguments.clock) && name_is_taken()) return tool::kBadInput;
   const bool hand = arguments.hand && driver::has_hand(arguments.hardware);
   const driver::Hardware hardware = driver::load_hardware(arguments.hardware, hand);
@@ -149,7 +150,8 @@ int main(int argc, char** argv) {
   app.add_option("--hardware", arguments.hardware, "hardware.yaml of the robot")->required();
   app.add_option("--model", arguments.model,
                  "model file: the simulator's physics; without, a bench of motors and springs");
-  app.add_option("--can", arguments.can, "CAN interface")->capture_default_str();
+  app.add_option("--can", arguments.can, "CAN interface, a vcan")->capture_default_str();
+  app.add_flag("--physical", arguments.physical, "on a physical interface, too, where no robot is");
   app.add_option("--rate", arguments.rate, "[Hz] of spherical_joint_states")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 1000.0));

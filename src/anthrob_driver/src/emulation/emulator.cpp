@@ -2,6 +2,7 @@
 
 #include <ctime>
 
+#include "anthrob_config/errors.h"
 #include "anthrob_driver/driver_thread.h"
 
 namespace anthrob {
@@ -18,6 +19,13 @@ void sleep_until(double time) {
 }
 
 }  // namespace
+
+void refuse_physical_bus(const std::string& interface, bool physical) {
+  if (physical || interface.rfind("vcan", 0) == 0) return;
+  throw BadInput("--can: " + interface +
+                 ": expected vcan0 or the like: emulated units disturb a robot on the same bus and "
+                 "clear its emergency stop; --physical if there is none");
+}
 
 void Emulator::run(const std::function<bool()>& quit, const std::function<void()>& each_tick) {
   const double too_late = 5.0 * period_;

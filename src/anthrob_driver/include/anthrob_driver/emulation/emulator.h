@@ -1,12 +1,19 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "anthrob_driver/bus/socketcan_bus.h"
 #include "anthrob_driver/emulation/rack.h"
 
 namespace anthrob {
 namespace driver {
+
+/// Emulated units beside a robot would answer with its units' numbers, and who emulates clears its
+/// emergency stop.
+/// @param physical the user has asked for it
+/// @throws BadInput if the interface is none of the virtual ones (vcan...)
+void refuse_physical_bus(const std::string& interface, bool physical);
 
 /// Runs a rack of emulated ECUs on a CAN interface in real time. When the machine is too slow,
 /// its milliseconds get longer rather than fewer: the ECUs' watchdogs count their own ticks.
