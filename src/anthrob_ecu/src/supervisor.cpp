@@ -157,9 +157,12 @@ Supervisor::Outcome Supervisor::emergency_stop() {
 }
 
 Supervisor::Outcome Supervisor::clear_faults() {
-  bool enabled = false;
-  for (const StateMachine& machine : machines_) enabled = enabled || machine.follows_references();
-  if (enabled && !stop_latched()) return {true, "nothing to clear"};
+  bool enabled = false, failed = false;
+  for (const StateMachine& machine : machines_) {
+    enabled = enabled || machine.follows_references();
+    failed = failed || machine.state() == State::kFault;
+  }
+  if (enabled && !failed && !stop_latched()) return {true, "nothing to clear"};
   handle_all(Event::kClear);
   return {true, ""};
 }

@@ -111,6 +111,20 @@ TEST(Supervisor, CommandsForWhatIsStoppedAreRefusedCountedAndNamed) {
   EXPECT_EQ(f.supervisor.last_rejection(), "home is running");
 }
 
+TEST(Supervisor, AFaultBesideAnEnabledEcuIsCleared) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  EXPECT_EQ(f.supervisor.clear_faults().reason, "nothing to clear");
+  f.supervisor.fault("ecu_2");
+  const Supervisor::Outcome outcome = f.supervisor.clear_faults();
+  EXPECT_TRUE(outcome.accepted);
+  EXPECT_EQ(outcome.reason, "");
+  EXPECT_EQ(f.supervisor.state(0), State::kEnabled);
+  EXPECT_EQ(f.supervisor.state(2), State::kIdle);
+  EXPECT_TRUE(f.supervisor.enable(0.1).accepted);
+  EXPECT_EQ(f.supervisor.state(2), State::kEnabled);
+}
+
 TEST(Supervisor, OnlyFreshValidCommandsFeedTheWatch) {
   Fixture f;
   f.supervisor.enable(0.0);
