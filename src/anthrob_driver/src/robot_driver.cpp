@@ -161,6 +161,7 @@ std::string RobotDriver::too_far(const std::vector<std::string>& names,
                                  const std::vector<double>& references) const {
   const std::size_t count = std::min({names.size(), modes.size(), references.size()});
   if (options_.first_step <= 0.0 || phase_ != Phase::kEnabled || home_.running()) return "";
+  if (count > hardware_.muscles.size()) return "";  // malformed, however long it is
   for (std::size_t i = 0; i < count; ++i) {
     const bool position = static_cast<ecu::Mode>(modes[i]) == ecu::Mode::kPosition;
     if (!position || !std::isfinite(references[i])) continue;

@@ -235,6 +235,13 @@ TEST(RobotDriver, AFirstPositionFarFromWhereTheMuscleIsIsRefused) {
   rig.run(100);
   EXPECT_EQ(rig.moving(), 0);
   EXPECT_EQ(go(NAN).reason, "muscle 'brachialis': reference is not a finite number");
+  // A command that names more muscles than there are is malformed before anything else.
+  const std::vector<std::string> names(14, "brachialis");
+  EXPECT_EQ(
+      rig.driver()
+          .command(names, std::vector<std::uint8_t>(14, 1), std::vector<double>(14, 3.0), rig.now())
+          .reason,
+      "muscle 'brachialis': named twice");
   // From where it stands the way is free.
   ASSERT_TRUE(go(0.4).accepted);
   rig.run(100);
