@@ -170,10 +170,10 @@ void check_limits(const ConfigNode& unit, const MuscleHardware& muscle) {
   const LinearSensor &current = muscle.current, &force = muscle.force;
   const double either_way = std::min(current.offset, kLargestCount - current.offset);
   check_reach(unit, "current_limit", muscle.parameters.get(Parameter::kCurrentLimit),
-              std::abs(current.gain) * either_way, muscle.name, "A");
+              current.gain * either_way, muscle.name, "A");
   if (!muscle.parameters.has_force_sensor()) return;
   check_reach(unit, "force_limit", muscle.parameters.get(Parameter::kForceLimit),
-              force.gain * (kLargestCount - force.offset), muscle.name, "N");
+              force.gain * (ecu::kHighestCount - force.offset), muscle.name, "N");
 }
 
 class Loader {

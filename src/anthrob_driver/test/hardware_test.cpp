@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -204,6 +205,8 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
        "home.positions.brachialis"},
       {"sensors.yaml", "gain: 0.01", "gain: 0.005", "units.type_1.current_limit: 16"},
       {"sensors.yaml", "gain: 0.06", "gain: 0.03", "which the sensor of lateral_deltoid reads"},
+      // 221.4 N would be a count between the highest that is a force and the converter's last.
+      {"hardware.yaml", "force_limit: 220.0", "force_limit: 221.4", "at most 221.22 N"},
       {"hardware.yaml", "force_limit: 20.0", "force_limit: 2.0", "home.force_limit"},
       {"hardware.yaml", "force_limit: 20.0", "force_limit: 151.0",
        "home.force_limit: 151.0: expected at most 150 N, force_limit of triceps_brachii"},
@@ -269,6 +272,11 @@ TEST(Calibration, CountsAndValuesAreInverse) {
     EXPECT_NEAR(pad.force(pad.count(force)), force, 0.01 * force + 0.01);
   }
   EXPECT_EQ(pad.force(19), 0.0);
+  // A short circuit is no touch, however strong.
+  EXPECT_TRUE(std::isfinite(pad.force(ecu::kHighestCount)));
+  EXPECT_TRUE(std::isnan(pad.force(ecu::kHighestCount + 1)));
+  EXPECT_TRUE(std::isnan(pad.force(4095)));
+  EXPECT_EQ(pad.count(1e9), 4095);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "anthrob_ecu/protocol.h"
 
 namespace anthrob {
 namespace driver {
@@ -11,10 +14,10 @@ struct LinearSensor {
   double gain = 1.0;    ///< [unit/count], not 0
   double offset = 0.0;  ///< [counts] at value 0
 
-  /// Counts beyond these are a converter's end stops: of a torn cable, not of a value.
-  static constexpr int kLowestCount = 8, kHighestCount = 4087;
-
-  static bool measures(int count) { return count >= kLowestCount && count <= kHighestCount; }
+  /// Beyond are a converter's end stops: of a torn cable, not of a value.
+  static bool measures(int count) {
+    return count >= ecu::kLowestCount && count <= ecu::kHighestCount;
+  }
   double value(double count) const { return gain * (count - offset); }
   /// The 12-bit count a converter gives for a value.
   int count(double value) const {
@@ -28,13 +31,17 @@ struct ForceSensitiveResistor {
   double gain = 1.0;        ///< [N] force at half the supply voltage, > 0
   double threshold = 20.0;  ///< [counts] below this the pad is not touched
 
+  /// NaN at the converter's upper end stop: that is a short circuit. A cable that is cut reads as a
+  /// pad that nobody touches.
   double force(double count) const {
     if (count < threshold) return 0.0;
-    const double u = std::min(count, 4095.0) / 4096.0;
+    if (count > ecu::kHighestCount) return std::numeric_limits<double>::quiet_NaN();
+    const double u = count / 4096.0;
     return gain * u / (1.0 - u);
   }
   int count(double force) const {
-    return static_cast<int>(std::lround(4096.0 * force / (gain + std::max(force, 0.0))));
+    const double u = force / (gain + std::max(force, 0.0));
+    return static_cast<int>(std::lround(std::min(4096.0 * u, 4095.0)));
   }
 };
 

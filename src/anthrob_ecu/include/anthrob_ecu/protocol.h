@@ -112,6 +112,9 @@ struct Effort {
 Frame encode(const Effort& effort, int node);
 Effort decode_effort(const Frame& frame);
 
+/// A sensor that reads below or above is broken or cut off [12-bit counts].
+constexpr int kLowestCount = 8, kHighestCount = 4087;
+
 struct Analog {
   std::uint8_t counter = 0;
   std::uint16_t count[kAnalogInputs] = {0, 0, 0, 0};  ///< 12 bits

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "anthrob_ecu/protocol.h"
+
 namespace anthrob {
 namespace ecu {
 

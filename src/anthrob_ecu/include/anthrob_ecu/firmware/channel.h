@@ -16,9 +16,6 @@ struct MuscleReadings {
   int temperature = 25;          ///< of the power stage [deg C]
 };
 
-/// A sensor that reads below or above is broken or cut off [12-bit counts].
-constexpr int kLowestCount = 8, kHighestCount = 4087;
-
 /// A condition that must last before it counts.
 class Persistence {
  public:
