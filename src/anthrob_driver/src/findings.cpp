@@ -30,7 +30,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kWrongVersion, "wrong_version", true, "an ECU speaks another version of the protocol", "flash the firmware that belongs to this driver"},
     {Finding::kConfigurationRefused, "configuration_refused", false, "an ECU does not take a parameter, or reads back another value", "compare hardware.yaml with the table of parameters"},
     {Finding::kJointSensor, "joint_sensor", false, "a joint's potentiometer is at an end stop; the joint is not published", "check its cable and plug, and its turn on the axis"},
-    {Finding::kEnableRefused, "enable_refused", false, "enable did not succeed on every ECU; all were disabled", "the reply of the service says which and why"},
+    {Finding::kEnableRefused, "enable_refused", false, "enable was refused, or did not succeed on every ECU; none is enabled", "the reply of the service says which and why"},
     {Finding::kLateCycle, "late_cycle", false, "a cycle of the driver came more than a period late", "use `realtime:=true`; look for a busy machine"},
     {Finding::kCommandTimeout, "command_timeout", true, "no fresh muscle_command in time", "keep commands coming; enable again"},
     {Finding::kHomeFailed, "home_failed", true, "homing met a limit: tendon broken, slack or slipped", "look at the tendon that is named; repair, enable, home"},
