@@ -35,7 +35,6 @@ void BusWatch::receive(const BusEvent& event, double now) {
       condition_ = Condition::kGood;
       break;
     case Kind::kErrorWarning:
-      if (condition_ == Condition::kGood) condition_ = Condition::kWarning;
       found(Finding::kErrorWarning, now);
       break;
     case Kind::kErrorPassive:

@@ -11,7 +11,7 @@ namespace driver {
 /// Health of our end of the bus, from error frames, full queues and echoes that do not come.
 class BusWatch {
  public:
-  enum class Condition { kGood, kWarning, kPassive, kOff, kDown };
+  enum class Condition { kGood, kPassive, kOff, kDown };
   static constexpr double kEchoTimeout = 0.02;  ///< [s] without an echo of anything we sent
   static constexpr int kFullCycles = 3;         ///< cycles in which the queue was full
   static constexpr int kFlood = 150;            ///< frames in a cycle; 7 ECUs send 22 to 36

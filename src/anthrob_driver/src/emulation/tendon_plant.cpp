@@ -35,7 +35,7 @@ Plant::Muscle TendonPlant::muscle(std::size_t muscle) const {
 }
 
 void TendonPlant::advance() {
-  // The electrical time constant is 0.07 ms: current is taken as settled within each sub-step.
+  // The inductance's time constant is 0.07 ms: current is taken as settled.
   constexpr int kSteps = 10;
   constexpr double kStep = 0.001 / kSteps;
   const double inertia = p_.inertia * p_.ratio * p_.ratio;

@@ -45,7 +45,7 @@ class MemoryBus::Port final : public Bus {
   explicit Port(MemoryBus& bus) : bus_(bus) {}
   SendResult send(const ecu::Frame& frame) override;
   bool receive(BusEvent& event) override;
-  void recover() override { ++recoveries; }
+  void recover() override {}
 
   /// The driver of this port reports something, such as an error of the controller.
   void report(BusEvent::Kind kind, std::int64_t stamp_ns = 0);
@@ -55,8 +55,6 @@ class MemoryBus::Port final : public Bus {
   /// nowhere.
   void jam(int left) { jammed_ = true, room_ = left; }
   void release() { jammed_ = false; }
-  bool up() const { return up_; }
-  int recoveries = 0;
 
  private:
   friend class MemoryBus;

@@ -31,7 +31,6 @@ class SocketCanBus final : public Bus {
   int descriptor() const { return socket_; }
   /// How often it was opened: a new socket may have the number of the one before.
   std::uint64_t openings() const { return openings_; }
-  const std::string& interface() const { return interface_; }
 
  private:
   static constexpr std::size_t kBatch = 64;  ///< frames in one system call

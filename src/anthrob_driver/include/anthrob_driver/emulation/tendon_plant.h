@@ -10,19 +10,18 @@ namespace driver {
 
 /// A test bench: every muscle is a DC motor with gear that winds a tendon onto a spring whose other
 /// end is fixed. No robot, no simulator; enough to try a bus, a controller and every fault.
-///   L di/dt = V - R i - K N w,   J N^2 dw/dt = K N i - r f,   f = max(0, k r (position - slack))
+///   V = R i + K N w,   J N^2 dw/dt = K N i - r f,   f = max(0, k r (position - slack))
 class TendonPlant final : public Plant {
  public:
   struct Parameters {
-    double resistance = 0.79;     ///< R, power stage included [ohm]
-    double inductance = 5.73e-5;  ///< L [H]
-    double constant = 0.0115;     ///< K [Nm/A, Vs/rad]
-    double ratio = 128.0;         ///< N
-    double inertia = 1.09e-6;     ///< J [kg m^2]
-    double damping = 2e-6;        ///< of the motor shaft [Nms/rad]
-    double radius = 0.0065;       ///< r of the spindle [m]
-    double stiffness = 4000.0;    ///< k of tendon and spring [N/m]
-    double slack = 0.0;           ///< position at which the tendon gets tight [rad]
+    double resistance = 0.79;   ///< R, power stage included [ohm]
+    double constant = 0.0115;   ///< K [Nm/A, Vs/rad]
+    double ratio = 128.0;       ///< N
+    double inertia = 1.09e-6;   ///< J [kg m^2]
+    double damping = 2e-6;      ///< of the motor shaft [Nms/rad]
+    double radius = 0.0065;     ///< r of the spindle [m]
+    double stiffness = 4000.0;  ///< k of tendon and spring [N/m]
+    double slack = 0.0;         ///< position at which the tendon gets tight [rad]
   };
 
   TendonPlant(std::size_t muscles, std::size_t joints, std::size_t pads)
@@ -41,7 +40,6 @@ class TendonPlant final : public Plant {
   void advance() override;
 
   double voltage(std::size_t muscle) const { return tendons_[muscle].voltage; }
-  double velocity(std::size_t muscle) const { return tendons_[muscle].velocity; }
   /// For tests: no force any more; tight only from `position` on; stuck spindle.
   void cut(std::size_t muscle) { tendons_[muscle].cut = true; }
   void slacken(std::size_t muscle, double position) { tendons_[muscle].slack = position; }
