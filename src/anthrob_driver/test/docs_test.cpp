@@ -94,6 +94,7 @@ TEST(Docs, HaveEveryTimeOut) {
   expect("two SYNCs", "EcuLink::kLostSyncs");
   expect(ms(Enabling::kTimeout), "Enabling::kTimeout");
   expect(ms(Zeros::kTimeout), "Zeros::kTimeout");
+  expect(ms(EncoderWatch::kLasts), "EncoderWatch::kLasts");
   expect(number(RobotDriver::kSilence) + " s", "RobotDriver::kSilence");
   expect(ms(EcuLink::kReplyTimeout), "EcuLink::kReplyTimeout");
   expect(number(EcuLink::kRetryPause) + " s", "EcuLink::kRetryPause");
