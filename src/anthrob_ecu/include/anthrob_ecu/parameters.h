@@ -39,9 +39,9 @@ constexpr int kParameterCount = 24;
 /// Written, it becomes the present position; read, it is the present position. Not part of the
 /// configuration.
 constexpr std::uint8_t kPresentPosition = 64;
-/// Read: 1 if positions count from a zero, which kPresentPosition brings and power-up and the faults
-/// of loses_zero() take away; else 0. Written, 0 only: there is none any more. Not part of the
-/// configuration.
+/// Read: 1 if positions count from a zero, else 0. Writing kPresentPosition brings one; power-up,
+/// the faults of loses_zero() and writing 0 here take it away. Nothing but 0 may be written. Not
+/// part of the configuration.
 constexpr std::uint8_t kZeroKnown = 65;
 
 struct ParameterInfo {
