@@ -73,6 +73,13 @@ TEST(Report, SaysWhyTheRestHasNoName) {
   EXPECT_TRUE(holds(report_html(answer, question, 1.0), "beyond the 1 effects that --max-effects"));
 }
 
+TEST(Report, HasTheRemarksOnRecordings) {
+  Answer answer;
+  answer.remarks = {"run_3: has the commands of run_1"};
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), answer.remarks[0]));
+  EXPECT_EQ(nlohmann::json::parse(report_json(answer, {}, 1.0))["remarks"][0], answer.remarks[0]);
+}
+
 TEST(Report, SaysThatTheSearchEndedAtItsCap) {
   const std::string said = "ended with the 1 effects that --max-effects lets be named";
   Answer answer;

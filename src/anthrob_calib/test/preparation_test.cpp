@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_calib/discovery/repeats.h"
 #include "anthrob_sim/core/errors.h"
 #include "arm.h"
 #include "axis_recording.h"
@@ -81,6 +82,163 @@ TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
   repeated.repeats = {arm.record({}, 2, 2)};
   EXPECT_NE(refusal(repeated).find("expected a repeat of the commands"), std::string::npos)
       << refusal(repeated);
+}
+
+/// Some of the columns of a recording, wherever they are.
+template <typename Change>
+void change(Dataset& recording, const std::string& quantity, Change change_column) {
+  for (Table& table : recording.tables) {
+    for (Column& column : table.columns) {
+      if (column.quantity() == quantity) change_column(table, column);
+    }
+  }
+}
+
+/// Begins earlier, with the robot as it is at first.
+Dataset begun_earlier(Dataset recording, Nanoseconds by) {
+  for (Table& table : recording.tables) {
+    table.t.insert(table.t.begin(), table.t.front() - by);
+    for (Column& column : table.columns) {
+      column.values.insert(column.values.begin(), column.values.front());
+      column.present.insert(column.present.begin(), 1);
+    }
+  }
+  return recording;
+}
+
+/// The commands of one motion after a pause, by a robot that has friction in its elbow.
+Dataset recorded_after(Nanoseconds pause, std::uint64_t noise) {
+  const Arm arm;
+  LoadOptions options;
+  options.effects = {{"joint_coulomb", "elbow", {{"torque", 0.06}, {"static_ratio", 1.2}}}};
+  MadeRecording made;
+  made.noise = noise;
+  made.length = 8.0;
+  Dataset commands = made.commands(arm.plain);
+  commands.meta.settle_s = 8.0;  // pause or none, it is at rest
+  Table& table = commands.table("commands");
+  for (Nanoseconds& t : table.t) t += pause;
+  made.length += seconds(pause);
+  if (pause == 0) return made.measure(build_robot_model(arm.config, options), commands);
+  table.t.insert(table.t.begin(), 0);
+  for (Column& column : table.columns) {
+    column.values.insert(column.values.begin(), column.values.front());
+    column.present.insert(column.present.begin(), 1);
+  }
+  return made.measure(build_robot_model(arm.config, options), commands);
+}
+
+TEST(Repeats, AreLaidOverTheFirstRecordingByTheirCommands) {
+  const Arm arm;
+  const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
+  const auto floor_of = [&](const Dataset& first, const Dataset& repeat, bool aligned) {
+    const double late = lateness_of_repeat(*arm.plain, first, repeat);
+    const Experiments train = {make_experiment(*arm.plain, first)},
+                      repeats = {make_experiment(*arm.plain, repeat)};
+    const std::vector<long> lags = {std::lround(late / train[0]->bin())};
+    return measure_scales(evaluator, train, repeats, aligned ? lags : std::vector<long>())
+        .at("elbow/position")
+        .floor;
+  };
+  const Dataset first = recorded_after(0, 1), repeat = recorded_after(0, 3),
+                late = recorded_after(300000000, 3);
+  EXPECT_EQ(lateness_of_repeat(*arm.plain, first, repeat), 0.0);
+  const double floor = floor_of(first, repeat, true);
+  EXPECT_EQ(floor_of(first, repeat, false), floor);
+  EXPECT_NEAR(floor_of(first, late, true), floor, 0.1 * floor);
+  EXPECT_NEAR(floor_of(late, first, true), floor, 0.1 * floor);
+  EXPECT_GT(floor_of(first, late, false), 2.0 * floor);  // as they are
+  // Discovery asks for that.
+  Question question;
+  question.model_file = ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml";
+  question.train = {first};
+  question.test = {arm.record({}, 2, 2)};
+  question.repeats = {repeat, late};
+  EXPECT_EQ(prepare(evaluator, question).lags, (std::vector<long>{0, 15}));
+}
+
+TEST(Repeats, OfAnAxisAreLaidOverItsMotion) {
+  const Question axis = axis_question(20.4, 0.0);
+  const Dataset first = axis.train[0], again = axis_recording(20.0, 0.0, 1);
+  const auto robot = load_robot_model(axis.model_file);
+  EXPECT_EQ(lateness_of_repeat(*robot, first, again), 0.0);
+  EXPECT_NEAR(lateness_of_repeat(*robot, first, begun_earlier(again, 400000000)), 0.4, 0.03);
+}
+
+TEST(Repeats, MayLackAMessageAndNotBePlayedAtAnotherSpeed) {
+  const Arm arm;
+  const Dataset first = arm.record({}, 1, 1), repeat = arm.record({}, 1, 3);
+  const auto refusal_of = [&](const Dataset& other) -> std::string {
+    try {
+      lateness_of_repeat(*arm.plain, first, other);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "not refused";
+  };
+  Dataset lost = repeat;
+  Table& commands = lost.table("commands");
+  for (const int row : {40, 350}) {  // in the middle of a motion
+    commands.t.erase(commands.t.begin() + row);
+    for (Column& column : commands.columns) {
+      column.values.erase(column.values.begin() + row);
+      column.present.erase(column.present.begin() + row);
+    }
+  }
+  EXPECT_EQ(refusal_of(lost), "not refused");
+  Dataset slower = repeat;
+  for (Table& table : slower.tables) {
+    for (Nanoseconds& t : table.t) t += t / 10;
+  }
+  EXPECT_NE(refusal_of(slower).find("expected a repeat of the commands"), std::string::npos)
+      << refusal_of(slower);
+}
+
+TEST(Repeats, HaveTheSameModes) {
+  const Arm arm;
+  Dataset first = arm.record({}, 1, 1), repeat = arm.record({}, 1, 3);
+  const auto refusal_of_repeat = [&]() -> std::string {
+    try {
+      lateness_of_repeat(*arm.plain, first, repeat);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "not refused";
+  };
+  const auto set_mode = [&](Dataset& recording, double mode) {
+    Column& column = recording.table("commands").column("brachialis/mode");
+    std::fill(column.values.begin(), column.values.end(), mode);
+    std::fill(column.present.begin(), column.present.end(), 1);
+  };
+  set_mode(first, 1.0);  // POSITION, as it is without being said
+  EXPECT_EQ(refusal_of_repeat(), "not refused");
+  set_mode(repeat, 2.0);
+  EXPECT_NE(refusal_of_repeat().find("brachialis/mode: CURRENT at t = 0.00 s"), std::string::npos)
+      << refusal_of_repeat();
+  // References have the unit of their mode.
+  set_mode(first, 3.0);
+  set_mode(repeat, 3.0);
+  change(repeat, "reference", [](Table&, Column& column) {
+    if (column.owner() != "brachialis") return;
+    for (double& value : column.values) value += 5.0;
+  });
+  EXPECT_NE(refusal_of_repeat().find(" N at t = 0.00 s: expected a repeat of the commands"),
+            std::string::npos)
+      << refusal_of_repeat();
+}
+
+TEST(Preparation, RemarksOnATestWithTheCommandsOfATrain) {
+  const Arm arm;
+  Question question;
+  question.model_file = ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml";
+  question.train = {arm.record({}, 1, 1)};
+  question.test = {arm.record({}, 2, 2)};
+  const Evaluator evaluator(question.model_file, {}, 0.001, 1);
+  EXPECT_TRUE(prepare(evaluator, question).remarks.empty());
+  question.test = {arm.record({}, 1, 2)};
+  const auto remarks = prepare(evaluator, question).remarks;
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_NE(remarks[0].find("has the commands of"), std::string::npos) << remarks[0];
 }
 
 TEST(Preparation, RefusesRepeatsOfAnotherMotion) {

@@ -44,7 +44,8 @@ class Search {
         candidates_(list_candidates(evaluator, question.effects)),  // a wrong one is told at once
         laboratory_(prepare(evaluator, question)),
         variables_(measured_variables(laboratory_.train, question.train)),
-        scales_(measure_scales(evaluator, laboratory_.train, laboratory_.repeats)),
+        scales_(
+            measure_scales(evaluator, laboratory_.train, laboratory_.repeats, laboratory_.lags)),
         train_(evaluator, laboratory_.train, whitener(laboratory_.train, scales_, true),
                coarse_step(evaluator, laboratory_.train, scales_)),
         test_(evaluator, laboratory_.test, whitener(laboratory_.test, scales_, true)),
@@ -58,6 +59,10 @@ class Search {
   Answer answer() {
     Answer answer;
     answer.scales = scales_;
+    answer.remarks = laboratory_.remarks;
+    for (const std::string& remark : answer.remarks) {
+      if (question_.comment) question_.comment(remark);
+    }
     recalibrate(answer);
     stage("screening " + std::to_string(candidates_.size()) + " candidates");
     Screening screening(train_, base_.fit, candidates_, laboratory_.quick, laboratory_.slow);

@@ -73,13 +73,15 @@ Variant with_counts(const RobotModel& robot, const Experiments& experiments) {
 }
 
 void from_repeats(const Evaluator& evaluator, const Experiments& train, const Experiments& repeats,
-                  Scales& scales) {
+                  const std::vector<long>& lags, Scales& scales) {
   const Experiment& first = *train.front();
   const Variant given{};
   const Differences base = evaluator.compare({given}, {train.front()}).front();
   std::map<std::string, Moments> moments;
   std::map<std::string, std::vector<double>> lengths;
-  for (const auto& repeat : repeats) {
+  for (std::size_t r = 0; r < repeats.size(); ++r) {
+    const auto& repeat = repeats[r];
+    const long lag = lags.empty() ? 0 : lags[r];
     const Differences other = evaluator.compare({given}, {repeat}).front();
     if (base.size() == 0 || other.size() == 0) {
       throw std::runtime_error("the model cannot be simulated along " + repeat->name());
@@ -94,13 +96,14 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
         throw BadInput(repeat->name() + ": expected the channels of " + first.name() +
                        ", whose commands it repeats");
       }
-      const auto count = static_cast<Eigen::Index>(std::min(a.count, b.count));
-      Eigen::VectorXf both = Eigen::VectorXf::Zero(count);
-      for (Eigen::Index i = 0; i < count; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        if (!first.present()[a.offset + k] || !repeat->present()[b.offset + k]) continue;
-        both[i] = (base[static_cast<Eigen::Index>(a.offset) + i] -
-                   other[static_cast<Eigen::Index>(b.offset) + i]) /
+      const long begin = std::max(0L, -lag);
+      const long end = std::min(static_cast<long>(a.count), static_cast<long>(b.count) - lag);
+      Eigen::VectorXf both = Eigen::VectorXf::Zero(std::max(0L, end - begin));
+      for (Eigen::Index i = 0; i < both.size(); ++i) {
+        const auto k = a.offset + static_cast<std::size_t>(begin + i);
+        const auto l = b.offset + static_cast<std::size_t>(begin + i + lag);
+        if (!first.present()[k] || !repeat->present()[l]) continue;
+        both[i] = (base[static_cast<Eigen::Index>(k)] - other[static_cast<Eigen::Index>(l)]) /
                   std::sqrt(2.0f);
         moments[a.name()].squares += double(both[i]) * both[i];
         moments[a.name()].count += 1.0;
@@ -155,7 +158,7 @@ double correlation_length(const Eigen::VectorXf& series) {
 }
 
 Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
-                      const Experiments& repeats) {
+                      const Experiments& repeats, const std::vector<long>& lags) {
   Variant half{};
   half.step = 0.5 * evaluator.model()->step;
   const Variant counting = with_counts(*evaluator.model(), train);
@@ -188,7 +191,7 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
     scale.counts = counts[name].rms();
     scale.floor = noise[name].rms();
   }
-  if (!repeats.empty()) from_repeats(evaluator, train, repeats, scales);
+  if (!repeats.empty()) from_repeats(evaluator, train, repeats, lags, scales);
   std::map<std::string, double> roundings, counted;  // of its sensor; where controllers see it
   for (const auto& experiment : train) {
     for (const Channel& channel : experiment->channels()) {

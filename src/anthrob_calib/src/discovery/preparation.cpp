@@ -6,6 +6,7 @@
 
 #include "anthrob_calib/discovery/chain_experiment.h"
 #include "anthrob_calib/discovery/judge.h"
+#include "anthrob_calib/discovery/repeats.h"
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
@@ -15,9 +16,6 @@ namespace discovery {
 namespace {
 
 constexpr double kShortest = 2.0;         // [s] of all training recordings together
-constexpr double kSameCommand = 0.01;     // of the range of commands
-constexpr double kSameMotion = 0.15;      // of its range
-constexpr double kNoiseRange = 10.0;      // standard deviations; what ranges less is noise
 constexpr double kFinestBin = 0.02;       // [s]
 constexpr double kAxisBin = 0.025;        // [s]
 constexpr double kMostDifferences = 4e5;  // of the training recordings
@@ -101,13 +99,6 @@ double refuse_shortness(const std::vector<Dataset>& recordings, const std::strin
   return length;
 }
 
-/// Values one after the other, without those that only last.
-std::vector<double> changes_of(const Series& series) {
-  std::vector<double> values = series.values;
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
-
 /// What was learned from cannot judge, and a copy of a recording scatters nowhere.
 void refuse_copies(const Question& question) {
   std::map<std::uint64_t, std::string> folders;
@@ -122,63 +113,17 @@ void refuse_copies(const Question& question) {
   }
 }
 
-/// Of what moves a robot that is not told references: the same, but for noise and what a controller
-/// or hand does a little otherwise.
-void refuse_another_motion(const std::string& column, const Dataset& first, const Dataset& repeat) {
-  const Series asked = first.series(column), again = repeat.series(column);
-  const double end = std::min(asked.t.back(), again.t.back());
-  const auto [low, high] = std::minmax_element(asked.values.begin(), asked.values.end());
-  double noise = 0.0;  // of neighbours, squares
-  for (std::size_t i = 1; i < asked.values.size(); ++i) {
-    noise += std::pow(asked.values[i] - asked.values[i - 1], 2);
-  }
-  noise = std::sqrt(0.5 * noise / static_cast<double>(asked.values.size()));
-  if (*high - *low <= kNoiseRange * noise) return;  // it does not move
-  double squares = 0.0;
-  constexpr int kPoints = 1000;
-  for (int i = 0; i < kPoints; ++i) {
-    const double t = end * i / kPoints, apart = asked.at(t) - again.at(t);
-    squares += apart * apart / kPoints;
-  }
-  if (std::sqrt(squares) <= kSameMotion * (*high - *low)) return;
-  throw BadInput(repeat.folder + ": " + column + ": " + std::to_string(std::sqrt(squares)) +
-                 " rms from that of " + first.folder + ", which ranges over " +
-                 std::to_string(*high - *low) + ": expected a repeat of its motion");
-}
-
-/// The scatter of something else is no floor.
-void refuse_other_commands(const RobotModel& robot, const Dataset& first, const Dataset& repeat) {
-  const ReplayMode mode = mode_of(robot, first);
-  const char* const driving = mode == ReplayMode::kReference ? "/reference"
-                              : mode == ReplayMode::kVoltage ? "/voltage"
-                                                             : "/position";
-  for (const MuscleModel& muscle : robot.muscles) {
-    const std::string column = muscle.name + driving;
-    const auto asked = changes_of(first.series(column)), again = changes_of(repeat.series(column));
-    if (asked.empty() != again.empty()) {
-      throw BadInput(repeat.folder + ": " + column + ": expected it where " + first.folder +
-                     " has it: a repeat of its commands");
-    }
-    if (asked.empty()) continue;
-    if (mode != ReplayMode::kReference) {
-      refuse_another_motion(column, first, repeat);
-      continue;
-    }
-    const std::size_t both = std::min(asked.size(), again.size());
-    double range = 0.0;
-    for (const double value : asked) range = std::max(range, std::abs(value - asked.front()));
-    for (std::size_t i = 0; i < both; ++i) {
-      if (std::abs(asked[i] - again[i]) <= kSameCommand * range + 1e-6) continue;
-      throw BadInput(repeat.folder + ": " + column + ": " + std::to_string(again[i]) +
-                     " rad: expected a repeat of the commands of " + first.folder + ", " +
-                     std::to_string(asked[i]) + " rad");
+/// Who judges by the commands that were learned from, judges less than it seems.
+std::vector<std::string> remarks_on(const RobotModel& robot, const Question& question) {
+  std::vector<std::string> remarks;
+  for (const Dataset& test : question.test) {
+    for (const Dataset& train : question.train) {
+      if (!have_same_commands(robot, train, test)) continue;
+      remarks.push_back(test.folder + ": has the commands of " + train.folder +
+                        ", which is learned from: another motion judges better");
     }
   }
-  for (const JointModel& joint : robot.skeleton->joints) {
-    const std::string column = joint.name + "/position";
-    const bool both = !first.series(column).empty() && !repeat.series(column).empty();
-    if (joint.driven && both) refuse_another_motion(column, first, repeat);
-  }
+  return remarks;
 }
 
 }  // namespace
@@ -197,8 +142,9 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   refuse_shortness(question.test, "to judge by");
   refuse_stillness(robot, question.train);
   refuse_stillness(robot, question.test);
+  std::vector<double> late;  // [s]
   for (const Dataset& repeat : question.repeats) {
-    refuse_other_commands(robot, question.train.front(), repeat);
+    late.push_back(lateness_of_repeat(robot, question.train.front(), repeat));
   }
 
   ExperimentOptions options;
@@ -206,6 +152,7 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   const double channels = 4.0 * static_cast<double>(robot.muscles.size()) + 4.0;
   options.bin *= std::max(1.0, std::ceil(length / options.bin * channels / kMostDifferences));
   Laboratory laboratory;
+  laboratory.remarks = remarks_on(robot, question);
   const auto make = [&](const std::vector<Dataset>& recordings, Experiments& experiments) {
     for (const Dataset& recording : recordings) {
       experiments.push_back(make_experiment(robot, recording, options));
@@ -214,6 +161,7 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   make(question.train, laboratory.train);
   make(question.test, laboratory.test);
   make(question.repeats, laboratory.repeats);
+  for (const double seconds : late) laboratory.lags.push_back(std::lround(seconds / options.bin));
   // A driven axis is simulated in no time.
   laboratory.quick = excerpt(robot, question.train, laboratory.train,
                              robot.muscles.empty() ? kSlowLook : kQuickLook);

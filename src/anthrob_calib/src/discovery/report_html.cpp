@@ -367,6 +367,9 @@ std::string report_html(const Answer& answer, const Question& question, double r
     recordings += "<li>judged by: " + escaped(r.folder) + "</li>";
   for (const Dataset& r : question.repeats)
     recordings += "<li>repeat: " + escaped(r.folder) + "</li>";
+  for (const std::string& remark : answer.remarks) {
+    recordings += "<li>" + escaped(remark) + "</li>";
+  }
   const std::string cap = cap_remark(answer, question);
   return std::string(kHead) + "<h1>What the model misses</h1>\n<p class=\"small\">" +
          escaped(question.model_file) + ", seed " + std::to_string(question.seed) + ", " +

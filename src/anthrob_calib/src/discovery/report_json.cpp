@@ -140,7 +140,7 @@ std::string report_json(const Answer& answer, const Question& question, double r
     add_recording(answer.effects[i], i + 1, effect);
     report["effects"].push_back(std::move(effect));
   }
-  report["remarks"] = Json::array();
+  report["remarks"] = answer.remarks;
   const std::string cap = cap_remark(answer, question);
   if (!cap.empty()) report["remarks"].push_back(cap);
   report["alternatives"] = alternatives_json(answer);

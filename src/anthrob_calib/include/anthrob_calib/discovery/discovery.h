@@ -126,7 +126,8 @@ struct Answer {
   std::vector<std::vector<Visibility>> alike;  ///< groups that these data cannot tell apart
   Scales scales;
   Variant given, recalibrated, extended;
-  std::vector<std::string> asked;  ///< what the robot was recorded for in between (closed_loop.h)
+  std::vector<std::string> remarks;  ///< what is odd about the recordings, for people
+  std::vector<std::string> asked;    ///< what the robot was recorded for in between (closed_loop.h)
 };
 
 /// Locates, names, adds and judges, until nothing earns its place.

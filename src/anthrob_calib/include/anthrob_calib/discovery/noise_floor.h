@@ -30,9 +30,10 @@ using Scales = std::map<std::string, ChannelScale>;
 /// Floors of all channels. With repeats: rms difference of repeats / sqrt 2. Without: a robust
 /// estimate from the third differences of neighbouring bins, which sees white noise only.
 /// @param repeats further runs of the commands of train.front(), may be empty
+/// @param lags by how many bins each repeat is behind it; none: they start together
 /// @throws BadInput if a repeat cannot be laid over the first recording
 Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
-                      const Experiments& repeats);
+                      const Experiments& repeats, const std::vector<long>& lags = {});
 
 /// Factors that turn differences into numbers of standard deviations; 0 where nothing was measured.
 /// @param independent divides by the square root of ChannelScale::inflation too, so that squares

@@ -9,6 +9,8 @@ namespace discovery {
 /// Recordings as experiments, with the same bins.
 struct Laboratory {
   Experiments train, test, repeats;
+  std::vector<long> lags;            ///< of each repeat behind the first of `train` [bins]
+  std::vector<std::string> remarks;  ///< what is odd about the recordings
   /// What of `train` a first look at quick effects takes, and at slow ones.
   Excerpt quick, slow;
 };
