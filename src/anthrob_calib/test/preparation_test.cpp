@@ -40,6 +40,22 @@ TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
   repeated_by_itself.repeats = good.train;
   EXPECT_NE(refusal(repeated_by_itself).find("expected every recording once"), std::string::npos);
 
+  // As a converted bag, moved in time, and with a note.
+  Dataset copy = good.train[0];
+  std::reverse(copy.tables.begin(), copy.tables.end());
+  for (Table& table : copy.tables) {
+    std::reverse(table.columns.begin(), table.columns.end());
+    for (Nanoseconds& t : table.t) t += 1700000000000000000;
+  }
+  copy.table("muscles").column("brachialis/ecu_state");  // empty
+  copy.meta.other["notes"] = "a copy";
+  Question judged_by_a_copy = good;
+  judged_by_a_copy.test = {copy};
+  EXPECT_NE(refusal(judged_by_a_copy).find("expected every recording once"), std::string::npos);
+  copy.table("joints").columns[0].values[3] += 1e-3;
+  judged_by_a_copy.test = {copy};
+  EXPECT_EQ(refusal(judged_by_a_copy), "not refused");
+
   Question still = good;
   for (Table& table : still.train[0].tables) {
     for (Column& column : table.columns) {

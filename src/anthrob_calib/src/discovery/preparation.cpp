@@ -105,7 +105,7 @@ void refuse_copies(const Question& question) {
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) {
       const auto [other, is_new] =
-          folders.emplace(resume::Fingerprint().add(recording).value(), recording.folder);
+          folders.emplace(resume::content_fingerprint(recording), recording.folder);
       if (is_new) continue;
       throw BadInput(recording.folder + ": the same as " + other->second +
                      ": expected every recording once, to learn from, to judge by or as a repeat");

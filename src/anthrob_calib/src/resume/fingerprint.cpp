@@ -3,6 +3,7 @@
 #include <elf.h>
 #include <link.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -80,6 +81,28 @@ Fingerprint& Fingerprint::add(const Dataset& recording) {
     }
   }
   return *this;
+}
+
+std::uint64_t content_fingerprint(const Dataset& recording) {
+  std::vector<std::uint64_t> columns;
+  for (const Table& table : recording.tables) {
+    for (const Column& column : table.columns) {
+      Fingerprint fingerprint;
+      fingerprint.add(column.name);
+      bool any = false;
+      for (std::size_t i = 0; i < column.values.size(); ++i) {
+        if (!column.present[i]) continue;
+        fingerprint.add(static_cast<std::uint64_t>(table.t[i] - recording.begin()));
+        fingerprint.add(column.values[i]);
+        any = true;
+      }
+      if (any) columns.push_back(fingerprint.value());
+    }
+  }
+  std::sort(columns.begin(), columns.end());
+  Fingerprint whole;
+  for (const std::uint64_t column : columns) whole.add(column);
+  return whole.value();
 }
 
 std::uint64_t model_fingerprint(const ConfigNode& model) {

@@ -25,6 +25,9 @@ class Fingerprint {
   std::uint64_t hash_ = 14695981039346656037ULL;
 };
 
+/// Of what a recording tells, however it is kept: the same for a bag, the folder it was converted
+/// to and a copy with another meta.yaml, with times from its beginning on.
+std::uint64_t content_fingerprint(const Dataset& recording);
 /// Of the model file with all it extends, and of the files that it names.
 std::uint64_t model_fingerprint(const ConfigNode& model);
 /// Of this program and its libraries, as the linker marked them.
