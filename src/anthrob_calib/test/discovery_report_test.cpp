@@ -65,12 +65,42 @@ TEST(Report, SaysWhyTheRestHasNoName) {
   Answer answer;
   answer.verdict = "unexplained";
   Question question;
-  EXPECT_TRUE(holds(report_html(answer, question, 1.0), "that the catalogue does not have"));
+  EXPECT_TRUE(holds(report_html(answer, question, 1.0),
+                    "that no law of the catalogue, as it was fitted, explains"));
   question.effects = {"payload"};
   EXPECT_TRUE(holds(report_html(answer, question, 1.0), "what --effects let be looked for"));
   question.max_effects = 1;
   answer.effects = {cogging()};
   EXPECT_TRUE(holds(report_html(answer, question, 1.0), "beyond the 1 effects that --max-effects"));
+}
+
+TEST(Report, ClaimsNoMoreThanWasFound) {
+  Answer answer;
+  answer.verdict = "no_missing_effect";
+  answer.per_channel["elbow/position"] = {2.0, 1.6, 1.6, 1.0};
+  answer.per_channel["brachialis/force"] = {1.1, 1.1, 1.1, 1.0};
+  std::string page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "No gap that is certain"));
+  EXPECT_FALSE(holds(page, "Nothing is missing"));
+  EXPECT_TRUE(holds(page, "not for certain: elbow/position (1.6).")) << page;
+  EXPECT_TRUE(holds(page, "recordings never fitted"));
+
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  answer.test.recalibrated = 3.0;
+  answer.test.after = 1.2;
+  page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "The model misses: <b>Cogging</b>"));
+  EXPECT_FALSE(holds(page, "improbable"));
+  EXPECT_TRUE(holds(page, "With it, the held-out gap falls from 3 to 1.2"));
+  answer.effects.push_back(cogging());
+  answer.effects[1].probability = 0.02;
+  answer.effects[1].name = "Ripple";
+  answer.test.after = 3.1;
+  page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "The model misses: <b>Cogging</b>"));
+  EXPECT_TRUE(holds(page, "Comes nearest, but is improbable: <b>Ripple</b>"));
+  EXPECT_TRUE(holds(page, "With them, the held-out gap does not fall: it goes from 3 to 3.1"));
 }
 
 TEST(Report, HasTheRemarksOnRecordings) {

@@ -4,6 +4,7 @@
 
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/report.h"
+#include "anthrob_calib/discovery/verdict.h"
 #include "anthrob_sim/report/svg_figure.h"
 
 namespace anthrob {
@@ -58,26 +59,57 @@ std::string nameless(const Answer& answer, const Question& question) {
   if (!question.effects.empty()) {
     return "Something is missing that is not among what --effects let be looked for. ";
   }
-  return "Something is missing that the catalogue does not have. ";
+  return "Something is missing that no law of the catalogue, as it was fitted, explains. ";
+}
+
+/// Channels that are more than noise at the end, where none of them is so for certain.
+std::string uncertain_gaps(const Answer& answer) {
+  constexpr std::size_t kMost = 5;
+  std::vector<std::pair<double, std::string>> gaps;
+  for (const auto& [name, gap] : answer.per_channel) {
+    if (gap.after > kRealGap) gaps.emplace_back(-gap.after, name);
+  }
+  if (gaps.empty()) return "";
+  std::sort(gaps.begin(), gaps.end());
+  std::string text = " Above " + short_number(kRealGap) + " times the floor, but not for certain: ";
+  for (std::size_t i = 0; i < gaps.size() && i < kMost; ++i) {
+    text +=
+        (i > 0 ? ", " : "") + escaped(gaps[i].second) + " (" + short_number(-gaps[i].first) + ")";
+  }
+  if (gaps.size() > kMost) text += " and " + std::to_string(gaps.size() - kMost) + " more";
+  return text + ".";
+}
+
+/// An effect with its size and probability, as a sentence.
+std::string named(const FoundEffect& effect) {
+  std::string text = "<b>" + escaped(effect.name) + "</b> at <b>" + escaped(effect.place) + "</b>";
+  if (!effect.parameters.empty()) {
+    const FoundParameter& p = effect.parameters.front();
+    text += " (" + escaped(p.name) + " " + escaped(with_unit(p.value, p.unit)) + ", " +
+            (p.known ? "taken as known" : "95 % interval " + range_text(p)) + ")";
+  }
+  return text + ", " + probability_text(effect.probability) + ". ";
+}
+
+/// What was found, the improbable apart.
+std::string found(const Answer& answer) {
+  std::string probable, improbable;
+  for (const FoundEffect& effect : answer.effects) {
+    (effect.probability < 0.5 ? improbable : probable) += named(effect);
+  }
+  if (!probable.empty()) probable = "The model misses: " + probable;
+  if (!improbable.empty()) improbable = "Comes nearest, but is improbable: " + improbable;
+  return probable + improbable;
 }
 
 /// The answer in one or two sentences.
 std::string sentence(const Answer& answer, const Question& question) {
   if (answer.verdict == "no_missing_effect") {
-    return "Nothing is missing: the model, with its ordinary parameters fitted, predicts the "
-           "held-out recordings with no gap that is certain (all channels together " +
-           short_number(answer.test.recalibrated) + " times the floor).";
+    return "No gap that is certain between the model, with its ordinary parameters fitted, and the "
+           "held-out recordings (all channels together " +
+           short_number(answer.test.recalibrated) + " times the floor)." + uncertain_gaps(answer);
   }
   std::string text;
-  for (const FoundEffect& effect : answer.effects) {
-    text += "<b>" + escaped(effect.name) + "</b> at <b>" + escaped(effect.place) + "</b>";
-    if (!effect.parameters.empty()) {
-      const FoundParameter& p = effect.parameters.front();
-      text += " (" + escaped(p.name) + " " + escaped(with_unit(p.value, p.unit)) + ", " +
-              (p.known ? "taken as known" : "95 % interval " + range_text(p)) + ")";
-    }
-    text += ", " + probability_text(effect.probability) + ". ";
-  }
   for (const Alternative& other : answer.alternatives) {
     const FoundEffect &one = answer.effects[other.instead_of[0]],
                       &two = answer.effects[other.instead_of[1]];
@@ -86,12 +118,19 @@ std::string sentence(const Answer& answer, const Question& question) {
             probability_text(other.probability) + ". ";
   }
   if (answer.verdict == "effects_found") {
-    return "The model misses: " + text + "With it, the held-out gap falls from " +
+    const bool falls = answer.test.after < answer.test.recalibrated;
+    return found(answer) + text + (answer.effects.size() > 1 ? "With them" : "With it") +
+           ", the held-out gap " + (falls ? "falls" : "does not fall: it goes") + " from " +
            short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
            " times the floor; of the square of what stood above the noise " +
-           short_number(100.0 * answer.remaining_share) + " % is left.";
+           short_number(100.0 * answer.remaining_share) + " % is left." +
+           (answer.remaining_description == kNoCertainGap ? uncertain_gaps(answer) : "");
   }
-  text = answer.effects.empty() ? "" : "The catalogue offers: " + text;
+  if (!answer.effects.empty()) {
+    std::string offers = "The catalogue offers: ";
+    for (const FoundEffect& effect : answer.effects) offers += named(effect);
+    text = offers + text;
+  }
   return nameless(answer, question) + text + "Held-out gap " + short_number(answer.test.after) +
          " times the floor, where the recalibrated model has " +
          short_number(answer.test.recalibrated) +
@@ -106,8 +145,8 @@ std::string gap_table(const Answer& answer) {
   };
   return "<table><tr><th>gap, in units of the floor</th><th>model as given</th><th>recalibrated"
          "</th><th>with what was found</th><th>floor</th></tr>\n" +
-         row("recordings never seen", answer.test) + row("recordings learned from", answer.train) +
-         "</table>\n";
+         row("recordings never fitted", answer.test) +
+         row("recordings learned from", answer.train) + "</table>\n";
 }
 
 /// The last candidate that was not named, and why.

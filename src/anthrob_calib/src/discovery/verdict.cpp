@@ -63,7 +63,7 @@ void pronounce(const std::map<std::string, double>& left, bool certain, Answer& 
       remaining.end());
   const Dependence* cause = strongest(left, answer.remaining);
   if (!certain) {
-    answer.remaining_description = "no gap that is certain";
+    answer.remaining_description = kNoCertainGap;
   } else if (cause) {
     answer.remaining_description = cause->channel + " depends on " +
                                    (cause->word == "time" ? "" : cause->word + " of ") +

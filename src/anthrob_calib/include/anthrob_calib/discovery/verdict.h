@@ -8,6 +8,9 @@
 namespace anthrob {
 namespace discovery {
 
+/// What remains, in words, where no gap does.
+constexpr char kNoCertainGap[] = "no gap that is certain";
+
 /// Fills in the verdict and what is to be said of what remains, and takes from the named effects'
 /// probabilities what remains speaks against them.
 /// @param left each channel's gap in what was learned from, with the named effects [floors]
