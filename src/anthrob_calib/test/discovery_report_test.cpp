@@ -103,6 +103,15 @@ TEST(Report, ClaimsNoMoreThanWasFound) {
   EXPECT_TRUE(holds(page, "With them, the held-out gap does not fall: it goes from 3 to 3.1"));
 }
 
+TEST(Report, SaysWhatWasAskedForWouldHaveShown) {
+  Question question;
+  EXPECT_TRUE(
+      holds(report_html({}, question, 1.0), "Everything in the catalogue would have shown"));
+  question.effects = {"payload"};
+  EXPECT_TRUE(
+      holds(report_html({}, question, 1.0), "Everything that --effects asks for would have shown"));
+}
+
 TEST(Report, HasTheRemarksOnRecordings) {
   Answer answer;
   answer.remarks = {"run_3: has the commands of run_1"};

@@ -433,6 +433,19 @@ TEST(ListCandidates, EveryDoseCanBeBuilt) {
   }
 }
 
+TEST(ListCandidates, EffectsThatAreAskedForHaveAPlace) {
+  const std::string model = kConfig + "/driven_axis/model_I.yaml";
+  const Evaluator evaluator(model, {}, 0.001, 1);
+  EXPECT_FALSE(list_candidates(evaluator, {"joint_coulomb"}).empty());
+  try {
+    list_candidates(evaluator, {"joint_coulomb", "cogging"});
+    FAIL() << "not refused";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("--effects cogging: "), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {
   const Arm arm;
   const std::vector<EffectInstance> hidden = {

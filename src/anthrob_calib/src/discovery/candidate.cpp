@@ -74,6 +74,10 @@ std::vector<Candidate> list_candidates(const Evaluator& evaluator,
                        [&](const EffectInstance& e) { return e.id == id && e.place == place; });
   };
   std::vector<Candidate> candidates;
+  const auto is_candidate = [&](const std::string& id) {
+    return std::any_of(candidates.begin(), candidates.end(),
+                       [&](const Candidate& c) { return c.effect->info().id == id; });
+  };
   for (const Effect* effect : all_effects()) {
     const std::string& id = effect->info().id;
     if (!ids.empty() && !std::count(ids.begin(), ids.end(), id)) continue;
@@ -88,6 +92,12 @@ std::vector<Candidate> list_candidates(const Evaluator& evaluator,
       }
       candidates.push_back(std::move(candidate));
     }
+  }
+  for (const std::string& id : ids) {
+    if (is_candidate(id)) continue;
+    throw BadInput("--effects " + id + ": the robot of " + robot.file +
+                   " has no place for it, or the model has it at every place already: expected an "
+                   "id that can be found");
   }
   return candidates;
 }

@@ -371,10 +371,12 @@ std::string folded(const std::string& title, const std::string& content) {
   return "<details><summary>" + title + "</summary>\n" + content + "</details>\n";
 }
 
-std::string preflight(const Answer& answer) {
+std::string preflight(const Answer& answer, const Question& question) {
   std::string html;
   if (answer.not_visible.empty()) {
-    html += "<p>Everything in the catalogue would have shown.</p>\n";
+    html += std::string("<p>Everything ") +
+            (question.effects.empty() ? "in the catalogue" : "that --effects asks for") +
+            " would have shown.</p>\n";
   } else {
     html += folded(std::to_string(answer.not_visible.size()) +
                        " effects and places could not have shown, or only a large one",
@@ -419,7 +421,7 @@ std::string report_html(const Answer& answer, const Question& question, double r
          dependence_figures(dependences_where(answer)) + "<h2>What is left</h2>\n<p>" +
          escaped(answer.remaining_description) + (cap.empty() ? "" : "; " + escaped(cap)) +
          ".</p>\n" + dependence_figures(answer.remaining) + "<h2>Held-out gap by channel</h2>\n" +
-         channel_table(answer) + "<h2>What these recordings can show</h2>\n" + preflight(answer) +
+         channel_table(answer) + "<h2>What these recordings can show</h2>\n" + preflight(answer, question) +
          "<h2>Recordings</h2><ul>" + recordings + "</ul>\n</body></html>\n";
 }
 

@@ -25,7 +25,7 @@ inline double excess(double gap, double least) {
 /// Gain in held-out log score that an effect must bring to be named [nat]: the more, the more
 /// candidates were searched.
 inline double needed_evidence(std::size_t candidates) {
-  return 3.0 + std::log(static_cast<double>(candidates));
+  return 3.0 + std::log(static_cast<double>(std::max<std::size_t>(1, candidates)));
 }
 
 }  // namespace discovery
