@@ -257,6 +257,24 @@ TEST(Preparation, RemarksOnATestWithTheCommandsOfATrain) {
   EXPECT_NE(remarks[0].find("has the commands of"), std::string::npos) << remarks[0];
 }
 
+TEST(Preparation, RefusesWhatIsNoOrientation) {
+  const Arm arm;
+  Question question;
+  question.model_file = ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml";
+  question.train = {arm.record({}, 1, 1)};
+  question.test = {arm.record({}, 2, 2)};
+  for (const char* part : {"w", "x", "y", "z"}) {  // as trackers say that they see nothing
+    change(question.train[0], part, [](Table&, Column& column) { column.values[200] = 0.0; });
+  }
+  EXPECT_NE(refusal(question).find("shoulder: no unit quaternion at t = 1.000000 s"),
+            std::string::npos)
+      << refusal(question);
+  for (const char* part : {"w", "x", "y", "z"}) {
+    change(question.train[0], part, [](Table&, Column& column) { column.present[200] = 0; });
+  }
+  EXPECT_EQ(refusal(question), "not refused");
+}
+
 TEST(Preparation, RefusesRepeatsOfAnotherMotion) {
   Question axis = axis_question(20.4, 0.0);
   axis.repeats = {axis_recording(20.0, 0.0, 1)};  // not quite the same, as in another run

@@ -14,6 +14,9 @@ namespace discovery {
 
 namespace {
 
+/// By how much the square of an orientation's four numbers may differ from 1, by their noise.
+constexpr double kUnit = 0.01;
+
 /// A time between two steps.
 struct Moment {
   std::int64_t step;  ///< that arrives at or after it
@@ -155,6 +158,14 @@ void ChainExperiment::add_ball(int joint, const std::string& name, const Dataset
       throw BadInput(recording.folder + ": " + name +
                      ": expected w, x, y and z of an orientation at the same times");
     }
+  }
+  for (std::size_t i = 0; i < parts[0].t.size(); ++i) {
+    double square = 0.0;
+    for (const Series& part : parts) square += part.values[i] * part.values[i];
+    if (std::abs(square - 1.0) <= kUnit) continue;
+    throw BadInput(recording.folder + ": " + name +
+                   ": no unit quaternion at t = " + std::to_string(parts[0].t[i]) +
+                   " s: expected empty cells where the orientation was not measured");
   }
   Sampling& sampling = sampling_of(parts[0].t);
   Reader reader{Reader::kBall, joint, present_.size(), {}, {}};
