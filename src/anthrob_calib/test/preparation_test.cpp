@@ -275,6 +275,35 @@ TEST(Preparation, RefusesWhatIsNoOrientation) {
   EXPECT_EQ(refusal(question), "not refused");
 }
 
+TEST(AxisExperiment, WhereNoPositionIsMeasuredNothingIsCompared) {
+  const Question axis = axis_question(20.4, 0.0);
+  Dataset holed = axis.train[0];
+  change(holed, "position", [](Table& table, Column& column) {
+    for (std::size_t i = 0; i < table.t.size(); ++i) {
+      if (table.t[i] >= 2000000000 && table.t[i] < 2200000000) column.present[i] = 0;
+    }
+  });
+  const auto robot = load_robot_model(axis.model_file);
+  ExperimentOptions options;
+  options.bin = 0.025;
+  const auto whole = make_experiment(*robot, axis.train[0], options),
+             part = make_experiment(*robot, holed, options);
+  const Evaluator evaluator(axis.model_file, {}, 0.001, 1);
+  const Differences expected = evaluator.compare({Variant{}}, {whole}).front(),
+                    differences = evaluator.compare({Variant{}}, {part}).front();
+  int absent = 0;
+  for (std::size_t b = 0; b < part->size(); ++b) {
+    const double begin = 0.025 * static_cast<double>(b);
+    ASSERT_TRUE(whole->present()[b]) << begin;
+    const bool in_hole = begin > 1.96 && begin < 2.21;
+    EXPECT_EQ(part->present()[b], in_hole ? 0 : 1) << begin;
+    EXPECT_EQ(differences[static_cast<long>(b)], in_hole ? 0.0f : expected[static_cast<long>(b)])
+        << begin;
+    absent += in_hole;
+  }
+  EXPECT_EQ(absent, 10);
+}
+
 TEST(Preparation, RefusesRepeatsOfAnotherMotion) {
   Question axis = axis_question(20.4, 0.0);
   axis.repeats = {axis_recording(20.0, 0.0, 1)};  // not quite the same, as in another run

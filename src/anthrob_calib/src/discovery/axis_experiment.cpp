@@ -12,6 +12,8 @@ namespace discovery {
 
 namespace {
 
+constexpr double kMostPeriods = 3.5;  ///< usual ones, that samples may be apart
+
 /// Position and velocity at `time` by a parabola through the samples around it.
 std::pair<double, double> motion_at(const Series& series, double time, double half_width) {
   const auto first = std::lower_bound(series.t.begin(), series.t.end(), time - half_width);
@@ -33,6 +35,26 @@ std::pair<double, double> motion_at(const Series& series, double time, double ha
   }
   const Eigen::VectorXd parabola = basis.colPivHouseholderQr().solve(values);
   return {origin + parabola[0], parabola[1]};
+}
+
+/// Where positions are missing longer than a parabola may bridge: begin and end of each hole [s].
+std::vector<std::pair<double, double>> holes_of(const Series& series, double end) {
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < series.t.size(); ++i) {
+    periods.push_back(series.t[i] - series.t[i - 1]);
+  }
+  if (periods.empty()) return {{0.0, end}};
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  const double longest = std::max(2.0 * AxisExperiment::kSmoothing, kMostPeriods * *middle);
+  std::vector<std::pair<double, double>> holes;
+  const auto add = [&](double from, double to) {
+    if (to - from > longest) holes.emplace_back(from, to);
+  };
+  add(0.0, series.t.front());
+  for (std::size_t i = 1; i < series.t.size(); ++i) add(series.t[i - 1], series.t[i]);
+  add(series.t.back(), end);
+  return holes;
 }
 
 }  // namespace
@@ -74,6 +96,15 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
     const bool hinge = joints[j].type == JointType::kHinge;
     channels_.push_back({name, "effort", hinge ? "Nm" : "N", 0, present_.size(), bins_});
     present_.insert(present_.end(), bins_, 1);
+    // A bin needs the motion at its begin and at its end, each from the samples around it.
+    for (const auto& [from, to] :
+         holes_of(position, seconds(recording.end() - recording.begin()))) {
+      for (std::size_t b = 0; b < bins_; ++b) {
+        const double begin = static_cast<double>(b) * bin_ - kSmoothing;
+        const bool outside = begin >= to || begin + bin_ + 2.0 * kSmoothing <= from;
+        if (!outside) present_[channels_.back().offset + b] = 0;
+      }
+    }
     axes_.push_back(std::move(axis));
   }
   fingerprint_ =
@@ -135,10 +166,15 @@ void AxisExperiment::compare(const std::shared_ptr<const RobotModel>& model, Sta
     }
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       const Axis& axis = axes_[a];
+      const std::size_t at = channels_[a].offset + b;
+      if (!present_[at]) {
+        out[at] = 0.0f;
+        continue;
+      }
       const int dof = model->skeleton->joints[static_cast<std::size_t>(axis.joint)].velocity_offset;
       const double error =
           sim.tree().velocities()[static_cast<std::size_t>(dof)] - axis.velocity[b + 1];
-      out[channels_[a].offset + b] = static_cast<float>(error * axis.inertia[b] / bin_);
+      out[at] = static_cast<float>(error * axis.inertia[b] / bin_);
     }
   }
 }
