@@ -130,6 +130,33 @@ TEST(OrdinaryParameters, ReachToWhereACalibrationWent) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(OrdinaryParameters, TellWhatOfTheirFileDoesNotCount) {
+  const std::string model = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml";
+  const auto file = (std::filesystem::temp_directory_path() /
+                     ("anthrob_ordinary_" + std::to_string(getpid()) + ".yaml"))
+                        .string();
+  const std::string list =
+      "parameters:\n  - {path: joints.elbow.friction.viscous, unit: Nms/rad, low: 0.01, "
+      "high: 0.03, step: 0.01}\n";
+  std::vector<std::string> remarks;
+  std::ofstream(file) << list;
+  EXPECT_EQ(ordinary_parameters(model, file, &remarks).size(), 1u);
+  EXPECT_TRUE(remarks.empty());
+  std::ofstream(file) << list << "shares: []\nrecordings: equilibria\n";
+  EXPECT_EQ(ordinary_parameters(model, file, &remarks).size(), 1u);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].find(file + ": "), 0u) << remarks[0];
+  EXPECT_NE(remarks[0].find("shares"), std::string::npos) << remarks[0];
+  std::ofstream(file) << list << "paramters: []\n";
+  try {
+    ordinary_parameters(model, file, &remarks);
+    ADD_FAILURE() << "not refused";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(error.what(), file + ":3: paramters: unknown key");
+  }
+  std::filesystem::remove(file);
+}
+
 TEST(OrdinaryParameters, AreThoseBesideTheModelOrBesideTheOneItExtends) {
   const std::string model = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml";
   const auto folder =

@@ -78,7 +78,9 @@ int main(int argc, char** argv) {
     }
     identification::require_kept(out, written, read);
     identification::require_writable(out);
-    question.nuisances = ordinary_parameters(question.model_file, calibration);
+    std::vector<std::string> remarks;
+    question.nuisances = ordinary_parameters(question.model_file, calibration, &remarks);
+    tool::say(app, remarks);
     if (question.nuisances.empty()) {
       std::cerr << "nothing of " << question.model_file
                 << " may be corrected: there is no calibration.yaml beside it, nor --calibration; "

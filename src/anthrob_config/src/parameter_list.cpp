@@ -97,6 +97,21 @@ ModelParameter read_parameter(const ConfigNode& entry, const ConfigNode& number,
   return p;
 }
 
+/// A file of anthrob_calibrate may serve, too; what nobody knows is a misspelt key.
+void check_file(const ConfigNode& file, std::vector<std::string>* remarks) {
+  static const std::set<std::string> kOfCalibration = {"model",    "recordings", "weights",
+                                                       "simulate", "optimiser",  "shares"};
+  std::string unused;
+  for (const auto& [key, value] : file.entries()) {
+    if (key == "parameters") continue;
+    if (!kOfCalibration.count(key)) value.fail("unknown key");
+    unused += (unused.empty() ? "" : ", ") + key;
+  }
+  if (unused.empty() || !remarks) return;
+  remarks->push_back(file.file() + ": " + unused +
+                     ": for anthrob_calibrate; of ordinary parameters only the list counts");
+}
+
 }  // namespace
 
 std::string ModelParameter::name() const {
@@ -139,7 +154,8 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
 }
 
 std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
-                                                std::string calibration_file) {
+                                                std::string calibration_file,
+                                                std::vector<std::string>* remarks) {
   const ConfigNode model = ConfigNode::load(model_file);
   // The robot is named where the folder of its files is.
   for (const std::string& file : {model_file, model.at("robot").file()}) {
@@ -149,8 +165,9 @@ std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
     }
   }
   if (calibration_file.empty()) return {};
-  return read_parameters(ConfigNode::load(calibration_file).at("parameters"), model,
-                         Outside::kWiden);
+  const ConfigNode calibration = ConfigNode::load(calibration_file);
+  check_file(calibration, remarks);
+  return read_parameters(calibration.at("parameters"), model, Outside::kWiden);
 }
 
 std::map<std::string, double> overrides_of(const std::vector<ModelParameter>& parameters,

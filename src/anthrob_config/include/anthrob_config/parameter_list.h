@@ -42,9 +42,11 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
 /// What an ordinary calibration may correct of a model: `parameters` of the named file, or of
 /// calibration.yaml beside the model or beside the one that it extends; nothing if there is none.
 /// Ranges reach as far as the model's own values: it may have been calibrated by wider ones.
-/// @throws BadInput
+/// @param remarks gets a line on keys that only anthrob_calibrate knows what to do with
+/// @throws BadInput, also for keys that nobody knows
 std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
-                                                std::string calibration_file = "");
+                                                std::string calibration_file = "",
+                                                std::vector<std::string>* remarks = nullptr);
 
 /// Overrides for LoadOptions.
 std::map<std::string, double> overrides_of(const std::vector<ModelParameter>& parameters,
