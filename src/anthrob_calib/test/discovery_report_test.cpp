@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/progress.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_sim/model/robot_model.h"
 
@@ -117,6 +118,13 @@ TEST(Report, HasTheRemarksOnRecordings) {
   answer.remarks = {"run_3: has the commands of run_1"};
   EXPECT_TRUE(holds(report_html(answer, {}, 1.0), answer.remarks[0]));
   EXPECT_EQ(nlohmann::json::parse(report_json(answer, {}, 1.0))["remarks"][0], answer.remarks[0]);
+}
+
+TEST(ProgressText, TellsWhatIsLeftOnlyOfALongBatch) {
+  EXPECT_EQ(progress_text(75.0, 40, {1, 2, 3.0}), "75 s, 40 simulations");
+  EXPECT_EQ(progress_text(75.0, 40, {30, 120, 10.0}),
+            "75 s, 40 simulations; 30 of 120 of a batch, 30 s left of it");
+  EXPECT_EQ(progress_text(75.0, 40, {120, 120, 10.0}), "75 s, 40 simulations");
 }
 
 TEST(Report, SaysThatTheSearchEndedAtItsCap) {

@@ -257,8 +257,9 @@ TEST_F(InterruptedRun, RunGoesOnWithTheSameBitsAndSimulatesNothingTwice) {
   for (const std::size_t third : {1, 2, 4}) {
     const auto part = evaluator();
     part->keep_journal(path("part.bin"));
-    part->on_progress(
-        [&](double) { return simulated + part->simulated() < third * whole->simulated() / 3; });
+    part->on_progress([&](const Batch&) {
+      return simulated + part->simulated() < third * whole->simulated() / 3;
+    });
     try {
       report = report_json(discover(*part, question), question, 0.0);
     } catch (const discovery::Interrupted&) {

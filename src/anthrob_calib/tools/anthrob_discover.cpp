@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "anthrob_calib/discovery/closed_loop.h"
+#include "anthrob_calib/discovery/progress.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/identification/output_files.h"
 #include "anthrob_config/extended_files.h"
@@ -102,14 +103,17 @@ int main(int argc, char** argv) {
       std::cerr << out << "/journal.bin: was of another model, --dt, --calibration or build of the "
                 << "program: what it held is simulated anew\n";
     }
-    evaluator.on_progress([&](double share) {
-      if (bar) bar->update(share);
+    std::size_t simulated = 0;  // before this stage
+    evaluator.on_progress([&](const discovery::Batch& batch) {
+      const std::size_t now = evaluator.simulated() - simulated;
+      if (bar) bar->show(discovery::progress_text(bar->elapsed(), now, batch));
       return !tool::interrupted();
     });
     question.progress = [&](const std::string& what) {
       bar.reset();
       std::cerr << what << "\n";
-      bar = std::make_unique<tool::Progress>("  ");
+      simulated = evaluator.simulated();
+      bar = std::make_unique<tool::Progress>("  so far");
       return !tool::interrupted();
     };
     question.comment = [](const std::string& line) { std::cerr << line << "\n"; };

@@ -52,5 +52,11 @@ TEST(Tool, SaysNothingAboutASoundModel) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(ProgressText, SaysWhatIsLeftWhereThatIsKnown) {
+  EXPECT_EQ(tool::progress_text(0.25, 10.0), " 25 %, 30 s left");
+  EXPECT_EQ(tool::progress_text(1.0, 10.0), "100 %, 10 s so far");
+  EXPECT_EQ(tool::progress_text(0.0, 10.0), "  0 %, 10 s so far");
+}
+
 }  // namespace
 }  // namespace anthrob

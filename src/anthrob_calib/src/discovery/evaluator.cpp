@@ -3,6 +3,8 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <chrono>
+
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
@@ -110,11 +112,13 @@ std::vector<Differences> Evaluator::compare(
     const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
   std::vector<Differences> results(variants.size());
   std::atomic<std::size_t> done{0};
+  const auto begin = std::chrono::steady_clock::now();
   side_by_side(variants.size(), [&](std::size_t i) {
     results[i] = known_or_simulated(variants[i], experiments);
-    const double share = static_cast<double>(++done) / static_cast<double>(variants.size());
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    const Batch batch{++done, variants.size(), elapsed.count()};
     const std::lock_guard<std::mutex> lock(progress_mutex_);
-    if (progress_ && !progress_(share)) throw Interrupted();
+    if (progress_ && !progress_(batch)) throw Interrupted();
   });
   return results;
 }

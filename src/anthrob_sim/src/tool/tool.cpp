@@ -96,11 +96,30 @@ Progress::~Progress() {
 }
 
 void Progress::update(double share) {
+  show(progress_text(share, elapsed()));
+}
+
+void Progress::show(const std::string& state) {
   const double t = now();
   if (!visible_ || t - last_ < 0.2) return;
   last_ = t;
-  const double left = share > 0.0 ? (t - start_) * (1.0 - share) / share : 0.0;
-  std::fprintf(stderr, "\r\033[K%s: %3.0f %%, %.0f s left", what_.c_str(), 100.0 * share, left);
+  std::fprintf(stderr, "\r\033[K%s: %s", what_.c_str(), state.c_str());
+}
+
+double Progress::elapsed() const {
+  return now() - start_;
+}
+
+std::string progress_text(double share, double elapsed) {
+  char text[80];
+  if (share > 0.0 && share < 1.0) {
+    std::snprintf(text, sizeof(text), "%3.0f %%, %.0f s left", 100.0 * share,
+                  elapsed * (1.0 - share) / share);
+  } else {
+    // Nothing is known of what is left: it has just begun, or takes longer than was reckoned.
+    std::snprintf(text, sizeof(text), "%3.0f %%, %.0f s so far", 100.0 * share, elapsed);
+  }
+  return text;
 }
 
 }  // namespace tool

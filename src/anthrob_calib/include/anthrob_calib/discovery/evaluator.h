@@ -32,6 +32,12 @@ using Differences = Eigen::VectorXf;
 /// What was simulated before an interruption.
 using Journal = resume::ResultFile<float>;
 
+/// How far the variants are that are compared together.
+struct Batch {
+  std::size_t done = 0, size = 0;
+  double elapsed = 0.0;  ///< since it was begun [s]
+};
+
 /// Work was stopped from outside.
 class Interrupted : public std::exception {};
 
@@ -47,8 +53,8 @@ class Evaluator {
   const std::vector<ModelParameter>& nuisances() const { return nuisances_; }
   std::vector<double> initial_nuisances() const;
 
-  /// @param progress called with the share of a batch that is done; returns false to stop
-  void on_progress(std::function<bool(double)> progress) { progress_ = std::move(progress); }
+  /// @param progress called when one more of a batch is done; returns false to stop
+  void on_progress(std::function<bool(const Batch&)> progress) { progress_ = std::move(progress); }
 
   /// Opens a journal: what it knows is not simulated again. Its context is this program, the model
   /// and its ordinary parameters.
@@ -79,7 +85,7 @@ class Evaluator {
   double step_;
   int jobs_;
   std::shared_ptr<const RobotModel> plain_;
-  std::function<bool(double)> progress_;
+  std::function<bool(const Batch&)> progress_;
   mutable std::mutex progress_mutex_;
   std::unique_ptr<Journal> journal_;
   mutable std::atomic<std::size_t> simulated_{0};

@@ -36,12 +36,18 @@ class Progress {
   explicit Progress(const std::string& what);
   ~Progress();
   void update(double share);
+  /// Where no share is known.
+  void show(const std::string& state);
+  double elapsed() const;  ///< [s]
 
  private:
   std::string what_;
   double start_, last_ = 0.0;
   bool visible_;
 };
+
+/// "37 %, 20 s left"; without time left where nothing tells it. @param elapsed [s]
+std::string progress_text(double share, double elapsed);
 
 }  // namespace tool
 }  // namespace anthrob
