@@ -113,6 +113,26 @@ TEST(Report, SaysWhatWasAskedForWouldHaveShown) {
       holds(report_html({}, question, 1.0), "Everything that --effects asks for would have shown"));
 }
 
+TEST(Report, SeamsThatGrowAreNotRed) {
+  const std::string grey = "<td style=\"background:#eeeeee\">";
+  Answer answer;
+  answer.seams = {{"elbow", "position", true, 4.0, 6.0, 3.0}};
+  std::string page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, grey + "6</td>"));
+  EXPECT_FALSE(holds(page, grey + "4</td>"));
+  EXPECT_FALSE(holds(page, grey + "3</td>"));
+  answer.seams = {{"elbow", "position", true, 4.0, -1.0, 5.0}};  // no voltages
+  page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, grey + "5</td>"));
+}
+
+TEST(Report, ExplainsItsWords) {
+  const std::string page = report_html({}, {}, 1.0);
+  for (const char* word : {"floor", "recalibrated", "share", "significance", "nat"}) {
+    EXPECT_TRUE(holds(page, "<li>" + std::string(word) + ": ")) << word;
+  }
+}
+
 TEST(Report, HasTheRemarksOnRecordings) {
   Answer answer;
   answer.remarks = {"run_3: has the commands of run_1"};

@@ -256,21 +256,35 @@ std::string regime_map(const Answer& answer) {
   return html + "</table>\n";
 }
 
+/// Gaps of one channel from left to right. Only a fall tells: what has grown is grey, not red.
+std::string seam_cells(const SeamGap& seam) {
+  std::string html;
+  double left = HUGE_VAL;
+  for (const double gap : {seam.commands, seam.voltages, seam.positions}) {
+    if (gap > left) {
+      html += "<td style=\"background:#eeeeee\">" + short_number(gap) + "</td>";
+    } else {
+      html += heat_cell(gap);
+    }
+    if (gap >= 0.0) left = gap;
+  }
+  return html;
+}
+
 /// Where x which input is fed: a gap that vanishes to the right belongs to what was cut off.
 std::string seam_map(const Answer& answer) {
   if (answer.seams.empty()) return "";
   std::string html =
       "<p>Gap of every channel (recalibrated model) when the chain is fed with commands, with "
-      "measured voltages, with measured motor positions. What stays red to the right arises "
-      "behind the motors; what turns white belongs to the part that was cut off.</p>\n<table>"
+      "measured voltages, with measured motor positions. Only a fall tells: what turns white "
+      "belongs to the part that was cut off there, what is still red on the right arises behind "
+      "the motors. What grows, grey, tells nothing: motors that are fed with voltages drift away "
+      "from where the measured ones were.</p>\n<table>"
       "<tr><th>place / channel</th><th>commands</th><th>voltages</th><th>positions</th></tr>\n";
   for (const SeamGap& seam : answer.seams) {
     if (std::max({seam.commands, seam.voltages, seam.positions}) < kFaintGap) continue;
     html += "<tr><th>" + escaped(seam.place + "/" + seam.channel) + "</th>";
-    for (const double gap : {seam.commands, seam.voltages, seam.positions}) {
-      html += heat_cell(gap);
-    }
-    html += "</tr>\n";
+    html += seam_cells(seam) + "</tr>\n";
   }
   return html + "</table>\n";
 }
@@ -398,6 +412,19 @@ std::string preflight(const Answer& answer, const Question& question) {
                        groups + "</ul>\n");
 }
 
+const char* const kWords = R"(<h2>Words</h2><ul>
+<li>floor: what a gap is that is noise alone, from repeats of the same commands or from how
+neighbouring values scatter, with the errors of rounding and of the simulation; gaps are counted in
+it</li>
+<li>recalibrated: the given model with its ordinary parameters, those of calibration.yaml, fitted to
+what was learned from, and no effect added</li>
+<li>share: of the square of what all gaps together are more than noise, the part of this channel</li>
+<li>significance: by how many standard errors (sigma), over blocks of 2 s, a channel stands above
+what a wrong floor may look like</li>
+<li>nat: a log score that is one higher means that the recordings are 2.7 times as probable</li>
+</ul>
+)";
+
 }  // namespace
 
 std::string report_html(const Answer& answer, const Question& question, double runtime) {
@@ -421,8 +448,9 @@ std::string report_html(const Answer& answer, const Question& question, double r
          dependence_figures(dependences_where(answer)) + "<h2>What is left</h2>\n<p>" +
          escaped(answer.remaining_description) + (cap.empty() ? "" : "; " + escaped(cap)) +
          ".</p>\n" + dependence_figures(answer.remaining) + "<h2>Held-out gap by channel</h2>\n" +
-         channel_table(answer) + "<h2>What these recordings can show</h2>\n" + preflight(answer, question) +
-         "<h2>Recordings</h2><ul>" + recordings + "</ul>\n</body></html>\n";
+         channel_table(answer) + "<h2>What these recordings can show</h2>\n" +
+         preflight(answer, question) + "<h2>Recordings</h2><ul>" + recordings + "</ul>\n" + kWords +
+         "</body></html>\n";
 }
 
 }  // namespace discovery
