@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "anthrob_sim/recording/bag.h"
 #include "interrupt.h"
 #include "simulated_recordings.h"
 
@@ -336,6 +337,11 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
   fs::copy(path("eq/E2"), path("held_out/of_them"), fs::copy_options::recursive);
   expect(config + out + " --data " + path("eq") + " --validation " + path("held_out"),
          "held_out: of_them is E2 of " + path("eq"));
+  fs::create_directories(path("doubled"));
+  fs::copy(path("eq/E2"), path("doubled/E2"), fs::copy_options::recursive);
+  write_bag(Dataset::load(path("eq/E2")), path("doubled/again.bag"));
+  expect(config + out + " --data " + path("doubled"), "doubled/again.bag: the same recording as");
+  expect(config + out + " --data " + path("doubled"), path("doubled/E2"));
   write(path("file"), "");
   const Outcome unwritable = run(config + " --out " + path("file") + "/x --data " + path("eq"));
   EXPECT_EQ(unwritable.status, 1);  // no bad input

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/followed_commands.h"
@@ -328,8 +330,14 @@ std::vector<MeasuredRun> read_runs(const std::string& folder,
   }
   std::sort(paths.begin(), paths.end(), natural_less);
   std::vector<MeasuredRun> runs;
+  std::map<std::uint64_t, std::string> known;
   for (const std::string& path : paths) {
     Dataset recording = load_recording(path);
+    const auto [same, is_new] = known.emplace(resume::content_fingerprint(recording), path);
+    if (!is_new) {
+      throw BadInput(path + ": the same recording as " + same->second +
+                     ", which would count twice: expected every run once");
+    }
     leave_out_unanswered(recording);
     runs.push_back(read_run(recording, model, options));
     runs.back().remarks = recording.remarks;

@@ -56,7 +56,8 @@ MeasuredRun read_run(const Dataset& recording, const std::shared_ptr<const Robot
 
 /// The recordings of a folder (dataset folders and bags, in natural order of their names), or the
 /// one recording that it is.
-/// @throws BadInput if there is none, or one cannot be used
+/// @throws BadInput if there is none, one cannot be used, or one is there twice (a bag beside the
+/// folder that it was converted to)
 std::vector<MeasuredRun> read_runs(const std::string& folder,
                                    const std::shared_ptr<const RobotModel>& model,
                                    const SamplingOptions& options = {});
