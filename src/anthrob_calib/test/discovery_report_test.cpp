@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/examples.h"
 #include "anthrob_calib/discovery/progress.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_sim/model/robot_model.h"
@@ -138,6 +139,34 @@ TEST(Report, HasTheRemarksOnRecordings) {
   answer.remarks = {"run_3: has the commands of run_1"};
   EXPECT_TRUE(holds(report_html(answer, {}, 1.0), answer.remarks[0]));
   EXPECT_EQ(nlohmann::json::parse(report_json(answer, {}, 1.0))["remarks"][0], answer.remarks[0]);
+}
+
+/// A ball joint, measured in one bin.
+class Turn final : public Experiment {
+ public:
+  Turn() {
+    for (int i = 0; i < 3; ++i) {
+      channels_.push_back({"shoulder", "orientation", "rad", i, static_cast<std::size_t>(i), 1});
+    }
+    present_.assign(3, 1);
+    bin_ = duration_ = 0.02;
+  }
+  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
+};
+
+TEST(Examples, OfABallJointShowTheComponentThatChangesMost) {
+  Eigen::VectorXf recalibrated(3), after(3);
+  recalibrated << 0.1f, 0.2f, 0.4f;
+  after << 0.1f, 0.0f, 0.3f;
+  const std::map<std::string, Gap> gaps = {{"shoulder/orientation", {1.0, 2.0, 1.0, 1.0}}};
+  const Eigen::VectorXf ones = Eigen::VectorXf::Ones(3);
+  const auto changed = examples_of(Turn(), ones, recalibrated, after, gaps);
+  ASSERT_EQ(changed.size(), 1u);
+  EXPECT_EQ(changed[0].channel, "shoulder/orientation/y");
+  ASSERT_EQ(changed[0].after.size(), 1u);
+  EXPECT_FLOAT_EQ(changed[0].recalibrated[0], 0.2f);
+  const auto still = examples_of(Turn(), ones, recalibrated, recalibrated, gaps);
+  EXPECT_EQ(still.at(0).channel, "shoulder/orientation/z");  // the largest gap
 }
 
 TEST(ProgressText, TellsWhatIsLeftOnlyOfALongBatch) {

@@ -22,6 +22,29 @@ std::vector<std::string> by_change(const std::map<std::string, Gap>& gaps) {
   return names;
 }
 
+/// Of the channels of that name, an orientation's three components, the one that changes most.
+const Channel* most_changed(const Experiment& experiment, const std::string& name,
+                            const Eigen::VectorXf& recalibrated, const Eigen::VectorXf& after) {
+  const Channel* found = nullptr;
+  double most = -1.0;
+  for (const Channel& channel : experiment.channels()) {
+    if (channel.name() != name) continue;
+    const auto from = static_cast<Eigen::Index>(channel.offset),
+               count = static_cast<Eigen::Index>(channel.count);
+    const auto one = recalibrated.segment(from, count), other = after.segment(from, count);
+    const double change = (one - other).squaredNorm() + 1e-6 * one.squaredNorm();
+    if (change <= most) continue;
+    most = change;
+    found = &channel;
+  }
+  return found;
+}
+
+std::string label_of(const Channel& channel) {
+  if (channel.quantity != "orientation") return channel.name();
+  return channel.name() + "/" + "xyz"[channel.component];
+}
+
 }  // namespace
 
 std::vector<Example> examples_of(const Experiment& experiment, const Eigen::VectorXf& whitener,
@@ -31,11 +54,9 @@ std::vector<Example> examples_of(const Experiment& experiment, const Eigen::Vect
   if (names.size() > kMost) names.resize(kMost);
   std::vector<Example> examples;
   for (const std::string& name : names) {
-    const auto& channels = experiment.channels();
-    const auto channel = std::find_if(channels.begin(), channels.end(),
-                                      [&](const Channel& c) { return c.name() == name; });
-    if (channel == channels.end()) continue;
-    Example example{name, channel->unit, {}, {}, {}};
+    const Channel* channel = most_changed(experiment, name, recalibrated, after);
+    if (!channel) continue;
+    Example example{label_of(*channel), channel->unit, {}, {}, {}};
     for (std::size_t b = 0; b < channel->count; ++b) {
       const auto k = static_cast<Eigen::Index>(channel->offset + b);
       const double factor = whitener[k];
