@@ -335,6 +335,30 @@ TEST_F(InterruptedRun, ToolSaysHowToGoOn) {
   EXPECT_EQ(report("stopped"), report("whole"));
 }
 
+TEST_F(InterruptedRun, OfAnotherEffectLibraryIsBegunAnew) {
+  axis_recording(20.4, 0.0, 1).save(path("train"));
+  axis_recording(20.4, 0.0, 2).save(path("test"));
+  fs::copy_file(ANTHROB_OTHER_LIBRARY, path("libown.so"));
+  std::ofstream(path("own.yaml")) << "extends: " << kConfig << "/driven_axis/model_I.yaml\n"
+                                  << "effect_libraries: [own]\n";
+  const auto run = [&](const std::string& before) {
+    const int status = std::system(
+        ("LD_LIBRARY_PATH=" + folder_.string() + ":$LD_LIBRARY_PATH " + before + ANTHROB_DISCOVER +
+         " --model " + path("own.yaml") + " --train " + path("train") + " --test " + path("test") +
+         " --jobs 1 --out " + path("found") + " >/dev/null 2>" + path("errors"))
+            .c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  const std::string script = path("interrupt.sh");
+  const int status = run(interrupted_when(path("found/journal.bin"), script));
+  if (!interrupt_was_sent(script)) GTEST_SKIP() << "too fast to be interrupted";
+  ASSERT_EQ(status, 130) << content(path("errors"));
+  std::ofstream(path("libown.so"), std::ios::app) << "x";  // the linker's mark stays
+  ASSERT_EQ(run(""), 0) << content(path("errors"));
+  EXPECT_NE(content(path("errors")).find("is simulated anew"), std::string::npos)
+      << content(path("errors"));
+}
+
 // ---- the arm
 // --------------------------------------------------------------------------------------
 

@@ -7,6 +7,7 @@
 
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/effects/catalogue.h"
 
 namespace anthrob {
 namespace discovery {
@@ -70,7 +71,10 @@ std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const
 
 Journal& Evaluator::keep_journal(const std::string& file) {
   resume::Fingerprint context;
-  context.add(resume::program_fingerprint()).add(resume::model_fingerprint(config_)).add(step_);
+  // Effect libraries may have no mark of a linker; what they hold tells.
+  context.add(resume::program_fingerprint(resume::program_fingerprint(), effect_library_files()))
+      .add(resume::model_fingerprint(config_))
+      .add(step_);
   for (const ModelParameter& p : nuisances_) context.add(p.path);
   journal_ = std::make_unique<Journal>(file, context.value());
   return *journal_;
