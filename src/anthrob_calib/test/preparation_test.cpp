@@ -304,6 +304,17 @@ TEST(AxisExperiment, WhereNoPositionIsMeasuredNothingIsCompared) {
   EXPECT_EQ(absent, 10);
 }
 
+TEST(Preparation, RefusesAStepThatIsTooCoarseForAnAxis) {
+  const Question axis = axis_question(20.4, 0.0);
+  const Evaluator evaluator(axis.model_file, {}, 0.06, 1);
+  try {
+    prepare(evaluator, axis);
+    FAIL() << "not refused";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("--dt 0.06"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Preparation, RefusesRepeatsOfAnotherMotion) {
   Question axis = axis_question(20.4, 0.0);
   axis.repeats = {axis_recording(20.0, 0.0, 1)};  // not quite the same, as in another run

@@ -64,6 +64,11 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
     : step_(model.step) {
   name_ = recording.folder;
   steps_per_bin_ = static_cast<std::size_t>(std::lround(options.bin / step_));
+  if (steps_per_bin_ == 0) {
+    throw BadInput("--dt " + std::to_string(step_) + ": expected a step of no more than " +
+                   std::to_string(options.bin) +
+                   " s, over which a driven axis is compared with its recording");
+  }
   bin_ = static_cast<double>(steps_per_bin_) * step_;
   const auto& joints = model.skeleton->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
