@@ -128,6 +128,12 @@ TEST(BlockSignificance, DoesNotDoubtGainsForSmallLossesBesideThem) {
 // ---- a driven axis, made here by its closed equation
 // -----------------------------------------------
 
+const FoundParameter* find_parameter(const FoundEffect& effect, const std::string& name) {
+  const auto found = std::find_if(effect.parameters.begin(), effect.parameters.end(),
+                                  [&](const FoundParameter& p) { return p.name == name; });
+  return found == effect.parameters.end() ? nullptr : &*found;
+}
+
 Answer ask(const Question& question, int jobs = 2) {
   const Evaluator evaluator(question.model_file, question.nuisances, question.step, jobs);
   return discover(evaluator, question);
@@ -141,10 +147,10 @@ TEST(DrivenAxis, DryFrictionIsNamedAndMeasured) {
   for (const FoundParameter& p : answer.effects[0].parameters) {
     EXPECT_LE(p.low, p.value) << p.name;
     EXPECT_GE(p.high, p.value) << p.name;
-    if (p.name == "torque") {
-      EXPECT_NEAR(p.value, 20.4, 0.6);
-    }
   }
+  const FoundParameter* torque = find_parameter(answer.effects[0], "torque");
+  ASSERT_NE(torque, nullptr);
+  EXPECT_NEAR(torque->value, 20.4, 0.6);
   EXPECT_LT(answer.test.after, 0.3 * answer.test.recalibrated);
 }
 
@@ -449,7 +455,10 @@ TEST(ModelFit, ACoarseStepTellsTheSameChanges) {
 TEST(ListCandidates, EveryDoseCanBeBuilt) {
   const std::string model = kConfig + "/anthrob/model_I.yaml";
   const Evaluator evaluator(model, ordinary_parameters(model, ""), 0.001, 1);
-  for (const Candidate& candidate : list_candidates(evaluator, {})) {
+  const std::vector<Candidate> candidates = list_candidates(evaluator, {});
+  EXPECT_GT(candidates.size(), 100u);
+  for (const Candidate& candidate : candidates) {
+    EXPECT_FALSE(candidate.sizes().empty()) << candidate.name();
     for (const EffectParameter* size : candidate.sizes()) {
       Variant variant{evaluator.initial_nuisances()};
       variant.effects = {candidate.dose(*size)};
@@ -489,13 +498,11 @@ TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {
   EXPECT_EQ(answer.effects[0].place, "elbow");
   EXPECT_GT(answer.effects[0].probability, 0.9);
   EXPECT_LT(answer.test.after, 0.2 * answer.test.recalibrated) << summary(answer);
-  for (const FoundParameter& p : answer.effects[0].parameters) {
-    if (p.name == "torque") {
-      EXPECT_NEAR(p.value, 0.06, 0.006);
-      EXPECT_LT(p.low, p.value);
-      EXPECT_GT(p.high, p.value);
-    }
-  }
+  const FoundParameter* torque = find_parameter(answer.effects[0], "torque");
+  ASSERT_NE(torque, nullptr);
+  EXPECT_NEAR(torque->value, 0.06, 0.006);
+  EXPECT_LT(torque->low, torque->value);
+  EXPECT_GT(torque->high, torque->value);
   // The model that was written loads and has the effect.
   const Evaluator evaluator(question.model_file, {}, 0.001, 1);
   const std::string text = model_text(answer, evaluator, question, kConfig + "/anthrob");
