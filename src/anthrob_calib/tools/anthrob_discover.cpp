@@ -27,11 +27,15 @@ std::vector<Dataset> load_all(const CLI::App& app, const std::vector<std::string
   return recordings;
 }
 
-/// What was recorded in the loop.
-void save_from(std::size_t first, const std::vector<Dataset>& recordings, const std::string& out) {
+/// What was recorded in the loop. @return names of the folders
+std::vector<std::string> save_from(std::size_t first, const std::vector<Dataset>& recordings,
+                                   const std::string& out) {
+  std::vector<std::string> names;
   for (std::size_t i = first; i < recordings.size(); ++i) {
     recordings[i].save(out + "/" + recordings[i].folder);
+    names.push_back(recordings[i].folder);
   }
+  return names;
 }
 
 }  // namespace
@@ -72,10 +76,7 @@ int main(int argc, char** argv) {
           read.push_back(std::filesystem::weakly_canonical(name + "/.").parent_path().string());
         }
       }
-      for (const char* recording :
-           {"separating_1_train", "separating_1_test", "separating_2_train", "separating_2_test"}) {
-        written.push_back(recording);
-      }
+      for (const std::string& name : discovery::loop_recordings()) written.push_back(name);
     }
     identification::require_kept(out, written, read);
     identification::require_writable(out);
@@ -130,8 +131,11 @@ int main(int argc, char** argv) {
       files["model.yaml"] = model_text(answer, evaluator, question, out);
       identification::write_files(out, files);
       discovery::remove_other_protocols(out, files);
-      save_from(train.size(), question.train, out);
-      save_from(test.size(), question.test, out);
+      std::vector<std::string> made = save_from(train.size(), question.train, out);
+      for (const std::string& name : save_from(test.size(), question.test, out)) {
+        made.push_back(name);
+      }
+      if (!robot_file.empty()) discovery::remove_other_recordings(out, made);
       journal.remove();
       std::cout << summary(answer);
       return tool::kDone;

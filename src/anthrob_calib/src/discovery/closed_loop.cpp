@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/discovery/simulated_recording.h"
@@ -25,6 +26,10 @@ const FoundEffect* undecided(const Answer& answer) {
                effect.separating_recording.distance() > kTells;
       });
   return it == answer.effects.end() ? nullptr : &*it;
+}
+
+std::string name_of(int number, const std::string& group) {
+  return "separating_" + std::to_string(number) + "_" + group;
 }
 
 std::string sentence(const FoundEffect& effect, int number) {
@@ -51,7 +56,7 @@ Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
           separating_commands(*evaluator.model(), effect->separating_recording, first, 2);
       Dataset recording = simulated_recording(
           robot, commands, question.seed + 2 * static_cast<std::uint64_t>(number) + first);
-      recording.folder = "separating_" + std::to_string(number) + "_" + name;
+      recording.folder = name_of(number, name);
       return recording;
     };
     Question more = question;
@@ -71,6 +76,29 @@ Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
   }
   answer.asked = std::move(asked);
   return answer;
+}
+
+std::vector<std::string> loop_recordings() {
+  std::vector<std::string> names;
+  for (int number = 1; number <= kMostRecordings; ++number) {
+    for (const char* group : {"train", "test"}) names.push_back(name_of(number, group));
+  }
+  return names;
+}
+
+void remove_other_recordings(const std::string& folder, const std::vector<std::string>& made) {
+  namespace fs = std::filesystem;
+  for (const std::string& name : loop_recordings()) {
+    const fs::path recording = fs::path(folder) / name;
+    const bool is_old = std::find(made.begin(), made.end(), name) == made.end();
+    if (!is_old || !fs::exists(recording / "meta.yaml")) continue;
+    for (const fs::directory_entry& entry : fs::directory_iterator(recording)) {
+      const fs::path& file = entry.path();
+      // Nobody else's.
+      if (file.filename() == "meta.yaml" || file.extension() == ".csv") fs::remove(file);
+    }
+    if (fs::is_empty(recording)) fs::remove(recording);
+  }
 }
 
 }  // namespace discovery

@@ -14,5 +14,10 @@ namespace discovery {
 Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
                           const std::shared_ptr<const RobotModel>& robot);
 
+/// Folders that the recordings of a loop may be kept in: "separating_1_train", ...
+std::vector<std::string> loop_recordings();
+/// Removes those of an earlier loop from a folder. @param made names of those of this one
+void remove_other_recordings(const std::string& folder, const std::vector<std::string>& made);
+
 }  // namespace discovery
 }  // namespace anthrob
