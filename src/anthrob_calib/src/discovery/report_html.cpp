@@ -5,27 +5,13 @@
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/discovery/verdict.h"
+#include "anthrob_calib/report/html.h"
 #include "anthrob_sim/report/svg_figure.h"
 
 namespace anthrob {
 namespace discovery {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string cell(const std::string& text) {
   return "<td>" + escaped(text) + "</td>";

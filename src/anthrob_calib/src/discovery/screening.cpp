@@ -230,7 +230,7 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
     Eigen::VectorXd lower(count), upper(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const Column& column = look.columns[static_cast<std::size_t>(from + i)];
-      // Less than a hundredth left: the ordinary parameters do the same.
+      // No more than a hundredth of the change is left: the ordinary parameters do the same.
       const bool visible = column.simulated && h(i, i) > kVisible * whole[i] && h(i, i) > 1e-6;
       lower[i] = visible ? std::max(column.lower, -100.0) : 0.0;
       upper[i] = visible ? std::min(column.upper, 100.0) : 0.0;

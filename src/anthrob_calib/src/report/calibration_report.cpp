@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "anthrob_calib/report/calibration_figures.h"
+#include "anthrob_calib/report/html.h"
 #include "anthrob_calib/report/joint_unit.h"
 
 namespace anthrob {
@@ -19,14 +20,6 @@ std::string text(double value, const char* format = "%.4g") {
   if (!std::isfinite(value)) return "invalid";
   char out[40];
   std::snprintf(out, sizeof(out), format, value);
-  return out;
-}
-
-std::string escaped(const std::string& raw) {
-  std::string out;
-  for (const char c : raw) {
-    out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  }
   return out;
 }
 
