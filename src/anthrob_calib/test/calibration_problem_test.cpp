@@ -13,6 +13,7 @@
 #include "anthrob_calib/calibration/problem.h"
 #include "anthrob_calib/optimiser/optimiser.h"
 #include "anthrob_calib/optimiser/problem_evaluator.h"
+#include "anthrob_calib/report/calibration_report.h"
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_sim/recording/unanswered.h"
 #include "simulated_recordings.h"
@@ -542,6 +543,24 @@ parameters:
   const Profile& profile = known.profiles.front();
   EXPECT_EQ(profile.parameter, 1u);
   EXPECT_LT(profile.fitness.back(), 1.2 * problem.fitness(point));  // longer: as good
+}
+
+TEST(CalibrationReport, NamesWhatChangesNothingAlsoInBrief) {
+  CalibrationOutcome outcome;
+  outcome.parameters.resize(2);
+  outcome.parameters[0].path = "joints.elbow.friction.viscous";
+  outcome.parameters[1].path = "joints.elbow.friction.coulomb";
+  outcome.best = {0.5, 0.5};
+  for (ModelParameter& p : outcome.parameters) p.upper = 1.0;
+  EXPECT_TRUE(untold(outcome).empty());  // by a search without derivatives
+  EXPECT_EQ(report_html(outcome).find("<b>no</b>"), std::string::npos);
+  outcome.sensitivity = {3.0, 1e-9};
+  EXPECT_EQ(untold(outcome), std::vector<std::string>{"elbow.friction.coulomb"});
+  const std::string page = report_html(outcome);
+  const std::size_t name = page.find("elbow.friction.coulomb"), no = page.find("<b>no</b>");
+  ASSERT_NE(name, std::string::npos);
+  ASSERT_NE(no, std::string::npos);
+  EXPECT_GT(no, name);
 }
 
 }  // namespace

@@ -257,6 +257,16 @@ TEST(LeastSquares, GoesOnWhereItSeesABetterValley) {
       search(settings("least_squares", 100), {{-1.2, -1.5, 0.0, 0.2}}, two_valleys);
   EXPECT_LT(near.best[0], -0.8);
 }
+TEST(LeastSquares, TellsWhatChangesNothing) {
+  Function function([](const Point& p) { return Point{p[0] - 3.0, 2.0 * p[0]}; });
+  const std::vector<SearchVariable> v = {{1.0, -5.0, 5.0, 0.1}, {0.5, -5.0, 5.0, 0.1}};
+  const SearchResult result = search(settings("least_squares", 5), v, function);
+  ASSERT_EQ(result.sensitivity.size(), 2u);
+  EXPECT_NEAR(result.sensitivity[0], 0.1 * std::sqrt(5.0), 1e-9);
+  EXPECT_EQ(result.sensitivity[1], 0.0);
+  EXPECT_TRUE(search(settings("evolution_strategy", 5), v, function).sensitivity.empty());
+}
+
 TEST(LeastSquares, InvalidNeighbourTellsNothing) {
   // Valid below 1 only.
   Function edge([](const Point& p) { return p[0] > 1.0 ? Point{} : Point{3.0 + p[0], p[1]}; });

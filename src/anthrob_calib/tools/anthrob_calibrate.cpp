@@ -166,11 +166,12 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   problem.build(problem.space().initial());  // a start that cannot be built has its own message
 
   std::string reason = arguments.evaluate ? "errors only" : "interrupted";
+  SearchResult found;
   bool complete = false;
   try {
     if (!arguments.evaluate) {
-      reason =
-          make_optimiser(settings)->minimise(search_variables(problem.space()), journal).reason;
+      found = make_optimiser(settings)->minimise(search_variables(problem.space()), journal);
+      reason = found.reason;
     }
     complete = true;
   } catch (const Interrupted&) {
@@ -178,10 +179,14 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   journal.save();
   if (!journal.best().empty()) keep_model(arguments, input, problem, journal.best());
   const bool thorough = complete && !arguments.evaluate && !arguments.brief;
-  const CalibrationOutcome outcome =
+  CalibrationOutcome outcome =
       conclude(input, problem, journal, reason, thorough, tool::interrupted);
+  outcome.sensitivity = found.sensitivity;
   write(arguments, input, outcome);
   std::cout << summary(outcome);
+  for (const std::string& name : untold(outcome)) {
+    std::cerr << "anthrob_calibrate: " << name << ": these recordings tell nothing of it\n";
+  }
   if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
   if (complete && !arguments.evaluate && !std::isfinite(outcome.fitness)) {
     std::cerr << "anthrob_calibrate: " << input.config.model_file

@@ -51,6 +51,7 @@ class SecantJacobian {
     return jacobian_;
   }
 
+  const std::vector<double>& sensitivity() const { return sensitivity_; }
   int age() const { return age_; }  ///< secants since it was taken by differences
   /// It will be taken by differences again.
   void forget() {
@@ -64,8 +65,11 @@ class SecantJacobian {
     const auto columns =
         derivatives(variables_, unscaled(variables_, z.data()), here, difference_, evaluator_);
     jacobian_.resize(residuals.size(), z.size());
+    sensitivity_.resize(columns.size(), 0.0);
     for (Eigen::Index i = 0; i < z.size(); ++i) {
       jacobian_.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), residuals.size());
+      double& most = sensitivity_[static_cast<std::size_t>(i)];
+      most = std::max(most, jacobian_.col(i).norm());
     }
   }
 
@@ -74,6 +78,7 @@ class SecantJacobian {
   Evaluator& evaluator_;
   RowMajor jacobian_;
   Eigen::VectorXd z_, residuals_;
+  std::vector<double> sensitivity_;  ///< Descent has it
   int age_ = 0;
 };
 
@@ -226,6 +231,7 @@ Descent descend(const std::vector<SearchVariable>& variables, double difference,
     down.point = unscaled(variables, z.data());
     down.fitness = 2.0 * last->cost;
   }
+  down.sensitivity = jacobian.sensitivity();
   return down;
 }
 

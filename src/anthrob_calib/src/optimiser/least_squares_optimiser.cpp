@@ -159,15 +159,20 @@ SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& 
   for (const SearchVariable& v : variables) point.push_back(v.initial);
   int jacobians = settings_.generations;
   Descent down{point, HUGE_VAL, Descent::kMoreToGain};
+  std::vector<double> sensitivity(variables.size(), 0.0);
+  const auto end = [&](const char* reason) -> SearchResult {
+    return {down.point, down.fitness, reason, sensitivity};
+  };
   while (true) {
     down = descend(variables, kDifference, down.point, evaluator, jacobians);
-    if (down.end == Descent::kInvalidStart) return {point, HUGE_VAL, "the start is invalid"};
-    if (down.end == Descent::kStuck) return {down.point, down.fitness, "no better point found"};
-    if (jacobians <= 0) return {down.point, down.fitness, "all iterations done"};
-    const Descent other = better_valley(variables, down, evaluator, jacobians);
-    if (other.point == down.point) {
-      return {down.point, down.fitness, jacobians > 0 ? "converged" : "all iterations done"};
+    for (std::size_t i = 0; i < down.sensitivity.size(); ++i) {
+      sensitivity[i] = std::max(sensitivity[i], down.sensitivity[i]);
     }
+    if (down.end == Descent::kInvalidStart) return {point, HUGE_VAL, "the start is invalid"};
+    if (down.end == Descent::kStuck) return end("no better point found");
+    if (jacobians <= 0) return end("all iterations done");
+    const Descent other = better_valley(variables, down, evaluator, jacobians);
+    if (other.point == down.point) return end(jacobians > 0 ? "converged" : "all iterations done");
     down = other;
   }
 }

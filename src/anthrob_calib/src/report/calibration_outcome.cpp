@@ -1,9 +1,22 @@
 #include "anthrob_calib/report/calibration_outcome.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace anthrob {
 namespace calibration {
+
+std::vector<std::string> untold(const CalibrationOutcome& outcome) {
+  constexpr double kNothing = 1e-6;  // of what the parameter that tells most does
+  std::vector<std::string> names;
+  const std::vector<double>& sensitivity = outcome.sensitivity;
+  if (sensitivity.empty()) return names;
+  const double most = *std::max_element(sensitivity.begin(), sensitivity.end());
+  for (std::size_t i = 0; i < sensitivity.size(); ++i) {
+    if (sensitivity[i] <= kNothing * most) names.push_back(outcome.parameters[i].name());
+  }
+  return names;
+}
 
 MeanErrors run_errors(const RunDifferences& run, const RobotModel& model) {
   MeanErrors errors;

@@ -72,15 +72,17 @@ std::string parameter_table(const CalibrationOutcome& o) {
   std::string out = "<table>" + row({"parameter", "unit", "range", "before", "after", "sigma",
                                      "the data tell it", "at a bound"},
                                     "th");
+  const std::vector<std::string> nothing = untold(o);
   for (std::size_t i = 0; i < o.parameters.size(); ++i) {
     const ModelParameter& p = o.parameters[i];
     const bool known = !o.identifiability.parameters.empty();
+    const bool told = !std::count(nothing.begin(), nothing.end(), p.name());
     const double edge = 1e-6 * p.range();
     const bool at_bound = o.best[i] - p.lower < edge || p.upper - o.best[i] < edge;
     out += row({escaped(p.name()), p.unit, text(p.lower) + " ... " + text(p.upper),
                 text(p.initial, "%.6g"), text(o.best[i], "%.6g"),
                 known ? text(o.identifiability.parameters[i].sigma, "%.2g") : "",
-                !known                                         ? ""
+                !known                                         ? (told ? "" : "<b>no</b>")
                 : o.identifiability.parameters[i].identifiable ? "yes"
                                                                : "<b>no</b>",
                 at_bound ? "yes" : ""});

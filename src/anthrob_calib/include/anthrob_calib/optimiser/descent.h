@@ -16,6 +16,9 @@ struct Descent {
   Point point;
   double fitness = 0.0;  ///< infinite if the start is invalid
   End end = kMoreToGain;
+  /// By how much all residuals together change with a step of each variable, where its derivative
+  /// was largest; empty if none was taken.
+  std::vector<double> sensitivity = {};
 };
 
 /// Levenberg-Marquardt within bounds (Ceres). A Jacobian by differences costs an

@@ -32,6 +32,9 @@ struct SearchResult {
   Point best;
   double fitness = 0.0;  ///< infinite if no point was valid
   std::string reason;    ///< why it stopped
+  /// By how much all residuals together change with a step of each variable, where that is most;
+  /// empty for methods without derivatives.
+  std::vector<double> sensitivity = {};
 };
 
 /// A way to search. Deterministic: the same variables, seed and fitnesses give the same points.

@@ -39,7 +39,8 @@ struct CalibrationOutcome {
   std::map<std::string, double> overrides;  ///< of this calibration and those it started from
   std::map<std::string, double> given;      ///< what the model file has where they are
   double fitness_before = 0.0, fitness = 0.0;
-  std::string reason;  ///< why the search ended
+  std::string reason;               ///< why the search ended
+  std::vector<double> sensitivity;  ///< SearchResult has it
   int evaluations = 0;
   std::vector<Generation> history;
   BeforeAfter calibration, validation;  ///< validation may hold no runs
@@ -48,6 +49,10 @@ struct CalibrationOutcome {
   bool interrupted = false;  ///< before errors of the parameters were worked out
   std::string doubt;         ///< what could not be told, and why; or empty
 };
+
+/// Names of parameters that change nothing in what was compared, as far as the search's
+/// derivatives tell.
+std::vector<std::string> untold(const CalibrationOutcome& outcome);
 
 /// Errors of runs as Tables C.12 and D.1 have them: means over runs of each run's mean.
 struct MeanErrors {
