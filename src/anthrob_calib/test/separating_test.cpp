@@ -26,8 +26,9 @@ std::shared_ptr<const RobotModel> robot_with(const EffectInstance& effect) {
 Dataset recording(const std::shared_ptr<const RobotModel>& robot, std::uint64_t seed, double length,
                   double noise = 1.0) {
   MadeRecording made;
-  for (double* size : {&made.position_noise, &made.current_noise, &made.force_noise,
-                       &made.voltage_noise, &made.joint_noise}) {
+  // Not of joints: so much noise on each part of a quaternion makes it none.
+  for (double* size :
+       {&made.position_noise, &made.current_noise, &made.force_noise, &made.voltage_noise}) {
     *size *= noise;
   }
   made.seed = made.noise = seed;
