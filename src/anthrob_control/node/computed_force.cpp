@@ -185,8 +185,7 @@ int main(int argc, char** argv) {
     anthrob::RobotLink::Options options;
     options.period = 1.0 / control.rate;
     anthrob::take(settings, "lock_step", anthrob::truth_of, options.lock_step);
-    anthrob::take(settings, "steps", anthrob::whole_number_of, options.steps);
-    if (options.steps < 1) throw BadInput("parameter ~steps: expected a number >= 1");
+    anthrob::take(settings, "steps", anthrob::positive_whole_number_of, options.steps);
     ComputedForceNode(nh, model, control, options).run();
     return 0;
   });

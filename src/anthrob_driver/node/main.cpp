@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
     take(settings, "pace", number_of, options.pace);
     const bool in_memory = can.rfind("vcan", 0) == 0;
     if (!(options.pace > 0.0 && options.pace <= 1.0) || (options.pace < 1.0 && !in_memory)) {
-      throw BadInput("parameter ~pace: expected 1, or a number in (0, 1] on a vcan");
+      throw BadInput("parameter ~pace: " + std::to_string(options.pace) + " with ~can " + can +
+                     ": expected 1, or a number in (0, 1] on a vcan");
     }
     const Hardware hardware = load_hardware(file, hand);
     std::string model;

@@ -22,13 +22,10 @@ mocap::MocapNode::Options read_options(const ros::NodeHandle& settings) {
   if (!tracker.empty()) options.tracker = mocap::load_tracker_options(tracker);
   options.mode = mocap::pipeline_mode(optional_text(settings, "pipeline", "sequential"));
   anthrob::take(settings, "camera_frame", anthrob::text_of, options.camera_frame);
-  anthrob::take(settings, "sync_tolerance", anthrob::number_of, options.sync_tolerance);
+  anthrob::take(settings, "sync_tolerance", anthrob::nonnegative_number_of, options.sync_tolerance);
   anthrob::take(settings, "joint_tf", anthrob::truth_of, options.joint_tf);
   const std::string source = optional_text(settings, "source", "topics");
   options.recorded = source == "folder" || source == "bag";
-  if (!(options.sync_tolerance >= 0.0)) {
-    throw anthrob::BadInput("parameter ~sync_tolerance: expected a number >= 0 [s]");
-  }
   return options;
 }
 

@@ -17,7 +17,7 @@ namespace {
 /// 0 if it is not there
 double sync_tolerance(const ros::NodeHandle& settings) {
   double tolerance = 0.0;
-  take(settings, "sync_tolerance", number_of, tolerance);
+  take(settings, "sync_tolerance", nonnegative_number_of, tolerance);
   return tolerance;
 }
 

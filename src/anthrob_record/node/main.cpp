@@ -38,10 +38,9 @@ int main(int argc, char** argv) {
     const std::string folder = anthrob::required(settings, "out", "a folder to record into");
     anthrob::RobotLink::Options options;
     anthrob::take(settings, "lock_step", anthrob::truth_of, options.lock_step);
-    anthrob::take(settings, "steps", anthrob::whole_number_of, options.steps);
+    anthrob::take(settings, "steps", anthrob::positive_whole_number_of, options.steps);
     bool enable_first = false;
     anthrob::take(settings, "enable", anthrob::truth_of, enable_first);
-    if (options.steps < 1) throw anthrob::BadInput("parameter ~steps: expected a number >= 1");
     if (options.lock_step && protocol.kind == anthrob::Protocol::Kind::kZeroGravity) {
       throw anthrob::BadInput(
           "parameter ~lock_step: in zero gravity it is the controller that may step the simulator");

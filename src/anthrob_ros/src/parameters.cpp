@@ -34,9 +34,23 @@ double number_of(const std::string& key, Value value) {
   return number;
 }
 
-int whole_number_of(const std::string& key, Value value) {
+double positive_number_of(const std::string& key, Value value) {
+  const double number = number_of(key, value);
+  if (!(number > 0.0)) refuse(key, value, "a number > 0");
+  return number;
+}
+
+double nonnegative_number_of(const std::string& key, Value value) {
+  const double number = number_of(key, value);
+  if (!(number >= 0.0)) refuse(key, value, "a number >= 0");
+  return number;
+}
+
+int positive_whole_number_of(const std::string& key, Value value) {
   if (value.getType() != Value::TypeInt) refuse(key, value, "a whole number");
-  return static_cast<int&>(value);
+  const int number = static_cast<int&>(value);
+  if (number < 1) refuse(key, value, "a whole number >= 1");
+  return number;
 }
 
 bool truth_of(const std::string& key, Value value) {

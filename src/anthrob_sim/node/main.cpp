@@ -15,18 +15,15 @@ int main(int argc, char** argv) {
     LoadOptions load;
     take(settings, "step", number_of, load.step);
     SimulatorNode::Options options;
-    take(settings, "rate", number_of, options.rate);
+    take(settings, "rate", nonnegative_number_of, options.rate);
     take(settings, "state_rate", number_of, options.state_rate);
     take(settings, "paused", truth_of, options.paused);
     options.supervisor.auto_enable = true;
     take(settings, "auto_enable", truth_of, options.supervisor.auto_enable);
-    take(settings, "command_timeout", number_of, options.supervisor.command_timeout);
-    if (!(options.rate >= 0.0)) throw BadInput("parameter ~rate: expected a number >= 0");
+    take(settings, "command_timeout", nonnegative_number_of, options.supervisor.command_timeout);
     if (!(options.state_rate >= 1.0))
-      throw BadInput("parameter ~state_rate: expected a number >= 1 [Hz]");
-    if (!(options.supervisor.command_timeout >= 0.0)) {
-      throw BadInput("parameter ~command_timeout: expected a number >= 0 [s]");
-    }
+      throw BadInput("parameter ~state_rate: " + std::to_string(options.state_rate) +
+                     ": expected a number >= 1 [Hz]");
     const auto model = load_robot_model(file, load);
     for (const std::string& remark : model->remarks) ROS_WARN_STREAM(remark);
     const ros::Publisher claim = claim_robot(nh);

@@ -10,7 +10,9 @@ namespace anthrob {
 /// default would be taken without a word.
 /// @param key for the message   @throws BadInput for another type, or a number that is not finite
 double number_of(const std::string& key, XmlRpc::XmlRpcValue value);
-int whole_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
+double positive_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
+double nonnegative_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
+int positive_whole_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
 bool truth_of(const std::string& key, XmlRpc::XmlRpcValue value);
 std::string text_of(const std::string& key, XmlRpc::XmlRpcValue value);
 
