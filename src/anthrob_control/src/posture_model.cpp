@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "anthrob_control/posture.h"
+#include "anthrob_sim/skeleton/posture.h"
 
 namespace anthrob {
 

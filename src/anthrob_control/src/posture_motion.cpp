@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "anthrob_control/posture.h"
+#include "anthrob_sim/skeleton/posture.h"
 
 namespace anthrob {
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "anthrob_control/posture.h"
+#include "anthrob_sim/skeleton/posture.h"
 
 namespace anthrob {
 namespace {

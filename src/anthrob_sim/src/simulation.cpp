@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_sim/skeleton/posture.h"
+
 namespace anthrob {
 
 namespace {
@@ -30,34 +32,6 @@ void expect_sensible(double value, const char* kind, const std::string& name, co
 
 /// Streams of random numbers of joint sensors begin here; muscles come before.
 constexpr std::uint64_t kJointStreams = 1u << 20;
-
-double slot_change(const JointModel& joint, const double* a, const double* b) {
-  switch (joint.type) {
-    case JointType::kBall:
-      return angular_distance(Quat(a[0], a[1], a[2], a[3]), Quat(b[0], b[1], b[2], b[3]));
-    case JointType::kHinge:
-      return std::abs(b[0] - a[0]);
-    case JointType::kPrismatic:
-      break;
-  }
-  return 10.0 * std::abs(b[0] - a[0]);
-}
-
-std::vector<double> between(const SkeletonModel& skeleton, const std::vector<double>& a,
-                            const std::vector<double>& b, double share) {
-  std::vector<double> q(a.size());
-  for (const JointModel& joint : skeleton.joints) {
-    const int i = joint.position_offset;
-    if (joint.type == JointType::kBall) {
-      const Quat turn = Quat(a[i], a[i + 1], a[i + 2], a[i + 3])
-                            .slerp(share, Quat(b[i], b[i + 1], b[i + 2], b[i + 3]));
-      q[i] = turn.w(), q[i + 1] = turn.x(), q[i + 2] = turn.y(), q[i + 3] = turn.z();
-    } else {
-      q[i] = a[i] + share * (b[i] - a[i]);
-    }
-  }
-  return q;
-}
 
 }  // namespace
 
@@ -87,6 +61,10 @@ Simulation::Simulation(std::shared_ptr<const RobotModel> model)
     joint_sensor_offsets_.push_back(store_.reserve(joint_sensors_.back().state_size()));
   }
   tau_.setZero(skeleton.velocity_count);
+  way_.setZero(skeleton.velocity_count);
+  heading_.resize(static_cast<std::size_t>(skeleton.velocity_count));
+  posture_.reserve(static_cast<std::size_t>(skeleton.position_count));
+  arriving_.reserve(skeleton.bodies.size());
   reserve_effects();
   for (Muscle& muscle : muscles_) muscle.set_enabled(true);
   place(q_, std::vector<double>(muscles_.size(), 0.0));
@@ -216,47 +194,82 @@ void Simulation::apply_load(int joint, double load) {
   load_[joint] = load;
 }
 
-void Simulation::check_place(const std::vector<double>& q,
-                             const std::vector<double>& positions) const {
+void Simulation::check_posture(const std::vector<double>& q) const {
   const SkeletonModel& skeleton = *model_->skeleton;
-  if (q.size() != static_cast<std::size_t>(skeleton.position_count) ||
-      positions.size() != muscles_.size()) {
-    throw BadInput("place: expected " + std::to_string(skeleton.position_count) +
-                   " joint numbers and " + std::to_string(muscles_.size()) + " muscle positions");
+  if (q.size() != static_cast<std::size_t>(skeleton.position_count)) {
+    throw BadInput("posture: expected " + std::to_string(skeleton.position_count) +
+                   " joint numbers");
   }
   for (const JointModel& joint : skeleton.joints) {
     const double* p = &q[joint.position_offset];
     double squares = 0.0;
     for (int k = 0; k < joint.position_size(); ++k) {
-      expect_sensible(p[k], "place: joint ", joint.name, "");
+      expect_sensible(p[k], "posture: joint ", joint.name, "");
       squares += p[k] * p[k];
     }
     if (joint.type == JointType::kBall && squares < 1e-12) {
-      throw BadInput("place: joint " + joint.name + ": expected a quaternion that is not zero");
+      throw BadInput("posture: joint " + joint.name + ": expected a quaternion that is not zero");
     }
+  }
+}
+
+void Simulation::check_place(const std::vector<double>& q,
+                             const std::vector<double>& positions) const {
+  check_posture(q);
+  if (positions.size() != muscles_.size()) {
+    throw BadInput("place: expected " + std::to_string(muscles_.size()) + " muscle positions");
   }
   for (std::size_t i = 0; i < muscles_.size(); ++i) {
     expect_sensible(positions[i], "place: muscle ", muscles_[i].model().name, "");
   }
 }
 
+void Simulation::impose_posture(const std::vector<double>& q) {
+  check_posture(q);
+  posture_ = q;
+}
+
+void Simulation::impose_posture_reading(const std::vector<double>& q) {
+  impose_posture(q);
+  for (std::size_t i = model_->reading_effects.size(); i-- > 0;) {
+    model_->reading_effects[i]->undo_joints(posture_.data());
+  }
+}
+
+double Simulation::posture_lateness() const {
+  double lateness = 0.0;
+  for (const auto& effect : model_->reading_effects) lateness += effect->joint_lateness();
+  return lateness;
+}
+
+void Simulation::head_for_posture() {
+  posture_difference(*model_->skeleton, q_, posture_, way_);
+  way_ /= step_length();
+  Eigen::Map<Eigen::VectorXd> heading(heading_.data(), way_.size());
+  heading = way_;
+  for (const JointModel& joint : model_->skeleton->joints) {
+    if (joint.type != JointType::kBall) continue;
+    const int index = static_cast<int>(&joint - model_->skeleton->joints.data());
+    heading.segment<3>(joint.velocity_offset) =
+        tree_.joint(index).R_WC * way_.segment<3>(joint.velocity_offset);
+  }
+}
+
 void Simulation::place(const std::vector<double>& q, const std::vector<double>& positions) {
   check_place(q, positions);
+  release_posture();
   const SkeletonModel& skeleton = *model_->skeleton;
   const std::vector<double> rest = skeleton.rest_configuration();
   std::vector<BodyState> bodies;
   tree_.place(rest, {}, bodies);
   for (std::size_t i = 0; i < muscles_.size(); ++i) muscles_[i].place(bodies, positions[i]);
 
-  double change = 0.0;
-  for (const JointModel& joint : skeleton.joints) {
-    change = std::max(change,
-                      slot_change(joint, &rest[joint.position_offset], &q[joint.position_offset]));
-  }
+  const double change = posture_distance(skeleton, rest, q);
   const int count = static_cast<int>(std::min(std::ceil(change / kPlaceStep), kMostPostures));
+  std::vector<double> way = rest;
   for (int i = 1; i <= count; ++i) {
-    tree_.place(i == count ? q : between(skeleton, rest, q, static_cast<double>(i) / count), {},
-                bodies);
+    posture_between(skeleton, rest, q, static_cast<double>(i) / count, way);
+    tree_.place(i == count ? q : way, {}, bodies);
     for (Muscle& muscle : muscles_) muscle.follow(bodies);
   }
   q_ = q;
@@ -304,8 +317,13 @@ void Simulation::step_once() {
   }
   if (!model_->joint_torques.empty()) add_joint_torques();
   for (Muscle& muscle : muscles_) muscle.prepare_sliding(tree_, tau_);
-  resistance_.solve(tree_, q_, tau_, sliding_,
-                    joint_loads_.wanted() ? store_.at(loads_offset_).data() : nullptr);
+  if (posture_.empty()) {
+    resistance_.solve(tree_, q_, tau_, sliding_,
+                      joint_loads_.wanted() ? store_.at(loads_offset_).data() : nullptr);
+  } else {
+    head_for_posture();
+    resistance_.follow(tree_, heading_, sliding_);
+  }
   // Work within the step goes with the mean of the velocities at its ends.
   const Eigen::Map<const Eigen::VectorXd> start(tree_.velocities().data(), tau_.size());
   store_.at(dissipation_offset_)[0] =
@@ -314,15 +332,24 @@ void Simulation::step_once() {
 
   apply_wrenches();
   advance_actuators();
-  if (joint_loads_.wanted()) joint_loads_.before(skeleton_);
-  skeleton_.step();
-  if (joint_loads_.wanted()) joint_loads_.after(skeleton_, store_.at(loads_offset_).data());
+  move_skeleton();
 
   ++step_index_;
   tree_.update(skeleton_.bodies(), q_);
   for (Muscle& muscle : muscles_) muscle.update(skeleton_.bodies(), tree_);
   check_finite();
   sense();
+}
+
+void Simulation::move_skeleton() {
+  if (!posture_.empty()) {
+    tree_.place(posture_, heading_, arriving_);
+    skeleton_.set_bodies(arriving_);
+    return;
+  }
+  if (joint_loads_.wanted()) joint_loads_.before(skeleton_);
+  skeleton_.step();
+  if (joint_loads_.wanted()) joint_loads_.after(skeleton_, store_.at(loads_offset_).data());
 }
 
 void Simulation::add_joint_torques() {
@@ -550,13 +577,14 @@ double Simulation::potential_energy() const {
 }
 
 Snapshot Simulation::snapshot() const {
-  return {step_index_, store_.data(), skeleton_.bodies(), q_, effort_, load_};
+  return {step_index_, store_.data(), skeleton_.bodies(), q_, effort_, load_, posture_};
 }
 
 void Simulation::restore(const Snapshot& snapshot) {
   if (snapshot.state.size() != store_.data().size() || snapshot.bodies.size() != bodies().size() ||
       snapshot.q.size() != q_.size() || snapshot.effort.size() != effort_.size() ||
-      snapshot.load.size() != load_.size()) {
+      snapshot.load.size() != load_.size() ||
+      (!snapshot.posture.empty() && snapshot.posture.size() != q_.size())) {
     throw BadInput("snapshot: it belongs to another model");
   }
   step_index_ = snapshot.step_index;
@@ -564,6 +592,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   q_ = snapshot.q;
   effort_ = snapshot.effort;
   load_ = snapshot.load;
+  posture_ = snapshot.posture;
   skeleton_.set_bodies(snapshot.bodies);
   tree_.update(skeleton_.bodies(), q_);
   // Paths are scratch memory: the same posture and states give the same paths.

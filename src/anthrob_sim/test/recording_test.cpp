@@ -262,7 +262,8 @@ TEST(Replay, ImposedPositionsAreFollowedExactly) {
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], flexor.values[i], 1e-12);
 }
 
-/// What a rig with effects of both muscles records: position, voltage and force at every step.
+/// What a rig with effects records at every step: position, voltage and force of both muscles, and
+/// the posture.
 Dataset recording_of(const std::shared_ptr<const RobotModel>& model) {
   Dataset recording;
   recording.meta.start = "zero";
@@ -274,9 +275,12 @@ Dataset recording_of(const std::shared_ptr<const RobotModel>& model) {
       table.columns.push_back({muscle.name + "/" + quantity, {}, {}});
     }
   }
+  table.columns.push_back({"hinge/position", {}, {}});
   Simulation sim(model);
   for (int i = 0; i <= 1500; ++i) {
     table.t.push_back(Nanoseconds{1000000} * i);
+    table.columns.back().values.push_back(sim.read_positions()[0]);
+    table.columns.back().present.push_back(1);
     std::size_t column = 0;
     for (int m = 0; m < 2; ++m) {
       const ecu::Measurement reading = sim.reading(m);
@@ -339,6 +343,113 @@ TEST(Replay, ImposedPositionsAreWhatWasReadNotWhatWas) {
   const auto late = rig_with({"sensing_latency", "all", {{"delay", 0.02}}});
   Dataset recording = recording_of(late);
   EXPECT_LT(worst(late, recording, ReplayMode::kPosition, "force"), 0.01 * force);
+}
+
+TEST(Replay, ImposedPosturesCutOffWhatTheJointsDo) {
+  const double force = 20.0;
+  const Dataset stiff = recording_of(rig_with({"joint_viscous", "hinge", {{"damping", 0.5}}}));
+  EXPECT_GT(worst(rig(), stiff, ReplayMode::kPosition, "force"), 0.05 * force);
+  EXPECT_LT(worst(rig(), stiff, ReplayMode::kPosture, "force"), 1e-6 * force);
+  const Dataset replayed = replay(rig(), stiff, ReplayMode::kPosture);
+  const auto& was = stiff.find_table("muscles")->find("hinge/position")->values;
+  const auto& is = replayed.find_table("muscles")->find("hinge/position")->values;
+  for (std::size_t i = 0; i < was.size(); ++i) ASSERT_NEAR(is[i], was[i], 1e-12) << i;
+  // What muscles do stays.
+  const Dataset soft = recording_of(rig_with({"tendon_elasticity", "all", {{"compliance", 1e-4}}}));
+  EXPECT_GT(worst(rig(), soft, ReplayMode::kPosture, "force"), 0.01 * force);
+}
+
+TEST(Replay, ImposedPosturesAreWhatWasReadNotWhatWas) {
+  // The last 20 ms were not read any more.
+  const double force = 20.0;
+  const auto late = rig_with({"mocap_delay", "global", {{"delay", 0.02}}});
+  const Dataset recording = recording_of(late);
+  EXPECT_GT(worst(rig(), recording, ReplayMode::kPosture, "force"), 0.02 * force);
+  EXPECT_LT(worst(late, recording, ReplayMode::kPosture, "force"), 0.01 * force);
+
+  LoadOptions options;
+  options.effects = {{"mocap_misalignment", "y", {{"angle", 0.1}}}};
+  Simulation sim(load_robot_model(config("anthrob/model_I.yaml"), options));
+  const std::vector<double> read = {std::cos(0.2), 0.0, 0.0, std::sin(0.2), 0.7};
+  sim.impose_posture_reading(read);
+  sim.step(2);
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(sim.read_positions()[k], read[k], 1e-12) << k;
+  const double* is = sim.configuration().data();
+  EXPECT_NEAR(
+      angular_distance(Quat(is[0], is[1], is[2], is[3]), Quat(read[0], read[1], read[2], read[3])),
+      0.1, 1e-9);
+}
+
+/// A second in which nothing moves, away from rest, with so long to settle [s].
+Dataset still(double settle) {
+  Dataset recording;
+  recording.meta.settle_s = settle;
+  Table& table = recording.table("muscles");
+  table.t = {0, 1000000000};
+  table.columns = {{"flexor/position", {1.2, 1.2}, {1, 1}},
+                   {"extensor/position", {1.0, 1.0}, {1, 1}},
+                   {"hinge/position", {0.1, 0.1}, {1, 1}}};
+  return recording;
+}
+
+TEST(Replay, BeginsWhereItWasRecordedHoweverShortTheTimeToSettle) {
+  for (const double settle : {0.0, 0.05, 8.0}) {
+    const Dataset replayed = replay(rig(), still(settle), ReplayMode::kPosture);
+    const Table& muscles = *replayed.find_table("muscles");
+    for (const char* column : {"flexor/position", "extensor/position", "hinge/position"}) {
+      const auto& values = muscles.find(column)->values;
+      EXPECT_NEAR(values[0], still(0.0).series(column).values[0], 1e-9) << settle << column;
+      EXPECT_NEAR(values[1], values[0], 1e-9);
+    }
+    const auto& force = replayed.find_table("muscles")->find("flexor/force")->values;
+    EXPECT_GT(force[0], 1.0) << settle;
+    // Springs are relaxed where there was no time to go there, and nearly so after a long rest.
+    if (settle == 0.05) continue;
+    EXPECT_NEAR(force[1], force[0], 0.01 * force[0]) << settle;
+  }
+}
+
+TEST(Replay, PosturesAreImposedOfAllJointsOrNone) {
+  Dataset recording = recording_of(rig());
+  recording.tables[0].columns.pop_back();
+  EXPECT_THROW(replay(rig(), recording, ReplayMode::kPosture), BadInput);
+  recording = recording_of(rig());
+  recording.tables[0].columns.back().values[7] = std::nan("");
+  EXPECT_THROW(replay(rig(), recording, ReplayMode::kPosture), BadInput);
+}
+
+TEST(Replay, AnOrientationIsImposedOnTheShortWayWhateverItsSign) {
+  const auto arm = load_robot_model(config("anthrob/model_I.yaml"));
+  Dataset recording;
+  recording.meta.settle_s = 0.2;
+  Table& table = recording.table("spherical_joints");
+  table.t = {0, 100000000, 200000000};
+  const double c = std::cos(0.1), s = std::sin(0.1);  // 0.2 rad about z
+  table.columns = {{"shoulder/w", {1.0, -c, 1.0}, {1, 1, 1}},
+                   {"shoulder/x", {0.0, 0.0, 0.0}, {1, 1, 1}},
+                   {"shoulder/y", {0.0, 0.0, 0.0}, {1, 1, 1}},
+                   {"shoulder/z", {0.0, -s, 0.0}, {1, 1, 1}},
+                   {"elbow/position", {0.3, 0.3, 0.3}, {1, 1, 1}}};
+  Table& muscles = recording.table("muscles");
+  muscles.t = {0};
+  for (const MuscleModel& muscle : arm->muscles) {
+    muscles.columns.push_back({muscle.name + "/position", {0.0}, {1}});
+  }
+  const Replay input(arm, recording, ReplayMode::kPosture);
+  Simulation sim(arm);
+  input.start(sim);
+  Replay::Run run(input, sim);
+  double widest = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    run.drive(1e-3 * i);
+    sim.step();
+    const double* q = sim.configuration().data();
+    widest = std::max(widest, 2.0 * std::atan2(std::hypot(q[1], q[2], q[3]), std::abs(q[0])));
+  }
+  EXPECT_NEAR(widest, 0.2, 1e-6);
+  EXPECT_NEAR(sim.configuration()[4], 0.3, 1e-12);
+  recording.table("spherical_joints").columns[0].values[1] = 0.0;  // no rotation any more
+  EXPECT_THROW(Replay(arm, recording, ReplayMode::kPosture), BadInput);
 }
 
 TEST(Replay, RowsBetweenStepsAreInterpolated) {

@@ -284,10 +284,80 @@ TEST(Simulation, DoesNotAllocateWhileStepping) {
     const std::size_t before = allocations;
     sim.step(500);
     EXPECT_EQ(allocations, before);
+    std::vector<double> posture = sim.configuration();
+    const std::size_t imposed = allocations;
+    for (int i = 0; i < 100; ++i) {
+      posture.back() += 1e-4;
+      sim.impose_posture(posture);
+      sim.step();
+    }
+    EXPECT_EQ(allocations, imposed);
     std::vector<double>* probe = new std::vector<double>(100);  // the counter works
     EXPECT_GT(allocations, before);
     delete probe;
   }
+}
+
+/// A motion of all joints, at times [s].
+std::vector<double> swing(double t) {
+  const Quat shoulder(Eigen::AngleAxisd(0.4 * std::sin(3.0 * t), Vec3(0.6, 0.0, 0.8)));
+  return {shoulder.w(), shoulder.x(), shoulder.y(), shoulder.z(), 0.8 + 0.5 * std::cos(4.0 * t)};
+}
+
+TEST(Simulation, AnImposedPostureIsArrivedAtWhateverPulls) {
+  Simulation sim(anthrob_model("II"));
+  sim.place(swing(0.0), std::vector<double>(11, 0.0));
+  excite(sim);
+  const double h = sim.step_length();
+  for (int i = 1; i <= 600; ++i) {
+    sim.impose_posture(swing(i * h));
+    sim.step();
+    const std::vector<double> wanted = swing(i * h);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      ASSERT_NEAR(sim.configuration()[k], wanted[k], 1e-12) << i << " " << k;
+    }
+    // Of that step, backwards.
+    const double rate = (wanted[4] - swing((i - 1) * h)[4]) / h;
+    ASSERT_NEAR(sim.read_velocity(1), rate, 1e-9) << i;
+    const Vec3 turning =
+        0.4 * (std::sin(3.0 * i * h) - std::sin(3.0 * (i - 1) * h)) / h * Vec3(0.6, 0.0, 0.8);
+    ASSERT_LT((sim.read_ball_velocity(0) - turning).norm(), 1e-9) << i;
+  }
+  EXPECT_GT(sim.muscle(0).spring_tension(), 1.0);  // muscles pull all the while
+  const std::vector<double> there = sim.configuration();
+  sim.step(100);  // and stays, until it is released
+  EXPECT_NEAR(sim.read_velocity(1), 0.0, 1e-9);
+  EXPECT_NEAR(sim.configuration()[4], there[4], 1e-12);
+  sim.release_posture();
+  sim.step(100);
+  EXPECT_GT(std::abs(sim.configuration()[4] - there[4]), 1e-3);
+}
+
+TEST(Simulation, AnImposedPostureIsPartOfASnapshotAndOfNoReset) {
+  Simulation original(anthrob_model("II")), fresh(anthrob_model("II"));
+  excite(original);
+  original.impose_posture(swing(0.1));
+  original.step(50);
+  const Snapshot snapshot = original.snapshot();
+  original.step(200);
+  fresh.restore(snapshot);
+  fresh.step(200);
+  expect_same_bits(original, fresh);
+  EXPECT_EQ(fresh.configuration(), snapshot.q);
+  fresh.reset();
+  excite(fresh);
+  fresh.step(200);
+  EXPECT_NE(fresh.configuration(), snapshot.q);
+  Snapshot other = snapshot;
+  other.posture.pop_back();
+  EXPECT_THROW(fresh.restore(other), BadInput);
+}
+
+TEST(Simulation, APostureThatIsNoneIsRefused) {
+  Simulation sim(anthrob_model("I"));
+  EXPECT_THROW(sim.impose_posture({1, 0, 0, 0}), BadInput);
+  EXPECT_THROW(sim.impose_posture({1, 0, 0, 0, std::nan("")}), BadInput);
+  EXPECT_THROW(sim.impose_posture({0, 0, 0, 0, 0}), BadInput);
 }
 
 TEST(Simulation, PlaceKeepsWrappingStatesOfAContinuousMotion) {

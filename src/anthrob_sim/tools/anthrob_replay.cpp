@@ -19,16 +19,17 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "dataset folder to write")->required();
   app.add_option("--dt", step, "simulation step [s]")->capture_default_str();
   app.add_option("--mode", mode, "what drives the simulation")
-      ->check(CLI::IsMember({"reference", "voltage", "position"}))
+      ->check(CLI::IsMember({"reference", "voltage", "position", "posture"}))
       ->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
     const auto model = tool::load_model(app, model_file, {step, {}});
     Dataset recording = load_recording(in);
     tool::say(app, recording.remarks);
     leave_out_unanswered(recording);
-    const ReplayMode replay_mode = mode == "reference" ? ReplayMode::kReference
-                                   : mode == "voltage" ? ReplayMode::kVoltage
-                                                       : ReplayMode::kPosition;
+    const ReplayMode replay_mode = mode == "reference"  ? ReplayMode::kReference
+                                   : mode == "voltage"  ? ReplayMode::kVoltage
+                                   : mode == "position" ? ReplayMode::kPosition
+                                                        : ReplayMode::kPosture;
     std::error_code error;
     if (std::filesystem::equivalent(in, out, error)) {
       throw BadInput("--out " + out + ": expected another folder than the recording");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "anthrob_control/posture.h"
+#include "anthrob_sim/skeleton/posture.h"
 
 namespace anthrob {
 

@@ -18,6 +18,7 @@ struct Snapshot {
   std::vector<double> state;  ///< of all components
   std::vector<BodyState> bodies;
   std::vector<double> q, effort, load;  ///< of joints
+  std::vector<double> posture;          ///< that is imposed; empty: none is
 };
 
 /// A robot in motion. Deterministic: same model, same calls, same bits. Does not allocate while
@@ -69,9 +70,20 @@ class Simulation {
   /// @throws BadInput for another joint or a load that is not finite
   void apply_load(int joint, double load);
 
+  /// The joints arrive at `q` at the end of every step from now on, whatever pulls at them, until
+  /// release_posture(): muscles are stretched as in a recorded motion.
+  /// @param q size position_count   @throws BadInput as place()
+  void impose_posture(const std::vector<double>& q);
+  /// The same, so that sensors will read `q`, as in a recording; late readings must be taken from
+  /// later in it by posture_lateness().
+  void impose_posture_reading(const std::vector<double>& q);
+  /// By how much joints are read late [s], an effect of sensors.
+  double posture_lateness() const;
+  void release_posture() { posture_.clear(); }
+
   /// Puts the robot at rest into a posture with its actuators at given positions; springs are
   /// relaxed. Muscles get there from the rest posture in small steps, so that wrapping states are
-  /// those of a continuous motion. Commands, time and noise go on.
+  /// those of a continuous motion. Commands, time and noise go on; no posture is imposed any more.
   /// @param q size position_count   @param positions one a muscle
   /// @throws BadInput for other sizes or numbers that are not finite; nothing has changed then
   void place(const std::vector<double>& q, const std::vector<double>& positions);
@@ -122,6 +134,8 @@ class Simulation {
   void reserve_effects();
   void reset_effects();
   void add_joint_torques();
+  void head_for_posture();
+  void move_skeleton();
   void advance_actuators();
   Readings true_readings();
   void step_once();
@@ -129,6 +143,7 @@ class Simulation {
   void sense();
   void apply_joint_efforts();
   void check_finite() const;
+  void check_posture(const std::vector<double>& q) const;
   void check_place(const std::vector<double>& q, const std::vector<double>& positions) const;
   void check_muscle(int muscle) const;
   void check_joint(int joint) const;
@@ -142,7 +157,11 @@ class Simulation {
   std::vector<SlidingTendon*> sliding_;
   std::vector<Sensor> joint_sensors_;
   std::vector<double> q_, effort_, load_;
-  std::size_t measured_offset_;  ///< measured joint positions
+  std::vector<double> posture_;      ///< that is imposed; empty: none is
+  Eigen::VectorXd way_;              ///< scratch: velocities that lead there, in the child's axes
+  std::vector<double> heading_;      ///< scratch: and as the tree has them
+  std::vector<BodyState> arriving_;  ///< scratch: bodies there
+  std::size_t measured_offset_;      ///< measured joint positions
   std::vector<std::size_t> joint_sensor_offsets_;
   Eigen::VectorXd tau_;
   // Of effects: empty in a plain model.

@@ -78,6 +78,18 @@ void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double
   finish(tendons);
 }
 
+void ResistanceSolver::follow(const KinematicTree& tree, const std::vector<double>& velocity,
+                              const std::vector<SlidingTendon*>& tendons) {
+  u_ = Eigen::Map<const Eigen::VectorXd>(tree.velocities().data(), u_.size());
+  falling_ = false;
+  for (SlidingTendon* tendon : tendons) slide(*tendon, true);
+  u_ = Eigen::Map<const Eigen::VectorXd>(velocity.data(), u_.size());
+  for (SlidingTendon* tendon : tendons) slide(*tendon, false);
+  commit(tendons);
+  joint_torque_.setZero();
+  iterations_ = 0;
+}
+
 void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& tau) {
   u_ = Eigen::Map<const Eigen::VectorXd>(tree.velocities().data(), u_.size());
   constant_.noalias() = tree.mass_matrix() * u_;
@@ -311,12 +323,16 @@ bool ResistanceSolver::revise_dry_friction() {
   return revised;
 }
 
-void ResistanceSolver::finish(const std::vector<SlidingTendon*>& tendons) {
+void ResistanceSolver::commit(const std::vector<SlidingTendon*>& tendons) {
   for (const SlidingTendon* tendon : tendons) {
     for (std::size_t j = 0; j < tendon->contacts.size(); ++j) {
       tendon->contacts[j].law->commit(tendon->slide_speed[j], tendon->contacts[j].state);
     }
   }
+}
+
+void ResistanceSolver::finish(const std::vector<SlidingTendon*>& tendons) {
+  commit(tendons);
   for (const JointModel& joint : model_.joints) {
     const int dof = joint.velocity_offset;
     joint_torque_.segment(dof, joint.dof()) =

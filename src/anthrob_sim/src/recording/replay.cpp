@@ -7,15 +7,17 @@
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/followed_commands.h"
+#include "anthrob_sim/recording/quantities.h"
+#include "anthrob_sim/recording/table_sampler.h"
+#include "anthrob_sim/skeleton/posture.h"
 
 namespace anthrob {
 
 namespace {
 
-const std::set<std::string> kMuscleQuantities = {"mode",    "reference", "position", "velocity",
-                                                 "current", "voltage",   "force",    "ecu_state"};
-const std::set<std::string> kBallQuantities = {"w", "x", "y", "z", "wx", "wy", "wz"};
-const std::set<std::string> kJointQuantities = {"position", "velocity", "effort", "load"};
+bool imposes_positions(ReplayMode mode) {
+  return mode == ReplayMode::kPosition || mode == ReplayMode::kPosture;
+}
 
 ecu::Mode mode_of(double word) {
   return static_cast<ecu::Mode>(static_cast<int>(word));
@@ -55,12 +57,8 @@ Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording
   }
   for (std::size_t j = 0; j < model_->skeleton->joints.size(); ++j) {
     const JointModel& joint = model_->skeleton->joints[j];
-    if (joint.type == JointType::kBall) continue;
-    JointInput input{static_cast<int>(j), recording.series(joint.name + "/effort"),
-                     recording.series(joint.name + "/load"),
-                     recording.series(joint.name + "/position")};
-    any = any || (joint.driven && !input.effort.empty());
-    joints_.push_back(std::move(input));
+    read_joint(joint, static_cast<int>(j), recording);
+    if (joint.type != JointType::kBall && joint.driven) any = any || !joints_.back().effort.empty();
   }
   if (!any) {
     const char* needed = mode == ReplayMode::kReference ? "<muscle>/reference"
@@ -71,15 +69,43 @@ Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording
   }
 }
 
+void Replay::read_joint(const JointModel& joint, int index, const Dataset& recording) {
+  const auto require = [&](bool measured) {
+    if (measured || mode_ != ReplayMode::kPosture) return;
+    throw BadInput(recording.folder + ": joint " + joint.name +
+                   " was not measured: expected all joints, for postures to be imposed");
+  };
+  if (joint.type != JointType::kBall) {
+    joints_.push_back({index, recording.series(joint.name + "/effort"),
+                       recording.series(joint.name + "/load"),
+                       recording.series(joint.name + "/position")});
+    require(!joints_.back().position.empty());
+    return;
+  }
+  if (mode_ != ReplayMode::kPosture) return;
+  balls_.push_back({index, OrientationSeries::read(recording, joint.name)});
+  require(!balls_.back().turns.empty());
+}
+
+void Replay::posture_at(double time, std::vector<double>& q) const {
+  const auto& joints = model_->skeleton->joints;
+  for (const JointInput& input : joints_) {
+    q[joints[input.joint].position_offset] = input.position.at(time);
+  }
+  for (const BallInput& input : balls_) {
+    input.turns.at(time, &q[joints[input.joint].position_offset]);
+  }
+}
+
 void Replay::check_names(const Dataset& recording) const {
   for (const Table& table : recording.tables) {
     for (const Column& column : table.columns) {
       const int joint = model_->skeleton->find_joint(column.owner());
       const bool ball = joint >= 0 && model_->skeleton->joints[joint].type == JointType::kBall;
-      const bool known = (model_->find_muscle(column.owner()) >= 0 &&
-                          kMuscleQuantities.count(column.quantity())) ||
-                         (ball && kBallQuantities.count(column.quantity())) ||
-                         (joint >= 0 && !ball && kJointQuantities.count(column.quantity()));
+      const bool known =
+          (model_->find_muscle(column.owner()) >= 0 && is_muscle_quantity(column.quantity())) ||
+          (ball && is_ball_quantity(column.quantity())) ||
+          (joint >= 0 && !ball && is_joint_quantity(column.quantity()));
       if (!known) {
         throw BadInput(recording.folder + "/" + table.name + ".csv: column '" + column.name +
                        "': the robot of " + model_->file + " has no such quantity");
@@ -91,10 +117,10 @@ void Replay::check_names(const Dataset& recording) const {
 Replay::Use Replay::use_of(const Dataset& recording, const Column& column) const {
   const std::string owner = column.owner(), quantity = column.quantity();
   if (model_->find_muscle(owner) >= 0) {
-    if (quantity == "position" && mode_ != ReplayMode::kPosition) {
+    if (quantity == "position" && !imposes_positions(mode_)) {
       return recording.series(owner + "/reference").empty() ? Use::kStart : Use::kNone;
     }
-    const bool driving = mode_ == ReplayMode::kPosition
+    const bool driving = imposes_positions(mode_)
                              ? quantity == "position"
                              : quantity == "mode" || quantity == "reference" ||
                                    (quantity == "voltage" && mode_ == ReplayMode::kVoltage);
@@ -102,6 +128,8 @@ Replay::Use Replay::use_of(const Dataset& recording, const Column& column) const
   }
   const JointModel& joint = model_->skeleton->joints[model_->skeleton->find_joint(owner)];
   if (quantity == "load" || (quantity == "effort" && joint.driven)) return Use::kAll;
+  const bool number = quantity == "w" || quantity == "x" || quantity == "y" || quantity == "z";
+  if (mode_ == ReplayMode::kPosture && (quantity == "position" || number)) return Use::kAll;
   return quantity == "position" && model_->muscles.empty() ? Use::kStart : Use::kNone;
 }
 
@@ -130,7 +158,7 @@ Replay::StartInput Replay::start_input(const MuscleInput& input) const {
   const MuscleModel& muscle = model_->muscles[input.muscle];
   const auto given = meta_.start_position.find(muscle.name);
   if (!muscle.has_controller) {
-    const bool excited = meta_.start == "first" && mode_ != ReplayMode::kPosition;
+    const bool excited = meta_.start == "first" && !imposes_positions(mode_);
     const Series& first = mode_ == ReplayMode::kVoltage ? input.voltage : input.reference;
     return {false, ecu::Mode::kVoltage, excited && !first.empty() ? first.held_at(0.0) : 0.0};
   }
@@ -138,7 +166,7 @@ Replay::StartInput Replay::start_input(const MuscleInput& input) const {
     if (given != meta_.start_position.end()) return {false, ecu::Mode::kPosition, given->second};
   } else if (meta_.start == "zero") {
     return {false, ecu::Mode::kPosition, 0.0};
-  } else if (mode_ != ReplayMode::kPosition && !input.reference.empty()) {
+  } else if (!imposes_positions(mode_) && !input.reference.empty()) {
     const ecu::Mode mode =
         input.mode.empty() ? ecu::Mode::kPosition : mode_of(input.mode.held_at(0.0));
     const double reference = input.reference.held_at(0.0);
@@ -155,6 +183,12 @@ Replay::StartInput Replay::start_input(const MuscleInput& input) const {
 
 std::vector<double> Replay::start_inputs() const {
   std::vector<double> inputs = {meta_.settle_s};
+  if (mode_ == ReplayMode::kPosture) {
+    const RecordedStart first = recorded_start();
+    inputs.insert(inputs.end(), first.q.begin(), first.q.end());
+    inputs.insert(inputs.end(), first.positions.begin(), first.positions.end());
+    return inputs;
+  }
   for (const MuscleInput& muscle : muscles_) {
     const StartInput input = start_input(muscle);
     inputs.insert(inputs.end(),
@@ -167,7 +201,21 @@ std::vector<double> Replay::start_inputs() const {
   return inputs;
 }
 
+namespace {
+
+/// What remembers its history must not remember a jerk: wound in over a fifth of the time.
+double share_of_way(long step, long steps) {
+  return std::min(1.0, 5.0 * static_cast<double>(step) / static_cast<double>(steps));
+}
+
+}  // namespace
+
 void Replay::start(Simulation& sim) const {
+  const auto steps = std::lround(meta_.settle_s / sim.step_length());
+  if (mode_ == ReplayMode::kPosture) {
+    start_where_recorded(sim, steps);
+    return;
+  }
   const RobotModel& model = sim.model();
   std::vector<double> q = model.skeleton->rest_configuration();
   if (muscles_.empty()) {
@@ -190,14 +238,50 @@ void Replay::start(Simulation& sim) const {
       sim.command(muscle.muscle, input.mode, input.value);
     }
   }
-  const auto steps = std::lround(meta_.settle_s / sim.step_length());
-  // Wound in over a fifth of the time: what remembers its history must not remember a jerk.
-  const auto share = [&](long i) {
-    return std::min(1.0, 5.0 * static_cast<double>(i) / static_cast<double>(steps));
-  };
   for (long i = 0; i < steps; ++i) {
     for (const auto& [muscle, position] : imposed) {
-      sim.impose_reading(muscle, share(i) * position, share(i + 1) * position);
+      sim.impose_reading(muscle, share_of_way(i, steps) * position,
+                         share_of_way(i + 1, steps) * position);
+    }
+    sim.step();
+  }
+  for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
+}
+
+Replay::RecordedStart Replay::recorded_start() const {
+  RecordedStart first{model_->skeleton->rest_configuration(), {}};
+  posture_at(0.0, first.q);
+  for (const MuscleInput& muscle : muscles_) {
+    first.positions.push_back(muscle.position.empty() ? 0.0 : muscle.position.values.front());
+  }
+  return first;
+}
+
+void Replay::start_where_recorded(Simulation& sim, long steps) const {
+  // Paths wrap as in a motion; where there is no time for one, placing sees to that.
+  constexpr double kFastest = 0.03;  // [rad] a step
+  const SkeletonModel& skeleton = *model_->skeleton;
+  const RecordedStart first = recorded_start();
+  std::vector<double> q = skeleton.rest_configuration();
+  const std::vector<double> rest = q;
+  const bool leads = 5.0 * posture_distance(skeleton, rest, first.q) < kFastest * steps;
+  for (const MuscleInput& muscle : muscles_) {
+    sim.release(muscle.muscle);
+    sim.command(muscle.muscle, ecu::Mode::kVoltage, 0.0);
+  }
+  if (leads) {
+    sim.place(rest, std::vector<double>(first.positions.size(), 0.0));
+  } else {
+    sim.place(first.q, first.positions);
+  }
+  for (long i = 0; i < steps; ++i) {
+    const double from = leads ? share_of_way(i, steps) : 1.0,
+                 to = leads ? share_of_way(i + 1, steps) : 1.0;
+    posture_between(skeleton, rest, first.q, to, q);
+    sim.impose_posture_reading(q);
+    for (std::size_t m = 0; m < muscles_.size(); ++m) {
+      if (muscles_[m].position.empty()) continue;
+      sim.impose_reading(muscles_[m].muscle, from * first.positions[m], to * first.positions[m]);
     }
     sim.step();
   }
@@ -208,7 +292,8 @@ ecu::Mode Replay::unsaid_mode(std::size_t muscle) const {
   return model_->muscles[muscle].has_controller ? ecu::Mode::kPosition : ecu::Mode::kVoltage;
 }
 
-Replay::Run::Run(const Replay& replay, Simulation& sim) : replay_(replay), sim_(sim) {
+Replay::Run::Run(const Replay& replay, Simulation& sim)
+    : replay_(replay), sim_(sim), posture_(sim.configuration()) {
   for (const MuscleInput& input : replay.muscles_) {
     muscles_.push_back({&input, HeldSeries(input.mode), HeldSeries(input.reference),
                         HeldSeries(input.voltage), HeldSeries(input.ecu_state)});
@@ -224,7 +309,7 @@ void Replay::Run::drive(double time) {
   const double now = time + 1e-9;
   for (MuscleRun& muscle : muscles_) {
     const MuscleInput& input = *muscle.input;
-    if (replay_.mode_ == ReplayMode::kPosition) {
+    if (imposes_positions(replay_.mode_)) {
       impose(input, time);
     } else if (replay_.mode_ == ReplayMode::kVoltage) {
       if (!input.voltage.empty() && muscle.voltage.advance(now)) {
@@ -233,6 +318,10 @@ void Replay::Run::drive(double time) {
     } else {
       command(muscle, now);
     }
+  }
+  if (replay_.mode_ == ReplayMode::kPosture) {
+    replay_.posture_at(time + sim_.posture_lateness() + sim_.step_length(), posture_);
+    sim_.impose_posture_reading(posture_);
   }
   for (JointRun& joint : joints_) {
     const JointInput& input = *joint.input;
@@ -269,131 +358,6 @@ void Replay::Run::impose(const MuscleInput& input, double time) {
 }
 
 namespace {
-
-/// Reads one quantity off a running simulation.
-class Probe {
- public:
-  Probe(const RobotModel& model, const std::string& column) {
-    const std::string owner = column.substr(0, column.find('/'));
-    quantity_ = column.substr(column.find('/') + 1);
-    muscle_ = kMuscleQuantities.count(quantity_) ? model.find_muscle(owner) : -1;
-    joint_ = muscle_ < 0 ? model.skeleton->find_joint(owner) : -1;
-    const bool part = quantity_ == "w" || quantity_ == "x" || quantity_ == "y" || quantity_ == "z";
-    turn_ = part ? joint_ : -1;
-  }
-
-  /// The ball joint that this is a number of the orientation of, or -1.
-  int turn() const { return turn_; }
-
-  /// Words jump; angles of orientations and numbers move.
-  bool interpolates() const { return !holds_words(quantity_) && quantity_ != "reference"; }
-
-  double read(const Simulation& sim) const {
-    return muscle_ >= 0 ? read_muscle(sim) : read_joint(sim);
-  }
-
- private:
-  double read_muscle(const Simulation& sim) const {
-    const Muscle& muscle = sim.muscle(muscle_);
-    const ecu::Measurement reading = sim.reading(muscle_);
-    if (quantity_ == "position") return reading.position;
-    if (quantity_ == "velocity") return reading.velocity;
-    if (quantity_ == "current") return reading.current;
-    if (quantity_ == "voltage") return muscle.voltage();
-    if (quantity_ == "force") return std::max(reading.force, 0.0);  // as it is measured
-    if (quantity_ == "reference") return muscle.reference();
-    if (quantity_ == "mode") return static_cast<double>(muscle.mode());
-    const ecu::State state = muscle.enabled() ? ecu::State::kEnabled : ecu::State::kStopping;
-    return static_cast<double>(state);
-  }
-
-  double read_joint(const Simulation& sim) const {
-    const JointModel& joint = sim.model().skeleton->joints[joint_];
-    const double* q = sim.read_positions() + joint.position_offset;
-    if (joint.type == JointType::kBall) {
-      if (quantity_ == "w") return q[0];
-      if (quantity_ == "x") return q[1];
-      if (quantity_ == "y") return q[2];
-      if (quantity_ == "z") return q[3];
-      return sim.read_ball_velocity(joint_)[quantity_[1] - 'x'];
-    }
-    if (quantity_ == "position") return q[0];
-    if (quantity_ == "velocity") return sim.read_velocity(joint_);
-    if (quantity_ == "effort") return sim.joint_effort(joint_);
-    return sim.joint_load(joint_);
-  }
-
-  std::string quantity_;
-  int muscle_, joint_, turn_;
-};
-
-/// Fills one table of the output, row after row as time goes by.
-class TableSampler {
- public:
-  TableSampler(const RobotModel& model, Table table, Nanoseconds start)
-      : table_(std::move(table)), start_(start) {
-    for (Column& column : table_.columns) {
-      column.values.assign(table_.t.size(), 0.0);
-      column.present.assign(table_.t.size(), 1);
-      probes_.emplace_back(model, column.name);
-    }
-    last_.resize(probes_.size(), 0.0);
-    now_.resize(probes_.size(), 0.0);
-    turned_.resize(probes_.size(), 0);
-  }
-
-  /// The simulation has arrived at `time`; fills the rows up to there.
-  void sample(const Simulation& sim, double time) {
-    std::swap(last_, now_);
-    for (std::size_t c = 0; c < probes_.size(); ++c) now_[c] = probes_[c].read(sim);
-    find_turned_signs();
-    for (; row_ < table_.t.size(); ++row_) {
-      const double due = seconds(table_.t[row_] - start_);
-      if (due > time + 1e-9) break;
-      const bool exact = first_ || due >= time - 1e-9;
-      const double share = exact ? 1.0 : (due - last_time_) / (time - last_time_);
-      for (std::size_t c = 0; c < probes_.size(); ++c) {
-        const bool blend = !exact && probes_[c].interpolates() && !turned_[c];
-        const double before = exact ? now_[c] : last_[c];
-        table_.columns[c].values[row_] = blend ? before + share * (now_[c] - before) : before;
-      }
-    }
-    first_ = false;
-    last_time_ = time;
-  }
-
-  /// The rows that were filled.
-  Table take() {
-    table_.t.resize(row_);
-    for (Column& column : table_.columns) {
-      column.values.resize(row_);
-      column.present.resize(row_);
-    }
-    return std::move(table_);
-  }
-
- private:
-  /// The same orientation has two signs; between them there is none.
-  void find_turned_signs() {
-    for (std::size_t c = 0; c < probes_.size(); ++c) {
-      if (probes_[c].turn() < 0) continue;
-      double product = 0.0;
-      for (std::size_t d = 0; d < probes_.size(); ++d) {
-        if (probes_[d].turn() == probes_[c].turn()) product += last_[d] * now_[d];
-      }
-      turned_[c] = product < 0.0;
-    }
-  }
-
-  Table table_;
-  Nanoseconds start_;
-  std::vector<Probe> probes_;
-  std::vector<double> last_, now_;
-  std::vector<char> turned_;  ///< numbers that must not be interpolated in this step
-  std::size_t row_ = 0;
-  double last_time_ = 0.0;
-  bool first_ = true;
-};
 
 /// Tables of the output: those of the recording, and what they lack in the standard ones.
 std::vector<Table> output_tables(const RobotModel& model, const Dataset& recording) {

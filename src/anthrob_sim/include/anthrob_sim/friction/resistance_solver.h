@@ -32,6 +32,11 @@ class ResistanceSolver {
   void solve(const KinematicTree& tree, const std::vector<double>& q, const Eigen::VectorXd& tau,
              const std::vector<SlidingTendon*>& tendons, const double* loads = nullptr);
 
+  /// The same where the velocity at the end of the step is given: tendons slide with it. Friction
+  /// of joints and stops could not change it, and is left out.
+  void follow(const KinematicTree& tree, const std::vector<double>& velocity,
+              const std::vector<SlidingTendon*>& tendons);
+
   /// Velocity at the end of the step.
   const Eigen::VectorXd& velocity() const { return u_; }
   /// Generalised forces of joint friction and stops that belong to it.
@@ -74,6 +79,7 @@ class ResistanceSolver {
   bool revise_dry_friction();
   bool is_solved(const KinematicTree& tree) const;
   void finish(const std::vector<SlidingTendon*>& tendons);
+  static void commit(const std::vector<SlidingTendon*>& tendons);
 
   const SkeletonModel& model_;
   double step_;

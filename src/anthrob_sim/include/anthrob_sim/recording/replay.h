@@ -6,6 +6,7 @@
 
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/recording/dataset.h"
+#include "anthrob_sim/recording/orientation_series.h"
 #include "anthrob_sim/simulation.h"
 
 namespace anthrob {
@@ -15,6 +16,7 @@ enum class ReplayMode {
   kReference,  ///< commands, as followed_commands has them: the ECU's references
   kVoltage,    ///< recorded voltages, past the control law
   kPosition,   ///< recorded actuator positions are imposed
+  kPosture,    ///< these and recorded joint positions are: only tendons and springs are simulated
 };
 
 /// Feeds a recording's inputs to simulations of one robot, whose numbers may differ: start() and
@@ -24,13 +26,14 @@ class Replay {
  public:
   /// @throws BadInput if the recording names muscles or joints that the robot lacks, or has no
   /// input, or one that is not a finite number or a known mode, or a unit followed what nobody
-  /// commanded. What was only measured may be NaN.
+  /// commanded; of kPosture, a joint that was not measured. What was only measured may be NaN.
   Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode);
 
   /// Puts the simulation where the recording starts: settled at the references in force then, with
   /// motors that had none where they were measured; at zero; or at given positions, as the
-  /// recording's meta.yaml says. Robots without muscles start at their
-  /// first recorded joint positions. The recording's time 0 is now.
+  /// recording's meta.yaml says. Robots without muscles start at their first recorded joint
+  /// positions; of kPosture all is at its first recorded position, whatever meta.yaml says. The
+  /// recording's time 0 is now.
   void start(Simulation& sim) const;
   /// What start() depends on beside the model: recordings with equal ones start in equal states.
   std::vector<double> start_inputs() const;
@@ -51,6 +54,10 @@ class Replay {
     int joint;
     Series effort, load, position;
   };
+  struct BallInput {
+    int joint;
+    OrientationSeries turns;
+  };
 
   /// What holds a muscle while the robot settles.
   struct StartInput {
@@ -59,6 +66,17 @@ class Replay {
     double value;
   };
   StartInput start_input(const MuscleInput& input) const;
+
+  /// First recorded positions: of joints, as in a configuration, and of muscles.
+  struct RecordedStart {
+    std::vector<double> q, positions;
+  };
+  RecordedStart recorded_start() const;
+  void start_where_recorded(Simulation& sim, long steps) const;
+
+  void read_joint(const JointModel& joint, int index, const Dataset& recording);
+  /// Recorded joint positions, between two rows on the straight way.
+  void posture_at(double time, std::vector<double>& q) const;
 
   void check_names(const Dataset& recording) const;
   void check_inputs(const Dataset& recording) const;
@@ -72,6 +90,7 @@ class Replay {
   DatasetMeta meta_;
   std::vector<MuscleInput> muscles_;
   std::vector<JointInput> joints_;
+  std::vector<BallInput> balls_;  ///< of kPosture only
   double duration_ = 0.0;
 };
 
@@ -101,6 +120,7 @@ class Replay::Run {
   Simulation& sim_;
   std::vector<MuscleRun> muscles_;
   std::vector<JointRun> joints_;
+  std::vector<double> posture_;  ///< scratch
 };
 
 /// Runs a whole recording and samples the simulation, with ideal sensors, at the recording's rows:

@@ -27,14 +27,19 @@ class ReadingEffect {
   /// Once a step.
   virtual void apply(Readings& readings, StateView state) const = 0;
 
-  // What is recorded is what was read. To impose a recorded position, it must be known what was
-  // there; an effect that changes how positions of muscles are read says both.
+  // What is recorded is what was read. To impose recorded positions, it must be known what was
+  // there; an effect that changes how positions of muscles, or of joints, are read says both.
   /// By how much a muscle's position is read late [s].
   virtual double lateness(std::size_t /*muscle*/) const { return 0.0; }
   /// The position of a muscle [rad] that the next apply() turns into this one, lateness apart.
   virtual double undone(std::size_t /*muscle*/, double position, StateView) const {
     return position;
   }
+  /// By how much positions of joints are read late [s].
+  virtual double joint_lateness() const { return 0.0; }
+  /// Turns positions of joints, as in Simulation::configuration, into those that the next apply()
+  /// turns into these, lateness apart.
+  virtual void undo_joints(double* /*positions*/) const {}
 };
 
 }  // namespace anthrob

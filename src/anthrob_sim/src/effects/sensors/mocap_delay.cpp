@@ -27,6 +27,7 @@ class JointDelay final : public ReadingEffect {
  public:
   JointDelay(const SkeletonModel& skeleton, double delay, double step)
       : count_(static_cast<std::size_t>(skeleton.position_count + skeleton.velocity_count)),
+        delay_(delay),
         line_(delay, count_, step) {
     for (const JointModel& joint : skeleton.joints) {
       if (joint.type == JointType::kBall) balls_.push_back(joint.position_offset);
@@ -44,6 +45,8 @@ class JointDelay final : public ReadingEffect {
     for (const int ball : balls_) blend_turn(readings.positions + ball, ball, state);
   }
 
+  double joint_lateness() const override { return delay_; }
+
  private:
   /// Between two orientations; where their signs differ, the nearer one will do.
   void blend_turn(double* q, int offset, StateView state) const {
@@ -56,6 +59,7 @@ class JointDelay final : public ReadingEffect {
   }
 
   std::size_t count_;
+  double delay_;
   DelayLine line_;
   std::vector<int> balls_;
 };

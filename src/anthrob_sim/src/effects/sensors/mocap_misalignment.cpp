@@ -34,11 +34,10 @@ class TurnedReadings final : public ReadingEffect {
     }
   }
   void apply(Readings& readings, StateView) const override {
-    for (const Ball& ball : balls_) {
-      double* q = readings.positions + ball.offset;
-      const Quat turned = canonical(ball.turn * Quat(q[0], q[1], q[2], q[3]));
-      q[0] = turned.w(), q[1] = turned.x(), q[2] = turned.y(), q[3] = turned.z();
-    }
+    for (const Ball& ball : balls_) turn(ball.turn, readings.positions + ball.offset);
+  }
+  void undo_joints(double* positions) const override {
+    for (const Ball& ball : balls_) turn(ball.turn.conjugate(), positions + ball.offset);
   }
 
  private:
@@ -46,6 +45,11 @@ class TurnedReadings final : public ReadingEffect {
     int offset;
     Quat turn;
   };
+  static void turn(const Quat& by, double* q) {
+    const Quat turned = canonical(by * Quat(q[0], q[1], q[2], q[3]));
+    q[0] = turned.w(), q[1] = turned.x(), q[2] = turned.y(), q[3] = turned.z();
+  }
+
   std::vector<Ball> balls_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace anthrob {
 
-/// Postures are joint positions as in a configuration: one number, or w, x, y, z of a ball joint.
+// Postures are joint positions as in a configuration: one number, or w, x, y, z of a ball joint.
 
 /// What turns `from` into `to`, a velocity held for one second: differences of scalar joints,
 /// rotation vectors of ball joints in the axes of the child at `from` [rad, m].

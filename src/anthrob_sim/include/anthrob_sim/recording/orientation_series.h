@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "anthrob_sim/recording/dataset.h"
+
+namespace anthrob {
+
+/// The measured orientation of a ball joint over time.
+struct OrientationSeries {
+  Series number[4];  ///< w, x, y, z, at the same times, without sudden changes of sign
+
+  /// Empty where it was not measured.
+  /// @throws BadInput if the four numbers were not measured at the same times, or are no rotation
+  static OrientationSeries read(const Dataset& recording, const std::string& joint);
+
+  bool empty() const { return number[0].empty(); }
+  const std::vector<double>& t() const { return number[0].t; }  ///< [s]
+  /// Between two samples on the straight way, constant beyond the ends.
+  /// @param turn gets w, x, y, z, of unit length
+  void at(double time, double* turn) const;
+};
+
+}  // namespace anthrob

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_sim/simulation.h"
+
+namespace anthrob {
+
+/// Reads one quantity off a running simulation, as ideal sensors would.
+class Probe {
+ public:
+  /// @param column "<muscle>/force", "<joint>/position" and the like, of something that there is
+  Probe(const RobotModel& model, const std::string& column);
+
+  /// The ball joint that this is a number of the orientation of, or -1.
+  int turn() const { return turn_; }
+  /// Words jump; angles of orientations and numbers move.
+  bool interpolates() const;
+  double read(const Simulation& sim) const;
+
+ private:
+  double read_muscle(const Simulation& sim) const;
+  double read_joint(const Simulation& sim) const;
+
+  std::string quantity_;
+  int muscle_, joint_, turn_;
+};
+
+/// Fills a table from a simulation, row after row as time goes by.
+class TableSampler {
+ public:
+  /// @param table with times and names of columns   @param start the simulation's time 0
+  TableSampler(const RobotModel& model, Table table, Nanoseconds start);
+
+  /// The simulation has arrived at `time` [s]; fills the rows up to there. Between two steps values
+  /// are interpolated.
+  void sample(const Simulation& sim, double time);
+  /// The rows that were filled.
+  Table take();
+
+ private:
+  void find_turned_signs();
+
+  Table table_;
+  Nanoseconds start_;
+  std::vector<Probe> probes_;
+  std::vector<double> last_, now_;
+  std::vector<char> turned_;  ///< numbers that must not be interpolated in this step
+  std::size_t row_ = 0;
+  double last_time_ = 0.0;
+  bool first_ = true;
+};
+
+}  // namespace anthrob
