@@ -46,10 +46,16 @@ class Parameters(unittest.TestCase):
         model = ('model', os.path.join(CONFIG, 'model_I_tier1.yaml'))
         self.check('anthrob_control', 'anthrob_computed_force',
                    [model, ('settings', os.path.join(CONFIG, 'control_tier1.yaml'))],
-                   [('lock_step', '1'), ('steps', '2.5')])
+                   [('lock_step', '1'), ('steps', '2.5'), ('steps', '0')])
         self.check('anthrob_record', 'anthrob_recorder',
                    [model, ('protocol', os.path.join(CONFIG, 'record_tier1_equilibria.yaml')), ('out', '/nowhere')],
-                   [('lock_step', '1'), ('steps', 'many'), ('enable', '1')])
+                   [('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
+
+    def test_player(self):
+        self.check('anthrob_control', 'anthrob_posture_player',
+                   [('model', os.path.join(CONFIG, 'model_I.yaml')),
+                    ('postures', os.path.join(CONFIG, 'demo_postures.yaml'))],
+                   [('approach_speed', 'slow'), ('approach_speed', '-1.0')])
 
     def test_motion_capture(self):
         self.check('anthrob_mocap', 'anthrob_mocap', [],

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""The posture player ends where somebody stops the motors: the next enable finds nobody who takes up a posture."""
+"""The posture player leads the muscles to the first posture, and ends where somebody stops the motors: the next enable
+finds nobody who takes up a posture."""
 import os
 import subprocess
+import tempfile
 import threading
 import unittest
 
@@ -21,11 +23,11 @@ class PosturePlayer(unittest.TestCase):
         answer = rospy.ServiceProxy(name, Trigger)()
         self.assertTrue(answer.success, answer.message)
 
-    def start(self):
+    def start(self, postures=os.path.join(CONFIG, 'demo_postures.yaml')):
         return subprocess.Popen(
             ['rosrun', 'anthrob_control', 'anthrob_posture_player', '__ns:=' + rospy.get_namespace(), '__name:=player',
              '_model:=' + os.path.join(CONFIG, 'model_I.yaml'),
-             '_postures:=' + os.path.join(CONFIG, 'demo_postures.yaml')],
+             '_postures:=' + postures],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def ends(self, player):
@@ -50,6 +52,31 @@ class PosturePlayer(unittest.TestCase):
         commanded.clear()
         self.assertFalse(commanded.wait(2.0), 'somebody commands')
         self.assertEqual(commands.get_num_connections(), 0)
+
+    def test_3_the_first_posture_is_far_away(self):
+        measured = rospy.wait_for_message('muscle_states', MuscleStates, 60)
+        where = dict(zip(measured.name, measured.position))
+        there = {name: position + 1.0 for name, position in where.items()}
+        commands, arrived = [], threading.Event()
+
+        def hear(message):
+            commands.append((message.header.stamp.to_sec(), dict(zip(message.name, message.reference))))
+            if all(abs(commands[-1][1][name] - there[name]) < 1e-6 for name in there):
+                arrived.set()
+        rospy.Subscriber('muscle_command', MuscleCommand, hear, queue_size=1000)
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+            file.write('postures: [{name: far, hold: 0.1, references: {%s}}]\n'
+                       % ', '.join('%s: %.9f' % way for way in there.items()))
+            file.flush()
+            player = self.start(file.name)
+            self.assertTrue(arrived.wait(60), commands[-1:])
+            self.assertEqual(player.wait(60), 0, player.stdout.read())
+        for name in there:
+            # The first ones may be lost until everybody is connected.
+            self.assertAlmostEqual(commands[0][1][name], where[name], delta=0.4)
+        for (t, before), (u, after) in zip(commands, commands[1:]):
+            for name in there:
+                self.assertLess(abs(after[name] - before[name]), 1.0 * (u - t) + 1e-6, name)
 
 
 if __name__ == '__main__':

@@ -42,15 +42,20 @@ class RecorderGaps(unittest.TestCase):
         self.muscles = rospy.Publisher('muscle_states', MuscleStates, queue_size=10)
         self.joints = rospy.Publisher('joint_states', JointState, queue_size=10)
         self.shoulder = rospy.Publisher('spherical_joint_states', SphericalJointStates, queue_size=10)
-        self.aims = []
+        self.aims, self.commands = [], []
         rospy.Subscriber('muscle_command', MuscleCommand, self.on_command)
 
     def tearDown(self):
         shutil.rmtree(self.folder)
 
     def on_command(self, command):
-        if not self.aims or self.aims[-1][1] != command.reference:
-            self.aims.append((self.time, command.reference))
+        """What lasts is an aim; on the way to the first one there is another reference every 20 ms."""
+        self.commands.append((command.header.stamp.to_sec(), command.reference))
+        if self.aims and self.aims[-1][1] == command.reference:
+            return
+        if self.aims and self.time - self.aims[-1][0] < 0.1:
+            del self.aims[-1]
+        self.aims.append((self.time, command.reference))
 
     def since(self, order):
         """[s] since the command to E0, to E1 or back to E0; negative before."""
@@ -82,7 +87,7 @@ class RecorderGaps(unittest.TestCase):
         protocol = os.path.join(self.folder, 'protocol.yaml')
         with open(protocol, 'w') as file:
             file.write(PROTOCOL % (self.config, redo))
-        self.time, self.aims = 1.0, []
+        self.time, self.aims, self.commands = 1.0, [], []
         out = os.path.join(self.folder, 'out')
         process = subprocess.Popen(
             ['rosrun', 'anthrob_record', 'anthrob_recorder', '__ns:=/anthrob', '_model:=' +
@@ -103,6 +108,17 @@ class RecorderGaps(unittest.TestCase):
         output, bags = self.record(redo=5)
         self.assertIn('all recorded', output)
         self.assertEqual(len(bags), 2)
+
+    def test_the_first_posture_is_led_to(self):
+        self.record()
+        there = self.aims[0][1]
+        way = self.commands[:[reference for _, reference in self.commands].index(there) + 1]
+        self.assertEqual(way[0][1], (0.0,) * len(MUSCLES))  # where the motors stand
+        self.assertGreater(max(there), 0.1)
+        for (t, before), (u, after) in zip(way, way[1:]):
+            self.assertLess(max(abs(b - a) for a, b in zip(before, after)), u - t + 1e-6)
+        self.assertEqual([reference for _, reference in self.aims[1:]][1], there)  # then whole steps, there and back
+        self.assertEqual(len(self.aims), 3)
 
     def test_a_force_that_is_no_number_is_not_measured(self):
         output, bags = self.record(lost=(0.2, 0.5))

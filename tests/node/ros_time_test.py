@@ -87,8 +87,8 @@ class RosTime(unittest.TestCase):
                          lambda m: heard.append(dict(zip(m.name, m.reference))['flexor']))
         clock = rospy.Publisher('/clock', Clock, queue_size=1)
         states = rospy.Publisher('muscle_states', MuscleStates, queue_size=1)
-        enabled = MuscleStates(name=['flexor', 'extensor'], ecu_state=[MuscleStates.ENABLED] * 2,
-                               **{field: [0.0, 0.0] for field in ('position', 'velocity', 'current', 'force')})
+        enabled = MuscleStates(name=['flexor', 'extensor'], ecu_state=[MuscleStates.ENABLED] * 2, position=[0.3, 0.3],
+                               **{field: [0.0, 0.0] for field in ('velocity', 'current', 'force')})
         self.start('anthrob_control', 'anthrob_posture_player', model=RIG, postures=self.postures())
 
         def let_pass(t, wanted):
@@ -105,7 +105,12 @@ class RosTime(unittest.TestCase):
             return t
 
         let_pass(let_pass(100.0, 0.5), -0.5)
-        let_pass(let_pass(1.0, 0.5), -0.5)
+        t = let_pass(1.0, 0.5)
+        # From where the robot stands, at 1 rad/s.
+        after = heard[heard.index(next(way for way in heard if way > 0.0)):]
+        self.assertGreaterEqual(after[0], 0.3)
+        self.assertGreater(len([way for way in after if way < 0.5]), 5)
+        let_pass(t, -0.5)
 
 
 if __name__ == '__main__':

@@ -1,9 +1,10 @@
 // Visits a list of postures by actuator position references derived from the model: no joint
-// feedback.
+// feedback. To the first one they are led, from where the motors are.
 #include <ros/ros.h>
 
 #include <stdexcept>
 
+#include "anthrob_control/approach.h"
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_ros/parameters.h"
@@ -30,14 +31,16 @@ void check_motors(const anthrob::RobotLink& link, int& unheeded) {
 /// Nobody follows a player whose robot is gone.
 class Silence {
  public:
+  /// @return whether all muscles are measured now
   /// @throws std::runtime_error naming a muscle that was not measured for long
-  void check(const anthrob::RobotLink& link) {
+  bool check(const anthrob::RobotLink& link) {
     const std::string silence = link.state().complaint_of_muscles(link.now().toSec(), kStale);
     const ros::WallTime now = ros::WallTime::now();
     if (silence.empty()) heard_ = now;
     // By the wall's clock: simulated time may outrun the messages.
     if ((now - heard_).toSec() > kStale)
       throw std::runtime_error("the robot is silent: " + silence);
+    return silence.empty();
   }
 
  private:
@@ -63,7 +66,12 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
       anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
   const auto sequence = anthrob::PostureSequence::load(
       anthrob::required(settings, "postures", "a posture file"), *model);
+  double speed = anthrob::Approach::kSpeed;
+  anthrob::take(settings, "approach_speed", anthrob::positive_number_of, speed);
   const auto references = sequence.references(model);
+  anthrob::Approach approach(model, speed);
+  const std::string first =
+      "leads the muscles to the posture " + sequence.steps.front().name + ", if it is far away";
 
   anthrob::RobotLink::Options options;
   options.period = 1.0 / kCommandRate;
@@ -72,26 +80,34 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   ros::Time end;
   int unheeded = 0;
   Silence silence;
+  ROS_INFO_STREAM(first);
   for (std::size_t i = 0; i < sequence.steps.size();) {
     if (link.time_jumped()) {
-      ROS_WARN("time jumped back: begins anew");
+      ROS_WARN_STREAM("time jumped back: begins anew, " << first);
+      approach.begin();
       i = 0;
       end = ros::Time();
       unheeded = 0;
     }
-    if (end.isZero()) {
+    if (end.isZero() && approach.arrived()) {
       ROS_INFO_STREAM("posture " << i + 1 << " of " << sequence.steps.size() << ": "
                                  << sequence.steps[i].name);
       end = link.now() + ros::Duration(sequence.steps[i].hold);
     }
-    if (link.now() >= end) {
+    if (!end.isZero() && link.now() >= end) {
       ++i;
       end = ros::Time();
       continue;
     }
-    silence.check(link);
+    const bool measured = silence.check(link);
     check_motors(link, unheeded);
-    link.send(anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, references[i]));
+    // Motors that were off begin where they are, if only for a moment.
+    if (!link.take_disabled().empty()) approach.begin();
+    if (measured || approach.begun()) {
+      const std::vector<double>& reference =
+          approach.step(references[i], link.state().measurement(), link.dt());
+      link.send(anthrob::make_command(*model, anthrob::ecu::Mode::kPosition, reference));
+    }
     if (!link.wait()) return false;
   }
   return true;

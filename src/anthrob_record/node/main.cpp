@@ -39,13 +39,15 @@ int main(int argc, char** argv) {
     anthrob::RobotLink::Options options;
     anthrob::take(settings, "lock_step", anthrob::truth_of, options.lock_step);
     anthrob::take(settings, "steps", anthrob::positive_whole_number_of, options.steps);
+    double approach_speed = anthrob::Approach::kSpeed;
+    anthrob::take(settings, "approach_speed", anthrob::positive_number_of, approach_speed);
     bool enable_first = false;
     anthrob::take(settings, "enable", anthrob::truth_of, enable_first);
     if (options.lock_step && protocol.kind == anthrob::Protocol::Kind::kZeroGravity) {
       throw anthrob::BadInput(
           "parameter ~lock_step: in zero gravity it is the controller that may step the simulator");
     }
-    anthrob::Recorder recorder(nh, settings, model, protocol, folder, options);
+    anthrob::Recorder recorder(nh, settings, model, protocol, folder, options, approach_speed);
     const bool ready = !enable_first || enable(nh);
     return ready && recorder.run() ? 0 : 130;
   });

@@ -27,14 +27,15 @@ constexpr double kDegree = 0.017453292519943295;
 
 Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<const RobotModel> model,
                    const Protocol& protocol, const std::string& folder,
-                   const RobotLink::Options& options)
+                   const RobotLink::Options& options, double approach_speed)
     : nh_(nh),
       model_(model),
       protocol_(protocol),
       store_(folder, model, protocol),
       bags_(store_, model, nh.getNamespace() + "/"),
       link_(nh, model, options),
-      lock_step_(options.lock_step) {
+      lock_step_(options.lock_step),
+      approach_(model, approach_speed) {
   const auto measure = [this](const char* topic) {
     return [this, topic](const auto& message) {
       bags_.write(topic, message);
@@ -61,6 +62,10 @@ bool Recorder::on_sample(std_srvs::Trigger::Request&, std_srvs::Trigger::Respons
 }
 
 bool Recorder::run() {
+  if (!is_there()) {
+    ROS_INFO_STREAM("leads the muscles to the posture " << protocol_.rest.name
+                                                        << " first, if it is far away");
+  }
   for (int repeat = 1; repeat <= protocol_.repeats; ++repeat) {
     for (const Protocol::Target& target : protocol_.targets) {
       ++done_;
@@ -120,10 +125,11 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   const std::string silence = link_.state().complaint(now, kFresh);
   if (!silence.empty()) {
     // By the wall's clock: simulated time may outrun the messages.
-    if ((ros::WallTime::now() - heard_).toSec() > (visit.begun() ? kSilence : kPatience))
+    if ((ros::WallTime::now() - heard_).toSec() > (is_underway(visit) ? kSilence : kPatience))
       throw std::runtime_error("the robot is silent: " + silence);
     // Nothing is sent to one that is gone, so that the watchdog stops the motors.
-    if (visit.begun() && link_.state().complaint(now, kSilence).empty()) carry_out(visit, target);
+    if (is_underway(visit) && link_.state().complaint(now, kSilence).empty())
+      carry_out(visit, target);
     return true;
   }
   heard_ = ros::WallTime::now();
@@ -132,12 +138,18 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   const std::string stopped = link_.take_disabled();
   if (!stopped.empty() && bags_.recording())
     visit.fail("the motor of " + stopped + " stopped while it was recorded");
-  if (refused_since_.isZero()) {
+  if (!stopped.empty()) approach_.begin();
+  // Visits begin at the rest posture.
+  if (refused_since_.isZero() && is_there()) {
     order_ = visit.step(link_.state().measurement(), now);
     if (visit.outcome() == Visit::Outcome::kRunning) bags_.record(order_.recording, link_.now());
   }
   if (visit.outcome() == Visit::Outcome::kRunning) carry_out(visit, target);
   return true;
+}
+
+bool Recorder::is_underway(const Visit& visit) const {
+  return protocol_.kind == Protocol::Kind::kZeroGravity ? visit.begun() : approach_.begun();
 }
 
 void Recorder::carry_out(Visit& visit, const Protocol::Target& target) {
@@ -172,8 +184,11 @@ std::string Recorder::follow(const Visit::Order& order, const Protocol::Target& 
   if (protocol_.kind == Protocol::Kind::kZeroGravity) {
     return changed ? call_controller(order.aim, target) : "";
   }
-  if (changed || (link_.now() - sent_).toSec() >= kCommandPeriod - 1e-6) {
-    send_references(order.aim == Visit::Aim::kRest ? protocol_.rest.reference : target.reference);
+  const double dt = sent_.isZero() ? 0.0 : (link_.now() - sent_).toSec();
+  if (changed || sent_.isZero() || dt >= kCommandPeriod - 1e-6) {
+    const bool rest = order.aim == Visit::Aim::kRest || !is_there();
+    send_references(approach_.step(rest ? protocol_.rest.reference : target.reference,
+                                   link_.state().measurement(), dt));
   }
   return "";
 }
@@ -243,6 +258,7 @@ void Recorder::store(const Visit& visit, const Protocol::Target& target, int rep
     bool jumped = false;
     while (done.wait_for(std::chrono::seconds(0)) != std::future_status::ready && link_.wait()) {
       jumped = jumped || link_.time_jumped();
+      if (!link_.take_disabled().empty()) approach_.begin();
       const bool fresh = link_.state().complaint(link_.now().toSec(), kSilence).empty();
       if (fresh && !jumped) follow({aim_, 0}, target);
     }

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "anthrob_control/approach.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_record/recording_store.h"
 #include "anthrob_record/visit.h"
@@ -17,7 +18,8 @@ namespace anthrob {
 class Recorder {
  public:
   Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<const RobotModel> model,
-           const Protocol& protocol, const std::string& folder, const RobotLink::Options& options);
+           const Protocol& protocol, const std::string& folder, const RobotLink::Options& options,
+           double approach_speed);
 
   /// @return whether everything was recorded; false if ROS shut down first
   /// @throws std::runtime_error if a posture cannot be recorded
@@ -27,6 +29,12 @@ class Recorder {
   enum class Result { kDone, kAgain, kShutdown };
 
   Result record(const Protocol::Target& target, int repeat);
+  /// Whether the robot has reached what the first visit begins with.
+  bool is_there() const {
+    return approach_.arrived() || protocol_.kind == Protocol::Kind::kZeroGravity;
+  }
+  /// Whether somebody follows.
+  bool is_underway(const Visit& visit) const;
   /// One instant of a visit. @return false if ROS shut down
   bool advance(Visit& visit, const Protocol::Target& target);
   /// Lets the robot follow; whoever refuses is asked again for a while.
@@ -53,6 +61,7 @@ class Recorder {
   RobotLink link_;
   MeasuredNames measured_names_;
   bool lock_step_;
+  Approach approach_;
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer sample_;
   std::string trouble_;  ///< why the last visit is not stored
