@@ -123,6 +123,15 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
     status.values.push_back(key_value(muscle_of(driver, link, c).name + " temperature",
                                       std::to_string(health.temperature[c])));
   }
+  for (const int muscle : link.own().muscles) {
+    const MotorHeat& heat = driver.heat(static_cast<std::size_t>(muscle));
+    if (!heat.known()) continue;
+    const std::string& name = driver.hardware().muscles[static_cast<std::size_t>(muscle)].name;
+    status.values.push_back(key_value(name + " heat", text(heat.heat())));
+    if (heat.heat() <= MotorHeat::kCool) continue;
+    raise(status, DiagnosticStatus::WARN);
+    status.message += "; the motor of " + name + " is hot by what it drew";
+  }
   add_findings(status, driver.findings(), static_cast<int>(ecu), now);
   return status;
 }

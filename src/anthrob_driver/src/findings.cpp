@@ -36,6 +36,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kHomeFailed, "home_failed", true, "homing met a limit: tendon broken, slack or slipped", "look at the tendon that is named; repair, enable, home"},
     {Finding::kTendonSlack, "tendon_slack", true, "a tendon lost its force in motion: broken, slipped or off its pulley", "look at the tendon that is named; repair, clear_faults, enable, home"},
     {Finding::kEncoderDead, "encoder_dead", true, "a motor turns by what it draws, and its encoder does not count", "check the encoder's cable, then the motor's own and its current sensor; clear_faults, enable, home"},
+    {Finding::kMotorHot, "motor_hot", true, "a motor drew more than its winding stands for long", "find what it pulls against; let it cool; clear_faults, enable"},
 };
 // clang-format on
 

@@ -122,6 +122,9 @@ void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
   }
   const int order = node.at("filter_order").as_integer(0, ecu::kMaxFilterOrder);
   set(muscle, Parameter::kFilterOrder, order, node.at("filter_order"));
+  if (!node.has("nominal_current") && !node.has("thermal_time_constant")) return;
+  muscle.nominal_current = node.number("nominal_current", Bounds::positive(), "A");
+  muscle.thermal_time_constant = node.number("thermal_time_constant", Bounds::positive(), "s");
 }
 
 /// Sensors of one muscle: one entry of the calibration file's `muscles`. Its controller is loaded.

@@ -81,6 +81,7 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
   tendons_.assign(hardware_.muscles.size(), TendonWatch(hardware_.tendons));
   for (const MuscleHardware& muscle : hardware_.muscles) {
     encoders_.emplace_back(muscle.resistance, muscle.back_emf);
+    heats_.emplace_back(muscle.nominal_current, muscle.thermal_time_constant);
   }
 }
 
@@ -203,6 +204,14 @@ std::string RobotDriver::why_not_enable() const {
       return who + "fault " + ecu::name(link.report().fault) + ": call clear_faults first";
     }
     if (link.stop_latched()) return who + "holds an emergency stop: call clear_faults first";
+  }
+  for (std::size_t m = 0; m < heats_.size(); ++m) {
+    const double wait = heats_[m].time_to_cool();
+    if (wait <= 0.0) continue;
+    char text[80];
+    std::snprintf(text, sizeof(text), ": its motor is too hot by what it drew; try again in %.0f s",
+                  std::ceil(wait));
+    return hardware_.muscles[m].name + text;
   }
   return "";
 }
@@ -469,6 +478,22 @@ void RobotDriver::check_encoders(double now) {
   }
 }
 
+void RobotDriver::check_heat(double now) {
+  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+    MotorHeat& motor = heats_[m];
+    const MuscleSample& muscle = sampler_.last().muscles[m];
+    if (muscle.measured) motor.step(muscle.current, sampler_.last().time);
+    if (phase_ != Phase::kEnabled || motor.heat() <= MotorHeat::kLimit) continue;
+    const MuscleHardware& wired = hardware_.muscles[m];
+    char text[120];
+    std::snprintf(text, sizeof(text),
+                  ": its motor is at %.2f of the heat that its nominal current leads to",
+                  motor.heat());
+    findings_.add(Finding::kMotorHot, wired.ecu, now, wired.name + text);
+    stop(Finding::kMotorHot, wired.ecu, wired.name + text);
+  }
+}
+
 void RobotDriver::continue_home(double now) {
   if (home_.state() == Home::State::kReached) return continue_zero(now);
   if (home_.state() != Home::State::kRunning) return;
@@ -540,6 +565,7 @@ void RobotDriver::cycle(double now) {
   }
   check_tendons(now);
   check_encoders(now);
+  check_heat(now);
   if (phase_ == Phase::kEnabled) continue_home(now);
   send_cycle(now);
   if (phase_ == Phase::kEnabling) continue_enable(now);

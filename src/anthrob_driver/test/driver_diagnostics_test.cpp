@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "rig.h"
 
 namespace anthrob {
@@ -43,6 +45,24 @@ TEST(DriverDiagnostics, NameTheFaultThatTheDriverHolds) {
   rig.run(200);
   EXPECT_EQ(status().level, DiagnosticStatus::WARN);
   EXPECT_EQ(status().message, "IDLE, zero lost: home first");
+}
+
+TEST(DriverDiagnostics, TellOfMotorsThatGetHot) {
+  Hardware robot = load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", false);
+  robot.muscles[4].nominal_current = 0.1;
+  robot.muscles[4].thermal_time_constant = 2.0;
+  Rig rig(robot);
+  ASSERT_TRUE(rig.start());
+  for (int i = 0; i < 10000 && rig.driver().heat(4).heat() < 1.0; ++i) rig.step();
+  const DiagnosticStatus status = ecu_status(rig.driver(), 2, rig.now(), "/anthrob");
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "ENABLED; the motor of infraspinatus is hot by what it drew");
+  double told = 0.0;
+  for (const auto& value : status.values) {
+    if (value.key == "infraspinatus heat") told = std::stod(value.value);
+    EXPECT_NE(value.key, "teres_minor heat");  // nobody knows what that one stands
+  }
+  EXPECT_NEAR(told, 1.0, 0.05);
 }
 
 TEST(DriverDiagnostics, SayThatEnableIsUnderWay) {

@@ -38,8 +38,9 @@ enum class Finding : std::uint8_t {
   kHomeFailed,
   kTendonSlack,
   kEncoderDead,
+  kMotorHot,
 };
-constexpr int kFindingCount = 29;
+constexpr int kFindingCount = 30;
 
 struct FindingInfo {
   Finding finding;

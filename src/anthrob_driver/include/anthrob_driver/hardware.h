@@ -23,6 +23,8 @@ struct MuscleHardware {
   double home_position = 0.0;  ///< [rad] what home makes of the pretensioned posture
   /// Of the model's motor: with its power stage [ohm], at the gear output [Vs/rad]; 0: not known
   double resistance = 0.0, back_emf = 0.0;
+  /// What MotorHeat wants to know [A, s]; 0: not known
+  double nominal_current = 0.0, thermal_time_constant = 0.0;
 };
 
 struct EcuHardware {

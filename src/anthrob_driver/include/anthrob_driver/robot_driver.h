@@ -10,6 +10,7 @@
 #include "anthrob_driver/encoder_watch.h"
 #include "anthrob_driver/home.h"
 #include "anthrob_driver/live_gains.h"
+#include "anthrob_driver/motor_heat.h"
 #include "anthrob_driver/sampler.h"
 #include "anthrob_driver/stop_log.h"
 #include "anthrob_driver/tendon_watch.h"
@@ -76,6 +77,7 @@ class RobotDriver {
   const LiveGains& gains() const { return gains_; }
   const Hardware& hardware() const { return hardware_; }
   const ecu::Supervisor& supervisor() const { return supervisor_; }
+  const MotorHeat& heat(std::size_t muscle) const { return heats_[muscle]; }
   const EcuLink& link(std::size_t ecu) const { return links_[ecu]; }
   const Findings& findings() const { return findings_; }
   const BusWatch& bus_watch() const { return watch_; }
@@ -98,6 +100,7 @@ class RobotDriver {
   void check_ecus(double now);
   void check_tendons(double now);
   void check_encoders(double now);
+  void check_heat(double now);
   void continue_enable(double now);
   void finish_enable(bool success, const std::string& reason);
   void continue_home(double now);
@@ -140,6 +143,7 @@ class RobotDriver {
   LiveGains gains_;
   std::vector<TendonWatch> tendons_;    ///< one a muscle
   std::vector<EncoderWatch> encoders_;  ///< one a muscle
+  std::vector<MotorHeat> heats_;        ///< one a muscle
   StopLog stops_;
 
   Phase phase_ = Phase::kDisabled;
