@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "anthrob_calib/discovery/seams.h"
-
 namespace anthrob {
 namespace discovery {
 namespace {
@@ -52,6 +50,13 @@ TEST(Verdict, ProbabilitiesEndWhereTheNamesDo) {
   EXPECT_DOUBLE_EQ(most.effects[0].probability, 0.0);
   EXPECT_EQ(some.verdict, "effects_found");
   EXPECT_EQ(most.verdict, "unexplained");
+  // A name of which next to nothing is left is no answer.
+  EXPECT_EQ(half.verdict, "unexplained");
+  for (const double share : {0.44, 0.46}) {
+    Answer answer = named(0.9, share);
+    pronounce({{"elbow/position", 2.0}}, true, answer);
+    EXPECT_EQ(answer.verdict, share < 0.45 ? "effects_found" : "unexplained");
+  }
 }
 
 TEST(Verdict, WhatChanceMayLeaveSpeaksAgainstNoName) {
@@ -85,20 +90,6 @@ TEST(Verdict, NothingIsToldOfChannelsThatAreNoHigherThanNoise) {
   answer.remaining = found;
   pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 1.5}}, false, answer);
   EXPECT_TRUE(answer.remaining.empty());
-}
-
-TEST(Seams, AGapThatGoesWithTheMotorsIsTheirsHoweverTheRobotWasDriven) {
-  const auto part = [](double commands, double voltages, double positions) {
-    SeamGap gap{"biceps_brachii", "force"};
-    gap.commands = commands;
-    gap.voltages = voltages;
-    gap.positions = positions;
-    return subsystem_of(gap);
-  };
-  EXPECT_EQ(part(5.0, 5.0, 0.8), "power stage, motor or gear");
-  EXPECT_EQ(part(-1.0, 5.0, 0.8), "power stage, motor or gear");
-  EXPECT_EQ(part(5.0, 1.0, 0.8), "controller");
-  EXPECT_EQ(part(-1.0, 5.0, 4.8), "spindle, tendon, spring, path or force sensor");
 }
 
 }  // namespace

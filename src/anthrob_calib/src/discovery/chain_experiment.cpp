@@ -14,9 +14,6 @@ namespace discovery {
 
 namespace {
 
-/// By how much the square of an orientation's four numbers may differ from 1, by their noise.
-constexpr double kUnit = 0.01;
-
 /// A time between two steps.
 struct Moment {
   std::int64_t step;  ///< that arrives at or after it
@@ -71,9 +68,7 @@ ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recordi
                      .add(static_cast<std::uint64_t>(bins_))
                      .value();
 
-  const std::string driven = mode_ == ReplayMode::kVoltage    ? "voltage"
-                             : mode_ == ReplayMode::kPosition ? "position"
-                                                              : "";
+  const bool imposed = mode_ == ReplayMode::kPosition || mode_ == ReplayMode::kPosture;
   const struct {
     const char *quantity, *unit;
     Reader::Kind kind;
@@ -83,14 +78,14 @@ ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recordi
                     {"force", "N", Reader::kForce}};
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
     for (const auto& q : quantities) {
-      if (q.quantity == driven) continue;
-      if (mode_ == ReplayMode::kPosition && q.kind != Reader::kForce) continue;
+      if (mode_ == ReplayMode::kVoltage && q.kind == Reader::kVoltage) continue;
+      if (imposed && q.kind != Reader::kForce) continue;
       const std::string& name = model.muscles[m].name;
       add({q.kind, static_cast<int>(m), 0, {}, {}}, recording.series(name + "/" + q.quantity),
           {name, q.quantity, q.unit});
     }
   }
-  for (std::size_t j = 0; j < model.skeleton->joints.size(); ++j) {
+  for (std::size_t j = 0; mode_ != ReplayMode::kPosture && j < model.skeleton->joints.size(); ++j) {
     const JointModel& joint = model.skeleton->joints[j];
     if (joint.type == JointType::kBall) {
       add_ball(static_cast<int>(j), joint.name, recording);
@@ -149,29 +144,13 @@ void ChainExperiment::add(Reader reader, const Series& series, const Channel& ch
 }
 
 void ChainExperiment::add_ball(int joint, const std::string& name, const Dataset& recording) {
-  Series parts[4];
-  const char* const quantities[] = {"/w", "/x", "/y", "/z"};
-  for (int i = 0; i < 4; ++i) parts[i] = recording.series(name + quantities[i]);
-  if (parts[0].empty()) return;
-  for (int i = 1; i < 4; ++i) {
-    if (parts[i].t != parts[0].t) {
-      throw BadInput(recording.folder + ": " + name +
-                     ": expected w, x, y and z of an orientation at the same times");
-    }
-  }
-  for (std::size_t i = 0; i < parts[0].t.size(); ++i) {
-    double square = 0.0;
-    for (const Series& part : parts) square += part.values[i] * part.values[i];
-    if (std::abs(square - 1.0) <= kUnit) continue;
-    throw BadInput(recording.folder + ": " + name +
-                   ": no unit quaternion at t = " + std::to_string(parts[0].t[i]) +
-                   " s: expected empty cells where the orientation was not measured");
-  }
-  Sampling& sampling = sampling_of(parts[0].t);
+  const OrientationSeries turns = OrientationSeries::read(recording, name);
+  if (turns.empty()) return;
+  Sampling& sampling = sampling_of(turns.t());
   Reader reader{Reader::kBall, joint, present_.size(), {}, {}};
   for (std::size_t i = 0; i < sampling.rows.size(); ++i) {
-    reader.rotation.push_back(
-        {parts[0].values[i], parts[1].values[i], parts[2].values[i], parts[3].values[i]});
+    const Series* q = turns.number;
+    reader.rotation.push_back({q[0].values[i], q[1].values[i], q[2].values[i], q[3].values[i]});
   }
   for (int component = 0; component < 3; ++component) {
     channels_.push_back({name, "orientation", "rad", component, present_.size(), bins_});

@@ -131,7 +131,8 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
     for (const MeasuredVariable& variable : variables) {
       // What others do explains a muscle by accident too easily; joints move all of them.
       const bool own = variable.owner() == channel.place || variable.name == "time";
-      const bool muscle = variable.word == "load" || variable.word == "current";
+      const bool muscle =
+          variable.word == "load" || variable.word == "current" || variable.word == "wrap angle";
       if (!own && muscle) continue;
       const auto samples = samples_of(experiments, channel, variable, residual, whitener);
       if (samples.size() < 10 * kSteps) continue;

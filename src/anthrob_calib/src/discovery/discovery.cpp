@@ -20,6 +20,7 @@
 #include "anthrob_calib/discovery/separating_experiment.h"
 #include "anthrob_calib/discovery/verdict.h"
 #include "anthrob_calib/discovery/workbench.h"
+#include "anthrob_calib/discovery/wrap_angle.h"
 
 namespace anthrob {
 namespace discovery {
@@ -301,13 +302,18 @@ class Search {
     }
     const double least = least_gap(answer), first = gaps_.first_excess(least);
     answer.remaining_share = first > 0.0 ? gaps_.excess_of(base_.test, least) / first : 0.0;
-    answer.regimes = regime_gaps(laboratory_.train, variables_, recalibrated_train_,
-                                 train_.whitening(), scales_);
-    answer.dependences =
-        find_dependences(laboratory_.train, variables_, recalibrated_train_, train_.whitening());
-    answer.remaining =
-        find_dependences(laboratory_.train, variables_, base_.fit.residual, train_.whitening());
     stage("locating");
+    std::vector<MeasuredVariable> variables = variables_;
+    for (MeasuredVariable& angle :
+         wrap_angles(evaluator_, question_.train, laboratory_.train, answer.recalibrated)) {
+      variables.push_back(std::move(angle));
+    }
+    answer.regimes =
+        regime_gaps(laboratory_.train, variables, recalibrated_train_, train_.whitening(), scales_);
+    answer.dependences =
+        find_dependences(laboratory_.train, variables, recalibrated_train_, train_.whitening());
+    answer.remaining =
+        find_dependences(laboratory_.train, variables, base_.fit.residual, train_.whitening());
     answer.seams = seam_gaps(evaluator_, question_, laboratory_, scales_, answer.recalibrated);
     answer.where = locate(train_judge_, recalibrated_train_, least_gap(answer), scales_,
                           answer.seams, answer.dependences);

@@ -42,19 +42,6 @@ Eigen::VectorXf measured(const Experiment& experiment, const Channel& channel,
   return Eigen::Map<Eigen::VectorXf>(found.data(), static_cast<Eigen::Index>(found.size()));
 }
 
-/// Standard deviation of white noise on a smooth series.
-double white_noise(const Eigen::VectorXf& series) {
-  std::vector<double> third;
-  for (Eigen::Index i = 3; i < series.size(); ++i) {
-    third.push_back(
-        std::abs(double(series[i]) - 3.0 * series[i - 1] + 3.0 * series[i - 2] - series[i - 3]));
-  }
-  if (third.empty()) return 0.0;
-  const auto middle = third.begin() + static_cast<std::ptrdiff_t>(third.size() / 2);
-  std::nth_element(third.begin(), middle, third.end());
-  return 1.4826 * *middle / std::sqrt(20.0);
-}
-
 /// Sensors whose counts controllers see; Variant has them.
 bool is_counted(const RobotModel& robot, const Channel& channel) {
   return robot.find_muscle(channel.place) >= 0 &&
@@ -121,6 +108,18 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
 }
 
 }  // namespace
+
+double white_noise(const Eigen::VectorXf& series) {
+  std::vector<double> third;
+  for (Eigen::Index i = 3; i < series.size(); ++i) {
+    third.push_back(
+        std::abs(double(series[i]) - 3.0 * series[i - 1] + 3.0 * series[i - 2] - series[i - 3]));
+  }
+  if (third.empty()) return 0.0;
+  const auto middle = third.begin() + static_cast<std::ptrdiff_t>(third.size() / 2);
+  std::nth_element(third.begin(), middle, third.end());
+  return 1.4826 * *middle / std::sqrt(20.0);
+}
 
 double ChannelScale::sigma() const {
   return std::hypot(floor, numerics, counts);

@@ -79,12 +79,13 @@ std::vector<RegimeGap> regime_gaps(const Experiments& experiments,
       places.push_back(channel.place);
     }
   }
-  const auto time = std::find_if(variables.begin(), variables.end(),
-                                 [](const MeasuredVariable& v) { return v.word == "time"; });
   std::vector<RegimeGap> rows;
   for (const std::string& place : places) {
     std::vector<Regime> regimes = regimes_of(place, variables);
-    if (time != variables.end()) regimes.push_back(regime_of(*time));
+    for (const MeasuredVariable& variable : variables) {
+      const bool wrapping = variable.word == "wrap angle" && variable.owner() == place;
+      if (wrapping || variable.word == "time") regimes.push_back(regime_of(variable));
+    }
     for (const Regime& regime : regimes) {
       rows.push_back(
           {place, regime.word, gaps_of(place, regime, experiments, residual, whitener, scales)});

@@ -207,28 +207,33 @@ std::string heat_cell(double gap) {
          (gap < 0.0 ? std::string() : short_number(gap)) + "</td>";
 }
 
-/// Place x regime: its speed, its load or else posture, time, each in three levels.
+/// Place x regime: its speed, its load or else posture, its wrap angle, time, each in three levels.
 std::string regime_map(const Answer& answer) {
   struct Row {
     std::string place;
-    std::array<const RegimeGap*, 3> by{};
+    std::array<const RegimeGap*, 4> by{};
     double largest = 0.0;
   };
   std::vector<Row> rows;
   for (const RegimeGap& gap : answer.regimes) {
     if (rows.empty() || rows.back().place != gap.place) rows.push_back({gap.place});
     Row& row = rows.back();
-    row.by[gap.word == "speed" ? 0 : gap.word == "time" ? 2 : 1] = &gap;
+    row.by[gap.word == "speed"        ? 0
+           : gap.word == "wrap angle" ? 2
+           : gap.word == "time"       ? 3
+                                      : 1] = &gap;
     row.largest = std::max(row.largest, *std::max_element(gap.gap.begin(), gap.gap.end()));
   }
   if (rows.empty()) return "";
   const std::string levels = "<th>low</th><th>middle</th><th>high</th>";
   std::string html =
       "<p>Gap of every place (recalibrated model, all its channels) when its speed, its load (of a "
-      "joint: posture) or the time is low (speed: backwards), in the middle and high; a third of "
-      "the recordings each.</p>\n<table><tr><th rowspan=\"2\">place</th><th colspan=\"3\">speed"
-      "</th><th colspan=\"3\">load or posture</th><th colspan=\"3\">time</th></tr>\n<tr>" +
-      levels + levels + levels + "</tr>\n";
+      "joint: posture), the angle by which its tendon wraps or the time is low (speed: backwards), "
+      "in the middle and high; a third of the recordings each.</p>\n<table><tr><th "
+      "rowspan=\"2\">place</th><th colspan=\"3\">speed"
+      "</th><th colspan=\"3\">load or posture</th><th colspan=\"3\">wrap angle</th>"
+      "<th colspan=\"3\">time</th></tr>\n<tr>" +
+      levels + levels + levels + levels + "</tr>\n";
   for (const Row& row : rows) {
     if (row.largest < kFaintGap) continue;
     html += "<tr><th>" + escaped(row.place) + "</th>";
@@ -246,7 +251,7 @@ std::string regime_map(const Answer& answer) {
 std::string seam_cells(const SeamGap& seam) {
   std::string html;
   double left = HUGE_VAL;
-  for (const double gap : {seam.commands, seam.voltages, seam.positions}) {
+  for (const double gap : {seam.commands, seam.voltages, seam.positions, seam.postures}) {
     if (gap > left) {
       html += "<td style=\"background:#eeeeee\">" + short_number(gap) + "</td>";
     } else {
@@ -262,13 +267,17 @@ std::string seam_map(const Answer& answer) {
   if (answer.seams.empty()) return "";
   std::string html =
       "<p>Gap of every channel (recalibrated model) when the chain is fed with commands, with "
-      "measured voltages, with measured motor positions. Only a fall tells: what turns white "
-      "belongs to the part that was cut off there, what is still red on the right arises behind "
-      "the motors. What grows, grey, tells nothing: motors that are fed with voltages drift away "
+      "measured voltages, with measured motor positions, with these and measured postures (of "
+      "forces; what noise of the postures does is taken off). Only a fall tells: what turns white "
+      "belongs to the part that was cut off there; forces that are still red on the right are "
+      "wrong by what lies between motor and force sensor. What grows, grey, tells nothing: motors "
+      "that are fed with voltages drift away "
       "from where the measured ones were.</p>\n<table>"
-      "<tr><th>place / channel</th><th>commands</th><th>voltages</th><th>positions</th></tr>\n";
+      "<tr><th>place / channel</th><th>commands</th><th>voltages</th><th>positions</th><th>"
+      "postures</th></tr>\n";
   for (const SeamGap& seam : answer.seams) {
-    if (std::max({seam.commands, seam.voltages, seam.positions}) < kFaintGap) continue;
+    const double largest = std::max({seam.commands, seam.voltages, seam.positions, seam.postures});
+    if (largest < kFaintGap) continue;
     html += "<tr><th>" + escaped(seam.place + "/" + seam.channel) + "</th>";
     html += seam_cells(seam) + "</tr>\n";
   }

@@ -171,6 +171,7 @@ std::string report_json(const Answer& answer, const Question& question, double r
     if (seam.commands >= 0.0) entry["commands"] = number(seam.commands);
     if (seam.voltages >= 0.0) entry["voltages"] = number(seam.voltages);
     if (seam.positions >= 0.0) entry["positions"] = number(seam.positions);
+    if (seam.postures >= 0.0) entry["postures"] = number(seam.postures);
     report["seams"].push_back(entry);
   }
   report["regimes"] = Json::array();

@@ -9,7 +9,8 @@ namespace discovery {
 
 namespace {
 
-constexpr double kMostRemains = 0.5;  ///< of the squared gap: the named effects are not the answer
+constexpr double kMostRemains = 0.5;  ///< of the squared gap: nothing is left of the names
+constexpr double kMostDoubt = 0.9;    ///< share of the names' probability: they are not the answer
 
 /// Whether a channel that a dependence is of stands above what noise may look like.
 bool is_real(const Dependence& dependence, const std::map<std::string, double>& left) {
@@ -46,10 +47,9 @@ void pronounce(const std::map<std::string, double>& left, bool certain, Answer& 
   if (answer.effects.empty()) {
     answer.verdict = certain ? "unexplained" : "no_missing_effect";
   } else {
-    const bool most = answer.remaining_share > kMostRemains && certain;
-    answer.verdict = most ? "unexplained" : "effects_found";
-    // What is left shows that the law may be another one; at kMostRemains the names go.
+    // What is left shows that the law may be another one.
     const double doubt = certain ? std::min(1.0, answer.remaining_share / kMostRemains) : 0.0;
+    answer.verdict = doubt > kMostDoubt ? "unexplained" : "effects_found";
     for (FoundEffect& effect : answer.effects) {
       effect.probability *= 1.0 - doubt;
       for (Rival& rival : effect.rivals) rival.probability *= 1.0 - doubt;

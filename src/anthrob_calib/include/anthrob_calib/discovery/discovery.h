@@ -91,7 +91,9 @@ struct SeamGap {
   bool of_joint = false;    ///< place is a joint, else a muscle
   double commands = -1.0;   ///< the whole chain replayed from its commands
   double voltages = -1.0;   ///< from measured voltages on: without controllers
-  double positions = -1.0;  ///< measured motor positions imposed: without motors; -1: not compared
+  double positions = -1.0;  ///< measured motor positions imposed: without motors
+  /// Measured joint positions imposed, too: tendons and springs alone. Of forces; -1: not compared.
+  double postures = -1.0;
 };
 
 /// One channel of a held-out recording, for a figure.

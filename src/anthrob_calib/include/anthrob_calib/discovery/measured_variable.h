@@ -11,7 +11,7 @@ namespace discovery {
 /// Something measured on which a disagreement might depend, at the bins of experiments.
 struct MeasuredVariable {
   std::string name;                         ///< column, "time"
-  std::string word;                         ///< "load", "posture", "speed", "sign of velocity", ...
+  std::string word;                         ///< "load", "posture", "speed", "wrap angle", ...
   std::vector<std::vector<double>> values;  ///< by experiment and bin [unit of the column]
   bool sign = false;                        ///< only its sign counts
 

@@ -40,6 +40,10 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
 /// can be summed as if all bins were independent
 Eigen::VectorXf whitener(const Experiments& experiments, const Scales& scales, bool independent);
 
+/// Standard deviation of white noise on a smooth series: by its third differences, of which the
+/// median is taken.
+double white_noise(const Eigen::VectorXf& series);
+
 /// One count of the sensor, if all values are whole multiples of a step; 0 if there is none.
 double resolution_of(std::vector<double> values);
 

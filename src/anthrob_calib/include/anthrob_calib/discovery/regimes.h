@@ -15,7 +15,7 @@ constexpr int kLevels = 3;
 
 /// A quantity that says how a place is used, and its level at every bin.
 struct Regime {
-  std::string word;                      ///< "speed", "load", "posture", "time"
+  std::string word;                      ///< "speed", "load", "posture", "wrap angle", "time"
   std::vector<std::vector<int>> levels;  ///< by experiment and bin, 0 ... kLevels - 1
 };
 
@@ -31,7 +31,8 @@ struct RegimeGap {
   std::array<double, kLevels> gap;  ///< rms [standard deviations of the floor]; -1: no such bins
 };
 
-/// One row of a heat map, place x regime, for each place and for its regimes and time.
+/// One row of a heat map, place x regime, for each place and for its regimes, the angle by which
+/// its tendon wraps, and time.
 /// @param residual, whitener independent, as of whitener(..., true)
 std::vector<RegimeGap> regime_gaps(const Experiments& experiments,
                                    const std::vector<MeasuredVariable>& variables,

@@ -6,7 +6,7 @@
 namespace anthrob {
 namespace discovery {
 
-/// Replays the training recordings three times, fed with measured values at three seams, so that
+/// Replays the training recordings, fed with measured values at four seams, so that
 /// an error shows behind the seam where it arises and not behind all of them.
 std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Question& question,
                                const Laboratory& laboratory, const Scales& scales,

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/measured_variable.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// By how much each tendon turns on its way over eyelets and surfaces [rad], of the model in the
+/// measured postures, as variables "<muscle>/wrap_angle". Of muscles where it changes; none if a
+/// joint was not measured.
+std::vector<MeasuredVariable> wrap_angles(const Evaluator& evaluator,
+                                          const std::vector<Dataset>& recordings,
+                                          const Experiments& experiments, const Variant& variant);
+
+}  // namespace discovery
+}  // namespace anthrob
