@@ -134,6 +134,57 @@ TEST_F(Score, SizesOfSeveralUnitsAreEachMeasuredByTheirOwn) {
   EXPECT_NEAR(rate(score(), "parameter error [%]", "median"), 10.0, 1e-9);  // of 0 and 20
 }
 
+TEST_F(Score, WhatWouldShowIsComparedWithTheSizeOfItsUnit) {
+  const auto drift = [](double rate, double missed) {
+    return List{{{"id", "encoder_drift"},
+                 {"place", "brachialis"},
+                 {"parameters", {{"rate", rate}, {"missed", missed}}},
+                 {"sizes", {"rate", "missed"}}}};
+  };
+  const List shows = {{{"id", "encoder_drift"},
+                       {"place", "brachialis"},
+                       {"smallest_visible", 0.004},
+                       {"unit", "1"}}};
+  truth("little_missed", "effect", drift(0.0, 0.003));
+  truth("much_missed", "effect", drift(0.0, 0.005));
+  truth("of_the_other", "effect", drift(0.003, 0.0));  // [rad/s]
+  for (const char* name : {"little_missed", "much_missed", "of_the_other"}) {
+    report(name, "no_missing_effect", {}, {}, shows);
+  }
+  const Json result = score();
+  EXPECT_EQ(result["effect"]["said_invisible"], 1);
+  EXPECT_EQ(rate(result, "correct", "count"), 2.0);
+  EXPECT_EQ(rate(result, "of all, invisible too", "count"), 3.0);
+}
+
+TEST_F(Score, AMedianHasAnInterval) {
+  for (int i = 0; i < 20; ++i) {
+    const std::string name = "case_" + std::to_string(i);
+    truth(name, "effect", {hidden("eyelet_friction", "brachialis", 0.1)});
+    report(name, "effects_found",
+           {named("eyelet_friction", "brachialis", 0.1 + 0.001 * (i + 1), 0.0, 1.0)});
+  }
+  const Json result = score();
+  for (const Json& row : result["rates"]) {
+    if (row["label"] != "parameter error [%]") continue;
+    // Errors of 1, 2 ... 20 %: the 6th and the 15th, as tables of the sign test have them.
+    EXPECT_NEAR(row["interval"][0].get<double>(), 6.0, 1e-9);
+    EXPECT_NEAR(row["interval"][1].get<double>(), 15.0, 1e-9);
+    return;
+  }
+  FAIL() << "no row";
+}
+
+TEST_F(Score, ASizeThatIsNotToldIsMissed) {
+  truth("silent", "effect", {hidden("eyelet_friction", "brachialis", 0.1)});
+  report("silent", "effects_found",
+         {Json{{"id", "eyelet_friction"}, {"place", "brachialis"}, {"parameters", nullptr}}});
+  const Json result = score();
+  EXPECT_EQ(rate(result, "covered by ci95", "hits"), 0.0);
+  EXPECT_EQ(rate(result, "covered by ci95", "count"), 1.0);
+  EXPECT_NEAR(rate(result, "parameter error [%]", "median"), 100.0, 1e-9);
+}
+
 TEST_F(Score, OneLawInsteadOfTwoIsInTheClassOfBoth) {
   const auto alone = [](double probability, const std::string& place) {
     return List{{{"id", "joint_coulomb_asymmetric"},
@@ -176,10 +227,22 @@ TEST_F(Score, OfPairsEachByAnAnswerOfItsOwn) {
   };
   report("one_unseen", "effects_found", {first}, {}, seen_from(0.2));
   report("one_overlooked", "effects_found", {first}, {}, seen_from(0.05));
+  // Who names a third one instead is not excused.
+  truth("another", "pair", two);
+  report("another", "effects_found", {first, named("payload", "forearm", 0.1, 0.0, 1.0)}, {},
+         seen_from(0.2));
+  // The first name could stand for either of them, the second for one only.
+  truth("class_first", "pair", two);
+  report("class_first", "effects_found", {either, first});
+  truth("and_more", "pair", two);
+  report("and_more", "effects_found", {first, second, named("payload", "forearm", 0.1, 0.0, 1.0)});
   const Json result = score();
-  EXPECT_EQ(result["pair"]["both"], 1);
-  EXPECT_EQ(result["pair"]["cases"], 4);
+  EXPECT_EQ(result["pair"]["both"], 3);
+  EXPECT_EQ(result["pair"]["alone"], 2);
+  EXPECT_EQ(result["pair"]["cases"], 7);
   EXPECT_EQ(result["pair"]["said_invisible"], 1);
+  EXPECT_EQ(rate(result, "one inside a class", "hits"), 1.0);
+  EXPECT_EQ(rate(result, "a false one certainly", "hits"), 3.0);  // the misplaced one, too
 }
 
 TEST_F(Score, OfWrappedMusclesNullsAndOutsiders) {
@@ -203,7 +266,11 @@ TEST_F(Score, OfWrappedMusclesNullsAndOutsiders) {
   unlikely["probability"] = 0.3;
   // However likely the first name is: none may be wrong with confidence.
   report("gusts", "effects_found", {unlikely, named("joint_coulomb", "elbow", 1.0, 0.0, 2.0)});
+  truth("crash", "outside", {hidden("gusts", "shoulder", 1.0)});
+  failed("crash");
   const Json result = score();
+  EXPECT_EQ(result["missing"], Json::array({"crash"}));
+  EXPECT_EQ(result["outside"]["cases"], 1);  // what gave no report was not wrong, nor was it right
   EXPECT_EQ(result["wrapped"]["right"], 1);
   EXPECT_NEAR(rate(result, "its radius [%]", "median"), 10.0, 1e-9);
   EXPECT_EQ(result["null"]["false"], 1);
@@ -228,11 +295,13 @@ TEST_F(Score, OfChannelsThatGetWorseAndOfNamesTooMany) {
   truth("unnamed", "effect", rubbing);
   report("unnamed", "unexplained", {}, {}, {}, force(1.1, 1.1));
   const Json result = score();
-  EXPECT_EQ(rate(result, "a channel worse", "hits"), 2.0);
-  EXPECT_EQ(rate(result, "a channel worse", "count"), 3.0);
-  EXPECT_EQ(rate(result, "and above its floor", "hits"), 1.0);
+  // Also of what is named where nothing is hidden.
+  EXPECT_EQ(rate(result, "a channel worse", "hits"), 3.0);
+  EXPECT_EQ(rate(result, "a channel worse", "count"), 4.0);
+  EXPECT_EQ(rate(result, "and above its floor", "hits"), 2.0);
   EXPECT_EQ(rate(result, "more named than hidden", "hits"), 1.0);
   EXPECT_EQ(rate(result, "more named than hidden", "count"), 4.0);
+  EXPECT_EQ(rate(result, "a false one certainly", "hits"), 1.0);
 }
 
 TEST_F(Score, OfTheGapThatIsLeftWhateverWasAnswered) {

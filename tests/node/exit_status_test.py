@@ -85,6 +85,14 @@ class ExitStatus(unittest.TestCase):
             said = self.refused(program('anthrob_virtual_robot', 'anthrob_blind_case'), '--model', nowhere,
                                 '--out', folder + '/out', '--truth', folder + '/truth.json')
             self.assertIn(nowhere, said)
+            for out, truth in ((folder + '/out/', folder + '/out/truth.json'), (folder + '/out', folder + '/x/../out/t.json')):
+                said = self.refused(program('anthrob_virtual_robot', 'anthrob_blind_case'), '--model', nowhere,
+                                    '--out', out, '--truth', truth)
+                self.assertIn('expected outside --out', said)
+            os.makedirs(folder + '/out/train_1')
+            said = self.refused(program('anthrob_virtual_robot', 'anthrob_blind_case'), '--model', nowhere,
+                                '--out', folder + '/out', '--truth', folder + '/truth.json')
+            self.assertIn('holds train_1', said)
             os.makedirs(folder + '/truths')
             os.makedirs(folder + '/reports/a')
             for file in '/truths/a.json', '/reports/a/report.json':

@@ -19,8 +19,7 @@ enum Stream : std::uint64_t {
   kNuisance,
   kTrain,
   kTest,
-  kNoise,
-  kVariant
+  kVariant = 7  // of robots that are in published studies
 };
 
 /// Of an effect that a calibration may partly correct at least half is left.

@@ -133,7 +133,6 @@ void write_dataset(const Recording& recording, const std::vector<std::string>& m
   out << "robot: anthrob\nkind: " << meta.kind
       << "\nrate: 200\nstart: {reference: first, settle_s: " << meta.settle << "}\n";
   if (!meta.sensors.empty()) out << "sensors:\n" << meta.sensors;
-  if (!meta.notes.empty()) out << "notes: " << meta.notes << "\n";
   out.close();
   if (!out) throw std::runtime_error((path / "meta.yaml").string() + ": cannot be written");
 }

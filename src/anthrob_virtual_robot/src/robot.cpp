@@ -24,6 +24,7 @@ void Robot::place(const std::vector<double>& positions) {
   arm_.place(Eigen::Quaterniond::Identity(), 0.0, positions);
   references_ = positions;
   voltages_.assign(positions.size(), 0.0);
+  for (const auto& law : reading_laws_) law->start();
   read();
 }
 

@@ -215,6 +215,28 @@ TEST(GearBacklash, FreeSpindleCarriesNothingAndTheOtherFlankTakesItAlong) {
   EXPECT_EQ(law->leverage(0.0), 0.0);
 }
 
+TEST(EncoderDrift, LosesWholeCountsWithTheWayFromWhereTheRobotWasPut) {
+  Draft draft;
+  draft.arm = model_I();
+  const std::size_t muscle = draft.muscle(kMuscle);
+  const Hidden lost{"encoder_drift", kMuscle, {{"rate", 0.0}, {"missed", 0.05}}};
+  build_in(lost, &draft);
+  const auto law = draft.reading_laws.back();
+  const auto read = [&](double position) {
+    Readings readings;
+    readings.muscles.resize(draft.arm.muscles.size());
+    readings.muscles[muscle].position = position;
+    law->apply(&readings);
+    return readings.muscles[muscle].position;
+  };
+  EXPECT_EQ(read(0.0), 0.0);
+  law->start();  // put elsewhere: that is no way
+  EXPECT_EQ(read(2.0), 2.0);
+  // There and back again by 0.5 rad: a twentieth of 1 rad, in counts of 0.0061 rad.
+  EXPECT_NEAR(read(2.5), 2.5 - 4.0 * 0.0061, 1e-12);
+  EXPECT_NEAR(read(2.0), 2.0 - 8.0 * 0.0061, 1e-12);
+}
+
 TEST(WindingHeating, SettlesAtThePowerTimesTheResistance) {
   const auto law = muscle_law({"winding_heating",
                                kMuscle,

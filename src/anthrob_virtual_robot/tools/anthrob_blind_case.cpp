@@ -38,14 +38,30 @@ std::pair<std::string, std::string> law_and_place(const std::string& text) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
+/// One way to write it, whether it exists or not.
+std::filesystem::path whole(const std::string& path) {
+  const auto all = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  return all.has_filename() ? all : all.parent_path();
+}
+
 /// The truth must not lie where discovery looks.
 void refuse_inside(const std::string& truth, const std::string& out) {
-  const auto folder = std::filesystem::weakly_canonical(out);
-  auto file = std::filesystem::weakly_canonical(truth);
+  const auto folder = whole(out);
+  auto file = whole(truth);
   while (file.has_relative_path()) {
     if (file == folder)
       throw std::invalid_argument("--truth " + truth + ": expected outside --out");
     file = file.parent_path();
+  }
+}
+
+/// Recordings of another robot would be taken for this one's.
+void refuse_recordings(const std::string& out) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(out, none)) {
+    if (!entry.is_directory()) continue;
+    throw std::invalid_argument("--out " + out + ": holds " + entry.path().filename().string() +
+                                "; expected a new or an empty folder");
   }
 }
 
@@ -72,6 +88,7 @@ int main(int argc, char** argv) {
       throw std::invalid_argument("expected --model, --out and --truth");
     }
     refuse_inside(truth, out);
+    refuse_recordings(out);
     const auto model_file = std::filesystem::weakly_canonical(model);
     const auto believed = load_arm(model_file.string());
     CaseSettings settings = CaseSettings::load(

@@ -26,6 +26,8 @@ struct Readings {
 class ReadingLaw {
  public:
   virtual ~ReadingLaw() = default;
+  /// The robot is put somewhere: what was read before does not count.
+  virtual void start() {}
   virtual void apply(Readings* readings) = 0;
 };
 

@@ -39,7 +39,6 @@ struct Meta {
   std::string kind = "trajectory";
   double settle = 8.0;
   std::string sensors;  ///< YAML, indented by two
-  std::string notes;
   bool has_elbow = true;
 };
 

@@ -8,6 +8,10 @@ class LostCounts final : public ReadingLaw {
  public:
   LostCounts(std::size_t muscle, double rate, double missed)
       : muscle_(muscle), rate_(rate), missed_(missed) {}
+  void start() override {
+    travelled_ = 0.0;
+    placed_ = false;
+  }
   void apply(Readings* readings) override {
     double& position = readings->muscles[muscle_].position;
     if (placed_) travelled_ += std::abs(position - last_);

@@ -62,7 +62,6 @@ inline double ring_stiffness(const reference::RingParameters& ring) {
          ring.modulus / ring.rest_length;
 }
 
-/// 0 is the shoulder's three axes, 3 the elbow.
 inline bool is_shoulder(const std::string& place) {
   return place == "shoulder";
 }

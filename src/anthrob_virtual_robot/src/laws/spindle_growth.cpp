@@ -18,7 +18,7 @@ class Layers final : public reference::MuscleLaw {
   }
 
  private:
-  // 0: a steady growth, 1: flat in the middle of a turn. Many muscles use a part of a turn only.
+  // 0: a steady growth, 1: flat where a turn is full. Many muscles use a part of a turn only.
   static constexpr double kStep = 0.2;
   double growth_;
 };

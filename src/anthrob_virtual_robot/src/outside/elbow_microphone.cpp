@@ -3,7 +3,7 @@
 namespace anthrob::virtual_robot {
 namespace {
 
-/// A strain gauge that feels the elbow's acceleration through its wires: its speed, by difference.
+/// A strain gauge that feels the elbow move through its wires: its speed, by difference.
 class Microphone final : public ReadingLaw {
  public:
   Microphone(std::size_t muscle, double gain) : muscle_(muscle), gain_(gain) {}
@@ -27,7 +27,7 @@ class Microphone final : public ReadingLaw {
 HiddenLaw elbow_microphone() {
   HiddenLaw law;
   law.id = "elbow_microphone";
-  law.law = "force reading of a shoulder muscle that follows the elbow's speed";
+  law.law = "force reading that follows the elbow's speed";
   law.sizes = {"gain"};
   law.most = 10.0;
   law.places = muscle_places;
