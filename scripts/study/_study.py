@@ -64,6 +64,11 @@ def start(main):
     except KeyboardInterrupt:
         say("interrupted; the same command goes on where it was")
         sys.exit(INTERRUPTED)
+    except BrokenPipeError:
+        # `--list | head`: nobody reads on. Without another place to go the interpreter complains when it ends.
+        for stream in (sys.stdout, sys.stderr):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        sys.exit(1)
 
 
 def load(file):

@@ -31,6 +31,7 @@ COUNTS = {"null": 60, "pair": 12, "wrapped": 1}
 KINDS = ["effect", "null", "pair", "outside", "wrapped"]
 MOST_EFFECTS = {"wrapped": 12}
 DOCUMENTS = "docs/studies"
+DRAWN = ["kind", "effects", "change", "slow", "stated_noise", "noise_memory"]  # of a truth, what tells what was asked
 TOLD = ["id", "place", "probability", "parameters", "rivals"]  # of a named effect, what scoring needs
 
 
@@ -69,17 +70,21 @@ class Case:
     def done(self):
         return os.path.exists(f"{self.report}/study.json")
 
+    def failed(self):
+        """Ended without a report the last time: a wrong answer, until it is done again."""
+        return not self.done() and os.path.exists(f"{self.report}/failed")
+
     def state(self):
-        return "done" if self.done() else "begun" if os.path.exists(self.truth) else ""
+        return "done" if self.done() else "failed" if self.failed() else "begun" if os.path.exists(self.truth) else ""
 
     def make(self):
-        """The truth is written last; of a case that was done only the model is left."""
+        """Whether there is such a robot. The truth is written last; of a case that was done only the model is left."""
         if os.path.exists(self.truth) and os.path.exists(f"{self.data}/test_0"):
-            return
+            return True
         shutil.rmtree(self.data, ignore_errors=True)
-        must([MAKER, "--kind", self.kind, "--case", str(self.number), "--seed",
-              str(self.options.seed), "--model", MODEL, "--out", self.data, "--truth", self.truth],
-             self.log)
+        made = run([MAKER, "--kind", self.kind, "--case", str(self.number), "--seed",
+                    str(self.options.seed), "--model", MODEL, "--out", self.data, "--truth", self.truth], self.log)
+        return made == 0
 
     def examine(self):
         command = [DISCOVER, "--model", f"{self.data}/model.yaml",
@@ -108,7 +113,9 @@ class Case:
     def carry_out(self):
         os.makedirs(os.path.dirname(self.log), exist_ok=True)
         begin, asked = time.time(), commit()
-        self.make()
+        if not self.make():
+            say(f"{self.name} could not be made: see {self.log}")
+            return
         made = time.time()
         failed = f"{self.report}/failed"
         if self.examine() != 0:
@@ -129,9 +136,13 @@ class Case:
 
     def published(self):
         """Truth, answer and circumstances, as far as scoring needs them; None before there is an answer."""
-        if not self.done():
+        if not self.done() and not self.failed():
             return None
-        truth, report = load(self.truth), load(f"{self.report}/report.json")
+        truth = load(self.truth)
+        drawn = {key: truth[key] for key in DRAWN if key in truth}
+        if self.failed():
+            return rounded({"truth": drawn, "failed": True})
+        report = load(f"{self.report}/report.json")
         hidden = {(one["id"], one["place"].split("/")[0]) for one in truth["effects"]}
         answer = {key: report.get(key) for key in ("verdict", "runtime_s", "gap")}
         if report.get("alternatives"):
@@ -140,15 +151,19 @@ class Case:
         for key in "visible", "not_visible":
             answer[key] = [one for one in report.get(key) or []
                            if (one["id"], (one.get("place") or "").split("/")[0]) in hidden]
-        truth = {key: truth.get(key) for key in ("kind", "effects", "change")}
-        return rounded({"truth": truth, "report": answer, "facts": self.facts()})
+        return rounded({"truth": drawn, "report": answer, "facts": self.facts()})
 
     def adopt(self, published):
-        """Takes an answer from elsewhere for its own."""
-        for file, content in ((self.truth, published["truth"]), (f"{self.report}/report.json", published["report"]),
-                              (f"{self.report}/study.json", published["facts"])):
+        """Takes an answer from elsewhere for its own, or that there was none."""
+        files = {self.truth: published["truth"]}
+        if published.get("failed"):
+            files[f"{self.report}/failed"] = ""
+        else:
+            files[f"{self.report}/report.json"] = published["report"]
+            files[f"{self.report}/study.json"] = published["facts"]
+        for file, content in files.items():
             os.makedirs(os.path.dirname(file), exist_ok=True)
-            write(file, as_json(content))
+            write(file, content and as_json(content))
 
 
 def rounded(value):
@@ -215,8 +230,9 @@ def score(options):
 def facts_of(cases, options):
     done = [case.facts() for case in cases if case.done()]
     minutes = [facts["discovery_s"] / 60 for facts in done]
+    failed = sum(case.failed() for case in cases)
     return {
-        "cases": f"{len(done)} of {len(cases)}",
+        "cases": f"{len(done)} of {len(cases)}" + (f", and {failed} that gave no report" if failed else ""),
         "commit": several(facts["commit"] for facts in done),
         "seed": options.seed,
         "machine": several(facts["machine"] for facts in done),
@@ -289,14 +305,14 @@ def summarise(cases, options):
 def publish(cases, options):
     """A line a case, so that a reader sees what is new."""
     lines = [f"{json.dumps(case.name)}: {json.dumps(case.published())}"
-             for case in sorted(cases, key=lambda case: case.name) if case.done()]
+             for case in sorted(cases, key=lambda case: case.name) if case.done() or case.failed()]
     write(published_file(options), "{\n" + ",\n".join(lines) + "\n}\n")
 
 
 def adopt(cases, options):
     published = load_published(published_file(options))
     for case in cases:
-        if case.name in published and not case.done():
+        if case.name in published and not case.done() and not case.failed():
             case.adopt(published[case.name])
 
 

@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -218,6 +219,17 @@ class DiscoveryStudy(Study):
         self.study('--case', 'null_00')
         self.assertTrue(os.path.exists('out/discovery.json'))
 
+    def test_a_robot_that_cannot_be_made_ends_nobody_else(self):
+        maker = os.path.join(self.folder, 'maker_of_some')
+        self.program('maker_of_some', '#!/bin/sh\n[ "$2 $4" = "null 0" ] && exit 1\n' + MAKER.split('\n', 1)[1])
+        with mock.patch.object(discovery, 'MAKER', maker), self.assertRaises(SystemExit) as ended:
+            self.study('--case', 'null_00', 'effect_01')
+        self.assertIn('without a report: null_00', str(ended.exception.code))
+        with open('out/discovery.json') as file:
+            result = json.load(file)
+        self.assertEqual([case['name'] for case in result['cases']], ['effect_01'])
+        self.assertEqual(result['missing'], [])  # it was not asked
+
     def test_a_case_without_a_report_counts_as_missing(self):
         self.study('--case', 'null_00')
         with open('status', 'w') as file:
@@ -227,6 +239,14 @@ class DiscoveryStudy(Study):
         with open('out/discovery.json') as file:
             self.assertEqual(json.load(file)['missing'], ['effect_01'])
         self.assertIn('| correct | 0/1 = 0 %', self.told())
+        self.assertIn('- cases: 1 of ', self.told())
+        self.assertIn(', and 1 that gave no report', self.told())
+        # Another host takes that over, too.
+        shutil.rmtree('out')
+        self.study('--adopt', '--summary')
+        with open('out/discovery.json') as file:
+            self.assertEqual(json.load(file)['missing'], ['effect_01'])
+        self.assertIn(', and 1 that gave no report', self.told())
 
     def test_times_are_of_all_runs_of_a_case(self):
         with open('status', 'w') as file:
@@ -247,6 +267,19 @@ class DiscoveryStudy(Study):
             with self.assertRaises(SystemExit) as ended:
                 self.study(*arguments)
             self.assertEqual(ended.exception.code, 2, arguments)
+
+
+class Pipes(unittest.TestCase):
+
+    def test_a_reader_that_has_seen_enough(self):
+        prints = 'import _study; _study.start(lambda: print("case\\n" * 100000, flush=True))'
+        study = subprocess.Popen([sys.executable, '-c', prints], cwd=os.path.join(TOP, 'scripts', 'study'),
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(study.stdout.readline(), 'case\n')
+        study.stdout.close()
+        self.assertEqual(study.stderr.read(), '')
+        study.stderr.close()
+        self.assertEqual(study.wait(30), 1)
 
 
 if __name__ == '__main__':
