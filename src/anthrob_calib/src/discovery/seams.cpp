@@ -12,7 +12,8 @@ namespace discovery {
 
 namespace {
 
-using Gaps = std::map<std::string, double>;  ///< by channel; empty: there is nothing to be fed
+using ChannelGaps =
+    std::map<std::string, double>;  ///< by channel; empty: there is nothing to be fed
 
 /// What one model leaves of recordings that are fed at one seam.
 class Fed {
@@ -20,7 +21,7 @@ class Fed {
   Fed(const Evaluator& evaluator, const Scales& scales, const Variant& variant, double bin)
       : evaluator_(evaluator), scales_(scales), variant_(variant), bin_(bin) {}
 
-  Gaps gaps(const std::vector<Dataset>& recordings, ReplayMode mode) const {
+  ChannelGaps gaps(const std::vector<Dataset>& recordings, ReplayMode mode) const {
     try {
       const Experiments experiments = make(recordings, mode);
       const Eigen::VectorXf factors = whitener(experiments, scales_, false);
@@ -33,7 +34,7 @@ class Fed {
   }
 
   /// With measured postures imposed, less what their noise does.
-  Gaps gaps_of_postures(const std::vector<Dataset>& recordings, std::uint64_t seed) const {
+  ChannelGaps gaps_of_postures(const std::vector<Dataset>& recordings, std::uint64_t seed) const {
     const RobotModel& robot = *evaluator_.model();
     try {
       std::vector<Dataset> smooth, noisier;
@@ -48,8 +49,8 @@ class Fed {
                             other = residual(make(noisier, ReplayMode::kPosture), factors);
       if (left.size() == 0 || other.size() == 0) return {};
       const Judge judge(experiments, factors, {});
-      const Gaps noise = judge.channel_gaps(other - left);
-      Gaps gaps = judge.channel_gaps(left);
+      const ChannelGaps noise = judge.channel_gaps(other - left);
+      ChannelGaps gaps = judge.channel_gaps(left);
       for (auto& [name, gap] : gaps) {
         gap = std::sqrt(std::max(0.0, gap * gap - noise.at(name) * noise.at(name)));
       }
@@ -101,16 +102,16 @@ std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Question& quest
                                const Variant& variant) {
   if (evaluator.model()->muscles.empty()) return {};
   const Fed fed(evaluator, scales, variant, laboratory.train.front()->bin());
-  const Gaps commands = fed.gaps(question.train, ReplayMode::kReference),
-             voltages = fed.gaps(question.train, ReplayMode::kVoltage),
-             positions = fed.gaps(question.train, ReplayMode::kPosition),
-             postures = fed.gaps_of_postures(question.train, question.seed);
+  const ChannelGaps commands = fed.gaps(question.train, ReplayMode::kReference),
+                    voltages = fed.gaps(question.train, ReplayMode::kVoltage),
+                    positions = fed.gaps(question.train, ReplayMode::kPosition),
+                    postures = fed.gaps_of_postures(question.train, question.seed);
   std::vector<SeamGap> seams;
   for (const auto& [name, scale] : scales) {
     const std::size_t slash = name.rfind('/');
     SeamGap gap{name.substr(0, slash), name.substr(slash + 1)};
     gap.of_joint = evaluator.model()->skeleton->find_joint(gap.place) >= 0;
-    const auto value = [&](const Gaps& gaps) {
+    const auto value = [&](const ChannelGaps& gaps) {
       const auto found = gaps.find(name);
       return found == gaps.end() ? -1.0 : found->second;
     };
