@@ -77,21 +77,6 @@ TEST(CorrelationLength, OfWhiteAndOfColouredNoise) {
   EXPECT_NEAR(correlation_length(coloured), 19.0, 5.0);  // (1 + a) / (1 - a)
 }
 
-TEST(ResolutionOf, IsOneCountOfASensorAndNothingOfContinuousValues) {
-  const CounterRandom random(6, 1);
-  std::vector<double> counts, printed, fine;
-  for (std::uint64_t i = 0; i < 4000; ++i) {
-    const double value = 0.5 * std::sin(0.01 * static_cast<double>(i)) + 0.002 * random.normal(i);
-    counts.push_back(0.0061 * std::round(value / 0.0061));
-    printed.push_back(1e-6 * std::round(1e6 * counts.back() * M_PI));
-    fine.push_back(value);
-  }
-  EXPECT_NEAR(resolution_of(counts), 0.0061, 1e-9);
-  EXPECT_NEAR(resolution_of(printed), 0.0061 * M_PI, 2e-6);
-  EXPECT_EQ(resolution_of(fine), 0.0);
-  EXPECT_EQ(resolution_of(std::vector<double>(100, 1.0)), 0.0);
-}
-
 TEST(ModelProbabilities, FollowTheScoresAndTheHandicap) {
   Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(3, 20);
   scores.row(1).setConstant(1.0);

@@ -351,14 +351,6 @@ TEST(Preparation, RefusesRepeatsOfWhatIsDrivenOtherwise) {
   EXPECT_NE(refusal(question).find("/position"), std::string::npos) << refusal(question);
 }
 
-TEST(Resolution, OfSensorsThatHardlyMoved) {
-  std::vector<double> two(100, 0.5);
-  std::fill_n(two.begin(), 30, 0.4);
-  EXPECT_NEAR(resolution_of(two), 0.1, 1e-12);
-  EXPECT_EQ(resolution_of(std::vector<double>(100, 0.5)), 0.0);
-  EXPECT_EQ(resolution_of({0.5, 0.4}), 0.0);
-}
-
 TEST(MeasureScales, CountsOfAnEncoderReachTheVoltagesOfItsController) {
   const Arm arm;
   const auto round_motors = [&](Dataset data, const std::string& quantity, double count) {

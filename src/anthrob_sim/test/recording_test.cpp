@@ -166,6 +166,57 @@ TEST(Replay, StartsWhereARobotStandsThatNobodyCommandsYet) {
   EXPECT_LT(session.replay_error(), 0.05);
 }
 
+TEST(Replay, StartsInTheStandThatTheMotorWasMeasuredIn) {
+  // Cogging lets it stand in many places beside its reference: here left of it, in the replay's own
+  // settling right of it.
+  LoadOptions options;
+  options.effects = {{"cogging", "flexor", {{"sine", 3e-3}}}};
+  const auto model = load_robot_model(config("two_muscle_rig/model_I.yaml"), options);
+  Simulation recorded(model);
+  recorded.command(0, ecu::Mode::kPosition, 0.5);
+  for (int i = 0; i < 1000; ++i) {
+    recorded.impose_position(0, 0.58, 0.0);
+    recorded.step();
+  }
+  recorded.release(0);
+  recorded.step(2000);
+  const double stand = recorded.reading(0).position;
+  constexpr double kCount = 1e-3;
+  Dataset recording;
+  recording.meta.settle_s = 2.0;
+  Table& commands = recording.table("commands");
+  commands.t = {0};
+  commands.columns = {{"flexor/reference", {0.5}, {1}}};
+  Table& muscles = recording.table("muscles");
+  Column position{"flexor/position", {}, {}};
+  for (int i = 0; i < 300; ++i) {
+    muscles.t.push_back(Nanoseconds{1000000} * i);
+    position.values.push_back(kCount * std::round(recorded.reading(0).position / kCount));
+    position.present.push_back(1);
+    if (i > 200) position.values.back() += kCount * (i % 7);  // so that counts are seen
+    recorded.step();
+  }
+  muscles.columns = {position};
+  const Replay input(model, recording, ReplayMode::kReference);
+  Simulation sim(model);
+  input.start(sim);
+  ASSERT_GT(std::abs(sim.reading(0).position - stand), 5.0 * kCount);
+  input.stand_where_measured(sim);
+  EXPECT_LT(std::abs(sim.reading(0).position - stand), 1.6 * kCount);
+  sim.step(500);  // and there it stays
+  EXPECT_LT(std::abs(sim.reading(0).position - stand), 1.6 * kCount);
+  // Where it stands within a count nothing is done; nor where meta.yaml says where it began.
+  const double time = sim.time();
+  input.stand_where_measured(sim);
+  EXPECT_EQ(sim.time(), time);
+  recording.meta.start = "zero";
+  const Replay at_zero(model, recording, ReplayMode::kReference);
+  at_zero.start(sim);
+  const double zero = sim.time();
+  at_zero.stand_where_measured(sim);
+  EXPECT_EQ(sim.time(), zero);
+}
+
 TEST(Replay, StartsWithoutAJerkThatASpringRemembers) {
   LoadOptions options;
   options.effects = {{"see_mullins", "flexor", {{"softening", 0.5}}}};

@@ -8,6 +8,7 @@
 #include "anthrob_calib/discovery/cut_off_noise.h"
 #include "anthrob_calib/discovery/noise_floor.h"
 #include "anthrob_calib/resume/fingerprint.h"
+#include "anthrob_sim/recording/resolution.h"
 
 namespace anthrob {
 namespace discovery {
@@ -224,6 +225,7 @@ void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, St
   } else {
     sim.restore(start->second);
   }
+  input_.stand_where_measured(sim);
   Replay::Run run(input_, sim);
   for (const Sampling& sampling : samplings_) {
     for (const Reader& reader : sampling.readers) {

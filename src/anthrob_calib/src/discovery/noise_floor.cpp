@@ -10,8 +10,6 @@ namespace discovery {
 
 namespace {
 
-constexpr double kMostCounts = 1e5;  ///< finer sensors have no steps to speak of
-
 /// Sums of squares of a channel, over its components and experiments.
 struct Moments {
   double squares = 0.0;
@@ -123,22 +121,6 @@ double white_noise(const Eigen::VectorXf& series) {
 
 double ChannelScale::sigma() const {
   return std::hypot(floor, numerics, counts);
-}
-
-double resolution_of(std::vector<double> values) {
-  const std::size_t count = values.size();
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  // Values of a fine sensor, and of none, hardly ever repeat. Two that do are neighbours.
-  if (values.size() < 2 || values.size() > count / 2) return 0.0;
-  double step = values[1] - values[0];
-  for (std::size_t i = 1; i < values.size(); ++i) step = std::min(step, values[i] - values[i - 1]);
-  if (values.back() - values.front() > kMostCounts * step) return 0.0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const double steps = (values[i] - values[i - 1]) / step;
-    if (std::abs(steps - std::round(steps)) > 0.05 * steps) return 0.0;
-  }
-  return step;
 }
 
 double correlation_length(const Eigen::VectorXf& series) {

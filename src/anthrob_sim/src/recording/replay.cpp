@@ -8,6 +8,7 @@
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/followed_commands.h"
 #include "anthrob_sim/recording/quantities.h"
+#include "anthrob_sim/recording/resolution.h"
 #include "anthrob_sim/recording/table_sampler.h"
 #include "anthrob_sim/skeleton/posture.h"
 
@@ -48,7 +49,9 @@ Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording
                       std::move(told.reference),
                       recording.series(name + "/voltage"),
                       recording.series(name + "/position"),
-                      recording.series(name + "/ecu_state")};
+                      recording.series(name + "/ecu_state"),
+                      0.0};
+    input.count = resolution_of(input.position.values);
     any = any || !(mode == ReplayMode::kReference ? input.reference
                    : mode == ReplayMode::kVoltage ? input.voltage
                                                   : input.position)
@@ -248,6 +251,38 @@ void Replay::start(Simulation& sim) const {
   for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
 }
 
+void Replay::stand_where_measured(Simulation& sim) const {
+  constexpr double kNegligible = 1e-4;  // [rad]
+  constexpr double kHeld = 1.0;         // [s]
+  if (mode_ == ReplayMode::kPosture || meta_.start != "first") return;
+  struct Way {
+    int muscle;
+    double from, to;
+  };
+  std::vector<Way> ways;
+  for (const MuscleInput& muscle : muscles_) {
+    if (muscle.position.empty()) continue;
+    const StartInput input = start_input(muscle);
+    const double measured = muscle.position.values.front(),
+                 reading = sim.reading(muscle.muscle).position;
+    const bool stands = !input.imposed && input.mode == ecu::Mode::kPosition;
+    if (!stands || !std::isfinite(measured)) continue;
+    const double there = std::clamp(reading, measured - muscle.count, measured + muscle.count);
+    if (std::abs(there - reading) > kNegligible) ways.push_back({muscle.muscle, reading, there});
+  }
+  if (ways.empty()) return;
+  const auto steps = std::lround(kHeld / sim.step_length());
+  for (long i = 0; i < steps; ++i) {
+    for (const Way& way : ways) {
+      const double length = way.to - way.from;
+      sim.impose_reading(way.muscle, way.from + share_of_way(i, steps) * length,
+                         way.from + share_of_way(i + 1, steps) * length);
+    }
+    sim.step();
+  }
+  for (const Way& way : ways) sim.release(way.muscle);
+}
+
 Replay::RecordedStart Replay::recorded_start() const {
   RecordedStart first{model_->skeleton->rest_configuration(), {}};
   posture_at(0.0, first.q);
@@ -422,6 +457,7 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
   try {
     Simulation sim(model);
     input.start(sim);
+    input.stand_where_measured(sim);
     Replay::Run run(input, sim);
     for (auto& sampler : samplers) sampler.sample(sim, 0.0);
     for (bool wanted = true; wanted && done < steps; ++done) {

@@ -44,9 +44,6 @@ Eigen::VectorXf whitener(const Experiments& experiments, const Scales& scales, b
 /// median is taken.
 double white_noise(const Eigen::VectorXf& series);
 
-/// One count of the sensor, if all values are whole multiples of a step; 0 if there is none.
-double resolution_of(std::vector<double> values);
-
 /// 1 + twice the sum of the autocorrelations of a series, up to where they vanish.
 double correlation_length(const Eigen::VectorXf& series);
 

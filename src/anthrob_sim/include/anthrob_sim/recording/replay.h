@@ -19,8 +19,8 @@ enum class ReplayMode {
   kPosture,    ///< these and recorded joint positions are: only tendons and springs are simulated
 };
 
-/// Feeds a recording's inputs to simulations of one robot, whose numbers may differ: start() and
-/// then a Run each. Inputs hold from their row to the next; imposed positions are interpolated.
+/// Feeds a recording's inputs to simulations of one robot, whose numbers may differ: start(),
+/// stand_where_measured() and then a Run each. Inputs hold from their row to the next; imposed positions are interpolated.
 /// Efforts and loads of hinges and prismatic joints are applied in every mode.
 class Replay {
  public:
@@ -35,6 +35,11 @@ class Replay {
   /// positions; of kPosture all is at its first recorded position, whatever meta.yaml says. The
   /// recording's time 0 is now.
   void start(Simulation& sim) const;
+  /// After start(), or after the state that it leads to was restored: leads motors under position
+  /// control to where they were measured first, and holds them there for a second. Of those only
+  /// that stand farther from it than a count of their encoders: dry friction and cogging let a
+  /// motor stand in many places, and by which way the recorded one came only its reading tells.
+  void stand_where_measured(Simulation& sim) const;
   /// What start() depends on beside the model: recordings with equal ones start in equal states.
   std::vector<double> start_inputs() const;
 
@@ -49,6 +54,7 @@ class Replay {
     int muscle;
     Series mode, reference;  ///< as its unit followed them
     Series voltage, position, ecu_state;
+    double count;  ///< of the encoder [rad]; 0: none to be seen
   };
   struct JointInput {
     int joint;
@@ -96,7 +102,7 @@ class Replay {
 
 class Replay::Run {
  public:
-  /// To be made after start(), or after the state that start() leads to was restored.
+  /// To be made after start() and stand_where_measured().
   /// @param replay must outlive this   @param sim likewise; nobody else gives it inputs
   Run(const Replay& replay, Simulation& sim);
 

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <vector>
+
+namespace anthrob {
+
+/// One count of the sensor that these values come from, in their unit: they all lie on a grid of
+/// that step. 0: none to be seen. Those that are not finite are left out.
+double resolution_of(std::vector<double> values);
+
+}  // namespace anthrob

@@ -1,0 +1,33 @@
+#include "anthrob_sim/recording/resolution.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anthrob {
+
+namespace {
+
+constexpr double kMostCounts = 1e5;  ///< finer sensors have no steps to speak of
+
+}  // namespace
+
+double resolution_of(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(),
+                              [](double value) { return !std::isfinite(value); }),
+               values.end());
+  const std::size_t count = values.size();
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  // Values of a fine sensor, and of none, hardly ever repeat. Two that do are neighbours.
+  if (values.size() < 2 || values.size() > count / 2) return 0.0;
+  double step = values[1] - values[0];
+  for (std::size_t i = 1; i < values.size(); ++i) step = std::min(step, values[i] - values[i - 1]);
+  if (values.back() - values.front() > kMostCounts * step) return 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double steps = (values[i] - values[i - 1]) / step;
+    if (std::abs(steps - std::round(steps)) > 0.05 * steps) return 0.0;
+  }
+  return step;
+}
+
+}  // namespace anthrob

@@ -1,0 +1,40 @@
+#include "anthrob_sim/recording/resolution.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "anthrob_sim/core/random.h"
+
+namespace anthrob {
+namespace {
+
+TEST(Resolution, IsOneCountOfASensorAndNothingOfContinuousValues) {
+  const CounterRandom random(6, 1);
+  std::vector<double> counts, printed, fine;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const double value = 0.5 * std::sin(0.01 * static_cast<double>(i)) + 0.002 * random.normal(i);
+    counts.push_back(0.0061 * std::round(value / 0.0061));
+    printed.push_back(1e-6 * std::round(1e6 * counts.back() * M_PI));
+    fine.push_back(value);
+  }
+  EXPECT_NEAR(resolution_of(counts), 0.0061, 1e-9);
+  EXPECT_NEAR(resolution_of(printed), 0.0061 * M_PI, 2e-6);
+  EXPECT_EQ(resolution_of(fine), 0.0);
+  EXPECT_EQ(resolution_of(std::vector<double>(100, 1.0)), 0.0);
+}
+
+TEST(Resolution, OfSensorsThatHardlyMoved) {
+  std::vector<double> two(100, 0.5);
+  std::fill_n(two.begin(), 30, 0.4);
+  EXPECT_NEAR(resolution_of(two), 0.1, 1e-12);
+  EXPECT_EQ(resolution_of(std::vector<double>(100, 0.5)), 0.0);
+  EXPECT_EQ(resolution_of({0.5, 0.4}), 0.0);
+  two[7] = NAN;  // not measured
+  EXPECT_NEAR(resolution_of(two), 0.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace anthrob
