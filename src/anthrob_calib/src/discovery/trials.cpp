@@ -48,6 +48,18 @@ std::vector<Amount> sizes_to_try(const Amount& suggested) {
 
 }  // namespace
 
+bool has_phase(const Candidate& candidate) {
+  const auto sizes = candidate.sizes();
+  return sizes.size() == 2 && std::all_of(sizes.begin(), sizes.end(), [](const auto* size) {
+           return size->bounds.lo < size->neutral && size->neutral < size->bounds.hi;
+         });
+}
+
+std::vector<Amount> other_phases(const Amount& amount) {
+  const double a = amount[0], b = amount[1];
+  return {{-b, a}, {-a, -b}, {b, -a}};
+}
+
 std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
                                        std::size_t of_a_kind, std::size_t most) {
   std::map<const Effect*, std::size_t> count;
@@ -131,8 +143,9 @@ std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& sc
   }
   trials = simulate(base, tried, std::move(trials));
 
-  // What does nothing up to a size begins somewhere between it and the dose.
-  std::vector<Trial> between;
+  // What does nothing up to a size begins somewhere between it and the dose; and where two sizes
+  // make up an amplitude and a phase, a small dose may suggest the wrong phase for a large one.
+  std::vector<Trial> more;
   const std::size_t sizes = tried.empty() ? 1 : trials.size() / tried.size();
   for (std::size_t i = 0; i < trials.size(); i += sizes) {
     const Trial &some = trials[i + kAsSuggested], &dose = trials[i + kTheDose];
@@ -143,11 +156,20 @@ std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& sc
       for (std::size_t k = 0; k < trial.amount.size(); ++k) {
         trial.amount[k] += way * (dose.amount[k] - some.amount[k]);
       }
-      between.push_back(std::move(trial));
+      more.push_back(std::move(trial));
     }
   }
-  if (!between.empty()) between = simulate(base, tried, std::move(between));
-  trials.insert(trials.end(), between.begin(), between.end());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    // Half of what is suggested tells nothing more of the phase.
+    if (i % sizes < kAsSuggested || !has_phase(candidates_[tried[trials[i].owner].candidate])) {
+      continue;
+    }
+    for (Amount& amount : other_phases(trials[i].amount)) {
+      more.push_back({trials[i].owner, std::move(amount)});
+    }
+  }
+  if (!more.empty()) more = simulate(base, tried, std::move(more));
+  trials.insert(trials.end(), more.begin(), more.end());
 
   std::vector<double> left(tried.size(), base.cost);
   for (const Trial& trial : trials) {
