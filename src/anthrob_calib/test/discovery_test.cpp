@@ -159,6 +159,23 @@ TEST(DrivenAxis, OffsetAndAsymmetricFrictionAreSaidToBeAlike) {
   EXPECT_NE(one.separating_experiment.find("drive off"), std::string::npos);
 }
 
+TEST(DrivenAxis, ALawThatSaysMoreIsNamedWhereTheSearchEndsWithASimplerOne) {
+  Question question = axis_question(20.4, -3.2);
+  question.max_effects = 1;
+  const Answer answer = ask(question);
+  ASSERT_EQ(answer.effects.size(), 1u) << summary(answer);
+  const FoundEffect& effect = answer.effects[0];
+  ASSERT_EQ(effect.id, "joint_coulomb_asymmetric") << summary(answer);
+  ASSERT_FALSE(effect.rivals.empty());
+  EXPECT_EQ(effect.rivals[0].id, "joint_coulomb");
+  EXPECT_GT(effect.probability, effect.rivals[0].probability);
+  const FoundParameter *forward = find_parameter(effect, "forward"),
+                       *backward = find_parameter(effect, "backward");
+  ASSERT_TRUE(forward && backward);
+  EXPECT_NEAR(forward->value, 20.4 - 3.2, 0.8);
+  EXPECT_NEAR(backward->value, 20.4 + 3.2, 0.8);
+}
+
 TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {
   const Answer answer = ask(axis_question(0.0, 0.0));
   EXPECT_EQ(answer.verdict, "no_missing_effect") << summary(answer);
@@ -481,7 +498,9 @@ TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {
   ASSERT_EQ(answer.verdict, "effects_found") << summary(answer);
   EXPECT_EQ(answer.effects[0].id, "joint_coulomb") << summary(answer);
   EXPECT_EQ(answer.effects[0].place, "elbow");
-  EXPECT_GT(answer.effects[0].probability, 0.9);
+  EXPECT_GT(answer.effects[0].probability, 0.7);  // less what its rough fit leaves
+  EXPECT_EQ(answer.effects[0].shows_in, "elbow/position");
+  EXPECT_LT(answer.effects[0].left, 0.02);
   EXPECT_LT(answer.test.after, 0.2 * answer.test.recalibrated) << summary(answer);
   const FoundParameter* torque = find_parameter(answer.effects[0], "torque");
   ASSERT_NE(torque, nullptr);

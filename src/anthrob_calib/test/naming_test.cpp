@@ -249,6 +249,21 @@ TEST(WithoutEffect, OthersStayAsTheyAre) {
   EXPECT_NEAR(reduced->residual[0], fitted.residual[0] - 0.3, 1e-5);
 }
 
+TEST(WithLastEffectAt, IsTheSameFitInAnotherOrder) {
+  const Problem problem(
+      [](double elbow, double shoulder, double) { return elbow + 10.0 * shoulder; });
+  const std::size_t elbow = problem.index("elbow"), shoulder = problem.index("shoulder");
+  const Fitted both = problem.with(problem.with(problem.fitted(0.2), elbow, 0.03), shoulder, 0.07);
+  const std::optional<Fitted> moved = with_last_effect_at(problem.train, both, 0);
+  ASSERT_TRUE(moved);
+  EXPECT_EQ(moved->variant.effects[0].place, "shoulder");
+  EXPECT_EQ(moved->variant.effects[1].place, "elbow");
+  EXPECT_NEAR(moved->cost, both.cost, 1e-9 * both.cost);
+  for (std::size_t i = 0; i < both.unknowns.size(); ++i) {
+    EXPECT_EQ(moved->unknowns[i].read(moved->variant), both.unknowns[i].read(both.variant)) << i;
+  }
+}
+
 TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
   const Problem problem([](double elbow, double, double) { return 30.0 * elbow; }, "elbow");
   const std::size_t elbow = problem.index("elbow");

@@ -32,26 +32,28 @@ TEST(Verdict, WithoutANameItIsTheGapThatDecides) {
   EXPECT_EQ(gap.verdict, "unexplained");
 }
 
-TEST(Verdict, ProbabilitiesEndWhereTheNamesDo) {
-  Answer none = named(0.9, 0.0), some = named(0.9, 0.25), half = named(0.9, 0.5),
-         most = named(0.9, 0.75);
-  for (Answer* answer : {&none, &some, &half, &most}) {
-    answer->effects[0].rivals.push_back({"gear_efficiency", "biceps_brachii", 0.2});
-    answer->alternatives.emplace_back().probability = 0.5;
-    pronounce({{"elbow/position", 2.0}}, true, *answer);
+TEST(Verdict, ALawThatLeavesMuchOfWhatItWasToExplainIsLessLikely) {
+  Answer answer = named(0.9, 0.0);
+  answer.effects.push_back(answer.effects[0]);
+  answer.effects[1].left = 0.05;  // the first leaves nothing
+  for (FoundEffect& effect : answer.effects) {
+    effect.rivals.push_back({"gear_efficiency", "biceps_brachii", 0.2});
   }
-  for (Answer* answer : {&none, &some}) {
-    EXPECT_DOUBLE_EQ(answer->effects[0].rivals[0].probability, answer == &none ? 0.2 : 0.1);
-    EXPECT_DOUBLE_EQ(answer->alternatives[0].probability, answer == &none ? 0.5 : 0.25);
-  }
-  EXPECT_DOUBLE_EQ(none.effects[0].probability, 0.9);
-  EXPECT_DOUBLE_EQ(some.effects[0].probability, 0.45);
-  EXPECT_DOUBLE_EQ(half.effects[0].probability, 0.0);
-  EXPECT_DOUBLE_EQ(most.effects[0].probability, 0.0);
-  EXPECT_EQ(some.verdict, "effects_found");
-  EXPECT_EQ(most.verdict, "unexplained");
-  // A name of which next to nothing is left is no answer.
-  EXPECT_EQ(half.verdict, "unexplained");
+  answer.alternatives.emplace_back().probability = 0.5;
+  answer.alternatives[0].instead_of[0] = 1;
+  pronounce({{"elbow/position", 1.2}}, false, answer);
+  EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9);
+  EXPECT_DOUBLE_EQ(answer.effects[0].rivals[0].probability, 0.2);
+  EXPECT_DOUBLE_EQ(answer.effects[1].probability, 0.45);
+  EXPECT_DOUBLE_EQ(answer.effects[1].rivals[0].probability, 0.1);
+  EXPECT_DOUBLE_EQ(answer.alternatives[0].probability, 0.25);
+  Answer nothing = named(0.9, 0.0);
+  nothing.effects[0].left = 1.0;
+  pronounce({{"elbow/position", 1.2}}, false, nothing);
+  EXPECT_LT(nothing.effects[0].probability, 0.05);
+}
+
+TEST(Verdict, NamesThatLeaveMostOfTheGapAreNoAnswer) {
   for (const double share : {0.44, 0.46}) {
     Answer answer = named(0.9, share);
     pronounce({{"elbow/position", 2.0}}, true, answer);

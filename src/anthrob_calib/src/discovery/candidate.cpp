@@ -25,6 +25,10 @@ std::string same_quantity(const std::string& id, const std::string& place) {
 
 }  // namespace
 
+std::string Candidate::owner() const {
+  return split_place(place).front();
+}
+
 EffectInstance Candidate::neutral() const {
   EffectInstance instance{effect->info().id, place, {}};
   for (const EffectParameter& p : parameters) {

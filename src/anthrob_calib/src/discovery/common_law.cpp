@@ -1,6 +1,7 @@
 #include "anthrob_calib/discovery/common_law.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/scatter.h"
@@ -13,12 +14,14 @@ bool CommonLaw::may_be(std::size_t law, std::size_t one, std::size_t other) cons
   return says_less(bench_.candidates[one], whole) && says_less(bench_.candidates[other], whole);
 }
 
-std::optional<Naming::Odds> CommonLaw::odds(std::size_t law, const Tested& with,
-                                            const Part& earlier, const Part& later) const {
-  std::optional<Fitted> neither = bench_.without(later.effect, later.candidate, with.fit);
-  if (neither) neither = bench_.without(earlier.effect, earlier.candidate, *neither);
-  if (!neither) return std::nullopt;
-  const Tested base = bench_.tested(*neither);
+std::optional<CommonLaw::Instead> CommonLaw::instead(std::size_t law, const Tested& with,
+                                                     const std::vector<Part>& parts) const {
+  std::optional<Fitted> none = with.fit;
+  for (auto part = parts.rbegin(); none && part != parts.rend(); ++part) {
+    none = bench_.without(part->effect, part->candidate, *none);
+  }
+  if (!none) return std::nullopt;
+  const Tested base = bench_.tested(*none);
   if (base.test.size() == 0) return std::nullopt;
   Score asked;
   asked.candidate = law;
@@ -32,11 +35,12 @@ std::optional<Naming::Odds> CommonLaw::odds(std::size_t law, const Tested& with,
   const Fitted& rough = list.named.front().fit;
   const double gained = base.fit.cost - with.fit.cost;
   if (rough.cost - with.fit.cost > kOutOfReach * gained) return std::nullopt;
-  const Tested alone = bench_.tested(bench_.settling.to_the_end(rough));
+  Tested alone = bench_.tested(bench_.settling.to_the_end(rough));
   if (alone.test.size() == 0) return std::nullopt;
   Naming::Odds odds = bench_.naming.odds(alone.test, with.test);
   odds.probability = allowing_for_scatter(odds.probability, bench_.settling, base, alone, with);
-  return odds;
+  const double gain = base.fit.cost - alone.fit.cost;
+  return Instead{std::move(alone), odds, gain};
 }
 
 }  // namespace discovery

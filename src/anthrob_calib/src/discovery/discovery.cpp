@@ -1,6 +1,7 @@
 #include "anthrob_calib/discovery/discovery.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/examples.h"
 #include "anthrob_calib/discovery/gaps.h"
+#include "anthrob_calib/discovery/leftovers.h"
 #include "anthrob_calib/discovery/location.h"
 #include "anthrob_calib/discovery/preflight.h"
 #include "anthrob_calib/discovery/preparation.h"
@@ -34,7 +36,9 @@ constexpr double kMentioned = 0.02;   ///< least probability of a rival
 /// A candidate that is in the model now.
 struct Accepted {
   std::size_t candidate = 0;
-  double gained = 0.0;  ///< of the cost, when it came in
+  double gained = 0.0;                ///< of the cost, when it came in
+  std::optional<std::size_t> fuller;  ///< a law that says more there, and did better in its round
+  double before = 0.0;                ///< excess of the channel it shows in, when it came in
 };
 
 class Search {
@@ -55,7 +59,8 @@ class Search {
         settling_(evaluator, train_, train_judge_),
         naming_(train_, test_, train_judge_, test_judge_, candidates_, question.seed),
         bench_{evaluator, train_, test_, candidates_, naming_, settling_},
-        gaps_(train_judge_, test_judge_, candidates_.size()) {}
+        gaps_(train_judge_, test_judge_, candidates_.size()),
+        leftovers_(candidates_) {}
 
   Answer answer() {
     Answer answer;
@@ -72,13 +77,24 @@ class Search {
     PreFlight(candidates_, train_, base_.fit, train_judge_, test_judge_,
               total_duration(laboratory_.test))
         .fly(screening, scores, answer);
+    search(screening, std::move(scores), answer);
+    if (fill_out(screening, answer)) search(screening, {}, answer);
+    find_alternatives(screening, answer);
+    conclude(answer);
+    return answer;
+  }
+
+ private:
+  /// Effect after effect, until none earns its place.
+  /// @param scores of the model as it is; empty: to be found
+  void search(Screening& screening, std::vector<Score> scores, Answer& answer) {
     std::size_t looked_again = SIZE_MAX;  // with so many effects accepted
     // What is dropped again makes room; but not for ever.
-    for (int round = 0;
-         round < kMostRounds * question_.max_effects && has_room() && gaps_.any(base_, kFaintGap);
-         ++round) {
+    for (;
+         rounds_ < kMostRounds * question_.max_effects && has_room() && gaps_.any(base_, kFaintGap);
+         ++rounds_) {
       const std::string title = "effect " + std::to_string(accepted_.size() + 1) + ": ";
-      if (round > 0) {
+      if (scores.empty()) {
         stage(title + "screening");
         screening.renew(base_.fit, screening.scores(base_.fit), kRenewed);
         scores = screening.scores(base_.fit);
@@ -87,14 +103,20 @@ class Search {
                                   [&](const Score& s) { return is_accepted(s.candidate); }),
                    scores.end());
       stage(title + "fitting the short list");
-      ShortList list = naming_.weigh(base_, scores);
+      ShortList list = naming_.weigh(base_, leftovers_.besides(scores));
       if (question_.comment) comment_on(list);
-      if (list.named.empty() || !earns_its_place(list, answer)) break;
+      if (list.named.empty()) break;
+      if (!earns_its_place(list, answer)) {
+        if (leftovers_.refused(list.named.front().candidate, accepted())) continue;
+        break;
+      }
+      scores.clear();
       if (base_moves_on(list)) {
         if (accepted_.empty()) note_recalibrated(answer);
         naming_.follow(base_, list);
         if (question_.comment) comment_on(list);
         if (!earns_its_place(list, answer)) {
+          if (leftovers_.refused(list.named.front().candidate, accepted())) continue;
           // The list was drawn up for a base gone astray: once more, for the one that was found.
           if (looked_again == accepted_.size()) break;
           looked_again = accepted_.size();
@@ -102,14 +124,10 @@ class Search {
         }
       }
       accept(list, answer);
-      drop_superfluous(answer);
+      drop_superfluous(accepted_.size() - 1, answer);
     }
-    find_alternatives(screening, answer);
-    conclude(answer);
-    return answer;
   }
 
- private:
   void stage(const std::string& what) const {
     if (question_.progress && !question_.progress(what)) throw Interrupted();
   }
@@ -121,6 +139,12 @@ class Search {
   bool is_accepted(std::size_t candidate) const {
     return std::any_of(accepted_.begin(), accepted_.end(),
                        [&](const Accepted& a) { return a.candidate == candidate; });
+  }
+
+  std::vector<std::size_t> accepted() const {
+    std::vector<std::size_t> candidates;
+    for (const Accepted& a : accepted_) candidates.push_back(a.candidate);
+    return candidates;
   }
 
   void comment_on(const ShortList& list) const {
@@ -179,10 +203,16 @@ class Search {
     return false;
   }
 
-  void drop_superfluous(Answer& answer) {
+  /// @param newest the effect that is not asked: it has just earned its place
+  void drop_superfluous(std::size_t newest, Answer& answer) {
     const SecondThoughts second(bench_, gaps_);
-    for (std::size_t e = 0; e + 1 < accepted_.size();) {
-      const auto [candidate, gained] = accepted_[e];
+    for (std::size_t e = 0; e < accepted_.size();) {
+      if (e == newest) {
+        ++e;
+        continue;
+      }
+      const std::size_t candidate = accepted_[e].candidate;
+      const double gained = accepted_[e].gained;
       const std::string name = candidates_[candidate].name();
       stage("whether " + name + " is still needed");
       std::optional<Tested> without = second.without(e, candidate, gained, base_);
@@ -192,12 +222,56 @@ class Search {
       }
       if (question_.comment) question_.comment("  not needed any more: " + name);
       base_ = std::move(*without);
+      if (e < newest) --newest;
       accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(e));
       answer.effects.erase(answer.effects.begin() + static_cast<std::ptrdiff_t>(e));
       answer.dropped.push_back(name);
       // Planned with it in the model.
       for (FoundEffect& effect : answer.effects) effect.separating_recording = {};
     }
+  }
+
+  /// A law that says more than a named one at its place is named instead of it, if it did better
+  /// in that one's round and earns that in the end. @return whether one is
+  bool fill_out(Screening& screening, Answer& answer) {
+    constexpr double kNeeded = 3.0;  // [nat], held out: nothing was searched
+    const CommonLaw common(bench_, screening);
+    bool any = false;
+    for (std::size_t e = 0; e < accepted_.size(); ++e) {
+      const std::optional<std::size_t> fuller = accepted_[e].fuller;
+      if (!fuller || is_accepted(*fuller)) continue;
+      const Candidate& candidate = candidates_[*fuller];
+      const std::string name = candidates_[accepted_[e].candidate].name();
+      stage("whether it is " + candidate.name() + ", not " + name);
+      const auto instead = common.instead(*fuller, base_, {{e, accepted_[e].candidate}});
+      if (!instead || instead->odds.evidence <= kNeeded || instead->odds.probability <= 0.5) {
+        continue;
+      }
+      std::optional<Fitted> there = with_last_effect_at(train_, instead->tested.fit, e);
+      if (!there) continue;
+      if (question_.comment) question_.comment("  it is, rather than " + name);
+      base_ = bench_.tested(std::move(*there));
+      accepted_[e].candidate = *fuller;
+      accepted_[e].gained = instead->gained;
+      fill_out(answer.effects[e], candidate, instead->odds);
+      const std::size_t count = accepted_.size();
+      drop_superfluous(e, answer);
+      if (accepted_.size() < count) leftovers_.forget();
+      any = true;
+    }
+    return any;
+  }
+
+  static void fill_out(FoundEffect& effect, const Candidate& fuller, const Naming::Odds& odds) {
+    const double both = effect.probability;
+    effect.rivals.insert(effect.rivals.begin(), {effect.id, effect.place,
+                                                 (1.0 - odds.probability) * both, effect.evidence});
+    effect.id = fuller.effect->info().id;
+    effect.name = fuller.effect->info().name;
+    effect.probability = odds.probability * both;
+    effect.evidence += odds.evidence;
+    effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
+    effect.separating_recording = {};  // it was planned for the other one
   }
 
   void find_alternatives(Screening& screening, Answer& answer) const {
@@ -211,14 +285,14 @@ class Search {
           const Candidate& alone = candidates_[law];
           stage("whether " + alone.name() + " says alone what " + candidates_[a.candidate].name() +
                 " and " + candidates_[b.candidate].name() + " say");
-          const std::optional<Naming::Odds> odds = common.odds(law, base_, a, b);
-          if (!odds || odds->probability < kMentioned) continue;
+          const auto instead = common.instead(law, base_, {a, b});
+          if (!instead || instead->odds.probability < kMentioned) continue;
           const std::string& id = alone.effect->info().id;
           answer.alternatives.push_back({id,
                                          alone.place,
                                          {earlier, later},
-                                         odds->probability,
-                                         odds->evidence,
+                                         instead->odds.probability,
+                                         instead->odds.evidence,
                                          separating_experiment(answer.effects[earlier].id, id)});
         }
       }
@@ -247,7 +321,24 @@ class Search {
     }
   }
 
+  /// Of a list, the law that says more than another at its place and does better on what is held
+  /// out.
+  std::optional<std::size_t> fuller_than(std::size_t simple, const ShortList& list) const {
+    const auto its = std::find_if(list.named.begin(), list.named.end(),
+                                  [&](const Named& n) { return n.candidate == simple; });
+    std::optional<std::size_t> fuller;
+    double most = its == list.named.end() ? HUGE_VAL : its->evidence;
+    for (const Named& named : list.named) {
+      if (named.evidence <= most) continue;
+      if (!says_less(candidates_[simple], candidates_[named.candidate])) continue;
+      most = named.evidence;
+      fuller = named.candidate;
+    }
+    return fuller;
+  }
+
   void accept(ShortList& list, Answer& answer) {
+    const ShortList rough = list;
     RunOff(bench_, gaps_).decide(base_, list);
     const Named& best = list.named.front();
     const Candidate& candidate = candidates_[best.candidate];
@@ -269,8 +360,35 @@ class Search {
     dropped.erase(std::remove(dropped.begin(), dropped.end(), candidate.name()), dropped.end());
     answer.effects.push_back(std::move(effect));
     answer.refused = {};
-    accepted_.push_back({best.candidate, base_.fit.cost - best.fit.cost});
+    accepted_.push_back(
+        {best.candidate, base_.fit.cost - best.fit.cost, fuller_than(best.candidate, rough), 0.0});
+    leftovers_.forget();
+    note_what_it_shows_in(best, answer.effects.back());
     base_ = best;
+  }
+
+  /// The channel of what is held out in which an effect takes away most.
+  void note_what_it_shows_in(const Tested& with, FoundEffect& effect) {
+    const auto after = test_judge_.channel_gaps(with.test);
+    double most = 0.0;
+    for (const auto& [name, gap] : test_judge_.channel_gaps(base_.test)) {
+      const double before = excess(gap, kFaintGap);
+      const double taken = before - excess(after.at(name), kFaintGap);
+      if (taken <= most) continue;
+      most = taken;
+      effect.shows_in = name;
+      accepted_.back().before = before;
+    }
+  }
+
+  /// What each effect leaves of what it was to explain, in the model as it is at the end.
+  void measure_what_is_left(Answer& answer) const {
+    const auto after = test_judge_.channel_gaps(base_.test);
+    for (std::size_t e = 0; e < answer.effects.size(); ++e) {
+      FoundEffect& effect = answer.effects[e];
+      if (effect.shows_in.empty()) continue;
+      effect.left = excess(after.at(effect.shows_in), kFaintGap) / accepted_[e].before;
+    }
   }
 
   void separate(const ShortList& list, FoundEffect& effect) const {
@@ -292,6 +410,7 @@ class Search {
   void conclude(Answer& answer) {
     answer.extended = base_.fit.variant;
     measure_effects(answer);
+    measure_what_is_left(answer);
     answer.train = gap_of(train_judge_, given_train_, recalibrated_train_, base_.fit.residual);
     answer.test = gap_of(test_judge_, given_test_, recalibrated_test_, base_.test);
     const auto given = test_judge_.channel_gaps(given_test_),
@@ -339,9 +458,11 @@ class Search {
   Naming naming_;
   Workbench bench_;
   Gaps gaps_;
+  Leftovers leftovers_;
   Tested base_;
   Eigen::VectorXf given_train_, given_test_, recalibrated_train_, recalibrated_test_;
   std::vector<Accepted> accepted_;  ///< what is in the model now, in its order
+  int rounds_ = 0;
 };
 
 }  // namespace

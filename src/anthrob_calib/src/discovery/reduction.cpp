@@ -44,5 +44,22 @@ std::optional<Fitted> without_effect(const Evaluator& evaluator, const ModelFit&
   return reduced;
 }
 
+std::optional<Fitted> with_last_effect_at(const ModelFit& fit, const Fitted& fitted,
+                                          std::size_t index) {
+  Fitted moved = fitted;
+  Variant variant = fitted.variant;
+  const int last = static_cast<int>(variant.effects.size()) - 1, to = static_cast<int>(index);
+  std::rotate(variant.effects.begin() + to, variant.effects.end() - 1, variant.effects.end());
+  for (Unknown& u : moved.unknowns) {
+    if (u.effect == last) {
+      u.effect = to;
+    } else if (u.effect >= to) {
+      ++u.effect;
+    }
+  }
+  if (!fit.move(moved, variant)) return std::nullopt;
+  return moved;
+}
+
 }  // namespace discovery
 }  // namespace anthrob

@@ -77,6 +77,15 @@ std::string named(const FoundEffect& effect) {
   return text + ", " + probability_text(effect.probability) + ". ";
 }
 
+/// What speaks against an effect's law, though it was named.
+std::string what_is_left(const FoundEffect& effect) {
+  if (effect.shows_in.empty()) return "";
+  std::string text = " It shows most in " + escaped(effect.shows_in) + ", and leaves " +
+                     short_number(100.0 * effect.left) + " % of the squared gap there";
+  if (effect.left > kEvenOdds) text += ": the law at this place may be another one";
+  return text + ".";
+}
+
 /// What was found, the improbable apart.
 std::string found(const Answer& answer) {
   std::string probable, improbable;
@@ -161,7 +170,7 @@ std::string effects_table(const Answer& answer) {
               cell(p.known ? "taken as known" : range_text(p)) + cell(p.unit) + "</tr>\n";
     }
     html += "</table>\n<p>Gain in held-out log score " + short_number(effect.evidence) + " nat, " +
-            probability_text(effect.probability) + ".</p>\n";
+            probability_text(effect.probability) + "." + what_is_left(effect) + "</p>\n";
     if (effect.rivals.empty()) continue;
     // Where too much is left for any of them, they are rivals of something that is not it either.
     html += answer.verdict == "unexplained" ? "<p>Others that come as near:</p><ul>\n"

@@ -47,6 +47,8 @@ Json effect_json(const FoundEffect& effect) {
           {"parameters", parameters_json(effect.parameters)},
           {"probability", number(effect.probability)},
           {"evidence", number(effect.evidence)},
+          {"shows_in", effect.shows_in},
+          {"left", number(effect.left)},
           {"rivals", rivals},
           {"separating_experiment", effect.separating_experiment}};
 }

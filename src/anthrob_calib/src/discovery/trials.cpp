@@ -6,8 +6,6 @@
 #include <numeric>
 #include <string>
 
-#include "anthrob_sim/effects/placed_effects.h"
-
 namespace anthrob {
 namespace discovery {
 
@@ -91,7 +89,7 @@ void Trials::add_place_of_first(const std::vector<Score>& scores,
                                 const std::vector<Candidate>& candidates,
                                 std::vector<Score>& tried) {
   if (tried.empty()) return;
-  const std::string place = split_place(candidates[tried.front().candidate].place).front();
+  const std::string place = candidates[tried.front().candidate].owner();
   for (const Score& score : scores) {
     if (candidates[score.candidate].place != place) continue;
     const bool is_in = std::any_of(tried.begin(), tried.end(), [&](const Score& other) {

@@ -9,8 +9,12 @@ namespace discovery {
 
 namespace {
 
-constexpr double kMostRemains = 0.5;  ///< of the squared gap: nothing is left of the names
-constexpr double kMostDoubt = 0.9;    ///< share of the names' probability: they are not the answer
+constexpr double kMostRemains = 0.45;  ///< of the squared gap: the names are not the answer
+
+/// How likely the law of an effect is right, by what it leaves.
+double trust_in(const FoundEffect& effect) {
+  return kEvenOdds / (kEvenOdds + effect.left);
+}
 
 /// Whether a channel that a dependence is of stands above what noise may look like.
 bool is_real(const Dependence& dependence, const std::map<std::string, double>& left) {
@@ -47,14 +51,17 @@ void pronounce(const std::map<std::string, double>& left, bool certain, Answer& 
   if (answer.effects.empty()) {
     answer.verdict = certain ? "unexplained" : "no_missing_effect";
   } else {
+    const bool most_remains = certain && answer.remaining_share > kMostRemains;
+    answer.verdict = most_remains ? "unexplained" : "effects_found";
     // What is left shows that the law may be another one.
-    const double doubt = certain ? std::min(1.0, answer.remaining_share / kMostRemains) : 0.0;
-    answer.verdict = doubt > kMostDoubt ? "unexplained" : "effects_found";
     for (FoundEffect& effect : answer.effects) {
-      effect.probability *= 1.0 - doubt;
-      for (Rival& rival : effect.rivals) rival.probability *= 1.0 - doubt;
+      const double trust = trust_in(effect);
+      effect.probability *= trust;
+      for (Rival& rival : effect.rivals) rival.probability *= trust;
     }
-    for (Alternative& alternative : answer.alternatives) alternative.probability *= 1.0 - doubt;
+    for (Alternative& alternative : answer.alternatives) {
+      alternative.probability *= trust_in(answer.effects[alternative.instead_of[0]]);
+    }
   }
   auto& remaining = answer.remaining;
   remaining.erase(

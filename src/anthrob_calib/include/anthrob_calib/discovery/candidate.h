@@ -19,6 +19,8 @@ struct Candidate {
   std::vector<int> same_as;
 
   std::string name() const { return effect->info().id + " @ " + place; }
+  /// The muscle, joint or motor that its place belongs to: of two, the first.
+  std::string owner() const;
   /// At its neutral sizes, other parameters at their defaults.
   EffectInstance neutral() const;
   /// The same with one size at its typical value.

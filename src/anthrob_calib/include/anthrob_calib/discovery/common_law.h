@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "anthrob_calib/discovery/screening.h"
 #include "anthrob_calib/discovery/workbench.h"
@@ -8,8 +9,8 @@
 namespace anthrob {
 namespace discovery {
 
-/// Two laws at one place may be one of more sizes: friction that differs by direction is friction
-/// and a constant torque, too.
+/// Laws at one place may be one of more sizes: friction that differs by direction is friction and a
+/// constant torque, too.
 class CommonLaw {
  public:
   /// An effect in a fit: its index in there, and which candidate it is.
@@ -21,11 +22,18 @@ class CommonLaw {
 
   /// Whether a candidate may say alone what two others say.
   bool may_be(std::size_t law, std::size_t one, std::size_t other) const;
-  /// That candidate, fitted to the end instead of two effects, and its odds against them.
-  /// @param with both of them, fitted to the end
+  /// A law in place of others: the fit with it, its odds against them, and what it gains of the
+  /// cost where none of them is.
+  struct Instead {
+    Tested tested;
+    Naming::Odds odds;
+    double gained;
+  };
+  /// That candidate, fitted to the end instead of some effects; it is the fit's last effect.
+  /// @param with all of them, fitted to the end   @param parts what goes, in the fit's order
   /// @return nothing if it is out of reach of them
-  std::optional<Naming::Odds> odds(std::size_t law, const Tested& with, const Part& earlier,
-                                   const Part& later) const;
+  std::optional<Instead> instead(std::size_t law, const Tested& with,
+                                 const std::vector<Part>& parts) const;
 
  private:
   const Workbench& bench_;

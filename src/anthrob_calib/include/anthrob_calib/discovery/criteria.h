@@ -17,6 +17,10 @@ constexpr double kFaintGap = 1.15;
 /// there by a better one.
 constexpr double kOutOfReach = 0.5;
 
+/// Share of what a law was to explain: where it leaves that, it is as likely that the true one is
+/// another. By how often answers of the study, seeds 1 to 6 (docs/studies), were right.
+constexpr double kEvenOdds = 0.05;
+
 /// What of a channel's squared gap is more than that of a gap.
 inline double excess(double gap, double least) {
   return std::max(0.0, gap * gap - least * least);

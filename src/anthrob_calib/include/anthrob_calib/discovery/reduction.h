@@ -17,5 +17,10 @@ std::optional<Fitted> without_effect(const Evaluator& evaluator, const ModelFit&
                                      const Fitted& fitted, std::size_t effect,
                                      const Candidate& candidate);
 
+/// The same fit with its last effect at another index, those from there on one further.
+/// @return nothing if that cannot be simulated
+std::optional<Fitted> with_last_effect_at(const ModelFit& fit, const Fitted& fitted,
+                                          std::size_t index);
+
 }  // namespace discovery
 }  // namespace anthrob
