@@ -103,6 +103,33 @@ TEST(Report, ClaimsNoMoreThanWasFound) {
   EXPECT_TRUE(holds(page, "The model misses: <b>Cogging</b>"));
   EXPECT_TRUE(holds(page, "Comes nearest, but is improbable: <b>Ripple</b>"));
   EXPECT_TRUE(holds(page, "With them, the held-out gap does not fall: it goes from 3 to 3.1"));
+  answer.effects[1].probability = 0.3;
+  page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "The model misses this or something like it: <b>Ripple</b>"));
+  EXPECT_FALSE(holds(page, "improbable"));
+}
+
+TEST(Report, TellsWhatTheNamedLawLeavesAndWhatItMakesWorse) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  answer.effects[0].shows_in = "biceps_brachii/current";
+  answer.effects[0].left = 0.02;
+  answer.per_channel["elbow/position"] = {2.0, 1.3, 1.4, 1.0};
+  answer.per_channel["brachialis/force"] = {1.1, 0.7, 0.9, 1.0};
+  std::string page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(
+      holds(page, "shows most in biceps_brachii/current, and leaves 2 % of the squared gap"));
+  EXPECT_FALSE(holds(page, "the law at this place may be another one"));
+  EXPECT_TRUE(holds(page, "with what was found: elbow/position (1.3 to 1.4).")) << page;
+  answer.effects[0].left = 0.2;
+  answer.per_channel["elbow/position"].after = 1.2;
+  page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "leaves 20 % of the squared gap there: the law at this place may be"));
+  EXPECT_FALSE(holds(page, "Worse by more than"));
+  const auto effect = nlohmann::json::parse(report_json(answer, {}, 1.0))["effects"][0];
+  EXPECT_EQ(effect["shows_in"], "biceps_brachii/current");
+  EXPECT_EQ(effect["left"], 0.2);
 }
 
 TEST(Report, SaysWhatWasAskedForWouldHaveShown) {

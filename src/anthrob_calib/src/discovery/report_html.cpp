@@ -86,15 +86,19 @@ std::string what_is_left(const FoundEffect& effect) {
   return text + ".";
 }
 
-/// What was found, the improbable apart.
+/// What was found: that, something like that, or what is only the nearest.
 std::string found(const Answer& answer) {
-  std::string probable, improbable;
+  constexpr double kImprobable = 0.1;
+  std::string probable, alike, improbable;
   for (const FoundEffect& effect : answer.effects) {
-    (effect.probability < 0.5 ? improbable : probable) += named(effect);
+    (effect.probability < kImprobable ? improbable
+     : effect.probability < 0.5       ? alike
+                                      : probable) += named(effect);
   }
   if (!probable.empty()) probable = "The model misses: " + probable;
+  if (!alike.empty()) alike = "The model misses this or something like it: " + alike;
   if (!improbable.empty()) improbable = "Comes nearest, but is improbable: " + improbable;
-  return probable + improbable;
+  return probable + alike + improbable;
 }
 
 /// The answer in one or two sentences.
@@ -360,6 +364,19 @@ std::string dependence_figures(const std::vector<Dependence>& dependences) {
   return html;
 }
 
+/// Channels that the corrected model has worse than the recalibrated one, above their floors.
+std::string worse_channels(const Answer& answer) {
+  constexpr double kWorse = 1.05;
+  std::string text;
+  for (const auto& [name, gap] : answer.per_channel) {
+    if (gap.after < kWorse * gap.recalibrated || gap.after < 1.0) continue;
+    text += (text.empty() ? "" : ", ") + escaped(name) + " (" + short_number(gap.recalibrated) +
+            " to " + short_number(gap.after) + ")";
+  }
+  if (text.empty()) return "";
+  return "<p>Worse by more than 5 % and above the floor with what was found: " + text + ".</p>\n";
+}
+
 std::string channel_table(const Answer& answer) {
   std::string html =
       "<table><tr><th>channel</th><th>as given</th><th>recalibrated</th><th>with what was found"
@@ -452,9 +469,9 @@ std::string report_html(const Answer& answer, const Question& question, double r
          dependence_figures(dependences_where(answer)) + "<h2>What is left</h2>\n<p>" +
          escaped(answer.remaining_description) + (cap.empty() ? "" : "; " + escaped(cap)) +
          ".</p>\n" + dependence_figures(answer.remaining) + "<h2>Held-out gap by channel</h2>\n" +
-         channel_table(answer) + "<h2>What these recordings can show</h2>\n" +
-         preflight(answer, question) + "<h2>Recordings</h2><ul>" + recordings + "</ul>\n" + kWords +
-         "</body></html>\n";
+         worse_channels(answer) + channel_table(answer) +
+         "<h2>What these recordings can show</h2>\n" + preflight(answer, question) +
+         "<h2>Recordings</h2><ul>" + recordings + "</ul>\n" + kWords + "</body></html>\n";
 }
 
 }  // namespace discovery
