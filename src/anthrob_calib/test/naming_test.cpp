@@ -30,23 +30,6 @@ TEST(BestOfKinds, OneEffectDoesNotCrowdOutTheOthers) {
   EXPECT_EQ(best_of_kinds({}, 2, 4), Places{});
 }
 
-TEST(Trials, AllQuartersOfAPhaseAreTried) {
-  const auto candidate = [](const char* id) {
-    const Effect* effect = find_effect(id);
-    return Candidate{effect, "", effect->info().parameters, {}};
-  };
-  EXPECT_TRUE(has_phase(candidate("cogging")));
-  EXPECT_FALSE(has_phase(candidate("joint_coulomb_asymmetric")));
-  EXPECT_FALSE(has_phase(candidate("joint_offset_torque")));
-  const auto turned = other_phases({3.0, 1.0});
-  ASSERT_EQ(turned.size(), 3u);
-  for (int quarter = 0; quarter < 3; ++quarter) {
-    const double phase = std::atan2(1.0, 3.0) + (quarter + 1) * M_PI_2;
-    EXPECT_NEAR(turned[quarter][0], std::sqrt(10.0) * std::cos(phase), 1e-12);
-    EXPECT_NEAR(turned[quarter][1], std::sqrt(10.0) * std::sin(phase), 1e-12);
-  }
-}
-
 TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
   const auto candidate = [](const char* id, const char* place, std::size_t sizes) {
     const Effect* effect = find_effect(id);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "anthrob_calib/discovery/phase.h"
 #include "anthrob_calib/discovery/trials.h"
 #include "anthrob_sim/effects/placed_effects.h"
 
@@ -162,6 +163,19 @@ void Naming::follow(const Tested& base, ShortList& list) const {
   prefer_simpler(base.fit, list);
 }
 
+void Naming::turn_to_better_phase(const Fitted& base, Named& named) const {
+  if (!has_phase(candidates_[named.candidate])) return;
+  const auto turned = better_phase(train_, candidates_[named.candidate], named.fit);
+  if (!turned) return;
+  try {
+    Named other = fit(base, named.candidate, *turned);
+    train_.improve(other.fit, kIterations, telling(other.fit));
+    if (other.fit.cost < named.fit.cost) named = std::move(other);
+  } catch (const NotSimulated&) {
+    // Stays where it is.
+  }
+}
+
 void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
   if (list.named.empty()) return;
   const Named& best = list.named.front();
@@ -202,6 +216,7 @@ ShortList Naming::weigh(const Tested& base, const std::vector<Score>& scores) co
   if (list.named.size() > kJudged) list.named.resize(kJudged);
   train_.side_by_side(list.named.size(), [&](std::size_t i) {
     train_.improve(list.named[i].fit, kIterations, telling(list.named[i].fit));
+    turn_to_better_phase(base.fit, list.named[i]);
     list.named[i].test = test_.residual(list.named[i].fit.variant);
   });
   list.named.erase(std::remove_if(list.named.begin(), list.named.end(),

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <string>
 
+#include "anthrob_calib/discovery/phase.h"
+
 namespace anthrob {
 namespace discovery {
 
@@ -45,18 +47,6 @@ std::vector<Amount> sizes_to_try(const Amount& suggested) {
 }
 
 }  // namespace
-
-bool has_phase(const Candidate& candidate) {
-  const auto sizes = candidate.sizes();
-  return sizes.size() == 2 && std::all_of(sizes.begin(), sizes.end(), [](const auto* size) {
-           return size->bounds.lo < size->neutral && size->neutral < size->bounds.hi;
-         });
-}
-
-std::vector<Amount> other_phases(const Amount& amount) {
-  const double a = amount[0], b = amount[1];
-  return {{-b, a}, {-a, -b}, {b, -a}};
-}
 
 std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
                                        std::size_t of_a_kind, std::size_t most) {

@@ -73,6 +73,7 @@ class Naming {
  private:
   Named fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;
+  void turn_to_better_phase(const Fitted& base, Named& named) const;
 
   const ModelFit &train_, &test_;
   const Judge &train_judge_, &test_judge_;

@@ -13,12 +13,6 @@ namespace discovery {
 std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
                                        std::size_t of_a_kind, std::size_t most);
 
-/// Whether two sizes, each of either sign, make up the candidate: an amplitude and a phase.
-bool has_phase(const Candidate& candidate);
-
-/// The same amplitude a quarter, half and three quarters of a turn further.
-std::vector<std::vector<double>> other_phases(const std::vector<double>& amount);
-
 /// Simulates candidates at several sizes: a unit dose says little of one ten times smaller or
 /// larger where an effect is not linear. Ordinary parameters stay as they are; what they could take
 /// up is taken off in linear approximation.
