@@ -148,6 +148,10 @@ TEST(DrivenAxis, OffsetAndAsymmetricFrictionAreSaidToBeAlike) {
   EXPECT_TRUE(second.count("joint_offset_torque")) << summary(answer);
   EXPECT_TRUE(second.count("joint_coulomb_asymmetric")) << summary(answer);
   EXPECT_NE(answer.effects[1].separating_experiment.find("drive off"), std::string::npos);
+  // They show in the same, and leave the same of what was there at first.
+  EXPECT_EQ(answer.effects[1].shows_in, "axis/effort");
+  EXPECT_LT(answer.effects[1].left, 0.05);
+  EXPECT_EQ(answer.effects[1].left, answer.effects[0].left);
   // One law says what the two say.
   ASSERT_EQ(answer.alternatives.size(), 1u) << summary(answer);
   const Alternative& one = answer.alternatives[0];

@@ -381,13 +381,16 @@ class Search {
     }
   }
 
-  /// What each effect leaves of what it was to explain, in the model as it is at the end.
+  /// Of what the effects were to explain where each of them shows most, what is left at the end.
   void measure_what_is_left(Answer& answer) const {
     const auto after = test_judge_.channel_gaps(base_.test);
+    const auto first = test_judge_.channel_gaps(recalibrated_test_);
     for (std::size_t e = 0; e < answer.effects.size(); ++e) {
       FoundEffect& effect = answer.effects[e];
       if (effect.shows_in.empty()) continue;
-      effect.left = excess(after.at(effect.shows_in), kFaintGap) / accepted_[e].before;
+      const double whole =
+          std::max(accepted_[e].before, excess(first.at(effect.shows_in), kFaintGap));
+      effect.left = excess(after.at(effect.shows_in), kFaintGap) / whole;
     }
   }
 

@@ -48,7 +48,7 @@ struct FoundEffect {
   std::string id, name, place;
   double probability = 0.0, evidence = 0.0;
   std::string shows_in;  ///< the channel in which it took away most, "<place>/<channel>"
-  double left = 0.0;     ///< of what it was to explain there: share of the squared gap
+  double left = 0.0;     ///< of what was to be explained there: share of the squared gap
   std::vector<FoundParameter> parameters;
   std::vector<Rival> rivals;
   std::string separating_experiment;         ///< from the first rival, in words
