@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "anthrob_calib/discovery/bootstrap.h"
 #include "anthrob_calib/discovery/common_law.h"
@@ -78,7 +79,7 @@ class Search {
               total_duration(laboratory_.test))
         .fly(screening, scores, answer);
     search(screening, std::move(scores), answer);
-    if (fill_out(screening, answer)) search(screening, {}, answer);
+    while (fill_out(screening, answer)) search(screening, {}, answer);
     find_alternatives(screening, answer);
     conclude(answer);
     return answer;
@@ -232,19 +233,23 @@ class Search {
   }
 
   /// A law that says more than a named one at its place is named instead of it, if it did better
-  /// in that one's round and earns that in the end. @return whether one is
+  /// in that one's round and clearly does in the end. @return whether one is
   bool fill_out(Screening& screening, Answer& answer) {
     constexpr double kNeeded = 3.0;  // [nat], held out: nothing was searched
+    constexpr double kClearly = 0.9;
     const CommonLaw common(bench_, screening);
-    bool any = false;
     for (std::size_t e = 0; e < accepted_.size(); ++e) {
-      const std::optional<std::size_t> fuller = accepted_[e].fuller;
+      const std::optional<std::size_t> fuller = std::exchange(accepted_[e].fuller, std::nullopt);
       if (!fuller || is_accepted(*fuller)) continue;
       const Candidate& candidate = candidates_[*fuller];
       const std::string name = candidates_[accepted_[e].candidate].name();
       stage("whether it is " + candidate.name() + ", not " + name);
       const auto instead = common.instead(*fuller, base_, {{e, accepted_[e].candidate}});
       if (!instead || instead->odds.evidence <= kNeeded || instead->odds.probability <= 0.5) {
+        continue;
+      }
+      if (instead->odds.probability < kClearly) {
+        leave_open(answer.effects[e], candidate, instead->odds);
         continue;
       }
       std::optional<Fitted> there = with_last_effect_at(train_, instead->tested.fit, e);
@@ -254,12 +259,21 @@ class Search {
       accepted_[e].candidate = *fuller;
       accepted_[e].gained = instead->gained;
       fill_out(answer.effects[e], candidate, instead->odds);
-      const std::size_t count = accepted_.size();
+      leftovers_.forget();
       drop_superfluous(e, answer);
-      if (accepted_.size() < count) leftovers_.forget();
-      any = true;
+      return true;
     }
-    return any;
+    return false;
+  }
+
+  /// Of two laws that do nearly as well the one that says less is named, the other its first rival.
+  static void leave_open(FoundEffect& effect, const Candidate& fuller, const Naming::Odds& odds) {
+    effect.probability *= 0.5;
+    const std::string& id = fuller.effect->info().id;
+    effect.rivals.insert(effect.rivals.begin(),
+                         {id, fuller.place, effect.probability, effect.evidence + odds.evidence});
+    effect.separating_experiment = separating_experiment(effect.id, id);
+    effect.separating_recording = {};  // it was planned for another one
   }
 
   static void fill_out(FoundEffect& effect, const Candidate& fuller, const Naming::Odds& odds) {
