@@ -70,7 +70,7 @@ struct MadeRecording {
       for (const char* quantity : {"position", "current", "voltage", "force"}) {
         Column& column = muscles.column(muscle.name + "/" + quantity);
         column.values.assign(rows, 0.0);
-        column.present.assign(rows, 1);
+        column.present.assign(rows, 0);  // nothing was measured yet
       }
     }
     for (const char* table : {"joints", "spherical_joints"}) {
@@ -83,7 +83,7 @@ struct MadeRecording {
           if (ball == (std::string(quantity) == "position")) continue;
           Column& column = joints.column(joint.name + "/" + quantity);
           column.values.assign(rows, 0.0);
-          column.present.assign(rows, 1);
+          column.present.assign(rows, 0);  // nothing was measured yet
         }
       }
     }

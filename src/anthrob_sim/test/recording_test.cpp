@@ -205,9 +205,15 @@ TEST(Replay, StartsInTheStandThatTheMotorWasMeasuredIn) {
   EXPECT_LT(std::abs(sim.reading(0).position - stand), 1.6 * kCount);
   sim.step(500);  // and there it stays
   EXPECT_LT(std::abs(sim.reading(0).position - stand), 1.6 * kCount);
-  // Where it stands within a count nothing is done; nor where meta.yaml says where it began.
+  // Where it stands within a count or noise nothing is done; nor where meta.yaml says where it
+  // began.
   const double time = sim.time();
   input.stand_where_measured(sim);
+  EXPECT_EQ(sim.time(), time);
+  Column& noisy = recording.table("muscles").columns[0];
+  for (std::size_t i = 0; i < noisy.values.size(); ++i)
+    noisy.values[i] = stand + (i % 2 ? 1 : -1) * 4e-3;
+  Replay(model, recording, ReplayMode::kReference).stand_where_measured(sim);
   EXPECT_EQ(sim.time(), time);
   recording.meta.start = "zero";
   const Replay at_zero(model, recording, ReplayMode::kReference);

@@ -36,5 +36,16 @@ TEST(Resolution, OfSensorsThatHardlyMoved) {
   EXPECT_NEAR(resolution_of(two), 0.1, 1e-12);
 }
 
+TEST(WhiteNoise, IsThatOnASmoothSeries) {
+  const CounterRandom random(7, 1);
+  Eigen::VectorXf series(4000);
+  for (Eigen::Index i = 0; i < series.size(); ++i) {
+    series[i] = static_cast<float>(std::sin(0.01 * static_cast<double>(i)) +
+                                   0.02 * random.normal(static_cast<std::uint64_t>(i)));
+  }
+  EXPECT_NEAR(white_noise(series), 0.02, 0.002);
+  EXPECT_EQ(white_noise(Eigen::VectorXf::Zero(3)), 0.0);
+}
+
 }  // namespace
 }  // namespace anthrob

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/resolution.h"
 
 namespace anthrob {
 namespace discovery {
@@ -106,18 +107,6 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
 }
 
 }  // namespace
-
-double white_noise(const Eigen::VectorXf& series) {
-  std::vector<double> third;
-  for (Eigen::Index i = 3; i < series.size(); ++i) {
-    third.push_back(
-        std::abs(double(series[i]) - 3.0 * series[i - 1] + 3.0 * series[i - 2] - series[i - 3]));
-  }
-  if (third.empty()) return 0.0;
-  const auto middle = third.begin() + static_cast<std::ptrdiff_t>(third.size() / 2);
-  std::nth_element(third.begin(), middle, third.end());
-  return 1.4826 * *middle / std::sqrt(20.0);
-}
 
 double ChannelScale::sigma() const {
   return std::hypot(floor, numerics, counts);

@@ -8,6 +8,7 @@
 #include "anthrob_calib/discovery/noise_floor.h"
 #include "anthrob_sim/core/random.h"
 #include "anthrob_sim/recording/orientation_series.h"
+#include "anthrob_sim/recording/resolution.h"
 
 namespace anthrob {
 namespace discovery {

@@ -24,6 +24,17 @@ ecu::Mode mode_of(double word) {
   return static_cast<ecu::Mode>(static_cast<int>(word));
 }
 
+/// How far from the truth a value may be by the sensor's count or its noise.
+double blur_of(std::vector<double> values) {
+  constexpr double kDeviations = 3.0;
+  values.erase(std::remove_if(values.begin(), values.end(),
+                              [](double value) { return !std::isfinite(value); }),
+               values.end());
+  const Eigen::Map<const Eigen::VectorXd> series(values.data(),
+                                                 static_cast<Eigen::Index>(values.size()));
+  return std::max(resolution_of(values), kDeviations * white_noise(series.cast<float>()));
+}
+
 }  // namespace
 
 Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode)
@@ -51,7 +62,7 @@ Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording
                       recording.series(name + "/position"),
                       recording.series(name + "/ecu_state"),
                       0.0};
-    input.count = resolution_of(input.position.values);
+    input.blur = blur_of(input.position.values);
     any = any || !(mode == ReplayMode::kReference ? input.reference
                    : mode == ReplayMode::kVoltage ? input.voltage
                                                   : input.position)
@@ -267,7 +278,7 @@ void Replay::stand_where_measured(Simulation& sim) const {
                  reading = sim.reading(muscle.muscle).position;
     const bool stands = !input.imposed && input.mode == ecu::Mode::kPosition;
     if (!stands || !std::isfinite(measured)) continue;
-    const double there = std::clamp(reading, measured - muscle.count, measured + muscle.count);
+    const double there = std::clamp(reading, measured - muscle.blur, measured + muscle.blur);
     if (std::abs(there - reading) > kNegligible) ways.push_back({muscle.muscle, reading, there});
   }
   if (ways.empty()) return;

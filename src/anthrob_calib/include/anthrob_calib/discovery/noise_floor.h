@@ -40,10 +40,6 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
 /// can be summed as if all bins were independent
 Eigen::VectorXf whitener(const Experiments& experiments, const Scales& scales, bool independent);
 
-/// Standard deviation of white noise on a smooth series: by its third differences, of which the
-/// median is taken.
-double white_noise(const Eigen::VectorXf& series);
-
 /// 1 + twice the sum of the autocorrelations of a series, up to where they vanish.
 double correlation_length(const Eigen::VectorXf& series);
 

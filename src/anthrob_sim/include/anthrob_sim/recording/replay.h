@@ -20,8 +20,9 @@ enum class ReplayMode {
 };
 
 /// Feeds a recording's inputs to simulations of one robot, whose numbers may differ: start(),
-/// stand_where_measured() and then a Run each. Inputs hold from their row to the next; imposed positions are interpolated.
-/// Efforts and loads of hinges and prismatic joints are applied in every mode.
+/// stand_where_measured() and then a Run each. Inputs hold from their row to the next; imposed
+/// positions are interpolated. Efforts and loads of hinges and prismatic joints are applied in
+/// every mode.
 class Replay {
  public:
   /// @throws BadInput if the recording names muscles or joints that the robot lacks, or has no
@@ -37,8 +38,9 @@ class Replay {
   void start(Simulation& sim) const;
   /// After start(), or after the state that it leads to was restored: leads motors under position
   /// control to where they were measured first, and holds them there for a second. Of those only
-  /// that stand farther from it than a count of their encoders: dry friction and cogging let a
-  /// motor stand in many places, and by which way the recorded one came only its reading tells.
+  /// that stand farther from it than a count of their encoders, or than noise: dry friction and
+  /// cogging let a motor stand in many places, and by which way the recorded one came only its
+  /// reading tells.
   void stand_where_measured(Simulation& sim) const;
   /// What start() depends on beside the model: recordings with equal ones start in equal states.
   std::vector<double> start_inputs() const;
@@ -54,7 +56,7 @@ class Replay {
     int muscle;
     Series mode, reference;  ///< as its unit followed them
     Series voltage, position, ecu_state;
-    double count;  ///< of the encoder [rad]; 0: none to be seen
+    double blur;  ///< of the measured position: a count, or noise that is more [rad]
   };
   struct JointInput {
     int joint;
