@@ -96,17 +96,32 @@ TEST(Report, ClaimsNoMoreThanWasFound) {
   EXPECT_FALSE(holds(page, "improbable"));
   EXPECT_TRUE(holds(page, "With it, the held-out gap falls from 3 to 1.2"));
   answer.effects.push_back(cogging());
-  answer.effects[1].probability = 0.02;
+  answer.effects[1].probability = 0.3;
   answer.effects[1].name = "Ripple";
   answer.test.after = 3.1;
   page = report_html(answer, {}, 1.0);
   EXPECT_TRUE(holds(page, "The model misses: <b>Cogging</b>"));
-  EXPECT_TRUE(holds(page, "Comes nearest, but is improbable: <b>Ripple</b>"));
-  EXPECT_TRUE(holds(page, "With them, the held-out gap does not fall: it goes from 3 to 3.1"));
-  answer.effects[1].probability = 0.3;
-  page = report_html(answer, {}, 1.0);
   EXPECT_TRUE(holds(page, "The model misses this or something like it: <b>Ripple</b>"));
-  EXPECT_FALSE(holds(page, "improbable"));
+  EXPECT_TRUE(holds(page, "With them, the held-out gap does not fall: it goes from 3 to 3.1"));
+}
+
+TEST(Report, TellsWhatIsTooImprobableToBeAdded) {
+  Answer answer;
+  answer.verdict = "unexplained";
+  answer.improbable = {
+      {"payload", "Payload", "forearm", 0.03, 200.0, "biceps_brachii/force", 0.4}};
+  const char* const kNearest =
+      "Comes nearest, but is too improbable to be added: Payload at forearm, probability 0.03, "
+      "which leaves 40 % of the squared gap of biceps_brachii/force.";
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), kNearest));
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), kNearest));
+  EXPECT_TRUE(holds(summary(answer), "too improbable to be added: payload @ forearm"));
+  const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
+  ASSERT_EQ(json["improbable"].size(), 1u);
+  EXPECT_EQ(json["improbable"][0]["id"], "payload");
+  EXPECT_EQ(json["improbable"][0]["left"], 0.4);
 }
 
 TEST(Report, TellsWhatTheNamedLawLeavesAndWhatItMakesWorse) {

@@ -180,6 +180,21 @@ TEST(DrivenAxis, ALawThatSaysMoreIsNamedWhereTheSearchEndsWithASimplerOne) {
   EXPECT_NEAR(backward->value, 20.4 + 3.2, 0.8);
 }
 
+TEST(DrivenAxis, WhatLeavesNearlyAllOfTheGapDoesNotExtendTheModel) {
+  Question question = axis_question(20.4, 0.0);
+  question.effects = {"payload"};  // gains, for friction also resists motion
+  const Answer answer = ask(question);
+  EXPECT_EQ(answer.verdict, "unexplained") << summary(answer);
+  EXPECT_TRUE(answer.effects.empty()) << summary(answer);
+  ASSERT_EQ(answer.improbable.size(), 1u) << summary(answer);
+  EXPECT_EQ(answer.improbable[0].id, "payload");
+  EXPECT_EQ(answer.improbable[0].shows_in, "axis/effort");
+  EXPECT_GT(answer.improbable[0].left, 0.5);
+  EXPECT_LT(answer.improbable[0].probability, 0.1);
+  EXPECT_TRUE(answer.extended.effects.empty());
+  EXPECT_NEAR(answer.test.after, answer.test.recalibrated, 0.01 * answer.test.recalibrated);
+}
+
 TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {
   const Answer answer = ask(axis_question(0.0, 0.0));
   EXPECT_EQ(answer.verdict, "no_missing_effect") << summary(answer);

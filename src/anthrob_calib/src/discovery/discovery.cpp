@@ -80,6 +80,7 @@ class Search {
         .fly(screening, scores, answer);
     search(screening, std::move(scores), answer);
     while (fill_out(screening, answer)) search(screening, {}, answer);
+    drop_improbable(answer);
     find_alternatives(screening, answer);
     conclude(answer);
     return answer;
@@ -286,6 +287,37 @@ class Search {
     effect.evidence += odds.evidence;
     effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
     effect.separating_recording = {};  // it was planned for the other one
+  }
+
+  /// What leaves so much that it is hardly the right law does not extend the model: it may do what
+  /// another one should.
+  void drop_improbable(Answer& answer) {
+    for (;;) {
+      measure_what_is_left(answer);
+      const auto worst = std::min_element(
+          answer.effects.begin(), answer.effects.end(),
+          [](const FoundEffect& a, const FoundEffect& b) { return doubted(a) < doubted(b); });
+      if (worst == answer.effects.end() || doubted(*worst) >= kImprobable) return;
+      const auto e = static_cast<std::size_t>(worst - answer.effects.begin());
+      const std::string name = candidates_[accepted_[e].candidate].name();
+      stage("the model without " + name + ", which is improbable");
+      std::optional<Fitted> without = bench_.without(e, accepted_[e].candidate, base_.fit);
+      if (!without) return;
+      Tested base = bench_.tested(settling_.to_the_end(*without));
+      if (base.test.size() == 0) return;
+      if (question_.comment) question_.comment("  too improbable to be added: " + name);
+      base_ = std::move(base);
+      answer.improbable.push_back({worst->id, worst->name, worst->place, doubted(*worst),
+                                   worst->evidence, worst->shows_in, worst->left});
+      answer.effects.erase(worst);
+      accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(e));
+      // Planned with it in the model.
+      for (FoundEffect& effect : answer.effects) effect.separating_recording = {};
+    }
+  }
+
+  static double doubted(const FoundEffect& effect) {
+    return effect.probability * trust_in(effect);
   }
 
   void find_alternatives(Screening& screening, Answer& answer) const {

@@ -86,19 +86,26 @@ std::string what_is_left(const FoundEffect& effect) {
   return text + ".";
 }
 
-/// What was found: that, something like that, or what is only the nearest.
+/// What was found: that, or something like that.
 std::string found(const Answer& answer) {
-  constexpr double kImprobable = 0.1;
-  std::string probable, alike, improbable;
+  std::string probable, alike;
   for (const FoundEffect& effect : answer.effects) {
-    (effect.probability < kImprobable ? improbable
-     : effect.probability < 0.5       ? alike
-                                      : probable) += named(effect);
+    (effect.probability < 0.5 ? alike : probable) += named(effect);
   }
   if (!probable.empty()) probable = "The model misses: " + probable;
   if (!alike.empty()) alike = "The model misses this or something like it: " + alike;
-  if (!improbable.empty()) improbable = "Comes nearest, but is improbable: " + improbable;
-  return probable + alike + improbable;
+  return probable + alike;
+}
+
+/// What is only the nearest.
+std::string nearest(const Answer& answer) {
+  std::string text;
+  for (const Improbable& law : answer.improbable) {
+    text += (text.empty() ? "" : "; ") + escaped(law.name) + " at " + escaped(law.place) + ", " +
+            probability_text(law.probability) + ", which leaves " +
+            short_number(100.0 * law.left) + " % of the squared gap of " + escaped(law.shows_in);
+  }
+  return text.empty() ? text : "Comes nearest, but is too improbable to be added: " + text + ". ";
 }
 
 /// The answer in one or two sentences.
@@ -118,7 +125,7 @@ std::string sentence(const Answer& answer, const Question& question) {
   }
   if (answer.verdict == "effects_found") {
     const bool falls = answer.test.after < answer.test.recalibrated;
-    return found(answer) + text + (answer.effects.size() > 1 ? "With them" : "With it") +
+    return found(answer) + text + nearest(answer) + (answer.effects.size() > 1 ? "With them" : "With it") +
            ", the held-out gap " + (falls ? "falls" : "does not fall: it goes") + " from " +
            short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
            " times the floor; of the square of what stood above the noise " +
@@ -130,7 +137,7 @@ std::string sentence(const Answer& answer, const Question& question) {
     for (const FoundEffect& effect : answer.effects) offers += named(effect);
     text = offers + text;
   }
-  return nameless(answer, question) + text + "Held-out gap " + short_number(answer.test.after) +
+  return nameless(answer, question) + text + nearest(answer) + "Held-out gap " + short_number(answer.test.after) +
          " times the floor, where the recalibrated model has " +
          short_number(answer.test.recalibrated) +
          "; what is left: " + escaped(answer.remaining_description) + ".";

@@ -130,6 +130,19 @@ Json question_json(const Question& question) {
           {"dt", number(question.step)},    {"ordinary_parameters", question.nuisances.size()}};
 }
 
+Json improbable_json(const Answer& answer) {
+  Json list = Json::array();
+  for (const Improbable& law : answer.improbable) {
+    list.push_back({{"id", law.id},
+                    {"place", law.place},
+                    {"probability", number(law.probability)},
+                    {"evidence", number(law.evidence)},
+                    {"shows_in", law.shows_in},
+                    {"left", number(law.left)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string report_json(const Answer& answer, const Question& question, double runtime) {
@@ -146,6 +159,7 @@ std::string report_json(const Answer& answer, const Question& question, double r
   const std::string cap = cap_remark(answer, question);
   if (!cap.empty()) report["remarks"].push_back(cap);
   report["alternatives"] = alternatives_json(answer);
+  report["improbable"] = improbable_json(answer);
   report["dropped"] = answer.dropped;
   if (!answer.refused.id.empty()) {
     report["refused"] = {{"id", answer.refused.id},
@@ -239,6 +253,10 @@ std::string summary(const Answer& answer) {
   }
   for (const Alternative& alternative : answer.alternatives) {
     text += "  or " + alternative_text(alternative, answer) + "\n";
+  }
+  for (const Improbable& law : answer.improbable) {
+    text += "  too improbable to be added: " + law.id + " @ " + law.place + ", " +
+            probability_text(law.probability) + "\n";
   }
   for (const std::string& dropped : answer.dropped) {
     text += "  not needed any more: " + dropped + "\n";

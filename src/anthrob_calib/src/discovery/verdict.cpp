@@ -11,11 +11,6 @@ namespace {
 
 constexpr double kMostRemains = 0.45;  ///< of the squared gap: the names are not the answer
 
-/// How likely the law of an effect is right, by what it leaves.
-double trust_in(const FoundEffect& effect) {
-  return kEvenOdds / (kEvenOdds + effect.left);
-}
-
 /// Whether a channel that a dependence is of stands above what noise may look like.
 bool is_real(const Dependence& dependence, const std::map<std::string, double>& left) {
   return std::any_of(left.begin(), left.end(), [&](const auto& channel) {
@@ -46,6 +41,10 @@ const Dependence* strongest(const std::map<std::string, double>& left,
 }
 
 }  // namespace
+
+double trust_in(const FoundEffect& effect) {
+  return kEvenOdds / (kEvenOdds + effect.left);
+}
 
 void pronounce(const std::map<std::string, double>& left, bool certain, Answer& answer) {
   if (answer.effects.empty()) {

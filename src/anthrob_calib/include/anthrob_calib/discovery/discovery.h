@@ -71,6 +71,15 @@ struct Refused {
   std::string lack;
 };
 
+/// A law that comes nearest, but leaves so much that it is hardly the right one: it does not extend
+/// the model.
+struct Improbable {
+  std::string id, name, place;
+  double probability = 0.0, evidence = 0.0;
+  std::string shows_in;  ///< as of a FoundEffect
+  double left = 0.0;     ///< the same
+};
+
 /// Root mean squares in standard deviations of the floor.
 struct Gap {
   double before = 0.0, recalibrated = 0.0, after = 0.0, floor = 0.0;
@@ -120,6 +129,7 @@ struct Answer {
   std::vector<Example> examples;
   std::vector<FoundEffect> effects;
   std::vector<Alternative> alternatives;
+  std::vector<Improbable> improbable;
   std::vector<std::string> dropped;  ///< were named first, and are not needed beside the others
   Refused refused;
   double remaining_share = 0.0;

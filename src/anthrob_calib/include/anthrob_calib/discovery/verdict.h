@@ -11,6 +11,9 @@ namespace discovery {
 /// What remains, in words, where no gap does.
 constexpr char kNoCertainGap[] = "no gap that is certain";
 
+/// How likely the law of an effect is right, by what it leaves: a factor of its probability.
+double trust_in(const FoundEffect& effect);
+
 /// Fills in the verdict and what is to be said of what remains, and takes from the named effects'
 /// probabilities what remains speaks against them.
 /// @param left each channel's gap in what was learned from, with the named effects [floors]
