@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "anthrob_calib/discovery/bootstrap.h"
+#include "anthrob_calib/discovery/channel_guard.h"
 #include "anthrob_calib/discovery/common_law.h"
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/examples.h"
@@ -80,8 +81,8 @@ class Search {
         .fly(screening, scores, answer);
     search(screening, std::move(scores), answer);
     while (fill_out(screening, answer)) search(screening, {}, answer);
-    drop_improbable(answer);
-    find_alternatives(screening, answer);
+    const Tested unspared = settle_what_is_told(answer);
+    find_alternatives(screening, unspared, answer);
     conclude(answer);
     return answer;
   }
@@ -289,22 +290,33 @@ class Search {
     effect.separating_recording = {};  // it was planned for the other one
   }
 
-  /// What leaves so much that it is hardly the right law does not extend the model: it may do what
-  /// another one should.
-  void drop_improbable(Answer& answer) {
+  /// The model that is told: without improbable laws, and none of its channels pays for the others.
+  /// @return the same as least squares has it, which is compared with other fits
+  Tested settle_what_is_told(Answer& answer) {
+    drop_improbable(answer);
     for (;;) {
+      Tested unspared = base_;
+      spare_channels_that_pay();
+      if (!drop_improbable(answer)) return unspared;
+    }
+  }
+
+  /// What leaves so much that it is hardly the right law does not extend the model: it may do what
+  /// another one should. @return whether there was one
+  bool drop_improbable(Answer& answer) {
+    for (bool any = false;; any = true) {
       measure_what_is_left(answer);
       const auto worst = std::min_element(
           answer.effects.begin(), answer.effects.end(),
           [](const FoundEffect& a, const FoundEffect& b) { return doubted(a) < doubted(b); });
-      if (worst == answer.effects.end() || doubted(*worst) >= kImprobable) return;
+      if (worst == answer.effects.end() || doubted(*worst) >= kImprobable) return any;
       const auto e = static_cast<std::size_t>(worst - answer.effects.begin());
       const std::string name = candidates_[accepted_[e].candidate].name();
       stage("the model without " + name + ", which is improbable");
       std::optional<Fitted> without = bench_.without(e, accepted_[e].candidate, base_.fit);
-      if (!without) return;
+      if (!without) return any;
       Tested base = bench_.tested(settling_.to_the_end(*without));
-      if (base.test.size() == 0) return;
+      if (base.test.size() == 0) return any;
       if (question_.comment) question_.comment("  too improbable to be added: " + name);
       base_ = std::move(base);
       answer.improbable.push_back({worst->id, worst->name, worst->place, doubted(*worst),
@@ -320,7 +332,16 @@ class Search {
     return effect.probability * trust_in(effect);
   }
 
-  void find_alternatives(Screening& screening, Answer& answer) const {
+  /// What was found should cost no channel anything.
+  void spare_channels_that_pay() {
+    if (accepted_.empty()) return;
+    stage("whether a channel is worse for it");
+    Tested spared =
+        bench_.tested(spare_channels(train_, train_judge_, recalibrated_train_, base_.fit));
+    if (spared.test.size() > 0) base_ = std::move(spared);
+  }
+
+  void find_alternatives(Screening& screening, const Tested& base, Answer& answer) const {
     const CommonLaw common(bench_, screening);
     for (std::size_t later = 1; later < accepted_.size(); ++later) {
       for (std::size_t earlier = 0; earlier < later; ++earlier) {
@@ -331,7 +352,7 @@ class Search {
           const Candidate& alone = candidates_[law];
           stage("whether " + alone.name() + " says alone what " + candidates_[a.candidate].name() +
                 " and " + candidates_[b.candidate].name() + " say");
-          const auto instead = common.instead(law, base_, {a, b});
+          const auto instead = common.instead(law, base, {a, b});
           if (!instead || instead->odds.probability < kMentioned) continue;
           const std::string& id = alone.effect->info().id;
           answer.alternatives.push_back({id,

@@ -104,6 +104,17 @@ std::map<std::string, double> Judge::channel_gaps(const Eigen::VectorXf& residua
   return gaps;
 }
 
+Eigen::VectorXf Judge::by_channel(const std::map<std::string, double>& numbers,
+                                  double other) const {
+  Eigen::VectorXf bins(whitener_.size());
+  for (const Run& run : runs_) {
+    const auto found = numbers.find(run.name);
+    const double number = found == numbers.end() ? other : found->second;
+    bins.segment(run.offset, run.count).setConstant(static_cast<float>(number));
+  }
+  return bins;
+}
+
 std::map<std::string, double> Judge::chance_of_gaps() const {
   std::map<std::string, double> independent;  // bins
   for (const Run& run : runs_) {

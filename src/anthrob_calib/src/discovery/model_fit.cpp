@@ -199,6 +199,10 @@ ModelFit ModelFit::part(const Excerpt& excerpt) const {
   return ModelFit(evaluator_, excerpt.experiments, excerpt.of(whitener_), coarse_);
 }
 
+ModelFit ModelFit::weighted(const Eigen::VectorXf& factor) const {
+  return ModelFit(evaluator_, experiments_, whitener_.cwiseProduct(factor), coarse_);
+}
+
 std::vector<Eigen::VectorXf> ModelFit::residuals(const std::vector<Variant>& variants) const {
   auto results = evaluator_.compare(variants, experiments_);
   for (auto& r : results) {

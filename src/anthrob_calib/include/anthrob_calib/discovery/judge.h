@@ -34,6 +34,8 @@ class Judge {
   double gap(const Eigen::VectorXf& residual) const;
   /// The same by channel.
   std::map<std::string, double> channel_gaps(const Eigen::VectorXf& residual) const;
+  /// A number of every bin's channel. @param other of channels that have none
+  Eigen::VectorXf by_channel(const std::map<std::string, double>& numbers, double other) const;
   /// By what share of it chance moves each channel's gap (one standard deviation), where only noise
   /// is.
   std::map<std::string, double> chance_of_gaps() const;

@@ -90,6 +90,8 @@ class ModelFit {
 
   /// The same on a part of the recordings.
   ModelFit part(const Excerpt& excerpt) const;
+  /// The same with every residual multiplied by a factor.
+  ModelFit weighted(const Eigen::VectorXf& factor) const;
 
   Eigen::VectorXf residual(const Variant& variant) const;  ///< empty if it cannot be simulated
   std::vector<Eigen::VectorXf> residuals(const std::vector<Variant>& variants) const;
