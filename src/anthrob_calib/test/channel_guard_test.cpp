@@ -46,8 +46,10 @@ class TwoChannels final : public Experiment {
 };
 
 struct Case {
-  Evaluator evaluator{
-      ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {damping("elbow"), damping("shoulder")}, 0.001, 1};
+  Evaluator evaluator{ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml",
+                      {damping("elbow"), damping("shoulder")},
+                      0.001,
+                      1};
   Experiments experiments;
   ModelFit fit;
   Judge judge;

@@ -108,8 +108,7 @@ TEST(Report, ClaimsNoMoreThanWasFound) {
 TEST(Report, TellsWhatIsTooImprobableToBeAdded) {
   Answer answer;
   answer.verdict = "unexplained";
-  answer.improbable = {
-      {"payload", "Payload", "forearm", 0.03, 200.0, "biceps_brachii/force", 0.4}};
+  answer.improbable = {{"payload", "Payload", "forearm", 0.03, 200.0, "biceps_brachii/force", 0.4}};
   const char* const kNearest =
       "Comes nearest, but is too improbable to be added: Payload at forearm, probability 0.03, "
       "which leaves 40 % of the squared gap of biceps_brachii/force.";

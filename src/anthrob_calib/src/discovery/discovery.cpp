@@ -12,6 +12,7 @@
 #include "anthrob_calib/discovery/common_law.h"
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/examples.h"
+#include "anthrob_calib/discovery/found_effect.h"
 #include "anthrob_calib/discovery/gaps.h"
 #include "anthrob_calib/discovery/leftovers.h"
 #include "anthrob_calib/discovery/location.h"
@@ -33,7 +34,6 @@ namespace {
 
 constexpr std::size_t kRenewed = 60;  ///< candidates whose doses are simulated again later
 constexpr int kMostRounds = 2;        ///< for each effect that may be named
-constexpr double kMentioned = 0.02;   ///< least probability of a rival
 
 /// A candidate that is in the model now.
 struct Accepted {
@@ -251,7 +251,7 @@ class Search {
         continue;
       }
       if (instead->odds.probability < kClearly) {
-        leave_open(answer.effects[e], candidate, instead->odds);
+        leave_open(candidate, instead->odds, answer.effects[e]);
         continue;
       }
       std::optional<Fitted> there = with_last_effect_at(train_, instead->tested.fit, e);
@@ -260,34 +260,12 @@ class Search {
       base_ = bench_.tested(std::move(*there));
       accepted_[e].candidate = *fuller;
       accepted_[e].gained = instead->gained;
-      fill_out(answer.effects[e], candidate, instead->odds);
+      name_instead(candidate, instead->odds, answer.effects[e]);
       leftovers_.forget();
       drop_superfluous(e, answer);
       return true;
     }
     return false;
-  }
-
-  /// Of two laws that do nearly as well the one that says less is named, the other its first rival.
-  static void leave_open(FoundEffect& effect, const Candidate& fuller, const Naming::Odds& odds) {
-    effect.probability *= 0.5;
-    const std::string& id = fuller.effect->info().id;
-    effect.rivals.insert(effect.rivals.begin(),
-                         {id, fuller.place, effect.probability, effect.evidence + odds.evidence});
-    effect.separating_experiment = separating_experiment(effect.id, id);
-    effect.separating_recording = {};  // it was planned for another one
-  }
-
-  static void fill_out(FoundEffect& effect, const Candidate& fuller, const Naming::Odds& odds) {
-    const double both = effect.probability;
-    effect.rivals.insert(effect.rivals.begin(), {effect.id, effect.place,
-                                                 (1.0 - odds.probability) * both, effect.evidence});
-    effect.id = fuller.effect->info().id;
-    effect.name = fuller.effect->info().name;
-    effect.probability = odds.probability * both;
-    effect.evidence += odds.evidence;
-    effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
-    effect.separating_recording = {};  // it was planned for the other one
   }
 
   /// The model that is told: without improbable laws, and none of its channels pays for the others.
@@ -328,9 +306,7 @@ class Search {
     }
   }
 
-  static double doubted(const FoundEffect& effect) {
-    return effect.probability * trust_in(effect);
-  }
+  static double doubted(const FoundEffect& effect) { return effect.probability * trust_in(effect); }
 
   /// What was found should cost no channel anything.
   void spare_channels_that_pay() {
@@ -408,23 +384,11 @@ class Search {
     const ShortList rough = list;
     RunOff(bench_, gaps_).decide(base_, list);
     const Named& best = list.named.front();
-    const Candidate& candidate = candidates_[best.candidate];
-    FoundEffect effect;
-    effect.id = candidate.effect->info().id;
-    effect.name = candidate.effect->info().name;
-    effect.place = candidate.place;
-    effect.probability = best.probability;
-    effect.evidence = best.evidence;
-    for (std::size_t i = 1; i < list.named.size(); ++i) {
-      const Named& other = list.named[i];
-      if (other.probability < kMentioned) continue;
-      const Candidate& rival = candidates_[other.candidate];
-      effect.rivals.push_back(
-          {rival.effect->info().id, rival.place, other.probability, other.evidence});
-    }
+    FoundEffect effect = found_effect(list, candidates_);
     if (!effect.rivals.empty()) separate(list, effect);
     auto& dropped = answer.dropped;  // it may be needed again
-    dropped.erase(std::remove(dropped.begin(), dropped.end(), candidate.name()), dropped.end());
+    const std::string name = candidates_[best.candidate].name();
+    dropped.erase(std::remove(dropped.begin(), dropped.end(), name), dropped.end());
     answer.effects.push_back(std::move(effect));
     answer.refused = {};
     accepted_.push_back(

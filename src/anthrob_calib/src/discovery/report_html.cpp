@@ -102,8 +102,8 @@ std::string nearest(const Answer& answer) {
   std::string text;
   for (const Improbable& law : answer.improbable) {
     text += (text.empty() ? "" : "; ") + escaped(law.name) + " at " + escaped(law.place) + ", " +
-            probability_text(law.probability) + ", which leaves " +
-            short_number(100.0 * law.left) + " % of the squared gap of " + escaped(law.shows_in);
+            probability_text(law.probability) + ", which leaves " + short_number(100.0 * law.left) +
+            " % of the squared gap of " + escaped(law.shows_in);
   }
   return text.empty() ? text : "Comes nearest, but is too improbable to be added: " + text + ". ";
 }
@@ -125,8 +125,9 @@ std::string sentence(const Answer& answer, const Question& question) {
   }
   if (answer.verdict == "effects_found") {
     const bool falls = answer.test.after < answer.test.recalibrated;
-    return found(answer) + text + nearest(answer) + (answer.effects.size() > 1 ? "With them" : "With it") +
-           ", the held-out gap " + (falls ? "falls" : "does not fall: it goes") + " from " +
+    return found(answer) + text + nearest(answer) +
+           (answer.effects.size() > 1 ? "With them" : "With it") + ", the held-out gap " +
+           (falls ? "falls" : "does not fall: it goes") + " from " +
            short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
            " times the floor; of the square of what stood above the noise " +
            short_number(100.0 * answer.remaining_share) + " % is left." +
@@ -137,8 +138,8 @@ std::string sentence(const Answer& answer, const Question& question) {
     for (const FoundEffect& effect : answer.effects) offers += named(effect);
     text = offers + text;
   }
-  return nameless(answer, question) + text + nearest(answer) + "Held-out gap " + short_number(answer.test.after) +
-         " times the floor, where the recalibrated model has " +
+  return nameless(answer, question) + text + nearest(answer) + "Held-out gap " +
+         short_number(answer.test.after) + " times the floor, where the recalibrated model has " +
          short_number(answer.test.recalibrated) +
          "; what is left: " + escaped(answer.remaining_description) + ".";
 }
