@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/core/random.h"
 #include "anthrob_sim/recording/dataset.h"
 #include "anthrob_sim/recording/replay.h"
+#include "anthrob_sim/recording/resolution.h"
 #include "support.h"
 
 namespace anthrob {
@@ -197,30 +199,48 @@ TEST(Replay, StartsInTheStandThatTheMotorWasMeasuredIn) {
     recorded.step();
   }
   muscles.columns = {position};
-  const Replay input(model, recording, ReplayMode::kReference);
   Simulation sim(model);
-  input.start(sim);
-  ASSERT_GT(std::abs(sim.reading(0).position - stand), 5.0 * kCount);
-  input.stand_where_measured(sim);
-  EXPECT_LT(std::abs(sim.reading(0).position - stand), 1.6 * kCount);
-  sim.step(500);  // and there it stays
-  EXPECT_LT(std::abs(sim.reading(0).position - stand), 1.6 * kCount);
-  // Where it stands within a count or noise nothing is done; nor where meta.yaml says where it
-  // began.
-  const double time = sim.time();
-  input.stand_where_measured(sim);
-  EXPECT_EQ(sim.time(), time);
-  Column& noisy = recording.table("muscles").columns[0];
-  for (std::size_t i = 0; i < noisy.values.size(); ++i)
-    noisy.values[i] = stand + (i % 2 ? 1 : -1) * 4e-3;
-  Replay(model, recording, ReplayMode::kReference).stand_where_measured(sim);
-  EXPECT_EQ(sim.time(), time);
+  const auto starts_at = [&](const Dataset& measured) {
+    Replay(model, measured, ReplayMode::kReference).start(sim);
+    return sim.reading(0).position;
+  };
+  Dataset other = recording;
+  other.table("muscles").columns.clear();
+  const double alone = starts_at(other);
+  ASSERT_GT(std::abs(alone - stand), 5.0 * kCount);
+  const double began = sim.time();
+  EXPECT_NEAR(starts_at(recording), stand, 1.6 * kCount);
+  EXPECT_NEAR(sim.time() - began, 2.0, 1e-9);  // in the time that it has to settle
+  sim.step(500);                               // and there it stays
+  EXPECT_NEAR(sim.reading(0).position, stand, 1.6 * kCount);
+  // Where it stands within noise nothing is done; nor where it was measured too late, or so far off
+  // that no friction holds it there; nor where meta.yaml says where it began.
+  other = recording;
+  Column& column = other.table("muscles").columns[0];
+  const CounterRandom random(4, 2);
+  const auto measure = [&](double at, double noise) {
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+      column.values[i] = at + noise * random.normal(i);
+    }
+  };
+  const double off = 0.02;
+  measure(alone + off, 0.05);
+  ASSERT_EQ(resolution_of(column.values), 0.0);
+  ASSERT_GT(std::abs(column.values[0] - alone), 0.01);
+  ASSERT_LT(std::abs(column.values[0] - alone), 0.1);
+  EXPECT_EQ(starts_at(other), alone);
+  measure(alone + off, 1e-4);
+  EXPECT_NEAR(starts_at(other), alone + off, 1e-3);
+  measure(alone + 2.0, 1e-4);
+  EXPECT_EQ(starts_at(other), alone);
+  measure(alone + off, 1e-4);
+  for (Nanoseconds& t : other.table("muscles").t) t += 200000000;
+  EXPECT_EQ(starts_at(other), alone);
   recording.meta.start = "zero";
-  const Replay at_zero(model, recording, ReplayMode::kReference);
-  at_zero.start(sim);
-  const double zero = sim.time();
-  at_zero.stand_where_measured(sim);
-  EXPECT_EQ(sim.time(), zero);
+  starts_at(recording);
+  const double zero = sim.reading(0).position;
+  recording.table("muscles").columns.clear();
+  EXPECT_EQ(starts_at(recording), zero);
 }
 
 TEST(Replay, StartsWithoutAJerkThatASpringRemembers) {

@@ -219,13 +219,8 @@ void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, St
                               float* out) const {
   Simulation sim(model);
   const auto [start, is_new] = starts.try_emplace(input_.start_inputs());
-  if (is_new) {
-    input_.start(sim);
-    start->second = sim.snapshot();
-  } else {
-    sim.restore(start->second);
-  }
-  input_.stand_where_measured(sim);
+  if (is_new) start->second = input_.settle(sim);
+  input_.start(sim, start->second);
   Replay::Run run(input_, sim);
   for (const Sampling& sampling : samplings_) {
     for (const Reader& reader : sampling.readers) {

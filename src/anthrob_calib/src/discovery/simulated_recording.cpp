@@ -84,7 +84,6 @@ Dataset simulated_recording(const std::shared_ptr<const RobotModel>& robot, cons
   own->sensors.seed = seed;
   Simulation sim(own);
   input.start(sim);
-  input.stand_where_measured(sim);
   Replay::Run run(input, sim);
   std::vector<Sheet> sheets = {muscle_sheet(*robot), joint_sheet(*robot), ball_sheet(*robot)};
   const auto steps = static_cast<std::int64_t>(std::llround(input.duration() / robot->step));

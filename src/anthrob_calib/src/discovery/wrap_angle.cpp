@@ -26,7 +26,6 @@ void follow(const std::shared_ptr<const RobotModel>& model, const Dataset& recor
   const Replay input(model, with_smooth_postures(*model, recording), ReplayMode::kPosture);
   Simulation sim(model);
   input.start(sim);
-  input.stand_where_measured(sim);
   Replay::Run run(input, sim);
   const std::size_t bins = experiment.channels().front().count;
   std::int64_t done = 0;

@@ -224,11 +224,11 @@ double share_of_way(long step, long steps) {
 
 }  // namespace
 
-void Replay::start(Simulation& sim) const {
+Replay::Settled Replay::settle(Simulation& sim) const {
   const auto steps = std::lround(meta_.settle_s / sim.step_length());
   if (mode_ == ReplayMode::kPosture) {
     start_where_recorded(sim, steps);
-    return;
+    return {sim.snapshot(), sim.snapshot()};
   }
   const RobotModel& model = sim.model();
   std::vector<double> q = model.skeleton->rest_configuration();
@@ -239,7 +239,7 @@ void Replay::start(Simulation& sim) const {
     }
   }
   sim.place(q, std::vector<double>(model.muscles.size(), 0.0));
-  if (muscles_.empty()) return;
+  if (muscles_.empty()) return {sim.snapshot(), sim.snapshot()};
 
   std::vector<std::pair<int, double>> imposed;
   for (const MuscleInput& muscle : muscles_) {
@@ -252,7 +252,10 @@ void Replay::start(Simulation& sim) const {
       sim.command(muscle.muscle, input.mode, input.value);
     }
   }
+  const long late = steps - last_steps(sim);
+  Settled settled;
   for (long i = 0; i < steps; ++i) {
+    if (i == late) settled.late = sim.snapshot();
     for (const auto& [muscle, position] : imposed) {
       sim.impose_reading(muscle, share_of_way(i, steps) * position,
                          share_of_way(i + 1, steps) * position);
@@ -260,29 +263,28 @@ void Replay::start(Simulation& sim) const {
     sim.step();
   }
   for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
+  settled.last = sim.snapshot();
+  return settled;
 }
 
-void Replay::stand_where_measured(Simulation& sim) const {
-  constexpr double kNegligible = 1e-4;  // [rad]
-  constexpr double kHeld = 1.0;         // [s]
-  if (mode_ == ReplayMode::kPosture || meta_.start != "first") return;
+void Replay::start(Simulation& sim, const Settled& settled) const {
+  sim.restore(settled.last);
+  const std::vector<Lead> leads = leads_from(sim);
+  const long steps = last_steps(sim);
+  if (leads.empty() || steps == 0) return;
+  sim.restore(settled.late);
   struct Way {
     int muscle;
     double from, to;
   };
   std::vector<Way> ways;
-  for (const MuscleInput& muscle : muscles_) {
-    if (muscle.position.empty()) continue;
-    const StartInput input = start_input(muscle);
-    const double measured = muscle.position.values.front(),
-                 reading = sim.reading(muscle.muscle).position;
-    const bool stands = !input.imposed && input.mode == ecu::Mode::kPosition;
-    if (!stands || !std::isfinite(measured)) continue;
-    const double there = std::clamp(reading, measured - muscle.blur, measured + muscle.blur);
-    if (std::abs(there - reading) > kNegligible) ways.push_back({muscle.muscle, reading, there});
+  for (const Lead& lead : leads) {
+    ways.push_back({lead.muscle, sim.reading(lead.muscle).position, lead.position});
   }
-  if (ways.empty()) return;
-  const auto steps = std::lround(kHeld / sim.step_length());
+  for (const MuscleInput& muscle : muscles_) {
+    const StartInput input = start_input(muscle);
+    if (input.imposed) ways.push_back({muscle.muscle, input.value, input.value});
+  }
   for (long i = 0; i < steps; ++i) {
     for (const Way& way : ways) {
       const double length = way.to - way.from;
@@ -292,6 +294,31 @@ void Replay::stand_where_measured(Simulation& sim) const {
     sim.step();
   }
   for (const Way& way : ways) sim.release(way.muscle);
+}
+
+std::vector<Replay::Lead> Replay::leads_from(const Simulation& settled) const {
+  constexpr double kAtFirst = 0.1;      // [s] measured later, it may have been led elsewhere
+  constexpr double kNegligible = 1e-4;  // [rad]
+  constexpr double kFarthest = 1.0;     // [rad] what is farther off, no friction holds there
+  if (mode_ == ReplayMode::kPosture || meta_.start != "first") return {};
+  std::vector<Lead> leads;
+  for (const MuscleInput& muscle : muscles_) {
+    if (muscle.position.empty() || muscle.position.t.front() > kAtFirst) continue;
+    const StartInput input = start_input(muscle);
+    const double measured = muscle.position.values.front(),
+                 reading = settled.reading(muscle.muscle).position;
+    const bool stands = !input.imposed && input.mode == ecu::Mode::kPosition;
+    if (!stands || !std::isfinite(measured)) continue;
+    const double there = std::clamp(reading, measured - muscle.blur, measured + muscle.blur);
+    const double length = std::abs(there - reading);
+    if (length > kNegligible && length < kFarthest) leads.push_back({muscle.muscle, there});
+  }
+  return leads;
+}
+
+long Replay::last_steps(const Simulation& sim) const {
+  constexpr double kLast = 1.0;  // [s]
+  return std::lround(std::min(kLast, 0.5 * meta_.settle_s) / sim.step_length());
 }
 
 Replay::RecordedStart Replay::recorded_start() const {
@@ -468,7 +495,6 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
   try {
     Simulation sim(model);
     input.start(sim);
-    input.stand_where_measured(sim);
     Replay::Run run(input, sim);
     for (auto& sampler : samplers) sampler.sample(sim, 0.0);
     for (bool wanted = true; wanted && done < steps; ++done) {

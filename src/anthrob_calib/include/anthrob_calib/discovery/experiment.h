@@ -29,7 +29,7 @@ struct Channel {
 
 /// Settled states of one model, by what they depend on (Replay::start_inputs()): recordings that
 /// start alike settle once.
-using Starts = std::map<std::vector<double>, Snapshot>;
+using Starts = std::map<std::vector<double>, Replay::Settled>;
 
 /// A recording as something to compare models with. Immutable; used by many threads.
 class Experiment {

@@ -19,8 +19,8 @@ enum class ReplayMode {
   kPosture,    ///< these and recorded joint positions are: only tendons and springs are simulated
 };
 
-/// Feeds a recording's inputs to simulations of one robot, whose numbers may differ: start(),
-/// stand_where_measured() and then a Run each. Inputs hold from their row to the next; imposed
+/// Feeds a recording's inputs to simulations of one robot, whose numbers may differ: start() and
+/// then a Run each. Inputs hold from their row to the next; imposed
 /// positions are interpolated. Efforts and loads of hinges and prismatic joints are applied in
 /// every mode.
 class Replay {
@@ -35,14 +35,20 @@ class Replay {
   /// recording's meta.yaml says. Robots without muscles start at their first recorded joint
   /// positions; of kPosture all is at its first recorded position, whatever meta.yaml says. The
   /// recording's time 0 is now.
-  void start(Simulation& sim) const;
-  /// After start(), or after the state that it leads to was restored: leads motors under position
-  /// control to where they were measured first, and holds them there for a second. Of those only
-  /// that stand farther from it than a count of their encoders, or than noise: dry friction and
-  /// cogging let a motor stand in many places, and by which way the recorded one came only its
-  /// reading tells.
-  void stand_where_measured(Simulation& sim) const;
-  /// What start() depends on beside the model: recordings with equal ones start in equal states.
+  ///
+  /// Dry friction and cogging let a motor stand in many places, and by which way the recorded one
+  /// came only its reading tells: motors under position control that end farther from where they
+  /// were measured first than a count of their encoders, or than noise, but no farther than 1 rad,
+  /// are led there in the last second of the settling.
+  void start(Simulation& sim) const { start(sim, settle(sim)); }
+  /// States of a simulation that settles, which recordings of equal start_inputs() share.
+  struct Settled {
+    Snapshot late, last;  ///< when the last second begins; at the end
+  };
+  Settled settle(Simulation& sim) const;
+  /// start() of a simulation that has settled before. @param sim of the same model
+  void start(Simulation& sim, const Settled& settled) const;
+  /// What settle() depends on beside the model.
   std::vector<double> start_inputs() const;
 
   /// Drives one simulation from the recording's start on.
@@ -74,6 +80,14 @@ class Replay {
     double value;
   };
   StartInput start_input(const MuscleInput& input) const;
+  /// A motor that does not stand where it was measured, and where within what is known of that it
+  /// should [rad].
+  struct Lead {
+    int muscle;
+    double position;
+  };
+  std::vector<Lead> leads_from(const Simulation& settled) const;
+  long last_steps(const Simulation& sim) const;  ///< of the settling's last second
 
   /// First recorded positions: of joints, as in a configuration, and of muscles.
   struct RecordedStart {
@@ -104,7 +118,7 @@ class Replay {
 
 class Replay::Run {
  public:
-  /// To be made after start() and stand_where_measured().
+  /// To be made after start().
   /// @param replay must outlive this   @param sim likewise; nobody else gives it inputs
   Run(const Replay& replay, Simulation& sim);
 
