@@ -27,12 +27,19 @@ TEST(Phase, IsOfTwoSizesOfEitherSignAndOneUnit) {
 }
 
 TEST(Phase, OthersAreQuartersOfATurn) {
-  const auto turned = other_phases({3.0, 1.0});
+  const Effect* effect = find_effect("cogging");
+  const Candidate cogging{effect, "", effect->info().parameters, {}};
+  const auto sizes = cogging.sizes();
+  const double sine = sizes[0]->typical, cosine = sizes[1]->typical;  // a dose each [Nm]
+  ASSERT_NE(sine, cosine);
+  const double amplitude = std::hypot(3.0 * sine, 1.0 * cosine);
+  const auto turned = other_phases(cogging, {3.0, 1.0});
   ASSERT_EQ(turned.size(), 3u);
   for (std::size_t quarter = 0; quarter < 3; ++quarter) {
-    const double phase = std::atan2(1.0, 3.0) + static_cast<double>(quarter + 1) * M_PI_2;
-    EXPECT_NEAR(turned[quarter][0], std::sqrt(10.0) * std::cos(phase), 1e-12);
-    EXPECT_NEAR(turned[quarter][1], std::sqrt(10.0) * std::sin(phase), 1e-12);
+    const double phase =
+        std::atan2(1.0 * cosine, 3.0 * sine) + static_cast<double>(quarter + 1) * M_PI_2;
+    EXPECT_NEAR(turned[quarter][0] * sine, amplitude * std::cos(phase), 1e-12);
+    EXPECT_NEAR(turned[quarter][1] * cosine, amplitude * std::sin(phase), 1e-12);
   }
 }
 

@@ -14,9 +14,13 @@ bool has_phase(const Candidate& candidate) {
          });
 }
 
-std::vector<std::vector<double>> other_phases(const std::vector<double>& amount) {
-  const double a = amount[0], b = amount[1];
-  return {{-b, a}, {-a, -b}, {b, -a}};
+std::vector<std::vector<double>> other_phases(const Candidate& candidate,
+                                              const std::vector<double>& amount) {
+  const auto sizes = candidate.sizes();
+  const double one = sizes[0]->typical - sizes[0]->neutral,
+               other = sizes[1]->typical - sizes[1]->neutral;
+  const double a = amount[0] * one, b = amount[1] * other;
+  return {{-b / one, a / other}, {-a / one, -b / other}, {b / one, -a / other}};
 }
 
 std::optional<EffectInstance> better_phase(const ModelFit& fit, const Candidate& candidate,

@@ -149,10 +149,9 @@ std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& sc
   }
   for (std::size_t i = 0; i < trials.size(); ++i) {
     // Half of what is suggested tells nothing more of the phase.
-    if (i % sizes < kAsSuggested || !has_phase(candidates_[tried[trials[i].owner].candidate])) {
-      continue;
-    }
-    for (Amount& amount : other_phases(trials[i].amount)) {
+    const Candidate& candidate = candidates_[tried[trials[i].owner].candidate];
+    if (i % sizes < kAsSuggested || !has_phase(candidate)) continue;
+    for (Amount& amount : other_phases(candidate, trials[i].amount)) {
       more.push_back({trials[i].owner, std::move(amount)});
     }
   }

@@ -14,7 +14,9 @@ namespace discovery {
 bool has_phase(const Candidate& candidate);
 
 /// The same amplitude a quarter, half and three quarters of a turn further.
-std::vector<std::vector<double>> other_phases(const std::vector<double>& amount);
+/// @param candidate has a phase   @param amount of its sizes [doses], as what is returned
+std::vector<std::vector<double>> other_phases(const Candidate& candidate,
+                                              const std::vector<double>& amount);
 
 /// A fit to a periodic effect ends in the phase next to where it began, which need not be the best.
 /// @param fitted its last effect is the candidate's
