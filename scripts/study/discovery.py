@@ -32,7 +32,7 @@ KINDS = ["effect", "null", "pair", "outside", "wrapped"]
 MOST_EFFECTS = {"wrapped": 12}
 DOCUMENTS = "docs/studies"
 DRAWN = ["kind", "effects", "change", "slow", "stated_noise", "noise_memory"]  # of a truth, what tells what was asked
-TOLD = ["id", "place", "probability", "parameters", "rivals"]  # of a named effect, what scoring needs
+TOLD = ["id", "place", "probability", "shows_in", "left", "parameters", "rivals"]  # of a named effect, what scoring needs
 
 
 def study_name(options):

@@ -60,7 +60,24 @@ TEST(Report, CallsNothingCertain) {
   EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "These data do not exclude"));
   // A rival of what is not it either is not something the data leave possible.
   answer.verdict = "unexplained";
+  answer.effects[0].left = 0.4;
   EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "These data do not exclude"));
+}
+
+TEST(Report, SaysEitherWhereTwoLawsDoAsWell) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  answer.effects[0].probability = 0.43;
+  answer.effects[0].rivals = {{"torque_ripple", "brachialis", 0.43}};
+  const char* const kEither = "one of two, which these data do not tell apart: <b>Cogging</b>";
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), kEither));
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "Or <b>torque_ripple</b> at <b>brachialis</b>"));
+  answer.effects[0].rivals[0].probability = 0.1;
+  EXPECT_FALSE(holds(report_html(answer, {}, 1.0), kEither));
+  answer.effects[0].rivals[0].probability = 0.43;
+  answer.effects[0].left = 0.3;  // then it is maybe neither
+  EXPECT_FALSE(holds(report_html(answer, {}, 1.0), kEither));
 }
 
 TEST(Report, SaysWhyTheRestHasNoName) {

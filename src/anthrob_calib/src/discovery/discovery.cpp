@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -115,15 +116,15 @@ class Search {
       }
       scores.clear();
       if (base_moves_on(list)) {
+        leftovers_.forget();
         if (accepted_.empty()) note_recalibrated(answer);
         naming_.follow(base_, list);
         if (question_.comment) comment_on(list);
         if (!earns_its_place(list, answer)) {
-          if (leftovers_.refused(list.named.front().candidate, accepted())) continue;
           // The list was drawn up for a base gone astray: once more, for the one that was found.
-          if (looked_again == accepted_.size()) break;
-          looked_again = accepted_.size();
-          continue;
+          if (std::exchange(looked_again, accepted_.size()) != accepted_.size()) continue;
+          if (leftovers_.refused(list.named.front().candidate, accepted())) continue;
+          break;
         }
       }
       accept(list, answer);
@@ -251,17 +252,26 @@ class Search {
         continue;
       }
       if (instead->odds.probability < kClearly) {
-        leave_open(candidate, instead->odds, answer.effects[e]);
+        FoundEffect& effect = answer.effects[e];
+        leave_open(candidate, instead->odds, effect);
+        separate(base_.fit.variant, instead->tested.fit.variant, effect);
         continue;
       }
       std::optional<Fitted> there = with_last_effect_at(train_, instead->tested.fit, e);
       if (!there) continue;
       if (question_.comment) question_.comment("  it is, rather than " + name);
+      FoundEffect& effect = answer.effects[e];
+      const std::string simpler = effect.id;
+      name_instead(candidate, instead->odds, effect);
+      if (!effect.rivals.empty() && effect.rivals.front().id == simpler) {
+        separate(there->variant, base_.fit.variant, effect);
+      } else {
+        effect.separating_recording = {};  // it was planned for the other one
+      }
       base_ = bench_.tested(std::move(*there));
       accepted_[e].candidate = *fuller;
       accepted_[e].gained = instead->gained;
-      name_instead(candidate, instead->odds, answer.effects[e]);
-      leftovers_.forget();
+      forget_refusals(candidate, answer);
       drop_superfluous(e, answer);
       return true;
     }
@@ -364,36 +374,45 @@ class Search {
     }
   }
 
-  /// Of a list, the law that says more than another at its place and does better on what is held
-  /// out.
-  std::optional<std::size_t> fuller_than(std::size_t simple, const ShortList& list) const {
-    const auto its = std::find_if(list.named.begin(), list.named.end(),
-                                  [&](const Named& n) { return n.candidate == simple; });
+  /// What held-out recordings say of the candidates of a list [nat].
+  using Evidence = std::map<std::size_t, double>;
+  static Evidence evidence_of(const ShortList& list) {
+    Evidence evidence;
+    for (const Named& named : list.named) evidence[named.candidate] = named.evidence;
+    return evidence;
+  }
+
+  /// Of these, the law that says more than another at its place and does better.
+  std::optional<std::size_t> fuller_than(std::size_t simple, const Evidence& evidence) const {
+    const auto its = evidence.find(simple);
     std::optional<std::size_t> fuller;
-    double most = its == list.named.end() ? HUGE_VAL : its->evidence;
-    for (const Named& named : list.named) {
-      if (named.evidence <= most) continue;
-      if (!says_less(candidates_[simple], candidates_[named.candidate])) continue;
-      most = named.evidence;
-      fuller = named.candidate;
+    double most = its == evidence.end() ? HUGE_VAL : its->second;
+    for (const auto& [candidate, gain] : evidence) {
+      if (gain <= most || !says_less(candidates_[simple], candidates_[candidate])) continue;
+      most = gain;
+      fuller = candidate;
     }
     return fuller;
   }
 
+  /// With another model all are looked at again; one that is in it now was not refused.
+  void forget_refusals(const Candidate& named, Answer& answer) {
+    auto& dropped = answer.dropped;
+    dropped.erase(std::remove(dropped.begin(), dropped.end(), named.name()), dropped.end());
+    answer.refused = {};
+    leftovers_.forget();
+  }
+
   void accept(ShortList& list, Answer& answer) {
-    const ShortList rough = list;
+    const Evidence in_its_round = evidence_of(list);
     RunOff(bench_, gaps_).decide(base_, list);
     const Named& best = list.named.front();
     FoundEffect effect = found_effect(list, candidates_);
-    if (!effect.rivals.empty()) separate(list, effect);
-    auto& dropped = answer.dropped;  // it may be needed again
-    const std::string name = candidates_[best.candidate].name();
-    dropped.erase(std::remove(dropped.begin(), dropped.end(), name), dropped.end());
+    separate_first(list, effect);
     answer.effects.push_back(std::move(effect));
-    answer.refused = {};
-    accepted_.push_back(
-        {best.candidate, base_.fit.cost - best.fit.cost, fuller_than(best.candidate, rough), 0.0});
-    leftovers_.forget();
+    accepted_.push_back({best.candidate, base_.fit.cost - best.fit.cost,
+                         fuller_than(best.candidate, in_its_round), 0.0});
+    forget_refusals(candidates_[best.candidate], answer);
     note_what_it_shows_in(best, answer.effects.back());
     base_ = best;
   }
@@ -425,15 +444,20 @@ class Search {
     }
   }
 
-  void separate(const ShortList& list, FoundEffect& effect) const {
-    effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
+  void separate_first(const ShortList& list, FoundEffect& effect) const {
     for (std::size_t i = 1; i < list.named.size(); ++i) {
       if (list.named[i].probability < kMentioned) continue;
-      effect.separating_recording =
-          plan_separation(evaluator_, list.named.front().fit.variant, list.named[i].fit.variant,
-                          question_.train.front(), scales_, laboratory_.train.front()->bin());
+      separate(list.named.front().fit.variant, list.named[i].fit.variant, effect);
       return;
     }
+  }
+
+  /// Plans what tells an effect from its first rival.
+  void separate(const Variant& with, const Variant& with_rival, FoundEffect& effect) const {
+    effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
+    effect.separating_recording =
+        plan_separation(evaluator_, with, with_rival, question_.train.front(), scales_,
+                        laboratory_.train.front()->bin());
   }
 
   Gap gap_of(const Judge& judge, const Eigen::VectorXf& given, const Eigen::VectorXf& recalibrated,

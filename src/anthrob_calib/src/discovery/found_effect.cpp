@@ -1,9 +1,24 @@
 #include "anthrob_calib/discovery/found_effect.h"
 
-#include "anthrob_calib/discovery/separating_experiment.h"
+#include <algorithm>
 
 namespace anthrob {
 namespace discovery {
+
+namespace {
+
+/// @return the probability that a law had as a rival
+double take_out(const Candidate& law, FoundEffect& effect) {
+  const auto& info = law.effect->info();
+  const auto is_it = [&](const Rival& r) { return r.id == info.id && r.place == law.place; };
+  const auto its = std::find_if(effect.rivals.begin(), effect.rivals.end(), is_it);
+  if (its == effect.rivals.end()) return 0.0;
+  const double probability = its->probability;
+  effect.rivals.erase(its);
+  return probability;
+}
+
+}  // namespace
 
 FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& candidates) {
   const Named& best = list.named.front();
@@ -25,24 +40,24 @@ FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& ca
 }
 
 void name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect) {
-  const double both = effect.probability;
-  effect.rivals.insert(effect.rivals.begin(),
-                       {effect.id, effect.place, (1.0 - odds.probability) * both, effect.evidence});
+  const double both = effect.probability + take_out(fuller, effect);
+  const Rival simpler = {effect.id, effect.place, (1.0 - odds.probability) * both, effect.evidence};
+  if (simpler.probability >= kMentioned) {
+    const auto less = [&](const Rival& r) { return r.probability <= simpler.probability; };
+    auto& rivals = effect.rivals;
+    rivals.insert(std::find_if(rivals.begin(), rivals.end(), less), simpler);
+  }
   effect.id = fuller.effect->info().id;
   effect.name = fuller.effect->info().name;
   effect.probability = odds.probability * both;
   effect.evidence += odds.evidence;
-  effect.separating_experiment = separating_experiment(effect.id, effect.rivals.front().id);
-  effect.separating_recording = {};  // it was planned for the other one
 }
 
 void leave_open(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect) {
-  effect.probability *= 0.5;
-  const std::string& id = fuller.effect->info().id;
+  effect.probability = 0.5 * (effect.probability + take_out(fuller, effect));
   effect.rivals.insert(effect.rivals.begin(),
-                       {id, fuller.place, effect.probability, effect.evidence + odds.evidence});
-  effect.separating_experiment = separating_experiment(effect.id, id);
-  effect.separating_recording = {};  // it was planned for another one
+                       {fuller.effect->info().id, fuller.place, effect.probability,
+                        effect.evidence + odds.evidence});
 }
 
 }  // namespace discovery

@@ -45,7 +45,8 @@ std::string nameless(const Answer& answer, const Question& question) {
   if (!question.effects.empty()) {
     return "Something is missing that is not among what --effects let be looked for. ";
   }
-  return "Something is missing that no law of the catalogue, as it was fitted, explains. ";
+  return "Something is missing that no law of the catalogue, as it was fitted, explains" +
+         std::string(answer.effects.empty() ? ". " : " whole. ");
 }
 
 /// Channels that are more than noise at the end, where none of them is so for certain.
@@ -86,15 +87,32 @@ std::string what_is_left(const FoundEffect& effect) {
   return text + ".";
 }
 
-/// What was found: that, or something like that.
+/// Whether nothing but its rival speaks against an effect.
+bool has_equal(const FoundEffect& effect) {
+  constexpr double kAsMuch = 0.8;
+  return effect.left <= kEvenOdds && !effect.rivals.empty() &&
+         effect.rivals.front().probability >= kAsMuch * effect.probability;
+}
+
+/// What was found: that, one of two, or something like that.
 std::string found(const Answer& answer) {
-  std::string probable, alike;
+  std::string probable, either, alike;
   for (const FoundEffect& effect : answer.effects) {
-    (effect.probability < 0.5 ? alike : probable) += named(effect);
+    if (effect.probability >= 0.5) {
+      probable += named(effect);
+    } else if (has_equal(effect)) {
+      const Rival& rival = effect.rivals.front();
+      either +=
+          "The model misses one of two, which these data do not tell apart: " + named(effect) +
+          "Or <b>" + escaped(rival.id) + "</b> at <b>" + escaped(rival.place) + "</b>, " +
+          probability_text(rival.probability) + ". ";
+    } else {
+      alike += named(effect);
+    }
   }
   if (!probable.empty()) probable = "The model misses: " + probable;
   if (!alike.empty()) alike = "The model misses this or something like it: " + alike;
-  return probable + alike;
+  return probable + either + alike;
 }
 
 /// What is only the nearest.
@@ -121,7 +139,7 @@ std::string sentence(const Answer& answer, const Question& question) {
                       &two = answer.effects[other.instead_of[1]];
     text += "Or, instead of " + escaped(one.name) + " and " + escaped(two.name) + ", <b>" +
             escaped(other.id) + "</b> at <b>" + escaped(other.place) + "</b> alone, " +
-            probability_text(other.probability) + ". ";
+            probability_text(other.probability) + " against those two. ";
   }
   if (answer.verdict == "effects_found") {
     const bool falls = answer.test.after < answer.test.recalibrated;
@@ -134,7 +152,7 @@ std::string sentence(const Answer& answer, const Question& question) {
            (answer.remaining_description == kNoCertainGap ? uncertain_gaps(answer) : "");
   }
   if (!answer.effects.empty()) {
-    std::string offers = "The catalogue offers: ";
+    std::string offers = "It offers: ";
     for (const FoundEffect& effect : answer.effects) offers += named(effect);
     text = offers + text;
   }
@@ -185,8 +203,9 @@ std::string effects_table(const Answer& answer) {
             probability_text(effect.probability) + "." + what_is_left(effect) + "</p>\n";
     if (effect.rivals.empty()) continue;
     // Where too much is left for any of them, they are rivals of something that is not it either.
-    html += answer.verdict == "unexplained" ? "<p>Others that come as near:</p><ul>\n"
-                                            : "<p>These data do not exclude:</p><ul>\n";
+    html += answer.verdict == "unexplained" && effect.left > kEvenOdds
+                ? "<p>Others that come as near:</p><ul>\n"
+                : "<p>These data do not exclude:</p><ul>\n";
     for (const Rival& rival : effect.rivals) {
       html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", " +
               probability_text(rival.probability) + "</li>\n";
@@ -450,6 +469,10 @@ what was learned from, and no effect added</li>
 <li>share: of the square of what all gaps together are more than noise, the part of this channel</li>
 <li>significance: by how many standard errors (sigma), over blocks of 2 s, a channel stands above
 what a wrong floor may look like</li>
+<li>squared gap: what of the square of a gap stands above what noise may look like (1.15 floors)</li>
+<li>probability: how likely this law at this place is the right one, among those that were fitted
+and none; what it leaves lowers it. What is missing to 1 is for laws that the catalogue lacks, and
+for rivals that are not listed</li>
 <li>nat: a log score that is one higher means that the recordings are 2.7 times as probable</li>
 </ul>
 )";

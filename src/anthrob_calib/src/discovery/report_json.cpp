@@ -235,7 +235,7 @@ std::string alternative_text(const Alternative& alternative, const Answer& answe
   };
   return alternative.id + " @ " + alternative.place + " instead of both " +
          name(alternative.instead_of[0]) + " and " + name(alternative.instead_of[1]) + ", " +
-         probability_text(alternative.probability);
+         probability_text(alternative.probability) + " against those two";
 }
 
 std::string summary(const Answer& answer) {

@@ -58,9 +58,6 @@ void pronounce(const std::map<std::string, double>& left, bool certain, Answer& 
       effect.probability *= trust;
       for (Rival& rival : effect.rivals) rival.probability *= trust;
     }
-    for (Alternative& alternative : answer.alternatives) {
-      alternative.probability *= trust_in(answer.effects[alternative.instead_of[0]]);
-    }
   }
   auto& remaining = answer.remaining;
   remaining.erase(

@@ -14,7 +14,8 @@ constexpr double kMentioned = 0.02;  ///< least probability of a rival
 /// The first of a list, the others its rivals.
 FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& candidates);
 
-/// A law that says more at an effect's place does better: it is named, the other its first rival.
+/// A law that says more at an effect's place does better: it is named, the other its rival. What it
+/// had as a rival is its own.
 /// @param odds against the other
 void name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect);
 

@@ -70,10 +70,10 @@ std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
                                         const std::vector<double>& handicap, std::uint64_t seed);
 
 /// Mean of the blocks' gains over its standard error, of the gains as they are or of their
-/// logarithms (asinh), the larger of the two: what brings ten nat in one block and a thousand in the
-/// next is not doubtful for that, nor what brings much in some blocks and costs little in others,
-/// as a law of nearly the right shape does. Blocks of less than a nat either way say nothing: an
-/// effect may show now and then only. 0 if fewer than three say something.
+/// logarithms (asinh), the larger of the two: what brings ten nat in one block and a thousand in
+/// the next is not doubtful for that, nor what brings much in some blocks and costs little in
+/// others, as a law of nearly the right shape does. Blocks of less than a nat either way say
+/// nothing: an effect may show now and then only. 0 if fewer than three say something.
 double block_significance(const Eigen::VectorXd& gains);
 
 }  // namespace discovery

@@ -1,0 +1,75 @@
+#include "anthrob_calib/discovery/found_effect.h"
+
+#include <gtest/gtest.h>
+
+#include "anthrob_sim/effects/catalogue.h"
+
+namespace anthrob {
+namespace discovery {
+namespace {
+
+const std::vector<Candidate>& candidates() {
+  static const std::vector<Candidate> list = {
+      {find_effect("joint_coulomb"), "elbow", {}, {}},
+      {find_effect("joint_coulomb_asymmetric"), "elbow", {}, {}},
+      {find_effect("cable_drag"), "elbow", {}, {}},
+      {find_effect("payload"), "forearm", {}, {}},
+  };
+  return list;
+}
+
+/// Dry friction, with what says more and others as rivals.
+FoundEffect friction() {
+  ShortList list;
+  list.named.resize(4);
+  const double probabilities[] = {0.6, 0.2, 0.1, 0.01};
+  for (std::size_t i = 0; i < 4; ++i) {
+    list.named[i].candidate = i;
+    list.named[i].probability = probabilities[i];
+    list.named[i].evidence = 100.0 - static_cast<double>(i);
+  }
+  return found_effect(list, candidates());
+}
+
+TEST(FoundEffect, HasTheOthersForRivals) {
+  const FoundEffect effect = friction();
+  EXPECT_EQ(effect.id, "joint_coulomb");
+  EXPECT_EQ(effect.place, "elbow");
+  ASSERT_EQ(effect.rivals.size(), 2u);  // 0.01 is not worth telling
+  EXPECT_EQ(effect.rivals[0].id, "joint_coulomb_asymmetric");
+  EXPECT_EQ(effect.rivals[1].id, "cable_drag");
+}
+
+TEST(FoundEffect, WhatSaysMoreTakesItsOwnProbabilityAlong) {
+  FoundEffect effect = friction();
+  name_instead(candidates()[1], {0.75, 12.0}, effect);
+  EXPECT_EQ(effect.id, "joint_coulomb_asymmetric");
+  EXPECT_DOUBLE_EQ(effect.probability, 0.75 * 0.8);
+  EXPECT_DOUBLE_EQ(effect.evidence, 112.0);
+  ASSERT_EQ(effect.rivals.size(), 2u);
+  EXPECT_EQ(effect.rivals[0].id, "joint_coulomb");
+  EXPECT_DOUBLE_EQ(effect.rivals[0].probability, 0.25 * 0.8);
+  EXPECT_EQ(effect.rivals[1].id, "cable_drag");
+}
+
+TEST(FoundEffect, WhatIsExcludedIsNoRival) {
+  FoundEffect effect = friction();
+  name_instead(candidates()[1], {0.999, 50.0}, effect);
+  ASSERT_EQ(effect.rivals.size(), 1u);
+  EXPECT_EQ(effect.rivals[0].id, "cable_drag");
+}
+
+TEST(FoundEffect, OfTwoThatDoAsWellEachHasHalf) {
+  FoundEffect effect = friction();
+  leave_open(candidates()[1], {0.7, 5.0}, effect);
+  EXPECT_EQ(effect.id, "joint_coulomb");
+  EXPECT_DOUBLE_EQ(effect.probability, 0.4);
+  ASSERT_EQ(effect.rivals.size(), 2u);
+  EXPECT_EQ(effect.rivals[0].id, "joint_coulomb_asymmetric");
+  EXPECT_DOUBLE_EQ(effect.rivals[0].probability, 0.4);
+  EXPECT_DOUBLE_EQ(effect.rivals[0].evidence, 105.0);
+}
+
+}  // namespace
+}  // namespace discovery
+}  // namespace anthrob
