@@ -429,6 +429,30 @@ TEST(ChainExperiment, RecordingsThatStartAlikeSettleOnce) {
   EXPECT_EQ(after, alone);  // to the last bit
 }
 
+TEST(ChainExperiment, RecordingsThatSettleAlikeMayStandElsewhere) {
+  const Arm arm;
+  Dataset elsewhere = arm.record({}, 1, 2);
+  constexpr double kOff = 0.05;  // [rad]
+  for (Column& column : elsewhere.table("muscles").columns) {
+    if (column.name != "biceps_brachii/position") continue;
+    for (double& value : column.values) value += kOff;
+  }
+  const ChainExperiment first(*arm.plain, arm.record({}, 1, 1), {}),
+      second(*arm.plain, elsewhere, {});
+  std::vector<float> alone(second.size()), after(second.size()), ignored(first.size());
+  Starts none, starts;
+  second.compare(arm.plain, none, alone.data());
+  first.compare(arm.plain, starts, ignored.data());
+  second.compare(arm.plain, starts, after.data());
+  EXPECT_EQ(starts.size(), 1u);
+  EXPECT_EQ(after, alone);
+  for (const Channel& channel : second.channels()) {
+    if (channel.name() != "biceps_brachii/position") continue;
+    EXPECT_LT(std::abs(after[channel.offset]), 0.5 * kOff);  // there at first, and led back then
+    EXPECT_NEAR(after[channel.offset + channel.count - 1], -kOff, 0.1 * kOff);
+  }
+}
+
 TEST(Excerpt, IsTheBeginningOfTheWhole) {
   const Arm arm;
   const std::vector<Dataset> recordings = {arm.record({}, 1, 1), arm.record({}, 2, 2)};
