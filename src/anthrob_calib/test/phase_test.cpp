@@ -8,6 +8,7 @@
 #include <string>
 
 #include "anthrob_calib/discovery/chain_experiment.h"
+#include "anthrob_calib/discovery/trials.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "arm.h"
 
@@ -43,39 +44,67 @@ TEST(Phase, OthersAreQuartersOfATurn) {
   }
 }
 
-TEST(Phase, AWrongOneIsLeft) {
-  constexpr double kAmplitude = 3e-3, kPhase = 0.4;
-  const std::string place = "biceps_brachii";
-  const auto cogging = [&](double phase) {
-    return EffectInstance{"cogging",
-                          place,
-                          {{"sine", kAmplitude * std::cos(phase)},
-                           {"cosine", kAmplitude * std::sin(phase)},
-                           {"periods", 12.0}}};
-  };
-  const Arm arm;
-  const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 2);
-  const Experiments experiments = {std::make_shared<ChainExperiment>(
-      *arm.plain, arm.record({cogging(kPhase)}, 1, 1), ExperimentOptions{})};
-  const auto size = static_cast<Eigen::Index>(experiments.front()->size());
-  const ModelFit fit(evaluator, experiments, Eigen::VectorXf::Ones(size));
-  const auto candidates = list_candidates(evaluator, {"cogging"});
-  const auto candidate = std::find_if(candidates.begin(), candidates.end(),
-                                      [&](const Candidate& c) { return c.place == place; });
-  ASSERT_NE(candidate, candidates.end());
-  const auto fitted = [&](double phase) {
+/// The arm with cogging in the motor of its biceps, and what looks for that.
+class Cogging : public testing::Test {
+ protected:
+  static constexpr double kAmplitude = 3e-3, kPhase = 0.4;  // [Nm], [rad]
+  const std::string place_ = "biceps_brachii";
+
+  EffectInstance cogging(double phase) const {
+    return {"cogging",
+            place_,
+            {{"sine", kAmplitude * std::cos(phase)},
+             {"cosine", kAmplitude * std::sin(phase)},
+             {"periods", 12.0}}};
+  }
+  Fitted fitted(const std::vector<EffectInstance>& effects) const {
     Variant variant;
-    variant.effects = {cogging(phase)};
-    return fit.start(variant, {});
-  };
+    variant.effects = effects;
+    return fit_.start(variant, {});
+  }
+
+  const Arm arm_;
+  const Evaluator evaluator_{ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 2};
+  const Experiments experiments_ = {std::make_shared<ChainExperiment>(
+      *arm_.plain, arm_.record({cogging(kPhase)}, 1, 1), ExperimentOptions{})};
+  const ModelFit fit_{evaluator_, experiments_,
+                      Eigen::VectorXf::Ones(static_cast<Eigen::Index>(experiments_[0]->size()))};
+  const std::vector<Candidate> candidates_ = list_candidates(evaluator_, {"cogging"});
+  const std::size_t candidate_ =
+      static_cast<std::size_t>(std::find_if(candidates_.begin(), candidates_.end(),
+                                            [&](const Candidate& c) { return c.place == place_; }) -
+                               candidates_.begin());
+};
+
+TEST_F(Cogging, OfAWrongPhaseIsLeft) {
   for (const double off : {0.75 * M_PI, M_PI}) {
-    const auto better = better_phase(fit, *candidate, fitted(kPhase + off));
+    const auto better =
+        better_phase(fit_, candidates_[candidate_], fitted({cogging(kPhase + off)}));
     ASSERT_TRUE(better) << off;
     const double sine = better->parameters.at("sine"), cosine = better->parameters.at("cosine");
     EXPECT_NEAR(std::hypot(sine, cosine), kAmplitude, 1e-9);
     EXPECT_GT(std::cos(std::atan2(cosine, sine) - kPhase), 0.99) << off;
   }
-  EXPECT_FALSE(better_phase(fit, *candidate, fitted(kPhase)));
+  EXPECT_FALSE(better_phase(fit_, candidates_[candidate_], fitted({cogging(kPhase)})));
+}
+
+TEST_F(Cogging, IsTriedInOtherPhasesThanAreSuggested) {
+  const auto sizes = candidates_[candidate_].sizes();
+  Score suggested;
+  suggested.candidate = candidate_;
+  suggested.gain = 100.0;
+  for (const EffectParameter* size : sizes) {
+    const double opposite = cogging(kPhase + M_PI).parameters.at(size->name);
+    suggested.amount.push_back(opposite / size->typical);
+  }
+  for (const Score& best : Trials(fit_, candidates_).best(fitted({}), {suggested})) {
+    if (best.candidate != candidate_) continue;
+    const double sine = best.amount[0] * sizes[0]->typical,
+                 cosine = best.amount[1] * sizes[1]->typical;
+    EXPECT_GT(std::cos(std::atan2(cosine, sine) - kPhase), 0.7);
+    return;
+  }
+  FAIL() << "not even tried";
 }
 
 }  // namespace
