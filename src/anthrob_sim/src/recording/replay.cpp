@@ -270,8 +270,8 @@ Replay::Settled Replay::settle(Simulation& sim) const {
 void Replay::start(Simulation& sim, const Settled& settled) const {
   sim.restore(settled.last);
   const std::vector<Lead> leads = leads_from(sim);
+  if (leads.empty()) return;
   const long steps = last_steps(sim);
-  if (leads.empty() || steps == 0) return;
   sim.restore(settled.late);
   struct Way {
     int muscle;
@@ -300,7 +300,9 @@ std::vector<Replay::Lead> Replay::leads_from(const Simulation& settled) const {
   constexpr double kAtFirst = 0.1;      // [s] measured later, it may have been led elsewhere
   constexpr double kNegligible = 1e-4;  // [rad]
   constexpr double kFarthest = 1.0;     // [rad] what is farther off, no friction holds there
+  constexpr double kSettled = 0.5;      // [s] after less it may not stand at all
   if (mode_ == ReplayMode::kPosture || meta_.start != "first") return {};
+  if (meta_.settle_s < kSettled) return {};
   std::vector<Lead> leads;
   for (const MuscleInput& muscle : muscles_) {
     if (muscle.position.empty() || muscle.position.t.front() > kAtFirst) continue;

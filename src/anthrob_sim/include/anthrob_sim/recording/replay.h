@@ -39,7 +39,8 @@ class Replay {
   /// Dry friction and cogging let a motor stand in many places, and by which way the recorded one
   /// came only its reading tells: motors under position control that end farther from where they
   /// were measured first than a count of their encoders, or than noise, but no farther than 1 rad,
-  /// are led there in the last second of the settling.
+  /// are led there in the last second of the settling, or its second half; not if it takes less
+  /// than 0.5 s.
   void start(Simulation& sim) const { start(sim, settle(sim)); }
   /// States of a simulation that settles, which recordings of equal start_inputs() share.
   struct Settled {
