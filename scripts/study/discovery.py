@@ -148,6 +148,8 @@ class Case:
         if report.get("alternatives"):
             answer["alternatives"] = report["alternatives"]
         answer["effects"] = [{key: one.get(key) for key in TOLD} for one in report.get("effects") or []]
+        if report.get("improbable"):
+            answer["improbable"] = report["improbable"]
         for key in "visible", "not_visible":
             answer[key] = [one for one in report.get(key) or []
                            if (one["id"], (one.get("place") or "").split("/")[0]) in hidden]
