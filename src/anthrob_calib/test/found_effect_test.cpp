@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "anthrob_calib/discovery/separating_experiment.h"
 #include "anthrob_sim/effects/catalogue.h"
 
 namespace anthrob {
@@ -42,7 +43,8 @@ TEST(FoundEffect, HasTheOthersForRivals) {
 
 TEST(FoundEffect, WhatSaysMoreTakesItsOwnProbabilityAlong) {
   FoundEffect effect = friction();
-  name_instead(candidates()[1], {0.75, 12.0}, effect);
+  effect.separating_experiment = "as for the simpler one";
+  EXPECT_TRUE(name_instead(candidates()[1], {0.75, 12.0}, effect));
   EXPECT_EQ(effect.id, "joint_coulomb_asymmetric");
   EXPECT_DOUBLE_EQ(effect.probability, 0.75 * 0.8);
   EXPECT_DOUBLE_EQ(effect.evidence, 112.0);
@@ -54,9 +56,15 @@ TEST(FoundEffect, WhatSaysMoreTakesItsOwnProbabilityAlong) {
 
 TEST(FoundEffect, WhatIsExcludedIsNoRival) {
   FoundEffect effect = friction();
-  name_instead(candidates()[1], {0.999, 50.0}, effect);
+  effect.separating_experiment = "as for the simpler one";
+  EXPECT_FALSE(name_instead(candidates()[1], {0.999, 50.0}, effect));
   ASSERT_EQ(effect.rivals.size(), 1u);
   EXPECT_EQ(effect.rivals[0].id, "cable_drag");
+  EXPECT_EQ(effect.separating_experiment,
+            separating_experiment("joint_coulomb_asymmetric", "cable_drag"));
+  effect.rivals.clear();
+  name_instead(candidates()[1], {0.999, 50.0}, effect);
+  EXPECT_EQ(effect.separating_experiment, "");
 }
 
 TEST(FoundEffect, OfTwoThatDoAsWellEachHasHalf) {

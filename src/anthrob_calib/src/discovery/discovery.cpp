@@ -17,6 +17,7 @@
 #include "anthrob_calib/discovery/gaps.h"
 #include "anthrob_calib/discovery/leftovers.h"
 #include "anthrob_calib/discovery/location.h"
+#include "anthrob_calib/discovery/named_effect.h"
 #include "anthrob_calib/discovery/preflight.h"
 #include "anthrob_calib/discovery/preparation.h"
 #include "anthrob_calib/discovery/run_off.h"
@@ -35,14 +36,6 @@ namespace {
 
 constexpr std::size_t kRenewed = 60;  ///< candidates whose doses are simulated again later
 constexpr int kMostRounds = 2;        ///< for each effect that may be named
-
-/// A candidate that is in the model now.
-struct Accepted {
-  std::size_t candidate = 0;
-  double gained = 0.0;                ///< of the cost, when it came in
-  std::optional<std::size_t> fuller;  ///< a law that says more there, and did better in its round
-  double before = 0.0;                ///< excess of the channel it shows in, when it came in
-};
 
 class Search {
  public:
@@ -81,9 +74,10 @@ class Search {
               total_duration(laboratory_.test))
         .fly(screening, scores, answer);
     search(screening, std::move(scores), answer);
-    while (fill_out(screening, answer)) search(screening, {}, answer);
-    const Tested unspared = settle_what_is_told(answer);
-    find_alternatives(screening, unspared, answer);
+    while (fill_out(screening, answer) || drop_improbable(answer)) search(screening, {}, answer);
+    find_alternatives(screening, answer);
+    measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
+    spare_channels_that_pay();
     conclude(answer);
     return answer;
   }
@@ -97,14 +91,14 @@ class Search {
     for (;
          rounds_ < kMostRounds * question_.max_effects && has_room() && gaps_.any(base_, kFaintGap);
          ++rounds_) {
-      const std::string title = "effect " + std::to_string(accepted_.size() + 1) + ": ";
+      const std::string title = "effect " + std::to_string(named_.size() + 1) + ": ";
       if (scores.empty()) {
         stage(title + "screening");
         screening.renew(base_.fit, screening.scores(base_.fit), kRenewed);
         scores = screening.scores(base_.fit);
       }
       scores.erase(std::remove_if(scores.begin(), scores.end(),
-                                  [&](const Score& s) { return is_accepted(s.candidate); }),
+                                  [&](const Score& s) { return is_out(s.candidate); }),
                    scores.end());
       stage(title + "fitting the short list");
       ShortList list = naming_.weigh(base_, leftovers_.besides(scores));
@@ -117,18 +111,18 @@ class Search {
       scores.clear();
       if (base_moves_on(list)) {
         leftovers_.forget();
-        if (accepted_.empty()) note_recalibrated(answer);
+        if (named_.empty()) note_recalibrated(answer);
         naming_.follow(base_, list);
         if (question_.comment) comment_on(list);
         if (!earns_its_place(list, answer)) {
           // The list was drawn up for a base gone astray: once more, for the one that was found.
-          if (std::exchange(looked_again, accepted_.size()) != accepted_.size()) continue;
+          if (std::exchange(looked_again, named_.size()) != named_.size()) continue;
           if (leftovers_.refused(list.named.front().candidate, accepted())) continue;
           break;
         }
       }
       accept(list, answer);
-      drop_superfluous(accepted_.size() - 1, answer);
+      drop_superfluous(named_.size() - 1, answer);
     }
   }
 
@@ -136,19 +130,19 @@ class Search {
     if (question_.progress && !question_.progress(what)) throw Interrupted();
   }
 
-  bool has_room() const {
-    return accepted_.size() < static_cast<std::size_t>(question_.max_effects);
-  }
-
-  bool is_accepted(std::size_t candidate) const {
-    return std::any_of(accepted_.begin(), accepted_.end(),
-                       [&](const Accepted& a) { return a.candidate == candidate; });
-  }
+  bool has_room() const { return named_.size() < static_cast<std::size_t>(question_.max_effects); }
 
   std::vector<std::size_t> accepted() const {
     std::vector<std::size_t> candidates;
-    for (const Accepted& a : accepted_) candidates.push_back(a.candidate);
+    for (const NamedEffect& effect : named_) candidates.push_back(effect.candidate);
     return candidates;
+  }
+
+  /// Not to be looked for: in the model already, or too improbable to be.
+  bool is_out(std::size_t candidate) const {
+    const auto is_it = [&](const NamedEffect& effect) { return effect.candidate == candidate; };
+    return std::any_of(named_.begin(), named_.end(), is_it) ||
+           std::count(improbable_.begin(), improbable_.end(), candidate) > 0;
   }
 
   void comment_on(const ShortList& list) const {
@@ -175,8 +169,7 @@ class Search {
 
   void note_recalibrated(Answer& answer) {
     answer.recalibrated = base_.fit.variant;
-    recalibrated_train_ = base_.fit.residual;
-    recalibrated_test_ = base_.test;
+    recalibrated_ = base_;
     gaps_.begin(base_.test);
   }
 
@@ -184,7 +177,7 @@ class Search {
   /// the model without it gets the same chance, from where its fit has ended.
   bool base_moves_on(const ShortList& list) {
     const Named& best = list.named.front();
-    std::optional<Fitted> moved = bench_.without(accepted_.size(), best.candidate, best.fit);
+    std::optional<Fitted> moved = bench_.without(named_.size(), best.candidate, best.fit);
     if (!moved) return false;
     const double reach = best.fit.cost + kOutOfReach * (base_.fit.cost - best.fit.cost);
     if (!settling_.settle_within_reach(*moved, reach)) return false;
@@ -210,13 +203,13 @@ class Search {
   /// @param newest the effect that is not asked: it has just earned its place
   void drop_superfluous(std::size_t newest, Answer& answer) {
     const SecondThoughts second(bench_, gaps_);
-    for (std::size_t e = 0; e < accepted_.size();) {
+    for (std::size_t e = 0; e < named_.size();) {
       if (e == newest) {
         ++e;
         continue;
       }
-      const std::size_t candidate = accepted_[e].candidate;
-      const double gained = accepted_[e].gained;
+      const std::size_t candidate = named_[e].candidate;
+      const double gained = named_[e].gained;
       const std::string name = candidates_[candidate].name();
       stage("whether " + name + " is still needed");
       std::optional<Tested> without = second.without(e, candidate, gained, base_);
@@ -225,14 +218,18 @@ class Search {
         continue;
       }
       if (question_.comment) question_.comment("  not needed any more: " + name);
-      base_ = std::move(*without);
+      remove(e, std::move(*without));
       if (e < newest) --newest;
-      accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(e));
-      answer.effects.erase(answer.effects.begin() + static_cast<std::ptrdiff_t>(e));
       answer.dropped.push_back(name);
-      // Planned with it in the model.
-      for (FoundEffect& effect : answer.effects) effect.separating_recording = {};
     }
+  }
+
+  /// @param without the model without that effect
+  void remove(std::size_t e, Tested without) {
+    base_ = std::move(without);
+    named_.erase(named_.begin() + static_cast<std::ptrdiff_t>(e));
+    // Planned with it in the model.
+    for (NamedEffect& effect : named_) effect.found.separating_recording = {};
   }
 
   /// A law that says more than a named one at its place is named instead of it, if it did better
@@ -241,36 +238,30 @@ class Search {
     constexpr double kNeeded = 3.0;  // [nat], held out: nothing was searched
     constexpr double kClearly = 0.9;
     const CommonLaw common(bench_, screening);
-    for (std::size_t e = 0; e < accepted_.size(); ++e) {
-      const std::optional<std::size_t> fuller = std::exchange(accepted_[e].fuller, std::nullopt);
-      if (!fuller || is_accepted(*fuller)) continue;
+    for (std::size_t e = 0; e < named_.size(); ++e) {
+      NamedEffect& effect = named_[e];
+      const std::optional<std::size_t> fuller = std::exchange(effect.fuller, std::nullopt);
+      if (!fuller || is_out(*fuller)) continue;
       const Candidate& candidate = candidates_[*fuller];
-      const std::string name = candidates_[accepted_[e].candidate].name();
+      const std::string name = candidates_[effect.candidate].name();
       stage("whether it is " + candidate.name() + ", not " + name);
-      const auto instead = common.instead(*fuller, base_, {{e, accepted_[e].candidate}});
+      const auto instead = common.instead(*fuller, base_, {{e, effect.candidate}});
       if (!instead || instead->odds.evidence <= kNeeded || instead->odds.probability <= 0.5) {
         continue;
       }
       if (instead->odds.probability < kClearly) {
-        FoundEffect& effect = answer.effects[e];
-        leave_open(candidate, instead->odds, effect);
-        separate(base_.fit.variant, instead->tested.fit.variant, effect);
+        leave_open(candidate, instead->odds, effect.found);
+        separate(base_.fit.variant, instead->tested.fit.variant, effect.found);
         continue;
       }
       std::optional<Fitted> there = with_last_effect_at(train_, instead->tested.fit, e);
       if (!there) continue;
       if (question_.comment) question_.comment("  it is, rather than " + name);
-      FoundEffect& effect = answer.effects[e];
-      const std::string simpler = effect.id;
-      name_instead(candidate, instead->odds, effect);
-      if (!effect.rivals.empty() && effect.rivals.front().id == simpler) {
-        separate(there->variant, base_.fit.variant, effect);
-      } else {
-        effect.separating_recording = {};  // it was planned for the other one
-      }
+      const bool stays = name_instead(candidate, instead->odds, effect.found);
+      if (stays) separate(there->variant, base_.fit.variant, effect.found);
       base_ = bench_.tested(std::move(*there));
-      accepted_[e].candidate = *fuller;
-      accepted_[e].gained = instead->gained;
+      effect.candidate = *fuller;
+      effect.gained = instead->gained;
       forget_refusals(candidate, answer);
       drop_superfluous(e, answer);
       return true;
@@ -278,67 +269,62 @@ class Search {
     return false;
   }
 
-  /// The model that is told: without improbable laws, and none of its channels pays for the others.
-  /// @return the same as least squares has it, which is compared with other fits
-  Tested settle_what_is_told(Answer& answer) {
-    drop_improbable(answer);
-    for (;;) {
-      Tested unspared = base_;
-      spare_channels_that_pay();
-      if (!drop_improbable(answer)) return unspared;
-    }
-  }
-
   /// What leaves so much that it is hardly the right law does not extend the model: it may do what
-  /// another one should. @return whether there was one
+  /// another one should, which is looked for then. @return whether there was one
   bool drop_improbable(Answer& answer) {
-    for (bool any = false;; any = true) {
-      measure_what_is_left(answer);
-      const auto worst = std::min_element(
-          answer.effects.begin(), answer.effects.end(),
-          [](const FoundEffect& a, const FoundEffect& b) { return doubted(a) < doubted(b); });
-      if (worst == answer.effects.end() || doubted(*worst) >= kImprobable) return any;
-      const auto e = static_cast<std::size_t>(worst - answer.effects.begin());
-      const std::string name = candidates_[accepted_[e].candidate].name();
-      stage("the model without " + name + ", which is improbable");
-      std::optional<Fitted> without = bench_.without(e, accepted_[e].candidate, base_.fit);
-      if (!without) return any;
-      Tested base = bench_.tested(settling_.to_the_end(*without));
-      if (base.test.size() == 0) return any;
-      if (question_.comment) question_.comment("  too improbable to be added: " + name);
-      base_ = std::move(base);
-      answer.improbable.push_back({worst->id, worst->name, worst->place, doubted(*worst),
-                                   worst->evidence, worst->shows_in, worst->left});
-      answer.effects.erase(worst);
-      accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(e));
-      // Planned with it in the model.
-      for (FoundEffect& effect : answer.effects) effect.separating_recording = {};
-    }
+    measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
+    const NamedEffect* least = least_likely(named_);
+    if (!least || likelihood_of(least->found) >= kImprobable) return false;
+    const auto e = static_cast<std::size_t>(least - named_.data());
+    const Candidate& candidate = candidates_[least->candidate];
+    stage("the model without " + candidate.name() + ", which is improbable");
+    std::optional<Fitted> without = bench_.without(e, least->candidate, base_.fit);
+    if (!without) return false;
+    Tested base = bench_.tested(settling_.to_the_end(*without));
+    if (base.test.size() == 0) return false;
+    if (question_.comment) question_.comment("  too improbable to be added: " + candidate.name());
+    const FoundEffect& found = least->found;
+    answer.improbable.push_back({found.id, found.name, found.place,
+                                 found.probability * trust_in(found), found.evidence,
+                                 found.shows_in, found.left});
+    improbable_.push_back(least->candidate);
+    forget_refusals(candidate, answer);
+    answer.dropped.clear();  // it may be needed again without this one
+    remove(e, std::move(base));
+    if (named_.empty()) begin_again(answer);
+    return true;
   }
 
-  static double doubted(const FoundEffect& effect) { return effect.probability * trust_in(effect); }
+  /// Nothing is named any more: of both fits the better one is what all is compared with.
+  void begin_again(Answer& answer) {
+    if (base_.fit.cost < recalibrated_.fit.cost) {
+      note_recalibrated(answer);
+    } else {
+      base_ = recalibrated_;
+    }
+  }
 
   /// What was found should cost no channel anything.
   void spare_channels_that_pay() {
-    if (accepted_.empty()) return;
+    if (named_.empty()) return;
     stage("whether a channel is worse for it");
     Tested spared =
-        bench_.tested(spare_channels(train_, train_judge_, recalibrated_train_, base_.fit));
+        bench_.tested(spare_channels(train_, train_judge_, recalibrated_.fit.residual, base_.fit));
     if (spared.test.size() > 0) base_ = std::move(spared);
   }
 
-  void find_alternatives(Screening& screening, const Tested& base, Answer& answer) const {
+  void find_alternatives(Screening& screening, Answer& answer) const {
     const CommonLaw common(bench_, screening);
-    for (std::size_t later = 1; later < accepted_.size(); ++later) {
+    for (std::size_t later = 1; later < named_.size(); ++later) {
       for (std::size_t earlier = 0; earlier < later; ++earlier) {
-        const CommonLaw::Part a{earlier, accepted_[earlier].candidate},
-            b{later, accepted_[later].candidate};
+        const CommonLaw::Part a{earlier, named_[earlier].candidate},
+            b{later, named_[later].candidate};
         for (std::size_t law = 0; law < candidates_.size(); ++law) {
-          if (is_accepted(law) || !common.may_be(law, a.candidate, b.candidate)) continue;
+          if (is_out(law) || !common.may_be(law, a.candidate, b.candidate)) continue;
           const Candidate& alone = candidates_[law];
           stage("whether " + alone.name() + " says alone what " + candidates_[a.candidate].name() +
                 " and " + candidates_[b.candidate].name() + " say");
-          const auto instead = common.instead(law, base, {a, b});
+          const auto instead = common.instead(law, base_, {a, b});
           if (!instead || instead->odds.probability < kMentioned) continue;
           const std::string& id = alone.effect->info().id;
           answer.alternatives.push_back({id,
@@ -346,7 +332,7 @@ class Search {
                                          {earlier, later},
                                          instead->odds.probability,
                                          instead->odds.evidence,
-                                         separating_experiment(answer.effects[earlier].id, id)});
+                                         separating_experiment(named_[earlier].found.id, id)});
         }
       }
     }
@@ -354,12 +340,12 @@ class Search {
 
   /// Values and intervals of all effects in the model as it is at the end: later ones have moved
   /// earlier ones.
-  void measure_effects(Answer& answer) const {
-    if (accepted_.empty()) return;
+  void measure_effects() {
+    if (named_.empty()) return;
     const auto ranges =
         bootstrap_intervals(base_.fit, train_.experiments(), variables_, question_.seed);
-    for (std::size_t e = 0; e < answer.effects.size(); ++e) {
-      for (const EffectParameter& p : candidates_[accepted_[e].candidate].parameters) {
+    for (std::size_t e = 0; e < named_.size(); ++e) {
+      for (const EffectParameter& p : candidates_[named_[e].candidate].parameters) {
         const double value = base_.fit.variant.effects[e].parameters.at(p.name);
         FoundParameter found{p.name, p.unit, value, value, value, true};
         for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -369,7 +355,7 @@ class Search {
           found.low = ranges[i].first;
           found.high = ranges[i].second;
         }
-        answer.effects[e].parameters.push_back(std::move(found));
+        named_[e].found.parameters.push_back(std::move(found));
       }
     }
   }
@@ -407,41 +393,16 @@ class Search {
     const Evidence in_its_round = evidence_of(list);
     RunOff(bench_, gaps_).decide(base_, list);
     const Named& best = list.named.front();
-    FoundEffect effect = found_effect(list, candidates_);
-    separate_first(list, effect);
-    answer.effects.push_back(std::move(effect));
-    accepted_.push_back({best.candidate, base_.fit.cost - best.fit.cost,
-                         fuller_than(best.candidate, in_its_round), 0.0});
+    NamedEffect effect;
+    effect.found = found_effect(list, candidates_);
+    separate_first(list, effect.found);
+    effect.candidate = best.candidate;
+    effect.gained = base_.fit.cost - best.fit.cost;
+    effect.fuller = fuller_than(best.candidate, in_its_round);
+    note_what_it_shows_in(test_judge_, base_.test, best.test, effect);
+    named_.push_back(std::move(effect));
     forget_refusals(candidates_[best.candidate], answer);
-    note_what_it_shows_in(best, answer.effects.back());
     base_ = best;
-  }
-
-  /// The channel of what is held out in which an effect takes away most.
-  void note_what_it_shows_in(const Tested& with, FoundEffect& effect) {
-    const auto after = test_judge_.channel_gaps(with.test);
-    double most = 0.0;
-    for (const auto& [name, gap] : test_judge_.channel_gaps(base_.test)) {
-      const double before = excess(gap, kFaintGap);
-      const double taken = before - excess(after.at(name), kFaintGap);
-      if (taken <= most) continue;
-      most = taken;
-      effect.shows_in = name;
-      accepted_.back().before = before;
-    }
-  }
-
-  /// Of what the effects were to explain where each of them shows most, what is left at the end.
-  void measure_what_is_left(Answer& answer) const {
-    const auto after = test_judge_.channel_gaps(base_.test);
-    const auto first = test_judge_.channel_gaps(recalibrated_test_);
-    for (std::size_t e = 0; e < answer.effects.size(); ++e) {
-      FoundEffect& effect = answer.effects[e];
-      if (effect.shows_in.empty()) continue;
-      const double whole =
-          std::max(accepted_[e].before, excess(first.at(effect.shows_in), kFaintGap));
-      effect.left = excess(after.at(effect.shows_in), kFaintGap) / whole;
-    }
   }
 
   void separate_first(const ShortList& list, FoundEffect& effect) const {
@@ -467,12 +428,13 @@ class Search {
 
   void conclude(Answer& answer) {
     answer.extended = base_.fit.variant;
-    measure_effects(answer);
-    measure_what_is_left(answer);
-    answer.train = gap_of(train_judge_, given_train_, recalibrated_train_, base_.fit.residual);
-    answer.test = gap_of(test_judge_, given_test_, recalibrated_test_, base_.test);
+    measure_effects();
+    for (const NamedEffect& effect : named_) answer.effects.push_back(effect.found);
+    answer.train =
+        gap_of(train_judge_, given_train_, recalibrated_.fit.residual, base_.fit.residual);
+    answer.test = gap_of(test_judge_, given_test_, recalibrated_.test, base_.test);
     const auto given = test_judge_.channel_gaps(given_test_),
-               recalibrated = test_judge_.channel_gaps(recalibrated_test_),
+               recalibrated = test_judge_.channel_gaps(recalibrated_.test),
                after = test_judge_.channel_gaps(base_.test);
     for (const auto& [name, value] : given) {
       answer.per_channel[name] = {value, recalibrated.at(name), after.at(name), 1.0};
@@ -485,16 +447,16 @@ class Search {
          wrap_angles(evaluator_, question_.train, laboratory_.train, answer.recalibrated)) {
       variables.push_back(std::move(angle));
     }
-    answer.regimes =
-        regime_gaps(laboratory_.train, variables, recalibrated_train_, train_.whitening(), scales_);
-    answer.dependences =
-        find_dependences(laboratory_.train, variables, recalibrated_train_, train_.whitening());
+    answer.regimes = regime_gaps(laboratory_.train, variables, recalibrated_.fit.residual,
+                                 train_.whitening(), scales_);
+    answer.dependences = find_dependences(laboratory_.train, variables, recalibrated_.fit.residual,
+                                          train_.whitening());
     answer.remaining =
         find_dependences(laboratory_.train, variables, base_.fit.residual, train_.whitening());
     answer.seams = seam_gaps(evaluator_, question_, laboratory_, scales_, answer.recalibrated);
-    answer.where = locate(train_judge_, recalibrated_train_, least_gap(answer), scales_,
+    answer.where = locate(train_judge_, recalibrated_.fit.residual, least_gap(answer), scales_,
                           answer.seams, answer.dependences);
-    answer.examples = examples_of(*laboratory_.test.front(), test_.whitening(), recalibrated_test_,
+    answer.examples = examples_of(*laboratory_.test.front(), test_.whitening(), recalibrated_.test,
                                   base_.test, answer.per_channel);
     pronounce(train_judge_.channel_gaps(base_.fit.residual), gaps_.certain(base_), answer);
   }
@@ -517,9 +479,10 @@ class Search {
   Workbench bench_;
   Gaps gaps_;
   Leftovers leftovers_;
-  Tested base_;
-  Eigen::VectorXf given_train_, given_test_, recalibrated_train_, recalibrated_test_;
-  std::vector<Accepted> accepted_;  ///< what is in the model now, in its order
+  Tested base_, recalibrated_;  ///< the model as it is; without effects
+  Eigen::VectorXf given_train_, given_test_;
+  std::vector<NamedEffect> named_;  ///< what is in the model now, in its order
+  std::vector<std::size_t> improbable_;
   int rounds_ = 0;
 };
 

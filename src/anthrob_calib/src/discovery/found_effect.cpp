@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "anthrob_calib/discovery/separating_experiment.h"
+
 namespace anthrob {
 namespace discovery {
 
@@ -39,18 +41,23 @@ FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& ca
   return effect;
 }
 
-void name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect) {
+bool name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect) {
   const double both = effect.probability + take_out(fuller, effect);
   const Rival simpler = {effect.id, effect.place, (1.0 - odds.probability) * both, effect.evidence};
-  if (simpler.probability >= kMentioned) {
-    const auto less = [&](const Rival& r) { return r.probability <= simpler.probability; };
-    auto& rivals = effect.rivals;
-    rivals.insert(std::find_if(rivals.begin(), rivals.end(), less), simpler);
-  }
+  auto& rivals = effect.rivals;
+  const auto less = [&](const Rival& r) { return r.probability <= simpler.probability; };
+  const auto at = std::find_if(rivals.begin(), rivals.end(), less);
+  const bool is_first = simpler.probability >= kMentioned && at == rivals.begin();
+  if (simpler.probability >= kMentioned) rivals.insert(at, simpler);
   effect.id = fuller.effect->info().id;
   effect.name = fuller.effect->info().name;
   effect.probability = odds.probability * both;
   effect.evidence += odds.evidence;
+  // What was planned tells others apart.
+  effect.separating_experiment =
+      rivals.empty() ? "" : separating_experiment(effect.id, rivals.front().id);
+  effect.separating_recording = {};
+  return is_first;
 }
 
 void leave_open(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect) {

@@ -46,7 +46,7 @@ std::string nameless(const Answer& answer, const Question& question) {
     return "Something is missing that is not among what --effects let be looked for. ";
   }
   return "Something is missing that no law of the catalogue, as it was fitted, explains" +
-         std::string(answer.effects.empty() ? ". " : " whole. ");
+         std::string(answer.effects.empty() ? ". " : " completely. ");
 }
 
 /// Channels that are more than noise at the end, where none of them is so for certain.
@@ -87,11 +87,12 @@ std::string what_is_left(const FoundEffect& effect) {
   return text + ".";
 }
 
-/// Whether nothing but its rival speaks against an effect.
+/// Whether nothing but one rival speaks against an effect.
 bool has_equal(const FoundEffect& effect) {
-  constexpr double kAsMuch = 0.8;
-  return effect.left <= kEvenOdds && !effect.rivals.empty() &&
-         effect.rivals.front().probability >= kAsMuch * effect.probability;
+  constexpr double kAsMuch = 0.8, kTogether = 0.7;
+  if (effect.rivals.empty()) return false;
+  const double rival = effect.rivals.front().probability;
+  return rival >= kAsMuch * effect.probability && effect.probability + rival >= kTogether;
 }
 
 /// What was found: that, one of two, or something like that.
@@ -115,15 +116,15 @@ std::string found(const Answer& answer) {
   return probable + either + alike;
 }
 
-/// What is only the nearest.
-std::string nearest(const Answer& answer) {
+/// What would be the nearest, but was not added.
+std::string too_improbable(const Answer& answer) {
   std::string text;
   for (const Improbable& law : answer.improbable) {
     text += (text.empty() ? "" : "; ") + escaped(law.name) + " at " + escaped(law.place) + ", " +
             probability_text(law.probability) + ", which leaves " + short_number(100.0 * law.left) +
             " % of the squared gap of " + escaped(law.shows_in);
   }
-  return text.empty() ? text : "Comes nearest, but is too improbable to be added: " + text + ". ";
+  return text.empty() ? text : "Looked at, but too improbable to be added: " + text + ". ";
 }
 
 /// The answer in one or two sentences.
@@ -143,20 +144,20 @@ std::string sentence(const Answer& answer, const Question& question) {
   }
   if (answer.verdict == "effects_found") {
     const bool falls = answer.test.after < answer.test.recalibrated;
-    return found(answer) + text + nearest(answer) +
-           (answer.effects.size() > 1 ? "With them" : "With it") + ", the held-out gap " +
-           (falls ? "falls" : "does not fall: it goes") + " from " +
+    return found(answer) + text + (answer.effects.size() > 1 ? "With them" : "With it") +
+           ", the held-out gap " + (falls ? "falls" : "does not fall: it goes") + " from " +
            short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
            " times the floor; of the square of what stood above the noise " +
            short_number(100.0 * answer.remaining_share) + " % is left." +
            (answer.remaining_description == kNoCertainGap ? uncertain_gaps(answer) : "");
   }
   if (!answer.effects.empty()) {
-    std::string offers = "It offers: ";
+    std::string offers = "The catalogue offers: ";
     for (const FoundEffect& effect : answer.effects) offers += named(effect);
     text = offers + text;
   }
-  return nameless(answer, question) + text + nearest(answer) + "Held-out gap " +
+  return nameless(answer, question) + text +
+         (answer.effects.empty() ? too_improbable(answer) : "") + "Held-out gap " +
          short_number(answer.test.after) + " times the floor, where the recalibrated model has " +
          short_number(answer.test.recalibrated) +
          "; what is left: " + escaped(answer.remaining_description) + ".";
@@ -178,14 +179,20 @@ std::string gap_table(const Answer& answer) {
 std::string refused(const Answer& answer) {
   const Refused& refused = answer.refused;
   if (refused.id.empty()) return "";
-  return "<p>" + std::string(answer.effects.empty() ? "Closest to being named" : "Next in line") +
+  return "<p>" +
+         std::string(answer.effects.empty() && answer.improbable.empty() ? "Closest to being named"
+                                                                         : "Next in line") +
          " was " + escaped(refused.id) + " @ " + escaped(refused.place) + ": " +
          escaped(refused.lack) + ".</p>\n";
 }
 
 std::string effects_table(const Answer& answer) {
+  const std::string improbable =
+      answer.improbable.empty() ? "" : "<p>" + too_improbable(answer) + "</p>\n";
   if (answer.effects.empty()) {
-    return "<p>Nothing in the catalogue earned its place.</p>\n" + refused(answer);
+    const char* const what = improbable.empty() ? "earned its place" : "is probable enough";
+    return "<p>Nothing in the catalogue " + std::string(what) + ".</p>\n" + improbable +
+           refused(answer);
   }
   std::string html;
   std::size_t number = 0;
@@ -230,7 +237,7 @@ std::string effects_table(const Answer& answer) {
   for (const std::string& asked : answer.asked) {
     html += "<p>Before: " + escaped(asked) + ".</p>\n";
   }
-  return html + refused(answer);
+  return html + improbable + refused(answer);
 }
 
 std::string colour_of(double gap) {
@@ -471,8 +478,8 @@ what was learned from, and no effect added</li>
 what a wrong floor may look like</li>
 <li>squared gap: what of the square of a gap stands above what noise may look like (1.15 floors)</li>
 <li>probability: how likely this law at this place is the right one, among those that were fitted
-and none; what it leaves lowers it. What is missing to 1 is for laws that the catalogue lacks, and
-for rivals that are not listed</li>
+and none; what it leaves lowers it. The rest, up to 1, belongs to rivals and to laws that the
+catalogue lacks</li>
 <li>nat: a log score that is one higher means that the recordings are 2.7 times as probable</li>
 </ul>
 )";

@@ -17,7 +17,8 @@ FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& ca
 /// A law that says more at an effect's place does better: it is named, the other its rival. What it
 /// had as a rival is its own.
 /// @param odds against the other
-void name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect);
+/// @return whether that is the first rival: what tells the two apart is to be planned
+bool name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect);
 
 /// It does only nearly as well or a little better: what says less stays named, the other is its
 /// first rival, as probable.

@@ -1,0 +1,61 @@
+#include "anthrob_calib/discovery/named_effect.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "made_experiment.h"
+
+namespace anthrob {
+namespace discovery {
+namespace {
+
+constexpr std::size_t kBins = 10;
+
+/// What tells gaps of the elbow's position, its only channel.
+struct Held {
+  Experiments experiments = {
+      std::make_shared<MadeExperiment>([](double, double, double) { return 0.0; },
+                                       [](double, double, double) { return 0.0; }, kBins)};
+  Eigen::VectorXf whitening = Eigen::VectorXf::Ones(kBins);
+  Judge judge{experiments, whitening, {}};
+
+  static Eigen::VectorXf gap(double size) {
+    return Eigen::VectorXf::Constant(kBins, static_cast<float>(size));
+  }
+};
+
+TEST(NamedEffect, LeavesAShareOfWhatStoodAboveTheNoiseWhereItShows) {
+  const Held held;
+  std::vector<NamedEffect> effects(2);
+  note_what_it_shows_in(held.judge, held.gap(4.0), held.gap(2.0), effects[0]);
+  EXPECT_EQ(effects[0].found.shows_in, "elbow/position");
+  const auto above = [](double gap) { return gap * gap - 1.15 * 1.15; };
+  EXPECT_NEAR(effects[0].before, above(4.0), 1e-5);
+  measure_what_is_left(held.judge, held.gap(5.0), held.gap(1.5), effects);
+  EXPECT_NEAR(effects[0].found.left, above(1.5) / above(5.0), 1e-6);  // of all that was there first
+  EXPECT_EQ(effects[1].found.left, 0.0);                              // shows nowhere
+  measure_what_is_left(held.judge, held.gap(2.0), held.gap(1.5), effects);
+  EXPECT_NEAR(effects[0].found.left, above(1.5) / above(4.0), 1e-6);  // more, when it came in
+  note_what_it_shows_in(held.judge, held.gap(1.0), held.gap(2.0), effects[1]);
+  EXPECT_TRUE(effects[1].found.shows_in.empty());  // it takes nothing away
+}
+
+TEST(NamedEffect, IsNotUnlikelyForRivalsThatDoAsWell) {
+  std::vector<NamedEffect> effects(2);
+  EXPECT_EQ(least_likely(effects), &effects[0]);
+  effects[0].found.probability = 0.15;
+  for (int i = 0; i < 5; ++i) effects[0].found.rivals.push_back({"payload", "forearm", 0.15, 0.0});
+  effects[1].found.probability = 0.8;
+  effects[1].found.left = 0.45;  // a tenth of it is left
+  EXPECT_NEAR(likelihood_of(effects[0].found), 0.9, 1e-12);
+  EXPECT_NEAR(likelihood_of(effects[1].found), 0.08, 1e-12);
+  EXPECT_EQ(least_likely(effects), &effects[1]);
+  effects.clear();
+  EXPECT_EQ(least_likely(effects), nullptr);
+}
+
+}  // namespace
+}  // namespace discovery
+}  // namespace anthrob
