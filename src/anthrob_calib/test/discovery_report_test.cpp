@@ -75,6 +75,9 @@ TEST(Report, SaysEitherWhereTwoLawsDoAsWell) {
   EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "Or <b>torque_ripple</b> at <b>brachialis</b>"));
   answer.effects[0].rivals[0].probability = 0.1;
   EXPECT_FALSE(holds(report_html(answer, {}, 1.0), kEither));
+  answer.effects[0].rivals[0].probability = 0.43;
+  answer.effects[0].left = 0.06;  // which has lowered both
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), kEither));
   answer.effects[0].probability = answer.effects[0].rivals[0].probability = 0.2;
   EXPECT_FALSE(holds(report_html(answer, {}, 1.0), kEither));  // it may well be neither
 }

@@ -192,6 +192,11 @@ TEST(DrivenAxis, WhatLeavesNearlyAllOfTheGapDoesNotExtendTheModel) {
   EXPECT_TRUE(answer.extended.effects.empty());
   EXPECT_EQ(answer.test.after, answer.test.recalibrated);
   EXPECT_EQ(answer.extended.nuisances, answer.recalibrated.nuisances);
+  // But where the search had no room for what else may be missing, it stays.
+  question.max_effects = 1;
+  const Answer capped = ask(question);
+  ASSERT_EQ(capped.effects.size(), 1u) << summary(capped);
+  EXPECT_LT(capped.effects[0].probability, 0.1);
 }
 
 TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {

@@ -46,6 +46,8 @@ TEST(FoundEffect, WhatSaysMoreTakesItsOwnProbabilityAlong) {
   effect.separating_experiment = "as for the simpler one";
   EXPECT_TRUE(name_instead(candidates()[1], {0.75, 12.0}, effect));
   EXPECT_EQ(effect.id, "joint_coulomb_asymmetric");
+  EXPECT_EQ(effect.separating_experiment,
+            separating_experiment("joint_coulomb_asymmetric", "joint_coulomb"));
   EXPECT_DOUBLE_EQ(effect.probability, 0.75 * 0.8);
   EXPECT_DOUBLE_EQ(effect.evidence, 112.0);
   ASSERT_EQ(effect.rivals.size(), 2u);

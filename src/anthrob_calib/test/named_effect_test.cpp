@@ -35,25 +35,31 @@ TEST(NamedEffect, LeavesAShareOfWhatStoodAboveTheNoiseWhereItShows) {
   EXPECT_NEAR(effects[0].before, above(4.0), 1e-5);
   measure_what_is_left(held.judge, held.gap(5.0), held.gap(1.5), effects);
   EXPECT_NEAR(effects[0].found.left, above(1.5) / above(5.0), 1e-6);  // of all that was there first
-  EXPECT_EQ(effects[1].found.left, 0.0);                              // shows nowhere
+  EXPECT_EQ(effects[1].found.left, 1.0);                              // shows nowhere
   measure_what_is_left(held.judge, held.gap(2.0), held.gap(1.5), effects);
   EXPECT_NEAR(effects[0].found.left, above(1.5) / above(4.0), 1e-6);  // more, when it came in
+  effects[0].before = 0.0;
+  measure_what_is_left(held.judge, held.gap(1.0), held.gap(1.5), effects);
+  EXPECT_EQ(effects[0].found.left, 1.0);  // there was nothing for it to explain
   note_what_it_shows_in(held.judge, held.gap(1.0), held.gap(2.0), effects[1]);
   EXPECT_TRUE(effects[1].found.shows_in.empty());  // it takes nothing away
 }
 
-TEST(NamedEffect, IsNotUnlikelyForRivalsThatDoAsWell) {
-  std::vector<NamedEffect> effects(2);
-  EXPECT_EQ(least_likely(effects), &effects[0]);
+TEST(NamedEffect, IsNotImprobableForRivalsThatDoAsWell) {
+  std::vector<NamedEffect> effects(3);
   effects[0].found.probability = 0.15;
   for (int i = 0; i < 5; ++i) effects[0].found.rivals.push_back({"payload", "forearm", 0.15, 0.0});
   effects[1].found.probability = 0.8;
+  effects[1].gained = 200.0;
+  effects[1].found.left = 0.3;
+  effects[2].found.probability = 0.9;
+  effects[2].gained = 100.0;
+  EXPECT_EQ(least_of_improbable(effects), nullptr);
   effects[1].found.left = 0.45;  // a tenth of it is left
-  EXPECT_NEAR(likelihood_of(effects[0].found), 0.9, 1e-12);
-  EXPECT_NEAR(likelihood_of(effects[1].found), 0.08, 1e-12);
-  EXPECT_EQ(least_likely(effects), &effects[1]);
-  effects.clear();
-  EXPECT_EQ(least_likely(effects), nullptr);
+  EXPECT_EQ(least_of_improbable(effects), &effects[1]);
+  effects[2].found.left = 0.5;
+  EXPECT_EQ(least_of_improbable(effects), &effects[2]);  // it does less
+  EXPECT_EQ(least_of_improbable({}), nullptr);
 }
 
 }  // namespace

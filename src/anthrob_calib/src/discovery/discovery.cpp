@@ -74,7 +74,8 @@ class Search {
               total_duration(laboratory_.test))
         .fly(screening, scores, answer);
     search(screening, std::move(scores), answer);
-    while (fill_out(screening, answer) || drop_improbable(answer)) search(screening, {}, answer);
+    while (fill_out(screening, answer)) search(screening, {}, answer);
+    drop_improbable(answer);
     find_alternatives(screening, answer);
     measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
     spare_channels_that_pay();
@@ -98,7 +99,7 @@ class Search {
         scores = screening.scores(base_.fit);
       }
       scores.erase(std::remove_if(scores.begin(), scores.end(),
-                                  [&](const Score& s) { return is_out(s.candidate); }),
+                                  [&](const Score& s) { return is_named(s.candidate); }),
                    scores.end());
       stage(title + "fitting the short list");
       ShortList list = naming_.weigh(base_, leftovers_.besides(scores));
@@ -138,11 +139,9 @@ class Search {
     return candidates;
   }
 
-  /// Not to be looked for: in the model already, or too improbable to be.
-  bool is_out(std::size_t candidate) const {
-    const auto is_it = [&](const NamedEffect& effect) { return effect.candidate == candidate; };
-    return std::any_of(named_.begin(), named_.end(), is_it) ||
-           std::count(improbable_.begin(), improbable_.end(), candidate) > 0;
+  bool is_named(std::size_t candidate) const {
+    return std::any_of(named_.begin(), named_.end(),
+                       [&](const NamedEffect& effect) { return effect.candidate == candidate; });
   }
 
   void comment_on(const ShortList& list) const {
@@ -241,7 +240,7 @@ class Search {
     for (std::size_t e = 0; e < named_.size(); ++e) {
       NamedEffect& effect = named_[e];
       const std::optional<std::size_t> fuller = std::exchange(effect.fuller, std::nullopt);
-      if (!fuller || is_out(*fuller)) continue;
+      if (!fuller || is_named(*fuller)) continue;
       const Candidate& candidate = candidates_[*fuller];
       const std::string name = candidates_[effect.candidate].name();
       stage("whether it is " + candidate.name() + ", not " + name);
@@ -270,29 +269,33 @@ class Search {
   }
 
   /// What leaves so much that it is hardly the right law does not extend the model: it may do what
-  /// another one should, which is looked for then. @return whether there was one
-  bool drop_improbable(Answer& answer) {
-    measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
-    const NamedEffect* least = least_likely(named_);
-    if (!least || likelihood_of(least->found) >= kImprobable) return false;
-    const auto e = static_cast<std::size_t>(least - named_.data());
-    const Candidate& candidate = candidates_[least->candidate];
-    stage("the model without " + candidate.name() + ", which is improbable");
-    std::optional<Fitted> without = bench_.without(e, least->candidate, base_.fit);
-    if (!without) return false;
-    Tested base = bench_.tested(settling_.to_the_end(*without));
-    if (base.test.size() == 0) return false;
-    if (question_.comment) question_.comment("  too improbable to be added: " + candidate.name());
-    const FoundEffect& found = least->found;
-    answer.improbable.push_back({found.id, found.name, found.place,
-                                 found.probability * trust_in(found), found.evidence,
-                                 found.shows_in, found.left});
-    improbable_.push_back(least->candidate);
-    forget_refusals(candidate, answer);
-    answer.dropped.clear();  // it may be needed again without this one
-    remove(e, std::move(base));
-    if (named_.empty()) begin_again(answer);
-    return true;
+  /// another one should.
+  void drop_improbable(Answer& answer) {
+    // What was not let in may be what is left.
+    if (!has_room() && gaps_.any(base_, kFaintGap)) return;
+    for (;;) {
+      measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
+      const NamedEffect* const improbable = least_of_improbable(named_);
+      if (!improbable) return;
+      const auto e = static_cast<std::size_t>(improbable - named_.data());
+      const Candidate& candidate = candidates_[improbable->candidate];
+      stage("the model without " + candidate.name() + ", which is improbable");
+      std::optional<Fitted> without = bench_.without(e, improbable->candidate, base_.fit);
+      if (!without) return;
+      Tested base = bench_.tested(settling_.to_the_end(*without));
+      if (base.test.size() == 0) return;
+      if (question_.comment) question_.comment("  too improbable to be added: " + candidate.name());
+      const FoundEffect& found = improbable->found;
+      answer.improbable.push_back({found.id, found.name, found.place,
+                                   found.probability * trust_in(found), found.evidence,
+                                   found.shows_in, found.left});
+      forget_refusals(candidate, answer);
+      answer.dropped.clear();  // beside this one they were not needed
+      remove(e, std::move(base));
+      for (NamedEffect& effect : named_) effect.before = 0.0;  // which may have been its work
+      drop_superfluous(named_.size(), answer);
+      if (named_.empty()) begin_again(answer);
+    }
   }
 
   /// Nothing is named any more: of both fits the better one is what all is compared with.
@@ -320,7 +323,7 @@ class Search {
         const CommonLaw::Part a{earlier, named_[earlier].candidate},
             b{later, named_[later].candidate};
         for (std::size_t law = 0; law < candidates_.size(); ++law) {
-          if (is_out(law) || !common.may_be(law, a.candidate, b.candidate)) continue;
+          if (is_named(law) || !common.may_be(law, a.candidate, b.candidate)) continue;
           const Candidate& alone = candidates_[law];
           stage("whether " + alone.name() + " says alone what " + candidates_[a.candidate].name() +
                 " and " + candidates_[b.candidate].name() + " say");
@@ -482,7 +485,6 @@ class Search {
   Tested base_, recalibrated_;  ///< the model as it is; without effects
   Eigen::VectorXf given_train_, given_test_;
   std::vector<NamedEffect> named_;  ///< what is in the model now, in its order
-  std::vector<std::size_t> improbable_;
   int rounds_ = 0;
 };
 

@@ -27,24 +27,22 @@ void measure_what_is_left(const Judge& judge, const Eigen::VectorXf& first,
   const auto at_first = judge.channel_gaps(first), after = judge.channel_gaps(left);
   for (NamedEffect& effect : effects) {
     const std::string& channel = effect.found.shows_in;
+    effect.found.left = 1.0;
     if (channel.empty()) continue;
     const double whole = std::max(effect.before, excess(at_first.at(channel), kFaintGap));
-    effect.found.left = excess(after.at(channel), kFaintGap) / whole;
+    if (whole > 0.0) effect.found.left = excess(after.at(channel), kFaintGap) / whole;
   }
 }
 
-double likelihood_of(const FoundEffect& effect) {
-  double sum = effect.probability;
-  for (const Rival& rival : effect.rivals) sum += rival.probability;
-  return sum * trust_in(effect);
-}
-
-NamedEffect* least_likely(std::vector<NamedEffect>& effects) {
-  const auto least = std::min_element(effects.begin(), effects.end(),
-                                      [](const NamedEffect& a, const NamedEffect& b) {
-                                        return likelihood_of(a.found) < likelihood_of(b.found);
-                                      });
-  return least == effects.end() ? nullptr : &*least;
+const NamedEffect* least_of_improbable(const std::vector<NamedEffect>& effects) {
+  const NamedEffect* least = nullptr;
+  for (const NamedEffect& effect : effects) {
+    double together = effect.found.probability;
+    for (const Rival& rival : effect.found.rivals) together += rival.probability;
+    if (together * trust_in(effect.found) >= kImprobable) continue;
+    if (!least || effect.gained < least->gained) least = &effect;
+  }
+  return least;
 }
 
 }  // namespace discovery

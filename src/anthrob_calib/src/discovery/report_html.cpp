@@ -116,13 +116,15 @@ std::string found(const Answer& answer) {
   return probable + either + alike;
 }
 
-/// What would be the nearest, but was not added.
+/// What earned its place, and leaves too much to be right.
 std::string too_improbable(const Answer& answer) {
   std::string text;
   for (const Improbable& law : answer.improbable) {
     text += (text.empty() ? "" : "; ") + escaped(law.name) + " at " + escaped(law.place) + ", " +
-            probability_text(law.probability) + ", which leaves " + short_number(100.0 * law.left) +
-            " % of the squared gap of " + escaped(law.shows_in);
+            probability_text(law.probability);
+    if (law.shows_in.empty()) continue;
+    text += ", which leaves " + short_number(100.0 * law.left) + " % of the squared gap of " +
+            escaped(law.shows_in);
   }
   return text.empty() ? text : "Looked at, but too improbable to be added: " + text + ". ";
 }

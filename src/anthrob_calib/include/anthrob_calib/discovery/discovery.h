@@ -71,8 +71,8 @@ struct Refused {
   std::string lack;
 };
 
-/// A law that comes nearest, but leaves so much that it is hardly the right one: it does not extend
-/// the model.
+/// A law that earned its place, but leaves so much that it is hardly the right one: it does not
+/// extend the model.
 struct Improbable {
   std::string id, name, place;
   double probability = 0.0, evidence = 0.0;

@@ -16,7 +16,7 @@ struct NamedEffect {
   std::size_t candidate = 0;
   double gained = 0.0;                ///< of the cost
   std::optional<std::size_t> fuller;  ///< a law that says more there, and did better in its round
-  double before = 0.0;                ///< excess of the channel it shows in
+  double before = 0.0;  ///< excess of the channel it shows in, then; 0: not to be counted
 };
 
 /// The channel of what is held out in which an effect takes away most.
@@ -24,17 +24,15 @@ struct NamedEffect {
 void note_what_it_shows_in(const Judge& judge, const Eigen::VectorXf& without,
                            const Eigen::VectorXf& with, NamedEffect& effect);
 
-/// Of what the effects were to explain where each of them shows most, what is left.
+/// Of what the effects were to explain where each of them shows most, what is left: all, where one
+/// shows nowhere.
 /// @param first, left residuals held out, without any and with all of them
 void measure_what_is_left(const Judge& judge, const Eigen::VectorXf& first,
                           const Eigen::VectorXf& left, std::vector<NamedEffect>& effects);
 
-/// The effect that is least likely to be right, by what it leaves; its rivals count with it, for
-/// what cannot be told from others at its place is no wrong answer. @return nullptr if there is
-/// none
-NamedEffect* least_likely(std::vector<NamedEffect>& effects);
-/// Its probability, in that sense.
-double likelihood_of(const FoundEffect& effect);
+/// Of effects that are improbable by what they leave, the one that gained least; null: none is.
+/// Rivals count with a name: what cannot be told from others is no wrong answer.
+const NamedEffect* least_of_improbable(const std::vector<NamedEffect>& effects);
 
 }  // namespace discovery
 }  // namespace anthrob
