@@ -21,8 +21,9 @@ constexpr double kOutOfReach = 0.5;
 /// another. By how often answers of the study, seeds 1 to 6 (docs/studies), were right.
 constexpr double kEvenOdds = 0.05;
 
-/// A law of less probability, its rivals' included, does not extend the model. Of 15 effects in the study that have less
-/// (seeds 1 to 6), two were right, both of one robot; of those with 0.1 to 0.2, two of six.
+/// A law of less probability, its rivals' included, does not extend the model. Of 15 effects in the
+/// study (seeds 1 to 6) that have less by themselves, two were right, both of one robot; of those
+/// with 0.1 to 0.2, two of six.
 constexpr double kImprobable = 0.1;
 
 /// What of a channel's squared gap is more than that of a gap.

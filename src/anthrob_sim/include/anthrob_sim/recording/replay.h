@@ -20,9 +20,8 @@ enum class ReplayMode {
 };
 
 /// Feeds a recording's inputs to simulations of one robot, whose numbers may differ: start() and
-/// then a Run each. Inputs hold from their row to the next; imposed
-/// positions are interpolated. Efforts and loads of hinges and prismatic joints are applied in
-/// every mode.
+/// then a Run each. Inputs hold from their row to the next; imposed positions are interpolated.
+/// Efforts and loads of hinges and prismatic joints are applied in every mode.
 class Replay {
  public:
   /// @throws BadInput if the recording names muscles or joints that the robot lacks, or has no
