@@ -24,12 +24,12 @@ double with_integral(double output, double rate, const ControllerSettings& setti
 
 double control(Mode mode, double reference, const Measurement& measured,
                const ControllerSettings& settings, ControllerMemory& memory) {
+  const double number = static_cast<double>(mode);
+  if (memory.mode != number) memory = {0.0, number};
   switch (mode) {
     case Mode::kVoltage:
-      memory.integral = 0.0;
       return clip(reference, settings.voltage_limit);
     case Mode::kPosition: {
-      memory.integral = 0.0;
       const PositionGains& gains = settings.position;
       return clip(gains.proportional * (reference - measured.position) -
                       gains.derivative * measured.velocity +

@@ -1,5 +1,6 @@
 #include "anthrob_ecu/gains.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace anthrob {
@@ -72,7 +73,9 @@ std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
       }
       const std::string wrong = check_value(muscles[m].name, *info, values[i]);
       if (!wrong.empty()) return wrong;
-      wanted.push_back({{static_cast<int>(m), info->parameter}, values[i]});
+      // Checked as a frame carries it, with fewer digits: by itself it may be beyond by some.
+      const double value = std::clamp<double>(values[i], info->lowest, info->highest);
+      wanted.push_back({{static_cast<int>(m), info->parameter}, value});
       any = true;
     }
     if (!any) return "'" + names[i] + "': expected the name of a muscle";

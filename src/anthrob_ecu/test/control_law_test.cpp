@@ -56,11 +56,14 @@ TEST(ControlLaw, IntegralDoesNotWindUp) {
 }
 
 TEST(ControlLaw, ChangingTheModeForgetsTheIntegral) {
-  ControllerMemory memory;
-  for (int i = 0; i < 10; ++i) control(Mode::kCurrent, 1.0, {}, settings(), memory);
-  EXPECT_GT(memory.integral, 0.0);
-  control(Mode::kPosition, 0.0, {}, settings(), memory);
-  EXPECT_EQ(memory.integral, 0.0);
+  for (const Mode next : {Mode::kVoltage, Mode::kPosition, Mode::kForce}) {
+    ControllerMemory memory, fresh;
+    for (int i = 0; i < 10; ++i) control(Mode::kCurrent, 1.0, {}, settings(), memory);
+    EXPECT_GT(memory.integral, 0.0);
+    const double voltage = control(next, 1.0, {}, settings(), memory);
+    EXPECT_EQ(voltage, control(next, 1.0, {}, settings(), fresh));
+    EXPECT_EQ(memory.integral, fresh.integral);
+  }
 }
 
 }  // namespace

@@ -67,6 +67,15 @@ TEST(Gains, AreReadForOneMuscleOrAll) {
   EXPECT_TRUE(changes.empty());
 }
 
+TEST(Gains, ThatAreInRangeOnTheBusAreInRange) {
+  const double beyond = find_gain("position_proportional")->highest * (1.0 + 1e-9);
+  std::vector<GainChange> changes;
+  ASSERT_EQ(read_gain_changes(muscles(), {"motor"}, {"position_proportional"}, {beyond}, changes),
+            "");
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].value, find_gain("position_proportional")->highest);
+}
+
 TEST(Gains, ThatAreWrongAreRefusedWhole) {
   const std::string good = "position_proportional";
   EXPECT_EQ(refusal({"motor"}, {good}, {}),
