@@ -22,7 +22,7 @@ std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model) {
     const CommandLimits& limits = muscle.limits;
     if (muscle.has_controller) {
       const double volts = muscle.controller.voltage_limit;
-      channel.modes = {true, true, true, limits.force > 0.0};
+      channel.modes = {true, true, true, muscle.has_force_sensor()};
       channel.lowest = {-volts, -limits.position, -limits.current, 0.0};
       channel.highest = {volts, limits.position, limits.current, limits.force};
     } else {
@@ -53,15 +53,6 @@ void read_state(const anthrob_msgs::SetState::Request& request, Placement& place
   }
 }
 
-namespace {
-
-/// As on the robot: a unit that does not measure a muscle's force has no mode FORCE for it.
-bool has_force_sensor(const MuscleModel& muscle) {
-  return !muscle.has_controller || muscle.limits.force > 0.0;
-}
-
-}  // namespace
-
 anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Supervisor& supervisor,
                                          const ros::Time& stamp) {
   anthrob_msgs::MuscleStates states;
@@ -74,7 +65,7 @@ anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Super
     states.velocity.push_back(measured.velocity);
     states.current.push_back(measured.current);
     states.voltage.push_back(muscle.voltage());
-    states.force.push_back(has_force_sensor(muscle.model()) ? measured.force : NAN);
+    states.force.push_back(muscle.model().has_force_sensor() ? measured.force : NAN);
     states.reference.push_back(muscle.reference());
     states.mode.push_back(static_cast<std::uint8_t>(muscle.mode()));
     states.ecu_state.push_back(static_cast<std::uint8_t>(supervisor.state(static_cast<int>(i))));
@@ -213,7 +204,8 @@ anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& s
     path.slack = solved.slack;
     for (const SolvedContact& contact : solved.contacts) {
       anthrob_msgs::PathContact message;
-      message.obstacle = static_cast<std::uint32_t>(contact.obstacle);
+      message.obstacle = contact.entry < 0 ? anthrob_msgs::PathContact::OF_AN_EFFECT
+                                           : static_cast<std::uint32_t>(contact.entry);
       message.surface = contact.surface;
       message.body = contact.body;
       message.touching = contact.touching;

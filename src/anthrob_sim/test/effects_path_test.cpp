@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 
+#include "anthrob_sim/report/solved_path.h"
 #include "effects_support.h"
 
 namespace anthrob {
@@ -274,6 +276,29 @@ TEST(WrappingSurface, MovesSegmentsBehindItUp) {
   a.place(q, std::vector<double>(11, 0.0));
   b.place(q, std::vector<double>(11, 0.0));
   EXPECT_NEAR(a.muscle(0).length(), b.muscle(0).length(), 5e-4);
+}
+
+TEST(WrappingSurface, LeavesTheOthersTheirPlacesInTheFile) {
+  const std::string file = "anthrob/model_II.yaml";
+  Simulation plain(load_robot_model(config(file)));
+  const auto entries_of = [](const Simulation& sim, const std::string& muscle) {
+    std::multiset<int> entries;
+    for (const auto& contact : solved_path(sim, sim.model().find_muscle(muscle)).contacts) {
+      entries.insert(contact.entry);
+    }
+    return entries;
+  };
+  int beside_another = 0;
+  for (const std::string& place : find_effect("wrapping_surface")->places(plain.model())) {
+    const std::string muscle = place.substr(0, place.find('/'));
+    if (muscle == place || entries_of(plain, muscle).empty()) continue;
+    ++beside_another;
+    Simulation sim(robot_with(file, {{"wrapping_surface", place, {{"radius", 0.001}}}}));
+    std::multiset<int> expected = entries_of(plain, muscle);
+    expected.insert(-1);
+    EXPECT_EQ(entries_of(sim, muscle), expected) << place;
+  }
+  EXPECT_GT(beside_another, 0);
 }
 
 TEST(WrappingSurface, IsNotOfferedWhereThereIsNoLineToBeRound) {

@@ -156,6 +156,32 @@ TEST(Equilibrium, SaysThatNoReferenceHoldsWithoutAGain) {
   }
 }
 
+TEST(Equilibrium, CountsOnNoForceThatIsNotMeasured) {
+  const auto with_limit = [](double force) {
+    return load_robot_model(config("two_muscle_rig/model_I.yaml"),
+                            {1e-3, {{"controllers.pd.limits.force", force}}});
+  };
+  const auto model = with_limit(0.0);
+  const MuscleModel& muscle = model->muscles[0];
+  EXPECT_FALSE(muscle.has_force_sensor());
+  Simulation sim(model);
+  for (int m = 0; m < 2; ++m) sim.command(m, ecu::Mode::kPosition, 1.0);
+  sim.step(1000);
+  const double tension = sim.muscle(0).force();
+  ASSERT_GT(tension, 1.0);
+  const double length = sim.muscle(0).length();
+  const ecu::PositionGains& gains = muscle.controller.position;
+  ASSERT_GT(gains.force_feedforward, 0.0);
+  EXPECT_NEAR(position_reference(muscle, length, tension) -
+                  position_reference(with_limit(100.0)->muscles[0], length, tension),
+              gains.force_feedforward * tension / gains.proportional, 1e-12);
+  // Nor does the control law: to some 1 mV, for the muscle still moves a little.
+  const ecu::Measurement& seen = sim.muscle(0).measured();
+  EXPECT_NEAR(sim.muscle(0).voltage(),
+              gains.proportional * (1.0 - seen.position) - gains.derivative * seen.velocity, 1e-3);
+  EXPECT_GT(gains.force_feedforward * tension, 0.1);
+}
+
 TEST(Equilibrium, HoldsWhatEffectsPutOnTheJoints) {
   const double stiffness = 0.8, torque = 0.6;
   const auto with = testing_support::robot_with(

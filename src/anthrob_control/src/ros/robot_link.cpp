@@ -179,7 +179,7 @@ anthrob_msgs::MuscleCommand make_command(const RobotModel& model, ecu::Mode mode
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
     const MuscleModel& muscle = model.muscles[m];
     if (!muscle.has_controller) continue;
-    if (mode == ecu::Mode::kForce && !(muscle.limits.force > 0.0)) continue;
+    if (mode == ecu::Mode::kForce && !muscle.has_force_sensor()) continue;
     command.name.push_back(model.muscles[m].name);
     command.mode.push_back(static_cast<std::uint8_t>(mode));
     command.reference.push_back(references[m]);

@@ -103,7 +103,7 @@ void Muscle::command(ecu::Mode mode, double reference) {
   if (mode != ecu::Mode::kVoltage && !model_.has_controller) {
     throw BadInput("muscle " + model_.name + ": mode: it has no controller and takes VOLTAGE only");
   }
-  if (mode == ecu::Mode::kForce && !(model_.limits.force > 0.0)) {
+  if (mode == ecu::Mode::kForce && !model_.has_force_sensor()) {
     throw BadInput("muscle " + model_.name + ": mode: it has no mode FORCE");
   }
   memory().mode = static_cast<double>(mode);
@@ -188,7 +188,9 @@ void Muscle::control(std::uint64_t step_index) {
   if (c.enabled == 0.0) {
     c.voltage = 0.0;
   } else if (model_.has_controller) {
-    c.voltage = ecu::control(heard_mode, heard, c.measured, controller_, c.controller);
+    ecu::Measurement seen = c.measured;
+    if (!model_.has_force_sensor()) seen.force = 0.0;  // as the unit reads it then
+    c.voltage = ecu::control(heard_mode, heard, seen, controller_, c.controller);
   } else {
     c.voltage = std::clamp(heard, model_.actuator->input_low(), model_.actuator->input_high());
   }

@@ -31,7 +31,7 @@ SolvedPath solved_path(const Simulation& sim, int index) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     if (!obstacles[i].surface) continue;
     const ObstacleState& state = path.obstacles()[i];
-    solved.contacts.push_back({i, obstacles[i].surface->type(),
+    solved.contacts.push_back({obstacles[i].entry, obstacles[i].surface->type(),
                                sim.model().skeleton->bodies[obstacles[i].body].name, state.touching,
                                path.segments()[i - 1].to_W, path.segments()[i].from_W,
                                state.touching ? state.wrap_angle : 0.0, state.length_on,

@@ -24,7 +24,8 @@ double position_reference(const MuscleModel& muscle, double length, double tensi
         ": position.proportional is 0; expected a gain with which a position can be held");
   }
   const double input = muscle.actuator->holding_input(position, tension);
-  return position + (input - gains.force_feedforward * tension) / gains.proportional;
+  const double measured = muscle.has_force_sensor() ? tension : 0.0;
+  return position + (input - gains.force_feedforward * measured) / gains.proportional;
 }
 
 Eigen::MatrixXd moment_arm_matrix(const Simulation& sim) {

@@ -40,6 +40,9 @@ struct MuscleModel {
   ecu::ControllerSettings controller;
   int steps_per_tick = 1;      ///< simulation steps between two ticks of the controller
   double command_delay = 0.0;  ///< until the controller gets a command [s]
+
+  /// As on the robot: a unit whose limit of force is 0 measures none, and has no mode FORCE.
+  bool has_force_sensor() const { return !has_controller || limits.force > 0.0; }
 };
 
 struct SensorsModel {
@@ -72,6 +75,8 @@ struct RobotModel {
   /// Index in `muscles`, or -1.
   int find_muscle(const std::string& muscle) const;
 };
+
+constexpr double kMaximumStep = 0.1;  ///< [s] of a simulation
 
 struct LoadOptions {
   double step = 0.001;  ///< length of a simulation step [s]

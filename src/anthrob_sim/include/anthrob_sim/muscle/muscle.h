@@ -44,7 +44,8 @@ class Muscle {
   void set_gain(ecu::Parameter gain, double value);
   /// The control law with the gains of now.
   const ecu::ControllerSettings& controller() const { return controller_; }
-  /// What comes from behind the ECU's control law until release(): no command, which could be late.
+  /// What comes from behind the ECU's control law until release(), and is never late. Takes the
+  /// place of the command: once released, the ECU holds this voltage until it is commanded anew.
   void apply_voltage(double voltage);
   /// The actuator arrives at `position` at the end of the next step.
   void impose(double position, double velocity);

@@ -10,8 +10,8 @@ namespace anthrob {
 /// A wrapping surface on a solved path. Tensions up to the spring are those of this instant, those
 /// beyond it acted during the last step.
 struct SolvedContact {
-  std::size_t obstacle = 0;  ///< place in the path, origin 0
-  std::string surface;       ///< type
+  int entry = -1;       ///< of the path in the file, origin 0; -1: an effect put it there
+  std::string surface;  ///< type
   std::string body;
   bool touching = false;
   Vec3 entry_W = Vec3::Zero();  ///< [m]; off the surface, entry and exit coincide
