@@ -33,7 +33,7 @@ class Parameters(unittest.TestCase):
     def test_simulator(self):
         self.check('anthrob_sim', 'anthrob_simulator', [('model', os.path.join(CONFIG, 'model_I.yaml'))],
                    [('auto_enable', 'no'), ('auto_enable', '0'), ('paused', '1'), ('rate', 'fast'), ('rate', '.nan'),
-                    ('state_rate', '[500]'), ('step', '1 ms'), ('command_timeout', '.inf'), ('model', '7')])
+                    ('state_rate', '[500]'), ('step', '1 ms'), ('step', '0.0'), ('command_timeout', '.inf'), ('model', '7')])
 
     def test_driver(self):
         self.check('anthrob_driver', 'anthrob_driver', [('hardware', os.path.join(CONFIG, 'hardware.yaml'))],
@@ -49,7 +49,7 @@ class Parameters(unittest.TestCase):
                    [('lock_step', '1'), ('steps', '2.5'), ('steps', '0')])
         self.check('anthrob_record', 'anthrob_recorder',
                    [model, ('protocol', os.path.join(CONFIG, 'record_tier1_equilibria.yaml')), ('out', '/nowhere')],
-                   [('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
+                   [('out', 'relative'), ('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
 
     def test_player(self):
         self.check('anthrob_control', 'anthrob_posture_player',

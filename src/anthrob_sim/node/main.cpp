@@ -14,6 +14,10 @@ int main(int argc, char** argv) {
     const std::string file = required(settings, "model", "the path of a model file");
     LoadOptions load;
     take(settings, "step", number_of, load.step);
+    if (!(load.step > 0.0 && load.step <= kMaximumStep)) {
+      throw BadInput("parameter ~step: " + std::to_string(load.step) +
+                     ": expected a number in (0, 0.1] [s]");
+    }
     SimulatorNode::Options options;
     take(settings, "rate", nonnegative_number_of, options.rate);
     take(settings, "state_rate", number_of, options.state_rate);

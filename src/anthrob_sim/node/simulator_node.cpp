@@ -23,6 +23,9 @@ constexpr std::uint32_t kMostSteps = 10000000;  ///< of one call: nothing else i
 constexpr double kNewInstant = 0.02;  // [s]
 /// While paused, so that who starts then knows the time.
 constexpr std::chrono::milliseconds kClockRepeat(200);
+/// However rarely states are published, commands and stops are heard as often as this.
+constexpr double kHearing = 0.01;                   // [s] of simulated time
+constexpr std::chrono::milliseconds kListening(5);  // of wall time
 
 }  // namespace
 
@@ -32,8 +35,9 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       sim_(std::move(model)),
       supervisor_(muscle_channels(sim_.model()), options.supervisor),
       driven_(*sim_.model().skeleton, options.supervisor),
-      steps_per_cycle_(std::max(
-          1, static_cast<int>(std::lround(1.0 / (options.state_rate * sim_.step_length()))))),
+      steps_per_state_(steps_in(1.0 / options.state_rate)),
+      steps_per_cycle_(std::min(steps_per_state_, steps_in(kHearing))),
+      steps_to_state_(steps_per_state_),
       nh_(nh) {
   clock_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
@@ -74,6 +78,10 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
   };
   surfaces_.publish(surface_markers(sim_.model()));
   apply_supervision();
+}
+
+int SimulatorNode::steps_in(double time) const {
+  return std::max(1, static_cast<int>(std::lround(time / sim_.step_length())));
 }
 
 ros::Time SimulatorNode::stamp() const {
@@ -205,7 +213,10 @@ bool SimulatorNode::on_pause(std_srvs::SetBool::Request& request,
   response.success = request.data || failure_.empty();
   response.message =
       response.success ? (request.data ? "paused" : "running") : failure_ + "; call sim/reset";
-  if (response.success) options_.paused = request.data;
+  if (!response.success) return true;
+  // Where it stands from now on.
+  if (request.data && !options_.paused && steps_to_state_ < steps_per_state_) publish(true);
+  options_.paused = request.data;
   return true;
 }
 
@@ -313,11 +324,14 @@ bool SimulatorNode::advance(int steps) {
 }
 
 void SimulatorNode::cycle() {
-  if (!options_.paused) {
-    advance(steps_per_cycle_);
-    publish(false);
-    ++cycles_;
-  }
+  if (options_.paused) return;
+  steps_done_ = std::min(steps_per_cycle_, steps_to_state_);
+  const bool sound = advance(steps_done_);
+  steps_to_state_ -= steps_done_;
+  if (sound && steps_to_state_ > 0) return;
+  steps_to_state_ = steps_per_state_;
+  publish(false);
+  ++states_;
 }
 
 void SimulatorNode::publish_clock() {
@@ -341,10 +355,10 @@ void SimulatorNode::publish(bool all) {
   joints_.publish(joint_states(sim_, now));
   spherical_joints_.publish(spherical_joint_states(sim_, now));
   if (touch_) touch_.publish(touch_states(sim_, now));
-  const double cycle = steps_per_cycle_ * sim_.step_length();  // [s]
-  const int cycles_per_tf =
-      std::max(1, static_cast<int>(std::lround(1.0 / (options_.tf_rate * cycle))));
-  if (all || cycles_ % static_cast<std::uint64_t>(cycles_per_tf) == 0) {
+  const double period = steps_per_state_ * sim_.step_length();  // [s]
+  const int states_per_tf =
+      std::max(1, static_cast<int>(std::lround(1.0 / (options_.tf_rate * period))));
+  if (all || states_ % static_cast<std::uint64_t>(states_per_tf) == 0) {
     transforms_.sendTransform(ball_joint_transforms(sim_, now));
     if (solved_paths_.getNumSubscribers() > 0) solved_paths_.publish(solved_paths(sim_, now));
   }
@@ -414,7 +428,7 @@ void SimulatorNode::pace() {
     return;
   }
   if (options_.rate <= 0.0) return;
-  const double period = steps_per_cycle_ * sim_.step_length() / options_.rate;
+  const double period = steps_done_ * sim_.step_length() / options_.rate;
   deadline_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period));
   const Clock::time_point now = Clock::now();
   if (now > deadline_ + std::chrono::milliseconds(20)) {
@@ -422,15 +436,24 @@ void SimulatorNode::pace() {
     ++late_cycles_;
     deadline_ = now;
   }
-  std::this_thread::sleep_until(deadline_);
+  // In slow motion a cycle is long.
+  while (deadline_ - Clock::now() > kListening && !options_.paused && ros::ok()) {
+    std::this_thread::sleep_for(kListening);
+    hear();
+  }
+  if (!options_.paused) std::this_thread::sleep_until(deadline_);
+}
+
+void SimulatorNode::hear() {
+  command_queue_.callAvailable();
+  ros::getGlobalCallbackQueue()->callAvailable();
 }
 
 void SimulatorNode::run() {
   deadline_ = report_time_ = Clock::now();
   publish(true);
   while (ros::ok()) {
-    command_queue_.callAvailable();
-    ros::getGlobalCallbackQueue()->callAvailable();
+    hear();
     cycle();
     repeat_clock();
     publish_diagnostics();

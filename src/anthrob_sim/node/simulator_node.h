@@ -75,6 +75,9 @@ class SimulatorNode {
   /// @return false if the numbers broke down; the simulation is paused then
   bool advance(int steps);
   void apply_supervision();
+  /// At least one [s of simulated time].
+  int steps_in(double time) const;
+  void hear();
   void cycle();
   /// So that tf shows what is placed next.
   void skip_to_new_instant();
@@ -92,8 +95,10 @@ class SimulatorNode {
   ecu::Supervisor supervisor_;  ///< of muscles
   DrivenJoints driven_;
   std::vector<ecu::MuscleReference> accepted_;
-  int steps_per_cycle_;
-  std::uint64_t cycles_ = 0;
+  int steps_per_state_, steps_per_cycle_;
+  int steps_to_state_;  ///< until the next one is published
+  int steps_done_ = 0;  ///< in the last cycle
+  std::uint64_t states_ = 0;
   std::string failure_;  ///< why the simulation stands still; empty if it does not
 
   ros::NodeHandle nh_;
