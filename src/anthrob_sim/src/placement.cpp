@@ -80,6 +80,9 @@ void Placement::set_muscle(const std::string& name, double position) {
   if (index < 0) throw BadInput(who + ": no such muscle");
   if (!std::isfinite(position)) throw BadInput(who + ": position is not finite");
   const MuscleModel& muscle = model_.muscles[index];
+  if (!muscle.actuator->takes_input() && position != 0.0) {
+    throw BadInput(who + ": " + text(position) + ": is passive and stays at position 0");
+  }
   const double limit = muscle.limits.position;
   const double highest = std::min(limit + kGive, muscle.actuator->highest_position());
   if (position < -limit - kGive || position > highest) {

@@ -217,6 +217,8 @@ TEST(Dataset, UnwritableFolderIsReported) {
   EXPECT_THROW(data.require_place("/proc/nowhere"), std::runtime_error);
   const TemporaryFolder folder;
   data.require_place(folder.path() + "/new");
+  EXPECT_THROW(data.require_place(folder.path() + "/out.bag"), BadInput);
+  EXPECT_THROW(data.save(folder.path() + "/out.bag"), BadInput);
   EXPECT_FALSE(std::filesystem::exists(folder.path() + "/new"));
   folder.write("other.csv", "a,b\n1,2\n");
   EXPECT_THROW(data.require_place(folder.path()), BadInput);

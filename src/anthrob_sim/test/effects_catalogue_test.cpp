@@ -349,7 +349,7 @@ TEST(Catalogue, BadEntriesAreRefusedWithOneLine) {
             "model.yaml:3: effects.0: key 'place' is missing");
   EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, place: flexor}\n"),
             "model.yaml:3: effects.0.place: flexor: expected at least one of the effect's sizes "
-            "beside it; it has: width, drag");
+            "beside it; it has: width");
   EXPECT_EQ(refusal("effects:\n  - {id: payload, place: arm, mass: 0.1}\n"
                     "  - {id: payload, place: arm, mass: 0.2}\n"),
             "model.yaml:4: effects.1.place: arm: expected every effect once at a place; this one "

@@ -107,6 +107,14 @@ TEST(Placement, MusclesStayWithinTheLimitsOfCommands) {
   EXPECT_NE(refusal([&] { placement.set_muscle("nobody", 0.0); }), "");
 }
 
+TEST(Placement, ALigamentHasNoOtherPositionThanZero) {
+  const auto model = load_robot_model(config("two_muscle_rig/model_hill.yaml"));
+  Placement placement(*model);
+  placement.set_muscle("capsule", 0.0);
+  const std::string text = refusal([&] { placement.set_muscle("capsule", 0.5); });
+  EXPECT_NE(text.find("muscle 'capsule': 0.5: is passive"), std::string::npos) << text;
+}
+
 TEST(Placement, AHillMuscleHasAShortestLength) {
   const auto model = load_robot_model(config("two_muscle_rig/model_hill.yaml"));
   Placement placement(*model);

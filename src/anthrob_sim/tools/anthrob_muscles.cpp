@@ -250,7 +250,8 @@ int main(int argc, char** argv) {
   app.add_option("--joint", joints, "shoulder=w,x,y,z or elbow=1.57 [rad, m]; others at rest");
   app.add_option("--position", positions, "actuator position MUSCLE=rad; others at 0");
   app.add_option("--sweep", sweep, "AXIS=FROM:TO:POINTS, e.g. elbow=0:2:50 or shoulder_x=-1:1:50");
-  app.add_option("--muscle", only, "of a sweep, only this muscle; may be repeated");
+  app.add_option("--muscle", only, "of a sweep, only this muscle; may be repeated")
+      ->needs("--sweep");
   app.add_option("--plot", plot, "of a sweep, a figure: FILE.svg")->needs("--sweep");
   app.add_flag("--csv", csv, "comma separated, SI units");
   app.add_flag("--json", json, "JSON, SI units")->excludes("--csv");

@@ -10,7 +10,9 @@
 
 int main(int argc, char** argv) {
   using namespace anthrob;
-  CLI::App app("Replays a recording's inputs in simulation, with ideal sensors.", "anthrob_replay");
+  CLI::App app(
+      "Replays a recording's inputs in simulation; writes what was, free of the sensors' noise.",
+      "anthrob_replay");
   std::string model_file, in, out, mode = "reference";
   double step = 0.001;
   app.add_option("--model", model_file, "model file, e.g. config/anthrob/model_II.yaml")

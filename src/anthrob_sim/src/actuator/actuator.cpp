@@ -8,9 +8,11 @@
 
 namespace anthrob {
 
-std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const ConfigNode& muscle,
-                                              double step) {
-  using Factory = std::shared_ptr<const Actuator> (*)(const ConfigNode&, const ConfigNode&, double);
+namespace {
+
+using Factory = std::shared_ptr<const Actuator> (*)(const ConfigNode&, const ConfigNode&, double);
+
+Factory factory_of(const ConfigNode& kind) {
   // A new actuator: one file, one line here.
   static const std::map<std::string, Factory> kFactories = {
       {"dc_motor", &DcMotor::load},
@@ -23,7 +25,18 @@ std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const Conf
     for (const auto& entry : kFactories) known += (known.empty() ? "" : ", ") + entry.first;
     kind.at("type").fail_expected("one of: " + known);
   }
-  return it->second(kind, muscle, step);
+  return it->second;
+}
+
+}  // namespace
+
+std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const ConfigNode& muscle,
+                                              double step) {
+  return factory_of(kind)(kind, muscle, step);
+}
+
+void require_actuator_type(const ConfigNode& kind) {
+  factory_of(kind);
 }
 
 }  // namespace anthrob

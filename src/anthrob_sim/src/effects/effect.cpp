@@ -52,16 +52,17 @@ EffectSetting::EffectSetting(const Effect& effect, EffectInstance instance,
       fail(p.name, p.bounds.text() + " [" + p.unit + "]");
     }
   }
-  std::string names;
+  std::string names, sizes;
   for (const EffectParameter& p : parameters_) {
     names += (names.empty() ? "" : ", ") + p.name;
+    if (p.kind == EffectParameter::kSize) sizes += (sizes.empty() ? "" : ", ") + p.name;
   }
   for (const auto& [name, value] : instance_.parameters) {
     const bool known = std::any_of(parameters_.begin(), parameters_.end(),
                                    [&](const EffectParameter& p) { return p.name == name; });
     if (!known) fail(name, "one of the effect's parameters there: " + names);
   }
-  if (!any_size) fail("place", "at least one of the effect's sizes beside it; it has: " + names);
+  if (!any_size) fail("place", "at least one of the effect's sizes beside it; it has: " + sizes);
 }
 
 bool EffectSetting::neutral() const {

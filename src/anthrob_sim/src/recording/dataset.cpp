@@ -22,6 +22,15 @@ namespace {
 const std::array<const char*, 4> kModes = {"VOLTAGE", "POSITION", "CURRENT", "FORCE"};
 const std::array<const char*, 5> kStates = {"BOOT", "IDLE", "ENABLED", "STOPPING", "FAULT"};
 
+/// "VOLTAGE, POSITION, ..."
+std::string words_of(const std::string& quantity) {
+  std::string text;
+  for (int i = 0; word_of(quantity, i) != std::to_string(i); ++i) {
+    text += (i == 0 ? "" : ", ") + word_of(quantity, i);
+  }
+  return text;
+}
+
 /// Splits a line at commas; no quoting: no name or number of a recording contains a comma.
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells;
@@ -147,7 +156,7 @@ class TableReader {
     if (!cell.empty() && holds_words(column.quantity())) {
       const int number = number_of(column.quantity(), cell);
       if (number < 0)
-        fail(column.name + ": '" + cell + "': expected one of the words of the contract");
+        fail(column.name + ": '" + cell + "': expected one of " + words_of(column.quantity()));
       value = number;
     } else if (!cell.empty()) {
       const char* end = cell.data() + cell.size();
@@ -471,6 +480,12 @@ std::vector<fs::path> tables_to_go(const fs::path& folder, const Dataset& to_com
   return tables;
 }
 
+/// Who reads it would take the folder for one.
+void refuse_name_of_bag(const std::string& target) {
+  if (fs::path(target).extension() == ".bag")
+    throw BadInput(target + ": expected the name of a dataset folder, not of a bag");
+}
+
 }  // namespace
 
 Dataset Dataset::load(const std::string& folder) {
@@ -489,6 +504,7 @@ Dataset Dataset::load(const std::string& folder) {
 }
 
 void Dataset::require_place(const std::string& target) const {
+  refuse_name_of_bag(target);
   std::error_code error;
   const bool made = fs::create_directories(target, error);
   if (!fs::is_directory(target, error)) {
@@ -502,6 +518,7 @@ void Dataset::require_place(const std::string& target) const {
 }
 
 void Dataset::save(const std::string& target) const {
+  refuse_name_of_bag(target);
   std::error_code error;
   fs::create_directories(target, error);
   if (!fs::is_directory(target, error)) {

@@ -36,6 +36,8 @@ constexpr Nanoseconds kMostOvertaken = 500000000;
 
 /// Bags cannot hold time 0; the first representable instant stands for it.
 constexpr Nanoseconds kFirstBagTime = 1;
+/// ROS counts seconds in 32 bits.
+constexpr Nanoseconds kEndOfTime = (Nanoseconds{1} << 32) * 1000000000;
 
 Nanoseconds to_nanoseconds(const ros::Time& t) {
   return static_cast<Nanoseconds>(t.sec) * 1000000000 + t.nsec;
@@ -439,17 +441,19 @@ void write_rows(const Table& table, const Dataset& dataset, const std::string& t
                 rosbag::Bag& bag) {
   const auto frame = dataset.meta.other.find("frame_id_" + table.name);
   for (std::size_t row = 0; row < table.t.size(); ++row) {
-    if (table.t[row] < 0) {
-      throw BadInput(table.name + ".csv: t = " + time_text(table.t[row]) +
-                     ": a bag needs times >= 0");
+    const Nanoseconds t = table.t[row], stamp = table.stamp.empty() ? t : table.stamp[row],
+                      arrival = table.bag_time.empty() ? t : table.bag_time[row];
+    for (const auto& [key, time] : {std::pair("t", t), {"stamp", stamp}, {"bag_time", arrival}}) {
+      if (time >= 0 && time < kEndOfTime) continue;
+      throw BadInput(table.name + ".csv: " + key + " = " + time_text(time) +
+                     ": a bag needs times from 0 on, below 2^32 s");
     }
     Message message;
     from_row(RowView(table, row), message);
-    message.header.stamp = to_ros(table.stamp.empty() ? table.t[row] : table.stamp[row]);
+    message.header.stamp = to_ros(stamp);
     if (frame != dataset.meta.other.end()) {
       message.header.frame_id = frame->second.substr(0, frame->second.find('\n'));
     }
-    const Nanoseconds arrival = table.bag_time.empty() ? table.t[row] : table.bag_time[row];
     bag.write(topic, to_ros(std::max(arrival, kFirstBagTime)), message);
   }
 }

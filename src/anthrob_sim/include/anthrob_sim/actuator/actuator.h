@@ -60,4 +60,7 @@ class Actuator {
 std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const ConfigNode& muscle,
                                               double step);
 
+/// Refuses a kind of a type there is none of.
+void require_actuator_type(const ConfigNode& kind);
+
 }  // namespace anthrob
