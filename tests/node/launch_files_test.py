@@ -54,7 +54,8 @@ class LaunchFiles(unittest.TestCase):
         for asked in ['robot.launch', 'backend:=emulate'], ['robot.launch', 'backend:=Sim'], ['robot.launch', 'backend:=true'], \
                 ['robot.launch', 'mocap:=yes'], ['robot.launch', 'mocap:=virtual'], ['sim.launch', 'mocap:=cameras'], \
                 ['demo.launch', 'mocap:=cameras'], ['sim.launch', 'hand:=no'], ['robot.launch', 'backend:=sim', 'hand:=no'], \
-                ['robot.launch', 'backend:=sim', 'mocap:=cameras'], ['robot.launch', 'backend:=emulated', 'can:=can0']:
+                ['robot.launch', 'backend:=sim', 'mocap:=cameras'], ['robot.launch', 'backend:=emulated', 'can:=can0'], \
+                ['robot.launch', 'backend:=hardware', 'homed:=true']:
             with self.subTest(' '.join(asked)):
                 wrong = asked[-1]
                 with self.assertRaisesRegex(roslaunch.core.RLException, re.escape(wrong).replace('true', 'True') + '.*: expected '):

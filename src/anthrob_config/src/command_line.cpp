@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,18 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
     std::cerr << app.get_name() << ": " << one_line(e.what()) << "\n";
     return kFailed;
   }
+}
+
+CLI::Validator within(double lowest, double highest) {
+  std::ostringstream range;
+  range << "a number from " << lowest << " to " << highest;
+  const auto check = [lowest, highest, range = range.str()](std::string& text) -> std::string {
+    double value = 0.0;
+    const bool number = CLI::detail::lexical_cast(text, value);
+    if (number && value >= lowest && value <= highest) return "";
+    return text + ": expected " + range;
+  };
+  return CLI::Validator(check, range.str());
 }
 
 bool interrupted() {

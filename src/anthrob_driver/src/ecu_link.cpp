@@ -91,8 +91,8 @@ void EcuLink::finish_answer(double now) {
 }
 
 void EcuLink::take_state(ecu::State state) {
-  if (state == ecu::State::kFault && state_ != ecu::State::kFault) {
-    // Some faults lose the zero: the unit knows which.
+  if ((state == ecu::State::kFault) != (state_ == ecu::State::kFault)) {
+    // Some faults lose the zero, and in FAULT it is lost without a word: the unit knows.
     std::replace(zeros_.begin(), zeros_.end(), Zero::kKnown, Zero::kNotTold);
   }
   state_ = state;

@@ -18,6 +18,20 @@ namespace {
 using ecu::Parameter;
 
 constexpr double kLongestHome = 120.0;  // [s]
+constexpr double kTick = 0.001;         // [s] of the units' control laws
+/// Of a muscle of a model file (docs/files.md). What the simulator reads only must not hide a
+/// misspelt `gains` from the driver.
+const std::set<std::string> kMuscleKeys = {"actuator",
+                                           "controller",
+                                           "ecu",
+                                           "eyelet_friction",
+                                           "force_sensor_segment",
+                                           "gains",
+                                           "path",
+                                           "rest_tendon_length",
+                                           "spindle_radius",
+                                           "spring",
+                                           "surface_friction"};
 
 std::string text(double value) {
   std::ostringstream out;
@@ -50,6 +64,9 @@ void load_controller(const ConfigNode& node, MuscleHardware& muscle) {
     set(muscle, parameter, value.as_number(Bounds::nonnegative(), unit), value);
   };
   gain(node, "voltage_limit", Parameter::kVoltageLimit, "V");
+  if (node.has("period") && node.at("period").as_number(Bounds::positive(), "s") != kTick) {
+    node.at("period").fail_expected(text(kTick) + " s, at which the units run");
+  }
   const ConfigNode position = node.at("position"), current = node.at("current"),
                    force = node.at("force"), limits = node.at("limits");
   gain(position, "proportional", Parameter::kPositionProportional, "V/rad");
@@ -120,6 +137,10 @@ void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
   if (!(low < high)) {
     range.fail(text(low) + " to " + text(high) + " rad: expected [lowest, highest]");
   }
+  if (low > 0.0 || high < 0.0) {
+    range.fail(text(low) + " to " + text(high) +
+               " rad: expected a range with 0 in it, where a unit counts from once it has power");
+  }
   const int order = node.at("filter_order").as_integer(0, ecu::kMaxFilterOrder);
   set(muscle, Parameter::kFilterOrder, order, node.at("filter_order"));
   if (!node.has("nominal_current") && !node.has("thermal_time_constant")) return;
@@ -154,9 +175,9 @@ void check_home(const ConfigNode& node, const HomeRoutine& home, const MuscleHar
   };
   at_most("wind_speed", home.wind_speed, 0.5 * limit(Parameter::kSpeedLimit),
           "rad/s, half of speed_limit");
-  at_most("travel_limit", home.travel_limit,
-          limit(Parameter::kPositionHigh) - limit(Parameter::kPositionLow),
-          "rad, the width of position_range");
+  // After power-up a unit counts from 0, and winds in no further than its range goes.
+  at_most("travel_limit", home.travel_limit, limit(Parameter::kPositionHigh),
+          "rad, the end of position_range");
   at_most("force_limit", home.force_limit, limit(Parameter::kForceLimit), "N, force_limit");
 }
 
@@ -193,14 +214,19 @@ class Loader {
   Hardware load() {
     load_ecus();
     for (const auto& [name, node] : model_.at("muscles").entries()) {
+      for (const auto& [key, value] : node.entries()) {
+        if (!kMuscleKeys.count(key)) value.fail("unknown key");
+      }
       if (!node.has("controller") || !node.has("ecu")) continue;
       // A model with the hand may be used without it.
       if (!hand_ && name.rfind("hand_", 0) == 0) continue;
       const std::string kind = node.text("controller");
       const bool of_hand = name.rfind("hand_", 0) == 0;
-      add_muscle(name, node.text("ecu"), kind, model_.at("controllers").at(kind),
+      const ConfigNode controller = model_.at("controllers").at(kind);
+      add_muscle(name, node.text("ecu"), kind, controller,
                  of_hand ? calibration_.at("hand").at("muscles") : calibration_.at("muscles"),
                  node);
+      controller.refuse_unknown_keys();
       if (node.has("actuator")) {
         load_motor(model_.at("actuators").at(node.text("actuator")), hardware_.muscles.back());
       }
@@ -224,7 +250,9 @@ class Loader {
       EcuHardware ecu;
       ecu.name = name;
       ecu.node = node.at("node").as_integer(1, ecu::kMaxNode);
-      if (!nodes.insert(ecu.node).second) node.at("node").fail("another ECU has this node");
+      if (!nodes.insert(ecu.node).second) {
+        node.at("node").fail(std::to_string(ecu.node) + ": another ECU has this node");
+      }
       hardware_.ecus.push_back(ecu);
     }
   }
@@ -265,10 +293,16 @@ class Loader {
     if (home.has("positions") && home.at("positions").has(muscle.name)) {
       return home.at("positions").number(muscle.name, Bounds::between(low, high), "rad");
     }
-    if (low > 0.0 || high < 0.0) {
-      home.fail("positions." + muscle.name + ": missing, and 0 rad is outside of position_range");
-    }
     return 0.0;
+  }
+
+  /// One file serves with and without it.
+  void ignore_zeros_of_the_hand() {
+    const ConfigNode home = config_.at("home");
+    if (!home.has("positions") || !config_.has("hand")) return;
+    for (const auto& [name, node] : config_.at("hand").at("muscles").entries()) {
+      if (home.at("positions").has(name)) home.at("positions").at(name).ignore();
+    }
   }
 
   void load_hand() {
@@ -277,19 +311,22 @@ class Loader {
         if (part.has("hand")) part.at("hand").ignore();
       }
       if (config_.at("units").has("hand")) config_.at("units").at("hand").ignore();
+      ignore_zeros_of_the_hand();
       return;
     }
     if (!config_.has("hand")) config_.fail("hand: missing; this robot has none");
     const ConfigNode hand = config_.at("hand"), sensors = calibration_.at("hand");
+    bool takes_controller = false;
     for (const auto& [name, node] : hand.at("muscles").entries()) {
       const bool in_model = std::any_of(hardware_.muscles.begin(), hardware_.muscles.end(),
                                         [&n = name](const auto& m) { return m.name == n; });
       const std::string ecu_name = node.text("ecu");
       if (!in_model) {
+        takes_controller = true;
         add_muscle(name, ecu_name, "hand", hand.at("controller"), sensors.at("muscles"), node);
       }
     }
-    hand.at("controller").ignore();
+    if (!takes_controller) hand.at("controller").ignore();
     for (const auto& [name, node] : hand.at("touch").entries()) {
       TouchSensor touch;
       touch.name = name;
@@ -353,6 +390,15 @@ class Loader {
     if (home.slip_drop <= 0.2) node.at("slip_drop").fail_expected("more than 0.2");
     if (home.time_limit > kLongestHome) {
       node.at("time_limit").fail_expected("at most " + text(kLongestHome) + " s");
+    }
+    if (home.settle_time >= home.time_limit) {
+      node.at("settle_time").fail_expected("less than time_limit");
+    }
+    // Else a broken tendon would end `home` by its time, without being named.
+    const double furthest = home.wind_speed * home.time_limit;
+    if (home.travel_limit >= furthest) {
+      node.at("travel_limit")
+          .fail_expected("less than " + text(furthest) + " rad, wind_speed x time_limit");
     }
     for (const MuscleHardware& muscle : hardware_.muscles) check_home(node, home, muscle);
   }

@@ -159,7 +159,8 @@ TEST(Hardware, ADifferenceNamesMuscleAndWhat) {
 
 /// Anthrob's files with one text replaced, or two.
 std::string error_of(const std::string& file, const std::string& from, const std::string& to,
-                     const std::string& from_too = "", const std::string& to_too = "") {
+                     const std::string& from_too = "", const std::string& to_too = "",
+                     bool hand = true) {
   const fs::path folder =
       fs::temp_directory_path() / ("anthrob_hardware_" + std::to_string(getpid()));
   fs::create_directories(folder);
@@ -178,7 +179,7 @@ std::string error_of(const std::string& file, const std::string& from, const std
   }
   std::string result = "no error";
   try {
-    load_hardware(folder / "hardware.yaml", true);
+    load_hardware(folder / "hardware.yaml", hand);
   } catch (const BadInput& error) {
     result = error.what();
   }
@@ -189,6 +190,7 @@ std::string error_of(const std::string& file, const std::string& from, const std
 TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
   struct Case {
     const char *file, *from, *to, *expected;
+    const char *from_too = "", *to_too = "";
   };
   const Case cases[] = {
       {"hardware.yaml", "ecu_1: {node: 1}", "ecu_1: {node: 0}", "ecus.ecu_1.node"},
@@ -200,7 +202,17 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"hardware.yaml", "position_range: [-30.0, 30.0]", "position_range: [30.0, -30.0]",
        "units.type_1.position_range: 30 to -30 rad"},
       {"hardware.yaml", "position_range: [-30.0, 30.0]", "position_range: [1.0, 30.0]",
-       "0 rad is outside of position_range"},
+       "units.type_1.position_range: 1 to 30 rad: expected a range with 0 in it"},
+      {"hardware.yaml", "    voltage_limit: 6.0", "    voltage_limit: 6.0\n    period: 0.01",
+       "hand.controller.period: 0.01: expected 0.001 s"},
+      {"hardware.yaml", "    voltage_limit: 6.0", "    voltage_limit: 6.0\n    voltage_limt: 3.0",
+       "hand.controller.voltage_limt: unknown key"},
+      {"model_II.yaml", "extends:", "controllers: {type_1: {limits: {forse: 40}}}\nextends:",
+       "controllers.type_1.limits.forse: unknown key"},
+      {"model_II.yaml", "extends:", "controllers: {type_1: {period: 0.01}}\nextends:",
+       "controllers.type_1.period: 0.01: expected 0.001 s"},
+      {"model_II.yaml", "  brachialis:", "  brachialis:\n    gians: {}",
+       "muscles.brachialis.gians: unknown key"},
       {"hardware.yaml", "positions: {}", "positions: {brachialis: 31.0}",
        "home.positions.brachialis"},
       {"sensors.yaml", "gain: 0.01", "gain: 0.005", "units.type_1.current_limit: 16"},
@@ -213,7 +225,11 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"hardware.yaml", "wind_speed: 1.0", "wind_speed: 6.1",
        "home.wind_speed: 6.1: expected at most 6 rad/s, half of speed_limit of lateral_deltoid"},
       {"hardware.yaml", "travel_limit: 6.0", "travel_limit: 61",
-       "home.travel_limit: 61: expected at most 60 rad, the width of position_range of lateral"},
+       "home.travel_limit: 61: expected less than 20 rad, wind_speed x time_limit"},
+      {"hardware.yaml", "settle_time: 1.0", "settle_time: 20", "expected less than time_limit"},
+      {"hardware.yaml", "travel_limit: 6.0", "travel_limit: 19",
+       "home.travel_limit: 19: expected at most 10 rad, the end of position_range of lateral",
+       "position_range: [-30.0, 30.0]", "position_range: [-30.0, 10.0]"},
       {"hardware.yaml", "time_limit: 20.0", "time_limit: 1e5", "expected at most 120 s"},
       {"hardware.yaml", "tolerance: 1.0", "tolerance: 2.5", "home.tolerance"},
       {"hardware.yaml", "slip_drop: 0.5", "slip_drop: 0.2", "home.slip_drop"},
@@ -233,16 +249,25 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"sensors.yaml", "elbow:", "knee:", "elbow"},
   };
   for (const Case& c : cases) {
-    const std::string error = error_of(c.file, c.from, c.to);
+    const std::string error = error_of(c.file, c.from, c.to, c.from_too, c.to_too);
     EXPECT_NE(error.find(c.expected), std::string::npos) << c.to << " gave: " << error;
     EXPECT_NE(error.find(".yaml:"), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
 }
 
+TEST(Hardware, OneFileNamesZerosWithAndWithoutTheHand) {
+  const auto load = [](bool hand) {
+    return error_of("hardware.yaml", "positions: {}", "positions: {hand_agonist: 1.0}", "", "",
+                    hand);
+  };
+  EXPECT_EQ(load(true), "no error");
+  EXPECT_EQ(load(false), "no error");
+}
+
 TEST(Hardware, HomeMayAskWhatEveryUnitStands) {
   EXPECT_EQ(error_of("hardware.yaml", "wind_speed: 1.0", "wind_speed: 6.0", "travel_limit: 6.0",
-                     "travel_limit: 60.0"),
+                     "travel_limit: 30.0"),
             "no error");
   EXPECT_EQ(error_of("hardware.yaml", "force_limit: 20.0", "force_limit: 150.0", "time_limit: 20.0",
                      "time_limit: 120.0"),

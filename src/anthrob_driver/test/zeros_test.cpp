@@ -82,6 +82,22 @@ TEST_F(ZerosTest, ADriverThatIsStartedAnewLearnsOfAZeroThatWasLostBefore) {
   EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
 }
 
+TEST_F(ZerosTest, AZeroThatIsLostWhileItsUnitIsInFaultIsLost) {
+  for (const bool turned : {false, true}) {
+    enable();
+    rig.rack.board(kUnit).peripherals.temperature = 90;
+    rig.run(100);
+    ASSERT_EQ(rig.driver().link(kUnit).report().fault, ecu::Fault::kOverTemperature);
+    if (turned) rig.plant.turn(4, -10.0);  // slack: no force on its sensor
+    rig.run(100);
+    ASSERT_EQ(rig.driver().link(kUnit).report().fault, ecu::Fault::kOverTemperature);
+    rig.rack.board(kUnit).peripherals.temperature = 30;
+    enable();
+    EXPECT_EQ(refusal(), turned ? kNoZero : "");
+    EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+  }
+}
+
 TEST_F(ZerosTest, AHomeThatWasInterruptedIsRememberedByTheUnits) {
   enable();
   // One unit takes its zero, and nobody hears that it did.

@@ -148,7 +148,6 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   }
   thread.wait(0.0);
 
-  Listener listener(arguments.can);
   std::vector<double> round_trips;
   std::uint64_t incomplete = 0, cycles = 0, frames = 0;
   const auto count = [&](std::uint64_t& all_cycles, std::uint64_t& all_frames) {
@@ -182,6 +181,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
     }
   });
   constexpr double kListen = 2.0;
+  Listener listener(arguments.can);  // here: what came before waits in no socket of its
   const double listen_start = robot_time(arguments);
   std::thread listening([&] { listener.listen(kListen / arguments.pace); });
   while (robot_time(arguments) - listen_start < kListen && !tool::interrupted()) {
@@ -285,7 +285,7 @@ int main(int argc, char** argv) {
   app.add_option("--rate", arguments.rate, "[Hz] of SYNC")->capture_default_str();
   app.add_option("--pace", arguments.pace, "with --emulate: below 1 all time runs slower")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1.0));
+      ->check(tool::within(0.01, 1.0));
   app.add_flag("--emulate", arguments.emulate, "run the ECUs in software, on a vcan");
   app.add_flag("--physical", arguments.physical,
                "with --emulate: on a physical interface, too, where no robot is");

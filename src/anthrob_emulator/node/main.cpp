@@ -154,12 +154,13 @@ int main(int argc, char** argv) {
   app.add_flag("--physical", arguments.physical, "on a physical interface, too, where no robot is");
   app.add_option("--rate", arguments.rate, "[Hz] of spherical_joint_states")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 1000.0));
+      ->check(anthrob::tool::within(1.0, 1000.0));
   app.add_option("--pace", arguments.pace, "below 1: time runs slower, as the driver's ~pace")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1.0));
+      ->check(anthrob::tool::within(0.01, 1.0));
   app.add_flag("--hand", arguments.hand, "with the hand's muscles, if the robot has a hand");
-  app.add_flag("--homed", arguments.homed, "the units know the model's zero; else they want `home`");
+  app.add_flag("--homed", arguments.homed,
+               "the units know the model's zero; else they want `home`");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
   app.add_flag("--ros", arguments.ros, "publish the ball joints, as motion capture would");
   app.add_flag("--clock", arguments.clock, "publish /clock, the robot's time at --pace");

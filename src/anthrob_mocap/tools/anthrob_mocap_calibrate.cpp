@@ -106,8 +106,8 @@ int main(int argc, char** argv) {
   app.add_option("--square", a.square, "edge of a square [m]");
   app.add_option("--out", a.out, "folder for left.yaml and right.yaml");
   app.add_option("--max-rms", a.limits.stereo_rms, "refuse a worse reprojection [pixel]")
-      ->check(CLI::Range(0.01, 100.0));
+      ->check(anthrob::tool::within(0.01, 100.0));
   app.add_option("--min-coverage", a.limits.least_coverage, "refuse less of the picture")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(anthrob::tool::within(0.0, 1.0));
   return anthrob::tool::run(app, argc, argv, [&] { return calibrate(a); });
 }

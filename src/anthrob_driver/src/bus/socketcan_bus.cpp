@@ -13,6 +13,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "anthrob_config/errors.h"
+
 namespace anthrob {
 namespace driver {
 
@@ -112,7 +114,7 @@ struct SocketCanBus::Batch {
 SocketCanBus::SocketCanBus(const std::string& interface)
     : interface_(interface), out_(std::make_unique<Batch>()), in_(std::make_unique<Batch>()) {
   if (interface.empty() || interface.size() >= IFNAMSIZ) {
-    throw std::runtime_error("CAN interface '" + interface + "': expected a name such as can0");
+    throw BadInput("CAN interface '" + interface + "': expected a name such as can0");
   }
   const int probe = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
   if (probe < 0) {

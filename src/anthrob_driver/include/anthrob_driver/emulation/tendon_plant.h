@@ -44,6 +44,8 @@ class TendonPlant final : public Plant {
   void cut(std::size_t muscle) { tendons_[muscle].cut = true; }
   void slacken(std::size_t muscle, double position) { tendons_[muscle].slack = position; }
   void jam(std::size_t muscle) { tendons_[muscle].jammed = true; }
+  /// Its spindle is turned by hand, at once.
+  void turn(std::size_t muscle, double position) { tendons_[muscle].position = position; }
   /// Its motor's leads are swapped.
   void reverse(std::size_t muscle) { tendons_[muscle].reversed = true; }
   void set_joint(std::size_t joint, double position) { joints_[joint] = position; }
