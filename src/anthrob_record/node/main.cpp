@@ -1,4 +1,6 @@
 // Records a robot by protocol; interrupted, the same command goes on.
+#include <filesystem>
+
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
 #include "anthrob_sim/core/errors.h"
@@ -36,6 +38,10 @@ int main(int argc, char** argv) {
     const auto protocol =
         anthrob::Protocol::load(anthrob::required(settings, "protocol", "a protocol file"), model);
     const std::string folder = anthrob::required(settings, "out", "a folder to record into");
+    if (!std::filesystem::path(folder).is_absolute()) {
+      // roslaunch starts nodes in a folder of its own.
+      throw anthrob::BadInput("parameter ~out: " + folder + ": expected a whole path, /home/...");
+    }
     anthrob::RobotLink::Options options;
     anthrob::take(settings, "lock_step", anthrob::truth_of, options.lock_step);
     anthrob::take(settings, "steps", anthrob::positive_whole_number_of, options.steps);
@@ -48,6 +54,7 @@ int main(int argc, char** argv) {
           "parameter ~lock_step: in zero gravity it is the controller that may step the simulator");
     }
     anthrob::Recorder recorder(nh, settings, model, protocol, folder, options, approach_speed);
+    ROS_INFO_STREAM("recordings go to " << folder);
     const bool ready = !enable_first || enable(nh);
     return ready && recorder.run() ? 0 : 130;
   });

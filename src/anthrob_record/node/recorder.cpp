@@ -31,7 +31,7 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
     : nh_(nh),
       model_(model),
       protocol_(protocol),
-      store_(folder, model, protocol),
+      store_(folder, model, protocol, ros::Time::isSimTime() ? "simulated" : "true"),
       bags_(store_, model, nh.getNamespace() + "/"),
       link_(nh, model, options),
       lock_step_(options.lock_step),

@@ -50,11 +50,14 @@ std::string references_text(const Protocol& protocol) {
   return text.str();
 }
 
-const Protocol::Target& pick(const std::vector<Protocol::Target>& all, const ConfigNode& name) {
+const Protocol::Target& pick(const std::vector<Protocol::Target>& all, const std::string& postures,
+                             const ConfigNode& name) {
   const std::string text = name.as_text();
   const auto it = std::find_if(all.begin(), all.end(),
                                [&](const Protocol::Target& t) { return t.name == text; });
-  if (it == all.end()) name.fail("no posture of that name in the posture file");
+  if (it == all.end()) {
+    name.fail("'" + text + "': expected the name of a posture in " + postures);
+  }
   return *it;
 }
 
@@ -77,10 +80,10 @@ Protocol Protocol::load(const std::string& file, const std::shared_ptr<const Rob
         throw BadInput(postures + ": posture '" + all[i].name + "' is there twice");
     }
   }
-  protocol.rest = pick(all, node.at("rest"));
+  protocol.rest = pick(all, postures, node.at("rest"));
   if (node.has("visit")) {
     for (const ConfigNode& name : node.at("visit").items()) {
-      const Target& target = pick(all, name);
+      const Target& target = pick(all, postures, name);
       const auto again = [&](const Target& other) { return other.name == target.name; };
       if (std::any_of(protocol.targets.begin(), protocol.targets.end(), again))
         name.fail("is there twice; repeats: tells how often all are visited");

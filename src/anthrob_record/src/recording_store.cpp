@@ -36,8 +36,8 @@ std::string fingerprint(const std::string& text) {
 }  // namespace
 
 RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const RobotModel> model,
-                               const Protocol& protocol)
-    : folder_(folder), model_(std::move(model)), protocol_(protocol) {
+                               const Protocol& protocol, const std::string& time)
+    : folder_(folder), model_(std::move(model)), protocol_(protocol), time_(time) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw std::runtime_error(folder_ + ": cannot be made: " + error.message());
@@ -54,6 +54,15 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
     throw BadInput(session + ": belongs to another protocol, other postures or another model; " +
                    "expected a new folder, or the same ones to go on with");
   }
+  const auto expect = [&](const char* key, const std::string& now) {
+    if (node.has(key) && node.text(key) != now) {
+      node.at(key).fail_expected(now +
+                                 ", or a new folder: a session is of one robot, simulated or "
+                                 "not");
+    }
+  };
+  expect("robot", model_->name);
+  expect("time", time_);
   if (node.has("rest")) baseline_ = read_sample(node.at("rest"), *model_);
   for (const auto& entry : fs::directory_iterator(folder_)) {
     if (is_part(entry.path())) fs::remove(entry.path());
@@ -63,7 +72,7 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
 std::string RecordingStore::session_text() const {
   std::ostringstream out;
   out << "# A session of anthrob_recorder; the same command goes on where it was interrupted.\n"
-      << "protocol: " << word(protocol_.kind) << "\nrobot: " << model_->name
+      << "protocol: " << word(protocol_.kind) << "\nrobot: " << model_->name << "\ntime: " << time_
       << "\nmodel: " << fs::path(model_->file).filename().string() << "\nfingerprint: f"
       << fingerprint(protocol_.text) << "  # of protocol and postures\n";
   if (baseline()) {

@@ -36,8 +36,8 @@ TEST(Protocol, RefusesWhatItCannotUse) {
   } cases[] = {
       {"protocol: equilibria", "protocol: dance", "equilibria, trajectories or zero_gravity"},
       {"equilibria_tier1.yaml", "nothing.yaml", "nothing.yaml"},
-      {"rest: E0", "rest: E99", "no posture of that name"},
-      {"rest: E0", "rest: E0\nvisit: [E77]", "no posture of that name"},
+      {"rest: E0", "rest: E99", "'E99': expected the name of a posture in "},
+      {"rest: E0", "rest: E0\nvisit: [E77]", "'E77': expected the name of a posture in "},
       {"rest: E0", "rest: E0\nvisit: []", "no posture to visit"},
       {"rest: E0", "rest: E0\nvisit: [E1, E3, E1]", "is there twice"},
       {"repeats: 1", "repeats: 0", "repeats"},

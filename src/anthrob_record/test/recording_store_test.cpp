@@ -37,7 +37,7 @@ class RecordingStoreTest : public ::testing::Test {
 };
 
 TEST_F(RecordingStoreTest, ARecordingIsThereWhenItIsComplete) {
-  RecordingStore store(folder, model, protocol);
+  RecordingStore store(folder, model, protocol, "true");
   const auto names = store.names(protocol.targets[2], 1);
   EXPECT_EQ(names, (std::vector<std::string>{"E0_to_E3_run1", "E3_to_E0_run1"}));
   EXPECT_FALSE(store.complete(names[0]));
@@ -52,7 +52,7 @@ TEST_F(RecordingStoreTest, ARecordingIsThereWhenItIsComplete) {
 
 TEST_F(RecordingStoreTest, GoesOnWhereItWasInterrupted) {
   {
-    RecordingStore store(folder, model, protocol);
+    RecordingStore store(folder, model, protocol, "true");
     EXPECT_EQ(store.baseline(), nullptr);
     store.set_baseline(sample(0.05));
     record(store, "E0_to_E3_run1", 0.1);
@@ -60,7 +60,7 @@ TEST_F(RecordingStoreTest, GoesOnWhereItWasInterrupted) {
     std::ofstream(folder + "/E0_to_E4_run1.yaml.part4711") << "half a d";
     std::ofstream(folder + "/E0_to_E4_run1.bag") << "killed before its description was written";
   }
-  RecordingStore store(folder, model, protocol);
+  RecordingStore store(folder, model, protocol, "true");
   EXPECT_TRUE(store.complete("E0_to_E3_run1"));
   EXPECT_FALSE(store.complete("E3_to_E0_run1"));
   EXPECT_FALSE(store.complete("E0_to_E4_run1"));
@@ -87,14 +87,14 @@ TEST_F(RecordingStoreTest, WhatIsNeverMeasuredOfALigamentIsLeftOut) {
   measured.position.push_back(std::nan(""));
   measured.force.push_back(std::nan(""));
   {
-    RecordingStore store(folder, model, protocol);
+    RecordingStore store(folder, model, protocol, "true");
     store.set_baseline(measured);
     std::ofstream(store.partial_bag("E0_to_E3_run1")) << "a bag";
     store.finish("E0_to_E3_run1", {}, measured);
     store.summarise();
   }
   EXPECT_EQ(content(folder + "/samples.csv").find("nan"), std::string::npos);
-  const RecordingStore again(folder, model, protocol);
+  const RecordingStore again(folder, model, protocol, "true");
   ASSERT_NE(again.baseline(), nullptr);
   EXPECT_TRUE(std::isnan(again.baseline()->force[8]));
   EXPECT_EQ(again.baseline()->force[7], 3.0);
@@ -104,8 +104,8 @@ TEST_F(RecordingStoreTest, WhatIsNeverMeasuredOfALigamentIsLeftOut) {
 TEST_F(RecordingStoreTest, AForceThatNoSensorMeasuresIsLeftOut) {
   Sample measured = sample(0.1);
   measured.force[2] = std::nan("");
-  RecordingStore(folder, model, protocol).set_baseline(measured);
-  const RecordingStore again(folder, model, protocol);
+  RecordingStore(folder, model, protocol, "true").set_baseline(measured);
+  const RecordingStore again(folder, model, protocol, "true");
   ASSERT_NE(again.baseline(), nullptr);
   EXPECT_TRUE(std::isnan(again.baseline()->force[2]));
   EXPECT_EQ(again.baseline()->force[3], 3.0);
@@ -113,30 +113,32 @@ TEST_F(RecordingStoreTest, AForceThatNoSensorMeasuresIsLeftOut) {
 }
 
 TEST_F(RecordingStoreTest, AFolderBelongsToOneSession) {
-  RecordingStore(folder, model, protocol);
+  RecordingStore(folder, model, protocol, "true");
   Protocol other = protocol;
   other.text += "hold: 1.0\n";
-  EXPECT_THROW(RecordingStore(folder, model, other), BadInput);
+  EXPECT_THROW(RecordingStore(folder, model, other, "true"), BadInput);
   const auto model_II = load_robot_model(anthrob_folder() + "model_II_tier1.yaml");
-  EXPECT_THROW(RecordingStore(folder, model_II, protocol), BadInput);
-  EXPECT_NO_THROW(RecordingStore(folder, model, protocol));
+  EXPECT_THROW(RecordingStore(folder, model_II, protocol, "true"), BadInput);
+  EXPECT_THROW(RecordingStore(folder, model, protocol, "simulated"), BadInput);
+  EXPECT_NO_THROW(RecordingStore(folder, model, protocol, "true"));
 }
 
 TEST_F(RecordingStoreTest, SaysWhatIsWrongWithAFolder) {
   parent.write("file", "no folder");
-  EXPECT_THROW(RecordingStore(parent.file("file/session"), model, protocol), std::runtime_error);
+  EXPECT_THROW(RecordingStore(parent.file("file/session"), model, protocol, "true"),
+               std::runtime_error);
   std::filesystem::create_directories(folder);
   std::ofstream(folder + "/precious.txt") << "of somebody else";
-  EXPECT_THROW(RecordingStore(folder, model, protocol), BadInput);
+  EXPECT_THROW(RecordingStore(folder, model, protocol, "true"), BadInput);
   std::filesystem::remove(folder + "/precious.txt");
   std::ofstream(folder + "/session.yaml") << "protocol: [\n";
-  EXPECT_THROW(RecordingStore(folder, model, protocol), BadInput);
+  EXPECT_THROW(RecordingStore(folder, model, protocol, "true"), BadInput);
   std::ofstream(folder + "/session.yaml") << "";
-  EXPECT_THROW(RecordingStore(folder, model, protocol), BadInput);
+  EXPECT_THROW(RecordingStore(folder, model, protocol, "true"), BadInput);
 }
 
 TEST_F(RecordingStoreTest, TellsHowFarRepeatedRunsAreApart) {
-  RecordingStore store(folder, model, protocol);
+  RecordingStore store(folder, model, protocol, "true");
   record(store, "E0_to_E3_run1", 0.10);
   record(store, "E0_to_E3_run2", 0.14);
   record(store, "E0_to_E4_run1", 0.30);
