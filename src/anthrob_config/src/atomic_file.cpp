@@ -46,8 +46,18 @@ void AtomicFile::close() {
 }
 
 void AtomicFile::move_into_place() {
+  move_to(file_);
+}
+
+std::string AtomicFile::move_beside() {
+  const std::string beside = file_ + ".partial";
+  move_to(beside);
+  return beside;
+}
+
+void AtomicFile::move_to(const std::string& place) {
   std::error_code error;
-  std::filesystem::rename(part_, file_, error);
+  std::filesystem::rename(part_, place, error);
   if (error) fail(error.message());
 }
 

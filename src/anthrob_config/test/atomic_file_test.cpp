@@ -48,6 +48,16 @@ TEST_F(AtomicFileTest, TheOldOneStaysUntilTheNewOneIsWhole) {
   EXPECT_EQ(files(), 1);
 }
 
+TEST_F(AtomicFileTest, WhatWasNotFinishedLiesBesideTheOldOne) {
+  write_file_atomically(path("a"), "old");
+  AtomicFile file(path("a"));
+  file.stream() << "half";
+  file.close();
+  EXPECT_EQ(file.move_beside(), path("a.partial"));
+  EXPECT_EQ(text("a"), "old");
+  EXPECT_EQ(text("a.partial"), "half");
+}
+
 TEST_F(AtomicFileTest, OfSeveralAllAreReplacedOrNone) {
   write_files_atomically({{path("a"), "1"}, {path("b"), "2"}});
   EXPECT_EQ(text("a") + text("b"), "12");

@@ -69,8 +69,12 @@ int track(const Arguments& arguments) {
   const bool done = mocap::track_all(source, rig, recording, pipeline);
   if (done) recording.refuse_contradiction(health);
   out.close();
+  if (!done) {
+    std::cerr << "anthrob_mocap_offline: interrupted; what was tracked until then is in "
+              << out.move_beside() << "\n";
+    return anthrob::tool::kInterrupted;
+  }
   out.move_into_place();
-  if (!done) return anthrob::tool::kInterrupted;
   report.print();
   if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
   if (health.given_up() > 0) {
@@ -94,7 +98,7 @@ int main(int argc, char** argv) {
   app.add_option("--threshold", a.threshold, "grey levels above the background")
       ->check(CLI::Range(1, 254));
   app.add_option("--rate", a.recording.folder.rate, "pairs a second where there is no times.csv")
-      ->check(CLI::Range(0.001, 100000.0));
+      ->check(anthrob::tool::within(0.001, 100000.0));
   app.add_option("--pipeline", a.pipeline, "sequential or threaded: same results");
   return anthrob::tool::run(app, argc, argv, [&] { return track(a); });
 }

@@ -27,8 +27,12 @@ class AtomicFile {
   void close();
   /// After close().
   void move_into_place();
+  /// After close(), instead: what was not finished goes to FILE.partial, FILE stays as it is.
+  /// @return its name
+  std::string move_beside();
 
  private:
+  void move_to(const std::string& place);
   [[noreturn]] void fail(const std::string& reason) const;
 
   std::string file_, part_;
