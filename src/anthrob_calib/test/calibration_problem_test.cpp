@@ -264,6 +264,30 @@ TEST(MeasuredRun, WhatWasNotMeasuredForLongIsNoLine) {
   EXPECT_EQ(error_without(20, 60), "no error");  // long before the command, at 0.5 s
   EXPECT_NE(error_without(rows - 50, rows).find("nothing measured from t = 2.2"),
             std::string::npos);
+  // Under way when the recorder ended: 95 ms, of which it waits for 50.
+  EXPECT_EQ(error_without(rows - 19, rows), "no error");
+  EXPECT_NE(error_without(rows - 22, rows).find("nothing measured"), std::string::npos);
+}
+
+TEST(MeasuredRun, AnOrientationAndItsNegativeAreTheSame) {
+  const auto model = load_robot_model(ANTHROB_CONFIG_DIR "/anthrob/model_II_tier1.yaml");
+  RecordingPlan motion;
+  motion.kind = "trajectory";
+  motion.from.assign(model->muscles.size(), 1.0);
+  motion.to.assign(model->muscles.size(), 2.0);
+  const Dataset plain = record_simulation(model, motion);
+  Dataset turned = plain;
+  Table& table = turned.tables[0];
+  for (const char* part : {"shoulder/w", "shoulder/x", "shoulder/y", "shoulder/z"}) {
+    auto& values = table.column(part).values;
+    for (std::size_t i = 1; i < values.size(); i += 2) values[i] = -values[i];
+  }
+  SamplingOptions between;
+  between.rate = 70.0;  // not where something was measured
+  const MeasuredRun a = read_run(plain, model, between), b = read_run(turned, model, between);
+  EXPECT_GT((a.path.q.row(0) - a.path.q.row(a.path.count() - 1)).norm(), 0.05);
+  EXPECT_EQ(b.path.q, a.path.q);
+  EXPECT_EQ(b.after.q, a.after.q);
 }
 
 TEST(MeasuredRun, IsCalledAsItsFile) {
@@ -543,6 +567,16 @@ parameters:
   const Profile& profile = known.profiles.front();
   EXPECT_EQ(profile.parameter, 1u);
   EXPECT_LT(profile.fitness.back(), 1.2 * problem.fitness(point));  // longer: as good
+}
+
+TEST(CalibrationReport, TellsRecordingsThatCannotBeSimulatedFromNone) {
+  CalibrationOutcome outcome;
+  EXPECT_NE(report_html(outcome).find("None were given (--validation)"), std::string::npos);
+  outcome.held_out = true;
+  outcome.doubt = "not all could be worked out: of numbers";
+  const std::string page = report_html(outcome);
+  EXPECT_EQ(page.find("None were given"), std::string::npos);
+  EXPECT_NE(page.find("could not be simulated"), std::string::npos);
 }
 
 TEST(CalibrationReport, NamesWhatChangesNothingAlsoInBrief) {

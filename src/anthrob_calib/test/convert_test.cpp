@@ -459,7 +459,8 @@ TEST(Plot, AnOrientationIsWhole) {
   std::ifstream in(folder / "errors.txt");
   std::string line;
   std::getline(in, line);
-  EXPECT_NE(line.find("shoulder: expected w, x, y and z in the same rows"), std::string::npos)
+  EXPECT_NE(line.find("shoulder: expected w, x, y and z of an orientation at the same times"),
+            std::string::npos)
       << line;
 }
 
@@ -486,6 +487,24 @@ TEST(Convert, ABrokenBagIsNamed) {
     expect_named(altered.substr(0, whole.size()));
   }
   EXPECT_GT(refused, 39);
+}
+
+TEST(Convert, ATimeThatABagCannotHoldIsBadInput) {
+  const Folder folder;
+  constexpr Nanoseconds kLater = Nanoseconds{4294967296} * 1000000000;
+  for (const Nanoseconds bad : {Nanoseconds{-1}, kLater}) {
+    Dataset late = hinge(), stamped = hinge(), arrived = hinge();
+    late.tables[0].t[1] = bad;
+    stamped.tables[0].stamp = {0, bad};
+    arrived.tables[0].bag_time = {0, bad};
+    for (const Dataset* data : {&late, &stamped, &arrived}) {
+      EXPECT_THROW(write_bag(*data, folder / "late.bag"), BadInput);
+      EXPECT_FALSE(std::filesystem::exists(folder / "late.bag"));
+    }
+  }
+  Dataset last = hinge();
+  last.tables[0].t[1] = kLater - 1;
+  write_bag(last, folder / "last.bag");
 }
 
 TEST(Convert, UnwritableBagLeavesNothing) {

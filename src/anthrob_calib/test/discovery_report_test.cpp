@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "anthrob_calib/discovery/evaluator.h"
 #include "anthrob_calib/discovery/examples.h"
@@ -31,6 +33,49 @@ FoundEffect cogging() {
   effect.parameters = {{"amplitude", "Nm", 0.005, 0.004, 0.006, false},
                        {"periods", "1", 12.0, 12.0, 12.0, true}};
   return effect;
+}
+
+/// Every key of an object, and of objects in it, but for those that are names of data.
+void collect(const nlohmann::json& json, std::set<std::string>& keys) {
+  if (!json.is_structured()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (!json.is_array()) keys.insert(key);
+    if (key == "parameters" || key == "per_channel") {
+      for (const auto& entry : value) collect(entry, keys);
+    } else {
+      collect(value, keys);
+    }
+  }
+}
+
+TEST(Report, EveryKeyIsDocumented) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  answer.effects[0].rivals.resize(1);
+  answer.effects[0].separating_recording.targets.resize(1);
+  answer.where.resize(1);
+  answer.alternatives.resize(1);
+  answer.improbable.resize(1);
+  answer.refused.id = "cogging";
+  answer.asked = {"more"};
+  answer.remaining.resize(1);
+  answer.remaining[0].variable = "position", answer.remaining[0].share = 1.0;
+  answer.per_channel["brachialis/force"] = {};
+  answer.visible.resize(1);
+  answer.alike = {answer.visible};
+  answer.seams.resize(1);
+  SeamGap& seam = answer.seams[0];
+  seam.commands = seam.voltages = seam.positions = seam.postures = 1.0;
+  answer.regimes.resize(1);
+  std::set<std::string> keys;
+  collect(nlohmann::json::parse(report_json(answer, {}, 1.0)), keys);
+  EXPECT_GT(keys.size(), 60u);
+  std::ifstream file(ANTHROB_CONFIG_DIR "/../docs/files.md");
+  std::string page(std::istreambuf_iterator<char>(file), {});
+  page.erase(0, page.find("## report.json"));
+  page.erase(page.find("## result.json"));
+  for (const std::string& key : keys) EXPECT_TRUE(holds(page, "`" + key + "`")) << key;
 }
 
 TEST(Report, WhatWasNotFittedHasNoInterval) {

@@ -177,7 +177,11 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   } catch (const Interrupted&) {
   }
   journal.save();
-  if (!journal.best().empty()) keep_model(arguments, input, problem, journal.best());
+  // conclude() takes its time; nothing worse than the start may lie there if it is cut off.
+  if (!journal.best().empty() &&
+      journal.best_fitness() < problem.fitness(problem.space().initial())) {
+    keep_model(arguments, input, problem, journal.best());
+  }
   const bool thorough = complete && !arguments.evaluate && !arguments.brief;
   CalibrationOutcome outcome =
       conclude(input, problem, journal, reason, thorough, tool::interrupted);
@@ -211,11 +215,13 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--out", a.out, "folder for model.yaml, result.json, report.html")->required();
   app.add_option("--model", a.model, "instead of the configuration's model file");
   app.add_option("--start", a.start, "result.json of earlier calibrations to start from");
-  app.add_flag("--resume", a.resume, "go on after an interruption");
-  app.add_flag("--evaluate", a.evaluate, "no search: the errors of the model as it is");
+  auto* resume = app.add_flag("--resume", a.resume, "go on after an interruption");
+  app.add_flag("--evaluate", a.evaluate, "no search: the errors of the model as it is")
+      ->excludes(resume);
   app.add_flag("--brief", a.brief, "no errors of parameters, no replays of actuator positions");
   app.add_option("--jobs", a.jobs, "threads (default: all)")->check(CLI::Range(1, 1024));
-  app.add_option("--optimiser", a.method, "instead of the configuration's method");
+  app.add_option("--optimiser", a.method, "instead of the configuration's method")
+      ->check(CLI::IsMember(OptimiserSettings::methods()));
   app.add_option("--generations", a.generations, "instead of the configuration's")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", a.seed, "instead of the configuration's")

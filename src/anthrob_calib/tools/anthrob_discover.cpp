@@ -57,7 +57,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--jobs", question.jobs, "threads (default: all cores)")
       ->check(CLI::Range(1, 1024));
-  app.add_option("--seed", question.seed, "of resampling")->capture_default_str();
+  app.add_option("--seed", question.seed, "of resampling")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--calibration", calibration,
                  "ordinary parameters (default: calibration.yaml beside the model or beside the "
                  "one it extends)");

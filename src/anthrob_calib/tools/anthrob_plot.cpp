@@ -7,6 +7,7 @@
 #include "anthrob_config/atomic_file.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/load_recording.h"
+#include "anthrob_sim/recording/orientation_series.h"
 #include "anthrob_sim/report/svg_figure.h"
 #include "anthrob_sim/tool/tool.h"
 
@@ -50,21 +51,19 @@ SvgFigure::Line line(const std::string& label, const Series& series, double scal
 }
 
 void add_ball_joint(const Dataset& data, const std::string& joint, SvgFigure& figure) {
-  const Series w = data.series(joint + "/w"), x = data.series(joint + "/x"),
-               y = data.series(joint + "/y"), z = data.series(joint + "/z");
-  if (x.t != w.t || y.t != w.t || z.t != w.t) {
-    throw BadInput(data.folder + ": " + joint + ": expected w, x, y and z in the same rows");
-  }
+  const OrientationSeries turns = OrientationSeries::read(data, joint);
   Series axes[3], angle;
-  for (std::size_t i = 0; i < w.t.size(); ++i) {
-    const double v[] = {x.values[i], y.values[i], z.values[i]};
-    const double sine = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    const double turned = 2.0 * std::atan2(sine, w.values[i]);
+  for (std::size_t i = 0; i < turns.t().size(); ++i) {
+    const auto number = [&](int k) { return turns.number[k].values[i]; };
+    // Of a quaternion and its negative, the same turn, the one that says at most half a turn.
+    const double sign = number(0) < 0.0 ? -1.0 : 1.0;
+    const Vec3 v = sign * Vec3(number(1), number(2), number(3));
+    const double turned = 2.0 * std::atan2(v.norm(), sign * number(0));
     for (int k = 0; k < 3; ++k) {
-      axes[k].t.push_back(w.t[i]);
-      axes[k].values.push_back(sine > 0.0 ? turned * v[k] / sine : 0.0);
+      axes[k].t.push_back(turns.t()[i]);
+      axes[k].values.push_back(v.norm() > 0.0 ? turned * v[k] / v.norm() : 0.0);
     }
-    angle.t.push_back(w.t[i]);
+    angle.t.push_back(turns.t()[i]);
     angle.values.push_back(turned);
   }
   auto& panel = figure.add_panel("time [s]", joint + " from rest [deg]");

@@ -98,7 +98,8 @@ int main(int argc, char** argv) {
   const auto add = [&](const char* name, const char* description) {
     CLI::App* command = app.add_subcommand(name, description);
     command->add_option("--out", out, "folder for the recordings")->required();
-    command->add_option("--seed", seed, "of noise and of the rig's deviations");
+    command->add_option("--seed", seed, "of noise and of the rig's deviations")
+        ->check(CLI::NonNegativeNumber);
     return command;
   };
   CLI::App* see = add("see", "rubber rings on the stretcher");
@@ -108,10 +109,10 @@ int main(int argc, char** argv) {
   see->add_option("--levels", rings.options.levels, "relaxation tests a run")
       ->check(CLI::Range(1, 100));
   CLI::App* eyelet = add("eyelet", "line, eyelet and weights");
-  eyelet->add_option("--pulling", pulling, "mu_k while pulling")->check(CLI::Range(0.0, 1.0));
-  eyelet->add_option("--relaxing", relaxing, "mu_k while relaxing")->check(CLI::Range(0.0, 1.0));
+  eyelet->add_option("--pulling", pulling, "mu_k while pulling")->check(tool::within(0.0, 1.0));
+  eyelet->add_option("--relaxing", relaxing, "mu_k while relaxing")->check(tool::within(0.0, 1.0));
   CLI::App* ecu = add("ecu", "power stage with load resistors");
-  ecu->add_option("--resistance", resistance, "R_ECU [ohm]")->check(CLI::Range(0.0, 1.0));
+  ecu->add_option("--resistance", resistance, "R_ECU [ohm]")->check(tool::within(0.0, 1.0));
   return tool::run(app, argc, argv, [&]() -> int {
     if (see->parsed()) make_ring_recordings(rings, seed, out);
     if (eyelet->parsed()) make_eyelet_recordings(pull, pulling, relaxing, seed, out);

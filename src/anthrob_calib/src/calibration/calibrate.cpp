@@ -218,19 +218,28 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   outcome.reason = reason;
   outcome.evaluations = journal.evaluations();
   outcome.history = journal.history();
+  outcome.held_out = !input.validation.empty();
   constexpr int kProfiles = 3;
+  // A simulation may fail by the start, over the whole length, on other runs, or driven in another
+  // way; what was found is none the worse for it.
+  const auto attempt = [&](const auto& work) {
+    try {
+      work();
+    } catch (const NumericalFailure& error) {
+      outcome.doubt += (outcome.doubt.empty() ? "not all could be worked out: " : "; ");
+      outcome.doubt += error.what();
+    }
+  };
   try {
-    outcome.calibration = simulate_both(problem, outcome.best, problem.runs());
-    outcome.validation = simulate_both(problem, outcome.best, input.validation);
+    attempt([&] { outcome.calibration = simulate_both(problem, outcome.best, problem.runs()); });
+    attempt([&] { outcome.validation = simulate_both(problem, outcome.best, input.validation); });
     if (!thorough) return outcome;
-    outcome.identifiability = examine(problem, outcome.best, kProfiles, [&] {
-      if (stop()) throw Interrupted();
+    attempt([&] {
+      outcome.identifiability = examine(problem, outcome.best, kProfiles, [&] {
+        if (stop()) throw Interrupted();
+      });
     });
-    outcome.drives = compare_drives(problem, outcome.best, problem.runs());
-  } catch (const NumericalFailure& error) {
-    // By the start, over the whole length, on other runs, or driven in another way; what was found
-    // is none the worse for it.
-    outcome.doubt = std::string("not all could be worked out: ") + error.what();
+    attempt([&] { outcome.drives = compare_drives(problem, outcome.best, problem.runs()); });
   } catch (const Interrupted&) {
     outcome.interrupted = true;
     outcome.doubt = "interrupted before errors of the parameters were worked out";

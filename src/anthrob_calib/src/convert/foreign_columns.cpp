@@ -130,6 +130,8 @@ ForeignColumns ForeignColumns::load(const std::string& file) {
   if (node.has("time")) {
     columns.time = node.at("time").text("column");
     columns.time_scale = node.at("time").number_or("scale", 1.0, Bounds::positive(), "s");
+  } else if (!node.has("rate")) {
+    node.fail("key 'time' is missing, or, without a column of it, 'rate' [Hz]");
   } else {
     columns.rate = node.number("rate", Bounds::positive(), "Hz");
     columns.meta.rate = columns.rate;

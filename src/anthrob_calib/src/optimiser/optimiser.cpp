@@ -1,5 +1,7 @@
 #include "anthrob_calib/optimiser/optimiser.h"
 
+#include <algorithm>
+
 #include "anthrob_calib/optimiser/evolution_strategy.h"
 #include "anthrob_calib/optimiser/least_squares_optimiser.h"
 #include "anthrob_calib/optimiser/pagmo_optimiser.h"
@@ -21,12 +23,14 @@ OptimiserSettings OptimiserSettings::read(const ConfigNode& node) {
   return s;
 }
 
+const std::vector<std::string>& OptimiserSettings::methods() {
+  static const std::vector<std::string> kMethods = {"evolution_strategy", "cmaes", "sade",
+                                                    "bee_colony", "least_squares"};
+  return kMethods;
+}
+
 void OptimiserSettings::check(const ConfigNode& node) const {
-  static const char* const kMethods[] = {"evolution_strategy", "cmaes", "sade", "bee_colony",
-                                         "least_squares"};
-  bool known = false;
-  for (const char* name : kMethods) known = known || method == name;
-  if (!known) {
+  if (std::find(methods().begin(), methods().end(), method) == methods().end()) {
     node.at("method").fail(
         method + ": expected evolution_strategy, cmaes, sade, bee_colony or least_squares");
   }

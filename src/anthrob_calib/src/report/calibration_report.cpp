@@ -178,9 +178,13 @@ std::string report_html(const CalibrationOutcome& o) {
       text(o.fitness_before) + " before, " + text(o.fitness) + " after.</p>\n";
   if (!o.doubt.empty()) out += "<p><b>" + escaped(o.doubt) + "</b></p>\n";
   out += "<h2>Held-out recordings</h2>\n";
-  out += o.validation.runs.empty()
-             ? "<p>None were given (--validation): how well the model predicts is not known.</p>\n"
-             : errors_section(o.validation, *o.model, "Errors of held-out runs");
+  if (o.validation.runs.empty()) {
+    out += o.held_out ? "<p>They could not be simulated: see above.</p>\n"
+                      : "<p>None were given (--validation): how well the model predicts is not "
+                        "known.</p>\n";
+  } else {
+    out += errors_section(o.validation, *o.model, "Errors of held-out runs");
+  }
   if (!o.calibration.runs.empty()) {
     out += "<h2>Recordings of the calibration</h2>\n" +
            errors_section(o.calibration, *o.model, "Errors of calibration runs");

@@ -21,6 +21,8 @@ struct OptimiserSettings {
   std::uint64_t seed = 1;
 
   /// @throws BadInput
+  /// What `method` may be.
+  static const std::vector<std::string>& methods();
   static OptimiserSettings read(const ConfigNode& node);
   /// @throws BadInput naming what does not fit the method
   void check(const ConfigNode& node) const;

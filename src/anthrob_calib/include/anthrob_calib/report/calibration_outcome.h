@@ -43,7 +43,8 @@ struct CalibrationOutcome {
   std::vector<double> sensitivity;  ///< SearchResult has it
   int evaluations = 0;
   std::vector<Generation> history;
-  BeforeAfter calibration, validation;  ///< validation may hold no runs
+  BeforeAfter calibration, validation;  ///< no runs where they could not be simulated
+  bool held_out = false;                ///< recordings to validate by were given
   Identifiability identifiability;
   std::vector<DriveErrors> drives;
   bool interrupted = false;  ///< before errors of the parameters were worked out
