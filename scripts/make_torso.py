@@ -337,6 +337,7 @@ def main():
     parser.add_argument('--joints', type=int, default=20)
     parser.add_argument('--muscles', type=int, default=100)
     parser.add_argument('--out', required=True, help='folder of the robot; its name becomes the robot\'s')
+    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (--help explains)\n')
     args = parser.parse_args()
     joints = all_joints()
     if not 1 <= args.joints <= len(joints):

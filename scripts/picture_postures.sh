@@ -4,6 +4,10 @@
 # ROBOT and MODEL in the environment choose another robot. Needs an X display of its own (xvfb-run gives one)
 # and the workspace's environment.
 set -u
+if [ $# -lt 2 ]; then
+  echo "picture_postures.sh: expected OUT.png POSTURE..." >&2
+  exit 2
+fi
 out="$1"
 shift
 robot="${ROBOT:-anthrob}"

@@ -214,6 +214,7 @@ def main():
     parser.add_argument('--rate', type=float, default=30.0, metavar='HZ')
     parser.add_argument('--count', type=int, default=600, metavar='N')
     parser.add_argument('--exposure', type=float, default=0.0005, metavar='S')
+    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (--help explains)\n')
     arguments = parser.parse_args()
     for name in ('every', 'count', 'rate', 'exposure'):
         if not getattr(arguments, name) > 0:

@@ -1,5 +1,6 @@
 """What the studies share: steps that can be interrupted, files, facts about the run, tables."""
 
+import argparse
 import html
 import json
 import os
@@ -45,6 +46,13 @@ def must(command, log):
     """A step without which the study cannot go on."""
     if run(command, log) != 0:
         sys.exit(f"study: {' '.join(command)} failed: see {log}")
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """Of a command line; what is wrong with one is said in a line, as by all tools."""
+
+    def error(self, message):
+        self.exit(BAD_INPUT, f"{self.prog}: {message} (--help explains)\n")
 
 
 def refuse(line):

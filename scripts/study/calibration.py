@@ -16,7 +16,7 @@ import statistics
 import sys
 import time
 
-from _study import (OUT, commit, html_page, html_table, load, load_published, machine, markdown_facts,
+from _study import (OUT, OneLineParser, commit, html_page, html_table, load, load_published, machine, markdown_facts,
                     markdown_table, must, of_the_study, say, several, start, write)
 
 MODELS = ["I", "II", "III"]
@@ -308,8 +308,8 @@ def published(table):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="catkin_ws.sh study calibration", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = OneLineParser(prog="catkin_ws.sh study calibration", description=__doc__,
+                           formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--robots", type=int, nargs="+", default=[1, 2, 3], help="seeds")
     parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS)
     parser.add_argument("--optimiser", default="least_squares", help="or evolution_strategy, cmaes, ...")

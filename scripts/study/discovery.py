@@ -19,7 +19,7 @@ import subprocess
 import sys
 import time
 
-from _study import (OUT, commit, html_page, html_table, load, load_published, machine, markdown_facts,
+from _study import (OUT, OneLineParser, commit, html_page, html_table, load, load_published, machine, markdown_facts,
                     markdown_table, must, of_the_study, refuse, run, say, several, start, write)
 
 MAKER = "devel/lib/anthrob_virtual_robot/anthrob_blind_case"
@@ -327,8 +327,8 @@ def a_slice(text):
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="catkin_ws.sh study discovery", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = OneLineParser(prog="catkin_ws.sh study discovery", description=__doc__,
+                           formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--slice", type=a_slice, default=(1, 1), metavar="K/N", help="every N-th case, from the K-th")
     parser.add_argument("--only", nargs="+", choices=KINDS, help="these kinds")
     parser.add_argument("--case", nargs="+", metavar="NAME", help="these cases")

@@ -33,13 +33,18 @@ class ExitStatus(unittest.TestCase):
         return done.stderr
 
     def script(self, name, *arguments):
-        return self.refused(sys.executable, os.path.join(ROOT, 'scripts', name), *arguments)
+        said = self.refused(sys.executable, os.path.join(ROOT, 'scripts', name), *arguments)
+        self.assertEqual(said.count('\n'), 1, said)
+        return said
 
     def test_scripts(self):
         with tempfile.TemporaryDirectory() as folder:
             out = os.path.join(folder, 'out')
             self.assertIn('--joints 0: expected 1 to', self.script('make_torso.py', '--joints', '0', '--out', out))
             self.assertIn('--muscles -1: expected', self.script('make_torso.py', '--muscles', '-1', '--out', out))
+            self.assertIn("invalid int value: 'many'", self.script('make_torso.py', '--joints', 'many', '--out', out))
+            self.assertIn('arguments are required: OUT', self.script('save_pairs.py'))
+            self.assertIn('unrecognized arguments: --bogus', self.script('study/discovery.py', '--bogus'))
             self.assertFalse(os.path.exists(out))
             self.assertIn('expected BAG', self.script('mocap_agreement.py'))
             self.assertIn('nowhere.bag', self.script('mocap_agreement.py', folder + '/nowhere.bag'))

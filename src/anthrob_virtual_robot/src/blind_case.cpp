@@ -247,7 +247,9 @@ CaseKind case_kind(const std::string& name) {
   for (const auto& [text, kind] : kKinds) {
     if (name == text) return kind;
   }
-  throw std::invalid_argument("no kind of case " + name);
+  std::string kinds;
+  for (const auto& [text, kind] : kKinds) kinds += (kinds.empty() ? "" : ", ") + std::string(text);
+  throw std::invalid_argument("no kind of case " + name + "; expected one of: " + kinds);
 }
 
 std::string word(CaseKind wanted) {
@@ -311,7 +313,10 @@ BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws
     const HiddenLaw& law = hidden_law(id);
     const std::vector<std::string> places = law.places(blind.built);
     if (std::find(places.begin(), places.end(), place) == places.end()) {
-      throw std::invalid_argument(id + " cannot sit at " + place + "; it can at " + places.front());
+      std::string possible;
+      for (const std::string& one : places) possible += (possible.empty() ? "" : ", ") + one;
+      throw std::invalid_argument(id + " cannot sit at " + place +
+                                  "; expected one of: " + possible);
     }
     hide(law, place, &random, &blind);
   }

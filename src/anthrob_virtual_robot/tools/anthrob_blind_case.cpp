@@ -73,10 +73,13 @@ int main(int argc, char** argv) {
   std::uint64_t number = 0, seed = 1;
   std::vector<std::string> hide;
   bool list = false;
-  app.add_option("--kind", kind, "effect, null, pair, outside or wrapped");
-  app.add_option("--case", number, "number of the case; goes through all laws and places");
+  auto* kind_option = app.add_option("--kind", kind, "effect, null, pair, outside or wrapped");
+  auto* number_option =
+      app.add_option("--case", number, "number of the case; goes through all laws and places");
   app.add_option("--seed", seed, "of everything that is drawn");
-  app.add_option("--hide", hide, "ID@PLACE in place of what --case would hide; may be repeated");
+  app.add_option("--hide", hide, "ID@PLACE in place of what --case would hide; may be repeated")
+      ->excludes(kind_option)
+      ->excludes(number_option);
   app.add_option("--model", model, "model that is believed: .../config/anthrob/model_I.yaml");
   app.add_option("--config", config, "settings; default: virtual_robot.yaml beside the model");
   app.add_option("--out", out, "folder for recordings and model.yaml");
