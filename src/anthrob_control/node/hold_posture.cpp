@@ -49,10 +49,12 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
     throw anthrob::BadInput("parameter ~posture: '" + wanted +
                             "': is given by references; expected one given by joints");
   }
+  anthrob::refuse_without_controllers(*model);
   anthrob::Simulation scratch(model);
   const anthrob::Equilibrium equilibrium =
       anthrob::find_equilibrium(scratch, step->q, sequence.options);
   anthrob::refuse_if_not_holdable(wanted, *model, equilibrium);
+  anthrob::refuse_beyond_limits(wanted, *model, equilibrium.reference);
 
   ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 1);
   if (!ros::service::waitForService("sim/set_state", ros::Duration(-1))) return false;

@@ -43,6 +43,12 @@ ComputedForce::ComputedForce(std::shared_ptr<const RobotModel> model,
       Eigen::VectorXd::Zero(model->skeleton->velocity_count);
   command_.tension = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model->muscles.size()));
   command_.reference.assign(model->muscles.size(), 0.0);
+  // What cannot be held in POSITION is told before the arm hangs on it.
+  const bool positions =
+      settings.hold_output == ecu::Mode::kPosition || settings.move_output == ecu::Mode::kPosition;
+  for (const MuscleModel& muscle : model->muscles) {
+    if (positions && muscle.has_controller) position_reference(muscle, 0.0, 0.0);
+  }
 }
 
 std::vector<ComputedForce::Ligament> ComputedForce::ligaments_of(const RobotModel& model) {

@@ -71,8 +71,8 @@ std::vector<double> read_references(const ConfigNode& node, const RobotModel& mo
 PostureSequence PostureSequence::load(const std::string& file, const RobotModel& model) {
   const ConfigNode node = ConfigNode::load(file);
   PostureSequence sequence;
-  sequence.options.lowest_tension =
-      node.number_or("lowest_tension", 1.0, Bounds::nonnegative(), "N");
+  sequence.options.lowest_tension = node.number_or(
+      "lowest_tension", 1.0, Bounds::between(0.0, sequence.options.highest_tension), "N");
   for (const ConfigNode& item : node.at("postures").items()) {
     PostureStep step;
     step.name = read_name(item);
@@ -101,9 +101,6 @@ void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
                  " cannot hold it: " + std::to_string(shortfall) + " Nm short");
 }
 
-namespace {
-
-/// Back ends would refuse such a command whole.
 void refuse_beyond_limits(const std::string& posture, const RobotModel& model,
                           const std::vector<double>& reference) {
   for (std::size_t m = 0; m < reference.size(); ++m) {
@@ -115,10 +112,16 @@ void refuse_beyond_limits(const std::string& posture, const RobotModel& model,
   }
 }
 
-}  // namespace
+void refuse_without_controllers(const RobotModel& model) {
+  for (const MuscleModel& muscle : model.muscles) {
+    if (muscle.has_controller) return;
+  }
+  throw BadInput(model.file + ": no muscle has a controller; expected one that takes POSITION");
+}
 
 std::vector<std::vector<double>> PostureSequence::references(
     const std::shared_ptr<const RobotModel>& model) const {
+  refuse_without_controllers(*model);
   Simulation scratch(model);
   std::vector<std::vector<double>> list;
   for (const PostureStep& step : steps) {

@@ -43,6 +43,7 @@ void RobotState::clear() {
   muscle_stamps_.assign(model_->muscles.size(), kNever);
   joint_stamps_.assign(model_->skeleton->joints.size(), kNever);
   enabled_.assign(model_->muscles.size(), 0);
+  mode_.assign(model_->muscles.size(), std::nullopt);
   was_disabled_ = -1;
 }
 
@@ -55,6 +56,11 @@ void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, 
   measured_.muscles[index] = m;
   enabled_[index] = enabled;
   muscle_stamps_[index] = stamp;
+}
+
+void RobotState::see_mode(const std::string& name, ecu::Mode mode) {
+  const int index = model_->find_muscle(name);
+  if (index >= 0) mode_[index] = mode;
 }
 
 void RobotState::see_joint(const std::string& name, double position, double velocity,
@@ -116,6 +122,14 @@ bool RobotState::complete_since(double stamp) const {
 std::string RobotState::disabled_muscle() const {
   for (std::size_t m = 0; m < enabled_.size(); ++m) {
     if (model_->muscles[m].has_controller && !enabled_[m]) return model_->muscles[m].name;
+  }
+  return "";
+}
+
+std::string RobotState::muscle_not_in(ecu::Mode mode) const {
+  for (std::size_t m = 0; m < enabled_.size(); ++m) {
+    const bool other = mode_[m] && *mode_[m] != mode;
+    if (model_->muscles[m].has_controller && enabled_[m] && other) return model_->muscles[m].name;
   }
   return "";
 }

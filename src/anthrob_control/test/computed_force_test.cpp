@@ -272,6 +272,17 @@ TEST(ComputedForce, SameInputSameBits) {
   }
 }
 
+TEST(ComputedForce, RefusesPositionsThatNoGainHolds) {
+  const std::string folder = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/";
+  const auto model = load_robot_model(folder + "model_I.yaml",
+                                      {1e-3, {{"controllers.type_1.position.proportional", 0.0}}});
+  ControlSettings settings = ControlSettings::load(folder + "control.yaml", *model);
+  settings.move_output = settings.hold_output = ecu::Mode::kForce;
+  ComputedForce by_force(model, settings);
+  settings.move_output = ecu::Mode::kPosition;
+  EXPECT_THROW(ComputedForce(model, settings), BadInput);
+}
+
 TEST(ComputedForce, RefusesMeasurementsThatDoNotFit) {
   const auto plant = load_robot_model(kAnthrob + "model_I.yaml");
   const auto settings = ControlSettings::load(kAnthrob + "control.yaml", *plant);

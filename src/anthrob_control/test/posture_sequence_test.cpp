@@ -45,6 +45,7 @@ TEST(PostureSequence, RefusesWhatItCannotUse) {
     const char* expected;
   } cases[] = {
       {"postures: []\n", "at least one"},
+      {"lowest_tension: 121\npostures: [{name: a}]\n", "lowest_tension: 121: expected"},
       {"postures: [{name: a, hold: 0}]\n", "hold"},
       {"postures: [{name: abduction/60}]\n", "abduction/60: expected letters, digits"},
       {"postures: [{name: 'a, b'}]\n", "a, b: expected letters, digits"},
@@ -93,6 +94,13 @@ TEST(PostureSequence, ThesisEquilibriaHaveTheDistancesOfTheTables) {
   EXPECT_NEAR(distance(0, 11), 48.57, 0.01);
   EXPECT_NEAR(distance(3, 16), 49.76, 0.01);
   EXPECT_NEAR(distance(11, 16), 3.42, 0.01);
+}
+
+TEST(PostureSequence, IsRefusedForARobotThatTakesNoPositions) {
+  const auto model = load_robot_model(kConfig + "/two_muscle_rig/model_hill.yaml");
+  const File file("postures: [{name: a, hold: 1}]\n");
+  const auto sequence = PostureSequence::load(file.path(), *model);
+  EXPECT_THROW(sequence.references(model), BadInput);
 }
 
 TEST(PostureSequence, TakesReferencesAsTheyWereRecorded) {

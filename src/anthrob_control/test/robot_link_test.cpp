@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
+#include "anthrob_control/ros/heed_watch.h"
+
 namespace anthrob {
 namespace {
 
@@ -16,6 +20,33 @@ TEST(MakeCommand, LeavesMusclesOutThatLackTheMode) {
   EXPECT_EQ(force.mode.size(), 11u);
   EXPECT_EQ(force.reference.size(), 11u);
   for (const std::string& name : force.name) EXPECT_EQ(name.rfind("hand", 0), std::string::npos);
+}
+
+TEST(HeedWatch, NamesAMuscleThatFollowsSomethingElseForASecond) {
+  const auto model =
+      load_robot_model(std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/model_I.yaml");
+  RobotState state(model);
+  for (const char* muscle : {"flexor", "extensor"}) {
+    state.see_muscle(muscle, {0.1, 0.0, 0.0, 5.0}, true, 10.0);
+    state.see_mode(muscle, ecu::Mode::kVoltage);
+  }
+  HeedWatch sure, watch, other;
+  sure.look(state, ros::Time(10.0), true);
+  sure.look(state, ros::Time(10.9), true);
+  EXPECT_THROW(sure.look(state, ros::Time(11.1), true), std::runtime_error);
+  // Simulated time may run ahead of what is under way.
+  watch.look(state, ros::Time(10.0), false);
+  watch.look(state, ros::Time(20.0), false);
+  // A moment in between, or time that was set back, begins anew.
+  other.look(state, ros::Time(10.0), true);
+  state.see_mode("flexor", ecu::Mode::kPosition);
+  state.see_mode("extensor", ecu::Mode::kPosition);
+  other.look(state, ros::Time(10.9), true);
+  state.see_mode("extensor", ecu::Mode::kVoltage);
+  other.look(state, ros::Time(30.0), true);
+  other.look(state, ros::Time(5.0), true);
+  other.look(state, ros::Time(5.9), true);
+  EXPECT_THROW(other.look(state, ros::Time(6.1), true), std::runtime_error);
 }
 
 }  // namespace

@@ -72,6 +72,19 @@ TEST(RobotStateOfALigament, NeedsNoMeasurementOfWhatTakesNoCommand) {
   EXPECT_EQ(state.measurement().muscles[capsule].force, 3.0);
 }
 
+TEST_F(RobotStateTest, SeesWhoFollowsSomethingElse) {
+  see_all(1.0);
+  EXPECT_EQ(state.muscle_not_in(ecu::Mode::kPosition), "");  // nobody told
+  for (const MuscleModel& muscle : model->muscles)
+    state.see_mode(muscle.name, ecu::Mode::kPosition);
+  EXPECT_EQ(state.muscle_not_in(ecu::Mode::kPosition), "");
+  state.see_mode("brachialis", ecu::Mode::kVoltage);
+  EXPECT_EQ(state.muscle_not_in(ecu::Mode::kPosition), "brachialis");
+  state.see_muscle("brachialis", {0.1, 0.0, 0.0, 5.0}, false, 1.1);
+  EXPECT_EQ(state.muscle_not_in(ecu::Mode::kPosition), "");  // disabled_muscle() tells
+  state.see_mode("nobody", ecu::Mode::kVoltage);
+}
+
 TEST_F(RobotStateTest, RemembersAStopUntilItIsAskedFor) {
   see_all(1.0);
   EXPECT_EQ(state.take_disabled(), "");

@@ -96,15 +96,20 @@ std::shared_ptr<const anthrob::RobotModel> load(const Arguments& arguments) {
   return model;
 }
 
-void save(const Gains::Response& response, const anthrob::RobotModel& model,
-          const Arguments& arguments) {
+/// @throws BadInput if the model is another robot's
+std::string file_of(const Gains::Response& response, const anthrob::RobotModel& model,
+                    const Arguments& arguments) {
   anthrob::HeldGains held;
   for (std::size_t i = 0; i < response.held_muscle.size(); ++i) {
     held[response.held_muscle[i]][response.held_gain[i]] = response.held_value[i];
   }
   const fs::path base = fs::absolute(arguments.model), out = fs::absolute(arguments.save);
-  const std::string text =
-      anthrob::gains_file(model, held, fs::proximate(base, out.parent_path()).string());
+  return anthrob::gains_file(model, held, fs::proximate(base, out.parent_path()).string());
+}
+
+void save(const Gains::Response& response, const anthrob::RobotModel& model,
+          const Arguments& arguments) {
+  const std::string text = file_of(response, model, arguments);
   if (text.empty()) {
     std::fprintf(stderr, "all gains are those of %s: nothing saved\n", arguments.model.c_str());
     return;
@@ -121,6 +126,7 @@ int run(const Arguments& arguments) {
   for (const std::string& change : arguments.changes) read_change(change, request);
   Gains::Response response = ask(arguments.robot, nothing);
   check(request, response);
+  if (model) file_of(response, *model, arguments);  // refuses before anything is changed
   if (!arguments.changes.empty()) response = ask(arguments.robot, request);
   for (std::size_t i = 0; i < response.held_muscle.size(); ++i) {
     std::printf("%s/%s=%.9g\n", response.held_muscle[i].c_str(), response.held_gain[i].c_str(),

@@ -136,7 +136,10 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   check_motors();
   // However short: whoever reads the recording would find a stop in it.
   const std::string stopped = link_.take_disabled();
-  if (!stopped.empty() && bags_.recording())
+  // A controller of zero gravity forgets where it was sent: the arm would be sampled elsewhere.
+  const bool spoilt =
+      bags_.recording() || (protocol_.kind == Protocol::Kind::kZeroGravity && visit.begun());
+  if (!stopped.empty() && spoilt)
     visit.fail("the motor of " + stopped + " stopped while it was recorded");
   if (!stopped.empty()) approach_.begin();
   // Visits begin at the rest posture.
@@ -169,6 +172,10 @@ void Recorder::carry_out(Visit& visit, const Protocol::Target& target) {
 }
 
 void Recorder::check_motors() {
+  // Of zero gravity the controller knows.
+  if (protocol_.kind != Protocol::Kind::kZeroGravity && !sent_.isZero()) {
+    heed_.look(link_.state(), link_.now(), lock_step_);
+  }
   const std::string off = link_.state().disabled_muscle();
   if (off.empty() || driven_.isZero()) driven_ = link_.now();
   if ((link_.now() - driven_).toSec() > kUndriven) {

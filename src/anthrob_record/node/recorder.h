@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "anthrob_control/approach.h"
+#include "anthrob_control/ros/heed_watch.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_record/recording_store.h"
 #include "anthrob_record/visit.h"
@@ -73,6 +74,7 @@ class Recorder {
   ros::WallTime refused_since_;  ///< zero: the last order is followed
   ros::WallTime asked_;
   ros::Time sent_, driven_;
+  HeedWatch heed_;
   int done_ = 0, recorded_ = 0;
   ros::WallTime start_ = ros::WallTime::now(), heard_ = start_;
 };

@@ -34,7 +34,8 @@ std::vector<Protocol::Target> read_targets(const std::string& file,
   const auto references = sequence.references(model);
   std::vector<Protocol::Target> targets;
   for (std::size_t i = 0; i < sequence.steps.size(); ++i)
-    targets.push_back({sequence.steps[i].name, sequence.steps[i].q, references[i]});
+    targets.push_back({sequence.steps[i].name, sequence.steps[i].q, references[i],
+                       !sequence.steps[i].reference.empty()});
   return targets;
 }
 
@@ -110,6 +111,16 @@ Protocol Protocol::load(const std::string& file, const std::shared_ptr<const Rob
     protocol.by_hand = node.has("by_hand") && node.at("by_hand").as_bool();
     protocol.go_duration =
         node.number_or("go_duration", protocol.go_duration, Bounds::positive(), "s");
+  }
+  // Of what was recorded as references the controller, which goes to joint positions, knows none.
+  if (protocol.kind == Kind::kZeroGravity && !protocol.by_hand) {
+    std::vector<Target> visited = protocol.targets;
+    visited.push_back(protocol.rest);
+    for (const Target& target : visited) {
+      if (!target.by_references) continue;
+      throw BadInput(postures + ": posture '" + target.name +
+                     "': is given by references; expected one given by joints for zero gravity");
+    }
   }
   node.refuse_unknown_keys();
   protocol.text = node.to_yaml() + "\n" + ConfigNode::load(postures).to_yaml() + "\n" +

@@ -93,5 +93,19 @@ TEST(Protocol, RefusesTwoPosturesOfOneName) {
   EXPECT_THROW(Protocol::load(folder.file("p.yaml"), tier1()), BadInput);
 }
 
+TEST(Protocol, ZeroGravityGoesToPosturesThatJointsSay) {
+  const Folder folder;
+  std::string postures = content(anthrob_folder() + "equilibria_tier1.yaml");
+  postures += "  - {name: recorded, references: {";
+  const auto model = tier1();
+  for (const MuscleModel& muscle : model->muscles) postures += muscle.name + ": 0.5, ";
+  folder.write("equilibria_tier1.yaml", postures + "}}\n");
+  const std::string protocol = content(anthrob_folder() + "record_tier1_zero_gravity.yaml");
+  folder.write("p.yaml", protocol + "visit: [E1]\n");
+  Protocol::load(folder.file("p.yaml"), tier1());
+  folder.write("p.yaml", protocol + "visit: [E1, recorded]\n");
+  EXPECT_THROW(Protocol::load(folder.file("p.yaml"), tier1()), BadInput);
+}
+
 }  // namespace
 }  // namespace anthrob

@@ -11,6 +11,12 @@ namespace anthrob {
 /// @throws BadInput naming posture and model where the muscles lack more than 0.02 Nm
 void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
                             const Equilibrium& equilibrium);
+/// Of references that back ends would refuse.
+/// @throws BadInput naming posture, muscle and limit
+void refuse_beyond_limits(const std::string& posture, const RobotModel& model,
+                          const std::vector<double>& reference);
+/// @throws BadInput for a robot that takes no POSITION, of which nothing would move
+void refuse_without_controllers(const RobotModel& model);
 
 /// A posture to visit, and how long to stay.
 struct PostureStep {

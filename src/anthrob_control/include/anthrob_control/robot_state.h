@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ class RobotState {
 
   void see_muscle(const std::string& name, const ecu::Measurement& measured, bool enabled,
                   double stamp);
+  /// What a muscle's motor follows. A robot need not tell.
+  void see_mode(const std::string& name, ecu::Mode mode);
   /// Unknown names are passed over: a robot may carry more than the model.
   void see_joint(const std::string& name, double position, double velocity, double stamp);
   void see_ball_joint(const std::string& name, const Quat& orientation, const Vec3& velocity,
@@ -30,6 +33,9 @@ class RobotState {
   bool complete_since(double stamp) const;
   /// The first muscle whose ECU does not follow references, or empty.
   std::string disabled_muscle() const;
+  /// The first muscle with a controller that is enabled and follows something else, or empty: what
+  /// it was told was refused.
+  std::string muscle_not_in(ecu::Mode mode) const;
   /// The first muscle with a controller whose force is not a number, or empty: it has no sensor.
   std::string muscle_without_force() const;
   /// The first muscle that was seen not to follow references since the last call, or empty: one
@@ -49,6 +55,7 @@ class RobotState {
   RobotMeasurement measured_;
   std::vector<double> muscle_stamps_, joint_stamps_;
   std::vector<char> enabled_;
+  std::vector<std::optional<ecu::Mode>> mode_;
   int was_disabled_ = -1;  // index of the muscle that take_disabled names
 };
 

@@ -39,6 +39,7 @@ void RobotLink::see_muscles(const anthrob_msgs::MuscleStates& m) {
       state_.see_muscle(m.name[i], {m.position[i], m.velocity[i], m.current[i], m.force[i]},
                         m.ecu_state[i] == anthrob_msgs::MuscleStates::ENABLED,
                         m.header.stamp.toSec());
+      if (fits(n, m.mode.size())) state_.see_mode(m.name[i], static_cast<ecu::Mode>(m.mode[i]));
     }
   }
   if (on_muscles) on_muscles(m);

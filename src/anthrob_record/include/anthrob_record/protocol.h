@@ -21,6 +21,7 @@ struct Protocol {
     std::string name;               ///< "E3"
     std::vector<double> q;          ///< what it is meant to be
     std::vector<double> reference;  ///< [rad] by muscle, index as in the model
+    bool by_references = false;     ///< as they are in the file; q is not known
   };
 
   Kind kind = Kind::kEquilibria;
