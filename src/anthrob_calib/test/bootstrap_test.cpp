@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "anthrob_calib/discovery/dependence.h"
 #include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/discovery/regimes.h"
 #include "anthrob_sim/core/random.h"
@@ -64,6 +65,30 @@ double width(const Fitted& fitted) {
   EXPECT_LE(intervals[0].first, 1.0);
   EXPECT_GE(intervals[0].second, 1.0);
   return intervals[0].second - intervals[0].first;
+}
+
+TEST(Dependence, IsBeyondWhatAConstantDoes) {
+  const Experiments experiments = {std::make_shared<Swing>()};
+  MeasuredVariable time{"time", "time", {{}}, false};
+  for (std::size_t b = 0; b < kBins; ++b) time.values[0].push_back(0.02 * static_cast<double>(b));
+  const CounterRandom random(3);
+  const Eigen::VectorXf whitener = Eigen::VectorXf::Ones(kBins);
+  const auto of = [&](double offset, double slope) {
+    Eigen::VectorXf residual(kBins);
+    for (std::size_t b = 0; b < kBins; ++b) {
+      residual[static_cast<Eigen::Index>(b)] =
+          static_cast<float>(offset + slope * speed_at(b) + random.normal(b));
+    }
+    return find_dependences(experiments, {time, speed()}, residual, whitener).at(0);
+  };
+  const Dependence flat = of(2.0, 0.0), sloped = of(2.0, 2.0), noise = of(0.0, 0.0);
+  EXPECT_NEAR(flat.constant, 0.8, 0.03);  // 4 of 4 + 1
+  EXPECT_LT(flat.share, Dependence::kTelling);
+  EXPECT_EQ(sloped.word, "speed");
+  EXPECT_NEAR(sloped.constant, 4.0 / 7.0, 0.03);
+  EXPECT_NEAR(sloped.share, 2.0 / 7.0, 0.03);
+  EXPECT_LT(noise.constant, Dependence::kTelling);
+  EXPECT_LT(noise.share, Dependence::kTelling);
 }
 
 TEST(Bootstrap, IntervalsOfNoiseCoverTheTruth) {

@@ -140,6 +140,15 @@ TEST(Report, SaysWhyTheRestHasNoName) {
   EXPECT_TRUE(holds(report_html(answer, question, 1.0), "beyond the 1 effects that --max-effects"));
 }
 
+TEST(Report, TellsWhatTheLoopRecordedAlsoWhereNothingIsNamed) {
+  Answer answer;
+  answer.verdict = "no_missing_effect";
+  answer.asked = {"recorded what tells cogging from ripple"};
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "Before: recorded what tells cogging"));
+  answer.effects = {cogging()};
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "Before: recorded what tells cogging"));
+}
+
 TEST(Report, ClaimsNoMoreThanWasFound) {
   Answer answer;
   answer.verdict = "no_missing_effect";

@@ -83,6 +83,14 @@ TEST(Verdict, NamesWhatMostOfTheRestDependsOn) {
   EXPECT_EQ(answer.remaining_description, "depends on none of the measured quantities");
 }
 
+TEST(Verdict, AnOffsetDependsOnNothing) {
+  Answer answer;
+  answer.remaining = {dependence("elbow/position", "time", 0.06)};
+  answer.remaining[0].constant = 0.7;
+  pronounce({{"elbow/position", 3.0}}, true, answer);
+  EXPECT_EQ(answer.remaining_description, "elbow/position is off by a constant");
+}
+
 TEST(Verdict, NothingIsToldOfChannelsThatAreNoHigherThanNoise) {
   const std::vector<Dependence> found = {dependence("elbow/position", "load", 0.9),
                                          dependence("biceps_brachii/force", "load", 0.5)};

@@ -83,16 +83,28 @@ void fill(Steps& steps, const std::vector<Sample>& samples, bool odd) {
   }
 }
 
-/// Share of the squares of the other half that the curve predicts.
-double predicted(const Steps& steps, const std::vector<Sample>& samples, bool odd) {
-  double left = 0.0, whole = 0.0;
+/// Shares of the squares of one half that are predicted by the other.
+struct Shares {
+  double constant = 0.0;  ///< by its mean
+  double curve = 0.0;     ///< by the curve, beyond that
+};
+
+Shares predicted(const Steps& steps, const std::vector<Sample>& samples, bool odd) {
+  double sum = 0.0, count = 0.0;
+  for (const Sample& s : samples) {
+    if (s.odd != odd) sum += s.y, count += 1.0;
+  }
+  const double mean = count > 0.0 ? sum / count : 0.0;
+  double by_mean = 0.0, by_curve = 0.0, whole = 0.0;
   for (const Sample& s : samples) {
     if (s.odd != odd) continue;
-    const double e = s.y - steps.mean[steps.of(s.x)];
-    left += e * e;
+    const double m = s.y - mean, e = s.y - steps.mean[steps.of(s.x)];
+    by_mean += m * m;
+    by_curve += e * e;
     whole += s.y * s.y;
   }
-  return whole > 0.0 ? 1.0 - left / whole : 0.0;
+  if (!(whole > 0.0)) return {};
+  return {1.0 - by_mean / whole, (by_mean - by_curve) / whole};
 }
 
 std::vector<Sample> samples_of(const Experiments& experiments, const Channel& channel,
@@ -140,9 +152,11 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
       for (const Sample& s : samples) largest = std::max(largest, std::abs(s.x));
       Steps steps = steps_of(samples, variable.sign, largest);
       fill(steps, samples, false);
-      double share = predicted(steps, samples, true);
+      const Shares odd = predicted(steps, samples, true);
       fill(steps, samples, true);
-      share = 0.5 * (share + predicted(steps, samples, false));
+      const Shares even = predicted(steps, samples, false);
+      if (variable.name == "time") best.constant = 0.5 * (odd.constant + even.constant);
+      const double share = 0.5 * (odd.curve + even.curve);
       if (share > best.share + 0.02) {
         best.share = share;
         best.variable = variable.name;

@@ -15,9 +15,14 @@ std::string dependence_of(const std::string& channel, const std::vector<Dependen
   std::string regime;
   double best = Dependence::kTelling;
   for (const Dependence& d : dependences) {
-    if (d.channel.rfind(channel, 0) == 0 && d.share > best) {
+    if (d.channel.rfind(channel, 0) != 0) continue;
+    if (d.share > best) {
       best = d.share;
       regime = d.word + (d.word == "time" ? "" : " (" + d.variable + ")");
+    }
+    if (d.constant > best) {
+      best = d.constant;
+      regime = "none: off by a constant";
     }
   }
   return regime;

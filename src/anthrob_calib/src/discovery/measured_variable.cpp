@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "anthrob_sim/recording/orientation_series.h"
+
 namespace anthrob {
 namespace discovery {
 
@@ -13,6 +15,21 @@ std::vector<double> at_bins(const Experiment& experiment, const Series& series) 
   const std::size_t bins = experiment.channels().front().count;
   for (std::size_t b = 0; b < bins; ++b) values.push_back(series.at(experiment.bin_time(b)));
   return values;
+}
+
+/// A column of a recording. Of an orientation, of which its negative is the same, the one that
+/// begins with w >= 0, without sudden changes of sign.
+Series series_of(const Dataset& recording, const Column& column) {
+  const std::string quantity = column.quantity();
+  const std::size_t k = std::string("wxyz").find(quantity);
+  if (quantity.size() != 1 || k == std::string::npos) return recording.series(column.name);
+  OrientationSeries turns = OrientationSeries::read(
+      recording, column.name.substr(0, column.name.size() - quantity.size() - 1));
+  if (turns.empty()) return {};
+  if (turns.number[0].values.front() < 0.0) {
+    for (double& value : turns.number[k].values) value = -value;
+  }
+  return turns.number[k];
 }
 
 std::vector<double> rate_of(const std::vector<double>& values, double bin) {
@@ -49,7 +66,7 @@ std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
       if (word == words.end()) continue;
       MeasuredVariable variable{column.name, word->second, {}, false};
       for (std::size_t e = 0; e < experiments.size(); ++e) {
-        const Series series = recordings[e].series(column.name);
+        const Series series = series_of(recordings[e], column);
         if (series.empty()) break;
         variable.values.push_back(at_bins(*experiments[e], series));
       }

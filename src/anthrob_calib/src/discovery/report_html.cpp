@@ -191,9 +191,11 @@ std::string refused(const Answer& answer) {
 std::string effects_table(const Answer& answer) {
   const std::string improbable =
       answer.improbable.empty() ? "" : "<p>" + too_improbable(answer) + "</p>\n";
+  std::string asked;
+  for (const std::string& line : answer.asked) asked += "<p>Before: " + escaped(line) + ".</p>\n";
   if (answer.effects.empty()) {
     const char* const what = improbable.empty() ? "earned its place" : "is probable enough";
-    return "<p>Nothing in the catalogue " + std::string(what) + ".</p>\n" + improbable +
+    return "<p>Nothing in the catalogue " + std::string(what) + ".</p>\n" + asked + improbable +
            refused(answer);
   }
   std::string html;
@@ -236,10 +238,7 @@ std::string effects_table(const Answer& answer) {
   }
   html +=
       "<p>The model with this is <code>model.yaml</code>, which extends the examined one.</p>\n";
-  for (const std::string& asked : answer.asked) {
-    html += "<p>Before: " + escaped(asked) + ".</p>\n";
-  }
-  return html + improbable + refused(answer);
+  return html + asked + improbable + refused(answer);
 }
 
 std::string colour_of(double gap) {
@@ -395,7 +394,7 @@ std::string dependence_figures(const std::vector<Dependence>& dependences) {
     panel.lines.push_back(line);
     html += figure.render() + "<p class=\"small\">The curve predicts " +
             short_number(100.0 * d.share) +
-            " % of the square in blocks it was not fitted to.</p>\n";
+            " % of the square in blocks it was not fitted to, beyond what a constant does.</p>\n";
   }
   return html;
 }

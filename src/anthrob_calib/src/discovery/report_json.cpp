@@ -111,6 +111,7 @@ Json dependences_json(const Answer& answer) {
                     {"variable", d.variable},
                     {"how", d.word},
                     {"share", number(d.share)},
+                    {"constant", number(d.constant)},
                     {"at", d.at},
                     {"curve", d.curve}});
   }

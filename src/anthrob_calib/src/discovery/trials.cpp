@@ -171,7 +171,7 @@ std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& sc
   // Two names of one place ("the last segment", "segment 3") give the same bits.
   const auto effect = [&](std::size_t s) { return candidates_[tried[s].candidate].effect; };
   const auto same = [&](std::size_t a, std::size_t b) {
-    return left[a] == left[b] && effect(a) == effect(b);
+    return left[a] < base.cost && left[a] == left[b] && effect(a) == effect(b);
   };
   order.erase(std::unique(order.begin(), order.end(), same), order.end());
   std::vector<const Effect*> kinds;

@@ -29,8 +29,9 @@ const Dependence* strongest(const std::map<std::string, double>& left,
   const Dependence* strongest = nullptr;
   for (const Dependence& d : dependences) {
     for (const auto& [name, gap] : left) {
-      if (d.channel.rfind(name, 0) != 0 || d.share < Dependence::kTelling) continue;
-      const double part = excess(gap, kRealGap) / whole * d.share;
+      const double share = std::max(d.share, d.constant);
+      if (d.channel.rfind(name, 0) != 0 || share < Dependence::kTelling) continue;
+      const double part = excess(gap, kRealGap) / whole * share;
       if (part > most) {
         most = part;
         strongest = &d;
@@ -67,6 +68,8 @@ void pronounce(const std::map<std::string, double>& left, bool certain, Answer& 
   const Dependence* cause = strongest(left, answer.remaining);
   if (!certain) {
     answer.remaining_description = kNoCertainGap;
+  } else if (cause && cause->constant > cause->share) {
+    answer.remaining_description = cause->channel + " is off by a constant";
   } else if (cause) {
     answer.remaining_description = cause->channel + " depends on " +
                                    (cause->word == "time" ? "" : cause->word + " of ") +

@@ -17,7 +17,10 @@ struct Dependence {
   std::string channel;   ///< "<place>/<quantity>", components of an orientation named x, y, z
   std::string variable;  ///< "biceps_brachii/force"; empty if nothing predicts it
   std::string word;      ///< "sign of velocity", "load", "posture", "time", ...
-  double share = 0.0;    ///< of its square that the curve predicts in data it was not fitted to
+  /// Of its square, what the curve predicts in data it was not fitted to, beyond what a constant
+  /// does, which depends on nothing.
+  double share = 0.0;
+  double constant = 0.0;                 ///< of its square, what a constant predicts there
   std::vector<double> at, curve, error;  ///< variable and residual [their units], standard error
 };
 
