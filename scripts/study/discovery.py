@@ -13,6 +13,7 @@ import argparse
 import glob
 import json
 import os
+import resource
 import shutil
 import statistics
 import subprocess
@@ -33,6 +34,15 @@ MOST_EFFECTS = {"wrapped": 12}
 DOCUMENTS = "docs/studies"
 DRAWN = ["kind", "effects", "change", "slow", "stated_noise", "noise_memory"]  # of a truth, what tells what was asked
 TOLD = ["id", "place", "probability", "shows_in", "left", "parameters", "rivals"]  # of a named effect, what scoring needs
+
+
+SPENT = ["spent_s", "processor_s"]  # files that outlive an interruption
+
+
+def clocks():
+    """Seconds now: of the clock, of the processors that ended steps have used."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.time(), used.ru_utime + used.ru_stime
 
 
 def study_name(options):
@@ -78,12 +88,18 @@ class Case:
         return "done" if self.done() else "failed" if self.failed() else "begun" if os.path.exists(self.truth) else ""
 
     def make(self):
-        """Whether there is such a robot. The truth is written last; of a case that was done only the model is left."""
-        if os.path.exists(self.truth) and os.path.exists(f"{self.data}/test_0"):
+        """Whether there is such a robot. The truth is written last; of a case that was done only the model is left. A
+        case is of one program: what another one began is begun anew."""
+        program, made_by = commit(), f"{self.data}.made_by"
+        begun = os.path.exists(self.truth) and os.path.exists(f"{self.data}/test_0")
+        if begun and os.path.exists(made_by) and load(made_by) == program:
             return True
-        shutil.rmtree(self.data, ignore_errors=True)
+        for folder in self.data, self.report:
+            shutil.rmtree(folder, ignore_errors=True)
         made = run([MAKER, "--kind", self.kind, "--case", str(self.number), "--seed",
                     str(self.options.seed), "--model", MODEL, "--out", self.data, "--truth", self.truth], self.log)
+        if made == 0:
+            write(made_by, as_json(program))
         return made == 0
 
     def examine(self):
@@ -93,17 +109,18 @@ class Case:
                    "--out", self.report, "--jobs", str(self.options.jobs)]
         if self.kind in MOST_EFFECTS:
             command += ["--max-effects", str(MOST_EFFECTS[self.kind])]
-        begin, before = time.time(), self.spent()
+        begin, before = clocks(), self.spent()
         try:
             return run(command, self.log)
         finally:
             os.makedirs(self.report, exist_ok=True)
-            write(f"{self.report}/spent_s", str(before + time.time() - begin))
+            for file, earlier, since, now in zip(SPENT, before, begin, clocks()):
+                write(f"{self.report}/{file}", str(earlier + now - since))
 
     def spent(self):
-        """Seconds of discovery so far, of runs that were interrupted, too."""
-        file = f"{self.report}/spent_s"
-        return float(load(file)) if os.path.exists(file) else 0.0
+        """Seconds of discovery so far, of runs that were interrupted, too: of the clock, of processors."""
+        files = [f"{self.report}/{file}" for file in SPENT]
+        return [float(load(file)) if os.path.exists(file) else 0.0 for file in files]
 
     def put_away(self):
         """The recordings; the report's model extends the case's."""
@@ -125,8 +142,9 @@ class Case:
             return
         if os.path.exists(failed):
             os.remove(failed)
+        spent, processor = self.spent()
         facts = {"commit": asked, "machine": machine(), "jobs": self.options.jobs,
-                 "making_s": made - begin, "discovery_s": self.spent()}
+                 "making_s": made - begin, "discovery_s": spent, "processor_s": processor}
         write(f"{self.report}/study.json", as_json(facts))
         if not self.options.keep:
             self.put_away()
@@ -232,6 +250,7 @@ def score(options):
 def facts_of(cases, options):
     done = [case.facts() for case in cases if case.done()]
     minutes = [facts["discovery_s"] / 60 for facts in done]
+    processor = [facts["processor_s"] / 3600 for facts in done if "processor_s" in facts]
     failed = sum(case.failed() for case in cases)
     return {
         "cases": f"{len(done)} of {len(cases)}" + (f", and {failed} that gave no report" if failed else ""),
@@ -240,7 +259,8 @@ def facts_of(cases, options):
         "machine": several(facts["machine"] for facts in done),
         "threads a case": several(facts["jobs"] for facts in done),
         "time": f"{sum(minutes) / 60:.1f} h of discovery, median {statistics.median(minutes):.1f}, "
-                f"longest {max(minutes):.1f} minutes a case",
+                f"longest {max(minutes):.1f} minutes a case"
+                + (f"; {sum(processor):.1f} h of processors in {len(processor)} cases" if processor else ""),
     }
 
 

@@ -260,7 +260,20 @@ class DiscoveryStudy(Study):
         os.remove('status')
         self.study('--case', 'null_00')
         with open('out/discovery/reports/null_00/study.json') as file:
-            self.assertGreater(json.load(file)['discovery_s'], 3600.0)
+            facts = json.load(file)
+        self.assertGreater(facts['discovery_s'], 3600.0)
+        self.assertGreater(facts['processor_s'], 0.0)
+        self.assertLess(facts['processor_s'], 10.0)
+        self.assertIn(' h of processors in 1 cases', self.told())
+
+    def test_a_case_is_of_one_program(self):
+        with open('status', 'w') as file:
+            file.write('130')
+        for program, made in ('one', 1), ('one', 1), ('two', 2):
+            with mock.patch.object(discovery, 'commit', lambda: program), self.assertRaises(KeyboardInterrupt):
+                self.study('--case', 'null_00')
+            with open('calls') as file:
+                self.assertEqual(file.read().count('made '), made, program)
 
     def test_bad_input(self):
         for arguments in (['--case', 'nobody'], ['--slice', '3/2'], ['--slice', 'x'], ['--summary']):
