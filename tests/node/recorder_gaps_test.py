@@ -43,6 +43,7 @@ class RecorderGaps(unittest.TestCase):
         self.joints = rospy.Publisher('joint_states', JointState, queue_size=10)
         self.shoulder = rospy.Publisher('spherical_joint_states', SphericalJointStates, queue_size=10)
         self.aims, self.commands = [], []
+        self.mode = MuscleCommand.POSITION
         rospy.Subscriber('muscle_command', MuscleCommand, self.on_command)
 
     def tearDown(self):
@@ -66,7 +67,7 @@ class RecorderGaps(unittest.TestCase):
         zeros = [0.0] * len(MUSCLES)
         stamp = rospy.Time.from_sec(self.time)
         m = MuscleStates(name=MUSCLES, position=zeros, velocity=zeros, current=zeros, voltage=zeros,
-                         force=[5.0] * 3 + [force] + [5.0] * 4, reference=zeros, mode=[1] * len(MUSCLES),
+                         force=[5.0] * 3 + [force] + [5.0] * 4, reference=zeros, mode=[self.mode] * len(MUSCLES),
                          ecu_state=[MuscleStates.ENABLED] * len(MUSCLES))
         m.header.stamp = stamp
         self.muscles.publish(m)
@@ -133,6 +134,12 @@ class RecorderGaps(unittest.TestCase):
     def test_a_joint_out_of_sight_for_good(self):
         output, bags = self.record(silent=(0.5, 1e9))
         self.assertIn('the robot is silent: joint shoulder', output)
+        self.assertEqual(bags, [])
+
+    def test_a_robot_that_refuses_all_commands(self):
+        self.mode = MuscleCommand.VOLTAGE  # enabled, but without a zero, say
+        output, bags = self.record()
+        self.assertIn('does not follow the references of lateral_deltoid', output)
         self.assertEqual(bags, [])
 
     def test_what_is_not_seen_has_not_settled(self):
