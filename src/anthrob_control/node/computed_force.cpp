@@ -176,8 +176,16 @@ class ComputedForceNode {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "computed_force");
-  return anthrob::run_node("computed_force", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "computed_force";
+  info.purpose = "Computed-force control of the joints.";
+  info.parameters = {
+      {"model", "path of the model the controller believes in (required)"},
+      {"settings", "path of its gains (required)"},
+      {"lock_step", "whether the simulator waits for each command (default: false)"},
+      {"steps", "of the simulation, a period with lock_step (default: 5)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =
         anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
     const auto control = anthrob::ControlSettings::load(

@@ -74,8 +74,16 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "hold_posture", ros::init_options::AnonymousName);
-  return anthrob::run_node("hold_posture", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "hold_posture";
+  info.purpose = "Puts a running simulator into a posture, at equilibrium.";
+  info.options = ros::init_options::AnonymousName;
+  info.parameters = {
+      {"model", "path of a model file (required)"},
+      {"postures", "path of a posture file (required)"},
+      {"posture", "name of one in it (required)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     return hold(nh, settings) ? 0 : 130;
   });
 }

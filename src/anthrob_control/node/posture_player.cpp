@@ -119,8 +119,15 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "posture_player");
-  return anthrob::run_node("posture_player", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "posture_player";
+  info.purpose = "Leads the robot through the postures of a file.";
+  info.parameters = {
+      {"model", "path of a model file (required)"},
+      {"postures", "path of a posture file (required)"},
+      {"approach_speed", "[rad/s] of motors on the way to the first one (default: 1)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     return play(nh, settings) ? 0 : 130;
   });
 }

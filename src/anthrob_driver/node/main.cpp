@@ -8,9 +8,25 @@
 #include "driver_node.h"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "driver");
-  if (anthrob::name_is_taken()) return 2;
-  return anthrob::run_node("driver", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "driver";
+  info.purpose = "The robot's motors: ECUs on a CAN bus.";
+  info.only_one = true;
+  info.parameters = {
+      {"hardware", "path of hardware.yaml (required)"},
+      {"model",
+       "path of a model that must be wired alike (default: the one that hardware.yaml names)"},
+      {"can", "CAN interface (default: can0)"},
+      {"hand", "whether the hand's muscles are there, too (default: false)"},
+      {"rate", "[Hz] of cycles and states (default: 200)"},
+      {"command_timeout", "[s] after which a silent commander counts as gone (default: 0.5)"},
+      {"check_stamps", "whether commands that are older than that are refused (default: true)"},
+      {"first_step",
+       "[rad] from where a motor is that its first reference may be, 0: any (default: 0)"},
+      {"realtime", "whether to ask for SCHED_FIFO and locked memory (default: false)"},
+      {"pace", "of emulated units, seconds a second, in (0, 1] (default: 1)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
     using namespace anthrob::driver;
     const std::string file = required(settings, "hardware", "the path of hardware.yaml");

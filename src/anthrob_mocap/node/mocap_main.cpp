@@ -63,8 +63,30 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "mocap");
-  return anthrob::run_node("mocap", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "mocap";
+  info.purpose = "Stereo infrared markers to poses of targets and ball joints.";
+  info.parameters = {
+      {"targets", "path of targets.yaml (required)"},
+      {"rig", "path of rig.yaml: where the targets sit on the robot (default: none, poses only)"},
+      {"calibration", "folder with left.yaml and right.yaml (default: what camera_info says)"},
+      {"settings", "path of the tracker's settings (default: none)"},
+      {"source", "topics, folder, bag, aravis or dc1394 (default: topics)"},
+      {"left", "of another source than topics: folder, topic or camera"},
+      {"right", "likewise"},
+      {"bag", "path of a bag, of source bag"},
+      {"rate",
+       "[Hz] of a folder without times.csv, or at which cameras are triggered (default: 60)"},
+      {"trigger",
+       "of aravis: software, free or a line; of dc1394: external or free (default: the first of "
+       "these)"},
+      {"exposure", "[s] of cameras (default: 0.0005)"},
+      {"pipeline", "sequential or threaded (default: sequential)"},
+      {"sync_tolerance", "[s] between stamps of a pair, 0: as the source wants it (default: 0)"},
+      {"camera_frame", "frame of the left camera, rectified (default: mocap_camera)"},
+      {"joint_tf", "whether the joints go to tf, too (default: false)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     track(nh, settings);
     return 0;
   });

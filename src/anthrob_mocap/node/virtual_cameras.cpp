@@ -120,8 +120,15 @@ void VirtualRig::publish(const ros::Time& stamp, const std::vector<Scene>& insta
 
 int main(int argc, char** argv) {
   namespace mocap = anthrob::mocap;
-  ros::init(argc, argv, "virtual_rig");
-  return anthrob::run_node("virtual_rig", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "virtual_rig";
+  info.purpose = "Two cameras that see the markers of a simulated robot.";
+  info.parameters = {
+      {"calibration", "folder with left.yaml and right.yaml (required)"},
+      {"targets", "path of targets.yaml (required)"},
+      {"rig", "path of rig.yaml (required)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto rig = mocap::StereoRig::load(
         anthrob::required(settings, "calibration", "a folder with left.yaml and right.yaml"));
     // It only draws: what looks alike is the tracker's affair.

@@ -31,8 +31,19 @@ bool enable(ros::NodeHandle& nh) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "recorder");
-  return anthrob::run_node("recorder", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "recorder";
+  info.purpose = "Recordings by protocol: motions, equilibria, repeats.";
+  info.parameters = {
+      {"model", "path of a model file (required)"},
+      {"protocol", "path of a protocol file (required)"},
+      {"out", "whole path of a folder to record into (required)"},
+      {"approach_speed", "[rad/s] of motors on the way to where a motion begins (default: 1)"},
+      {"enable", "whether the motors are enabled first (default: false)"},
+      {"lock_step", "whether the simulator waits for each reference (default: false)"},
+      {"steps", "of the simulation, a reference with lock_step (default: 5)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =
         anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
     const auto protocol =

@@ -1,20 +1,99 @@
 #include "anthrob_ros/run_node.h"
 
+#include <algorithm>
+#include <iostream>
+
 #include "anthrob_config/errors.h"
+#include "anthrob_ros/single_backend.h"
 
 namespace anthrob {
 
-int run_node(const std::string& name, const NodeBody& body) {
+namespace {
+
+constexpr int kBadInput = 2, kFailed = 1;
+
+bool asks_for_help(const std::string& argument) {
+  return argument == "--help" || argument == "-h";
+}
+
+std::string keys_of(const NodeInfo& info) {
+  std::string keys;
+  for (const auto& parameter : info.parameters) {
+    keys += (keys.empty() ? "~" : ", ~") + parameter.key;
+  }
+  return keys;
+}
+
+void warn_of_unknown_parameters(const NodeInfo& info, const std::string& own) {
+  std::vector<std::string> names;
+  ros::param::getParamNames(names);
+  for (const std::string& name : names) {
+    if (name.compare(0, own.size() + 1, own + "/") != 0) continue;
+    const std::string key = name.substr(own.size() + 1);
+    // What has folders is of a library, as of image_transport.
+    if (key.find('/') != std::string::npos || info.has(key)) continue;
+    ROS_WARN_STREAM("parameter ~" << key << ": passed over, for this node has only "
+                                  << keys_of(info) << " (rosparam delete " << name << ")");
+  }
+}
+
+}  // namespace
+
+bool NodeInfo::has(const std::string& key) const {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [&](const Parameter& parameter) { return parameter.key == key; });
+}
+
+std::string help_of(const NodeInfo& info, const std::string& program) {
+  std::size_t width = 0;
+  for (const auto& parameter : info.parameters) width = std::max(width, parameter.key.size());
+  std::string text = info.purpose + "\nUsage: " + program.substr(program.rfind('/') + 1) +
+                     " _PARAMETER:=VALUE ... [__ns:=ROBOT] [__name:=NAME]\n\nParameters:\n";
+  for (const auto& [key, meaning] : info.parameters) {
+    text += "  _" + key + std::string(width + 2 - key.size(), ' ') + meaning + "\n";
+  }
+  return text;
+}
+
+std::string wrong_argument(const NodeInfo& info, const std::vector<std::string>& arguments) {
+  for (const std::string& argument : arguments) {
+    const std::size_t assignment = argument.find(":=");
+    if (assignment == std::string::npos) {
+      return "argument '" + argument + "': expected _PARAMETER:=VALUE, or --help";
+    }
+    const bool is_parameter = argument[0] == '_' && argument[1] != '_';
+    const std::string key = argument.substr(1, assignment - 1);
+    if (is_parameter && !info.has(key)) {
+      return "parameter ~" + key + ": unknown; expected one of " + keys_of(info);
+    }
+  }
+  return "";
+}
+
+int run_node(int argc, char** argv, const NodeInfo& info, const NodeBody& body) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (std::any_of(arguments.begin(), arguments.end(), asks_for_help)) {
+    std::cout << help_of(info, argv[0]);
+    return 0;
+  }
+  const std::string wrong = wrong_argument(info, arguments);
+  if (!wrong.empty()) {
+    std::cerr << wrong << "\n";
+    return kBadInput;
+  }
+  ros::init(argc, argv, info.name, info.options);
+  if (info.only_one && name_is_taken()) return kBadInput;
   // They outlive those of the body: without one nothing is logged.
   ros::NodeHandle nh, settings("~");
   try {
+    warn_of_unknown_parameters(info, settings.getNamespace());
     return body(nh, settings);
   } catch (const BadInput& error) {
     ROS_FATAL_STREAM(error.what());
-    return 2;
+    return kBadInput;
   } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(name << ": " << error.what());
-    return 1;
+    ROS_FATAL_STREAM(info.name << ": " << error.what());
+    return kFailed;
   }
 }
 

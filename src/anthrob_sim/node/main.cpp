@@ -7,9 +7,21 @@
 #include "simulator_node.h"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulator");
-  if (anthrob::name_is_taken()) return 2;
-  return anthrob::run_node("simulator", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "simulator";
+  info.purpose = "The simulated robot: physics, sensors and controllers, in place of the hardware.";
+  info.only_one = true;
+  info.parameters = {
+      {"model", "path of a model file (required)"},
+      {"step", "[s] of the simulation, in (0, 0.1] (default: as the model says)"},
+      {"rate", "real-time factor, 0: as fast as possible (default: 1)"},
+      {"state_rate", "[Hz of simulated time] of states and clock, at least 1 (default: 500)"},
+      {"paused", "whether it waits for sim/step or sim/pause (default: false)"},
+      {"auto_enable", "whether the motors are enabled from the start (default: true)"},
+      {"command_timeout",
+       "[s] after which a silent commander counts as gone, 0: never (default: 0.5)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
     const std::string file = required(settings, "model", "the path of a model file");
     LoadOptions load;

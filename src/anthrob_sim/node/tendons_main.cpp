@@ -6,8 +6,11 @@
 #include "tendon_display.h"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "tendons");
-  return anthrob::run_node("tendons", [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+  anthrob::NodeInfo info;
+  info.name = "tendons";
+  info.purpose = "Tendons of a robot as markers for RViz.";
+  info.parameters = {{"model", "path of a model file (required)"}};
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const std::string file = anthrob::required(settings, "model", "the path of a model file");
     const anthrob::TendonDisplay display(anthrob::load_robot_model(file), nh);
     ros::spin();
