@@ -439,10 +439,11 @@ class SimContract(unittest.TestCase):
         cases = [
             (dict(joint_name=['knee'], joint_position=[0.0]), 'knee'),
             (dict(joint_name=['elbow'], joint_position=[9.0]), 'limits'),
-            (dict(joint_name=['elbow'], joint_position=[NAN]), 'finite'),
+            (dict(joint_name=['elbow'], joint_position=[NAN]), 'expected a finite'),
             (dict(joint_name=['elbow'], joint_position=[]), 'differ'),
             (dict(joint_name=['shoulder'], joint_position=[0.0]), 'shoulder'),
-            (dict(ball_joint_name=['shoulder'], ball_joint_orientation=[Quaternion()]), 'unit quaternion'),
+            (dict(ball_joint_name=['shoulder'], ball_joint_orientation=[Quaternion(w=0.5)]),
+             '(0.5, 0, 0, 0): expected a unit quaternion'),
             (dict(muscle_name=['nobody'], muscle_position=[0.0]), 'nobody'),
             (dict(muscle_name=['brachialis'], muscle_position=[NAN]), 'finite'),
             (dict(muscle_name=['brachialis'], muscle_position=[1e6]), 'limits'),

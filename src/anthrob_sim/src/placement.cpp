@@ -47,7 +47,7 @@ void Placement::set_joint(const std::string& name, double position) {
   }
   const JointModel& joint = model_.skeleton->joints[index];
   if (!(std::abs(position) < Simulation::kSensible)) {
-    throw BadInput(who + ": expected a finite position below 1e9");
+    throw BadInput(who + ": " + text(position) + ": expected a finite position below 1e9");
   }
   const double give = joint.type == JointType::kPrismatic ? 0.1 * kGive : kGive;
   if (joint.stop.enabled &&
@@ -63,7 +63,10 @@ void Placement::set_ball_joint(const std::string& name, const Quat& turn) {
   if (index < 0 || model_.skeleton->joints[index].type != JointType::kBall) {
     throw BadInput(who + ": no ball joint of that name");
   }
-  if (!(std::abs(turn.norm() - 1.0) < kUnit)) throw BadInput(who + ": expected a unit quaternion");
+  if (!(std::abs(turn.norm() - 1.0) < kUnit)) {
+    throw BadInput(who + ": (" + text(turn.w()) + ", " + text(turn.x()) + ", " + text(turn.y()) +
+                   ", " + text(turn.z()) + "): expected a unit quaternion");
+  }
   const JointModel& joint = model_.skeleton->joints[index];
   const Quat unit = canonical(turn.normalized());
   const double angle = angular_distance(unit, Quat::Identity());
@@ -78,7 +81,9 @@ void Placement::set_muscle(const std::string& name, double position) {
   const std::string who = "muscle '" + name + "'";
   const int index = model_.find_muscle(name);
   if (index < 0) throw BadInput(who + ": no such muscle");
-  if (!std::isfinite(position)) throw BadInput(who + ": position is not finite");
+  if (!std::isfinite(position)) {
+    throw BadInput(who + ": " + text(position) + ": expected a finite position");
+  }
   const MuscleModel& muscle = model_.muscles[index];
   if (!muscle.actuator->takes_input() && position != 0.0) {
     throw BadInput(who + ": " + text(position) + ": is passive and stays at position 0");
