@@ -293,5 +293,25 @@ void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
   resume_ = now + kRetryPause;
 }
 
+std::string EcuLink::why_not_enable() const {
+  if (!heard_ && !other_version_.empty()) return "speaks another protocol: " + other_version_;
+  if (!heard_) return "was never heard; is it switched on?";
+  if (!alive()) return "does not answer";
+  if (!configured()) return "is being configured; try again in a second";
+  if (report_.fault == ecu::Fault::kSelfTest) return "its self test failed: switch it off and on";
+  if (state_ == ecu::State::kFault) {
+    return std::string("fault ") + ecu::name(report_.fault) + ": call clear_faults first";
+  }
+  return latched_ ? "holds an emergency stop: call clear_faults first" : "";
+}
+
+std::string EcuLink::not_cleared() const {
+  if (!alive()) return "";
+  if (state_ == ecu::State::kFault) {
+    return std::string("fault ") + ecu::name(report_.fault) + " persists";
+  }
+  return latched_ ? "holds its emergency stop" : "";
+}
+
 }  // namespace driver
 }  // namespace anthrob

@@ -78,10 +78,8 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
     references_.push_back({static_cast<int>(m), ecu::Mode::kVoltage, 0.0});
   }
-  tendons_.assign(hardware_.muscles.size(), TendonWatch(hardware_.tendons));
   for (const MuscleHardware& muscle : hardware_.muscles) {
-    encoders_.emplace_back(muscle.resistance, muscle.back_emf);
-    heats_.emplace_back(muscle.nominal_current, muscle.thermal_time_constant);
+    muscles_.emplace_back(muscle, hardware_.tendons, hardware_.home.pretension);
   }
 }
 
@@ -192,26 +190,12 @@ std::string RobotDriver::why_not_enable() const {
     if (supervisor_.state(link.own().muscles.front()) == ecu::State::kFault) {
       return who + "is in FAULT: call clear_faults first";
     }
-    if (!link.heard() && !link.other_version().empty())
-      return who + "speaks another protocol: " + link.other_version();
-    if (!link.heard()) return who + "was never heard; is it switched on?";
-    if (!link.alive()) return who + "does not answer";
-    if (!link.configured()) return who + "is being configured; try again in a second";
-    if (link.report().fault == ecu::Fault::kSelfTest) {
-      return who + "its self test failed: switch it off and on";
-    }
-    if (link.state() == ecu::State::kFault) {
-      return who + "fault " + ecu::name(link.report().fault) + ": call clear_faults first";
-    }
-    if (link.stop_latched()) return who + "holds an emergency stop: call clear_faults first";
+    const std::string reason = link.why_not_enable();
+    if (!reason.empty()) return who + reason;
   }
-  for (std::size_t m = 0; m < heats_.size(); ++m) {
-    const double wait = heats_[m].time_to_cool();
-    if (wait <= 0.0) continue;
-    char text[80];
-    std::snprintf(text, sizeof(text), ": its motor is too hot by what it drew; try again in %.0f s",
-                  std::ceil(wait));
-    return hardware_.muscles[m].name + text;
+  for (const MuscleWatch& muscle : muscles_) {
+    const std::string reason = muscle.why_not_enable();
+    if (!reason.empty()) return reason;
   }
   return "";
 }
@@ -310,12 +294,8 @@ bool RobotDriver::clearing(double now) const {
 
 std::string RobotDriver::not_cleared() const {
   for (const EcuLink& link : links_) {
-    if (!link.alive()) continue;
-    const std::string who = link.own().name + ": ";
-    if (link.state() == ecu::State::kFault) {
-      return who + "fault " + ecu::name(link.report().fault) + " persists";
-    }
-    if (link.stop_latched()) return who + "holds its emergency stop";
+    const std::string left = link.not_cleared();
+    if (!left.empty()) return link.own().name + ": " + left;
   }
   return "";
 }
@@ -437,60 +417,15 @@ void RobotDriver::check_ecus(double now) {
   }
 }
 
-void RobotDriver::check_tendons(double now) {
+void RobotDriver::check_muscles(double now) {
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
+    const auto alarm = muscles_[m].step(sampler_.last().muscles[m], sampler_.last().time,
+                                        phase_ == Phase::kEnabled, home_.running());
+    if (!alarm) continue;
     const MuscleHardware& wired = hardware_.muscles[m];
-    // `home` watches for itself.
-    if (phase_ != Phase::kEnabled || home_.running()) {
-      tendons_[m].restart();
-      continue;
-    }
-    const MuscleSample& muscle = sampler_.last().muscles[m];
-    if (!muscle.measured || !std::isfinite(muscle.force)) continue;
-    const bool pulled =
-        muscle.mode == ecu::Mode::kForce && muscle.reference > hardware_.home.pretension;
-    const std::string wrong =
-        tendons_[m].step(muscle.position, muscle.force, pulled, sampler_.last().time);
-    if (wrong.empty()) continue;
-    const std::string detail = wired.name + ": " + wrong;
-    findings_.add(Finding::kTendonSlack, wired.ecu, now, detail);
-    revoke_zero(wired);
-    stop(Finding::kTendonSlack, wired.ecu, detail);
-  }
-}
-
-void RobotDriver::check_encoders(double now) {
-  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
-    if (phase_ != Phase::kEnabled) {
-      encoders_[m].restart();
-      continue;
-    }
-    const MuscleHardware& wired = hardware_.muscles[m];
-    const MuscleSample& muscle = sampler_.last().muscles[m];
-    if (!muscle.measured) continue;
-    const std::string wrong =
-        encoders_[m].step(muscle.position, muscle.voltage, muscle.current, sampler_.last().time);
-    if (wrong.empty()) continue;
-    const std::string detail = wired.name + ": " + wrong;
-    findings_.add(Finding::kEncoderDead, wired.ecu, now, detail);
-    revoke_zero(wired);
-    stop(Finding::kEncoderDead, wired.ecu, detail);
-  }
-}
-
-void RobotDriver::check_heat(double now) {
-  for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
-    MotorHeat& motor = heats_[m];
-    const MuscleSample& muscle = sampler_.last().muscles[m];
-    if (muscle.measured) motor.step(muscle.current, sampler_.last().time);
-    if (phase_ != Phase::kEnabled || motor.heat() <= MotorHeat::kLimit) continue;
-    const MuscleHardware& wired = hardware_.muscles[m];
-    char text[120];
-    std::snprintf(text, sizeof(text),
-                  ": its motor is at %.2f of the heat that its nominal current leads to",
-                  motor.heat());
-    findings_.add(Finding::kMotorHot, wired.ecu, now, wired.name + text);
-    stop(Finding::kMotorHot, wired.ecu, wired.name + text);
+    findings_.add(alarm->finding, wired.ecu, now, alarm->detail);
+    if (alarm->zero_lost) revoke_zero(wired);
+    stop(alarm->finding, wired.ecu, alarm->detail);
   }
 }
 
@@ -563,9 +498,7 @@ void RobotDriver::cycle(double now) {
     // STOPPING is what the ECUs report then, as on the simulator.
     stop(Finding::kCommandTimeout, -1);
   }
-  check_tendons(now);
-  check_encoders(now);
-  check_heat(now);
+  check_muscles(now);
   if (phase_ == Phase::kEnabled) continue_home(now);
   send_cycle(now);
   if (phase_ == Phase::kEnabling) continue_enable(now);

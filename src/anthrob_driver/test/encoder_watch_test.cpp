@@ -1,4 +1,4 @@
-#include "anthrob_driver/encoder_watch.h"
+#include "anthrob_driver/watch/encoder_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Motors that are too hot by what they drew: the estimate against its closed form, and the driver.
-#include "anthrob_driver/motor_heat.h"
+#include "anthrob_driver/watch/motor_heat.h"
 
 #include <gtest/gtest.h>
 

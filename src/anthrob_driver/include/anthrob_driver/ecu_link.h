@@ -88,6 +88,10 @@ class EcuLink {
   double sample_time() const { return sample_time_; }
   ecu::State state() const { return state_; }
   bool stop_latched() const { return latched_; }
+  /// What keeps it from being enabled; empty: nothing.
+  std::string why_not_enable() const;
+  /// What clear_faults did not clear, of a unit that answers; empty: nothing.
+  std::string not_cleared() const;
 
   const EcuHardware& own() const { return hardware_.ecus[static_cast<std::size_t>(index_)]; }
 

@@ -4,16 +4,14 @@
 #include <vector>
 
 #include "anthrob_driver/bus/bus.h"
-#include "anthrob_driver/bus_watch.h"
 #include "anthrob_driver/ecu_link.h"
 #include "anthrob_driver/enabling.h"
-#include "anthrob_driver/encoder_watch.h"
 #include "anthrob_driver/home.h"
 #include "anthrob_driver/live_gains.h"
-#include "anthrob_driver/motor_heat.h"
 #include "anthrob_driver/sampler.h"
 #include "anthrob_driver/stop_log.h"
-#include "anthrob_driver/tendon_watch.h"
+#include "anthrob_driver/watch/bus_watch.h"
+#include "anthrob_driver/watch/muscle_watch.h"
 #include "anthrob_driver/zeros.h"
 #include "anthrob_ecu/supervisor.h"
 
@@ -77,7 +75,7 @@ class RobotDriver {
   const LiveGains& gains() const { return gains_; }
   const Hardware& hardware() const { return hardware_; }
   const ecu::Supervisor& supervisor() const { return supervisor_; }
-  const MotorHeat& heat(std::size_t muscle) const { return heats_[muscle]; }
+  const MotorHeat& heat(std::size_t muscle) const { return muscles_[muscle].heat(); }
   const EcuLink& link(std::size_t ecu) const { return links_[ecu]; }
   const Findings& findings() const { return findings_; }
   const BusWatch& bus_watch() const { return watch_; }
@@ -98,9 +96,7 @@ class RobotDriver {
   void on_frame(const ecu::Frame& frame, double now);
   void check_bus(double now);
   void check_ecus(double now);
-  void check_tendons(double now);
-  void check_encoders(double now);
-  void check_heat(double now);
+  void check_muscles(double now);
   void continue_enable(double now);
   void finish_enable(bool success, const std::string& reason);
   void continue_home(double now);
@@ -141,9 +137,7 @@ class RobotDriver {
   Home home_;
   Zeros zeros_;
   LiveGains gains_;
-  std::vector<TendonWatch> tendons_;    ///< one a muscle
-  std::vector<EncoderWatch> encoders_;  ///< one a muscle
-  std::vector<MotorHeat> heats_;        ///< one a muscle
+  std::vector<MuscleWatch> muscles_;
   StopLog stops_;
 
   Phase phase_ = Phase::kDisabled;

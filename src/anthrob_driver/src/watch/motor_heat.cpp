@@ -1,4 +1,4 @@
-#include "anthrob_driver/motor_heat.h"
+#include "anthrob_driver/watch/motor_heat.h"
 
 #include <cmath>
 

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "anthrob_driver/findings.h"
+#include "anthrob_driver/hardware.h"
+#include "anthrob_driver/sampler.h"
+#include "anthrob_driver/watch/encoder_watch.h"
+#include "anthrob_driver/watch/motor_heat.h"
+#include "anthrob_driver/watch/tendon_watch.h"
+
+namespace anthrob {
+namespace driver {
+
+/// All that is watched of one muscle: its tendon, its encoder, its motor.
+class MuscleWatch {
+ public:
+  /// Reason to stop all motors.
+  struct Alarm {
+    Finding finding;
+    std::string detail;  ///< which muscle and what of it, in words
+    bool zero_lost;      ///< its positions count from nowhere known any more
+  };
+
+  /// @param muscle, tendons, pretension [N] of home, as they are wired
+  MuscleWatch(const MuscleHardware& muscle, const TendonLimits& tendons, double pretension);
+
+  /// Once a cycle.
+  /// @param sample may be the one of the cycle before   @param time [s] when it was taken
+  /// @param enabled only then something can be wrong; a motor that is off cools down
+  /// @param homing then `home` watches the tendon
+  std::optional<Alarm> step(const MuscleSample& sample, double time, bool enabled, bool homing);
+
+  const MotorHeat& heat() const { return heat_; }
+  /// Empty if nothing of this muscle is in the way.
+  std::string why_not_enable() const;
+
+ private:
+  std::string tendon(const MuscleSample& sample, double time);
+
+  std::string name_;
+  double pretension_;
+  TendonWatch tendon_;
+  EncoderWatch encoder_;
+  MotorHeat heat_;
+};
+
+}  // namespace driver
+}  // namespace anthrob

@@ -1,0 +1,55 @@
+#include "anthrob_driver/watch/muscle_watch.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace anthrob {
+namespace driver {
+
+MuscleWatch::MuscleWatch(const MuscleHardware& muscle, const TendonLimits& tendons,
+                         double pretension)
+    : name_(muscle.name),
+      pretension_(pretension),
+      tendon_(tendons),
+      encoder_(muscle.resistance, muscle.back_emf),
+      heat_(muscle.nominal_current, muscle.thermal_time_constant) {}
+
+std::optional<MuscleWatch::Alarm> MuscleWatch::step(const MuscleSample& sample, double time,
+                                                    bool enabled, bool homing) {
+  if (sample.measured) heat_.step(sample.current, time);
+  if (!enabled || homing) tendon_.restart();
+  if (!enabled) {
+    encoder_.restart();
+    return std::nullopt;
+  }
+  if (sample.measured) {
+    const std::string slack = homing ? "" : tendon(sample, time);
+    if (!slack.empty()) return Alarm{Finding::kTendonSlack, name_ + ": " + slack, true};
+    const std::string dead = encoder_.step(sample.position, sample.voltage, sample.current, time);
+    if (!dead.empty()) return Alarm{Finding::kEncoderDead, name_ + ": " + dead, true};
+  }
+  if (heat_.heat() <= MotorHeat::kLimit) return std::nullopt;
+  char text[120];
+  std::snprintf(text, sizeof(text),
+                ": its motor is at %.2f of the heat that its nominal current leads to",
+                heat_.heat());
+  return Alarm{Finding::kMotorHot, name_ + text, false};
+}
+
+std::string MuscleWatch::tendon(const MuscleSample& sample, double time) {
+  if (!std::isfinite(sample.force)) return "";
+  const bool pulled = sample.mode == ecu::Mode::kForce && sample.reference > pretension_;
+  return tendon_.step(sample.position, sample.force, pulled, time);
+}
+
+std::string MuscleWatch::why_not_enable() const {
+  const double wait = heat_.time_to_cool();
+  if (wait <= 0.0) return "";
+  char text[80];
+  std::snprintf(text, sizeof(text), ": its motor is too hot by what it drew; try again in %.0f s",
+                std::ceil(wait));
+  return name_ + text;
+}
+
+}  // namespace driver
+}  // namespace anthrob
