@@ -40,6 +40,7 @@ Simulation::Simulation(std::shared_ptr<const RobotModel> model)
       skeleton_(*model_->skeleton, model_->gravity, model_->step, model_->collisions),
       tree_(*model_->skeleton),
       resistance_(*model_->skeleton, model_->step),
+      readings_(*model_, store_),
       q_(model_->skeleton->rest_configuration()),
       effort_(model_->skeleton->joints.size(), 0.0),
       load_(model_->skeleton->joints.size(), 0.0),
@@ -78,12 +79,6 @@ void Simulation::reserve_effects() {
   for (const auto& effect : model_->power_effects) {
     power_offsets_.push_back(store_.reserve(effect->state_size()));
   }
-  if (model_->reading_effects.empty()) return;
-  readings_offset_ = store_.reserve(muscles_.size() * state_size_of<ecu::Measurement>() +
-                                    skeleton.position_count + skeleton.velocity_count);
-  for (const auto& effect : model_->reading_effects) {
-    reading_offsets_.push_back(store_.reserve(effect->state_size()));
-  }
 }
 
 void Simulation::reset_effects() {
@@ -91,17 +86,7 @@ void Simulation::reset_effects() {
   for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
     model_->power_effects[i]->reset(store_.at(power_offsets_[i]));
   }
-  if (model_->reading_effects.empty()) return;
-  Readings readings = true_readings();
-  for (std::size_t i = 0; i < model_->reading_effects.size(); ++i) {
-    const ReadingEffect& effect = *model_->reading_effects[i];
-    const StateView state = store_.at(reading_offsets_[i]);
-    effect.reset(readings, state);
-    // Those behind it begin with what it reads; its own time has not begun.
-    const std::vector<double> begun(state.data(), state.data() + effect.state_size());
-    effect.apply(readings, state);
-    std::copy(begun.begin(), begun.end(), state.data());
-  }
+  readings_.reset(truth());
 }
 
 void Simulation::check_muscle(int muscle) const {
@@ -150,23 +135,15 @@ void Simulation::impose_position(int muscle, double position, double velocity) {
 void Simulation::impose_reading(int muscle, double from, double to) {
   check_muscle(muscle);
   const auto m = static_cast<std::size_t>(muscle);
-  for (std::size_t i = model_->reading_effects.size(); i-- > 0;) {
-    const StateView state = store_.at(reading_offsets_[i]);
-    from = model_->reading_effects[i]->undone(m, from, state);
-    to = model_->reading_effects[i]->undone(m, to, state);
-  }
+  to = readings_.undone(m, to);
   // What is undone now may be undone otherwise by another step; the actuator knows where it was.
-  const bool goes_on = !model_->reading_effects.empty() && muscles_[m].drive() == Drive::kImposed;
-  if (goes_on) from = muscles_[m].actuator().position;
+  const bool goes_on = !readings_.empty() && muscles_[m].drive() == Drive::kImposed;
+  from = goes_on ? muscles_[m].actuator().position : readings_.undone(m, from);
   impose_position(muscle, to, (to - from) / step_length());
 }
 
 double Simulation::position_lateness(int muscle) const {
-  double lateness = 0.0;
-  for (const auto& effect : model_->reading_effects) {
-    lateness += effect->lateness(static_cast<std::size_t>(muscle));
-  }
-  return lateness;
+  return readings_.lateness(static_cast<std::size_t>(muscle));
 }
 
 void Simulation::release(int muscle) {
@@ -231,15 +208,11 @@ void Simulation::impose_posture(const std::vector<double>& q) {
 
 void Simulation::impose_posture_reading(const std::vector<double>& q) {
   impose_posture(q);
-  for (std::size_t i = model_->reading_effects.size(); i-- > 0;) {
-    model_->reading_effects[i]->undo_joints(posture_.data());
-  }
+  readings_.undo_joints(posture_.data());
 }
 
 double Simulation::posture_lateness() const {
-  double lateness = 0.0;
-  for (const auto& effect : model_->reading_effects) lateness += effect->joint_lateness();
-  return lateness;
+  return readings_.joint_lateness();
 }
 
 void Simulation::head_for_posture() {
@@ -416,12 +389,7 @@ void Simulation::apply_joint_efforts() {
 }
 
 void Simulation::sense() {
-  if (!model_->reading_effects.empty()) {
-    Readings readings = true_readings();
-    for (std::size_t i = 0; i < model_->reading_effects.size(); ++i) {
-      model_->reading_effects[i]->apply(readings, store_.at(reading_offsets_[i]));
-    }
-  }
+  readings_.update(truth());
   for (std::size_t m = 0; m < muscles_.size(); ++m) {
     muscles_[m].sense(step_index_, reading(static_cast<int>(m)));
   }
@@ -433,49 +401,25 @@ void Simulation::sense() {
   }
 }
 
-Readings Simulation::true_readings() {
-  const SkeletonModel& skeleton = *model_->skeleton;
-  const StateView memory = store_.at(readings_offset_);
-  Readings readings;
-  readings.muscles = &memory.as<ecu::Measurement>();
-  readings.positions = memory.from(muscles_.size() * state_size_of<ecu::Measurement>()).data();
-  readings.velocities = readings.positions + skeleton.position_count;
-  for (std::size_t m = 0; m < muscles_.size(); ++m) readings.muscles[m] = muscles_[m].truth();
-  std::copy(q_.begin(), q_.end(), readings.positions);
-  for (const JointModel& joint : skeleton.joints) {
-    double* velocity = readings.velocities + joint.velocity_offset;
-    if (joint.type == JointType::kBall) {
-      const Vec3 w = tree_.ball_velocity(static_cast<int>(&joint - skeleton.joints.data()));
-      std::copy(w.data(), w.data() + 3, velocity);
-    } else {
-      *velocity = tree_.velocities()[joint.velocity_offset];
-    }
-  }
-  return readings;
-}
-
 ecu::Measurement Simulation::reading(int muscle) const {
-  if (model_->reading_effects.empty()) return muscles_[muscle].truth();
-  return (&store_.at(readings_offset_).as<ecu::Measurement>())[muscle];
+  const auto m = static_cast<std::size_t>(muscle);
+  return readings_.empty() ? muscles_[m].truth() : readings_.muscle(m);
 }
 
 const double* Simulation::read_positions() const {
-  if (model_->reading_effects.empty()) return q_.data();
-  return store_.at(readings_offset_ + muscles_.size() * state_size_of<ecu::Measurement>()).data();
+  return readings_.empty() ? q_.data() : readings_.positions();
 }
 
 double Simulation::read_velocity(int joint) const {
   check_joint(joint);
   const int dof = model_->skeleton->joints[joint].velocity_offset;
-  if (model_->reading_effects.empty()) return tree_.velocities()[dof];
-  return read_positions()[model_->skeleton->position_count + dof];
+  return readings_.empty() ? tree_.velocities()[dof] : readings_.velocities()[dof];
 }
 
 Vec3 Simulation::read_ball_velocity(int joint) const {
   check_joint(joint);
-  if (model_->reading_effects.empty()) return tree_.ball_velocity(joint);
-  const double* w = read_positions() + model_->skeleton->position_count +
-                    model_->skeleton->joints[joint].velocity_offset;
+  if (readings_.empty()) return tree_.ball_velocity(joint);
+  const double* w = readings_.velocities() + model_->skeleton->joints[joint].velocity_offset;
   return {w[0], w[1], w[2]};
 }
 

@@ -7,6 +7,7 @@
 #include "anthrob_sim/friction/resistance_solver.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/muscle/muscle.h"
+#include "anthrob_sim/sensing/reading_chain.h"
 #include "anthrob_sim/skeleton/joint_loads.h"
 #include "anthrob_sim/skeleton/skeleton.h"
 
@@ -137,7 +138,7 @@ class Simulation {
   void head_for_posture();
   void move_skeleton();
   void advance_actuators();
-  Readings true_readings();
+  ReadingChain::Truth truth() const { return {muscles_, q_, tree_}; }
   void step_once();
   void apply_wrenches();
   void sense();
@@ -154,6 +155,7 @@ class Simulation {
   KinematicTree tree_;
   ResistanceSolver resistance_;
   std::vector<Muscle> muscles_;
+  ReadingChain readings_;
   std::vector<SlidingTendon*> sliding_;
   std::vector<Sensor> joint_sensors_;
   std::vector<double> q_, effort_, load_;
@@ -168,8 +170,8 @@ class Simulation {
   JointLoads joint_loads_;
   Eigen::VectorXd joint_torque_;  ///< of joint_torques
   std::vector<PowerLine> lines_;  ///< scratch of power_effects
-  std::size_t readings_offset_ = 0, loads_offset_ = 0;
-  std::vector<std::size_t> power_offsets_, reading_offsets_;
+  std::size_t loads_offset_ = 0;
+  std::vector<std::size_t> power_offsets_;
   std::size_t dissipation_offset_ = 0;
   std::uint64_t step_index_ = 0;
 };

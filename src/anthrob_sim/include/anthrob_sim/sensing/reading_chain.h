@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/muscle/muscle.h"
+#include "anthrob_sim/sensing/reading_effect.h"
+#include "anthrob_sim/skeleton/kinematic_tree.h"
+
+namespace anthrob {
+
+/// What sensors are given to measure: the truth, and what the reading effects of a model make of it
+/// one after the other. Empty without such effects: the truth is read then, and nothing is copied.
+class ReadingChain {
+ public:
+  struct Truth {
+    const std::vector<Muscle>& muscles;
+    const std::vector<double>& q;  ///< as Simulation::configuration
+    const KinematicTree& tree;
+  };
+
+  /// @param model, store must outlive it
+  ReadingChain(const RobotModel& model, StateStore& store);
+
+  bool empty() const { return effects_.empty(); }
+  /// The robot is put somewhere.
+  void reset(const Truth& truth);
+  /// Once a step.
+  void update(const Truth& truth);
+
+  // Read, if not empty.
+  const ecu::Measurement& muscle(std::size_t i) const { return readings().muscles[i]; }
+  const double* positions() const { return readings().positions; }
+  const double* velocities() const { return readings().velocities; }
+
+  // As of ReadingEffect, of all together.
+  double lateness(std::size_t muscle) const;
+  double undone(std::size_t muscle, double position) const;
+  double joint_lateness() const;
+  void undo_joints(double* positions) const;
+
+ private:
+  Readings readings() const;
+  Readings true_readings(const Truth& truth) const;
+
+  const SkeletonModel& skeleton_;
+  const std::vector<std::shared_ptr<const ReadingEffect>>& effects_;
+  StateStore& store_;
+  std::size_t muscle_count_;
+  std::size_t readings_offset_ = 0;
+  std::vector<std::size_t> offsets_;  ///< of the effects' states
+};
+
+}  // namespace anthrob
