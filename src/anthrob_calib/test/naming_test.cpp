@@ -14,7 +14,7 @@
 #include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/trials.h"
 #include "anthrob_sim/effects/catalogue.h"
-#include "made_experiment.h"
+#include "made_problem.h"
 
 namespace anthrob {
 namespace discovery {
@@ -56,27 +56,18 @@ TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
 
 /// Ten seconds to learn from and ten to judge by, of a robot whose shoulder's damping is free and
 /// whose elbow may have more than the model says.
-struct Problem {
+struct Problem : MadeProblem {
   using Law = MadeExperiment::Law;
 
   explicit Problem(const Law& law, const std::string& free = "shoulder",
                    const std::vector<std::string>& effects = {"joint_viscous"})
-      : evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
-                  free.empty()
-                      ? std::vector<ModelParameter>{}
-                      : std::vector<ModelParameter>{{"joints." + free + ".friction.viscous",
-                                                     "Nms/rad", 0.15, 0.0, 1.0, 0.01}},
-                  MadeExperiment::kStep, 1),
-        train(evaluator, {std::make_shared<MadeExperiment>(law, law, kBins, 1)},
-              Eigen::VectorXf::Ones(kBins), MadeExperiment::kCoarse),
-        test(evaluator, {std::make_shared<MadeExperiment>(law, law, kBins, 2)},
-             Eigen::VectorXf::Ones(kBins)),
-        train_judge(train.experiments(), train.whitening(), {}),
-        test_judge(test.experiments(), test.whitening(), {}),
-        candidates(list_candidates(evaluator, effects)),
-        naming(train, test, train_judge, test_judge, candidates, 1),
-        settling(evaluator, train, train_judge),
-        bench{evaluator, train, test, candidates, naming, settling} {}
+      : MadeProblem(free.empty()
+                        ? std::vector<ModelParameter>{}
+                        : std::vector<ModelParameter>{{"joints." + free + ".friction.viscous",
+                                                       "Nms/rad", 0.15, 0.0, 1.0, 0.01}},
+                    std::make_shared<MadeExperiment>(law, law, kBins, 1),
+                    std::make_shared<MadeExperiment>(law, law, kBins, 2), effects,
+                    MadeExperiment::kCoarse) {}
 
   Fitted fitted(double damping) const {
     return train.start(Variant{{damping}}, nuisance_unknowns(evaluator));
@@ -95,11 +86,8 @@ struct Problem {
     u.neutral = 0.0;
     return train.extend(fitted, variant, {u});
   }
-  std::size_t index(const std::string& joint, const std::string& id = "joint_viscous") const {
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
-      if (candidates[c].place == joint && candidates[c].effect->info().id == id) return c;
-    }
-    throw std::invalid_argument(id + " @ " + joint);
+  std::size_t index(const std::string& place, const std::string& id = "joint_viscous") const {
+    return MadeProblem::index(place, id);
   }
   ShortList weigh(const Tested& base, const std::string& joint, double amount) const {
     Score score;
@@ -110,13 +98,6 @@ struct Problem {
   }
 
   static constexpr Eigen::Index kBins = 500;
-  Evaluator evaluator;
-  ModelFit train, test;
-  Judge train_judge, test_judge;
-  std::vector<Candidate> candidates;
-  Naming naming;
-  Settling settling;
-  Workbench bench;
 };
 
 constexpr double kElbow = 0.02, kDose = 0.05;  // damping in the model, of the catalogue [Nms/rad]

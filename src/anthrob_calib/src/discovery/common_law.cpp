@@ -9,9 +9,40 @@
 namespace anthrob {
 namespace discovery {
 
+namespace {
+constexpr double kNeeded = 3.0;  // [nat], held out: nothing was searched
+constexpr double kClearly = 0.9;
+}  // namespace
+
+bool CommonLaw::Instead::is_better() const {
+  return odds.evidence > kNeeded && odds.probability > 0.5;
+}
+
+bool CommonLaw::Instead::is_clearly_better() const {
+  return is_better() && odds.probability >= kClearly;
+}
+
 bool CommonLaw::may_be(std::size_t law, std::size_t one, std::size_t other) const {
   const Candidate& whole = bench_.candidates[law];
   return says_less(bench_.candidates[one], whole) && says_less(bench_.candidates[other], whole);
+}
+
+std::optional<std::size_t> CommonLaw::everywhere(const std::vector<Part>& parts) const {
+  if (parts.size() < 2) return std::nullopt;
+  const auto same_law = [&](std::size_t a, std::size_t b) {
+    return bench_.candidates[a].effect == bench_.candidates[b].effect;
+  };
+  for (const Part& part : parts) {
+    const bool is_part = same_law(part.candidate, parts.front().candidate) &&
+                         !bench_.candidates[part.candidate].is_everywhere();
+    if (!is_part) return std::nullopt;
+  }
+  for (std::size_t law = 0; law < bench_.candidates.size(); ++law) {
+    if (bench_.candidates[law].is_everywhere() && same_law(law, parts.front().candidate)) {
+      return law;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<CommonLaw::Instead> CommonLaw::instead(std::size_t law, const Tested& with,

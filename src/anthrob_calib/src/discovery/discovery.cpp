@@ -123,6 +123,7 @@ class Search {
         }
       }
       accept(list, answer);
+      unite(screening, answer);
       drop_superfluous(named_.size() - 1, answer);
     }
   }
@@ -231,11 +232,40 @@ class Search {
     for (NamedEffect& effect : named_) effect.found.separating_recording = {};
   }
 
+  /// What has just been named, and was at other places before, may be everywhere: named instead of
+  /// them where it clearly does better.
+  void unite(Screening& screening, Answer& answer) {
+    const Effect* const law = candidates_[named_.back().candidate].effect;
+    std::vector<CommonLaw::Part> parts;
+    for (std::size_t e = 0; e < named_.size(); ++e) {
+      if (candidates_[named_[e].candidate].effect == law) parts.push_back({e, named_[e].candidate});
+    }
+    const CommonLaw common(bench_, screening);
+    const std::optional<std::size_t> everywhere = common.everywhere(parts);
+    if (!everywhere) return;
+    const Candidate& candidate = candidates_[*everywhere];
+    stage("whether it is " + candidate.name());
+    auto instead = common.instead(*everywhere, base_, parts);
+    if (!instead || !instead->is_clearly_better()) return;
+    if (question_.comment) question_.comment("  it is " + candidate.name());
+    const Variant apart = base_.fit.variant;
+    NamedEffect united = std::move(named_[parts.front().effect]);
+    for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+      remove(part->effect, instead->tested);
+    }
+    if (name_instead(candidate, instead->odds, united.found)) {
+      separate(base_.fit.variant, apart, united.found);
+    }
+    united.candidate = *everywhere;
+    united.gained = instead->gained;
+    united.fuller = std::nullopt;
+    named_.push_back(std::move(united));
+    forget_refusals(candidate, answer);
+  }
+
   /// A law that says more than a named one at its place is named instead of it, if it did better
   /// in that one's round and clearly does in the end. @return whether one is
   bool fill_out(Screening& screening, Answer& answer) {
-    constexpr double kNeeded = 3.0;  // [nat], held out: nothing was searched
-    constexpr double kClearly = 0.9;
     const CommonLaw common(bench_, screening);
     for (std::size_t e = 0; e < named_.size(); ++e) {
       NamedEffect& effect = named_[e];
@@ -245,10 +275,8 @@ class Search {
       const std::string name = candidates_[effect.candidate].name();
       stage("whether it is " + candidate.name() + ", not " + name);
       const auto instead = common.instead(*fuller, base_, {{e, effect.candidate}});
-      if (!instead || instead->odds.evidence <= kNeeded || instead->odds.probability <= 0.5) {
-        continue;
-      }
-      if (instead->odds.probability < kClearly) {
+      if (!instead || !instead->is_better()) continue;
+      if (!instead->is_clearly_better()) {
         leave_open(candidate, instead->odds, effect.found);
         separate(base_.fit.variant, instead->tested.fit.variant, effect.found);
         continue;

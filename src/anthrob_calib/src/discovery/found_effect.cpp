@@ -51,6 +51,7 @@ bool name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect
   if (simpler.probability >= kMentioned) rivals.insert(at, simpler);
   effect.id = fuller.effect->info().id;
   effect.name = fuller.effect->info().name;
+  effect.place = fuller.place;
   effect.probability = odds.probability * both;
   effect.evidence += odds.evidence;
   // What was planned tells others apart.

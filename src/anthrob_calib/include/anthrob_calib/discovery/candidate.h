@@ -21,6 +21,8 @@ struct Candidate {
   std::string name() const { return effect->info().id + " @ " + place; }
   /// The muscle, joint or motor that its place belongs to: of two, the first.
   std::string owner() const;
+  /// Whether its place is every muscle at once.
+  bool is_everywhere() const { return place == "all"; }
   /// At its neutral sizes, other parameters at their defaults.
   EffectInstance neutral() const;
   /// The same with one size at its typical value.

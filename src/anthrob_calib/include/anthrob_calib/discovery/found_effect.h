@@ -14,8 +14,8 @@ constexpr double kMentioned = 0.02;  ///< least probability of a rival
 /// The first of a list, the others its rivals.
 FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& candidates);
 
-/// A law that says more at an effect's place does better: it is named, the other its rival. What it
-/// had as a rival is its own.
+/// A law that says more at an effect's place, or the same everywhere, does better: it is named, the
+/// other its rival. What it had as a rival is its own.
 /// @param odds against the other
 /// @return whether that is the first rival: what tells the two apart is to be planned
 bool name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect);

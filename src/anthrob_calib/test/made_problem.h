@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/discovery/workbench.h"
+#include "made_experiment.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// What decisions of the search work with, of made recordings to learn from and to judge by, with
+/// noise of one unit.
+struct MadeProblem {
+  using Recording = std::shared_ptr<const Experiment>;
+
+  MadeProblem(const std::vector<ModelParameter>& nuisances, const Recording& learned_from,
+              const Recording& held_out, const std::vector<std::string>& effects,
+              double coarse_step = 0.0)
+      : evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml", nuisances,
+                  MadeExperiment::kStep, 1),
+        train(evaluator, {learned_from}, ones(*learned_from), coarse_step),
+        test(evaluator, {held_out}, ones(*held_out)),
+        train_judge(train.experiments(), train.whitening(), {}),
+        test_judge(test.experiments(), test.whitening(), {}),
+        candidates(list_candidates(evaluator, effects)),
+        naming(train, test, train_judge, test_judge, candidates, 1),
+        settling(evaluator, train, train_judge),
+        bench{evaluator, train, test, candidates, naming, settling} {}
+
+  std::size_t index(const std::string& place, const std::string& id) const {
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      if (candidates[c].place == place && candidates[c].effect->info().id == id) return c;
+    }
+    throw std::invalid_argument(id + " @ " + place);
+  }
+
+  Evaluator evaluator;
+  ModelFit train, test;
+  Judge train_judge, test_judge;
+  std::vector<Candidate> candidates;
+  Naming naming;
+  Settling settling;
+  Workbench bench;
+
+ private:
+  static Eigen::VectorXf ones(const Experiment& experiment) {
+    return Eigen::VectorXf::Ones(static_cast<Eigen::Index>(experiment.size()));
+  }
+};
+
+}  // namespace discovery
+}  // namespace anthrob
