@@ -57,6 +57,7 @@ TEST(Report, EveryKeyIsDocumented) {
   answer.where.resize(1);
   answer.alternatives.resize(1);
   answer.improbable.resize(1);
+  answer.improbable[0].at_limit = "offset_u";
   answer.refused.id = "cogging";
   answer.asked = {"more"};
   answer.remaining.resize(1);
@@ -181,7 +182,8 @@ TEST(Report, ClaimsNoMoreThanWasFound) {
 TEST(Report, TellsWhatIsTooImprobableToBeAdded) {
   Answer answer;
   answer.verdict = "unexplained";
-  answer.improbable = {{"payload", "Payload", "forearm", 0.03, 200.0, "biceps_brachii/force", 0.4}};
+  answer.improbable = {
+      {"payload", "Payload", "forearm", 0.03, 200.0, "biceps_brachii/force", 0.4, ""}};
   const char* const kImprobableLaw =
       "Looked at, but too improbable to be added: Payload at forearm, probability 0.03, "
       "which leaves 40 % of the squared gap of biceps_brachii/force.";
@@ -198,6 +200,23 @@ TEST(Report, TellsWhatIsTooImprobableToBeAdded) {
   ASSERT_EQ(json["improbable"].size(), 1u);
   EXPECT_EQ(json["improbable"][0]["id"], "payload");
   EXPECT_EQ(json["improbable"][0]["left"], 0.4);
+}
+
+TEST(Report, TellsOfAShapeAtTheEndOfItsRange) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "end of its range"));
+  EXPECT_FALSE(
+      nlohmann::json::parse(report_json(answer, {}, 1.0))["effects"][0].contains("at_limit"));
+  answer.effects[0].at_limit = "offset_u";
+  answer.improbable.resize(1);
+  answer.improbable[0].at_limit = "offset_v";
+  const std::string page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "its offset_u at the end of its range"));
+  EXPECT_TRUE(holds(page, "its offset_v at the end of its range"));
+  EXPECT_EQ(nlohmann::json::parse(report_json(answer, {}, 1.0))["effects"][0]["at_limit"],
+            "offset_u");
 }
 
 TEST(Report, TellsWhatTheNamedLawLeavesAndWhatItMakesWorse) {

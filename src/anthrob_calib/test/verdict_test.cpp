@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "anthrob_calib/discovery/named_effect.h"
+#include "anthrob_sim/effects/catalogue.h"
+
 namespace anthrob {
 namespace discovery {
 namespace {
@@ -51,6 +54,37 @@ TEST(Verdict, ALawThatLeavesMuchOfWhatItWasToExplainIsLessLikely) {
   nothing.effects[0].left = 1.0;
   pronounce({{"elbow/position", 1.2}}, false, nothing);
   EXPECT_LT(nothing.effects[0].probability, 0.05);
+}
+
+TEST(Verdict, ALawThatEndsAtTheLimitOfItsShapeIsUnlikely) {
+  Answer answer = named(0.9, 0.0);
+  answer.effects[0].at_limit = "offset_u";
+  answer.effects[0].left = 0.05;
+  pronounce({{"elbow/position", 1.2}}, false, answer);
+  EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 * 0.05);
+}
+
+TEST(LimitOf, IsAFittedShapeThatCouldHaveGoneEitherWay) {
+  Candidate surface{find_effect("wrapping_surface"), "brachialis/2", {}, {}};
+  surface.parameters = surface.effect->info().parameters;
+  EffectInstance instance = surface.dose(*surface.sizes().front());
+  EXPECT_EQ(limit_of(surface, instance), "");
+  instance.parameters["offset_u"] = -0.0478;
+  EXPECT_EQ(limit_of(surface, instance), "offset_u");
+  instance.parameters["offset_u"] = -0.0465;
+  EXPECT_EQ(limit_of(surface, instance), "");
+  // Sizes that the range cuts off are larger than was thought; shapes that begin at an end are
+  // none.
+  Candidate friction{find_effect("joint_coulomb"), "elbow", {}, {}};
+  friction.parameters = friction.effect->info().parameters;
+  instance = friction.neutral();
+  instance.parameters["static_ratio"] = 1.0;
+  EXPECT_EQ(limit_of(friction, instance), "");
+  Candidate offset{find_effect("force_sensor_offset"), "brachialis", {}, {}};
+  offset.parameters = offset.effect->info().parameters;
+  instance = offset.neutral();
+  instance.parameters["offset"] = 50.0;
+  EXPECT_EQ(limit_of(offset, instance), "");
 }
 
 TEST(Verdict, NamesThatLeaveMostOfTheGapAreNoAnswer) {

@@ -296,13 +296,21 @@ class Search {
     return false;
   }
 
-  /// What leaves so much that it is hardly the right law does not extend the model: it may do what
-  /// another one should.
+  void note_limits() {
+    for (std::size_t e = 0; e < named_.size(); ++e) {
+      named_[e].found.at_limit =
+          limit_of(candidates_[named_[e].candidate], base_.fit.variant.effects[e]);
+    }
+  }
+
+  /// What leaves so much, or bends so far, that it is hardly the right law does not extend the
+  /// model: it may do what another one should.
   void drop_improbable(Answer& answer) {
     // What was not let in may be what is left.
     if (!has_room() && gaps_.any(base_, kFaintGap)) return;
     for (;;) {
       measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
+      note_limits();
       const NamedEffect* const improbable = least_of_improbable(named_);
       if (!improbable) return;
       const auto e = static_cast<std::size_t>(improbable - named_.data());
@@ -316,7 +324,7 @@ class Search {
       const FoundEffect& found = improbable->found;
       answer.improbable.push_back({found.id, found.name, found.place,
                                    found.probability * trust_in(found), found.evidence,
-                                   found.shows_in, found.left});
+                                   found.shows_in, found.left, found.at_limit});
       forget_refusals(candidate, answer);
       answer.dropped.clear();  // beside this one they were not needed
       remove(e, std::move(base));
@@ -373,6 +381,7 @@ class Search {
   /// earlier ones.
   void measure_effects() {
     if (named_.empty()) return;
+    note_limits();
     const auto ranges =
         bootstrap_intervals(base_.fit, train_.experiments(), variables_, question_.seed);
     for (std::size_t e = 0; e < named_.size(); ++e) {

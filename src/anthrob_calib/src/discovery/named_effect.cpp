@@ -1,6 +1,7 @@
 #include "anthrob_calib/discovery/named_effect.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "anthrob_calib/discovery/criteria.h"
 #include "anthrob_calib/discovery/verdict.h"
@@ -32,6 +33,20 @@ void measure_what_is_left(const Judge& judge, const Eigen::VectorXf& first,
     const double whole = std::max(effect.before, excess(at_first.at(channel), kFaintGap));
     if (whole > 0.0) effect.found.left = excess(after.at(channel), kFaintGap) / whole;
   }
+}
+
+std::string limit_of(const Candidate& candidate, const EffectInstance& instance) {
+  for (const EffectParameter& p : candidate.parameters) {
+    const bool is_fitted_shape =
+        p.kind != EffectParameter::kSize && p.kind != EffectParameter::kGiven;
+    const double range = p.bounds.hi - p.bounds.lo;
+    if (!is_fitted_shape || !(p.bounds.lo < 0.0 && p.bounds.hi > 0.0) || !std::isfinite(range)) {
+      continue;
+    }
+    const double value = instance.parameters.at(p.name);
+    if (std::min(value - p.bounds.lo, p.bounds.hi - value) < kNearLimit * range) return p.name;
+  }
+  return "";
 }
 
 const NamedEffect* least_of_improbable(const std::vector<NamedEffect>& effects) {

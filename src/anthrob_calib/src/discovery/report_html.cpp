@@ -87,6 +87,13 @@ std::string what_is_left(const FoundEffect& effect) {
   return text + ".";
 }
 
+std::string where_it_ends(const std::string& parameter) {
+  return parameter.empty()
+             ? ""
+             : ", its " + escaped(parameter) +
+                   " at the end of its range, as of a law that does another one's work";
+}
+
 /// Whether nothing but one rival speaks against an effect.
 bool has_equal(const FoundEffect& effect) {
   constexpr double kAsMuch = 0.8, kTogether = 0.7;
@@ -121,7 +128,7 @@ std::string too_improbable(const Answer& answer) {
   std::string text;
   for (const Improbable& law : answer.improbable) {
     text += (text.empty() ? "" : "; ") + escaped(law.name) + " at " + escaped(law.place) + ", " +
-            probability_text(law.probability);
+            probability_text(law.probability) + where_it_ends(law.at_limit);
     if (law.shows_in.empty()) continue;
     text += ", which leaves " + short_number(100.0 * law.left) + " % of the squared gap of " +
             escaped(law.shows_in);
@@ -211,7 +218,8 @@ std::string effects_table(const Answer& answer) {
               cell(p.known ? "taken as known" : range_text(p)) + cell(p.unit) + "</tr>\n";
     }
     html += "</table>\n<p>Gain in held-out log score " + short_number(effect.evidence) + " nat, " +
-            probability_text(effect.probability) + "." + what_is_left(effect) + "</p>\n";
+            probability_text(effect.probability) + where_it_ends(effect.at_limit) + "." +
+            what_is_left(effect) + "</p>\n";
     if (effect.rivals.empty()) continue;
     // Where too much is left for any of them, they are rivals of something that is not it either.
     html += answer.verdict == "unexplained" && effect.left > kEvenOdds

@@ -41,16 +41,18 @@ Json effect_json(const FoundEffect& effect) {
                       {"probability", number(rival.probability)},
                       {"evidence", number(rival.evidence)}});
   }
-  return {{"id", effect.id},
-          {"name", effect.name},
-          {"place", effect.place},
-          {"parameters", parameters_json(effect.parameters)},
-          {"probability", number(effect.probability)},
-          {"evidence", number(effect.evidence)},
-          {"shows_in", effect.shows_in},
-          {"left", number(effect.left)},
-          {"rivals", rivals},
-          {"separating_experiment", effect.separating_experiment}};
+  Json json{{"id", effect.id},
+            {"name", effect.name},
+            {"place", effect.place},
+            {"parameters", parameters_json(effect.parameters)},
+            {"probability", number(effect.probability)},
+            {"evidence", number(effect.evidence)},
+            {"shows_in", effect.shows_in},
+            {"left", number(effect.left)},
+            {"rivals", rivals},
+            {"separating_experiment", effect.separating_experiment}};
+  if (!effect.at_limit.empty()) json["at_limit"] = effect.at_limit;
+  return json;
 }
 
 Json alternatives_json(const Answer& answer) {
@@ -140,6 +142,7 @@ Json improbable_json(const Answer& answer) {
                     {"evidence", number(law.evidence)},
                     {"shows_in", law.shows_in},
                     {"left", number(law.left)}});
+    if (!law.at_limit.empty()) list.back()["at_limit"] = law.at_limit;
   }
   return list;
 }

@@ -44,7 +44,8 @@ const Dependence* strongest(const std::map<std::string, double>& left,
 }  // namespace
 
 double trust_in(const FoundEffect& effect) {
-  return kEvenOdds / (kEvenOdds + effect.left);
+  const double of_shape = effect.at_limit.empty() ? 1.0 : kAtLimit;
+  return of_shape * kEvenOdds / (kEvenOdds + effect.left);
 }
 
 void pronounce(const std::map<std::string, double>& left, bool certain, Answer& answer) {

@@ -50,6 +50,7 @@ struct FoundEffect {
   std::string shows_in;  ///< the channel in which it took away most, "<place>/<channel>"
   double left = 0.0;     ///< of what was to be explained there: share of the squared gap
   std::vector<FoundParameter> parameters;
+  std::string at_limit;  ///< a parameter of its shape that ends where the catalogue's range does
   std::vector<Rival> rivals;
   std::string separating_experiment;         ///< from the first rival, in words
   SeparatingRecording separating_recording;  ///< and for the recorder, where it can do it
@@ -76,8 +77,9 @@ struct Refused {
 struct Improbable {
   std::string id, name, place;
   double probability = 0.0, evidence = 0.0;
-  std::string shows_in;  ///< as of a FoundEffect
-  double left = 0.0;     ///< the same
+  std::string shows_in;  ///< as of a FoundEffect, the others too
+  double left = 0.0;
+  std::string at_limit;
 };
 
 /// Root mean squares in standard deviations of the floor.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "anthrob_calib/discovery/candidate.h"
 #include "anthrob_calib/discovery/discovery.h"
 #include "anthrob_calib/discovery/judge.h"
 
@@ -30,8 +31,12 @@ void note_what_it_shows_in(const Judge& judge, const Eigen::VectorXf& without,
 void measure_what_is_left(const Judge& judge, const Eigen::VectorXf& first,
                           const Eigen::VectorXf& left, std::vector<NamedEffect>& effects);
 
-/// Of effects that are improbable by what they leave, the one that gained least; null: none is.
-/// Rivals count with a name: what cannot be told from others is no wrong answer.
+/// A fitted parameter that is no size, of either sign, and ends where its range does; empty: none.
+std::string limit_of(const Candidate& candidate, const EffectInstance& instance);
+
+/// Of effects that are improbable by what they leave or by where their shape has ended, the one
+/// that gained least; null: none is. Rivals count with a name: what cannot be told from others is
+/// no wrong answer.
 const NamedEffect* least_of_improbable(const std::vector<NamedEffect>& effects);
 
 }  // namespace discovery

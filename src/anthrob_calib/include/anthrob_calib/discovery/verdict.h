@@ -11,7 +11,8 @@ namespace discovery {
 /// What remains, in words, where no gap does.
 constexpr char kNoCertainGap[] = "no gap that is certain";
 
-/// How likely the law of an effect is right, by what it leaves: a factor of its probability.
+/// How likely the law of an effect is right, by what it leaves and where its shape has ended: a
+/// factor of its probability.
 double trust_in(const FoundEffect& effect);
 
 /// Fills in the verdict and what is to be said of what remains, and takes from the named effects'
