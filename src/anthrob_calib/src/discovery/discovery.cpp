@@ -245,7 +245,7 @@ class Search {
     if (!everywhere) return;
     const Candidate& candidate = candidates_[*everywhere];
     stage("whether it is " + candidate.name());
-    auto instead = common.instead(*everywhere, base_, parts);
+    const auto instead = common.instead(*everywhere, base_, parts);
     if (!instead || !instead->is_clearly_better()) return;
     if (question_.comment) question_.comment("  it is " + candidate.name());
     const Variant apart = base_.fit.variant;

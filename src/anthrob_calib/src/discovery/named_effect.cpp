@@ -37,12 +37,9 @@ void measure_what_is_left(const Judge& judge, const Eigen::VectorXf& first,
 
 std::string limit_of(const Candidate& candidate, const EffectInstance& instance) {
   for (const EffectParameter& p : candidate.parameters) {
-    const bool is_fitted_shape =
-        p.kind != EffectParameter::kSize && p.kind != EffectParameter::kGiven;
     const double range = p.bounds.hi - p.bounds.lo;
-    if (!is_fitted_shape || !(p.bounds.lo < 0.0 && p.bounds.hi > 0.0) || !std::isfinite(range)) {
-      continue;
-    }
+    const bool either_way = p.bounds.lo < 0.0 && p.bounds.hi > 0.0 && std::isfinite(range);
+    if (p.kind != EffectParameter::kShape || !either_way) continue;
     const double value = instance.parameters.at(p.name);
     if (std::min(value - p.bounds.lo, p.bounds.hi - value) < kNearLimit * range) return p.name;
   }
