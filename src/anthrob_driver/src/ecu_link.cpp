@@ -108,13 +108,14 @@ void EcuLink::on_report(const ecu::StateReport& report, double now) {
   }
   if (heard_ && report.session != report_.session) {
     restarted_ = true;
-    next_ = passes_ = 0;
+    begin_upload_anew();
     waiting_ = false;
     zeros_.fill(Zero::kNotTold);
     findings_.add(Finding::kEcuRestarted, index_, now);
   }
   heard_ = true;
   report_ = report;
+  if (configured()) begin_upload_anew();  // should another one be needed
   take_state(report.state);
   latched_ = report.stop_latched;
 }
@@ -140,6 +141,11 @@ int EcuLink::wanted_index() const {
 float EcuLink::wanted_value() const {
   const int muscle = own().muscles[static_cast<std::size_t>(next_ / ecu::kParameterCount)];
   return hardware_.muscles[static_cast<std::size_t>(muscle)].parameters.raw(wanted_index());
+}
+
+void EcuLink::begin_upload_anew() {
+  next_ = passes_ = 0;
+  if (asked_ == Asked::kConfiguration) waiting_ = false;
 }
 
 bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
@@ -191,7 +197,7 @@ bool EcuLink::next_write(double now, ecu::Frame& frame) {
 }
 
 void EcuLink::expect_configuration(double now) {
-  next_ = passes_ = 0;
+  begin_upload_anew();
   waiting_ = false;  // what was asked before is answered in vain
   resume_ = now + kRetryPause;
 }
@@ -203,6 +209,8 @@ bool EcuLink::zero_known() const {
 
 void EcuLink::revoke_zero(int channel) {
   zeros_[static_cast<std::size_t>(channel)] = Zero::kRevoked;
+  // The answer that is on its way is to a question about the zero as it was.
+  if (asked_ == Asked::kZeroKnown) waiting_ = false;
 }
 
 bool EcuLink::next_zero_question(double now, ecu::Frame& frame) {

@@ -15,6 +15,7 @@ using ecu::Function;
 using ecu::Operation;
 
 constexpr double kClearGrace = 0.15;   // [s] until ECUs have cleared their latches
+constexpr double kNamingTime = 0.15;   // [s] for a STATE, sent every 0.1 s and when it changes
 constexpr int kIdleNode = -2;          // on the bus, but not used
 constexpr int kRepeats = 3;            // cycles in which disable and clear are sent
 constexpr int kCyclesPerQuestion = 4;  // of what is asked of enabled units
@@ -44,6 +45,12 @@ std::vector<EcuLink> make_links(const Hardware& hardware, Findings& findings) {
     links.emplace_back(hardware, static_cast<int>(e), findings);
   }
   return links;
+}
+
+/// Empty before STATE, which leaves the bus to everybody's measurements, has told it.
+std::string fault_of(const EcuLink& link) {
+  const ecu::Fault fault = link.report().fault;
+  return fault == ecu::Fault::kNone ? "" : ecu::name(fault);
 }
 
 std::string too_old(double age, double limit) {
@@ -203,6 +210,7 @@ std::string RobotDriver::why_not_enable() const {
 RobotDriver::Outcome RobotDriver::start_enable(double now) {
   if (phase_ == Phase::kEnabled) return last_outcome_ = {true, "already enabled"};
   if (phase_ == Phase::kEnabling) return {true, "enabling"};
+  name_stop(HUGE_VAL);
   const std::string reason = why_not_enable();
   if (!reason.empty()) {
     findings_.add(Finding::kEnableRefused, -1, now, reason);
@@ -258,6 +266,7 @@ RobotDriver::Outcome RobotDriver::start_home(double now) {
 RobotDriver::Outcome RobotDriver::clear_faults(double now) {
   const Outcome outcome = supervisor_.clear_faults();
   if (phase_ != Phase::kDisabled) return outcome;
+  name_stop(HUGE_VAL);
   findings_.clear();
   cleared_ = now;
   disable_repeats_ = 0;
@@ -327,8 +336,20 @@ RobotDriver::Outcome RobotDriver::emergency_stop() {
 
 void RobotDriver::stop(Finding finding, int ecu, const std::string& detail) {
   if (phase_ == Phase::kDisabled) return;
-  const std::string what =
-      prefix(ecu) + info(finding).meaning + (detail.empty() ? "" : " (" + detail + ")");
+  const std::string what = reason(finding, ecu, detail);
+  halt(finding, ecu, what);
+  note_stop(finding, what);
+}
+
+void RobotDriver::stop_for_unit(Finding finding, int ecu, double now) {
+  if (phase_ == Phase::kDisabled) return;
+  name_stop(HUGE_VAL);  // one that waits for its name still
+  const std::string what = reason(finding, ecu, fault_of(links_[static_cast<std::size_t>(ecu)]));
+  halt(finding, ecu, what);
+  unnamed_ = Unnamed{finding, ecu, now + kNamingTime, what};
+}
+
+void RobotDriver::halt(Finding finding, int ecu, const std::string& what) {
   home_.abort(what);
   if (phase_ == Phase::kEnabling) finish_enable(false, what);
   disable();
@@ -336,7 +357,18 @@ void RobotDriver::stop(Finding finding, int ecu, const std::string& detail) {
   if (ecu >= 0 && finding != Finding::kEcuStopped)
     supervisor_.fault(links_[static_cast<std::size_t>(ecu)].own().name);
   last_outcome_ = {false, what};
-  note_stop(finding, what);
+}
+
+void RobotDriver::name_stop(double now) {
+  if (!unnamed_) return;
+  const Unnamed stop = *unnamed_;
+  const std::string fault = fault_of(links_[static_cast<std::size_t>(stop.ecu)]);
+  if (fault.empty() && now < stop.until) return;
+  unnamed_.reset();
+  const std::string what = reason(stop.finding, stop.ecu, fault);
+  findings_.add(stop.finding, stop.ecu, last_cycle_, fault);
+  if (last_outcome_.reason == stop.told) last_outcome_ = {false, what};
+  note_stop(stop.finding, what);
 }
 
 void RobotDriver::obey_stop(int ecu) {
@@ -360,6 +392,10 @@ void RobotDriver::revoke_zero(const MuscleHardware& muscle) {
 
 void RobotDriver::note_stop(Finding finding, const std::string& what) {
   stops_.add(std::string(info(finding).name) + ": " + what + "; " + info(finding).remedy);
+}
+
+std::string RobotDriver::reason(Finding finding, int ecu, const std::string& detail) const {
+  return prefix(ecu) + info(finding).meaning + (detail.empty() ? "" : " (" + detail + ")");
 }
 
 std::string RobotDriver::prefix(int ecu) const {
@@ -401,20 +437,20 @@ void RobotDriver::check_ecus(double now) {
     }
     // One that is just being cleared is not found anew.
     if (link.state() == ecu::State::kFault && !(phase_ == Phase::kDisabled && clearing(now))) {
-      findings_.add(Finding::kEcuFault, index, now, ecu::name(link.report().fault));
-      stop(Finding::kEcuFault, index, ecu::name(link.report().fault));
+      findings_.add(Finding::kEcuFault, index, now, fault_of(link));
+      stop_for_unit(Finding::kEcuFault, index, now);
     }
     if (link.stop_latched() && !supervisor_.stop_latched() && now - cleared_ > kClearGrace) {
       findings_.add(Finding::kStopLatched, index, now);
       obey_stop(index);
     }
     if (phase_ == Phase::kEnabled && link.state() != ecu::State::kEnabled) {
-      findings_.add(Finding::kEcuStopped, index, now, ecu::name(link.report().fault));
-      stop(Finding::kEcuStopped, index, ecu::name(link.report().fault));
+      stop_for_unit(Finding::kEcuStopped, index, now);
     }
     // A late enable from a queue, or from somebody else: nothing may be enabled now.
     if (phase_ == Phase::kDisabled && link.state() == ecu::State::kEnabled) disable_repeats_ = 1;
   }
+  name_stop(now);
 }
 
 void RobotDriver::check_muscles(double now) {

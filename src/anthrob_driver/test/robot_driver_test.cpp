@@ -295,6 +295,30 @@ TEST(RobotDriver, AUnitThatCannotBeConfiguredIsNamed) {
   EXPECT_EQ(rig.driver().start_enable(rig.now()).accepted, false);
 }
 
+TEST(RobotDriver, ASecondUploadOfParametersIsNoRefusal) {
+  Rig rig;
+  rig.run(1000);
+  const std::size_t last = rig.hardware.ecus[2].muscles.size() - 1;
+  const auto muscle = static_cast<std::size_t>(rig.hardware.ecus[2].muscles[last]);
+  int uploads = 0;
+  for (int index = 0; index < ecu::kParameterCount; index += 2) {
+    // Somebody else writes a parameter, as anthrob_can_check with another hardware.yaml does: early
+    // or late in the order of the driver's own upload.
+    ecu::ParameterMessage other;
+    other.muscle = static_cast<std::uint8_t>(last);
+    other.index = static_cast<std::uint8_t>(index);
+    other.value = 0.9f * rig.hardware.muscles[muscle].parameters.raw(index);
+    other.write = true;
+    rig.rack.board(2).receive(ecu::encode_parameter_request(other, rig.hardware.ecus[2].node));
+    for (int ms = 0; ms < 200 && rig.driver().link(2).configured(); ++ms) rig.step();
+    uploads += !rig.driver().link(2).configured();  // not where it was 0
+    rig.run(2000);
+    ASSERT_TRUE(rig.driver().link(2).configured()) << index;
+  }
+  EXPECT_GE(uploads, 3);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kConfigurationRefused), 0u);
+}
+
 TEST(RobotDriver, BusLoadIsAsCalculated) {
   Rig rig;
   ASSERT_TRUE(rig.start());

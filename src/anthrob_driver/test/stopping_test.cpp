@@ -56,6 +56,36 @@ TEST(Stopping, AStopFromElsewhereIsCountedAndNamed) {
   EXPECT_TRUE(rig.driver().supervisor().stop_latched());
 }
 
+TEST(Stopping, IsAtOnceThoughTheNameOfTheFaultComesLate) {
+  for (const bool named : {true, false}) {
+    Rig rig;
+    ASSERT_TRUE(rig.start());
+    const int node = rig.hardware.ecus[2].node;
+    const int heated = rig.ms;
+    // STATE has the bus after everybody's measurements.
+    rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+      const bool state =
+          ecu::function_of(f) == static_cast<int>(ecu::Function::kState) && ecu::node_of(f) == node;
+      return state && (!named || rig.ms < heated + 20) ? std::vector<ecu::Frame>{}
+                                                       : std::vector<ecu::Frame>{f};
+    };
+    rig.rack.board(2).peripherals.temperature = 90;
+    rig.run(15);
+    EXPECT_EQ(rig.moving(), 0);
+    EXPECT_EQ(rig.driver().phase(), Phase::kDisabled);
+    EXPECT_EQ(rig.driver().stops().count(), 0u);
+    rig.run(200);
+    EXPECT_EQ(rig.driver().stops().count(), 1u);
+    const std::string last = rig.driver().stops().last();
+    EXPECT_EQ(last.find("ecu_fault: ecu_3: an ECU reports a fault, named in its diagnostics"), 0u)
+        << last;
+    EXPECT_EQ(last.find("(over_temperature)") != std::string::npos, named) << last;
+    EXPECT_EQ(last.find("none"), std::string::npos) << last;
+    const std::string outcome = rig.driver().last_outcome().reason;
+    EXPECT_EQ(outcome.find("(over_temperature)") != std::string::npos, named) << outcome;
+  }
+}
+
 TEST(Stopping, WhatIsNotClearedIsNamed) {
   Rig rig;
   ASSERT_TRUE(rig.start());

@@ -419,6 +419,7 @@ TEST_F(CanCheck, LeavesStopsAndFaultsOfARobotAlone) {
   sleep_robot(0.1);
   robot.call([](Rack& rack) { rack.board(2).peripherals.supply = 12.0; });
   run("--seconds 0.5");
+  EXPECT_NE(said.find("cycles answered by all"), std::string::npos) << said;
   robot.call([](Rack& rack) {
     for (std::size_t e = 0; e < rack.size(); ++e) {
       EXPECT_TRUE(rack.board(e).firmware().stop_latched()) << e;

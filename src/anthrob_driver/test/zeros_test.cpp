@@ -142,6 +142,32 @@ TEST_F(ZerosTest, ATendonThatBrokeTakesTheZeroOfItsMuscleAlong) {
   EXPECT_EQ(refusal(), kNoZero);
 }
 
+TEST_F(ZerosTest, AnAnswerFromBeforeItWasLostDoesNotKeepItFromTheUnit) {
+  rig.restart_driver();
+  // The units' answers about their zeros get lost, so that the driver keeps asking.
+  std::vector<ecu::Frame> lost;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    if (!is_answer(f) || ecu::node_of(f) != rig.hardware.ecus[kUnit].node)
+      return std::vector<ecu::Frame>{f};
+    lost.push_back(f);
+    return std::vector<ecu::Frame>{};
+  };
+  enable();
+  rig.commander_runs = true;
+  rig.volts[4] = 2.0;
+  rig.rack.board(kUnit).peripherals.encoder = Board::Peripherals::Encoder::kCut;
+  for (int ms = 0; ms < 400 && rig.driver().findings().count(Finding::kEncoderDead) == 0; ++ms) {
+    rig.step();
+  }
+  rig.commander_runs = false;
+  ASSERT_EQ(rig.driver().findings().count(Finding::kEncoderDead), 1u);
+  ASSERT_FALSE(lost.empty());
+  rig.bus.tamper = nullptr;
+  rig.stranger.send(lost.back());
+  rig.run(300);
+  EXPECT_FALSE(rig.rack.board(kUnit).firmware().channel(0).zero_known());
+}
+
 TEST_F(ZerosTest, AnEncoderThatDiesTakesTheZeroAlong) {
   enable();
   rig.commander_runs = true;

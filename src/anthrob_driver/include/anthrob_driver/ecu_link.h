@@ -114,6 +114,7 @@ class EcuLink {
   void on_zero_answer(const ecu::ParameterMessage& reply);
   /// @param message its sequence number is filled in
   ecu::Frame ask(Asked what, ecu::ParameterMessage& message, double now);
+  void begin_upload_anew();
   int wanted_index() const;
   float wanted_value() const;
   void pass_over_unasked_zeros();
@@ -140,7 +141,7 @@ class EcuLink {
 
   // Upload of the configuration: one parameter at a time, each read back.
   int next_ = 0;
-  int passes_ = 0;  ///< over all parameters, since the unit started
+  int passes_ = 0;  ///< over all parameters, since it was configured or started
   std::uint8_t sequence_ = 0;
   bool waiting_ = false;  ///< for a reply
   Asked asked_ = Asked::kConfiguration;

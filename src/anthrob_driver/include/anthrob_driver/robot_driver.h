@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,7 @@ class RobotDriver {
   /// What first_step has against a command; empty: nothing.
   std::string too_far(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                       const std::vector<double>& references) const;
+  std::string reason(Finding finding, int ecu, const std::string& detail) const;
   /// The name of an ECU and a colon; nothing for -1.
   std::string prefix(int ecu) const;
 
@@ -117,6 +119,12 @@ class RobotDriver {
   /// @param ecu that failed: it stays in FAULT until cleared; -1: none
   /// @param detail which fault, which tendon; may be empty
   void stop(Finding finding, int ecu, const std::string& detail = "");
+  /// A unit says that it stopped some frames before it says why, so the motors are stopped at once
+  /// and the reason is noted when it comes (name_stop), or when it does not for kNamingTime.
+  void stop_for_unit(Finding finding, int ecu, double now);
+  /// @param now HUGE_VAL: with the name or without
+  void name_stop(double now);
+  void halt(Finding finding, int ecu, const std::string& what);
   /// @param ecu which holds the stop; -1: a frame on the bus
   void obey_stop(int ecu);
   void fail_home(double now);
@@ -139,6 +147,13 @@ class RobotDriver {
   LiveGains gains_;
   std::vector<MuscleWatch> muscles_;
   StopLog stops_;
+  struct Unnamed {
+    Finding finding;
+    int ecu;
+    double until;      ///< [s]
+    std::string told;  ///< meanwhile
+  };
+  std::optional<Unnamed> unnamed_;  ///< a stop whose reason is to be told yet
 
   Phase phase_ = Phase::kDisabled;
   Outcome last_outcome_{true, ""};
