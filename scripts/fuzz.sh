@@ -6,9 +6,8 @@ set -eu
 cd "$(dirname "$0")/.."
 out=build/fuzz
 mkdir -p "$out"
-sources=(src/anthrob_config/src/*.cpp src/anthrob_ecu/src/*.cpp src/anthrob_ecu/src/firmware/*.cpp
-  src/anthrob_driver/src/*.cpp src/anthrob_driver/src/bus/*.cpp src/anthrob_driver/src/emulation/*.cpp
-  src/anthrob_driver/test/fuzz_test.cpp)
+mapfile -t sources < <(find src/anthrob_config/src src/anthrob_ecu/src src/anthrob_driver/src -name '*.cpp')
+sources+=(src/anthrob_driver/test/fuzz_test.cpp)
 includes=(-Isrc/anthrob_config/include -Isrc/anthrob_ecu/include -Isrc/anthrob_driver/include -isystem /usr/include/eigen3)
 # Anew each time: an object that is older than a header would be a bug of its own.
 rm -f "$out"/*
