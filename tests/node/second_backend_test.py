@@ -34,6 +34,7 @@ class SecondBackend(unittest.TestCase):
         self.assertEqual(rosservice.get_service_node('/anthrob/emergency_stop'), '/anthrob/simulator')
         for service in 'disable', 'enable':
             self.assertTrue(rospy.ServiceProxy(service, Trigger)().success, service)
+        self.assertTrue(rospy.get_param('/use_sim_time'))  # it publishes the clock
 
     def check_refused(self, name, why):
         first = where('/anthrob/simulator')

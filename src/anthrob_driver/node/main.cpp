@@ -29,6 +29,9 @@ int main(int argc, char** argv) {
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
     using namespace anthrob::driver;
+    // First of all: before the bus is opened, for our first SYNC would stop the motors of a driver
+    // that is there, and whatever else is wrong, for our launch file may have set its time.
+    const ros::Publisher claim = claim_robot(nh);
     const std::string file = required(settings, "hardware", "the path of hardware.yaml");
     std::string can = "can0";
     take(settings, "can", text_of, can);
@@ -59,8 +62,6 @@ int main(int argc, char** argv) {
     // A clock of another pace comes with the emulated units, which start when we do.
     const std::string no_time = options.pace < 1.0 ? "" : standing_clock(ros::WallDuration(5.0));
     if (!no_time.empty()) throw BadInput("measurements cannot be stamped: " + no_time);
-    // Before the bus is opened: our first SYNC would stop the motors of a driver that is there.
-    const ros::Publisher claim = claim_robot(nh);
     DriverNode node(hardware, options, can, check_stamps, nh);
     node.run();
     return 0;

@@ -112,7 +112,6 @@ int run(const Arguments& arguments) {
   std::unique_ptr<driver::Plant> plant;
   std::unique_ptr<BallJoints> balls;
   std::unique_ptr<RobotClock> clock;
-  if (arguments.clock) clock = std::make_unique<RobotClock>(arguments.pace);
   if (arguments.model.empty()) {
     plant = std::make_unique<driver::TendonPlant>(hardware);
   } else {
@@ -132,10 +131,16 @@ int run(const Arguments& arguments) {
   int tick = 0;
   const auto each_tick = [&] {
     ++tick;
+    // A driver that is refused sends no SYNC: then time and ball joints of this namespace are a
+    // robot's.
+    if (!rack.board(0).firmware().sync_seen()) return;
+    if (arguments.clock && !clock) clock = std::make_unique<RobotClock>(arguments.pace);
     if (clock && tick % kTicksPerClock == 0) clock->publish();
     if (balls && tick % ticks_per_message == 0) balls->publish();
   };
-  const auto quit = [&] { return tool::interrupted() || ((balls || clock) && !ros::ok()); };
+  const auto quit = [&] {
+    return tool::interrupted() || ((balls || arguments.clock) && !ros::ok());
+  };
   driver::Emulator(rack, bus, arguments.pace).run(quit, each_tick);
   return tool::kDone;
 }
@@ -162,7 +167,9 @@ int main(int argc, char** argv) {
   app.add_flag("--homed", arguments.homed,
                "the units know the model's zero; else they want `home`");
   app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
-  app.add_flag("--ros", arguments.ros, "publish the ball joints, as motion capture would");
-  app.add_flag("--clock", arguments.clock, "publish /clock, the robot's time at --pace");
+  app.add_flag("--ros", arguments.ros,
+               "publish the ball joints, as motion capture would, once a driver speaks");
+  app.add_flag("--clock", arguments.clock,
+               "publish /clock, the robot's time at --pace, once a driver speaks");
   return anthrob::tool::run(app, argc, argv, [&] { return anthrob::run(arguments); });
 }

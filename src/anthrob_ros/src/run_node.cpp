@@ -81,7 +81,12 @@ int run_node(int argc, char** argv, const NodeInfo& info, const NodeBody& body) 
     std::cerr << wrong << "\n";
     return kBadInput;
   }
-  ros::init(argc, argv, info.name, info.options);
+  try {
+    ros::init(argc, argv, info.name, info.options);
+  } catch (const ros::Exception& error) {  // a name that is none
+    std::cerr << error.what() << "\n";
+    return kBadInput;
+  }
   if (info.only_one && name_is_taken()) return kBadInput;
   // They outlive those of the body: without one nothing is logged.
   ros::NodeHandle nh, settings("~");

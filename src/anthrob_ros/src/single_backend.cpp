@@ -6,6 +6,9 @@
 #include <sys/socket.h>
 #include <xmlrpcpp/XmlRpc.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "anthrob_config/errors.h"
 
 namespace anthrob {
@@ -50,20 +53,33 @@ bool lives(const std::string& node) {
   return ros::network::splitURI(uri, host, port) && answers(host, port);
 }
 
-}  // namespace
-
-std::string living_publisher(const std::string& topic) {
+/// Alive or not.
+std::vector<std::string> publishers_of(const std::string& topic) {
   XmlRpc::XmlRpcValue args, result, state;
   args[0] = ros::this_node::getName();
-  if (!ros::master::execute("getSystemState", args, result, state, false)) return "";
+  std::vector<std::string> names;
+  if (!ros::master::execute("getSystemState", args, result, state, false)) return names;
   XmlRpc::XmlRpcValue& publishers = state[0];
   for (int i = 0; i < publishers.size(); ++i) {
     if (static_cast<std::string>(publishers[i][0]) != topic) continue;
     XmlRpc::XmlRpcValue& nodes = publishers[i][1];
-    for (int k = 0; k < nodes.size(); ++k) {
-      const std::string node = nodes[k];
-      if (node != ros::this_node::getName() && lives(node)) return node;
-    }
+    for (int k = 0; k < nodes.size(); ++k) names.push_back(nodes[k]);
+  }
+  return names;
+}
+
+/// The launch file of who is refused may have set `/use_sim_time`. Who publishes the clock may have
+/// the name of who is refused.
+void restore_time_of_those_who_run() {
+  const std::vector<std::string> clocks = publishers_of("/clock");
+  ros::param::set("/use_sim_time", std::any_of(clocks.begin(), clocks.end(), lives));
+}
+
+}  // namespace
+
+std::string living_publisher(const std::string& topic) {
+  for (const std::string& node : publishers_of(topic)) {
+    if (node != ros::this_node::getName() && lives(node)) return node;
   }
   return "";
 }
@@ -72,7 +88,7 @@ ros::Publisher claim_robot(ros::NodeHandle& nh) {
   const ros::Publisher claim = nh.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
   const std::string other = living_publisher(claim.getTopic());
   if (other.empty()) return claim;
-  ros::param::set("/use_sim_time", !living_publisher("/clock").empty());
+  restore_time_of_those_who_run();
   throw BadInput(claim.getTopic() + ": " + other +
                  " publishes it already; stop that back end first");
 }
@@ -80,6 +96,7 @@ ros::Publisher claim_robot(ros::NodeHandle& nh) {
 bool name_is_taken() {
   const std::string& name = ros::this_node::getName();
   if (!lives(name)) return false;
+  restore_time_of_those_who_run();
   ROS_FATAL_STREAM(name << " runs already; stop it first, or name this one otherwise");
   return true;
 }

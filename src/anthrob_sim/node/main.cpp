@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   info.only_one = true;
   info.parameters = {
       {"model", "path of a model file (required)"},
-      {"step", "[s] of the simulation, in (0, 0.1] (default: as the model says)"},
+      {"step", "[s] of the simulation, in (0, 0.1] (default: 0.001)"},
       {"rate", "real-time factor, 0: as fast as possible (default: 1)"},
       {"state_rate", "[Hz of simulated time] of states and clock, at least 1 (default: 500)"},
       {"paused", "whether it waits for sim/step or sim/pause (default: false)"},
@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
+    // First of all: whatever else is wrong, our launch file may have set the time of a robot.
+    const ros::Publisher claim = claim_robot(nh);
     const std::string file = required(settings, "model", "the path of a model file");
     LoadOptions load;
     take(settings, "step", number_of, load.step);
@@ -42,7 +44,6 @@ int main(int argc, char** argv) {
                      ": expected a number >= 1 [Hz]");
     const auto model = load_robot_model(file, load);
     for (const std::string& remark : model->remarks) ROS_WARN_STREAM(remark);
-    const ros::Publisher claim = claim_robot(nh);
     SimulatorNode node(model, options, nh);
     node.run();
     return 0;

@@ -22,6 +22,7 @@ ros::Publisher claim_robot(ros::NodeHandle& nh);
 /// A launch file that is started twice gives two nodes one name, and ROS ends the first when the
 /// second one registers, in motion or not. To be called between ros::init and the first NodeHandle,
 /// which registers.
+/// Of back ends only, for `/use_sim_time` is put right as by claim_robot.
 /// @return whether a living node has this node's name; the log says so then
 bool name_is_taken();
 

@@ -53,6 +53,8 @@ class Firmware {
   State state() const { return machine_.state(); }
   Fault fault() const { return fault_; }
   bool stop_latched() const { return machine_.stop_latched(); }
+  /// Whether a host was ever there.
+  bool sync_seen() const { return sync_seen_; }
   const Channel& channel(int muscle) const { return channels_[static_cast<std::size_t>(muscle)]; }
 
  private:
@@ -81,7 +83,7 @@ class Firmware {
   std::uint8_t sequence_ = 0;
   std::uint8_t refused_frames_ = 0;
   std::uint32_t ticks_ = 0;
-  bool tested_ = false;  ///< by itself, after power-up
+  bool tested_ = false;            ///< by itself, after power-up
   int sync_age_ = kWatchdogTicks;  ///< [ticks]
   int reference_age_ = 0;
   bool sync_seen_ = false, sync_pending_ = false, reference_taken_ = false, state_changed_ = true;
