@@ -41,8 +41,15 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw std::runtime_error(folder_ + ": cannot be made: " + error.message());
+  const auto remove_parts = [&](const std::string& of) {
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const bool wanted = of.empty() || entry.path().stem() == of;
+      if (wanted && is_part(entry.path())) fs::remove(entry.path());
+    }
+  };
   const std::string session = file("session.yaml");
   if (!fs::exists(session)) {
+    remove_parts("session.yaml");  // killed while it was written
     if (!fs::is_empty(folder_))
       throw BadInput(folder_ + ": holds no session.yaml; expected an empty or a new folder");
     write_file_atomically(session, session_text());
@@ -64,9 +71,7 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   expect("robot", model_->name);
   expect("time", time_);
   if (node.has("rest")) baseline_ = read_sample(node.at("rest"), *model_);
-  for (const auto& entry : fs::directory_iterator(folder_)) {
-    if (is_part(entry.path())) fs::remove(entry.path());
-  }
+  remove_parts("");
 }
 
 std::string RecordingStore::session_text() const {
@@ -111,6 +116,8 @@ void RecordingStore::finish(const std::string& name, DatasetMeta meta, const Sam
   meta.robot = model_->name;
   meta.other["sample"] = sample_yaml(*model_, sample) + "\n";
   keep_on_disk(partial_bag(name));
+  // Of an earlier run, should there be one: it must not describe this bag.
+  fs::remove(file(name + ".yaml"));
   fs::rename(partial_bag(name), file(name + ".bag"));
   write_file_atomically(file(name + ".yaml"), meta_text(meta));
 }

@@ -112,6 +112,14 @@ TEST_F(RecordingStoreTest, AForceThatNoSensorMeasuresIsLeftOut) {
   EXPECT_EQ(again.baseline()->position[2], 0.25);
 }
 
+TEST_F(RecordingStoreTest, GoesOnWhereItWasKilledAtItsVeryBeginning) {
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/session.yaml.part4711") << "# A sess";
+  RecordingStore(folder, model, protocol, "true");
+  EXPECT_FALSE(std::filesystem::exists(folder + "/session.yaml.part4711"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/session.yaml"));
+}
+
 TEST_F(RecordingStoreTest, AFolderBelongsToOneSession) {
   RecordingStore(folder, model, protocol, "true");
   Protocol other = protocol;
@@ -130,7 +138,10 @@ TEST_F(RecordingStoreTest, SaysWhatIsWrongWithAFolder) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder + "/precious.txt") << "of somebody else";
   EXPECT_THROW(RecordingStore(folder, model, protocol, "true"), BadInput);
-  std::filesystem::remove(folder + "/precious.txt");
+  std::filesystem::rename(folder + "/precious.txt", folder + "/precious.part");
+  EXPECT_THROW(RecordingStore(folder, model, protocol, "true"), BadInput);
+  EXPECT_TRUE(std::filesystem::exists(folder + "/precious.part"));
+  std::filesystem::remove(folder + "/precious.part");
   std::ofstream(folder + "/session.yaml") << "protocol: [\n";
   EXPECT_THROW(RecordingStore(folder, model, protocol, "true"), BadInput);
   std::ofstream(folder + "/session.yaml") << "";
