@@ -152,6 +152,9 @@ class Camera:
     def __init__(self, aravis, name, exposure):
         self.name = name
         self.camera = aravis.Camera.new(name)
+        # From the corner, as the node sets it: pixels of another region would be another camera's.
+        _, _, width, height = self.camera.get_region()
+        self.camera.set_region(0, 0, width, height)
         self.camera.set_pixel_format(aravis.PIXEL_FORMAT_MONO_8)
         self.camera.set_exposure_time(1e6 * exposure)
         self.camera.set_trigger('Software')

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
@@ -59,10 +60,10 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 1);
   if (!ros::service::waitForService("sim/set_state", ros::Duration(-1))) return false;
   auto state = state_of(*model, step->q, equilibrium.position);
-  if (!ros::service::call("sim/set_state", state) || !state.response.success) {
-    if (!ros::ok()) return false;
-    throw anthrob::BadInput("sim/set_state: " + state.response.message);
-  }
+  const bool answered = ros::service::call("sim/set_state", state);
+  if (!ros::ok()) return false;
+  if (!answered) throw std::runtime_error("sim/set_state: no answer; does the simulator run?");
+  if (!state.response.success) throw anthrob::BadInput("sim/set_state: " + state.response.message);
   while (ros::ok() && commands.getNumSubscribers() == 0) ros::WallDuration(0.05).sleep();
   if (!ros::ok()) return false;
   commands.publish(

@@ -54,6 +54,9 @@ void write(const std::string& folder, const mocap::StereoRig& rig) {
 int calibrate(const Arguments& arguments) {
   const auto board = mocap::Board::parse(arguments.board, arguments.square);
   const auto left = by_key(arguments.left), right = by_key(arguments.right);
+  for (const auto& [key, file] : right) {
+    if (left.count(key) == 0) std::cout << file << ": no partner in " << arguments.left << "\n";
+  }
   std::vector<mocap::BoardView> views;
   int width = 0, height = 0;
   for (const auto& [key, file] : left) {

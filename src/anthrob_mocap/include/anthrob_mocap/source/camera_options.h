@@ -10,8 +10,8 @@ namespace mocap {
 struct CameraOptions {
   std::string name[2];        ///< left, right: as the library calls them
   int width = 0, height = 0;  ///< [pixel] as calibrated
-  double rate = 60.0;         ///< [Hz] of triggers, or of cameras that run freely
-  double exposure = 0.0005;   ///< [s]
+  double rate = 60.0;  ///< [Hz] of triggers, or of cameras that run freely (dc1394: their own)
+  double exposure = 0.0005;  ///< [s]
   /// Empty: the first of its source's. aravis: software, free, or a line of the camera ("Line0");
   /// dc1394: external, free.
   std::string trigger;
