@@ -318,6 +318,8 @@ void Simulation::move_skeleton() {
   if (!posture_.empty()) {
     tree_.place(posture_, heading_, arriving_);
     skeleton_.set_bodies(arriving_);
+    // Whole turns of a hinge are not seen in its bodies: they are counted from here.
+    q_ = posture_;
     return;
   }
   if (joint_loads_.wanted()) joint_loads_.before(skeleton_);
@@ -402,6 +404,7 @@ void Simulation::sense() {
 }
 
 ecu::Measurement Simulation::reading(int muscle) const {
+  check_muscle(muscle);
   const auto m = static_cast<std::size_t>(muscle);
   return readings_.empty() ? muscles_[m].truth() : readings_.muscle(m);
 }

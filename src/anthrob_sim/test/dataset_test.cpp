@@ -232,6 +232,12 @@ TEST(Series, InterpolatesAndHolds) {
   EXPECT_EQ(s.held_at(0.999), 5.0);
   EXPECT_EQ(s.held_at(1.0), 7.0);
   EXPECT_EQ(s.held_at(-5.0), 5.0);
+  EXPECT_EQ(s.acting_at(-5.0), 5.0);
+  EXPECT_EQ(s.acting_at(9.0), 3.0);
+  const Series late{{0.2, 1.0}, {5.0, 7.0}};
+  EXPECT_EQ(late.acting_at(0.0), 0.0);
+  EXPECT_EQ(late.acting_at(0.2), 5.0);
+  EXPECT_EQ(Series().acting_at(1.0), 0.0);
 }
 
 TEST(HeldSeries, SaysWhatTheSeriesHoldsAndWhenItChanges) {

@@ -268,12 +268,25 @@ TEST(Simulation, WhatIsNotThereIsRefused) {
   Simulation sim(anthrob_model("I"));
   const int nobody = sim.model().find_muscle("nobody");
   EXPECT_THROW(sim.muscle(nobody), BadInput);
+  EXPECT_THROW(sim.reading(nobody), BadInput);
   EXPECT_THROW(sim.moment_arms(nobody), BadInput);
   EXPECT_THROW(sim.link_pose(99), BadInput);
   EXPECT_THROW(sim.measured_joint_position(2), BadInput);
   EXPECT_THROW(sim.read_velocity(-1), BadInput);
   EXPECT_THROW(sim.joint_effort(2), BadInput);
   EXPECT_THROW(sim.joint_load(2), BadInput);
+}
+
+TEST(Simulation, AnImposedHingeArrivesAlsoBeyondHalfATurn) {
+  Simulation sim(load_robot_model(testing_support::config("two_muscle_rig/model_I.yaml")));
+  for (const double angle : {3.5, -8.0}) {
+    sim.impose_posture({angle});
+    sim.step();
+    EXPECT_NEAR(sim.configuration()[0], angle, 1e-9);
+    sim.step();
+    EXPECT_NEAR(sim.configuration()[0], angle, 1e-9);
+    EXPECT_NEAR(sim.read_velocity(0), 0.0, 1e-6);
+  }
 }
 
 TEST(Simulation, DoesNotAllocateWhileStepping) {

@@ -148,23 +148,23 @@ void AxisExperiment::compare(const std::shared_ptr<const RobotModel>& model, Sta
   const auto split = static_cast<std::size_t>(std::lround(step_ / model->step));
   const auto steps = steps_per_bin_ * split;
   struct Input {
-    int joint;
+    const Axis* axis;
     HeldSeries effort, load;
-    bool loaded;
   };
   std::vector<Input> inputs;
   for (const Axis& axis : axes_) {
-    inputs.push_back(
-        {axis.joint, HeldSeries(axis.effort), HeldSeries(axis.load), !axis.load.empty()});
+    inputs.push_back({&axis, HeldSeries(axis.effort), HeldSeries(axis.load)});
   }
   for (std::size_t b = 0; b < bins_; ++b) {
     place(sim, b);
     for (std::size_t s = 0; s < steps; ++s) {
       const double time = (static_cast<double>(b * steps + s)) * model->step + 1e-9;
       for (Input& input : inputs) {
-        if (input.effort.advance(time)) sim.apply_effort(input.joint, input.effort.value());
-        if (input.loaded && input.load.advance(time)) {
-          sim.apply_load(input.joint, input.load.value());
+        if (input.effort.advance(time)) {
+          sim.apply_effort(input.axis->joint, input.axis->effort.acting_at(time));
+        }
+        if (!input.axis->load.empty() && input.load.advance(time)) {
+          sim.apply_load(input.axis->joint, input.axis->load.acting_at(time));
         }
       }
       sim.step();

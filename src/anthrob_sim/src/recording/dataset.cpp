@@ -255,6 +255,12 @@ double Series::held_at(double time) const {
   return values[next == 0 ? 0 : next - 1];
 }
 
+double Series::acting_at(double time) const {
+  constexpr double kAtFirst = 0.1;  // [s]
+  if (empty()) return 0.0;
+  return time >= t.front() || t.front() <= kAtFirst ? held_at(time) : 0.0;
+}
+
 bool HeldSeries::advance(double time) {
   const std::vector<double>& t = series_->t;
   const std::size_t before = passed_;

@@ -208,9 +208,12 @@ std::vector<double> Replay::start_inputs() const {
     inputs.insert(inputs.end(),
                   {input.imposed ? 1.0 : 0.0, static_cast<double>(input.mode), input.value});
   }
-  if (!muscles_.empty()) return inputs;
   for (const JointInput& joint : joints_) {
-    inputs.push_back(joint.position.empty() ? 0.0 : joint.position.values.front());
+    if (muscles_.empty()) {
+      inputs.push_back(joint.position.empty() ? 0.0 : joint.position.values.front());
+    } else {
+      inputs.insert(inputs.end(), {joint.effort.acting_at(0.0), joint.load.acting_at(0.0)});
+    }
   }
   return inputs;
 }
@@ -226,6 +229,8 @@ double share_of_way(long step, long steps) {
 
 Replay::Settled Replay::settle(Simulation& sim) const {
   const auto steps = std::lround(meta_.settle_s / sim.step_length());
+  const bool stands = mode_ != ReplayMode::kPosture && !muscles_.empty();
+  load_joints(sim, stands);
   if (mode_ == ReplayMode::kPosture) {
     start_where_recorded(sim, steps);
     return {sim.snapshot(), sim.snapshot()};
@@ -265,6 +270,19 @@ Replay::Settled Replay::settle(Simulation& sim) const {
   for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
   settled.last = sim.snapshot();
   return settled;
+}
+
+void Replay::load_joints(Simulation& sim, bool as_recorded) const {
+  const auto& joints = sim.model().skeleton->joints;
+  for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
+    if (joints[j].driven) sim.apply_effort(j, 0.0);
+    if (joints[j].type != JointType::kBall) sim.apply_load(j, 0.0);
+  }
+  if (!as_recorded) return;
+  for (const JointInput& input : joints_) {
+    if (joints[input.joint].driven) sim.apply_effort(input.joint, input.effort.acting_at(0.0));
+    if (!input.load.empty()) sim.apply_load(input.joint, input.load.acting_at(0.0));
+  }
 }
 
 void Replay::start(Simulation& sim, const Settled& settled) const {
@@ -387,7 +405,8 @@ void Replay::Run::drive(double time) {
     if (imposes_positions(replay_.mode_)) {
       impose(input, time);
     } else if (replay_.mode_ == ReplayMode::kVoltage) {
-      if (!input.voltage.empty() && muscle.voltage.advance(now)) {
+      // Until then it stays as it has settled.
+      if (!input.voltage.empty() && muscle.voltage.advance(now) && now >= input.voltage.t.front()) {
         sim_.apply_voltage(input.muscle, muscle.voltage.value());
       }
     } else {
@@ -401,10 +420,10 @@ void Replay::Run::drive(double time) {
   for (JointRun& joint : joints_) {
     const JointInput& input = *joint.input;
     if (joint.driven && !input.effort.empty() && joint.effort.advance(now)) {
-      sim_.apply_effort(input.joint, joint.effort.value());
+      sim_.apply_effort(input.joint, input.effort.acting_at(now));
     }
     if (!input.load.empty() && joint.load.advance(now)) {
-      sim_.apply_load(input.joint, joint.load.value());
+      sim_.apply_load(input.joint, input.load.acting_at(now));
     }
   }
 }

@@ -51,6 +51,9 @@ struct Series {
   double at(double time) const;
   /// The last sample not later than `time`, or the first.
   double held_at(double time) const;
+  /// Of efforts and loads: as held_at(), but nothing, 0, before a first sample that comes later
+  /// than 0.1 s.
+  double acting_at(double time) const;
 };
 
 /// Series::held_at() for times that only go on, as a run asks for them: it looks for the next

@@ -95,6 +95,8 @@ class Replay {
   };
   RecordedStart recorded_start() const;
   void start_where_recorded(Simulation& sim, long steps) const;
+  /// Efforts and loads of all joints: those that act when the recording begins, or none.
+  void load_joints(Simulation& sim, bool as_recorded) const;
 
   void read_joint(const JointModel& joint, int index, const Dataset& recording);
   /// Recorded joint positions, between two rows on the straight way.
