@@ -32,13 +32,16 @@ class EccentricSpindle final : public MotorWrapper {
       : MotorWrapper(std::move(motor)), offset_(offset) {}
 
   void advance_with(double input, double load, double torque, StateView state) const override {
-    inner().advance_with(input, load * lever(state) / spindle_radius(), torque, state);
+    inner().advance_with(input, load * lever(angle(state)), torque, state);
+  }
+  void impose(double position, double velocity, double load, StateView state) const override {
+    inner().impose(position, velocity, load * lever(angle(state)), state);
   }
   double tendon_length(StateView state) const override {
-    return inner().tendon_length(state) - offset_ * (1.0 - std::cos(read(state).position));
+    return inner().tendon_length(state) - offset_ * (1.0 - std::cos(angle(state)));
   }
   double winding_speed(StateView state) const override {
-    return inner().winding_speed(state) * lever(state) / spindle_radius();
+    return inner().winding_speed(state) * lever(angle(state));
   }
   double position_for(double tendon_length) const override {
     double position = inner().position_for(tendon_length);
@@ -47,11 +50,16 @@ class EccentricSpindle final : public MotorWrapper {
     }
     return position;
   }
+  double holding_input(double position, double load) const override {
+    return inner().holding_input(position, load * lever(position));
+  }
 
  private:
-  double lever(StateView state) const {
-    return spindle_radius() + offset_ * std::sin(read(state).position);
-  }
+  /// Of the spindle: with backlash it lags behind the motor.
+  double angle(StateView state) const { return inner().position_for(inner().tendon_length(state)); }
+  /// Of the tendon, in units of the radius.
+  double lever(double angle) const { return 1.0 + offset_ * std::sin(angle) / spindle_radius(); }
+
   double offset_;
 };
 

@@ -294,6 +294,11 @@ TEST(Catalogue, AnEffectOfOnesOwnComesFromALibrary) {
                 0.3652 - 0.0065 * position - 0.001 * (1.0 - std::cos(position)), 1e-12);
     EXPECT_NEAR(actuator.position_for(actuator.tendon_length(state)), position, 1e-9);
   }
+  // A tension holds by its lever, -dl/dposition.
+  const auto plain = load_robot_model(base);
+  const double lever = 0.0065 + 0.001 * std::sin(0.7);
+  EXPECT_NEAR(actuator.holding_input(0.7, 40.0),
+              plain->muscles[0].actuator->holding_input(0.7, 40.0 * lever / 0.0065), 1e-12);
 }
 
 TEST(Catalogue, ALibraryIsLookedForFromTheModelFile) {
@@ -332,6 +337,17 @@ TEST(Catalogue, BadEntriesAreRefusedWithOneLine) {
             "model.yaml:3: effects.0.width: wide: expected a finite number [rad]");
   EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, place: flexor, depth: 1}\n"),
             "model.yaml:3: effects.0.depth: unknown key: no parameter of gear_backlash");
+  const TemporaryRobot slide(
+      "", "extends: " + config("driven_axis/model_I.yaml") +
+              "\neffects:\n  - {id: joint_coulomb, place: axis, torque: high}\n");
+  try {
+    slide.load();
+    ADD_FAILURE() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("torque: high: expected a finite number [N]"),
+              std::string::npos)
+        << error.what();
+  }
   // A ball joint's cable is at rest where the joint is.
   try {
     robot_with(kArm, {{"cable_drag", "shoulder", {{"stiffness", 0.1}, {"rest", 0.2}}}});

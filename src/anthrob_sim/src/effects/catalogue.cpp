@@ -41,7 +41,11 @@ EffectSetting read_entry(const ConfigNode& node, const RobotModel& robot) {
     if (!is_parameter(key)) continue;
     const EffectParameter* parameter = effect->info().find(key);
     if (!parameter) value.fail("unknown key: no parameter of " + instance.id);
-    instance.parameters[key] = value.as_number(Bounds::any(), parameter->unit);
+    std::string unit = parameter->unit;
+    for (const EffectParameter& there : parameters) {
+      if (there.name == parameter->name) unit = there.unit;  // of a slide: N, not Nm
+    }
+    instance.parameters[key] = value.as_number(Bounds::any(), unit);
   }
   return EffectSetting(*effect, instance, parameters, node);
 }
