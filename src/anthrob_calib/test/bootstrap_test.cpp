@@ -109,6 +109,32 @@ TEST(Bootstrap, IntervalsOfNoiseCoverTheTruth) {
   EXPECT_NEAR(sum / formula, 1.1, 0.2);
 }
 
+/// 40 bins of noise in a recording of two seconds, and one bin more or not.
+class Glimpse final : public Experiment {
+ public:
+  explicit Glimpse(std::size_t bins) {
+    bin_ = 0.05;
+    duration_ = 2.0;
+    channels_ = {{"hinge", "position", "rad", 0, 0, bins, 0.0}};
+    present_.assign(bins, 1);
+  }
+  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
+};
+
+TEST(Bootstrap, OneBlockOfTimeIsAsUncertainAsItsNoise) {
+  const CounterRandom random(1);
+  for (const std::size_t bins : {std::size_t{40}, std::size_t{41}}) {
+    Fitted fitted = fit_with([&](std::size_t b) { return random.normal(b); });
+    fitted.sensitivity.setOnes(static_cast<Eigen::Index>(bins), 1);
+    fitted.residual.conservativeResize(static_cast<Eigen::Index>(bins));
+    const Experiments experiments = {std::make_shared<Glimpse>(bins)};
+    const auto interval = bootstrap_intervals(fitted, experiments, {}, 1)[0];
+    const double noise = 2.0 * 1.96 / std::sqrt(static_cast<double>(bins));
+    EXPECT_GE(interval.second - interval.first, 0.999 * noise) << bins;
+    EXPECT_LE(interval.second - interval.first, 1.5 * noise) << bins;
+  }
+}
+
 TEST(Bootstrap, NothingToBeFoundHasNoIntervals) {
   Fitted fitted = fit_with([](std::size_t b) { return speed_at(b); });
   fitted.unknowns.clear();
@@ -228,6 +254,23 @@ TEST(Judge, CorrelatedNoiseIsDividedOutOnce) {
                         taken_off = inflated.block_scores({0.5f * noise}, 0);
   ASSERT_EQ(as_is.cols(), taken_off.cols());
   EXPECT_LT((as_is - taken_off).cwiseAbs().maxCoeff(), 1e-4 * as_is.cwiseAbs().maxCoeff());
+}
+
+TEST(Judge, WhatIsMeasuredInEverySecondBinIsAsCorrelatedAsItIs) {
+  const Experiments experiments = {std::make_shared<LongSwing>()};
+  Eigen::VectorXf factors = Eigen::VectorXf::Zero(334), residual = factors, measured(167);
+  const CounterRandom random(5);
+  float memory = 0.0f;
+  for (Eigen::Index b = 0; b < 167; ++b) {
+    memory = 0.8f * memory + static_cast<float>(random.normal(static_cast<std::uint64_t>(b)));
+    measured[b] = residual[2 * b] = memory;
+    factors[2 * b] = 1.0f;
+  }
+  const double length = correlation_length(measured);
+  ASSERT_GT(length, 4.0);
+  // Each independent one is worth half a nat.
+  const double sum = Judge(experiments, factors, {}).block_scores({residual}, 0).sum();
+  EXPECT_NEAR(sum, -0.5 * 167.0 / length, 1e-3 * 167.0);
 }
 
 TEST(CertainGap, IsInBothAndInBlockAfterBlockOrClearlyLarge) {

@@ -102,6 +102,8 @@ TEST(CommonLaw, OneLawAtSeveralPlacesMayBeEverywhere) {
   ASSERT_EQ(effects.size(), 1u);
   EXPECT_EQ(effects[0].place, "all");
   EXPECT_NEAR(effects[0].parameters.at("offset"), 4.0, 0.1);
+  // What it explains is there without it.
+  EXPECT_GT(instead->without.squaredNorm(), 2.0f * instead->tested.test.squaredNorm());
 }
 
 TEST(CommonLaw, WhatIsAtTwoPlacesOnlyIsNotEverywhere) {

@@ -179,6 +179,12 @@ TEST(Repeats, OfAnAxisAreLaidOverItsMotion) {
   const auto robot = load_robot_model(axis.model_file);
   EXPECT_EQ(lateness_of_repeat(*robot, first, again), 0.0);
   EXPECT_NEAR(lateness_of_repeat(*robot, first, begun_earlier(again, 400000000)), 0.4, 0.03);
+  // Bins are of whole steps: here of 0.03 s, not of 0.025.
+  Question question = axis;
+  question.repeats = {begun_earlier(again, 400000000)};
+  const Laboratory laboratory = prepare(Evaluator(axis.model_file, {}, 0.01, 1), question);
+  ASSERT_NEAR(laboratory.train[0]->bin(), 0.03, 1e-12);
+  EXPECT_NEAR(static_cast<double>(laboratory.lags.at(0)), 0.4 / 0.03, 1.5);
 }
 
 TEST(Repeats, MayLackAMessageAndNotBePlayedAtAnotherSpeed) {

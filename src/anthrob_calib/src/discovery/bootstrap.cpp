@@ -16,6 +16,7 @@ namespace {
 /// What the true law may do otherwise than the catalogue's of the same name, as a share of what it
 /// does: one standard deviation.
 constexpr double kOtherLaw = 0.05;
+constexpr std::size_t kFewBlocks = 5;  ///< of time: hardly tell how much noise is in them
 
 /// Normal equations of some rows.
 struct Block {
@@ -33,11 +34,13 @@ std::vector<Block> blocks_of_time(const Fitted& fitted, const Experiments& exper
     const std::size_t per_block =
         std::max<std::size_t>(1, static_cast<std::size_t>(Judge::kBlock / experiment->bin()));
     const std::size_t bins = experiment->channels().front().count;
-    for (std::size_t from = 0; from < bins; from += per_block) {
+    // A shorter rest belongs to the last block.
+    const std::size_t own = std::max<std::size_t>(1, (bins + per_block / 2) / per_block);
+    for (std::size_t k = 0; k < own; ++k) {
       Block block(fitted.sensitivity.cols());
+      const std::size_t from = k * per_block, to = k + 1 < own ? from + per_block : bins;
       for (const Channel& channel : experiment->channels()) {
-        const std::size_t count =
-            std::min(per_block, channel.count - std::min(from, channel.count));
+        const std::size_t count = std::min(to, channel.count) - std::min(from, channel.count);
         if (count == 0) continue;
         const auto at = static_cast<Eigen::Index>(offset + channel.offset + from);
         const auto rows = static_cast<Eigen::Index>(count);
@@ -183,11 +186,15 @@ std::vector<std::pair<double, double>> bootstrap_intervals(
     const Fitted& fitted, const Experiments& experiments,
     const std::vector<MeasuredVariable>& variables, std::uint64_t seed) {
   if (fitted.unknowns.empty()) return {};
-  const std::vector<double> time = resample(fitted, blocks_of_time(fitted, experiments), seed);
+  const std::vector<Block> blocks = blocks_of_time(fitted, experiments);
+  std::vector<double> time = resample(fitted, blocks, seed);
   const std::vector<double> regimes =
       resample(fitted, blocks_of_regimes(fitted, experiments, variables), seed);
   const std::vector<double> noise = reach_of_noise(fitted);
   const std::vector<double> other_law = reach_of_other_law(fitted, noise);
+  for (std::size_t i = 0; blocks.size() < kFewBlocks && i < time.size(); ++i) {
+    time[i] = std::max(time[i], noise[i]);
+  }
   std::vector<std::pair<double, double>> intervals;
   for (std::size_t i = 0; i < time.size(); ++i) {
     const Unknown& u = fitted.unknowns[i];

@@ -71,7 +71,7 @@ std::optional<CommonLaw::Instead> CommonLaw::instead(std::size_t law, const Test
   Naming::Odds odds = bench_.naming.odds(alone.test, with.test);
   odds.probability = allowing_for_scatter(odds.probability, bench_.settling, base, alone, with);
   const double gain = base.fit.cost - alone.fit.cost;
-  return Instead{std::move(alone), odds, gain};
+  return Instead{std::move(alone), odds, gain, base.test};
 }
 
 }  // namespace discovery

@@ -249,10 +249,14 @@ class Search {
     if (!instead || !instead->is_clearly_better()) return;
     if (question_.comment) question_.comment("  it is " + candidate.name());
     const Variant apart = base_.fit.variant;
-    NamedEffect united = std::move(named_[parts.front().effect]);
+    NamedEffect united = named_[parts.front().effect];
+    for (std::size_t p = 1; p < parts.size(); ++p) {
+      united.found.evidence += named_[parts[p].effect].found.evidence;
+    }
     for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
       remove(part->effect, instead->tested);
     }
+    note_what_it_shows_in(test_judge_, instead->without, base_.test, united);
     if (name_instead(candidate, instead->odds, united.found)) {
       separate(base_.fit.variant, apart, united.found);
     }

@@ -50,6 +50,14 @@ Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, co
   }
 }
 
+Eigen::VectorXf Judge::measured(const Eigen::VectorXf& residual, const Run& run) const {
+  std::vector<float> values;
+  for (Eigen::Index b = run.offset; b < run.offset + run.count; ++b) {
+    if (whitener_[b] > 0.0f) values.push_back(residual[b]);
+  }
+  return Eigen::Map<Eigen::VectorXf>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
 Eigen::MatrixXd Judge::block_scores(const std::vector<Eigen::VectorXf>& residuals,
                                     std::size_t best) const {
   Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(residuals.size()),
@@ -57,13 +65,12 @@ Eigen::MatrixXd Judge::block_scores(const std::vector<Eigen::VectorXf>& residual
   // A channel's spread is one number over all its components and recordings.
   std::map<std::string, std::array<double, 3>> left;  // squares, bins, correlation-weighted bins
   for (const Run& run : runs_) {
-    const Eigen::VectorXf own = residuals[best].segment(run.offset, run.count);
+    const Eigen::VectorXf own = measured(residuals[best], run);
+    const auto bins = static_cast<double>(own.size());
     auto& sums = left[run.name];
-    const double measured =
-        static_cast<double>((whitener_.segment(run.offset, run.count).array() > 0.0f).count());
     sums[0] += own.cast<double>().squaredNorm();
-    sums[1] += measured;
-    sums[2] += measured * correlation_length(own);
+    sums[1] += bins;
+    sums[2] += bins * correlation_length(own);
   }
   for (const Run& run : runs_) {
     const auto& sums = left[run.name];

@@ -84,17 +84,18 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
       }
       const long begin = std::max(0L, -lag);
       const long end = std::min(static_cast<long>(a.count), static_cast<long>(b.count) - lag);
-      Eigen::VectorXf both = Eigen::VectorXf::Zero(std::max(0L, end - begin));
-      for (Eigen::Index i = 0; i < both.size(); ++i) {
-        const auto k = a.offset + static_cast<std::size_t>(begin + i);
-        const auto l = b.offset + static_cast<std::size_t>(begin + i + lag);
+      std::vector<float> both;  // where both were measured
+      for (long i = begin; i < end; ++i) {
+        const auto k = a.offset + static_cast<std::size_t>(i);
+        const auto l = b.offset + static_cast<std::size_t>(i + lag);
         if (!first.present()[k] || !repeat->present()[l]) continue;
-        both[i] = (base[static_cast<Eigen::Index>(k)] - other[static_cast<Eigen::Index>(l)]) /
-                  std::sqrt(2.0f);
-        moments[a.name()].squares += double(both[i]) * both[i];
+        both.push_back((base[static_cast<Eigen::Index>(k)] - other[static_cast<Eigen::Index>(l)]) /
+                       std::sqrt(2.0f));
+        moments[a.name()].squares += double(both.back()) * both.back();
         moments[a.name()].count += 1.0;
       }
-      lengths[a.name()].push_back(correlation_length(both));
+      lengths[a.name()].push_back(correlation_length(
+          Eigen::Map<Eigen::VectorXf>(both.data(), static_cast<Eigen::Index>(both.size()))));
     }
   }
   for (auto& [name, scale] : scales) {

@@ -161,7 +161,9 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   make(question.train, laboratory.train);
   make(question.test, laboratory.test);
   make(question.repeats, laboratory.repeats);
-  for (const double seconds : late) laboratory.lags.push_back(std::lround(seconds / options.bin));
+  // Whole steps of the simulation make a bin a little longer or shorter than was asked for.
+  const double bin = laboratory.train.front()->bin();
+  for (const double seconds : late) laboratory.lags.push_back(std::lround(seconds / bin));
   // A driven axis is simulated in no time.
   laboratory.quick = excerpt(robot, question.train, laboratory.train,
                              robot.muscles.empty() ? kSlowLook : kQuickLook);

@@ -30,6 +30,7 @@ class CommonLaw {
     Tested tested;
     Naming::Odds odds;
     double gained;
+    Eigen::VectorXf without;  ///< residual held out where none of them is
 
     bool is_better() const;
     /// So much that it is to be named in their stead.

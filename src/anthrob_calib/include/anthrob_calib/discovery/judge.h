@@ -52,6 +52,9 @@ class Judge {
     std::vector<std::size_t> block;  ///< of every bin
   };
 
+  /// Of a run, without the bins in which nothing was measured.
+  Eigen::VectorXf measured(const Eigen::VectorXf& residual, const Run& run) const;
+
   const Eigen::VectorXf& whitener_;
   std::vector<Run> runs_;
   std::size_t blocks_ = 0;
