@@ -176,6 +176,18 @@ TEST_F(Score, WhatWouldShowIsComparedWithTheSizeOfItsUnit) {
   EXPECT_EQ(rate(result, "of all, invisible too", "count"), 3.0);
 }
 
+TEST_F(Score, ReportsThatAreNowhereAreNoAnswers) {
+  truth("nothing", "null", {}, 0.0);
+  const std::string at = folder_.string();
+  const std::string command = std::string(ANTHROB_SCORE) + " --truths " + at +
+                              "/sealed --reports " + at + "/misspelt >" + at + "/log 2>&1";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  std::ifstream log(at + "/log");
+  const std::string said{std::istreambuf_iterator<char>(log), {}};
+  EXPECT_EQ(said, at + "/misspelt: no folder; expected NAME/report.json in it\n");
+}
+
 TEST_F(Score, AMedianHasAnInterval) {
   for (int i = 0; i < 20; ++i) {
     const std::string name = "case_" + std::to_string(i);

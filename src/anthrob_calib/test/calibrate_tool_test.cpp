@@ -56,6 +56,7 @@ class CalibrateTool : public testing::Test {
       plan.force_noise = 0.1;
       record_simulation(robot, plan).save(path("eq/E" + std::to_string(int(to))));
       plan.kind = "trajectory";
+      plan.duration = 1.2;  // a recording of its own
       record_simulation(robot, plan).save(path("tr/E1_to_E" + std::to_string(int(to))));
     }
     write_config("c.yaml", "equilibria", 0.006);
@@ -338,6 +339,12 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
   fs::copy(path("eq/E2"), path("held_out/of_them"), fs::copy_options::recursive);
   expect(config + out + " --data " + path("eq") + " --validation " + path("held_out"),
          "held_out: of_them is E2 of " + path("eq"));
+  // Whatever is said of how it begins.
+  Dataset other = Dataset::load(path("eq/E2"));
+  other.meta.settle_s += 1.0;
+  other.save(path("held_out_2/of_them"));
+  expect(config + out + " --data " + path("eq") + " --validation " + path("held_out_2"),
+         "held_out_2: of_them is E2 of " + path("eq"));
   fs::create_directories(path("doubled"));
   fs::copy(path("eq/E2"), path("doubled/E2"), fs::copy_options::recursive);
   write_bag(Dataset::load(path("eq/E2")), path("doubled/again.bag"));

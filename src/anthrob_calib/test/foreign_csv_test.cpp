@@ -57,6 +57,7 @@ TEST_F(ForeignCsv, ColumnsGetNamesAndUnits) {
   EXPECT_EQ(position.values, (std::vector<double>{0.0015, -0.02}));
   EXPECT_EQ(dataset.series("axis/effort").values, (std::vector<double>{-5.0, -7.0, -9.0}));
   EXPECT_EQ(dataset.meta.robot, "driven_axis");
+  EXPECT_EQ(dataset.meta.settle_s, DatasetMeta().settle_s);  // unless the map says otherwise
   EXPECT_EQ(dataset.tables.size(), 1u);
 }
 

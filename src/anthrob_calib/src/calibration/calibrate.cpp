@@ -43,17 +43,18 @@ void add(const MeasuredRun& run, resume::Fingerprint& fingerprint) {
 /// A run that is fitted tells nothing about runs that are not, under whatever name.
 void keep_apart(const std::vector<MeasuredRun>& validation, const std::string& validation_folder,
                 const std::vector<MeasuredRun>& runs, const std::string& folder) {
-  const auto value_of = [](const MeasuredRun& run) {
+  // The recording is the same, or what is fitted of it: a copy may lack columns.
+  const auto used_of = [](const MeasuredRun& run) {
     resume::Fingerprint fingerprint;
     add(run, fingerprint);
     return fingerprint.value();
   };
-  std::map<std::uint64_t, std::string> fitted;
-  for (const MeasuredRun& run : runs) fitted.emplace(value_of(run), run.name);
   for (const MeasuredRun& run : validation) {
-    const auto same = fitted.find(value_of(run));
-    if (same == fitted.end()) continue;
-    throw BadInput(validation_folder + ": " + run.name + " is " + same->second + " of " + folder +
+    const auto same = std::find_if(runs.begin(), runs.end(), [&](const MeasuredRun& fitted) {
+      return run.content == fitted.content || used_of(run) == used_of(fitted);
+    });
+    if (same == runs.end()) continue;
+    throw BadInput(validation_folder + ": " + run.name + " is " + same->name + " of " + folder +
                    ", which is fitted; expected recordings of its own for --validation");
   }
 }

@@ -336,6 +336,7 @@ std::vector<MeasuredRun> read_runs(const std::string& folder,
     leave_out_unanswered(recording);
     runs.push_back(read_run(recording, model, options));
     runs.back().remarks = recording.remarks;
+    runs.back().content = same->first;
   }
   return runs;
 }

@@ -122,7 +122,8 @@ ForeignColumns ForeignColumns::load(const std::string& file) {
       columns.meta.kind != "rig") {
     node.at("kind").fail_expected("equilibrium, trajectory or rig");
   }
-  columns.meta.settle_s = node.number_or("settle_s", 0.0, Bounds::nonnegative(), "s");
+  columns.meta.settle_s =
+      node.number_or("settle_s", columns.meta.settle_s, Bounds::nonnegative(), "s");
   if (node.has("notes")) columns.meta.other["notes"] = node.at("notes").to_yaml();
   const std::string separator = node.text_or("separator", ",");
   if (separator.size() != 1) node.at("separator").fail_expected("one character");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct MeasuredRun {
   double settle = 5.0;               ///< at `start`, before the recording began [s]
   double lead = 0.0;                 ///< still there, from then to the first command [s]
   double duration = 0.0;             ///< from then on [s]
+  std::uint64_t content = 0;         ///< resume::content_fingerprint of its recording
   std::vector<std::string> remarks;  ///< of its recording
 };
 
