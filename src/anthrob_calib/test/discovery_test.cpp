@@ -18,7 +18,7 @@
 #include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/discovery/model_fit.h"
 #include "anthrob_calib/discovery/preparation.h"
-#include "anthrob_calib/discovery/report.h"
+#include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "arm.h"

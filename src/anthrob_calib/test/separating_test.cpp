@@ -6,8 +6,8 @@
 #include <set>
 
 #include "anthrob_calib/discovery/closed_loop.h"
-#include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/discovery/simulated_recording.h"
+#include "anthrob_calib/report/discovery_report.h"
 #include "made_recording.h"
 
 namespace anthrob {

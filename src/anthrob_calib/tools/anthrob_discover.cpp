@@ -6,8 +6,8 @@
 
 #include "anthrob_calib/discovery/closed_loop.h"
 #include "anthrob_calib/discovery/progress.h"
-#include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/identification/output_files.h"
+#include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_config/extended_files.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/unanswered.h"

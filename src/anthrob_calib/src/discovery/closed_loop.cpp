@@ -4,8 +4,8 @@
 #include <exception>
 #include <filesystem>
 
-#include "anthrob_calib/discovery/report.h"
 #include "anthrob_calib/discovery/simulated_recording.h"
+#include "anthrob_calib/report/discovery_report.h"
 
 namespace anthrob {
 namespace discovery {

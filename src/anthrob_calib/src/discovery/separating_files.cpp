@@ -3,7 +3,7 @@
 #include <regex>
 #include <sstream>
 
-#include "anthrob_calib/discovery/report.h"
+#include "anthrob_calib/report/discovery_report.h"
 
 namespace anthrob {
 namespace discovery {

@@ -7,4 +7,10 @@ namespace anthrob {
 /// As text of a page, whatever it holds.
 std::string escaped(const std::string& text);
 
+/// A cell of a table that holds this text.
+std::string cell(const std::string& text);
+
+/// A long passage that is unfolded by a click on its title; nothing if it is empty.
+std::string folded(const std::string& title, const std::string& content);
+
 }  // namespace anthrob

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "anthrob_calib/discovery/report.h"
+#include "anthrob_calib/report/discovery_report.h"
 
 namespace anthrob {
 namespace discovery {
@@ -230,7 +230,8 @@ std::string interval_text(const FoundParameter& p) {
 std::string cap_remark(const Answer& answer, const Question& question) {
   if (answer.effects.size() < static_cast<std::size_t>(question.max_effects)) return "";
   return "the search ended with the " + std::to_string(question.max_effects) +
-         " effects that --max-effects lets be named; no further one was looked for";
+         (question.max_effects == 1 ? " effect" : " effects") +
+         " that --max-effects allows; no further one was looked for";
 }
 
 std::string alternative_text(const Alternative& alternative, const Answer& answer) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "anthrob_calib/discovery/discovery.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// The verdict in one or two sentences of a page.
+std::string answer_sentences(const Answer& answer, const Question& question);
+
+/// What the reader can do now, as a list.
+std::string next_steps(const Answer& answer);
+
+/// Laws that earned their place and were not added, with what speaks against them; empty: none.
+std::string improbable_sentence(const Answer& answer);
+
+/// ", with offset_u at the end of its range ..."; empty if no parameter is.
+std::string limit_clause(const std::string& parameter);
+
+/// "0.05 Nm", not to be broken between lines; without unit where there is none.
+std::string with_unit(double value, const std::string& unit);
+
+/// "0.04 to 0.06", the interval.
+std::string range_text(const FoundParameter& parameter);
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,179 @@
+#include "anthrob_calib/report/discovery_maps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/report/discovery_report.h"
+#include "anthrob_calib/report/discovery_sentences.h"
+#include "anthrob_calib/report/html.h"
+#include "anthrob_sim/report/svg_figure.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+std::string colour_of(double gap) {
+  if (gap < 0.0) return "#ffffff";
+  const double heat = std::clamp(std::log(std::max(gap, 1.0)) / std::log(20.0), 0.0, 1.0);
+  char text[16];
+  std::snprintf(text, sizeof(text), "#ff%02x%02x", static_cast<int>(255 - 190 * heat),
+                static_cast<int>(255 - 215 * heat));
+  return text;
+}
+
+std::string heat_cell(double gap) {
+  return "<td style=\"background:" + colour_of(gap) + "\">" +
+         (gap < 0.0 ? std::string() : short_number(gap)) + "</td>";
+}
+
+/// Gaps of one channel from left to right. Only a fall tells: what has grown is grey, not red.
+std::string seam_cells(const SeamGap& seam) {
+  std::string html;
+  double left = HUGE_VAL;
+  for (const double gap : {seam.commands, seam.voltages, seam.positions, seam.postures}) {
+    if (gap > left) {
+      html += "<td style=\"background:#eeeeee\">" + short_number(gap) + "</td>";
+    } else {
+      html += heat_cell(gap);
+    }
+    if (gap >= 0.0) left = gap;
+  }
+  return html;
+}
+
+/// Of the places that disagree; elsewhere a curve through noise says nothing.
+std::vector<Dependence> dependences_where(const Answer& answer) {
+  std::vector<Dependence> found;
+  for (const Dependence& d : answer.dependences) {
+    const bool disagrees =
+        std::any_of(answer.where.begin(), answer.where.end(), [&](const Place& place) {
+          return d.channel.rfind(place.place + "/" + place.channel, 0) == 0;
+        });
+    if (disagrees) found.push_back(d);
+  }
+  return found;
+}
+
+std::string dependence_figures(const std::vector<Dependence>& dependences) {
+  std::vector<const Dependence*> strongest;
+  for (const Dependence& d : dependences) {
+    if (d.share > Dependence::kTelling) strongest.push_back(&d);
+  }
+  std::sort(strongest.begin(), strongest.end(),
+            [](const Dependence* a, const Dependence* b) { return a->share > b->share; });
+  std::string html;
+  for (std::size_t i = 0; i < strongest.size() && i < 3; ++i) {
+    const Dependence& d = *strongest[i];
+    SvgFigure figure(d.channel + " depends on " + d.word);
+    auto& panel = figure.add_panel(d.variable + " (" + d.word + ")", "simulated minus measured");
+    SvgFigure::Line line{"", d.at, d.curve};
+    line.marks = SvgFigure::Line::kFilled;
+    line.error = d.error;
+    panel.lines.push_back(line);
+    html += figure.render() +
+            "<p class=\"small\">In blocks of time that it was not "
+            "fitted to, the curve predicts " +
+            short_number(100.0 * d.share) + " % of the square, beyond a constant.</p>\n";
+  }
+  return html;
+}
+
+}  // namespace
+
+std::string where_table(const Answer& answer) {
+  if (answer.where.empty()) return "<p>Nowhere beyond the noise.</p>\n";
+  std::string html =
+      "<table><tr><th>place</th><th>channel</th><th>rmse</th><th>floor</th><th>share</th><th>"
+      "significance</th><th>subsystem</th><th>depends on</th></tr>\n";
+  for (std::size_t i = 0; i < answer.where.size() && i < 12; ++i) {
+    const Place& place = answer.where[i];
+    html +=
+        "<tr>" + cell(place.place) + cell(place.channel) + cell(with_unit(place.rmse, place.unit)) +
+        cell(with_unit(place.noise_floor, place.unit)) + cell(with_unit(100.0 * place.share, "%")) +
+        cell(std::isnan(place.significance) ? std::string("too little data")
+                                            : with_unit(place.significance, "sigma")) +
+        cell(place.subsystem) + cell(place.regime) + "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string regime_map(const Answer& answer) {
+  struct Row {
+    std::string place;
+    std::array<const RegimeGap*, 4> by{};
+    double largest = 0.0;
+  };
+  std::vector<Row> rows;
+  for (const RegimeGap& gap : answer.regimes) {
+    if (rows.empty() || rows.back().place != gap.place) rows.push_back({gap.place});
+    Row& row = rows.back();
+    row.by[gap.word == "speed"        ? 0
+           : gap.word == "wrap angle" ? 2
+           : gap.word == "time"       ? 3
+                                      : 1] = &gap;
+    row.largest = std::max(row.largest, *std::max_element(gap.gap.begin(), gap.gap.end()));
+  }
+  if (rows.empty()) return "";
+  const std::string levels = "<th>low</th><th>middle</th><th>high</th>";
+  std::string html =
+      "<p>Gap of each place (recalibrated model, all channels of the place). The recordings are "
+      "cut "
+      "into thirds: by speed (low is backwards), by load (of a joint: by posture), by the angle "
+      "over "
+      "which the tendon wraps, and by time.</p>\n<table><tr><th rowspan=\"2\">place</th><th "
+      "colspan=\"3\">speed"
+      "</th><th colspan=\"3\">load or posture</th><th colspan=\"3\">wrap angle</th>"
+      "<th colspan=\"3\">time</th></tr>\n<tr>" +
+      levels + levels + levels + levels + "</tr>\n";
+  for (const Row& row : rows) {
+    if (row.largest < kFaintGap) continue;
+    html += "<tr><th>" + escaped(row.place) + "</th>";
+    for (const RegimeGap* by : row.by) {
+      for (std::size_t level = 0; level < kLevels; ++level) {
+        html += heat_cell(by ? by->gap[level] : -1.0);
+      }
+    }
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string seam_map(const Answer& answer) {
+  if (answer.seams.empty()) return "";
+  std::string html =
+      "<p>Gap of each channel when the recalibrated model is replayed four times: from its "
+      "commands; "
+      "from measured voltages; from measured motor positions; and, for forces, from measured motor "
+      "positions and postures (what noise of the postures adds is subtracted). Where a gap "
+      "disappears from one column to the next, its cause is in the part that measurements "
+      "replaced. "
+      "A force that is still red in the last column is wrong because of something between motor "
+      "and "
+      "force sensor. A gap that grows (grey) says nothing: motors fed with voltages drift away "
+      "from "
+      "the measured ones.</p>\n<table>"
+      "<tr><th>place / channel</th><th>commands</th><th>voltages</th><th>positions</th><th>"
+      "postures</th></tr>\n";
+  for (const SeamGap& seam : answer.seams) {
+    const double largest = std::max({seam.commands, seam.voltages, seam.positions, seam.postures});
+    if (largest < kFaintGap) continue;
+    html += "<tr><th>" + escaped(seam.place + "/" + seam.channel) + "</th>";
+    html += seam_cells(seam) + "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string dependences_of_gaps(const Answer& answer) {
+  return dependence_figures(dependences_where(answer));
+}
+
+std::string dependences_of_rest(const Answer& answer) {
+  return dependence_figures(answer.remaining);
+}
+
+}  // namespace discovery
+}  // namespace anthrob

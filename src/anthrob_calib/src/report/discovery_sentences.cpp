@@ -1,0 +1,189 @@
+#include "anthrob_calib/report/discovery_sentences.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/discovery/verdict.h"
+#include "anthrob_calib/report/discovery_report.h"
+#include "anthrob_calib/report/html.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+std::string place_text(const std::string& name, const std::string& place) {
+  return "<b>" + escaped(name) + "</b> at <b>" + escaped(place) + "</b>";
+}
+
+/// Why the rest has no name.
+std::string nameless(const Answer& answer, const Question& question) {
+  if (answer.effects.size() >= static_cast<std::size_t>(question.max_effects)) {
+    return "Something else is missing, beyond the " + std::to_string(question.max_effects) +
+           (question.max_effects == 1 ? " effect" : " effects") + " that --max-effects allows. ";
+  }
+  if (!question.effects.empty()) {
+    return "Something is missing, and it is none of the effects that --effects lists. ";
+  }
+  return "Something is missing that no law of the catalogue, as fitted here, explains" +
+         std::string(answer.effects.empty() ? ". " : " completely. ");
+}
+
+/// Channels that are more than noise at the end, where none of them is so for certain.
+std::string uncertain_gaps(const Answer& answer) {
+  constexpr std::size_t kMost = 5;
+  std::vector<std::pair<double, std::string>> gaps;
+  for (const auto& [name, gap] : answer.per_channel) {
+    if (gap.after > kRealGap) gaps.emplace_back(-gap.after, name);
+  }
+  if (gaps.empty()) return "";
+  std::sort(gaps.begin(), gaps.end());
+  std::string text = " Above " + short_number(kRealGap) + " times the floor, but not certain: ";
+  for (std::size_t i = 0; i < gaps.size() && i < kMost; ++i) {
+    text +=
+        (i > 0 ? ", " : "") + escaped(gaps[i].second) + " (" + short_number(-gaps[i].first) + ")";
+  }
+  if (gaps.size() > kMost) text += " and " + std::to_string(gaps.size() - kMost) + " more";
+  return text + ".";
+}
+
+/// An effect with its size and probability, as a sentence.
+std::string named(const FoundEffect& effect) {
+  std::string text = place_text(effect.name, effect.place);
+  if (!effect.parameters.empty()) {
+    const FoundParameter& p = effect.parameters.front();
+    text += " (" + escaped(p.name) + " " + escaped(with_unit(p.value, p.unit)) + ", " +
+            (p.known ? "taken as known" : "95 % interval " + range_text(p)) + ")";
+  }
+  return text + ", " + probability_text(effect.probability) + ". ";
+}
+
+/// Whether nothing but one rival speaks against an effect.
+bool has_equal(const FoundEffect& effect) {
+  constexpr double kAsMuch = 0.8, kTogether = 0.7;
+  if (effect.rivals.empty()) return false;
+  const double rival = effect.rivals.front().probability;
+  return rival >= kAsMuch * effect.probability && effect.probability + rival >= kTogether;
+}
+
+/// What was found: that, one of two, or something like that.
+std::string found(const Answer& answer) {
+  std::string probable, either, alike;
+  for (const FoundEffect& effect : answer.effects) {
+    if (effect.probability >= 0.5) {
+      probable += named(effect);
+    } else if (has_equal(effect)) {
+      const Rival& rival = effect.rivals.front();
+      either += "The model misses one of two effects, which these data cannot tell apart: " +
+                named(effect) + "Or " + place_text(rival.id, rival.place) + ", " +
+                probability_text(rival.probability) + ". ";
+    } else {
+      alike += named(effect);
+    }
+  }
+  if (!probable.empty()) probable = "The model misses: " + probable;
+  if (!alike.empty()) alike = "The model misses this or something similar: " + alike;
+  return probable + either + alike;
+}
+
+std::string alternatives(const Answer& answer) {
+  std::string text;
+  for (const Alternative& other : answer.alternatives) {
+    const FoundEffect &one = answer.effects[other.instead_of[0]],
+                      &two = answer.effects[other.instead_of[1]];
+    text += "Or, instead of " + escaped(one.name) + " and " + escaped(two.name) + ", " +
+            place_text(other.id, other.place) + " alone, " + probability_text(other.probability) +
+            " against those two. ";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string with_unit(double value, const std::string& unit) {
+  return short_number(value) + (unit == "1" ? "" : "\u00a0" + unit);
+}
+
+std::string range_text(const FoundParameter& p) {
+  return short_number(p.low) + " to " + short_number(p.high);
+}
+
+std::string limit_clause(const std::string& parameter) {
+  return parameter.empty() ? ""
+                           : ", with " + escaped(parameter) +
+                                 " at the end of its range, as where a law stands in for another";
+}
+
+std::string improbable_sentence(const Answer& answer) {
+  std::string text;
+  for (const Improbable& law : answer.improbable) {
+    text += (text.empty() ? "" : "; ") + escaped(law.name) + " at " + escaped(law.place) + ", " +
+            probability_text(law.probability) + limit_clause(law.at_limit);
+    if (law.shows_in.empty()) continue;
+    text += ", which leaves " + short_number(100.0 * law.left) + " % of the squared gap of " +
+            escaped(law.shows_in);
+  }
+  return text.empty() ? text : "Tried, but too improbable to be added: " + text + ". ";
+}
+
+std::string answer_sentences(const Answer& answer, const Question& question) {
+  if (answer.verdict == "no_missing_effect") {
+    return "No missing effect found: with its ordinary parameters fitted, the model has no certain "
+           "gap to the held-out recordings (all channels together " +
+           short_number(answer.test.recalibrated) + " times the floor)." + uncertain_gaps(answer);
+  }
+  if (answer.verdict == "effects_found") {
+    const bool falls = answer.test.after < answer.test.recalibrated;
+    return found(answer) + alternatives(answer) +
+           (answer.effects.size() > 1 ? "With them" : "With it") + ", the held-out gap " +
+           (falls ? "falls" : "does not fall: it goes") + " from " +
+           short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
+           " times the floor; " + short_number(100.0 * answer.remaining_share) +
+           " % of the squared gap above the noise remain." +
+           (answer.remaining_description == kNoCertainGap ? uncertain_gaps(answer) : "");
+  }
+  std::string offers;
+  if (!answer.effects.empty()) {
+    offers = "The catalogue offers: ";
+    for (const FoundEffect& effect : answer.effects) offers += named(effect);
+  }
+  return nameless(answer, question) + offers + alternatives(answer) +
+         (answer.effects.empty() ? improbable_sentence(answer) : "") + "The held-out gap is " +
+         short_number(answer.test.after) +
+         " times the floor (recalibrated model: " + short_number(answer.test.recalibrated) +
+         "). What remains: " + escaped(answer.remaining_description) + ".";
+}
+
+std::string next_steps(const Answer& answer) {
+  std::vector<std::string> steps;
+  if (!answer.effects.empty()) {
+    steps.push_back(
+        "<code>model.yaml</code> in this folder is the examined model with what was found: "
+        "simulate, control and calibrate with it.");
+  }
+  for (std::size_t e = 0; e < answer.effects.size(); ++e) {
+    const FoundEffect& effect = answer.effects[e];
+    if (effect.rivals.empty() || effect.separating_recording.targets.empty()) continue;
+    steps.push_back("To tell " + escaped(effect.name) + " from its rivals, record <code>" +
+                    separating_file(e + 1) + "</code> on the robot and run discovery again.");
+  }
+  if (answer.verdict == "no_missing_effect") {
+    steps.push_back(
+        "See below, <i>What these recordings can show</i>, how large each effect would have to be "
+        "to show: smaller ones are not excluded.");
+  }
+  if (answer.verdict == "unexplained") {
+    steps.push_back(
+        "See below where the gap is and what it depends on. Check columns, signs and delays of the "
+        "recordings and the ranges of ordinary parameters; otherwise the law is one that the "
+        "catalogue lacks.");
+  }
+  std::string list;
+  for (const std::string& step : steps) list += "<li>" + step + "</li>\n";
+  return list.empty() ? list : "<ul>\n" + list + "</ul>\n";
+}
+
+}  // namespace discovery
+}  // namespace anthrob
