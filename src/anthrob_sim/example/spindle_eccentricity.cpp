@@ -11,10 +11,10 @@ using namespace anthrob;
 EffectInfo describe() {
   EffectInfo i;
   i.id = "spindle_eccentricity";
-  i.name = "Spindle that runs out of true";
+  i.name = "Eccentric spindle";
   i.description =
-      "The spindle sits beside its axis: the length that is wound in swings about that of a round "
-      "spindle once a turn.";
+      "The spindle's centre is not on its axis: the wound length oscillates once per turn around "
+      "that of a centred spindle.";
   i.equation = "l_T = l_T0 - r_S position - offset (1 - cos position)";
   i.source = "an example";
   i.where = "MUSCLE | all";

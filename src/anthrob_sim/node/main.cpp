@@ -9,17 +9,18 @@
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "simulator";
-  info.purpose = "The simulated robot: physics, sensors and controllers, in place of the hardware.";
+  info.purpose =
+      "The simulated robot: simulates physics, sensors and controllers instead of the hardware.";
   info.only_one = true;
   info.parameters = {
       {"model", "path of a model file (required)"},
-      {"step", "[s] of the simulation, in (0, 0.1] (default: 0.001)"},
+      {"step", "simulation step [s], in (0, 0.1] (default: 0.001)"},
       {"rate", "real-time factor, 0: as fast as possible (default: 1)"},
-      {"state_rate", "[Hz of simulated time] of states and clock, at least 1 (default: 500)"},
-      {"paused", "whether it waits for sim/step or sim/pause (default: false)"},
-      {"auto_enable", "whether the motors are enabled from the start (default: true)"},
+      {"state_rate", "rate of states and clock [Hz of simulated time], at least 1 (default: 500)"},
+      {"paused", "start paused and wait for sim/step or sim/pause (default: false)"},
+      {"auto_enable", "enable the motors at the start (default: true)"},
       {"command_timeout",
-       "[s] after which a silent commander counts as gone, 0: never (default: 0.5)"},
+       "motors stop after this time without commands [s], 0: never (default: 0.5)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;

@@ -168,7 +168,8 @@ bool SimulatorNode::on_home(std_srvs::Trigger::Request&, std_srvs::Trigger::Resp
     enabled = enabled && supervisor_.follows_references(static_cast<int>(m));
   }
   response.success = enabled;
-  response.message = enabled ? "the model's zero holds" : "not enabled: call enable first";
+  response.message =
+      enabled ? "zero positions are those of the model" : "not enabled: call enable first";
   if (enabled) supervisor_.restart_watch(sim_.time());
   return true;
 }
@@ -231,7 +232,7 @@ bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
   } else if (!wait_for_command(request.command_stamp)) {
     response.message = std::string("no ") +
                        (supervisor_.muscles().empty() ? "joint_effort_command" : "muscle_command") +
-                       " with the stamp asked for came within 1 s";
+                       " with the requested stamp arrived within 1 s";
   } else if (!failure_.empty()) {
     response.message = failure_ + "; call sim/reset";
   } else {
@@ -248,8 +249,9 @@ bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   last_command_stamp_ = ros::Time();
   publish(true);
   response.success = true;
-  response.message = options_.paused ? "at rest, paused; sim/pause false lets time go on"
-                                     : "at rest; simulated time goes on";
+  response.message = options_.paused
+                         ? "at rest, paused; call sim/pause with data: false to continue"
+                         : "at rest; simulated time continues";
   return true;
 }
 
@@ -318,7 +320,7 @@ bool SimulatorNode::advance(int steps) {
   } catch (const NumericalFailure& failure) {
     failure_ = failure.what();
     options_.paused = true;
-    ROS_ERROR_STREAM(failure_ << "; paused: sim/reset brings it back, then sim/pause false");
+    ROS_ERROR_STREAM(failure_ << "; paused: call sim/reset, then sim/pause with data: false");
     return false;
   }
 }

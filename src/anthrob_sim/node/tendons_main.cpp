@@ -8,7 +8,7 @@
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "tendons";
-  info.purpose = "Tendons of a robot as markers for RViz.";
+  info.purpose = "Publishes the tendons of a robot as markers for RViz.";
   info.parameters = {{"model", "path of a model file (required)"}};
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const std::string file = anthrob::required(settings, "model", "the path of a model file");

@@ -42,7 +42,7 @@ int DrivenJoints::find(const std::string& name) const {
 
 std::string DrivenJoints::check(const std::vector<std::string>& names,
                                 const std::vector<double>& efforts) const {
-  if (names.empty()) return "no joint is named";
+  if (names.empty()) return "expected the name of at least one joint";
   if (efforts.size() != names.size()) {
     return std::to_string(names.size()) + " names, " + std::to_string(efforts.size()) +
            " efforts: expected equal numbers";
@@ -52,7 +52,7 @@ std::string DrivenJoints::check(const std::vector<std::string>& names,
     const auto here = names.begin() + static_cast<std::ptrdiff_t>(i);
     if (find(names[i]) < 0) return who + "no driven joint of that name";
     if (std::find(names.begin(), here, names[i]) != here) return who + "named twice";
-    if (!std::isfinite(efforts[i])) return who + "effort is not finite";
+    if (!std::isfinite(efforts[i])) return who + "expected a finite effort";
   }
   return "";
 }

@@ -86,7 +86,7 @@ void Placement::set_muscle(const std::string& name, double position) {
   }
   const MuscleModel& muscle = model_.muscles[index];
   if (!muscle.actuator->takes_input() && position != 0.0) {
-    throw BadInput(who + ": " + text(position) + ": is passive and stays at position 0");
+    throw BadInput(who + ": " + text(position) + ": expected 0, because the muscle is passive");
   }
   const double limit = muscle.limits.position;
   const double highest = std::min(limit + kGive, muscle.actuator->highest_position());

@@ -222,7 +222,7 @@ const Case kCases[] = {
      "- {point: [0.05, 0, 0.6], body: base}",
      "- {point: [0.05, 0, 0.6], body: base, friction: {law: smooth_stribeck, static: 0.2, kinetic: "
      "0.1, stribeck_velocity: 0.001, steepness: 10}}",
-     {"path.0.friction", "nothing slides at the ends"}},
+     {"path.0.friction", "the tendon is fixed at both ends"}},
     {"same point twice", false, "[0.05, 0, 0.4]", "[0.05, 0, 0.6]", {"path.1", "same place"}},
     {"point of two numbers",
      false,
@@ -388,7 +388,7 @@ const Case kCases[] = {
      "{law: smooth_stribeck, static: 0.195, kinetic: 0.156, stribeck_velocity: 0.001, steepness: "
      "10}",
      "{law: sticking, static: 0, kinetic: 0.156, stribeck_velocity: 0.001, presliding: 1e-5}",
-     {"model.yaml", "eyelet_friction.static", "more than 0"}},
+     {"model.yaml", "eyelet_friction.static", "a number > 0, because 'kinetic' is"}},
     {"planar joint",
      true,
      "type=\"revolute\"",
@@ -450,7 +450,8 @@ TEST(BadFiles, OnlyMotorsTakeControllers) {
     load_robot_model((folder / "model.yaml").string());
     ADD_FAILURE() << "accepted";
   } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("only a motor takes one"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("only a motor can have a controller"),
+              std::string::npos)
         << error.what();
   }
   std::filesystem::remove_all(folder);

@@ -187,7 +187,7 @@ TEST(Cogging, ComesToRestUpToTheLimitAndIsRefusedBeyond) {
   } catch (const BadInput& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find("effect cogging at flexor: cosine: -0.006969: expected an amplitude below "
-                        "0.0069 Nm with so many periods and this step"),
+                        "0.0069 Nm, for this number of periods and this simulation step"),
               std::string::npos)
         << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);

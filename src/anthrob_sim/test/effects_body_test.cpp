@@ -203,9 +203,10 @@ TEST(Payload, WhatNoBodyCanLackIsRefused) {
     return std::string("(accepted)");
   };
   EXPECT_EQ(lacking(0.1), "(accepted)");
-  EXPECT_NE(lacking(0.2).find("expected a number that leaves the body principal moments of inertia "
-                              "> 0, none larger than the other two together [kg]"),
-            std::string::npos)
+  EXPECT_NE(
+      lacking(0.2).find("expected a number for which the body keeps principal moments of inertia "
+                        "> 0, none larger than the other two together [kg]"),
+      std::string::npos)
       << lacking(0.2);
 }
 

@@ -129,7 +129,8 @@ TEST(Catalogue, EveryEffectHasAPlaceOnSomeRobotAndADocumentation) {
   }
   EXPECT_EQ(placed, kIds);
   for (const std::string& id : kIds) {
-    EXPECT_NE(text.str().find("`" + id + "`"), std::string::npos) << id << " in docs/effects.md";
+    const std::string row = "| `" + id + "` | " + find_effect(id)->info().name + " | ";
+    EXPECT_NE(text.str().find(row), std::string::npos) << row << " in docs/effects.md";
   }
 }
 
@@ -359,27 +360,28 @@ TEST(Catalogue, BadEntriesAreRefusedWithOneLine) {
         << error.what();
   }
   EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, place: biceps, width: 0.01}\n"),
-            "model.yaml:3: effects.0.place: biceps: expected a place for it on this robot (MUSCLE "
-            "| all): flexor extensor all");
+            "model.yaml:3: effects.0.place: biceps: expected a place of this effect on this robot "
+            "(MUSCLE | all): flexor extensor all");
   EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, width: 0.01}\n"),
             "model.yaml:3: effects.0: key 'place' is missing");
-  EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, place: flexor}\n"),
-            "model.yaml:3: effects.0.place: flexor: expected at least one of the effect's sizes "
-            "beside it; it has: width");
+  EXPECT_EQ(
+      refusal("effects:\n  - {id: gear_backlash, place: flexor}\n"),
+      "model.yaml:3: effects.0.place: flexor: expected at least one size of the effect in the "
+      "same entry; sizes: width");
   EXPECT_EQ(refusal("effects:\n  - {id: payload, place: arm, mass: 0.1}\n"
                     "  - {id: payload, place: arm, mass: 0.2}\n"),
-            "model.yaml:4: effects.1.place: arm: expected every effect once at a place; this one "
-            "is there already");
+            "model.yaml:4: effects.1.place: arm: expected an effect only once per place; another "
+            "entry has the same id and place");
   EXPECT_EQ(refusal("effects:\n  - {id: gear_backlash, place: flexor, width: 0.1}\n"
                     "  - {id: gear_backlash, place: all, width: 0.1}\n"),
-            "model.yaml:3: effects.0.place: flexor: expected this effect once a muscle; at `all` "
-            "it is on this one already");
+            "model.yaml:3: effects.0.place: flexor: expected this effect only once per muscle; the "
+            "entry at 'all' already includes this muscle");
   EXPECT_EQ(refusal("effects:\n  - {id: payload, place: arm, mass: -3}\n"),
-            "model.yaml:3: effects.0.mass: -3: expected a number that leaves the body some mass "
-            "[kg]");
+            "model.yaml:3: effects.0.mass: -3: expected a number for which the body keeps a "
+            "mass > 0 [kg]");
   EXPECT_EQ(refusal("effects:\n  - {id: gear_efficiency, place: all, loss: -0.9}\n"),
-            "model.yaml:3: effects.0.loss: -0.9: expected a number that leaves the efficiency at "
-            "most 1");
+            "model.yaml:3: effects.0.loss: -0.9: expected a number for which the efficiency "
+            "is at most 1");
   EXPECT_NE(refusal("effects:\n  - {id: wrapping_surface, place: flexor, radius: 0.09}\n")
                 .find("inside the surface at rest"),
             std::string::npos);

@@ -226,7 +226,7 @@ TEST_F(MeshFile, NoTriangles) {
   expect_refusal(write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "points.obj");
 }
 TEST_F(MeshFile, CutAway) {
-  expect_refusal(write("box.stl", binary_stl(box())), "nothing of the mesh",
+  expect_refusal(write("box.stl", binary_stl(box())), "no part of the mesh",
                  ", part: [{point: [0, 0.1, 0], normal: [0, 1, 0]}]");
 }
 TEST_F(MeshFile, BadKeys) {

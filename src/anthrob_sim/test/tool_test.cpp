@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "anthrob_sim/core/errors.h"
 #include "support.h"
 
 namespace anthrob {
@@ -50,6 +51,38 @@ TEST(Tool, SaysNothingAboutASoundModel) {
   testing::internal::CaptureStderr();
   tool::load_model(app, testing_support::config("anthrob/model_III.yaml"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(FindModelFile, TakesANameInTheRobotsFolderOrThePathOfAFile) {
+  const std::string folder = testing_support::config("anthrob");
+  const std::string file = folder + "/model_III.yaml";
+  EXPECT_EQ(tool::find_model_file(folder, "III"), file);
+  // With the path of a file, the robot is not looked up.
+  EXPECT_EQ(tool::find_model_file(folder, file), file);
+  EXPECT_EQ(tool::find_model_file("no_such_robot", file), file);
+}
+
+std::string refusal_of(const std::string& robot, const std::string& model) {
+  try {
+    return tool::find_model_file(robot, model) + " (accepted)";
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+}
+
+TEST(FindModelFile, NamesWhatItDidNotFind) {
+  const std::string folder = testing_support::config("driven_axis");
+  EXPECT_EQ(refusal_of(folder, "II")
+                .find("--model II: no file " + folder + "/model_II.yaml; this robot has: "),
+            0u);
+  EXPECT_EQ(refusal_of(folder, "nowhere/model_I.yaml"),
+            "--model nowhere/model_I.yaml: no such file; expected an existing .yaml file, or a "
+            "name such as II");
+  EXPECT_EQ(refusal_of(folder, folder),
+            "--model " + folder +
+                ": no such file; expected an existing .yaml file, or a name such as II");
+  EXPECT_EQ(refusal_of("nowhere/robot", "I"),
+            "--robot nowhere/robot: no such folder: nowhere/robot");
 }
 
 TEST(ProgressText, SaysWhatIsLeftWhereThatIsKnown) {

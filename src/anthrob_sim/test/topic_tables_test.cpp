@@ -56,7 +56,8 @@ TEST(TopicTables, ColumnsOutOfPlaceGoByWhatTheyAre) {
   EXPECT_EQ(topics.tables[2].t, (std::vector<Nanoseconds>{5000000}));  // no message says nothing
   EXPECT_EQ(topics.tables[2].columns[0].values, (std::vector<double>{0.5}));
   ASSERT_EQ(topics.remarks.size(), 2u);
-  EXPECT_EQ(topics.remarks[1], "commands.csv: flexor/position: go where muscles.csv goes");
+  EXPECT_EQ(topics.remarks[1],
+            "commands.csv: flexor/position: written to the topic of muscles.csv");
 }
 
 TEST(TopicTables, AJointAmongMusclesIsAJoint) {
@@ -66,7 +67,7 @@ TEST(TopicTables, AJointAmongMusclesIsAJoint) {
   EXPECT_EQ(dealt(topics), (Names{"joints: elbow/position elbow/velocity",
                                   "muscles: flexor/position flexor/force"}));
   ASSERT_EQ(topics.remarks.size(), 2u);
-  EXPECT_NE(topics.remarks[0].find("muscles.csv: elbow: positions beside muscles"),
+  EXPECT_NE(topics.remarks[0].find("muscles.csv: elbow: has only positions or velocities"),
             std::string::npos);
   // A muscle of which another file tells more stays one: its rows are refused by write_bag().
   add(data, "commands", {"elbow/reference"});

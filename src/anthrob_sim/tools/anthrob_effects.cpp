@@ -95,7 +95,7 @@ void explain(const View& view) {
   std::cout << "  source:     " << info.source << "\n  seam:       " << seam_name(info.seam)
             << "\n  places:     " << info.where << "\n  shows in:   " << joined(info.channels)
             << "\n  dissipates: " << (info.dissipates ? "yes" : "no")
-            << (info.slow ? "\n  builds up over minutes" : "") << "\n\n";
+            << (info.slow ? "\n  slow:       builds up over minutes" : "") << "\n\n";
   // Bounds may differ from place to place, as room for a surface does.
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;
   for (const std::string& place : view.places()) {
@@ -109,7 +109,7 @@ void explain(const View& view) {
     }
   }
   if (groups.empty()) std::cout << table(info.parameters);
-  if (groups.empty() && view.robot) std::cout << "\n  on this robot: nowhere\n";
+  if (groups.empty() && view.robot) std::cout << "\n  this robot has no place for it\n";
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::cout << (g > 0 ? "\n" : "") << groups[g].first << "\n  on this robot at:\n"
               << wrapped(joined(groups[g].second), "    ");
@@ -166,7 +166,7 @@ void print_row(const View& view) {
   }
   std::cout << "| `" << info.id << "` | " << info.name << " | " << equation << " | " << parameters
             << " | " << where << " | " << joined(info.channels) << " | "
-            << (info.dissipates ? "yes" : "") << " |\n";
+            << (info.dissipates ? "yes" : "no") << " |\n";
 }
 
 }  // namespace
@@ -177,9 +177,10 @@ int main(int argc, char** argv) {
   CLI::App app("Lists and explains the effects that a model file can have under 'effects:'.",
                "anthrob_effects");
   std::string id, model_file, format = "text";
-  app.add_option("id", id, "explain this effect; all are listed without");
-  app.add_option("--model", model_file, "model file: say where on this robot effects can sit");
-  app.add_option("--format", format, "of the output")
+  app.add_option("id", id, "explain this effect; without an id, list all effects");
+  app.add_option("--model", model_file,
+                 "model file (path): show at which places of this robot each effect can act");
+  app.add_option("--format", format, "output format")
       ->check(CLI::IsMember({"text", "json", "markdown"}))
       ->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
@@ -190,7 +191,8 @@ int main(int argc, char** argv) {
       if (id.empty() || effect->info().id == id) views.push_back({effect, robot.get()});
     }
     if (views.empty())
-      throw BadInput(id + ": expected the id of an effect; run without to see all");
+      throw BadInput(
+          id + ": expected the id of an effect; run anthrob_effects without an id to list all");
     if (format == "json") {
       Json list = Json::array();
       for (const View& view : views) list.push_back(to_json(view));

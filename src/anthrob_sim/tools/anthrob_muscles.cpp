@@ -237,24 +237,31 @@ void check_muscles(const RobotModel& model, const std::vector<std::string>& only
 int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
-      "Lengths, spring expansions, relaxed frictionless forces, wrapping and moment arms (-dl/dq) "
-      "of all "
-      "muscles in one posture.",
+      "Prints lengths, spring expansions, forces, wrapping and moment arms (-dl/dq) of all "
+      "muscles, in one posture or along a sweep of one joint axis. Springs are relaxed and there "
+      "is no friction.",
       "anthrob_muscles");
   std::string robot = "anthrob", model_name = "II";
   std::string sweep, plot;
   std::vector<std::string> joints, positions, only;
   bool csv = false, json = false;
-  app.add_option("--robot", robot, "robot folder under config/, or a path")->capture_default_str();
-  app.add_option("--model", model_name, "II for model_II.yaml")->capture_default_str();
-  app.add_option("--joint", joints, "shoulder=w,x,y,z or elbow=1.57 [rad, m]; others at rest");
-  app.add_option("--position", positions, "actuator position MUSCLE=rad; others at 0");
-  app.add_option("--sweep", sweep, "AXIS=FROM:TO:POINTS, e.g. elbow=0:2:50 or shoulder_x=-1:1:50");
-  app.add_option("--muscle", only, "of a sweep, only this muscle; may be repeated")
+  app.add_option("--robot", robot, "name of a robot folder under config/, or the path of one")
+      ->capture_default_str();
+  app.add_option("--model", model_name,
+                 "II for model_II.yaml in the robot's folder, or the path of a .yaml file (then "
+                 "--robot is not used)")
+      ->capture_default_str();
+  app.add_option(
+      "--joint", joints,
+      "joint position, shoulder=w,x,y,z or elbow=1.57 [rad, m]; other joints are at rest");
+  app.add_option("--position", positions, "motor position MUSCLE=rad; other motors are at 0");
+  app.add_option("--sweep", sweep,
+                 "move one axis, AXIS=FROM:TO:POINTS, e.g. elbow=0:2:50 or shoulder_x=-1:1:50");
+  app.add_option("--muscle", only, "show only this muscle of a sweep; may be repeated")
       ->needs("--sweep");
-  app.add_option("--plot", plot, "of a sweep, a figure: FILE.svg")->needs("--sweep");
-  app.add_flag("--csv", csv, "comma separated, SI units");
-  app.add_flag("--json", json, "JSON, SI units")->excludes("--csv");
+  app.add_option("--plot", plot, "draw a sweep to FILE.svg")->needs("--sweep");
+  app.add_flag("--csv", csv, "print comma-separated values in SI units");
+  app.add_flag("--json", json, "print JSON in SI units")->excludes("--csv");
   return tool::run(app, argc, argv, [&]() -> int {
     const auto model = tool::load_model(app, tool::find_model_file(robot, model_name));
     Placement placement(*model);

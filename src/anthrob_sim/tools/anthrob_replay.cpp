@@ -11,16 +11,17 @@
 int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
-      "Replays a recording's inputs in simulation; writes what was, free of the sensors' noise.",
+      "Runs the inputs of a recording through the simulation. Writes the true values, without "
+      "sensor noise, as a dataset folder.",
       "anthrob_replay");
   std::string model_file, in, out, mode = "reference";
   double step = 0.001;
-  app.add_option("--model", model_file, "model file, e.g. config/anthrob/model_II.yaml")
+  app.add_option("--model", model_file, "model file (path), e.g. config/anthrob/model_II.yaml")
       ->required();
   app.add_option("--in", in, "recording: a bag or a dataset folder")->required();
   app.add_option("--out", out, "dataset folder to write")->required();
   app.add_option("--dt", step, "simulation step [s]")->capture_default_str();
-  app.add_option("--mode", mode, "what drives the simulation")
+  app.add_option("--mode", mode, "recorded quantity that drives the simulation")
       ->check(CLI::IsMember({"reference", "voltage", "position", "posture"}))
       ->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
@@ -56,7 +57,8 @@ int main(int argc, char** argv) {
                                  [](const Table& table) { return !table.t.empty(); });
     if (any) result.save(out);
     std::cerr << "anthrob_replay: " << (failure.empty() ? "interrupted" : failure)
-              << (any ? "; what was done until then is in " + out : "; nothing written") << "\n";
+              << (any ? "; the part until then was written to " + out : "; nothing was written")
+              << "\n";
     return failure.empty() ? tool::kInterrupted : tool::kFailed;
   });
 }

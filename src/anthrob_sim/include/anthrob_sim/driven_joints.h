@@ -8,9 +8,9 @@
 
 namespace anthrob {
 
-/// Driven joints under the contract of muscles: no effort before enable, none after a stop that was
-/// not cleared, none that nobody renews. Each joint stands for an ECU of its own. A stopped joint
-/// forgets its effort.
+/// Driven joints, under the same safety rules as muscles: no effort before enable, none after a
+/// stop until it is cleared, and none once commands time out. Each joint counts as an ECU of its
+/// own. A stopped joint forgets its effort.
 class DrivenJoints {
  public:
   DrivenJoints(const SkeletonModel& skeleton, const ecu::Supervisor::Options& options);
@@ -19,13 +19,13 @@ class DrivenJoints {
   /// efforts that are not finite, a joint that is stopped.
   ecu::Supervisor::Outcome command(const std::vector<std::string>& names,
                                    const std::vector<double>& efforts, Simulation& sim);
-  /// Takes their effort from joints that are stopped; after every request to the supervisor.
+  /// Removes the effort from stopped joints; to be called after every request to the supervisor.
   void apply(Simulation& sim) const;
 
   /// Takes enable, disable, stops, and the time.
   ecu::Supervisor& supervisor() { return supervisor_; }
   const ecu::Supervisor& supervisor() const { return supervisor_; }
-  /// Of commands that were refused; empty if none ever was.
+  /// Reason of the last refused command; empty if none was refused.
   const std::string& last_rejection() const { return last_rejection_; }
   std::size_t rejected_count() const { return rejected_; }
 

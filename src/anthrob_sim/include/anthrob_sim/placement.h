@@ -9,19 +9,19 @@ namespace anthrob {
 
 class Simulation;
 
-/// A posture into which somebody asks to put a simulation, for Simulation::place: checked name by
-/// name against what the robot can reach. All setters throw BadInput, naming joint or muscle.
+/// Collects a requested posture for Simulation::place, and checks every value against the limits of
+/// its joint or muscle. All setters throw BadInput that names the joint or muscle.
 class Placement {
  public:
-  /// Beyond a soft stop, which gives way a little, so that a posture that was recorded can be
-  /// restored. A prismatic joint counts 10 rad a metre.
+  /// Accepted distance beyond a soft stop, which yields a little, so that recorded postures can be
+  /// restored. For a prismatic joint a tenth of that in metres.
   static constexpr double kGive = 0.05;  // [rad]
 
   /// Starts from rest, with all actuators at 0.   @param model must outlive the object
   explicit Placement(const RobotModel& model);
   /// Starts from joint positions as Simulation::place takes them, with all actuators at 0.
   Placement(const RobotModel& model, std::vector<double> q);
-  /// Starts from where a simulation is.
+  /// Starts from the current posture and actuator positions of a simulation.
   explicit Placement(const Simulation& sim);
 
   /// @param position of a hinge [rad] or prismatic joint [m], within its stop

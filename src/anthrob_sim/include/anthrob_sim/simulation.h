@@ -19,7 +19,7 @@ struct Snapshot {
   std::vector<double> state;  ///< of all components
   std::vector<BodyState> bodies;
   std::vector<double> q, effort, load;  ///< of joints
-  std::vector<double> posture;          ///< that is imposed; empty: none is
+  std::vector<double> posture;          ///< imposed posture; empty: none
 };
 
 /// A robot in motion. Deterministic: same model, same calls, same bits. Does not allocate while
@@ -31,10 +31,11 @@ struct Snapshot {
 ///   follow.
 class Simulation {
  public:
-  /// What is larger, in SI units, is no motion of a robot.
+  /// Larger values, in SI units, are refused, or count as a numerical failure.
   static constexpr double kSensible = 1e9;
 
-  /// Starts in the rest posture with all actuators at 0, controllers enabled, no reference: 0 V.
+  /// Starts in the rest posture, with all actuators at position 0 and controllers enabled. There is
+  /// no reference yet: the motors get 0 V.
   explicit Simulation(std::shared_ptr<const RobotModel> model);
 
   const RobotModel& model() const { return *model_; }
@@ -47,75 +48,81 @@ class Simulation {
   /// lacks
   void command(int muscle, ecu::Mode mode, double reference);
   void set_enabled(int muscle, bool enabled);
-  /// A gain of the muscle's controller from the next tick on. Like a model's number it is no state:
-  /// snapshots and reset() do not know of it.
+  /// Sets a gain of the muscle's controller from the next tick on. Like the numbers of the model, a
+  /// gain is not part of the state: snapshot(), restore() and reset() leave it unchanged.
   /// @throws BadInput if the muscle has no controller, the parameter is no gain, or the value is
   /// outside of its range
   void set_gain(int muscle, ecu::Parameter gain, double value);
-  /// The power stage gets this voltage [V], past the control law and what delays its commands,
-  /// until release().
+  /// Applies a voltage [V] to the power stage until release(). It bypasses the control law and the
+  /// delay of commands.
   void apply_voltage(int muscle, double voltage);
-  /// The actuator arrives at `position` [rad] with `velocity` at the end of every step from now on.
+  /// Imposes a motion until release(): at the end of every step the actuator is at `position` [rad]
+  /// with `velocity` [rad/s].
   /// @throws BadInput for numbers that are not finite
   void impose_position(int muscle, double position, double velocity);
-  /// The same, so that sensors will read `to` [rad] when they have read `from` a step before, as in
-  /// a recording; late readings must be taken from later in it by position_lateness().
+  /// Imposes the motion for which the position sensor reads `to` [rad] at the end of the step,
+  /// having read `from` one step before, as in a recording. If the sensor is late, take both values
+  /// from later in the recording, by position_lateness().
   void impose_reading(int muscle, double from, double to);
-  /// By how much the position of a muscle is read late [s], an effect of sensors.
+  /// Delay of a muscle's position sensor by effects of the model [s].
   double position_lateness(int muscle) const;
   void release(int muscle);
-  /// Effort applied to a driven joint from now on [Nm, N].
+  /// Applies an effort to a driven joint from now on [Nm, N].
   /// @throws BadInput if the joint is not driven, or the effort is not finite
   void apply_effort(int joint, double effort);
-  /// Outside load on a hinge or prismatic joint from now on [Nm, N].
+  /// Applies an external load to a hinge or prismatic joint from now on [Nm, N].
   /// @throws BadInput for another joint or a load that is not finite
   void apply_load(int joint, double load);
 
-  /// The joints arrive at `q` at the end of every step from now on, whatever pulls at them, until
-  /// release_posture(): muscles are stretched as in a recorded motion.
+  /// Imposes a posture until release_posture(): at the end of every step the joints are at `q`,
+  /// whatever forces act on them. Muscles are stretched as in a recorded motion.
   /// @param q size position_count   @throws BadInput as place()
   void impose_posture(const std::vector<double>& q);
-  /// The same, so that sensors will read `q`, as in a recording; late readings must be taken from
-  /// later in it by posture_lateness().
+  /// Imposes the posture for which the sensors read `q`, as in a recording. If the sensors are
+  /// late, take `q` from later in the recording, by posture_lateness().
   void impose_posture_reading(const std::vector<double>& q);
-  /// By how much joints are read late [s], an effect of sensors.
+  /// Delay of the joint sensors by effects of the model [s].
   double posture_lateness() const;
   void release_posture() { posture_.clear(); }
 
-  /// Puts the robot at rest into a posture with its actuators at given positions; springs are
-  /// relaxed. Muscles get there from the rest posture in small steps, so that wrapping states are
-  /// those of a continuous motion. Commands, time and noise go on; no posture is imposed any more.
-  /// @param q size position_count   @param positions one a muscle
+  /// Puts the robot at rest into a posture, with its actuators at given positions and relaxed
+  /// springs. Muscles move there from the rest posture in small steps, so that wrapping states are
+  /// those of a continuous motion. Commands, time and noise continue; an imposed posture is
+  /// released.
+  /// @param q joint positions, size position_count
+  /// @param positions actuator positions, one per muscle [rad]
   /// @throws BadInput for other sizes or numbers that are not finite; nothing has changed then
   void place(const std::vector<double>& q, const std::vector<double>& positions);
-  /// Back to the start, but time goes on; muscles are enabled or not as they were.
+  /// Resets the robot to its initial state. Time continues, and muscles stay enabled or disabled.
   void reset();
-  /// Time in which nothing moves: what is placed next gets an instant of its own.
+  /// Advances time without motion, so that a posture placed next gets its own time stamp.
   void skip(int steps) { step_index_ += static_cast<std::uint64_t>(steps); }
 
   /// @throws NumericalFailure naming time and place; the simulation stays in the failed state
   void step(int count = 1);
 
   std::size_t muscle_count() const { return muscles_.size(); }
-  /// Here and below, @throws BadInput for an index out of range, such as -1 for an unknown name.
+  /// This and the following accessors throw BadInput for an index out of range, such as -1 for an
+  /// unknown name.
   const Muscle& muscle(int i) const;
   const std::vector<BodyState>& bodies() const { return skeleton_.bodies(); }
   const KinematicTree& tree() const { return tree_; }
   /// Joint positions: 1 number, or w, x, y, z of a ball joint.
   const std::vector<double>& configuration() const { return q_; }
-  /// What the sensor of a hinge or prismatic joint saw; of a ball joint the first number, w.
+  /// Measured position of a hinge or prismatic joint [rad, m]; for a ball joint the component w.
   double measured_joint_position(int joint) const;
-  /// What ideal sensors say: the truth, with the systematic errors that are effects of the model.
+  /// Readings of a muscle's ideal sensors: true values, plus the systematic errors that are effects
+  /// of the model.
   ecu::Measurement reading(int muscle) const;
-  /// The same of joints: positions as in configuration(); velocities, ball joints in the child's
-  /// axes.
+  /// The same for joints: positions as in configuration(), and velocities (of ball joints in the
+  /// child's axes).
   const double* read_positions() const;
   Vec3 read_ball_velocity(int joint) const;
   double read_velocity(int joint) const;
   double joint_effort(int joint) const;
   double joint_load(int joint) const;
-  /// Moment arms -dl/dq of a muscle [m]: one a generalised velocity, ball joints in the child's
-  /// axes.
+  /// Moment arms -dl/dq of a muscle [m], one per generalised velocity (ball joints in the child's
+  /// axes).
   std::vector<double> moment_arms(int muscle) const;
   /// Pose of a link in the world.
   Pose link_pose(int frame) const;
@@ -123,7 +130,7 @@ class Simulation {
   /// Kinetic and potential energy of the skeleton, springs on joints included [J].
   double kinetic_energy() const;
   double potential_energy() const;
-  /// Power that joint friction and stops take out of the last step [W].
+  /// Power dissipated by joint friction and stops in the last step [W].
   double joint_dissipation() const { return store_.at(dissipation_offset_)[0]; }
   int solver_iterations() const { return resistance_.iterations(); }
 

@@ -54,7 +54,8 @@ void check_place(const EffectSetting& setting, const RobotModel& robot) {
   const std::vector<std::string> places = setting.effect().places(robot);
   if (std::find(places.begin(), places.end(), setting.place()) != places.end()) return;
   constexpr std::size_t kShortList = 15;
-  std::string expectation = "a place for it on this robot (" + setting.effect().info().where + ")";
+  std::string expectation =
+      "a place of this effect on this robot (" + setting.effect().info().where + ")";
   if (places.empty()) {
     expectation += "; there is none";
   } else if (places.size() <= kShortList) {
@@ -79,7 +80,9 @@ void refuse_twice_on_a_muscle(const EffectSetting& setting,
   if (!setting.effect().info().once_a_muscle || setting.place() == "all") return;
   for (const EffectSetting& other : settings) {
     if (other.id() != setting.id() || other.place() != "all") continue;
-    setting.fail("place", "this effect once a muscle; at `all` it is on this one already");
+    setting.fail(
+        "place",
+        "this effect only once per muscle; the entry at 'all' already includes this muscle");
   }
 }
 
@@ -97,7 +100,7 @@ const Effect* find_effect(const std::string& id) {
   const auto range = registry().effects.equal_range(id);
   if (range.first == range.second) return nullptr;
   if (std::next(range.first) != range.second) {
-    throw BadInput("effect " + id + ": it is registered twice; expected one library to have it");
+    throw BadInput("effect " + id + ": registered twice; expected it in one library only");
   }
   return range.first->second;
 }
@@ -177,7 +180,8 @@ std::vector<EffectSetting> read_effects(const ConfigNode& config,
       [&](const EffectSetting& a, const EffectSetting& b) { return order(a) < order(b); });
   for (std::size_t i = 1; i < settings.size(); ++i) {
     if (order(settings[i - 1]) == order(settings[i])) {
-      settings[i].fail("place", "every effect once at a place; this one is there already");
+      settings[i].fail("place",
+                       "an effect only once per place; another entry has the same id and place");
     }
   }
   for (const EffectSetting& setting : settings) refuse_twice_on_a_muscle(setting, settings);

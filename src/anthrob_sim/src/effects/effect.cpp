@@ -62,7 +62,8 @@ EffectSetting::EffectSetting(const Effect& effect, EffectInstance instance,
                                    [&](const EffectParameter& p) { return p.name == name; });
     if (!known) fail(name, "one of the effect's parameters there: " + names);
   }
-  if (!any_size) fail("place", "at least one of the effect's sizes beside it; it has: " + sizes);
+  if (!any_size)
+    fail("place", "at least one size of the effect in the same entry; sizes: " + sizes);
 }
 
 bool EffectSetting::neutral() const {

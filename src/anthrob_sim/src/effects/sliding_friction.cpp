@@ -50,10 +50,10 @@ std::shared_ptr<const FrictionLaw> raise_friction(const std::shared_ptr<const Fr
 }
 
 std::vector<EffectParameter> friction_parameters(double typical) {
-  return {{"mu", "1", "kinetic coefficient on top of the model's", 0.0, typical, {0.0, 1.0}},
+  return {{"mu", "1", "kinetic coefficient, added to the model's", 0.0, typical, {0.0, 1.0}},
           {"rest_ratio",
            "1",
-           "of that, static over kinetic, relative to the law's",
+           "static over kinetic of the added friction, relative to the law's",
            1.0,
            1.0,
            {0.5, 2.0},

@@ -35,7 +35,7 @@ std::shared_ptr<const FrictionLaw> Sticking::load(const ConfigNode& node, double
                kinetic = node.number("kinetic", Bounds::nonnegative(), "1");
   // What does not stick has no bristle that could pull.
   if (!(fixed > 0.0) && kinetic > 0.0) {
-    node.at("static").fail_expected("more than 0 where kinetic is");
+    node.at("static").fail_expected("a number > 0, because 'kinetic' is > 0");
   }
   return std::make_shared<Sticking>(fixed, kinetic,
                                     node.number("stribeck_velocity", Bounds::positive(), "m/s"),

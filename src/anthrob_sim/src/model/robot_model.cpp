@@ -98,7 +98,7 @@ class Builder {
       node.fail("expected type: ball (the URDF joint is floating)");
     }
     if (node.has("type") && !ball)
-      node.at("type").fail("only a floating joint of the URDF takes a type");
+      node.at("type").fail("expected no 'type': only a joint that is floating in the URDF has one");
     if (ball) joint.center_C = node.at("center").as_vector3("m");
     if (node.has("friction")) {
       const ConfigNode friction = node.at("friction");
@@ -114,7 +114,7 @@ class Builder {
       if (ball) {
         joint.stop.upper = stop.number("angle", Bounds{0.0, 3.0, true, false}, "rad");
       } else if (!joint.stop.enabled) {
-        stop.fail("the joint has no limits in the URDF");
+        stop.fail("expected no 'stop': the joint has no limits in the URDF");
       }
       joint.stop.enabled = true;
       joint.stop.stiffness = stop.number("stiffness", Bounds::positive(), torque + "/" + position);
@@ -165,7 +165,7 @@ class Builder {
     if (name == "all") node.fail("'all' stands for all muscles: expected another name");
     if (skeleton_->find_joint(name) >= 0) {
       node.fail("a joint of " + model_->urdf_file +
-                " has this name: expected another, for recordings name both");
+                " has the same name: expected another one, because recordings contain both names");
     }
     model_->muscles.push_back(read_muscle(name, node));
   }
@@ -189,10 +189,9 @@ class Builder {
 
     if (!node.has("spring")) {
       node.fail(
-          "key 'spring' is missing: a muscle needs a spring. Without one the tension would depend "
-          "on the "
-          "masses it moves and could not be computed from the tendon alone (section 4.6); give a "
-          "stiff one");
+          "key 'spring' is missing: without a spring the tension would depend on the masses that "
+          "the muscle moves and could not be computed from the tendon alone (section 4.6); for a "
+          "rigid tendon, expected a stiff spring");
     }
     const ConfigNode spring = node.at("spring");
     const int quantity = spring.has("quantity") ? spring.at("quantity").as_integer(1, 100) : 1;
@@ -205,12 +204,14 @@ class Builder {
       muscle.ecu = node.text("ecu");
       require_snake_case(node.at("ecu"), muscle.ecu);
       if (muscle.ecu == "all" || muscle.ecu == "global") {
-        node.at("ecu").fail_expected("another name: this one stands for all of them");
+        node.at("ecu").fail_expected("another name: 'all' and 'global' are reserved");
       }
     }
     if (node.has("controller")) {
       if (!dynamic_cast<const GearedMotor*>(muscle.actuator.get())) {
-        node.at("controller").fail("only a motor takes one; null for ligaments and Hill muscles");
+        node.at("controller")
+            .fail(
+                "only a motor can have a controller; expected null for ligaments and Hill muscles");
       }
       muscle.has_controller = true;
       read_controller(kind("controllers", node.at("controller")), muscle);
@@ -224,7 +225,7 @@ class Builder {
     if (!muscle.has_controller) node.fail("only a muscle with a controller has gains");
     for (const auto& [name, value] : node.entries()) {
       const ecu::ParameterInfo* gain = ecu::find_gain(name);
-      if (!gain) value.fail("no gain; expected position_proportional and the like");
+      if (!gain) value.fail("unknown gain; expected a name such as position_proportional");
       *ecu::gain_of(muscle.controller, gain->parameter) =
           value.as_number(Bounds::between(gain->lowest, gain->highest), gain->unit);
     }
@@ -275,7 +276,9 @@ class Builder {
         entries[i].fail("a path begins and ends with a point, not with a surface");
       }
       if (end && entries[i].has("friction")) {
-        entries[i].at("friction").fail("nothing slides at the ends of a path");
+        entries[i]
+            .at("friction")
+            .fail("expected no friction: the tendon is fixed at both ends of a path");
       }
       if (end) obstacles[i].friction = nullptr;
       if (i == 0) continue;
@@ -285,7 +288,7 @@ class Builder {
       }
       if (!obstacles[i].surface && !last.surface && obstacles[i].body == last.body &&
           (obstacles[i].point_B - last.point_B).norm() < 1e-6) {
-        entries[i].fail("the same place as the point before");
+        entries[i].fail("expected another place: this is the same place as the previous point");
       }
     }
     return std::make_shared<PathModel>(*skeleton_, std::move(obstacles));
@@ -392,7 +395,7 @@ class Builder {
         const int number = path.obstacles()[i].entry;
         const ConfigNode list = nodes[m].second.at("path");
         const ConfigNode entry = number >= 0 ? entries[number] : list;
-        const std::string who = number >= 0 ? "" : "surface that an effect puts there: ";
+        const std::string who = number >= 0 ? "" : "surface added by an effect: ";
         if (obstacle.touching) entry.fail(who + message);
         // A tendon that runs clear of it is well defined, and calibrations try such radii.
         model_->remarks.push_back(entry.file() + ": " + entry.path() + ": " + who + message);

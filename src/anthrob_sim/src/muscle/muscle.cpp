@@ -101,10 +101,12 @@ void Muscle::command(ecu::Mode mode, double reference) {
     throw BadInput("muscle " + model_.name + ": reference: expected a finite number");
   }
   if (mode != ecu::Mode::kVoltage && !model_.has_controller) {
-    throw BadInput("muscle " + model_.name + ": mode: it has no controller and takes VOLTAGE only");
+    throw BadInput("muscle " + model_.name +
+                   ": mode: expected VOLTAGE, because the muscle has no controller");
   }
   if (mode == ecu::Mode::kForce && !model_.has_force_sensor()) {
-    throw BadInput("muscle " + model_.name + ": mode: it has no mode FORCE");
+    throw BadInput("muscle " + model_.name +
+                   ": mode: FORCE needs a force sensor, which the muscle lacks");
   }
   memory().mode = static_cast<double>(mode);
   memory().reference = reference;
@@ -112,10 +114,11 @@ void Muscle::command(ecu::Mode mode, double reference) {
 
 void Muscle::set_gain(ecu::Parameter gain, double value) {
   if (!model_.has_controller) {
-    throw BadInput("muscle " + model_.name + ": it has no controller, and no gains");
+    throw BadInput("muscle " + model_.name +
+                   ": expected a muscle with a controller; this one has no gains");
   }
   double* place = ecu::gain_of(controller_, gain);
-  if (!place) throw BadInput("muscle " + model_.name + ": expected a gain");
+  if (!place) throw BadInput("muscle " + model_.name + ": expected a parameter that is a gain");
   const ecu::ParameterInfo& info = *ecu::find_gain(ecu::name(gain));
   const Bounds range = Bounds::between(info.lowest, info.highest);
   if (!range.contains(value)) {

@@ -72,7 +72,7 @@ std::vector<Vec3> cut(const TriangleMesh& mesh, const ConfigNode& part) {
     for (const auto& [point, normal] : planes) polygon = cut(polygon, point, normal);
     points.insert(points.end(), polygon.begin(), polygon.end());
   }
-  if (points.size() < 4) part.fail("nothing of the mesh lies on that side of the planes");
+  if (points.size() < 4) part.fail("no part of the mesh lies on that side of the planes");
   return points;
 }
 
@@ -84,7 +84,8 @@ void check_size(const ConfigNode& node, const std::vector<Vec3>& points) {
   char text[160];
   std::snprintf(
       text, sizeof(text), "mesh is %g m across; expected %g to %g m%s", size, kSmallest, kLargest,
-      size > kLargest && size < 1e3 * kLargest ? " (drawn in millimetres? scale: 0.001)" : "");
+      size > kLargest && size < 1e3 * kLargest ? " (drawn in millimetres? then set scale: 0.001)"
+                                               : "");
   node.at("file").fail(text);
 }
 
@@ -177,7 +178,7 @@ MeshPoints load_mesh_points(const ConfigNode& node) {
   for (Vec3& p : result.points) p += offset;
   for (const std::string& oddity : mesh_oddities(mesh)) {
     result.remarks.push_back(file.file() + ": " + file.path() + ": " + file.as_text() + ": " +
-                             oddity + "; its convex hull is used all the same");
+                             oddity + "; its convex hull is used anyway");
   }
   return result;
 }

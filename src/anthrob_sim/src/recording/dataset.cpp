@@ -127,7 +127,7 @@ class TableReader {
     }
     const Nanoseconds t = read_time("t", trimmed(cells[0]));
     if (!table_.t.empty() && t < table_.t.back()) {
-      fail("t: " + trimmed(cells[0]) + ": earlier than the row before; expected time to grow");
+      fail("t: " + trimmed(cells[0]) + ": earlier than the previous row; expected time to grow");
     }
     table_.t.push_back(t);
     std::size_t next = 0;
@@ -475,9 +475,10 @@ std::vector<fs::path> tables_to_go(const fs::path& folder, const Dataset& to_com
   std::vector<fs::path> tables;
   for (const fs::path& file : csv_files(folder)) {
     if (!fs::exists(folder / "meta.yaml")) {
-      throw BadInput(file.string() +
-                     ": in a folder without meta.yaml, which is no recording to "
-                     "replace; expected an empty or a new folder");
+      throw BadInput(
+          file.string() +
+          ": this folder has CSV files but no meta.yaml, so it is not a recording that may be "
+          "replaced; expected an empty or a new folder");
     }
     if (to_come.find_table(file.stem().string())) continue;
     TableReader(file).read_header();

@@ -178,11 +178,12 @@ void require_commanded(const Dataset& recording, const std::string& muscle,
     if (!s.enabled || commanded(s.in_force, commands)) continue;
     char at[40];
     std::snprintf(at, sizeof(at), "%.3f", s.in_force.t);
-    throw BadInput(recording.folder + ": " + muscle + ": at " + at + " s its unit followed " +
-                   word_of("mode", static_cast<int>(s.in_force.mode)) + " " +
-                   exact_text(s.in_force.reference) +
-                   ", which nobody commanded; expected the commands among the recording: cut it "
-                   "there, or replay its voltages");
+    throw BadInput(
+        recording.folder + ": " + muscle + ": at " + at + " s its unit followed " +
+        word_of("mode", static_cast<int>(s.in_force.mode)) + " " +
+        exact_text(s.in_force.reference) +
+        ", but the recording contains no such command; cut the recording there, or replay "
+        "its voltages");
   }
 }
 

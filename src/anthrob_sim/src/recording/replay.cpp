@@ -44,9 +44,9 @@ Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording
   for (const auto& [muscle, position] : meta_.start_position) {
     const int index = model_->find_muscle(muscle);
     if (index < 0 || !model_->muscles[static_cast<std::size_t>(index)].has_controller) {
-      throw BadInput(recording.folder + "/meta.yaml: start.reference." + muscle +
-                     ": the robot of " + model_->file +
-                     " has no such muscle, or it holds no position");
+      throw BadInput(recording.folder + "/meta.yaml: start.reference." + muscle + ": " +
+                     model_->file +
+                     " has no such muscle, or the muscle has no position controller");
     }
   }
   duration_ = seconds(recording.end() - recording.begin());
@@ -87,7 +87,7 @@ void Replay::read_joint(const JointModel& joint, int index, const Dataset& recor
   const auto require = [&](bool measured) {
     if (measured || mode_ != ReplayMode::kPosture) return;
     throw BadInput(recording.folder + ": joint " + joint.name +
-                   " was not measured: expected all joints, for postures to be imposed");
+                   " was not measured: a replay of postures needs all joints");
   };
   if (joint.type != JointType::kBall) {
     joints_.push_back({index, recording.series(joint.name + "/effort"),
@@ -122,7 +122,7 @@ void Replay::check_names(const Dataset& recording) const {
           (joint >= 0 && !ball && is_joint_quantity(column.quantity()));
       if (!known) {
         throw BadInput(recording.folder + "/" + table.name + ".csv: column '" + column.name +
-                       "': the robot of " + model_->file + " has no such quantity");
+                       "': " + model_->file + " has no such quantity");
       }
     }
   }

@@ -52,8 +52,9 @@ class Dealer {
   void deal(const Table& table) {
     const std::set<std::string> strangers = joints_among_muscles(table);
     for (const std::string& name : strangers) {
-      dealt_.remarks.push_back(table.name + ".csv: " + name +
-                               ": positions beside muscles that have more: written as a joint's");
+      dealt_.remarks.push_back(
+          table.name + ".csv: " + name +
+          ": has only positions or velocities, unlike muscles; written as a joint");
     }
     const bool only_commands = has_only_commands(table);
     std::map<std::string, Table> parts;
@@ -117,8 +118,8 @@ class Dealer {
   void remark_moved(const Table& table, const Table& part) {
     std::string names;
     for (const Column& column : part.columns) names += (names.empty() ? "" : ", ") + column.name;
-    dealt_.remarks.push_back(table.name + ".csv: " + names + ": go where " + part.name +
-                             ".csv goes");
+    dealt_.remarks.push_back(table.name + ".csv: " + names + ": written to the topic of " +
+                             part.name + ".csv");
   }
 
   static void drop_empty_rows(Table& table) {

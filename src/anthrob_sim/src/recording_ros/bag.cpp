@@ -150,7 +150,8 @@ class RowView {
       }
     }
     if (!numbers.empty() && numbers.size() != owners_.size()) {
-      fail("'" + quantity + "' for some names only; a message needs it for all or none");
+      fail("'" + quantity +
+           "' is given for some names only; a message needs it for all names or for none");
     }
   }
 
@@ -168,7 +169,7 @@ void from_row(const RowView& row, MuscleCommand& m) {
   m.name = row.owners();
   row.get("mode", m.mode);
   row.get("reference", m.reference);
-  if (m.reference.empty() && !m.name.empty()) row.fail("a command without a reference");
+  if (m.reference.empty() && !m.name.empty()) row.fail("expected a reference in a row of commands");
   if (m.mode.empty()) m.mode.assign(m.name.size(), MuscleCommand::POSITION);
 }
 
@@ -265,7 +266,8 @@ class TableBuilder {
     put_in_order(topic, contents.dataset);
     if (table_.stamp == table_.t) table_.stamp.clear();
     if (table_.bag_time == table_.t) table_.bag_time.clear();
-    if (frames_differ_) contents.not_carried.push_back(topic + ": frame_id, which changes");
+    if (frames_differ_)
+      contents.not_carried.push_back(topic + ": frame_id, because it changes during the recording");
     if (!frames_differ_ && !frame_.empty()) {
       contents.dataset.meta.other["frame_id_" + table_.name] = frame_ + "\n";
     }
@@ -306,9 +308,8 @@ class TableBuilder {
       permute(column.present, order);
     }
     dataset.remarks.push_back(dataset.folder + ": " + topic + ": " + std::to_string(late) + " of " +
-                              std::to_string(t.size()) +
-                              " messages came after one with a later stamp, by up to " +
-                              time_text(worst) + " s: put in the order of their stamps");
+                              std::to_string(t.size()) + " messages came out of order, by up to " +
+                              time_text(worst) + " s: sorted by their stamps");
   }
 
   template <class List>
@@ -391,14 +392,13 @@ BagContents contents_of(const std::string& file) {
     }
   }
   if (namespaces.empty()) {
-    throw BadInput(
-        file +
-        ": no topic of a recording; expected muscle_command, muscle_states, joint_states or "
-        "spherical_joint_states in the namespace of a robot");
+    throw BadInput(file +
+                   ": contains no topic of a recording; expected muscle_command, muscle_states, "
+                   "joint_states or spherical_joint_states in the namespace of a robot");
   }
   if (namespaces.size() > 1) {
     throw BadInput(file + ": topics of several robots: " + *namespaces.begin() + " and " +
-                   *std::next(namespaces.begin()) + "; expected one robot a bag");
+                   *std::next(namespaces.begin()) + "; expected one robot per bag");
   }
   const std::string robot = *namespaces.begin();
   const std::string beside = meta_beside(file);
@@ -446,7 +446,7 @@ void write_rows(const Table& table, const Dataset& dataset, const std::string& t
     for (const auto& [key, time] : {std::pair("t", t), {"stamp", stamp}, {"bag_time", arrival}}) {
       if (time >= 0 && time < kEndOfTime) continue;
       throw BadInput(table.name + ".csv: " + key + " = " + time_text(time) +
-                     ": a bag needs times from 0 on, below 2^32 s");
+                     ": expected a time from 0 to below 2^32 s, as a bag needs");
     }
     Message message;
     from_row(RowView(table, row), message);
@@ -463,7 +463,7 @@ void write_rows(const Table& table, const Dataset& dataset, const std::string& t
 BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
   const TopicTables topics = topic_tables(dataset);
   if (topics.tables.empty()) {
-    throw BadInput(dataset.folder + ": holds nothing that a bag's topics carry");
+    throw BadInput(dataset.folder + ": contains no column that a bag can store");
   }
   const std::string prefix =
       "/" + (dataset.meta.robot.empty() ? std::string("robot") : dataset.meta.robot) + "/";

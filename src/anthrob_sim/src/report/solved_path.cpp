@@ -44,7 +44,7 @@ std::string Penetration::text() const {
   char millimetres[32];
   std::snprintf(millimetres, sizeof(millimetres), "%.1f", 1e3 * depth);
   return muscle + ": a path point lies " + millimetres + " mm inside the " + surface + " on " +
-         body + (entry < 0 ? " that an effect put there" : " (path." + std::to_string(entry) + ")");
+         body + (entry < 0 ? " added by an effect" : " (path." + std::to_string(entry) + ")");
 }
 
 Penetration deepest_penetration(const Muscle& muscle, const SkeletonModel& skeleton) {

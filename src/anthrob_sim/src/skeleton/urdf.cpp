@@ -166,7 +166,8 @@ class Builder {
         fail("joint " + joint.name + ": axis: expected a vector that is not zero");
       model.axis_C /= norm;
     }
-    if (joint.mimic) fail("joint " + joint.name + ": mimic: expected none; it is not simulated");
+    if (joint.mimic)
+      fail("joint " + joint.name + ": mimic: expected no mimic joint; these are not simulated");
     if (joint.dynamics) read_dynamics(joint, model);
     if (joint.limits &&
         (joint.type == urdf::Joint::REVOLUTE || model.type == JointType::kPrismatic)) {

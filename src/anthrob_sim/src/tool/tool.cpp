@@ -26,6 +26,11 @@ double now() {
 
 std::string find_model_file(const std::string& robot, const std::string& model) {
   namespace fs = std::filesystem;
+  if (fs::path(model).extension() == ".yaml" || model.find('/') != std::string::npos) {
+    if (fs::is_regular_file(model)) return model;
+    throw BadInput("--model " + model +
+                   ": no such file; expected an existing .yaml file, or a name such as II");
+  }
   fs::path folder;
   if (robot.find('/') != std::string::npos) {
     folder = robot;
@@ -41,7 +46,7 @@ std::string find_model_file(const std::string& robot, const std::string& model) 
     folder = (config ? fs::path(config) : fs::path(bringup) / "config") / robot;
   }
   if (!fs::is_directory(folder)) {
-    throw BadInput("--robot " + robot + ": expected a folder " + folder.string());
+    throw BadInput("--robot " + robot + ": no such folder: " + folder.string());
   }
   const fs::path file = folder / ("model_" + model + ".yaml");
   if (!fs::exists(file)) {
@@ -50,7 +55,8 @@ std::string find_model_file(const std::string& robot, const std::string& model) 
       const std::string stem = entry.path().stem().string();
       if (stem.rfind("model_", 0) == 0) known += (known.empty() ? "" : ", ") + stem.substr(6);
     }
-    throw BadInput("--model " + model + ": no " + file.string() + "; this robot has: " + known);
+    throw BadInput("--model " + model + ": no file " + file.string() +
+                   "; this robot has: " + known);
   }
   return file.string();
 }

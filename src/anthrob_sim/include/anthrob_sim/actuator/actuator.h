@@ -9,8 +9,7 @@
 
 namespace anthrob {
 
-/// What winds the tendon in: turns an input into a tendon length (Figure 4.1). Built for one length
-/// of step.
+/// Winds the tendon: turns an input into a tendon length (Figure 4.1). Built for one step length.
 class Actuator {
  public:
   /// What an ECU can measure of it.
@@ -26,7 +25,7 @@ class Actuator {
 
   /// At rest at a position; all currents zero.
   virtual void place(double position, StateView state) const = 0;
-  /// Moves as an outside hand dictates, whatever the input says.
+  /// Imposes a motion, independently of the input.
   /// @param load as in advance
   virtual void impose(double position, double velocity, double load, StateView state) const = 0;
   /// One step.
@@ -60,7 +59,7 @@ class Actuator {
 std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const ConfigNode& muscle,
                                               double step);
 
-/// Refuses a kind of a type there is none of.
+/// Throws BadInput if a kind of actuator has an unknown `type`.
 void require_actuator_type(const ConfigNode& kind);
 
 }  // namespace anthrob

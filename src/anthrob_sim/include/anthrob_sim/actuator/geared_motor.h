@@ -4,8 +4,8 @@
 
 namespace anthrob {
 
-/// An electric motor with gear and spindle. Effects are wrapped round it: what they change, they
-/// override, the rest they pass on. Their own state follows that of what they wrap.
+/// An electric motor with gear and spindle. Effects are wrappers around it: they override what they
+/// change and pass on the rest. Their own state follows the state of the wrapped motor.
 class GearedMotor : public Actuator {
  public:
   /// One step, with a torque from inside besides the load of the tendon.
@@ -24,7 +24,7 @@ class GearedMotor : public Actuator {
   virtual double spindle_radius() const = 0;
 };
 
-/// A motor that is another one but for what a subclass overrides.
+/// Wraps a motor: passes every call on to it, except for those that a subclass overrides.
 class MotorWrapper : public GearedMotor {
  public:
   explicit MotorWrapper(std::shared_ptr<const GearedMotor> inner) : inner_(std::move(inner)) {}

@@ -8,16 +8,16 @@ namespace anthrob {
 
 /// One muscle between its controller and its motor's terminals.
 struct PowerLine {
-  double voltage;  ///< asked for by the controller; effects turn it into that of the terminals [V]
+  double voltage;  ///< of the controller; effects change it into that of the terminals [V]
   double current;  ///< of the motor [A]
 };
 
-/// What happens to voltages on their way from the controllers to the motors.
+/// Changes voltages on their way from the controllers to the motors.
 class PowerEffect {
  public:
   virtual ~PowerEffect() = default;
   virtual std::size_t state_size() const { return 0; }
-  /// The robot is put somewhere, at rest.
+  /// The robot was placed, at rest.
   virtual void reset(StateView) const {}
   /// Once a step.  @param lines one a muscle
   virtual void apply(std::vector<PowerLine>& lines, StateView state) const = 0;

@@ -6,7 +6,8 @@
 
 namespace anthrob {
 
-/// Delays a group of signals by any time, not only whole steps; the past is kept in the state.
+/// Delays a group of signals by any time, not only by whole steps. Past values are kept in the
+/// state.
 class DelayLine {
  public:
   /// @param delay [s], >= 0   @param width signals in the group   @param step [s], > 0
@@ -28,7 +29,7 @@ class DelayLine {
     state[0] = static_cast<double>(newest);
     for (std::size_t i = 0; i < width_; ++i) state[1 + newest * width_ + i] = now[i];
   }
-  /// A signal `delay` ago, between samples on a straight line.
+  /// Value of a signal `delay` ago, interpolated linearly between samples.
   double blended(std::size_t i, StateView state) const {
     return (1.0 - part_) * past(whole_, i, state) + part_ * past(whole_ + 1, i, state);
   }
@@ -36,7 +37,7 @@ class DelayLine {
   bool between_equals(std::size_t i, StateView state) const {
     return past(whole_, i, state) == past(whole_ + 1, i, state);
   }
-  /// The nearest sample, for signals that are no quantities.
+  /// The nearest sample, for signals that cannot be interpolated, such as modes.
   double nearest(std::size_t i, StateView state) const {
     return past(part_ < 0.5 ? whole_ : whole_ + 1, i, state);
   }

@@ -7,7 +7,7 @@
 
 namespace anthrob {
 
-/// The integration produced something that is not a number, or left any sensible range.
+/// The integration produced a value that is not a number or far outside of any physical range.
 class NumericalFailure : public std::runtime_error {
  public:
   /// @param time [s] simulated time at the end of the step that failed

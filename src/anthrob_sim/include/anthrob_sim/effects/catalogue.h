@@ -8,9 +8,9 @@
 
 namespace anthrob {
 
-/// All effects this program knows, by id. Those of libraries loaded meanwhile are among them.
+/// All effects that this program knows, sorted by id, including those of libraries loaded so far.
 std::vector<const Effect*> all_effects();
-/// Null if there is none.
+/// The effect of this id; null if there is none.
 const Effect* find_effect(const std::string& id);
 
 /// Puts an effect into the catalogue as long as its library is loaded. In the effect's source file:
@@ -26,26 +26,30 @@ class EffectRegistration {
   std::unique_ptr<const Effect> effect_;
 };
 
-/// Loads a library with effects of one's own: a path, from the folder of the file that names it, or
-/// a name that the loader finds ("my_effects" is libmy_effects.so).
-/// @param origin where it is named  @throws BadInput if it cannot be loaded
+/// Loads a shared library with additional effects.
+/// @param library a path (relative to the folder of the file that names it), or a name that the
+/// loader finds on LD_LIBRARY_PATH ("my_effects" means libmy_effects.so)
+/// @param origin entry of the file that names it, for error messages
+/// @throws BadInput if it cannot be loaded
 void load_effect_library(const std::string& library, const ConfigNode& origin);
-/// Where the loader found those that were loaded.
+/// Paths of the effect libraries that were loaded.
 std::vector<std::string> effect_library_files();
 
-/// The effects that a model file and a caller ask for, neutral ones too, in the order in which
-/// they are built in; this does not depend on the order in which they are asked for.
-/// @param robot its skeleton must be there
-/// @throws BadInput with one line: unknown ids and parameters, values out of bounds, doubles
+/// Reads the effects of a model file and adds those of the caller (neutral ones included). The
+/// result is in the order in which they are built in, independently of the order of the request.
+/// @param more effects of the caller   @param robot its skeleton must be complete
+/// @throws BadInput with one line for unknown ids and parameters, values out of bounds, and effects
+/// that stand twice at a place
 std::vector<EffectSetting> read_effects(const ConfigNode& config,
                                         const std::vector<EffectInstance>& more,
                                         const RobotModel& robot);
 
-/// Builds in those of one stage.
-/// @throws BadInput if a place is none of the effect's places on this robot
+/// Builds the effects of one stage into the model.
+/// @throws BadInput if an effect cannot act at its place on this robot
 void build_in(const std::vector<EffectSetting>& settings, Stage stage, ModelDraft& draft);
 
-/// The effects as a model file lists them: "effects:\n  - {id: ..., place: ..., ...}\n".
+/// YAML text of effects, as they stand in a model file: "effects:\n  - {id: ..., place: ...,
+/// ...}\n".
 std::string effects_yaml(const std::vector<EffectInstance>& effects);
 
 }  // namespace anthrob

@@ -24,8 +24,8 @@ enum class Seam {
 };
 std::string seam_name(Seam seam);
 
-/// When an effect is built in. Within a stage effects follow the chain, so that what is wrapped
-/// round a component finds its numbers final.
+/// When an effect is built into the model. Within a stage, effects follow the chain from controller
+/// to sensors, so that a wrapper around a component finds the component's final numbers.
 enum class Stage {
   kSkeleton,    ///< bodies, joints and gravity, before the muscles are read
   kNumbers,     ///< numbers of components
@@ -36,20 +36,20 @@ enum class Stage {
 /// One number of an effect.
 struct EffectParameter {
   enum Kind {
-    kSize,   ///< how much of the effect there is; none of it if all sizes are neutral
-    kShape,  ///< how it looks; can be found out where there is some of it
-    kGiven,  ///< cannot be told apart from a size: taken as known
+    kSize,   ///< how much of the effect there is; no effect if all sizes are neutral
+    kShape,  ///< what the effect looks like; identifiable only if the effect is present
+    kGiven,  ///< not identifiable beside a size: assumed to be known, not fitted
   };
   std::string name, unit, meaning;
-  double neutral = 0.0;  ///< of a size: no effect; of the others: what holds if none is given
-  double typical = 0.0;  ///< plausible; typical - neutral is the unit dose of a screening
+  double neutral = 0.0;  ///< size: value without effect; shape or given: default value
+  double typical = 0.0;  ///< plausible value; typical - neutral is the unit dose of a screening
   Bounds bounds;
   Kind kind = kSize;
 };
 
 /// What the catalogue says about an effect.
 struct EffectInfo {
-  std::string id;           ///< fixed: in files, reports and on command lines
+  std::string id;           ///< fixed name in files, reports and on command lines
   std::string name;         ///< for people
   std::string description;  ///< one paragraph
   std::string equation;
@@ -59,8 +59,8 @@ struct EffectInfo {
   Stage stage = Stage::kComponents;
   bool dissipates = false;
   bool slow = false;                  ///< builds up over minutes
-  bool once_a_muscle = false;         ///< two of them would not add up
-  std::vector<std::string> channels;  ///< in which it shows: position, current, force, joint, ...
+  bool once_a_muscle = false;         ///< refused twice on a muscle: two would not add up
+  std::vector<std::string> channels;  ///< where it is visible: position, current, force, joint, ...
   std::vector<EffectParameter> parameters;
 
   const EffectParameter* find(const std::string& parameter) const;
@@ -74,7 +74,7 @@ struct ModelDraft {
 
 class EffectSetting;
 
-/// A way in which a robot may differ from its plain model. Immutable; one object for all robots.
+/// A way in which a robot may differ from its plain model. Immutable; all robots share one object.
 class Effect {
  public:
   explicit Effect(EffectInfo info) : info_(std::move(info)) {}
@@ -82,12 +82,13 @@ class Effect {
 
   const EffectInfo& info() const { return info_; }
 
-  /// Where it can sit on this robot; empty if nowhere.
+  /// The places of this robot at which the effect can act; empty if there are none.
   virtual std::vector<std::string> places(const RobotModel& robot) const = 0;
   /// Its parameters at one of these places: units, typical values and bounds may depend on it.
   virtual std::vector<EffectParameter> parameters_at(const RobotModel& robot,
                                                      const std::string& place) const;
-  /// Changes the robot at a place from `places`, by parameters within bounds that are not neutral.
+  /// Changes the robot at one of its `places`. The parameters are within their bounds and not
+  /// neutral.
   virtual void build_in(const EffectSetting& setting, ModelDraft& draft) const = 0;
 
  private:
@@ -97,7 +98,7 @@ class Effect {
 /// An effect with a place and all its numbers, ready to be built in.
 class EffectSetting {
  public:
-  /// @param origin where it was asked for, for messages
+  /// @param origin entry of the file that asks for the effect, for error messages
   /// @throws BadInput for unknown parameters, values out of bounds, or if no size is given
   EffectSetting(const Effect& effect, EffectInstance instance,
                 std::vector<EffectParameter> parameters, const ConfigNode& origin);
@@ -106,11 +107,11 @@ class EffectSetting {
   const EffectInstance& instance() const { return instance_; }
   const std::string& id() const { return instance_.id; }
   const std::string& place() const { return instance_.place; }
-  /// All sizes are neutral: the plain model.
+  /// Whether all sizes are neutral, so that the model stays the plain one.
   bool neutral() const;
   double operator[](const std::string& parameter) const;
 
-  /// @throws BadInput always, one line, about one of its keys
+  /// Always throws BadInput with one line: the key, its value and "expected <expectation>".
   [[noreturn]] void fail(const std::string& key, const std::string& expectation) const;
 
  private:

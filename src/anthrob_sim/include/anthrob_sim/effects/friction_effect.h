@@ -6,9 +6,12 @@
 
 namespace anthrob {
 
-/// A law with more friction: its own curve raised so that its kinetic coefficient grows by `mu`.
-/// Where there is no friction yet, the thesis's law (4.75) with its ratio of coefficients.
-/// @param rest_ratio of what is added, static over kinetic, relative to the law's own
+/// Adds friction to a law: scales its curve so that the kinetic coefficient grows by `mu`. Without
+/// friction so far, returns the thesis's law (4.75) with its ratio of coefficients.
+/// @param law may be null: no friction
+/// @param mu added kinetic coefficient [1]
+/// @param rest_ratio static over kinetic coefficient of the added friction, relative to the law's
+/// [1]
 std::shared_ptr<const FrictionLaw> raise_friction(const std::shared_ptr<const FrictionLaw>& law,
                                                   double mu, double rest_ratio);
 

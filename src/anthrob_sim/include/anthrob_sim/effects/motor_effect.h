@@ -19,14 +19,14 @@ class MotorEffect : public MuscleEffect {
   void change(const EffectSetting& setting, ModelDraft& draft, std::size_t muscle) const override {
     MuscleModel& model = draft.robot.muscles[muscle];
     const auto plain = std::dynamic_pointer_cast<const DcMotor>(model.actuator);
-    if (!plain) setting.fail("place", "a plain DC motor there");
+    if (!plain) setting.fail("place", "a muscle with a plain DC motor");
     change_motor(setting, *plain, draft.robot.step, model);
   }
   virtual void change_motor(const EffectSetting& setting, const DcMotor& motor, double step,
                             MuscleModel& muscle) const = 0;
 };
 
-/// MUSCLE | all, muscles with a motor of any kind: something wrapped round it. Stage::kComponents.
+/// MUSCLE | all, muscles with a motor of any kind: a wrapper around the motor. Stage::kComponents.
 class MotorWrappingEffect : public MuscleEffect {
  public:
   using MuscleEffect::MuscleEffect;

@@ -4,8 +4,9 @@
 
 namespace anthrob {
 
-/// The kinds of places, one base class each: they list where an effect can sit and find the spot
-/// again when it is built in. `all` is one instance over all muscles, which share its parameters.
+/// One base class for each kind of place. It lists the places of a robot at which an effect can
+/// act, and finds the place again when the effect is built in. The place `all` means all muscles,
+/// which share the parameters.
 
 /// MUSCLE | all
 class MuscleEffect : public Effect {
@@ -35,7 +36,7 @@ class PathEffect : public Effect {
                       PathObstacle& obstacle) const = 0;
 };
 
-/// JOINT; joint torques of parameters are forces where the joint is prismatic.
+/// JOINT. At a prismatic joint, torques and angles among the parameters become forces and lengths.
 class JointEffect : public Effect {
  public:
   explicit JointEffect(EffectInfo what) : Effect(std::move(what)) {}

@@ -13,7 +13,7 @@ inline double rest_tendon_length(const Actuator& actuator) {
   return actuator.tendon_length(StateView(state.data()));
 }
 
-/// MUSCLE | all: something wrapped round the series elastic element, or in series with it.
+/// MUSCLE | all: a wrapper around the series elastic element, or an element in series with it.
 class SpringEffect : public MuscleEffect {
  public:
   using MuscleEffect::MuscleEffect;

@@ -41,14 +41,15 @@ struct MuscleModel {
   int steps_per_tick = 1;      ///< simulation steps between two ticks of the controller
   double command_delay = 0.0;  ///< until the controller gets a command [s]
 
-  /// As on the robot: a unit whose limit of force is 0 measures none, and has no mode FORCE.
+  /// As on the robot: a unit whose force limit is 0 measures no force and has no mode FORCE.
   bool has_force_sensor() const { return !has_controller || limits.force > 0.0; }
 };
 
 struct SensorsModel {
   SensorModel position, velocity, current, force;  ///< of every muscle
   SensorModel joint_position;                      ///< of hinge and prismatic joints
-  /// Of the robot's fastest controller, for sensors that belong to none; 1 without controllers.
+  /// Steps per tick of the robot's fastest controller, for sensors without a controller (joints);
+  /// 1 on a robot without controllers.
   int steps_per_tick = 1;
   std::uint64_t seed = 1;
 };
@@ -65,9 +66,8 @@ struct RobotModel {
   std::vector<MuscleModel> muscles;
   SensorsModel sensors;
   std::vector<TouchPadModel> touch_pads;
-  std::vector<std::string>
-      remarks;  ///< on what is odd in the files but was put right or does no harm, one line each
-  std::vector<EffectInstance> effects;  ///< as asked for; what they change is in the rest already
+  std::vector<std::string> remarks;  ///< harmless or corrected oddities of the files, one line each
+  std::vector<EffectInstance> effects;  ///< as requested; they are already built in
   std::vector<std::shared_ptr<const PowerEffect>> power_effects;
   std::vector<std::shared_ptr<const ReadingEffect>> reading_effects;
   std::vector<std::shared_ptr<const JointTorque>> joint_torques;
@@ -85,8 +85,8 @@ struct LoadOptions {
   std::map<std::string, double> overrides = {};
   /// Effects beside those of the model file.
   std::vector<EffectInstance> effects = {};
-  /// A step may be longer than a controller's period: it acts once a step then. For derivatives,
-  /// not for results.
+  /// Accept steps longer than a controller's period; the controller then acts once per step. For
+  /// derivatives, not for results.
   bool slow_controllers = false;
 };
 
@@ -94,7 +94,7 @@ struct LoadOptions {
 /// @throws BadInput with one line: file, line, key, value, what was expected
 std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,
                                                    const LoadOptions& options = {});
-/// The same for a model file in memory; many threads may build from one `config`.
+/// Builds the model from a model file in memory; several threads may use one `config`.
 std::shared_ptr<const RobotModel> build_robot_model(const ConfigNode& config,
                                                     const LoadOptions& options = {});
 

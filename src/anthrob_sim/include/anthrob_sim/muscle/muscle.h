@@ -42,10 +42,10 @@ class Muscle {
   /// Whether the ECU follows its reference; if not, its output is zero volts.
   void set_enabled(bool enabled);
   void set_gain(ecu::Parameter gain, double value);
-  /// The control law with the gains of now.
+  /// Settings of the control law, with the current gains.
   const ecu::ControllerSettings& controller() const { return controller_; }
-  /// What comes from behind the ECU's control law until release(), and is never late. Takes the
-  /// place of the command: once released, the ECU holds this voltage until it is commanded anew.
+  /// Sets the output of the ECU's control law until release(), without delay. It replaces the
+  /// command: after release() the ECU holds this voltage until the next command.
   void apply_voltage(double voltage);
   /// The actuator arrives at `position` at the end of the next step.
   void impose(double position, double velocity);
@@ -54,13 +54,14 @@ class Muscle {
 
   /// What the ECU's sensors would measure if they were ideal.
   ecu::Measurement truth() const;
-  /// As if the sensors had always been given this.
+  /// Resets the sensors as if they had always sampled these values.
   void reset_sensors(const ecu::Measurement& seen);
-  /// Sensors sample what they are given: the truth, unless an effect lies between.
+  /// Samples the sensors. @param seen true values, or what effects make of them
   void sense(std::uint64_t step_index, const ecu::Measurement& seen);
   /// The controller ticks if it is due.
   void control(std::uint64_t step_index);
-  /// Tensions up to the spring are known; what lies beyond depends on how the joints will move.
+  /// Adds the known forces of the muscle to `tau`, and prepares the part of the tendon beyond the
+  /// spring, whose tension depends on how the joints will move.
   void prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau);
   SlidingTendon& sliding() { return sliding_; }
   const SlidingTendon& sliding() const { return sliding_; }
@@ -82,7 +83,7 @@ class Muscle {
   double expansion() const;
   Actuator::Readout actuator() const;
   const ecu::Measurement& measured() const;
-  /// What its force sensor says [N]; measured() is not below zero.
+  /// Reading of the force sensor [N], which may be negative; measured() is cut off at zero.
   double force_reading() const;
   ecu::Mode mode() const;
   double reference() const;
@@ -97,7 +98,7 @@ class Muscle {
   /// Elastic energy of the spring [J], and the power it turns into heat [W].
   double spring_energy() const;
   double spring_dissipation() const;
-  /// Power that friction took out of the tendon during the last step [W].
+  /// Power dissipated by friction of the tendon in the last step [W].
   double friction_power() const;
 
  private:

@@ -13,26 +13,26 @@ struct BagContents {
   std::vector<std::string> not_carried;  ///< other topics: "/tf (2040 messages)"
 };
 
-/// What a bag does not show as the dataset folder did, one line each.
+/// Differences between a written bag and its dataset folder, one line each.
 struct BagRemarks {
-  std::vector<std::string> not_carried;  ///< columns: "joints.csv: elbow/load"
-  std::vector<std::string> remarks;      ///< what went elsewhere than its file says
+  std::vector<std::string> not_carried;  ///< columns that no topic holds: "joints.csv: elbow/load"
+  std::vector<std::string> remarks;      ///< columns written to another topic than their file's
 };
 
 /// Reads the topics muscle_command, muscle_states, joint_states and spherical_joint_states, in
-/// whatever namespace they were recorded (one robot a bag), into the tables commands, muscles,
+/// whatever namespace they were recorded (one robot per bag), into the tables commands, muscles,
 /// joints and spherical_joints. Every value and stamp is kept bit for bit. NAME.yaml beside
-/// NAME.bag is its meta.yaml. Commands of several publishers, which may overtake each other by up
-/// to 0.5 s, come in the order of their stamps, with a remark.
-/// @throws BadInput naming the file if it is no bag or a broken one, holds none of the topics, or
-/// topics of several robots, or time goes backwards in it
+/// NAME.bag is its meta.yaml. Commands of several publishers may arrive out of order by up to
+/// 0.5 s; they are sorted by their stamps, with a remark.
+/// @throws BadInput naming the file if it is not a bag or a broken one, contains none of the topics
+/// or topics of several robots, or if time goes backwards in it
 BagContents read_bag(const std::string& file);
 
-/// The other way. Topics get the namespace of `meta.robot`; the rest of `meta` goes to NAME.yaml
-/// beside NAME.bag, in place of what stood there. Which column goes to which topic: topic_tables.h.
-/// A row without any cell becomes a message without names.
-/// @throws BadInput if rows do not make messages: a quantity of some names only, an orientation or
-/// a command that is not whole, times before 0; or nothing has a topic
+/// Writes a dataset as a bag. Topics get the namespace of `meta.robot`; the rest of `meta` is
+/// written to NAME.yaml beside NAME.bag, replacing an existing file. topic_tables.h says which
+/// column goes to which topic. A row without any cell becomes a message without names.
+/// @throws BadInput if a row cannot become a message (a quantity given for some names only, an
+/// incomplete orientation or command, a time before 0), or if no column has a topic
 BagRemarks write_bag(const Dataset& dataset, const std::string& file);
 
 }  // namespace anthrob

@@ -18,8 +18,8 @@ inline double seconds(Nanoseconds t) {
 /// One column of a table. Words (modes, states) are kept as the numbers they have in messages.
 struct Column {
   std::string name;            ///< `<muscle>/position`, `<joint>/effort`, `<ball_joint>/w`, ...
-  std::vector<double> values;  ///< one a row; meaningless where not present
-  std::vector<char> present;   ///< whether the cell is there: an empty cell means not measured
+  std::vector<double> values;  ///< one per row; meaningless where not present
+  std::vector<char> present;   ///< 0 for an empty cell, which means not measured
 
   /// "biceps_brachii" of "biceps_brachii/position"
   std::string owner() const { return name.substr(0, name.find('/')); }
@@ -27,17 +27,17 @@ struct Column {
   std::string quantity() const { return name.substr(name.find('/') + 1); }
 };
 
-/// One CSV file of a dataset folder: its own time and one row a sample.
+/// One CSV file of a dataset folder, with its own time column and one row per sample.
 struct Table {
   std::string name;  ///< "muscles" for muscles.csv
   std::vector<Nanoseconds> t;
-  /// Of a bag, where they differ from t, else empty: header stamp and time of arrival of each
-  /// message. Columns `stamp` and `bag_time`.
+  /// Header stamp and time of arrival of each message of a bag (columns `stamp` and `bag_time`);
+  /// empty if they equal t.
   std::vector<Nanoseconds> stamp, bag_time;
   std::vector<Column> columns;
 
   const Column* find(const std::string& column) const;
-  /// The column, made with empty cells if it is not there yet.
+  /// The column of this name; created with empty cells if there is none.
   Column& column(const std::string& column);
 };
 
@@ -47,25 +47,25 @@ struct Series {
   std::vector<double> values;
 
   bool empty() const { return t.empty(); }
-  /// Linear between samples, constant beyond the ends.
+  /// Value interpolated linearly between samples, constant beyond the ends.
   double at(double time) const;
-  /// The last sample not later than `time`, or the first.
+  /// Value of the last sample not later than `time`; before the first sample, that of the first.
   double held_at(double time) const;
-  /// Of efforts and loads: as held_at(), but nothing, 0, before a first sample that comes later
-  /// than 0.1 s.
+  /// For efforts and loads: as held_at(), but 0 before the first sample if that comes later than
+  /// 0.1 s.
   double acting_at(double time) const;
 };
 
-/// Series::held_at() for times that only go on, as a run asks for them: it looks for the next
-/// sample where the last one was, and tells when there is a new one.
+/// Fast Series::held_at() for times that never decrease, as in a simulation run. It continues the
+/// search at the last sample, and says when a new sample begins to hold.
 class HeldSeries {
  public:
   /// @param series must outlive this
   explicit HeldSeries(const Series& series) : series_(&series) {}
 
-  /// Goes on to `time`. Whether another sample holds there than at the time before; true at first.
+  /// Advances to `time`. @return whether a new sample holds since the last call; true at the first
   bool advance(double time);
-  /// Of the sample that holds now; the series must not be empty.
+  /// Value of the current sample; the series must not be empty.
   double value() const { return series_->values[passed_ == 0 ? 0 : passed_ - 1]; }
 
  private:
@@ -87,8 +87,8 @@ struct DatasetMeta {
 };
 
 /// meta.yaml of a dataset folder, or NAME.yaml beside NAME.bag.
-/// @param remarks gets a line for each key that nobody here knows
-/// @throws BadInput
+/// @param remarks gets one line for each unknown key
+/// @throws BadInput for values that are not allowed
 DatasetMeta load_meta(const std::string& file, std::vector<std::string>* remarks);
 std::string meta_text(const DatasetMeta& meta);
 
@@ -97,17 +97,16 @@ struct Dataset {
   std::string folder;  ///< where it came from, for messages
   DatasetMeta meta;
   std::vector<Table> tables;
-  std::vector<std::string> remarks;  ///< what was odd about it and does no harm; not saved
+  std::vector<std::string> remarks;  ///< harmless oddities found while reading; not saved
 
   /// @throws BadInput with one line: file, line or row, value, what was expected
   static Dataset load(const std::string& folder);
-  /// All files are written beside their places and moved there when they are complete. Tables of a
-  /// recording that stood there go.
+  /// Writes the folder. Files are written under temporary names and renamed when all are complete.
+  /// Replaces a recording that the folder already holds, all its tables included.
   /// @throws std::runtime_error naming the file that cannot be written
   /// @throws BadInput if the folder holds CSV files that are no part of a recording
   void save(const std::string& folder) const;
-  /// Tells before long work what save() would say after it.
-  /// @throws as save()
+  /// Checks before a long computation whether save() will be possible.  @throws as save()
   void require_place(const std::string& folder) const;
 
   const Table* find_table(const std::string& name) const;
@@ -115,7 +114,8 @@ struct Dataset {
   /// Time of the first and of the last row of any table.
   Nanoseconds begin() const;
   Nanoseconds end() const;
-  /// The samples of a column wherever it stands; commands go before states. Empty if there is none.
+  /// Samples of a column, in whichever table it is; the table of commands is searched first. Empty
+  /// if there is no such column.
   Series series(const std::string& column) const;
 };
 

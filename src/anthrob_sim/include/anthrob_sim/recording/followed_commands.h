@@ -7,20 +7,21 @@
 
 namespace anthrob {
 
-/// What a muscle's motor unit was told over time. `mode` is empty where nobody said it.
+/// Commands to a muscle's motor unit over time. `mode` is empty if it was not recorded.
 struct CommandSeries {
   Series mode, reference;
 };
 
-/// A muscle's recorded commands, as its unit followed them: where a recording holds `ecu_state`,
-/// and with it the mode and reference in force, commands that the unit refused or met while it was
-/// not ENABLED are left out, and from each stop on it has VOLTAGE 0 until a later command. The
-/// series begins at time 0 if the recording says what was in force there.
-/// @param unsaid mode of commands without one
+/// The commands that a muscle's unit actually followed. If the recording contains `ecu_state`,
+/// together with the mode and reference in force, then commands that the unit refused or got while
+/// it was not ENABLED are left out, and from each stop on the command is VOLTAGE 0 until a later
+/// command. The series begins at time 0 if the recording says what was in force there.
+/// @param unsaid mode of commands without a recorded mode
 CommandSeries followed_commands(const Dataset& recording, const std::string& muscle,
                                 ecu::Mode unsaid);
 
-/// @throws BadInput with the time, if the unit followed something for which there is no command
+/// Checks that the recording contains every command that the unit followed.
+/// @throws BadInput with the time, if the unit followed a command that was not recorded
 void require_commanded(const Dataset& recording, const std::string& muscle,
                        const CommandSeries& followed);
 

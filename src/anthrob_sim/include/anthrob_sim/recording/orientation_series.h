@@ -10,13 +10,14 @@ namespace anthrob {
 struct OrientationSeries {
   Series number[4];  ///< w, x, y, z, at the same times, without sudden changes of sign
 
-  /// Empty where it was not measured.
-  /// @throws BadInput if the four numbers were not measured at the same times, or are no rotation
+  /// Reads the orientation of a joint; empty if it was not measured.
+  /// @throws BadInput if the four numbers were not measured at the same times, or if one of the
+  /// quaternions is not of unit length
   static OrientationSeries read(const Dataset& recording, const std::string& joint);
 
   bool empty() const { return number[0].empty(); }
   const std::vector<double>& t() const { return number[0].t; }  ///< [s]
-  /// Between two samples on the straight way, constant beyond the ends.
+  /// Interpolated along the shortest rotation between two samples, constant beyond the ends.
   /// @param turn gets w, x, y, z, of unit length
   void at(double time, double* turn) const;
 };

@@ -4,7 +4,7 @@
 
 namespace anthrob {
 
-// What a recording may tell of a muscle, of a ball joint, of another joint.
+// Quantities that a recording may contain of a muscle, a ball joint, and any other joint.
 bool is_muscle_quantity(const std::string& quantity);
 bool is_ball_quantity(const std::string& quantity);
 bool is_joint_quantity(const std::string& quantity);

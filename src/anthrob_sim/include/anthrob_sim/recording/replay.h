@@ -11,44 +11,46 @@
 
 namespace anthrob {
 
-/// What of a recording drives the simulation.
+/// Which part of a recording drives the simulation.
 enum class ReplayMode {
   kReference,  ///< commands, as followed_commands has them: the ECU's references
   kVoltage,    ///< recorded voltages, past the control law
   kPosition,   ///< recorded actuator positions are imposed
-  kPosture,    ///< these and recorded joint positions are: only tendons and springs are simulated
+  kPosture,    ///< actuator and joint positions are imposed: only tendons and springs are simulated
 };
 
-/// Feeds a recording's inputs to simulations of one robot, whose numbers may differ: start() and
-/// then a Run each. Inputs hold from their row to the next; imposed positions are interpolated.
-/// Efforts and loads of hinges and prismatic joints are applied in every mode.
+/// Feeds the inputs of a recording to simulations of one robot, whose parameters may differ. For
+/// each simulation call start() and then create a Run. Inputs hold from their row to the next;
+/// imposed positions are interpolated. Efforts and loads of hinges and prismatic joints are applied
+/// in every mode.
 class Replay {
  public:
-  /// @throws BadInput if the recording names muscles or joints that the robot lacks, or has no
-  /// input, or one that is not a finite number or a known mode, or a unit followed what nobody
-  /// commanded; of kPosture, a joint that was not measured. What was only measured may be NaN.
+  /// @throws BadInput if the recording names muscles or joints that the robot does not have, has no
+  /// input, has an input that is not finite or not a known mode, or if a unit followed a command
+  /// that was not recorded; in mode kPosture also if a joint was not measured. Measurements that
+  /// drive nothing may be NaN.
   Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode);
 
-  /// Puts the simulation where the recording starts: settled at the references in force then, with
-  /// motors that had none where they were measured; at zero; or at given positions, as the
-  /// recording's meta.yaml says. Robots without muscles start at their first recorded joint
-  /// positions; of kPosture all is at its first recorded position, whatever meta.yaml says. The
-  /// recording's time 0 is now.
+  /// Puts the simulation where the recording starts, as the recording's meta.yaml says: settled at
+  /// the references in force then (motors without a reference stand where they were measured), at
+  /// zero, or at given positions. Robots without muscles start at their first recorded joint
+  /// positions. In mode kPosture everything starts at its first recorded position, whatever
+  /// meta.yaml says. The recording's time 0 is the current time of the simulation.
   ///
-  /// Dry friction and cogging let a motor stand in many places, and by which way the recorded one
-  /// came only its reading tells: motors under position control that end farther from where they
-  /// were measured first than a count of their encoders, or than noise, but no farther than 1 rad,
-  /// are led there in the last second of the settling, or its second half; not if it takes less
-  /// than 0.5 s.
+  /// With dry friction and cogging, a motor can come to rest at many positions, and only the
+  /// measurement says at which the recorded one did. So motors under position control are led to
+  /// their first measured position in the last second of the settling, or in its second half if it
+  /// is shorter than 2 s. This is done if the motor would end farther from that position than one
+  /// encoder count or the noise, but at most 1 rad away, and if the settling takes at least 0.5 s.
   void start(Simulation& sim) const { start(sim, settle(sim)); }
-  /// States of a simulation that settles, which recordings of equal start_inputs() share.
+  /// States of a simulation that settles. Recordings with equal start_inputs() can share them.
   struct Settled {
-    Snapshot late, last;  ///< when the last second begins; at the end
+    Snapshot late, last;  ///< at the beginning of the last second; at the end
   };
   Settled settle(Simulation& sim) const;
   /// start() of a simulation that has settled before. @param sim of the same model
   void start(Simulation& sim, const Settled& settled) const;
-  /// What settle() depends on beside the model.
+  /// Everything that settle() depends on, apart from the model.
   std::vector<double> start_inputs() const;
 
   /// Drives one simulation from the recording's start on.
@@ -120,11 +122,12 @@ class Replay {
 
 class Replay::Run {
  public:
-  /// To be made after start().
-  /// @param replay must outlive this   @param sim likewise; nobody else gives it inputs
+  /// To be created after start().
+  /// @param replay must outlive this   @param sim must outlive this; must get no other inputs
   Run(const Replay& replay, Simulation& sim);
 
-  /// Sets the inputs of the step from `time` [s] on, as far as they have changed. Times only go on.
+  /// Sets the inputs of the step that begins at `time` [s], as far as they have changed. Times must
+  /// not decrease.
   void drive(double time);
 
  private:
@@ -147,13 +150,13 @@ class Replay::Run {
   std::vector<double> posture_;  ///< scratch
 };
 
-/// Runs a whole recording and samples the simulation, with ideal sensors, at the recording's rows:
-/// every file of the recording with its own columns, and what no file has in muscles.csv,
-/// joints.csv and spherical_joints.csv. Between two steps values are interpolated.
+/// Replays a whole recording and samples the simulation, with ideal sensors, at the recording's
+/// rows. The result has all files and columns of the recording; quantities that it lacks are added
+/// to muscles.csv, joints.csv and spherical_joints.csv. Values are interpolated between steps.
 /// @param progress called with the share done in [0, 1]; returns false to stop early (may be empty)
-/// @param failure if given, gets what a NumericalFailure says instead of its being thrown
-/// @return of a replay that was stopped or failed, the rows up to there; none if it failed before
-/// the first. `cut_short` in its meta says up to when.
+/// @param failure if not null, gets the message of a NumericalFailure, which is then not thrown
+/// @return the simulated recording. If the replay was stopped or failed: the rows up to there (none
+/// if it failed before the first), and `cut_short` in its meta says up to which time
 Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
                ReplayMode mode, const std::function<bool(double)>& progress = {},
                std::string* failure = nullptr);

@@ -5,12 +5,11 @@
 
 namespace anthrob {
 
-/// One count of the sensor that these values come from, in their unit: they all lie on a grid of
-/// that step. 0: none to be seen. Those that are not finite are left out.
+/// Size of one sensor count, in the unit of the values: the step of the grid on which all values
+/// lie; 0 if no grid is found. Values that are not finite are ignored.
 double resolution_of(std::vector<double> values);
 
-/// Standard deviation of white noise on a smooth series: by its third differences, of which the
-/// median is taken.
+/// Standard deviation of white noise on a smooth series, from the median of its third differences.
 double white_noise(const Eigen::VectorXf& series);
 
 }  // namespace anthrob

@@ -11,12 +11,12 @@ namespace anthrob {
 /// Reads one quantity off a running simulation, as ideal sensors would.
 class Probe {
  public:
-  /// @param column "<muscle>/force", "<joint>/position" and the like, of something that there is
+  /// @param column "<muscle>/force", "<joint>/position" etc.; the robot must have this quantity
   Probe(const RobotModel& model, const std::string& column);
 
-  /// The ball joint that this is a number of the orientation of, or -1.
+  /// Index of the ball joint if the quantity is w, x, y or z of its orientation; else -1.
   int turn() const { return turn_; }
-  /// Words jump; angles of orientations and numbers move.
+  /// Whether values may be interpolated between steps; false for words such as modes.
   bool interpolates() const;
   double read(const Simulation& sim) const;
 
@@ -28,14 +28,14 @@ class Probe {
   int muscle_, joint_, turn_;
 };
 
-/// Fills a table from a simulation, row after row as time goes by.
+/// Fills a table from a simulation, row by row while it runs.
 class TableSampler {
  public:
   /// @param table with times and names of columns   @param start the simulation's time 0
   TableSampler(const RobotModel& model, Table table, Nanoseconds start);
 
-  /// The simulation has arrived at `time` [s]; fills the rows up to there. Between two steps values
-  /// are interpolated.
+  /// To be called when the simulation has arrived at `time` [s]: fills the rows up to there, with
+  /// values interpolated between steps.
   void sample(const Simulation& sim, double time);
   /// The rows that were filled.
   Table take();

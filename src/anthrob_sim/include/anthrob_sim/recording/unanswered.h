@@ -4,16 +4,16 @@
 
 namespace anthrob {
 
-/// How long a sensor may have been silent and the recording still be used [s].
+/// Longest gap of a measurement with which a recording can still be used [s].
 constexpr double kLongestLoss = 0.05;
 
-/// Empties the cells that tell nothing of the robot, so that they count as not measured:
-/// - What was not measured (NaN) for no longer than kLongestLoss, which the recorder accepts, too.
-/// - The words beside it of a motor unit that did not answer in time: FAULT and VOLTAGE 0 are the
-///   driver's, not the unit's. But not where the unit is in FAULT when it answers again: there the
-///   driver had stopped it.
-/// - Forces of a muscle of which there is no number: it has no such sensor.
-/// What was not measured for longer stays NaN, to be refused.
+/// Empties cells that contain no measurement, so that they count as not measured:
+/// - NaN for at most kLongestLoss, which the recorder accepts, too.
+/// - State and mode in the same rows, if the motor unit did not answer in time: FAULT and VOLTAGE 0
+///   then come from the driver, not from the unit. They stay if the unit is in FAULT when it
+///   answers again, because then the driver had stopped it.
+/// - All forces of a muscle without a single number: it has no force sensor.
+/// NaN for longer stays NaN, so that the recording is refused later.
 void leave_out_unanswered(Dataset& recording);
 
 }  // namespace anthrob

@@ -9,9 +9,9 @@
 
 namespace anthrob {
 
-/// One joint axis moved through a range while everything else stands still.
-/// A hinge or prismatic joint takes the values as its positions; a ball joint is turned by them
-/// about one of the child's axes, from the orientation it had.
+/// A joint axis that is moved through a range while all other joints and the actuators stand still.
+/// For a hinge or prismatic joint the values are its positions; a ball joint is rotated by them
+/// from its orientation, about one of the child's axes.
 struct SweepAxis {
   int joint = 0;
   int component = 0;  ///< 0, 1, 2: x, y, z of a ball joint
@@ -21,7 +21,7 @@ struct SweepAxis {
 /// Axes that a robot's joints have, in the order of its generalised velocities.
 std::vector<SweepAxis> sweep_axes(const SkeletonModel& skeleton);
 
-/// What a muscle does along a sweep; relaxed springs, no friction, actuators still.
+/// Curves of one muscle along a sweep, with relaxed springs and without friction.
 struct MuscleCurve {
   std::string muscle;
   std::vector<double> length;      ///< l_M [m]
@@ -36,14 +36,15 @@ struct MuscleSweep {
   std::vector<MuscleCurve> muscles;
 };
 
-/// @param q where the other joints stand   @param actuators positions, one a muscle [rad]
+/// @param q posture of the other joints   @param actuators positions, one per muscle [rad]
 /// @param from, to, count positions of the swept axis, evenly spaced, count >= 2
 /// @throws BadInput if the range leaves a joint's limits
 MuscleSweep sweep_muscles(const std::shared_ptr<const RobotModel>& model,
                           const std::vector<double>& q, const std::vector<double>& actuators,
                           const SweepAxis& axis, double from, double to, int count);
 
-/// Length, moment arm and force over the axis, of all muscles or those named.
+/// Figure of length, moment arm and force over the axis.
+/// @param only names of the muscles to draw; empty: all
 SvgFigure draw_sweep(const MuscleSweep& sweep, const std::vector<std::string>& only);
 
 }  // namespace anthrob

@@ -7,10 +7,10 @@
 
 namespace anthrob {
 
-/// A wrapping surface on a solved path. Tensions up to the spring are those of this instant, those
-/// beyond it acted during the last step.
+/// A wrapping surface on a solved path. Tensions between origin and spring are the current ones;
+/// those between spring and insertion acted during the last step.
 struct SolvedContact {
-  int entry = -1;       ///< of the path in the file, origin 0; -1: an effect put it there
+  int entry = -1;       ///< of the path in the file, origin 0; -1: added by an effect
   std::string surface;  ///< type
   std::string body;
   bool touching = false;
@@ -32,13 +32,13 @@ struct SolvedPath {
   std::vector<SolvedContact> contacts;
 };
 
-/// How a muscle runs in the simulation's present state.
+/// Path of a muscle in the current state of the simulation.
 SolvedPath solved_path(const Simulation& sim, int muscle);
 
-/// A path point inside a surface beside it, where a real tendon could not be.
+/// A path point inside a neighbouring wrapping surface, where a real tendon could not be.
 struct Penetration {
   std::string muscle;
-  int entry = -1;       ///< of the surface in the path of the file; -1: an effect put it there
+  int entry = -1;       ///< of the surface in the path of the file; -1: added by an effect
   std::string surface;  ///< type
   std::string body;     ///< that carries the surface
   double depth = 0.0;   ///< [m]; 0: nothing lies inside anything
@@ -47,7 +47,7 @@ struct Penetration {
   std::string text() const;
 };
 
-/// The deepest one in the simulation's present posture.
+/// The deepest penetration in the simulation's current posture.
 Penetration deepest_penetration(const Simulation& sim);
 Penetration deepest_penetration(const Muscle& muscle, const SkeletonModel& skeleton);
 

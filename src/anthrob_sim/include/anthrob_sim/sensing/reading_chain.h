@@ -9,8 +9,8 @@
 
 namespace anthrob {
 
-/// What sensors are given to measure: the truth, and what the reading effects of a model make of it
-/// one after the other. Empty without such effects: the truth is read then, and nothing is copied.
+/// Applies the reading effects of a model to the true values, one after the other; the result is
+/// what sensors measure. Empty without such effects: sensors then measure the true values directly.
 class ReadingChain {
  public:
   struct Truth {
@@ -23,17 +23,17 @@ class ReadingChain {
   ReadingChain(const RobotModel& model, StateStore& store);
 
   bool empty() const { return effects_.empty(); }
-  /// The robot is put somewhere.
+  /// The robot was placed.
   void reset(const Truth& truth);
   /// Once a step.
   void update(const Truth& truth);
 
-  // Read, if not empty.
+  // Readings; only valid if not empty().
   const ecu::Measurement& muscle(std::size_t i) const { return readings().muscles[i]; }
   const double* positions() const { return readings().positions; }
   const double* velocities() const { return readings().velocities; }
 
-  // As of ReadingEffect, of all together.
+  // The functions of ReadingEffect, for all effects together.
   double lateness(std::size_t muscle) const;
   double undone(std::size_t muscle, double position) const;
   double joint_lateness() const;

@@ -7,38 +7,39 @@
 
 namespace anthrob {
 
-/// What the sensors are given to measure. It begins as the truth.
+/// The values that sensors measure: the true values, as changed by the effects so far.
 struct Readings {
-  ecu::Measurement* muscles;  ///< one a muscle
+  ecu::Measurement* muscles;  ///< one per muscle
   /// Joints as in Simulation::configuration, and their velocities, ball joints in the child's axes.
   double* positions;
   double* velocities;
 };
 
-/// A systematic error of sensors, before their delay, noise and counts. Recordings of the simulator
-/// show it, and controllers see it.
+/// A systematic error of sensors, applied before their delay, noise and rounding to counts.
+/// Recordings of the simulator contain it, and controllers see it.
 class ReadingEffect {
  public:
   virtual ~ReadingEffect() = default;
   virtual std::size_t state_size() const { return 0; }
-  /// The robot is put somewhere: as if it had always been there, and the effects before this one
-  /// had always read what they read now.
+  /// The robot was placed. Resets the state as if the readings so far had always been the given
+  /// ones.
   virtual void reset(const Readings&, StateView) const {}
   /// Once a step.
   virtual void apply(Readings& readings, StateView state) const = 0;
 
-  // What is recorded is what was read. To impose recorded positions, it must be known what was
-  // there; an effect that changes how positions of muscles, or of joints, are read says both.
-  /// By how much a muscle's position is read late [s].
+  // Recordings contain readings. To impose recorded positions, the true ones must be known. So an
+  // effect that changes how positions of muscles or joints are read also gives delay and inverse.
+  /// Delay of a muscle's position reading [s].
   virtual double lateness(std::size_t /*muscle*/) const { return 0.0; }
-  /// The position of a muscle [rad] that the next apply() turns into this one, lateness apart.
+  /// Inverse: the true position of a muscle [rad] that the next apply() turns into `position`, not
+  /// counting the delay.
   virtual double undone(std::size_t /*muscle*/, double position, StateView) const {
     return position;
   }
-  /// By how much positions of joints are read late [s].
+  /// Delay of the readings of joint positions [s].
   virtual double joint_lateness() const { return 0.0; }
-  /// Turns positions of joints, as in Simulation::configuration, into those that the next apply()
-  /// turns into these, lateness apart.
+  /// Inverse: replaces joint positions (as in Simulation::configuration) by the true ones that the
+  /// next apply() turns into them, not counting the delay.
   virtual void undo_joints(double* /*positions*/) const {}
 };
 

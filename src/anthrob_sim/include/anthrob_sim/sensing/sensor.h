@@ -9,7 +9,7 @@
 
 namespace anthrob {
 
-/// What a sensor adds to the truth; all zero: ideal.
+/// Errors of a sensor; the default is an ideal sensor.
 struct SensorModel {
   double noise = 0.0;    ///< standard deviation of white noise [unit of the quantity]
   double quantum = 0.0;  ///< size of one count [unit of the quantity]
@@ -22,8 +22,8 @@ struct SensorModel {
   static SensorModel load(const ConfigNode& node, const std::string& unit);
 };
 
-/// One measured quantity: delay, then noise, then rounding to counts, then moving average over what
-/// the ECU's ticks find.
+/// Sensor of one quantity: delay, then noise, then rounding to counts, then a moving average over
+/// the values at the ECU's ticks.
 class Sensor {
  public:
   /// @param stream different for every sensor of a robot   @param step [s]
@@ -34,8 +34,8 @@ class Sensor {
   std::size_t state_size() const { return ideal_ ? 0 : 4 + delay_steps_ + model_.average; }
   /// As if the quantity had always had this value.
   void reset(double value, StateView state) const;
-  /// To be called once every step with the true value; `index` counts the steps. An average changes
-  /// where it is a multiple of `steps_per_tick`, and holds in between.
+  /// To be called once every step with the true value; `index` counts the steps. An average is
+  /// updated when `index` is a multiple of `steps_per_tick`, and held in between.
   double measure(double value, std::uint64_t index, StateView state) const {
     return ideal_ ? value : distorted(value, index, state);
   }

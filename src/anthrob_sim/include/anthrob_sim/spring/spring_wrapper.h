@@ -4,7 +4,8 @@
 
 namespace anthrob {
 
-/// An element that is another one but for what a subclass overrides. Its own state comes first.
+/// Wraps an element: passes every call on to it, except for those that a subclass overrides. The
+/// subclass's own state comes first.
 class SpringWrapper : public SeriesElasticElement {
  public:
   SpringWrapper(std::shared_ptr<const SeriesElasticElement> inner, std::size_t own_size)
@@ -22,8 +23,8 @@ class SpringWrapper : public SeriesElasticElement {
   std::size_t own_size_;
 };
 
-/// Another force beside that of an element: with it f = max(0, f_inner + force), nothing when
-/// slack. May be negative, but not so that the element gets shorter when it is pulled.
+/// Adds a force in parallel to an element: f = max(0, f_inner + force), and 0 when slack. The force
+/// may be negative, but the sum must not fall with increasing stretch.
 class ParallelForce : public SpringWrapper {
  public:
   /// @param own_size state of the subclass   @param step [s]

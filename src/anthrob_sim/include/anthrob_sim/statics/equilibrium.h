@@ -9,12 +9,12 @@ namespace anthrob {
 
 /// How to hold a posture at rest, derived from the model without friction.
 struct Equilibrium {
-  /// Least-effort tension by muscle; of one without an input (ligament) what its stretch gives [N].
+  /// Least-effort tension by muscle [N]; for a muscle without input (ligament) that of its stretch.
   std::vector<double> tension;
   std::vector<double> position;  ///< actuator position by muscle [rad]
-  /// Reference of the ECU's position controller that leaves the actuator at `position`: its
-  /// proportional control needs a standing error for the voltage that carries the load. For a
-  /// muscle without controller the input that holds it.
+  /// Reference of the ECU's position controller that holds the actuator at `position`. It differs
+  /// from `position`, because proportional control needs a steady-state error for the voltage that
+  /// carries the load. For a muscle without controller: the input that holds it.
   std::vector<double> reference;
   Eigen::VectorXd shortfall;  ///< torque that the muscles cannot deliver [Nm, N]
 };
@@ -24,17 +24,17 @@ struct EquilibriumOptions {
   double highest_tension = 120.0;  ///< [N]
 };
 
-/// Moment arms of all muscles in the simulation's posture: one row a generalised velocity (ball
-/// joints in the child's axes), one column a muscle [m].
+/// Moment arms of all muscles in the simulation's posture [m]: one row per generalised velocity
+/// (ball joints in the child's axes), one column per muscle.
 Eigen::MatrixXd moment_arm_matrix(const Simulation& sim);
 
-/// Generalised forces that hold the posture against gravity and against what else the model puts on
-/// its joints at rest (ball joints in the child's axes) [Nm, N].
+/// Generalised forces that hold the posture against gravity and against all other torques that the
+/// model has on its joints at rest (ball joints in the child's axes) [Nm, N].
 Eigen::VectorXd holding_load(const Simulation& sim);
 
 /// Reference of a muscle's position controller that holds a tension at a muscle length, see
 /// Equilibrium::reference. Effects of the power stage (dead zone, sagging supply) and of sensors
-/// are not in it. @param length [m]   @param tension [N], > 0
+/// are not included. @param length [m]   @param tension [N], > 0
 /// @throws BadInput if the controller has no proportional gain
 double position_reference(const MuscleModel& muscle, double length, double tension);
 

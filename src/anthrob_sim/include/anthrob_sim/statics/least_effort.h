@@ -4,18 +4,18 @@
 
 namespace anthrob {
 
-/// Splits joint torques over muscles that can only pull.
+/// Distribution of joint torques over muscles, which can only pull.
 struct LeastEffort {
-  Eigen::VectorXd tension;  ///< [N], one a muscle
-  /// Torque that no allowed tensions reach: required - delivered [Nm]; zero if the posture can be
-  /// held.
+  Eigen::VectorXd tension;  ///< [N], one per muscle
+  /// Torque that no allowed tensions can deliver: required - delivered [Nm]; zero if the posture
+  /// can be held.
   Eigen::VectorXd shortfall;
 };
 
-/// The tensions of least sum of squares with A f = tau and lowest <= f <= highest. If no such
-/// tensions exist, the nearest torque that can be had.
-/// @param moment_arms A, one row a generalised velocity, one column a muscle [m]
-/// @param torque tau, what the muscles have to deliver [Nm]
+/// Finds the tensions f of least sum of squares with A f = tau and lowest <= f <= highest. If there
+/// are none, finds the tensions whose torque is nearest to tau.
+/// @param moment_arms A, one row per generalised velocity, one column per muscle [m]
+/// @param torque tau, which the muscles have to deliver [Nm]
 /// @param lowest,highest by muscle [N]; 0 <= lowest <= highest
 /// @throws std::invalid_argument if sizes or bounds do not fit
 LeastEffort least_effort(const Eigen::MatrixXd& moment_arms, const Eigen::VectorXd& torque,

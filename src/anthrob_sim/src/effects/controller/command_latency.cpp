@@ -7,10 +7,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "command_latency";
-  i.name = "Commands that arrive late";
+  i.name = "Command latency";
   i.description =
       "Bus, driver and controller take time before a command acts: a phase lag that grows with "
-      "frequency, nothing in statics. Between two steps a reference is blended, a mode jumps.";
+      "frequency and no static error. Between two steps the reference is interpolated, and the "
+      "mode switches at once.";
   i.equation = "reference_ecu(t) = reference(t - delay)";
   i.source = "known: 1-20 ms";
   i.where = "MUSCLE | all";

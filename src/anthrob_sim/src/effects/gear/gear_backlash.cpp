@@ -10,17 +10,18 @@ EffectInfo describe() {
   i.id = "gear_backlash";
   i.name = "Backlash between gear and spindle";
   i.description =
-      "The spindle has play against the gear's output, where the encoder sits. The tendon pulls it "
-      "against the flank that winds in, where the plain model has it all the time; below a small "
-      "torque the spindle's own drag holds it, and when the motor turns back the encoder moves and "
-      "the tendon does not, until the other flank takes it along. Between the flanks the motor "
-      "carries nothing. At both flanks all is as in the plain model, whose friction of motor and "
-      "gear is taken to hold the drag: where it is less, a motor at the other flank runs down "
-      "under the tendon as the plain one does. Under pretension the play vanishes.";
+      "The spindle has play relative to the gear's output, where the encoder sits. The tendon "
+      "pulls the spindle against the flank that winds in; the plain model has it there all the "
+      "time. Below a small torque the spindle's own drag holds it: when the motor turns back, the "
+      "encoder moves and the tendon does not, until the other flank takes the spindle along. "
+      "Between the flanks the motor carries no load. At both flanks everything is as in the plain "
+      "model, whose friction of motor and gear is assumed to include the drag. If that friction is "
+      "less than the drag, a motor at the other flank unwinds under the tendon as in the plain "
+      "model. Under pretension the play has no effect.";
   i.equation =
       "position <= spindle <= position + width; free: d spindle/dt = -max(0, f r_S - drag) / "
       "(drag 0.1 s)";
-  i.source = "play operator with a dry bearing; ours, because a tendon only pulls";
+  i.source = "play operator with a dry bearing; own model, because a tendon only pulls";
   i.where = "MUSCLE | all";
   i.once_a_muscle = true;
   i.seam = Seam::kGear;

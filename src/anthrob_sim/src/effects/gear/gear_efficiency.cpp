@@ -6,10 +6,10 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "gear_efficiency";
-  i.name = "Losses of the gear";
+  i.name = "Gear losses";
   i.description =
-      "The gear loses another share of its torque than the model says, by the model's own gear "
-      "law: the ratio of current to force differs between winding in and running down.";
+      "The gear loses a different share of its torque than in the model; the gear law stays that "
+      "of the model. The ratio of current to force differs between winding in and unwinding.";
   i.equation = "eta = (1 - loss) eta_model; tau_motor = tau / eta driving, tau eta driven";
   i.source = "thesis (4.13), Table 4.1";
   i.where = "MUSCLE | all";
@@ -17,12 +17,8 @@ EffectInfo describe() {
   i.stage = Stage::kNumbers;
   i.dissipates = true;
   i.channels = {"current", "velocity", "position"};
-  i.parameters = {{"loss",
-                   "1",
-                   "share of the efficiency that is missing; < 0: a better gear",
-                   0.0,
-                   0.15,
-                   {-1.0, 0.9}}};
+  i.parameters = {
+      {"loss", "1", "missing share of the efficiency; < 0: a better gear", 0.0, 0.15, {-1.0, 0.9}}};
   return i;
 }
 
@@ -34,7 +30,7 @@ class GearEfficiency final : public MotorEffect {
   void change_motor(const EffectSetting& setting, const DcMotor& motor, double step,
                     MuscleModel& muscle) const override {
     const double efficiency = motor.gear()->efficiency() * (1.0 - setting["loss"]);
-    if (efficiency > 1.0) setting.fail("loss", "a number that leaves the efficiency at most 1");
+    if (efficiency > 1.0) setting.fail("loss", "a number for which the efficiency is at most 1");
     muscle.actuator = std::make_shared<DcMotor>(motor.parameters(),
                                                 motor.gear()->with_efficiency(efficiency), step);
   }

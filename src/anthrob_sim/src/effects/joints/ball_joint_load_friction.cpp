@@ -7,11 +7,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "ball_joint_load_friction";
-  i.name = "Ball joint friction in proportion to load";
+  i.name = "Load-dependent ball joint friction";
   i.description =
-      "The ball rubs in its socket under the force the joint carries, mostly the sum of the muscle "
-      "forces: friction grows with co-contraction in the same posture. The force is that of the "
-      "last step.";
+      "The ball rubs in its socket under the force that the joint carries, which is mostly the sum "
+      "of the muscle forces: in one and the same posture, friction grows with co-contraction. The "
+      "force of the previous step is used.";
   i.equation = "|tau| = mu radius |N|";
   i.source = "Coulomb friction of a ball in a socket, contact opposite to the load";
   i.where = "JOINT (ball joints)";

@@ -12,9 +12,9 @@ EffectInfo describe() {
   i.id = "cable_drag";
   i.name = "Stiffness of cables across a joint";
   i.description =
-      "A bundle of cables across a joint pulls it back to where it lies free: a torque that "
-      "depends on posture but not on the direction of gravity. On a ball joint it acts against the "
-      "rotation from rest.";
+      "A bundle of cables across a joint pulls the joint back to where the cables are relaxed: a "
+      "torque that depends on posture but not on the direction of gravity. On a ball joint it acts "
+      "against the rotation from rest.";
   i.equation = "tau = -stiffness (q - rest)";
   i.source = "known; 0.05 Nm/rad measured on a real arm";
   i.where = "JOINT";
@@ -25,7 +25,7 @@ EffectInfo describe() {
       {"stiffness", "Nm/rad", "of the cables", 0.0, 0.05, {0.0, 5.0}},
       {"rest",
        "rad",
-       "where they are free; not of a ball joint, there they are at rest",
+       "joint position with relaxed cables; for a ball joint always its rest",
        0.0,
        0.2,
        {-3.0, 3.0},

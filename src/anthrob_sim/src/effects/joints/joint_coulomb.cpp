@@ -7,11 +7,12 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "joint_coulomb";
-  i.name = "Dry joint friction";
+  i.name = "Dry (Coulomb) joint friction";
   i.description =
       "Bearings and seals resist with a torque that hardly depends on speed, and hold the joint at "
-      "rest up to a somewhat higher one: it sticks and slips at low speed. Added to what the model "
-      "has; the Stribeck velocity replaces the model's. Isotropic for ball joints.";
+      "rest up to a somewhat higher torque: it sticks and slips at low speed. Added to the "
+      "friction of the model; the Stribeck velocity replaces the model's. Isotropic for ball "
+      "joints.";
   i.equation = "|tau| = torque (1 + (static_ratio - 1) exp(-|dq/dt| / stribeck_velocity))";
   i.source = "thesis (3.6); Stribeck 1902";
   i.where = "JOINT";

@@ -7,12 +7,13 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "joint_coulomb_asymmetric";
-  i.name = "Dry joint friction that differs by direction";
+  i.name = "Direction-dependent dry joint friction";
   i.description =
-      "A preloaded screw or seal rubs more in one direction than in the other. Added to what the "
-      "model has. It cannot be told from symmetric friction beside a constant torque "
-      "(joint_offset_torque) that is less than it, neither in motion nor at rest: only what takes "
-      "that torque away can tell, an amplifier that is off or the joint turned over.";
+      "A preloaded screw or seal rubs more in one direction than in the other. Added to the "
+      "friction of the model. It cannot be distinguished from symmetric friction together with a "
+      "smaller constant torque (joint_offset_torque), neither in motion nor at rest. To "
+      "distinguish them, remove the constant torque: switch the amplifier off, or turn the joint "
+      "over.";
   i.equation = "tau = -forward if dq/dt > 0, +backward if dq/dt < 0, holds at rest up to both";
   i.source = "Janot, Gautier, Brunot, EMPS benchmark 2019";
   i.where = "JOINT";

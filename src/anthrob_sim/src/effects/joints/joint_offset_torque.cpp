@@ -7,12 +7,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "joint_offset_torque";
-  i.name = "Constant torque on a joint";
+  i.name = "Constant joint torque";
   i.description =
       "A constant torque: a residual of gravity, an offset of the amplifier, a spring far from its "
-      "rest. Beside more dry friction than it is itself it cannot be told from friction that "
-      "differs "
-      "by direction (joint_coulomb_asymmetric), neither in motion nor at rest.";
+      "rest. If dry friction is larger than this torque, it cannot be distinguished from "
+      "direction-dependent friction (joint_coulomb_asymmetric), neither in motion nor at rest.";
   i.equation = "tau = torque";
   i.source = "Janot, Gautier, Brunot, EMPS benchmark 2019";
   i.where = "JOINT (hinges and slides)";

@@ -9,8 +9,8 @@ EffectInfo describe() {
   i.id = "joint_viscous";
   i.name = "Viscous joint friction";
   i.description =
-      "Grease and seals resist a joint in proportion to its speed. Added to what the model has. "
-      "Hidden dry friction looks much like it over a narrow range of speeds.";
+      "Grease and seals resist a joint in proportion to its speed. Added to the friction of the "
+      "model. Unmodelled dry friction looks similar over a narrow range of speeds.";
   i.equation = "tau = -damping dq/dt";
   i.source = "thesis (3.6), last term";
   i.where = "JOINT";

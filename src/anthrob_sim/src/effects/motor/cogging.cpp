@@ -9,14 +9,13 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "cogging";
-  i.name = "Cogging of the motor";
+  i.name = "Motor cogging";
   i.description =
-      "The rotor's slots are drawn to the magnets: a torque that repeats with the angle of the "
-      "rotor, conservative, seen as ripple of current or speed at fixed rotor angles. Two sizes "
-      "make up its amplitude (the root of their squares) and its phase. Its mean "
-      "over the angle that the rotor is about to turn acts in a step, so that fast turning "
-      "averages it out. Refused where it would swing the rotor across a good part of a period in "
-      "a step.";
+      "The rotor's slots are attracted by the magnets: a conservative torque that is periodic in "
+      "the rotor angle and shows as ripple of current or speed at fixed rotor angles. Two sizes "
+      "give its amplitude (root of the sum of their squares) and its phase. In each step acts the "
+      "mean of the torque over the angle that the rotor is about to turn, so fast turning averages "
+      "it out. Refused if it could move the rotor by a large part of a period in one step.";
   i.equation = "tau_shaft = sine sin(periods phi) + cosine cos(periods phi), phi = N position";
   i.source = "known";
   i.where = "MUSCLE | all";
@@ -25,7 +24,7 @@ EffectInfo describe() {
   i.parameters = {
       {"sine", "Nm", "at the motor shaft; 1-5 % of stall", 0.0, 4e-4, {-0.05, 0.05}},
       {"cosine", "Nm", "the torque at position 0", 0.0, 3e-4, {-0.05, 0.05}},
-      {"periods", "1", "a turn of the rotor", 12.0, 12.0, {1.0, 200.0}, EffectParameter::kGiven},
+      {"periods", "1", "per turn of the rotor", 12.0, 12.0, {1.0, 200.0}, EffectParameter::kGiven},
   };
   return i;
 }
@@ -72,7 +71,8 @@ class Cogging final : public MotorWrappingEffect {
     const double largest = kSteepest * motor->inertia() / (step * step * periods);
     if (std::hypot(sine, cosine) >= largest) {
       std::ostringstream limit;
-      limit << "an amplitude below " << largest << " Nm with so many periods and this step";
+      limit << "an amplitude below " << largest
+            << " Nm, for this number of periods and this simulation step";
       setting.fail(std::abs(sine) >= std::abs(cosine) ? "sine" : "cosine", limit.str());
     }
     return std::make_shared<CoggingMotor>(std::move(motor), sine, cosine, periods, step);

@@ -9,11 +9,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "winding_heating";
-  i.name = "Warming of the winding";
+  i.name = "Winding heating";
   i.description =
-      "Copper losses warm the winding: its resistance rises, the magnets weaken a little. Slow; "
-      "follows the history of the squared current. One thermal body, cold when the robot is "
-      "placed, at most 150 K above its surroundings.";
+      "Copper losses heat the winding: its resistance rises, and the magnets weaken a little. "
+      "Slow; depends on the history of the squared current. One thermal mass, cold at the start "
+      "(reset, start of a replay), at most 150 K above its surroundings.";
   i.equation =
       "time_constant d(dT)/dt = thermal_resistance R i^2 - dT, R = R_0 (1 + copper dT), "
       "K = K_0 (1 - magnet dT)";

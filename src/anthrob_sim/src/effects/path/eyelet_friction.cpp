@@ -8,10 +8,10 @@ EffectInfo describe() {
   i.id = "eyelet_friction";
   i.name = "Friction in eyelets";
   i.description =
-      "The tendon rubs where an eyelet turns it: tension differs by a factor that depends on the "
-      "angle and not on the speed, and flips with the direction of sliding. More of it than the "
-      "model has, by the model's own law; without one, by the thesis's with static over kinetic "
-      "1.25.";
+      "The tendon rubs where an eyelet deflects it: tension before and after the eyelet differs by "
+      "a factor that depends on the angle and not on the speed, and inverts with the direction of "
+      "sliding. Added to the friction of the model, by the model's own law, or by the thesis's law "
+      "with static over kinetic 1.25 if the model has none.";
   i.equation = "T_2 = T_1 exp(+-mu_total alpha), kinetic mu_total = mu_model + mu";
   i.source = "thesis (4.69)-(4.77), section 7.2.4";
   i.where = "MUSCLE/k | MUSCLE | all";

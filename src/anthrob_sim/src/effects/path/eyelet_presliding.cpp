@@ -10,10 +10,10 @@ EffectInfo describe() {
   i.id = "eyelet_presliding";
   i.name = "Presliding in eyelets";
   i.description =
-      "Before it slides, a tendon that turns back bends the fibres it rests on: friction follows "
-      "the displacement since the reversal instead of the sign of the speed, keeps its value at "
-      "rest, and draws a small loop round each reversal. Dahl's model on the Stribeck curve of the "
-      "law that is there.";
+      "After a reversal a tendon bends the fibres it rests on before it slides: friction depends "
+      "on the displacement since the reversal instead of the sign of the speed, keeps its value at "
+      "rest, and forms a small hysteresis loop at each reversal. Dahl's model on the Stribeck "
+      "curve of the friction law at that place.";
   i.equation = "mu = level(|v|) z, dz/dx = (1 - sign(v) z) / distance";
   i.source = "Dahl 1968; thesis (4.70)-(4.74)";
   i.where = "MUSCLE/k | MUSCLE | all";
@@ -21,8 +21,12 @@ EffectInfo describe() {
   i.stage = Stage::kComponents;
   i.dissipates = true;
   i.channels = {"force", "joint", "current"};
-  i.parameters = {
-      {"distance", "m", "of tendon after which 63 % of friction is back", 0.0, 3e-4, {0.0, 0.01}}};
+  i.parameters = {{"distance",
+                   "m",
+                   "tendon travel after which 63 % of friction is back",
+                   0.0,
+                   3e-4,
+                   {0.0, 0.01}}};
   return i;
 }
 

@@ -7,10 +7,10 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "via_point_shift";
-  i.name = "Path point out of place";
+  i.name = "Shifted path point";
   i.description =
-      "An eyelet, origin or insertion sits elsewhere than the model says: length and moment arm of "
-      "one muscle err in a way that changes with posture.";
+      "An eyelet, origin or insertion is not where the model has it: length and moment arm of one "
+      "muscle are wrong by an amount that depends on posture.";
   i.equation = "p' = p + shift e, e an axis of the point's link";
   i.source = "known; tables C.6, C.7 of the thesis are measured by hand";
   i.where = "MUSCLE/k/x | MUSCLE/k/y | MUSCLE/k/z (k-th entry of the path, origin 0)";

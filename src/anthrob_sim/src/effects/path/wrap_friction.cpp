@@ -8,10 +8,10 @@ EffectInfo describe() {
   i.id = "wrap_friction";
   i.name = "Friction on wrapped surfaces";
   i.description =
-      "The tendon rubs on the bone it is wrapped round: capstan friction with a wrapping angle "
-      "that depends on posture, none where the tendon is off. What rubs along the arc does no "
-      "visible harm where surface and insertion move together. More of it than the model has, by "
-      "the model's own law; without one, by the thesis's with static over kinetic 1.25.";
+      "The tendon rubs on the bone that it wraps around: capstan friction with a wrapping angle "
+      "that depends on posture, and none while the tendon does not touch. It is not visible if "
+      "surface and insertion move together. Added to the friction of the model, by the model's own "
+      "law, or by the thesis's law with static over kinetic 1.25 if the model has none.";
   i.equation = "T_2 = T_1 exp(+-mu_total alpha(q)), kinetic mu_total = mu_model + mu";
   i.source = "thesis (4.69)-(4.77)";
   i.where = "MUSCLE/k | MUSCLE | all";

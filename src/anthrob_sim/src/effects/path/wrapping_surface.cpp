@@ -10,14 +10,15 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "wrapping_surface";
-  i.name = "Surface the tendon wraps round";
+  i.name = "Unmodelled wrapping surface";
   i.description =
-      "Where the model lets the tendon run straight across a joint, in some postures a bone is in "
-      "the way: a cylinder on the body beyond the joint, round a line through the joint's centre, "
-      "along the axis of a hinge or along the bone of a ball joint (towards the next joint, or the "
-      "centre of mass). Moment arm and length err in one region of posture, with a kink at touch "
-      "down. At MUSCLE it is the last segment that crosses a joint, at MUSCLE/k the one that ends "
-      "at entry k. Without friction: wrap_friction adds some.";
+      "The model lets the tendon run straight across a joint, but in some postures a bone is in "
+      "the way: a cylinder on the body beyond the joint, around a line through the joint's centre. "
+      "The line runs along the axis of a hinge, or along the bone of a ball joint (towards the "
+      "next joint, or the centre of mass). Moment arm and length are wrong in one region of "
+      "postures, with a kink where the tendon touches down. MUSCLE means the last segment that "
+      "crosses a joint, MUSCLE/k the segment that ends at entry k. Without friction; add "
+      "wrap_friction for that.";
   i.equation = "shortest path over the cylinder, (4.28)-(4.33)";
   i.source = "thesis, sections 4.2.4, 7.2.2 and 7.5: model I against model II";
   i.where = "MUSCLE | MUSCLE/k";
@@ -28,14 +29,14 @@ EffectInfo describe() {
       {"radius", "m", "of the cylinder", 0.0, 0.025, {0.0, 0.1}},
       {"offset_u",
        "m",
-       "of its axis, across it",
+       "of the cylinder's axis, perpendicular to it",
        0.0,
        0.002,
        {-0.05, 0.05},
        EffectParameter::kShape},
       {"offset_v",
        "m",
-       "the same, across both",
+       "the same, perpendicular to both",
        0.0,
        0.002,
        {-0.05, 0.05},

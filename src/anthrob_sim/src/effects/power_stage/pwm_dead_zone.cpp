@@ -11,14 +11,15 @@ EffectInfo describe() {
   i.id = "pwm_dead_zone";
   i.name = "Dead zone of the power stage";
   i.description =
-      "Dead time and threshold of the bridge swallow a constant part of the voltage, the same in "
-      "both directions: below it nothing arrives. It shortens the duty cycle and heats nothing.";
+      "Dead time and threshold of the bridge take away a constant part of the voltage, the same in "
+      "both directions: a smaller voltage does not reach the motor. It shortens the duty cycle and "
+      "dissipates nothing.";
   i.equation = "V_motor = sign(V) max(0, |V| - width)";
   i.source = "known: 0.1-0.5 V, poor bridges more than 1 V";
   i.where = "MUSCLE | all";
   i.seam = Seam::kPowerStage;
   i.channels = {"current", "position", "velocity"};
-  i.parameters = {{"width", "V", "voltage that is lost", 0.0, 0.3, {0.0, 5.0}}};
+  i.parameters = {{"width", "V", "lost voltage", 0.0, 0.3, {0.0, 5.0}}};
   return i;
 }
 

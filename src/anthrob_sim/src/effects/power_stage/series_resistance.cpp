@@ -8,8 +8,8 @@ EffectInfo describe() {
   i.id = "series_resistance";
   i.name = "Resistance in series with a motor";
   i.description =
-      "Bridge, cables and plugs have a resistance: speed is lost in proportion to current. Added "
-      "to the power stage's resistance in the model.";
+      "Bridge, cables and plugs have a resistance: voltage and speed are lost in proportion "
+      "to current. Added to the power stage's resistance in the model.";
   i.equation = "V_motor = V - resistance i";
   i.source = "thesis, section 7.3.2 (0.12 ohm)";
   i.where = "MUSCLE | all";

@@ -8,15 +8,14 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "supply_sag";
-  i.name = "Supply that gives way";
+  i.name = "Supply voltage sag";
   i.description =
-      "Battery and cables have a resistance that several motors share: each gets less when all of "
-      "them pull. A bridge passes on the share of the supply's voltage that its controller asks "
-      "for, and draws that share of its motor's current.";
-  i.equation =
-      "V_motor = d (V_0 - resistance sum d i), d = V / V_0, V_0 the nominal voltage, sum over the "
-      "motors of the ECU or of the robot; solved together with the change of the currents within "
-      "the step";
+      "Battery and cables have a resistance that several motors share: each motor gets less "
+      "voltage when all of them pull. A bridge passes on the share d of the supply voltage that "
+      "its controller asks for, and draws the same share of its motor's current. V_0 is the "
+      "nominal voltage. The sum runs over the motors of the ECU or of the robot. The equation is "
+      "solved together with the change of the currents within the step.";
+  i.equation = "V_motor = d (V_0 - resistance sum d i), d = V / V_0";
   i.source = "known: 20-200 mohm";
   i.where = "ecu_k | global";
   i.seam = Seam::kPowerStage;

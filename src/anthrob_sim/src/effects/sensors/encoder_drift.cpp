@@ -8,11 +8,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "encoder_drift";
-  i.name = "Encoder that loses its zero";
+  i.name = "Encoder drift";
   i.description =
-      "Counts get lost with time or with every turn: the position that is read drifts from the "
-      "true one, and with a position controller the robot from its posture. Force and current "
-      "still fit each other. Zero where the robot is placed.";
+      "Counts get lost with time or with every turn: the measured position drifts away from the "
+      "true one, and under position control the robot drifts away from its posture. Force and "
+      "current still agree. The drift starts at zero (reset, start of a replay).";
   i.equation = "position_read = position + rate t - missed integral |dposition|";
   i.source =
       "thesis, section 8.3: ticks counted in software; re-calibrated when the shoulder rested 3 "

@@ -7,11 +7,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "force_crosstalk";
-  i.name = "Cross-talk between force sensors";
+  i.name = "Crosstalk between force sensors";
   i.description =
-      "The channel of one force sensor picks up a share of another's: a resting muscle's force "
-      "moves with its neighbour's. What one picks up it does not pass on. The controller sees it "
-      "too.";
+      "The channel of one force sensor picks up a share of another sensor's force: the measured "
+      "force of a resting muscle follows that of its neighbour. What a channel picks up is not "
+      "passed on to further channels. The controller sees the error, too.";
   i.equation = "f_read(TO) = f(TO) + sum over FROM of share f(FROM)";
   i.source = "known: 0.5-3 %";
   i.where = "TO/FROM (muscles)";

@@ -7,16 +7,16 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "force_sensor_gain";
-  i.name = "Force sensor with a wrong gain";
+  i.name = "Force sensor gain error";
   i.description =
-      "A force sensor reads a constant share too much: its channel alone disagrees, in proportion "
-      "to force. The controller sees it too.";
+      "The reading of a force sensor is wrong by a constant factor: only its channel disagrees, in "
+      "proportion to force. The controller sees the error, too.";
   i.equation = "f_read = gain f";
   i.source = "known: 1-5 %";
   i.where = "MUSCLE | all";
   i.seam = Seam::kSensors;
   i.channels = {"force"};
-  i.parameters = {{"gain", "1", "read over true", 1.0, 1.03, {0.5, 2.0}}};
+  i.parameters = {{"gain", "1", "measured force over true force", 1.0, 1.03, {0.5, 2.0}}};
   return i;
 }
 

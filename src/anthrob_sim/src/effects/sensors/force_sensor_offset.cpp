@@ -7,18 +7,18 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "force_sensor_offset";
-  i.name = "Force sensor with an offset";
+  i.name = "Force sensor offset and drift";
   i.description =
-      "A force sensor reads a constant too much, and, drifting, more with time: its channel alone "
-      "disagrees, joint and current agree. The controller sees it too. Counted from where the "
-      "robot is placed.";
+      "The reading of a force sensor is wrong by a constant that may grow with time: only its "
+      "channel disagrees; joint and current agree. The controller sees the error, too. Time counts "
+      "from the start (reset, start of a replay).";
   i.equation = "f_read = f + offset + drift t";
   i.source = "known: 0.5-5 N";
   i.where = "MUSCLE | all";
   i.seam = Seam::kSensors;
   i.channels = {"force"};
-  i.parameters = {{"offset", "N", "reads too much", 0.0, 1.0, {-50.0, 50.0}},
-                  {"drift", "N/s", "more of it with time", 0.0, 0.01, {-1.0, 1.0}}};
+  i.parameters = {{"offset", "N", "constant error", 0.0, 1.0, {-50.0, 50.0}},
+                  {"drift", "N/s", "growth of the offset with time", 0.0, 0.01, {-1.0, 1.0}}};
   return i;
 }
 

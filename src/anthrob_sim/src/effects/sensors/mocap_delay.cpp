@@ -10,10 +10,10 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "mocap_delay";
-  i.name = "Motion capture that lags";
+  i.name = "Motion capture delay";
   i.description =
-      "Positions and velocities of all joints are stamped too late: motion capture alone "
-      "disagrees, with a phase that grows with frequency.";
+      "Positions and velocities of all joints are stamped too late: only motion capture "
+      "disagrees, with a phase lag that grows with frequency.";
   i.equation = "q_read(t) = q(t - delay)";
   i.source = "known: some ms";
   i.where = "global";

@@ -9,17 +9,18 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "mocap_misalignment";
-  i.name = "Motion capture turned against the base";
+  i.name = "Misaligned motion capture frame";
   i.description =
-      "The frame in which motion capture reports is turned about an axis of the world: what it "
-      "says about a body against the base is off by one constant rotation. Joints between two "
-      "moving bodies are right, for both are seen turned.";
+      "The frame of motion capture is rotated about an axis of the world: the measured orientation "
+      "of a body relative to the base is wrong by one constant rotation. Joints between two moving "
+      "bodies are measured correctly, because both bodies have the same error.";
   i.equation = "R_read = R(axis, angle) R, of ball joints on the base";
   i.source = "known: 1-5 degrees";
   i.where = "x | y | z";
   i.seam = Seam::kSensors;
   i.channels = {"joint"};
-  i.parameters = {{"angle", "rad", "by which readings are turned", 0.0, 0.03, {-0.5, 0.5}}};
+  i.parameters = {
+      {"angle", "rad", "rotation of the measured orientations", 0.0, 0.03, {-0.5, 0.5}}};
   return i;
 }
 

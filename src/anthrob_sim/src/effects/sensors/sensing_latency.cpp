@@ -8,11 +8,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "sensing_latency";
-  i.name = "Readings that arrive late";
+  i.name = "Sensing latency";
   i.description =
       "Sampling, filters and bus delay what an ECU measures: a phase lag that grows with "
-      "frequency, nothing in statics. All channels of the muscle; the controller acts on old "
-      "readings too.";
+      "frequency and no static error. All channels of the muscle; the controller acts on the "
+      "delayed readings, too.";
   i.equation = "y_read(t) = y(t - delay), y = position, velocity, current, force";
   i.source = "known: 1-20 ms";
   i.where = "MUSCLE | all";

@@ -7,11 +7,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "gravity_tilt";
-  i.name = "Base not level";
+  i.name = "Tilted base";
   i.description =
-      "The base stands tilted about a horizontal axis of the world, in which the model believes it "
-      "to be level: gravity points elsewhere. One common rotation explains all joints' static "
-      "errors.";
+      "The base is tilted about a horizontal axis of the world, while the model assumes that it is "
+      "level: gravity has another direction. One common rotation explains the static errors of all "
+      "joints.";
   i.equation = "g = R(axis, -angle) g_model";
   i.source = "known";
   i.where = "x | y | z (axes that turn gravity)";

@@ -6,11 +6,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "payload";
-  i.name = "Mass the model does not know";
+  i.name = "Unmodelled mass";
   i.description =
-      "A point mass fixed to a body, or, negative, mass that the model has and the robot lacks: "
-      "weight, centre of mass and inertia change together. Statically it shows as sine and cosine "
-      "of posture, in motion with acceleration.";
+      "A point mass fixed to a body. If negative, mass that the model has and the robot does not. "
+      "Weight, centre of mass and inertia change together. At rest it shows as sine and cosine "
+      "of posture, in motion it grows with acceleration.";
   i.equation = "m' = m + mass, centre of mass and inertia as of both together";
   i.source = "rigid body mechanics";
   i.where = "BODY";
@@ -55,16 +55,17 @@ class Payload final : public Effect {
     const double mass = setting["mass"];
     const Vec3 d(setting["x"], setting["y"], setting["z"]);
     const double total = body.mass + mass;
-    if (!(total > 0.0)) setting.fail("mass", "a number that leaves the body some mass [kg]");
+    if (!(total > 0.0)) setting.fail("mass", "a number for which the body keeps a mass > 0 [kg]");
     // About the common centre of mass, by the reduced mass (Steiner).
     const double reduced = body.mass * mass / total;
     body.inertia_L += reduced * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
     body.com_L += mass / total * d;
     body.mass = total;
     if (!body.find_principal_axes()) {
-      setting.fail("mass",
-                   "a number that leaves the body principal moments of inertia > 0, none larger "
-                   "than the other two together [kg]");
+      setting.fail(
+          "mass",
+          "a number for which the body keeps principal moments of inertia > 0, none larger "
+          "than the other two together [kg]");
     }
   }
 };

@@ -11,18 +11,18 @@ constexpr double kTwoPi = 6.283185307179586;
 EffectInfo describe() {
   EffectInfo i;
   i.id = "spindle_growth";
-  i.name = "Spindle that grows as it winds";
+  i.name = "Spindle radius growth";
   i.description =
-      "The tendon winds up in layers, which makes the spindle thicker turn by turn: length against "
-      "position is curved, and the ratio of force to current drifts with winding. Unwound below "
-      "position 0 the spindle gets thinner, at most by nine tenths.";
+      "The tendon winds up in layers, which makes the spindle thicker turn by turn: tendon length "
+      "over position is curved, and the ratio of force to current changes with winding. Unwound "
+      "below position 0 the spindle gets thinner, at most by nine tenths.";
   i.equation = "r = r_S + growth position / (2 pi), dl_T/dposition = -r";
-  i.source = "known: + tendon diameter a layer";
+  i.source = "known: + tendon diameter per layer";
   i.where = "MUSCLE | all";
   i.once_a_muscle = true;
   i.seam = Seam::kSpindle;
   i.channels = {"force", "current", "position"};
-  i.parameters = {{"growth", "m", "of the radius, a turn", 0.0, 3e-4, {0.0, 0.003}}};
+  i.parameters = {{"growth", "m", "of the radius, per turn", 0.0, 3e-4, {0.0, 0.003}}};
   return i;
 }
 

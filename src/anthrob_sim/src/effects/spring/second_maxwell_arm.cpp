@@ -8,10 +8,10 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "second_maxwell_arm";
-  i.name = "Another relaxation of the spring";
+  i.name = "Second relaxation of the spring (Maxwell arm)";
   i.description =
-      "Rubber relaxes over more than one decade of time: beside the element lies one more spring "
-      "and dashpot in series. A length step shows two time constants.";
+      "Rubber relaxes over more than one decade of time: another spring and dashpot in series act "
+      "in parallel to the element. After a step of length, two time constants show.";
   i.equation =
       "f = f_model + q, dq/dt + q / relaxation_time = ratio k dl_S/dt, k the stiffness "
       "of the element at rest";

@@ -10,9 +10,9 @@ EffectInfo describe() {
   i.id = "see_hysteresis";
   i.name = "Rate-independent hysteresis of the spring";
   i.description =
-      "Filler and friction inside the rubber hold back any change of length: a loop of force over "
-      "stretch that does not shrink at low rate, unlike a viscous one, and a small one round every "
-      "reversal. Bouc's and Wen's model with exponent 1.";
+      "Filler and friction inside the rubber resist any change of length: a loop of force over "
+      "stretch that, unlike a viscous one, does not shrink at low rate, and a small loop at every "
+      "reversal. Bouc-Wen model with exponent 1.";
   i.equation =
       "f = f_model + F z, dz = (1 - sign(dl_S) z) dl_S / (turn l_0), F = share f_rest(0.3 l_0)";
   i.source = "Bouc 1967, Wen 1976";
@@ -24,7 +24,7 @@ EffectInfo describe() {
       {"share", "1", "of the static force at a strain of 30 %", 0.0, 0.1, {0.0, 1.0}},
       {"turn",
        "1",
-       "strain after which a reversal has built up to 63 %",
+       "strain after a reversal at which 63 % of the change has built up",
        0.05,
        0.05,
        {0.001, 1.0},

@@ -8,11 +8,12 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "see_mullins";
-  i.name = "Softening of the spring by its largest stretch";
+  i.name = "Mullins effect (softening of the spring)";
   i.description =
-      "New rubber is stiffer the first time it is stretched: below the largest stretch it has seen "
-      "it is softer ever after, beyond it is new again. The first cycle differs from all others; "
-      "rest does not heal it. The element is new when the robot is placed.";
+      "New rubber is stiffer the first time it is stretched: below the largest stretch so far it "
+      "stays softer, beyond that it is like new. The first cycle differs from all others; rest "
+      "does not restore the stiffness. The element is new at the start (reset, start of a "
+      "replay).";
   i.equation = "f = f_model - softening k l_S (1 - (l_S / l_max)^2) for l_S < l_max";
   i.source = "Mullins 1969; Ogden, Roxburgh 1999 with a parabola for their error function";
   i.where = "MUSCLE | all";

@@ -6,18 +6,24 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "see_toe";
-  i.name = "Soft toe of the spring";
+  i.name = "Soft toe region of the spring";
   i.description =
-      "A ring bends into a slot before it stretches: at low strain it is softer than the rubber "
-      "alone, at larger strain the difference is gone. Reversible, without loss.";
+      "A ring bends into its slot before it stretches: at low strain it is softer than the rubber "
+      "alone; at larger strain the difference vanishes. Reversible, without loss.";
   i.equation = "f = f_model - softness k l_S (1 - l_S / (strain l_0))^2 for l_S < strain l_0";
   i.source = "thesis, section 7.2: rings of two strands, strain below 0.57";
   i.where = "MUSCLE | all";
   i.seam = Seam::kSpring;
   i.channels = {"force", "joint"};
   i.parameters = {
-      {"softness", "1", "share of the stiffness missing at rest", 0.0, 0.3, {0.0, 0.95}},
-      {"strain", "1", "where the toe ends", 0.57, 0.57, {0.05, 2.0}, EffectParameter::kShape},
+      {"softness", "1", "missing share of the stiffness at rest", 0.0, 0.3, {0.0, 0.95}},
+      {"strain",
+       "1",
+       "at which the toe region ends",
+       0.57,
+       0.57,
+       {0.05, 2.0},
+       EffectParameter::kShape},
   };
   return i;
 }

@@ -8,11 +8,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "tendon_creep";
-  i.name = "Tendon that creeps";
+  i.name = "Tendon creep";
   i.description =
       "Under load the tendon's fibres slip: it gets longer with the logarithm of time, by a few "
-      "tenths of a per cent over minutes, and does not come back. New when the robot is placed. "
-      "Hardening by strain extends the law to loads that change.";
+      "tenths of a per cent over minutes, and does not recover. The tendon is new at the start "
+      "(reset, start of a replay). Strain hardening extends the law to changing loads.";
   i.equation =
       "dL/dt = rate l_T0 f / onset exp(-dL / (rate l_T0 f)); for constant f: dL = rate l_T0 f "
       "log(1 + t / onset)";

@@ -8,11 +8,11 @@ namespace {
 EffectInfo describe() {
   EffectInfo i;
   i.id = "tendon_elasticity";
-  i.name = "Tendon that stretches";
+  i.name = "Tendon elasticity";
   i.description =
-      "The tendon gets longer in proportion to its force, in phase with it: more position is "
-      "needed for the same force. It is in series with the spring; its length counts at position "
-      "0, its force is the spring's.";
+      "The tendon gets longer in proportion to its force, in phase with it: the motor must wind "
+      "further for the same force. The tendon is in series with the spring and carries the "
+      "spring's force. Its length is that at position 0.";
   i.equation = "dL = compliance l_T0 f, compliance = 1 / (E A)";
   i.source = "known: 0.3-2 % at working load";
   i.where = "MUSCLE | all";
@@ -97,7 +97,8 @@ class TendonElasticity final : public SpringEffect {
                                                    const MuscleModel& muscle,
                                                    double step) const override {
     if (muscle.spring->state_size() > ElasticTendon::kLargestState) {
-      setting.fail("place", "a spring with less state");
+      setting.fail("place", "a spring with at most " +
+                                std::to_string(ElasticTendon::kLargestState) + " state variables");
     }
     return std::make_shared<ElasticTendon>(
         muscle.spring, setting["compliance"] * rest_tendon_length(*muscle.actuator), step);
