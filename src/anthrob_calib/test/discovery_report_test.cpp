@@ -149,9 +149,11 @@ TEST(Report, TellsWhatTheLoopRecordedAlsoWhereNothingIsNamed) {
   Answer answer;
   answer.verdict = "no_missing_effect";
   answer.asked = {"recorded what tells cogging from ripple"};
-  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "Before: recorded what tells cogging"));
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0),
+                    "Asked after an earlier search: recorded what tells cogging"));
   answer.effects = {cogging()};
-  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "Before: recorded what tells cogging"));
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0),
+                    "Asked after an earlier search: recorded what tells cogging"));
 }
 
 TEST(Report, ClaimsNoMoreThanWasFound) {
@@ -277,7 +279,7 @@ TEST(Report, ExplainsItsWords) {
 
 TEST(Report, HasTheRemarksOnRecordings) {
   Answer answer;
-  answer.remarks = {"run_3: has the commands of run_1"};
+  answer.remarks = {"run_3: has the same commands as run_1"};
   EXPECT_TRUE(holds(report_html(answer, {}, 1.0), answer.remarks[0]));
   EXPECT_EQ(nlohmann::json::parse(report_json(answer, {}, 1.0))["remarks"][0], answer.remarks[0]);
 }
@@ -313,7 +315,7 @@ TEST(Examples, OfABallJointShowTheComponentThatChangesMost) {
 TEST(ProgressText, TellsWhatIsLeftOnlyOfALongBatch) {
   EXPECT_EQ(progress_text(75.0, 40, {1, 2, 3.0}), "75 s, 40 simulations");
   EXPECT_EQ(progress_text(75.0, 40, {30, 120, 10.0}),
-            "75 s, 40 simulations; 30 of 120 of a batch, 30 s left of it");
+            "75 s, 40 simulations; current batch: 30 of 120, 30 s left");
   EXPECT_EQ(progress_text(75.0, 40, {120, 120, 10.0}), "75 s, 40 simulations");
 }
 

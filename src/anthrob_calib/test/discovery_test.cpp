@@ -319,7 +319,7 @@ TEST_F(InterruptedRun, ToolDoesNotReplaceTheModelThatItReads) {
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 2);
-  EXPECT_NE(content(path("errors")).find("its model.yaml is read"), std::string::npos)
+  EXPECT_NE(content(path("errors")).find("model.yaml is an input of this run"), std::string::npos)
       << content(path("errors"));
   EXPECT_EQ(content(path("found/model.yaml")), text);
 }
@@ -357,7 +357,8 @@ TEST_F(InterruptedRun, ToolSaysHowToGoOn) {
   // A machine that is fast enough to finish first shows nothing.
   if (!interrupt_was_sent(script)) GTEST_SKIP() << "too fast to be interrupted";
   ASSERT_EQ(status, 130) << content(path("errors"));
-  EXPECT_NE(content(path("errors")).find("the same command goes on"), std::string::npos);
+  EXPECT_NE(content(path("errors")).find("run the same command again to continue"),
+            std::string::npos);
   EXPECT_TRUE(fs::exists(path("stopped/journal.bin")));
   EXPECT_FALSE(fs::exists(path("stopped/report.json")));
   ASSERT_EQ(run("", "stopped"), 0);
@@ -386,7 +387,7 @@ TEST_F(InterruptedRun, OfAnotherEffectLibraryIsBegunAnew) {
   ASSERT_EQ(status, 130) << content(path("errors"));
   std::ofstream(path("libown.so"), std::ios::app) << "x";  // the linker's mark stays
   ASSERT_EQ(run(""), 0) << content(path("errors"));
-  EXPECT_NE(content(path("errors")).find("is simulated anew"), std::string::npos)
+  EXPECT_NE(content(path("errors")).find("everything is simulated again"), std::string::npos)
       << content(path("errors"));
 }
 

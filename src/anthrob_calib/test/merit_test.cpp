@@ -28,17 +28,21 @@ TEST(Merit, EachConditionAloneDenies) {
   evidence.evidence = 9.0;
   significance.significance = 2.9;
   share.share = share.share_of_first = 0.06;
-  EXPECT_EQ(lack(none), "with probability 0.95 none of those that were fitted is right");
-  EXPECT_EQ(lack(evidence), "it gains 9.0 nat on held-out data where more than 9.4 are needed");
-  EXPECT_EQ(lack(significance), "its gain is 2.90 standard errors where more than 3 are needed");
+  EXPECT_EQ(lack(none),
+            "it is no more probable than that none of the fitted candidates is right "
+            "(probability 0.95)");
+  EXPECT_EQ(lack(evidence),
+            "it gains only 9.0 nat on held-out recordings; more than 9.4 are required");
+  EXPECT_EQ(lack(significance), "its gain is only 2.90 standard errors; more than 3 are required");
   EXPECT_EQ(lack(share),
-            "it takes 6.0 % of the squared gap on held-out data where more than 10 are needed");
+            "it removes only 6.0 % of the squared gap on held-out recordings; more than 10 % are "
+            "required");
 }
 
 TEST(Merit, AGapThatGrowsIsSaidToGrow) {
   Merit merit = earned();
   merit.share = merit.share_of_first = -0.4;
-  EXPECT_EQ(lack(merit), "the squared gap on held-out data does not fall with it");
+  EXPECT_EQ(lack(merit), "it does not reduce the squared gap on held-out recordings");
 }
 
 TEST(Merit, FaintGapsAskForMore) {
@@ -52,7 +56,7 @@ TEST(Merit, FaintGapsAskForMore) {
 TEST(Merit, WhatIsSmallBesideTheFirstGapMustBeMoreCertain) {
   Merit merit = earned();
   merit.share_of_first = 0.02;
-  EXPECT_NE(lack(merit).find("2.0 % of what the squared gap was at first"), std::string::npos);
+  EXPECT_NE(lack(merit).find("2.0 % of the initial squared gap"), std::string::npos);
   merit.significance = 8.5;
   EXPECT_EQ(lack(merit), "");
 }

@@ -187,6 +187,9 @@ TEST(SeparatingFiles, AreWrittenForTheRecorder) {
   const std::string& protocol = files.at("separating_2.yaml");
   EXPECT_NE(protocol.find("Tells joint_coulomb @ elbow from joint_viscous @ elbow"),
             std::string::npos);
+  EXPECT_NE(protocol.find("record.launch protocol:=separating_2 protocol_file:="),
+            std::string::npos);
+  EXPECT_NE(protocol.find("sim:=false lock_step:=false enable:=true"), std::string::npos);
   EXPECT_NE(protocol.find("postures: separating_2_postures.yaml"), std::string::npos);
   const std::string& postures = files.at("separating_2_postures.yaml");
   EXPECT_NE(postures.find("- name: P1_tight"), std::string::npos);

@@ -102,7 +102,7 @@ TEST(Verdict, WhatChanceMayLeaveSpeaksAgainstNoName) {
   pronounce({{"elbow/position", 1.2}}, false, answer);
   EXPECT_EQ(answer.verdict, "effects_found");
   EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9);
-  EXPECT_EQ(answer.remaining_description, "no gap that is certain");
+  EXPECT_EQ(answer.remaining_description, "no certain gap");
 }
 
 TEST(Verdict, NamesWhatMostOfTheRestDependsOn) {
@@ -114,7 +114,7 @@ TEST(Verdict, NamesWhatMostOfTheRestDependsOn) {
             "biceps_brachii/force depends on sign of velocity of elbow/position");
   answer.remaining = {dependence("biceps_brachii/force", "load", 0.04)};
   pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
-  EXPECT_EQ(answer.remaining_description, "depends on none of the measured quantities");
+  EXPECT_EQ(answer.remaining_description, "a gap that depends on none of the measured quantities");
 }
 
 TEST(Verdict, AnOffsetDependsOnNothing) {

@@ -41,32 +41,46 @@ std::vector<std::string> save_from(std::size_t first, const std::vector<Dataset>
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Finds the physical effect that a model misses in recordings.", "anthrob_discover");
+  CLI::App app("Finds the physical effects that a model of a recorded robot is missing.",
+               "anthrob_discover");
   discovery::Question question;
   std::vector<std::string> train, test, repeats;
   std::string out, calibration, robot_file;
   question.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  app.add_option("--model", question.model_file, "model file to be examined")->required();
-  app.add_option("--train", train, "recordings to learn from: bags or dataset folders")->required();
-  app.add_option("--test", test, "recordings to judge by; never fitted")->required();
-  app.add_option("--repeat", repeats, "further runs of the first --train's commands");
-  app.add_option("--out", out, "folder for report.json, report.html and model.yaml")->required();
-  app.add_option("--effects", question.effects, "consider only these ids: ID,ID")->delimiter(',');
-  app.add_option("--max-effects", question.max_effects, "stop after so many")
-      ->check(CLI::Range(0, 20))
-      ->capture_default_str();
+  app.add_option("--model", question.model_file, "model file to examine")->required();
+  app.add_option("--train", train, "recordings that are fitted: bags or dataset folders")
+      ->required();
+  app.add_option("--test", test,
+                 "held-out recordings: they only judge and are never fitted; use other motions")
+      ->required();
+  app.add_option(
+      "--repeat", repeats,
+      "further runs of the commands of the first --train recording, to measure the noise "
+      "(default: none; the noise is estimated as if it were white)");
+  app.add_option("--out", out, "folder for report.html, report.json and model.yaml")->required();
+  app.add_option(
+         "--effects", question.effects,
+         "search only for these effects: ID,ID (default: all; anthrob_effects lists the ids)")
+      ->delimiter(',');
+  app.add_option(
+         "--max-effects", question.max_effects,
+         "name at most this many effects (default: " + std::to_string(question.max_effects) + ")")
+      ->check(CLI::Range(0, 20));
   app.add_option("--jobs", question.jobs, "threads (default: all cores)")
       ->check(CLI::Range(1, 1024));
-  app.add_option("--seed", question.seed, "of resampling")
+  app.add_option("--seed", question.seed,
+                 "seed of the resampling, on which probabilities and intervals depend")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   app.add_option("--calibration", calibration,
-                 "ordinary parameters (default: calibration.yaml beside the model or beside the "
-                 "one it extends)");
-  app.add_option("--dt", question.step, "simulation step [s]")->capture_default_str();
-  app.add_option("--close-the-loop", robot_file,
-                 "model file of the robot itself, if it is a simulated one: it is recorded to tell "
-                 "rivals apart");
+                 "file that lists the ordinary parameters, which are fitted all the time (default: "
+                 "calibration.yaml beside the model or beside the one that it extends)");
+  app.add_option("--dt", question.step, "step of the simulations [s]")->capture_default_str();
+  app.add_option(
+         "--close-the-loop", robot_file,
+         "if the robot is itself a simulation: MODEL is the model file of that simulated robot; "
+         "it is recorded to tell rivals apart, and the search is repeated")
+      ->type_name("MODEL");
   return tool::run(app, argc, argv, [&]() -> int {
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::string> read = extended_files(question.model_file);
@@ -86,9 +100,10 @@ int main(int argc, char** argv) {
     question.nuisances = ordinary_parameters(question.model_file, calibration, &remarks);
     tool::say(app, remarks);
     if (question.nuisances.empty()) {
-      std::cerr << "nothing of " << question.model_file
-                << " may be corrected: there is no calibration.yaml beside it, nor --calibration; "
-                   "what a wrong length or radius does may be named as an effect\n";
+      std::cerr << question.model_file
+                << ": no ordinary parameters are fitted, because there is neither a "
+                   "calibration.yaml beside it nor --calibration; a wrong length or radius may be "
+                   "reported as an effect\n";
     }
     question.train = load_all(app, train);
     question.test = load_all(app, test);
@@ -100,11 +115,12 @@ int main(int argc, char** argv) {
                                    question.jobs);
     discovery::Journal& journal = evaluator.keep_journal(out + "/journal.bin");
     if (journal.inherited() > 0) {
-      std::cerr << "going on with " << journal.inherited()
+      std::cerr << "continuing with " << journal.inherited()
                 << " simulations of an interrupted run\n";
     } else if (journal.begun_anew()) {
-      std::cerr << out << "/journal.bin: was of another model, --dt, --calibration or build of the "
-                << "program: what it held is simulated anew\n";
+      std::cerr << out
+                << "/journal.bin: belongs to another model, --dt, --calibration or build of the "
+                << "program; it is discarded and everything is simulated again\n";
     }
     std::size_t simulated = 0;  // before this stage
     evaluator.on_progress([&](const discovery::Batch& batch) {
@@ -116,7 +132,7 @@ int main(int argc, char** argv) {
       bar.reset();
       std::cerr << what << "\n";
       simulated = evaluator.simulated();
-      bar = std::make_unique<tool::Progress>("  so far");
+      bar = std::make_unique<tool::Progress>("  running");
       return !tool::interrupted();
     };
     question.comment = [](const std::string& line) { std::cerr << line << "\n"; };
@@ -143,7 +159,7 @@ int main(int argc, char** argv) {
       return tool::kDone;
     } catch (const discovery::Interrupted&) {
       bar.reset();
-      std::cerr << "anthrob_discover: interrupted; the same command goes on where it was\n";
+      std::cerr << "anthrob_discover: interrupted; run the same command again to continue\n";
       return tool::kInterrupted;
     }
   });

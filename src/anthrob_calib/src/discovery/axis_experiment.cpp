@@ -65,9 +65,9 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
   name_ = recording.folder;
   steps_per_bin_ = static_cast<std::size_t>(std::lround(options.bin / step_));
   if (steps_per_bin_ == 0) {
-    throw BadInput("--dt " + std::to_string(step_) + ": expected a step of no more than " +
+    throw BadInput("--dt " + std::to_string(step_) + ": expected a step of at most " +
                    std::to_string(options.bin) +
-                   " s, over which a driven axis is compared with its recording");
+                   " s, the length of the bins in which a driven axis is compared");
   }
   bin_ = static_cast<double>(steps_per_bin_) * step_;
   const auto& joints = model.skeleton->joints;
@@ -91,7 +91,7 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
               recording.series(name + "/load")};
     if (axis.effort.empty()) {
       throw BadInput(recording.folder + ": column '" + name +
-                     "/effort' is missing: expected the effort that drives the joint");
+                     "/effort' is missing: expected the measured effort of a driven joint");
     }
     for (std::size_t edge = 0; edge <= bins_; ++edge) {
       const auto [q, u] = motion_at(position, static_cast<double>(edge) * bin_, kSmoothing);

@@ -70,7 +70,7 @@ std::vector<Candidate> list_candidates(const Evaluator& evaluator,
   for (const std::string& id : ids) {
     if (!find_effect(id)) {
       throw BadInput("--effects " + id +
-                     ": expected an id from the catalogue; anthrob_effects lists them");
+                     ": no such effect; `rosrun anthrob_sim anthrob_effects` lists the ids");
     }
   }
   const auto has = [&](const std::string& id, const std::string& place) {
@@ -99,9 +99,9 @@ std::vector<Candidate> list_candidates(const Evaluator& evaluator,
   }
   for (const std::string& id : ids) {
     if (is_candidate(id)) continue;
-    throw BadInput("--effects " + id + ": the robot of " + robot.file +
-                   " has no place for it, or the model has it at every place already: expected an "
-                   "id that can be found");
+    throw BadInput("--effects " + id + ": nowhere to look for it: the robot of " + robot.file +
+                   " has no place for this effect, or the model contains it at every place "
+                   "already");
   }
   return candidates;
 }

@@ -98,7 +98,7 @@ ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recordi
   }
   if (channels_.empty()) {
     throw BadInput(recording.folder +
-                   ": nothing to compare: expected measured columns beside the inputs");
+                   ": nothing to compare: expected measured columns in addition to the inputs");
   }
 }
 

@@ -36,8 +36,8 @@ std::string sentence(const FoundEffect& effect, int number) {
   const Rival& rival = effect.rivals.front();
   return effect.id + " @ " + effect.place + " (" + short_number(effect.probability) + ") or " +
          rival.id + " @ " + rival.place + " (" + short_number(rival.probability) +
-         "): asked the robot by separating recording " + std::to_string(number) + ", expected " +
-         short_number(effect.separating_recording.distance()) + " nat";
+         "): separating recording " + std::to_string(number) + " of the robot, expected to bring " +
+         short_number(effect.separating_recording.distance()) + " nat of evidence";
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
       throw;
     } catch (const std::exception& e) {
       // What is known without that recording stays known.
-      asked.back() += ", but: " + std::string(e.what());
+      asked.back() += "; it failed: " + std::string(e.what());
       if (question.comment) question.comment(asked.back());
       break;
     }

@@ -69,7 +69,7 @@ class Search {
     stage("screening " + std::to_string(candidates_.size()) + " candidates");
     Screening screening(train_, base_.fit, candidates_, laboratory_.quick, laboratory_.slow);
     std::vector<Score> scores = screening.scores(base_.fit);
-    stage("what these recordings can show");
+    stage("checking which effects these recordings can show");
     PreFlight(candidates_, train_, base_.fit, train_judge_, test_judge_,
               total_duration(laboratory_.test))
         .fly(screening, scores, answer);
@@ -156,13 +156,15 @@ class Search {
   }
 
   void recalibrate(Answer& answer) {
-    stage("fitting ordinary parameters");
+    stage("fitting the ordinary parameters");
     answer.given.nuisances = evaluator_.initial_nuisances();
     given_train_ = train_.residual(answer.given);
     given_test_ = test_.residual(answer.given);
     base_ = bench_.tested(settling_.settled(answer.given, nuisance_unknowns(evaluator_)));
     if (given_test_.size() == 0 || base_.test.size() == 0) {
-      throw std::runtime_error("the model cannot be simulated along the held-out recordings");
+      throw std::runtime_error(
+          "the model cannot be simulated with the inputs of the held-out recordings: replay them "
+          "with anthrob_replay to see where it fails");
     }
     note_recalibrated(answer);
   }
@@ -211,13 +213,13 @@ class Search {
       const std::size_t candidate = named_[e].candidate;
       const double gained = named_[e].gained;
       const std::string name = candidates_[candidate].name();
-      stage("whether " + name + " is still needed");
+      stage("checking whether " + name + " is still needed");
       std::optional<Tested> without = second.without(e, candidate, gained, base_);
       if (!without) {
         ++e;
         continue;
       }
-      if (question_.comment) question_.comment("  not needed any more: " + name);
+      if (question_.comment) question_.comment("  no longer needed: " + name);
       remove(e, std::move(*without));
       if (e < newest) --newest;
       answer.dropped.push_back(name);
@@ -244,10 +246,10 @@ class Search {
     const std::optional<std::size_t> everywhere = common.everywhere(parts);
     if (!everywhere) return;
     const Candidate& candidate = candidates_[*everywhere];
-    stage("whether it is " + candidate.name());
+    stage("checking whether one law explains them all: " + candidate.name());
     const auto instead = common.instead(*everywhere, base_, parts);
     if (!instead || !instead->is_clearly_better()) return;
-    if (question_.comment) question_.comment("  it is " + candidate.name());
+    if (question_.comment) question_.comment("  named instead of them: " + candidate.name());
     const Variant apart = base_.fit.variant;
     NamedEffect united = named_[parts.front().effect];
     for (std::size_t p = 1; p < parts.size(); ++p) {
@@ -277,7 +279,7 @@ class Search {
       if (!fuller || is_named(*fuller)) continue;
       const Candidate& candidate = candidates_[*fuller];
       const std::string name = candidates_[effect.candidate].name();
-      stage("whether it is " + candidate.name() + ", not " + name);
+      stage("checking whether " + candidate.name() + " does better than " + name);
       const auto instead = common.instead(*fuller, base_, {{e, effect.candidate}});
       if (!instead || !instead->is_better()) continue;
       if (!instead->is_clearly_better()) {
@@ -287,7 +289,7 @@ class Search {
       }
       std::optional<Fitted> there = with_last_effect_at(train_, instead->tested.fit, e);
       if (!there) continue;
-      if (question_.comment) question_.comment("  it is, rather than " + name);
+      if (question_.comment) question_.comment("  named instead of it: " + candidate.name());
       const bool stays = name_instead(candidate, instead->odds, effect.found);
       if (stays) separate(there->variant, base_.fit.variant, effect.found);
       base_ = bench_.tested(std::move(*there));
@@ -319,7 +321,7 @@ class Search {
       if (!improbable) return;
       const auto e = static_cast<std::size_t>(improbable - named_.data());
       const Candidate& candidate = candidates_[improbable->candidate];
-      stage("the model without " + candidate.name() + ", which is improbable");
+      stage("fitting without " + candidate.name() + ", which is improbable");
       std::optional<Fitted> without = bench_.without(e, improbable->candidate, base_.fit);
       if (!without) return;
       Tested base = bench_.tested(settling_.to_the_end(*without));
@@ -350,7 +352,7 @@ class Search {
   /// What was found should cost no channel anything.
   void spare_channels_that_pay() {
     if (named_.empty()) return;
-    stage("whether a channel is worse for it");
+    stage("checking whether a channel got worse");
     Tested spared =
         bench_.tested(spare_channels(train_, train_judge_, recalibrated_.fit.residual, base_.fit));
     if (spared.test.size() > 0) base_ = std::move(spared);
@@ -365,8 +367,8 @@ class Search {
         for (std::size_t law = 0; law < candidates_.size(); ++law) {
           if (is_named(law) || !common.may_be(law, a.candidate, b.candidate)) continue;
           const Candidate& alone = candidates_[law];
-          stage("whether " + alone.name() + " says alone what " + candidates_[a.candidate].name() +
-                " and " + candidates_[b.candidate].name() + " say");
+          stage("checking whether " + alone.name() + " alone can replace " +
+                candidates_[a.candidate].name() + " and " + candidates_[b.candidate].name());
           const auto instead = common.instead(law, base_, {a, b});
           if (!instead || instead->odds.probability < kMentioned) continue;
           const std::string& id = alone.effect->info().id;
@@ -485,7 +487,7 @@ class Search {
     }
     const double least = least_gap(answer), first = gaps_.first_excess(least);
     answer.remaining_share = first > 0.0 ? gaps_.excess_of(base_.test, least) / first : 0.0;
-    stage("locating");
+    stage("locating the gap");
     std::vector<MeasuredVariable> variables = variables_;
     for (MeasuredVariable& angle :
          wrap_angles(evaluator_, question_.train, laboratory_.train, answer.recalibrated)) {

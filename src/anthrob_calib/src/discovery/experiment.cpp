@@ -17,7 +17,8 @@ std::shared_ptr<const Experiment> make_experiment(const RobotModel& model, const
   const bool driven = std::any_of(joints.begin(), joints.end(),
                                   [](const JointModel& joint) { return joint.driven; });
   if (!driven) {
-    throw BadInput(model.file + ": expected muscles, or a joint with driven: true");
+    throw BadInput(model.file +
+                   ": nothing to compare: expected muscles, or a joint with `driven: true`");
   }
   return std::make_shared<AxisExperiment>(model, recording, options);
 }

@@ -22,7 +22,7 @@ std::string dependence_of(const std::string& channel, const std::vector<Dependen
     }
     if (d.constant > best) {
       best = d.constant;
-      regime = "none: off by a constant";
+      regime = "nothing: off by a constant";
     }
   }
   return regime;

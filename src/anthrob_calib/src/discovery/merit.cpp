@@ -25,27 +25,31 @@ std::string words(const char* format, Values... values) {
 
 std::string lack(const Merit& merit) {
   if (merit.probability <= merit.none) {
-    return words("with probability %.2g none of those that were fitted is right", merit.none);
+    return words(
+        "it is no more probable than that none of the fitted candidates is right "
+        "(probability %.2g)",
+        merit.none);
   }
   if (merit.evidence <= merit.needed_evidence) {
-    return words("it gains %.1f nat on held-out data where more than %.1f are needed",
+    return words("it gains only %.1f nat on held-out recordings; more than %.1f are required",
                  merit.evidence, merit.needed_evidence);
   }
   const double needed = merit.only_faint_gaps ? kFaintSignificance : kSignificance;
   if (merit.significance <= needed) {
-    return words("its gain is %.2f standard errors where more than %.0f are needed",
+    return words("its gain is only %.2f standard errors; more than %.0f are required",
                  merit.significance, needed);
   }
-  if (merit.share <= 0.0) return "the squared gap on held-out data does not fall with it";
+  if (merit.share <= 0.0) return "it does not reduce the squared gap on held-out recordings";
   if (merit.share <= kShareOfPresent) {
     return words(
-        "it takes %.1f %% of the squared gap on held-out data where more than %.0f are needed",
+        "it removes only %.1f %% of the squared gap on held-out recordings; more than %.0f %% are "
+        "required",
         100.0 * merit.share, 100.0 * kShareOfPresent);
   }
   if (merit.share_of_first <= kShareOfFirst && merit.significance <= kSmallSignificance) {
     return words(
-        "it takes %.1f %% of what the squared gap was at first, and may be what the effects "
-        "before it leave: its gain is %.2f standard errors where more than %.0f are needed",
+        "it removes only %.1f %% of the initial squared gap, which may be what earlier effects "
+        "leave; its gain is %.2f standard errors, and for so little, more than %.0f are required",
         100.0 * merit.share_of_first, merit.significance, kSmallSignificance);
   }
   return "";

@@ -305,7 +305,7 @@ Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) co
   fitted.unknowns = std::move(unknowns);
   fitted.residual = residual(variant);
   if (fitted.residual.size() == 0) {
-    throw NotSimulated("the model cannot be simulated along the recordings");
+    throw NotSimulated("the model cannot be simulated with the inputs of the recordings");
   }
   survey(fitted, Slopes::kOneSide);
   fitted.cost = cost_of(fitted, variant, fitted.residual);
@@ -319,7 +319,7 @@ Fitted ModelFit::extend(const Fitted& fitted, const Variant& variant,
   next.variant = variant;
   next.unknowns.insert(next.unknowns.end(), more.begin(), more.end());
   const Eigen::VectorXf at = residual(variant);
-  if (at.size() == 0) throw NotSimulated("the variant cannot be simulated");
+  if (at.size() == 0) throw NotSimulated("the changed model cannot be simulated");
   next.residual = at;
   next.cost = cost_of(next, variant, at);
   simulate_sensitivity(next, before);

@@ -37,21 +37,22 @@ std::string model_text(const Answer& answer, const Evaluator& evaluator, const Q
   for (const FoundEffect& effect : answer.effects) {
     comment += "Found: " + effect.id + " at " + effect.place + ", " +
                probability_text(effect.probability) + ", " + short_number(effect.evidence) +
-               " nat on held-out data";
+               " nat of evidence";
     for (const FoundParameter& p : effect.parameters) {
       comment += ", " + p.name + " " + interval_text(p);
     }
     comment += ".\n";
   }
-  comment += "Held-out gap in units of the floor: " + short_number(answer.test.before) +
-             " as given, " + short_number(answer.test.recalibrated) + " recalibrated, " +
-             short_number(answer.test.after) + " with what was found.\nLearned from:";
+  comment += "Gap to the held-out recordings in units of the noise floor: " +
+             short_number(answer.test.before) + " as given, " +
+             short_number(answer.test.recalibrated) + " recalibrated, " +
+             short_number(answer.test.after) + " with what was found.\nTraining recordings:";
   for (const Dataset& recording : question.train) comment += " " + recording.folder;
-  comment += "\nJudged by:";
+  comment += "\nHeld-out recordings:";
   for (const Dataset& recording : question.test) comment += " " + recording.folder;
-  if (!question.repeats.empty()) comment += "\nFloor from repeats:";
+  if (!question.repeats.empty()) comment += "\nRepeats, for the noise floor:";
   for (const Dataset& recording : question.repeats) comment += " " + recording.folder;
-  comment += "\nWith --dt " + short_number(question.step) + " --max-effects " +
+  comment += "\nOptions: --dt " + short_number(question.step) + " --max-effects " +
              std::to_string(question.max_effects);
   for (const std::string& id : question.effects) comment += " --effects " + id;
   comment += ".";

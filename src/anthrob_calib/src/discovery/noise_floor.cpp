@@ -70,17 +70,19 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
     const long lag = lags.empty() ? 0 : lags[r];
     const Differences other = evaluator.compare({given}, {repeat}).front();
     if (base.size() == 0 || other.size() == 0) {
-      throw std::runtime_error("the model cannot be simulated along " + repeat->name());
+      throw std::runtime_error("the model cannot be simulated with the inputs of " +
+                               repeat->name() +
+                               ": replay it with anthrob_replay to see where it fails");
     }
     if (repeat->channels().size() != first.channels().size()) {
-      throw BadInput(repeat->name() + ": expected the channels of " + first.name() +
+      throw BadInput(repeat->name() + ": expected the same measured columns as in " + first.name() +
                      ", whose commands it repeats");
     }
     for (std::size_t c = 0; c < first.channels().size(); ++c) {
       const Channel &a = first.channels()[c], &b = repeat->channels()[c];
       if (a.name() != b.name()) {
-        throw BadInput(repeat->name() + ": expected the channels of " + first.name() +
-                       ", whose commands it repeats");
+        throw BadInput(repeat->name() + ": expected the same measured columns as in " +
+                       first.name() + ", whose commands it repeats");
       }
       const long begin = std::max(0L, -lag);
       const long end = std::min(static_cast<long>(a.count), static_cast<long>(b.count) - lag);
@@ -136,8 +138,8 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
   const auto both = evaluator.compare({Variant{}, half, counting}, train);
   if (both[0].size() == 0) {
     throw std::runtime_error(
-        "the given model cannot be simulated along the recordings: replay them with anthrob_replay "
-        "to see where it fails");
+        "the given model cannot be simulated with the inputs of the recordings: replay them with "
+        "anthrob_replay to see where it fails");
   }
   Scales scales;
   std::map<std::string, Moments> numerics, counts, noise;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "anthrob_calib/discovery/chain_experiment.h"
@@ -23,6 +24,13 @@ constexpr double kQuickLook = 20.0;       // [s]
 constexpr double kSlowLook = 120.0;       // [s]
 constexpr double kCoarse = 2.0;           // steps
 constexpr double kMostCoarseError = 3.0;  // rms of a channel, in its standard deviations
+
+/// "1.25"
+std::string decimal(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
 
 /// Largest less smallest value of a column; 0 if it is not there.
 double span(const Dataset& recording, const std::string& column) {
@@ -58,8 +66,9 @@ void refuse_nonsense(const Dataset& recording) {
     if (length > 0.0 && table.t.size() > 2 && (late > 0.5 * length || covered < 0.3 * length) &&
         table.name != "commands") {
       throw BadInput(recording.folder + "/" + table.name +
-                     ".csv: not synchronised: its times cover " + std::to_string(covered) +
-                     " s of a recording of " + std::to_string(length) + " s");
+                     ".csv: not synchronised with the other files: it covers " + decimal(covered) +
+                     " s, from " + decimal(late) + " s on, of a recording of " + decimal(length) +
+                     " s; expected all files to use one clock");
     }
   }
 }
@@ -81,20 +90,22 @@ void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recor
   const std::string name = recordings.front().folder;
   throw BadInput(name +
                  (robot.muscles.empty()
-                      ? ": the axis does not move: nothing to learn about friction or inertia"
-                      : ": no muscle moves: nothing to learn about friction, springs or "
-                        "motors: expected motion over the range you care about"));
+                      ? ": the axis does not move, so friction and inertia are not identifiable; "
+                        "expected motion over the range of interest"
+                      : ": no muscle moves, so friction, springs and motors are not "
+                        "identifiable; expected motion over the range of interest"));
 }
 
-/// Seconds of all of them.
-double refuse_shortness(const std::vector<Dataset>& recordings, const std::string& purpose) {
+/// @param option that named them   @return seconds of all of them
+double refuse_shortness(const std::vector<Dataset>& recordings, const std::string& option) {
   double length = 0.0;
   for (const Dataset& recording : recordings) {
     length += seconds(recording.end() - recording.begin());
   }
   if (length < kShortest) {
-    throw BadInput(recordings.front().folder + ": too short: " + std::to_string(length) + " s " +
-                   purpose + ": expected " + std::to_string(kShortest) + " s or more");
+    throw BadInput(recordings.front().folder + ": too short: the " + option + " recordings are " +
+                   decimal(length) + " s long in all; expected at least " + decimal(kShortest) +
+                   " s");
   }
   return length;
 }
@@ -107,8 +118,8 @@ void refuse_copies(const Question& question) {
       const auto [other, is_new] =
           folders.emplace(resume::content_fingerprint(recording), recording.folder);
       if (is_new) continue;
-      throw BadInput(recording.folder + ": the same as " + other->second +
-                     ": expected every recording once, to learn from, to judge by or as a repeat");
+      throw BadInput(recording.folder + ": the same recording as " + other->second +
+                     ": expected every recording once among --train, --test and --repeat");
     }
   }
 }
@@ -119,8 +130,8 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
   for (const Dataset& test : question.test) {
     for (const Dataset& train : question.train) {
       if (!have_same_commands(robot, train, test)) continue;
-      remarks.push_back(test.folder + ": has the commands of " + train.folder +
-                        ", which is learned from: another motion judges better");
+      remarks.push_back(test.folder + ": has the same commands as " + train.folder +
+                        ", which is fitted; another motion would judge better");
     }
   }
   return remarks;
@@ -132,14 +143,14 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   const RobotModel& robot = *evaluator.model();
   if (question.train.empty()) throw BadInput("--train: expected at least one recording");
   if (question.test.empty()) {
-    throw BadInput("--test: expected at least one recording that is not fitted");
+    throw BadInput("--test: expected at least one recording to judge by, which is not fitted");
   }
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) refuse_nonsense(recording);
   }
   refuse_copies(question);
-  const double length = refuse_shortness(question.train, "to learn from");
-  refuse_shortness(question.test, "to judge by");
+  const double length = refuse_shortness(question.train, "--train");
+  refuse_shortness(question.test, "--test");
   refuse_stillness(robot, question.train);
   refuse_stillness(robot, question.test);
   std::vector<double> late;  // [s]

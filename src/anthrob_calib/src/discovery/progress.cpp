@@ -18,7 +18,7 @@ std::string progress_text(double elapsed, std::size_t simulated, const Batch& ba
     const double left = batch.elapsed * static_cast<double>(batch.size - batch.done) /
                         static_cast<double>(batch.done);
     std::snprintf(text + length, sizeof(text) - static_cast<std::size_t>(length),
-                  "; %zu of %zu of a batch, %.0f s left of it", batch.done, batch.size, left);
+                  "; current batch: %zu of %zu, %.0f s left", batch.done, batch.size, left);
   }
   return text;
 }

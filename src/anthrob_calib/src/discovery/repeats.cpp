@@ -99,17 +99,24 @@ std::string with_unit(double reference, double mode) {
   return std::to_string(reference) + " " + kUnits[std::clamp(static_cast<int>(mode), 0, 3)];
 }
 
-/// What the other recording tells a muscle otherwise, in one line; empty if nothing.
+/// Complaint about a column that only one of two recordings has.
+/// @param in_first whether that is the first one
+std::string only_in_one(const std::string& column, bool in_first, const std::string& first) {
+  return column + (in_first ? ": missing, but " + first + " has it" : ": not in " + first) +
+         "; expected a repeat of its commands";
+}
+
+/// How the commands of the other recording differ for a muscle, in one line; empty if they do not.
 std::string other_command(const MuscleModel& muscle, const Pair& pair) {
   const std::string name = muscle.name + "/reference";
   const Series asked = pair.first.series(name), again = pair.other.series(name);
   const std::string& first = pair.first.folder;
   if (asked.empty() != again.empty()) {
-    return name + ": expected it where " + first + " has it: a repeat of its commands";
+    return only_in_one(name, !asked.empty(), first);
   }
   if (asked.empty()) return "";
   const Series mode = mode_series(muscle, pair.first), other_mode = mode_series(muscle, pair.other);
-  const std::string expected = ": expected a repeat of the commands of " + first + ", ";
+  const std::string expected = ": expected a repeat of the commands of " + first + ", with ";
   if (const auto t = differ(mode, other_mode, pair, 0.5)) {
     const double then = *t + pair.late;
     const auto word = [](double value) { return word_of("mode", static_cast<int>(value)); };
@@ -197,9 +204,9 @@ void refuse_another_motion(const Motion& motion, double late, const Dataset& fir
                            const Dataset& repeat) {
   const double rms = std::sqrt(apart(motion, late));
   if (motion.range == 0.0 || rms <= kSameMotion * motion.range) return;
-  throw BadInput(repeat.folder + ": " + motion.column + ": " + std::to_string(rms) +
-                 " rms from that of " + first.folder + ", which ranges over " +
-                 std::to_string(motion.range) + ": expected a repeat of its motion");
+  throw BadInput(repeat.folder + ": " + motion.column + ": differs from " + first.folder + " by " +
+                 std::to_string(rms) + " rms, where the motion ranges over " +
+                 std::to_string(motion.range) + "; expected a repeat of its motion");
 }
 
 /// @param driving quantity that moves the muscles, with its slash; empty: they are told references
@@ -211,8 +218,7 @@ std::vector<Motion> motions_of(const RobotModel& robot, const std::string& drivi
     const std::string column = muscle.name + driving;
     const bool has = !first.series(column).empty();
     if (has != !repeat.series(column).empty()) {
-      throw BadInput(repeat.folder + ": " + column + ": expected it where " + first.folder +
-                     " has it: a repeat of its commands");
+      throw BadInput(repeat.folder + ": " + only_in_one(column, has, first.folder));
     }
     if (has) motions.push_back(motion_of(column, first, repeat));
   }

@@ -10,6 +10,14 @@ namespace discovery {
 
 namespace {
 
+std::string name_of(std::size_t number) {
+  return "separating_" + std::to_string(number);
+}
+
+std::string postures_file_of(const std::string& name) {
+  return name + "_postures.yaml";
+}
+
 void write_references(std::ostream& out, const RobotModel& model, const std::string& name,
                       const std::vector<double>& references) {
   out << "  - name: " << name << "\n    references: {";
@@ -22,17 +30,23 @@ void write_references(std::ostream& out, const RobotModel& model, const std::str
   out << "}\n";
 }
 
-std::string protocol_yaml(const std::string& postures_file, const std::string& explanation,
+/// @param name of the protocol, "separating_1"
+std::string protocol_yaml(const std::string& name, const std::string& explanation,
                           const std::string& rival) {
   return "# Tells " + explanation + " from " + rival +
-         ". Written by anthrob_discover; record it with\n"
-         "#   roslaunch anthrob_bringup record.launch protocol:=separating "
-         "protocol_file:=THIS_FILE "
-         "out:=FOLDER\n"
-         "# and give some of the runs as further --train, the others as further --test.\n"
+         ". Written by anthrob_discover.\n"
+         "# Start the driver, then record the robot:\n"
+         "#   roslaunch anthrob_bringup record.launch protocol:=" +
+         name + " protocol_file:=/whole/path/to/" + name +
+         ".yaml \\\n"
+         "#       out:=/whole/path/to/more sim:=false lock_step:=false enable:=true\n"
+         "# Add tier:=1 for Anthrob without the forearm, or robot:=NAME model:=NAME for another "
+         "robot.\n"
+         "# Then run anthrob_discover again with some of the new runs in --train and the others in "
+         "--test.\n"
          "protocol: trajectories\n"
          "postures: " +
-         postures_file +
+         postures_file_of(name) +
          "\nrest: rest\n"
          "settle: {actuator_velocity: 0.02, joint_velocity: 0.01, window: 0.5, timeout: 20.0}\n"
          "hold: 0.5\n"
@@ -43,7 +57,8 @@ std::string protocol_yaml(const std::string& postures_file, const std::string& e
 std::string postures_yaml(const RobotModel& model, const SeparatingRecording& plan) {
   std::ostringstream out;
   out.precision(6);
-  out << "# Actuator references [rad]; the one that tells most first, in nat of log score.\n"
+  out << "# References of the motors [rad]: the rest posture, then the best one first. In nat: the "
+         "evidence that a posture\n# is expected to bring.\n"
          "postures:\n";
   write_references(out, model, "rest", plan.rest);
   for (const SeparatingRecording::Target& target : plan.targets) {
@@ -56,7 +71,7 @@ std::string postures_yaml(const RobotModel& model, const SeparatingRecording& pl
 }  // namespace
 
 std::string separating_file(std::size_t number) {
-  return "separating_" + std::to_string(number) + ".yaml";
+  return name_of(number) + ".yaml";
 }
 
 void remove_other_protocols(const std::string& folder,
@@ -79,11 +94,11 @@ std::map<std::string, std::string> separating_files(const Answer& answer, const 
     const FoundEffect& effect = answer.effects[i];
     const SeparatingRecording& plan = effect.separating_recording;
     if (plan.targets.empty()) continue;
-    const std::string postures = "separating_" + std::to_string(i + 1) + "_postures.yaml";
+    const std::string name = name_of(i + 1);
     const Rival& rival = effect.rivals.front();
     files[separating_file(i + 1)] =
-        protocol_yaml(postures, effect.id + " @ " + effect.place, rival.id + " @ " + rival.place);
-    files[postures] = postures_yaml(model, plan);
+        protocol_yaml(name, effect.id + " @ " + effect.place, rival.id + " @ " + rival.place);
+    files[postures_file_of(name)] = postures_yaml(model, plan);
   }
   return files;
 }

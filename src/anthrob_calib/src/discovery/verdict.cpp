@@ -76,7 +76,7 @@ void pronounce(const std::map<std::string, double>& left, bool certain, Answer& 
                                    (cause->word == "time" ? "" : cause->word + " of ") +
                                    cause->variable;
   } else {
-    answer.remaining_description = "depends on none of the measured quantities";
+    answer.remaining_description = "a gap that depends on none of the measured quantities";
   }
 }
 

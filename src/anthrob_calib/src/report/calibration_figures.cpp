@@ -23,7 +23,7 @@ std::vector<double> column(const Eigen::MatrixXd& m, Eigen::Index c, double fact
   return values;
 }
 
-/// Share of a trajectory that both simulations cover.
+/// Times of the first rows of a trajectory: those that were simulated.
 std::vector<double> times_of(const Samples& samples, int rows) {
   return {samples.t.begin(), samples.t.begin() + rows};
 }
@@ -53,7 +53,7 @@ void add_joint_panels(SvgFigure& figure, const MeasuredRun& run, const RunDiffer
           {axes[k], t, column(after.path.posture, joint.velocity_offset + k, scale)});
     }
   }
-  auto& panel = figure.add_panel("time [s]", joint.name + " distance" + bracket);
+  auto& panel = figure.add_panel("time [s]", joint.name + " absolute error" + bracket);
   panel.lines.push_back({"before", times_of(run.path, before.path.count()),
                          scaled(before.path.joint_error(joint), scale), true});
   panel.lines.push_back({"after", t, scaled(after.path.joint_error(joint), scale)});
@@ -73,7 +73,7 @@ std::string fitness_figure(const std::vector<Generation>& history) {
   }
   panel.lines.push_back({"mean of generation", x, mean, true});
   panel.lines.push_back({"best of generation", x, best});
-  panel.lines.push_back({"best ever", x, ever});
+  panel.lines.push_back({"best so far", x, ever});
   return figure.render();
 }
 
@@ -128,7 +128,7 @@ std::string trajectory_figure(const BeforeAfter& both, std::size_t r, const Robo
 
 std::string profile_figure(const Identifiability& identifiability,
                            const std::vector<ModelParameter>& parameters, double best_fitness) {
-  SvgFigure figure("Fitness along the least known parameters, the others following");
+  SvgFigure figure("Fitness along the least identifiable parameters, the others adjusted");
   for (const Profile& profile : identifiability.profiles) {
     const ModelParameter& p = parameters[profile.parameter];
     auto& panel = figure.add_panel(p.name() + " [" + p.unit + "]", "fitness / best");

@@ -58,7 +58,7 @@ std::string errors_section(const BeforeAfter& both, const RobotModel& model,
     out += (r ? ", " : "") + std::to_string(r) + " " + escaped(both.runs[r].name);
   }
   out += "</p>\n";
-  // The longest one is as good an example as any, and is not picked by its error.
+  // Shows the longest trajectory: this choice does not depend on the errors.
   const auto longest = std::max_element(
       both.runs.begin(), both.runs.end(),
       [](const MeasuredRun& a, const MeasuredRun& b) { return a.path.count() < b.path.count(); });
@@ -70,7 +70,7 @@ std::string errors_section(const BeforeAfter& both, const RobotModel& model,
 
 std::string parameter_table(const CalibrationOutcome& o) {
   std::string out = "<table>" + row({"parameter", "unit", "range", "before", "after", "sigma",
-                                     "the data tell it", "at a bound"},
+                                     "identifiable", "at a bound"},
                                     "th");
   const std::vector<std::string> nothing = untold(o);
   for (std::size_t i = 0; i < o.parameters.size(); ++i) {
@@ -96,11 +96,12 @@ std::string identifiability_section(const CalibrationOutcome& o) {
   const auto told = std::count_if(id.parameters.begin(), id.parameters.end(),
                                   [](const ParameterKnowledge& k) { return k.identifiable; });
   std::string out =
-      "<h2>What the data tell</h2>\n<p>" + std::to_string(told) + " of " +
-      std::to_string(id.parameters.size()) + " parameters: the data leave less than " +
+      "<h2>Identifiability</h2>\n<p>" + std::to_string(told) + " of " +
+      std::to_string(id.parameters.size()) +
+      " parameters are identifiable: the data leave them less than " +
       text(100 * kIdentifiableShare) +
-      " % of the deviation that their range allows. Taken from the derivatives of all "
-      "differences at the best point, with what is left as noise (" +
+      " % of the standard deviation that their range allows. This is computed from the derivatives "
+      "of all differences at the best point; the remaining differences are taken as noise (" +
       text(kDegrees * id.posture_noise) + " deg, " + text(id.force_noise) + " N). ";
   if (!o.calibration.runs.front().is_trajectory) {
     out += "Equilibria needed by (5.13): " +
@@ -108,14 +109,14 @@ std::string identifiability_section(const CalibrationOutcome& o) {
                                             static_cast<int>(o.model->muscles.size()))) +
            ", given: " + std::to_string(o.calibration.runs.size()) + ".";
   }
-  out += "</p>\n<p>Singular values of the derivatives by steps, largest to smallest: ";
+  out += "</p>\n<p>Singular values of the derivatives with respect to steps, largest first: ";
   for (const double s : id.singular_values) out += text(s, "%.2g") + " ";
   std::vector<std::size_t> order(id.flattest.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::abs(id.flattest[a]) > std::abs(id.flattest[b]);
   });
-  out += "</p>\n<p>The flattest direction, in steps: ";
+  out += "</p>\n<p>Least identifiable direction, in steps: ";
   for (std::size_t k = 0; k < std::min<std::size_t>(5, order.size()); ++k) {
     out += (k ? ", " : "") + text(id.flattest[order[k]], "%+.2f") + " " +
            escaped(o.parameters[order[k]].name());
@@ -127,8 +128,8 @@ std::string identifiability_section(const CalibrationOutcome& o) {
 
 std::string drives_section(const CalibrationOutcome& o) {
   if (o.drives.size() < 2) return "";
-  std::string out = "<h2>Other ways to drive the simulation</h2>\n<table>" +
-                    row({"actuators get", "posture rms [deg]", "force rms [N]",
+  std::string out = "<h2>Simulation with other inputs (section 8.3)</h2>\n<table>" +
+                    row({"input of the actuators", "posture rms [deg]", "force rms [N]",
                          "largest actuator difference [deg]"},
                         "th");
   for (const DriveErrors& d : o.drives) {
@@ -138,23 +139,24 @@ std::string drives_section(const CalibrationOutcome& o) {
   return out + "</table>\n";
 }
 
-/// What it has brought, for a reader in a hurry: on what it never saw, if there is any.
+/// The mean errors in one sentence: on the held-out recordings, if there are any.
 std::string headline(const CalibrationOutcome& o) {
   const bool held_out = !o.validation.runs.empty();
   const BeforeAfter& both = held_out ? o.validation : o.calibration;
   if (both.runs.empty()) return "";  // they could not be simulated; the doubt says why
   const MeanErrors before = mean_errors(both.before, *o.model);
   const MeanErrors after = mean_errors(both.after, *o.model);
-  std::string out =
-      held_out ? "On recordings it never saw, " : "On the recordings it was fitted to, ";
+  std::string out = held_out ? "On held-out recordings" : "On the recordings that were fitted";
+  out += ", the mean errors are ";
   for (std::size_t j = 0; j < after.joints.size(); ++j) {
     const JointModel& joint = o.model->skeleton->joints[j];
     const auto [scale, unit] = unit_of(joint);
-    out += escaped(joint.name) + " errs by <b>" + text(scale * after.joints[j], "%.2f") + " " +
-           unit + "</b> instead of " + text(scale * before.joints[j], "%.2f") + ", ";
+    out += "<b>" + text(scale * after.joints[j], "%.2f") + " " + unit +
+           "</b> (before: " + text(scale * before.joints[j], "%.2f") + ") at " +
+           escaped(joint.name) + ", ";
   }
-  return "<p class=\"headline\">" + out + "muscle forces by <b>" + text(after.force, "%.2f") +
-         " N</b> instead of " + text(before.force, "%.2f") + ".</p>\n";
+  return "<p class=\"headline\">" + out + "and <b>" + text(after.force, "%.2f") +
+         " N</b> (before: " + text(before.force, "%.2f") + ") of muscle forces.</p>\n";
 }
 
 std::string name_of(const std::string& file) {
@@ -179,9 +181,9 @@ std::string report_html(const CalibrationOutcome& o) {
   if (!o.doubt.empty()) out += "<p><b>" + escaped(o.doubt) + "</b></p>\n";
   out += "<h2>Held-out recordings</h2>\n";
   if (o.validation.runs.empty()) {
-    out += o.held_out ? "<p>They could not be simulated: see above.</p>\n"
-                      : "<p>None were given (--validation): how well the model predicts is not "
-                        "known.</p>\n";
+    out += o.held_out ? "<p>They could not be simulated, see above.</p>\n"
+                      : "<p>None were given (--validation), so it is not known how well the "
+                        "model predicts other motions.</p>\n";
   } else {
     out += errors_section(o.validation, *o.model, "Errors of held-out runs");
   }

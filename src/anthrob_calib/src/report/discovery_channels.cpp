@@ -72,12 +72,13 @@ std::string visibility(const Answer& answer, const Question& question) {
             (question.effects.empty() ? "in the catalogue" : "that --effects asks for") +
             " would have shown.</p>\n";
   } else {
-    html += folded(std::to_string(answer.not_visible.size()) +
-                       " effects at their places could not have shown at all, or only very large",
-                   visibility_table(answer.not_visible));
+    html += folded(
+        std::to_string(answer.not_visible.size()) +
+            " effects (each at one place) would not have shown at all, or only if very large",
+        visibility_table(answer.not_visible));
   }
   html += folded(std::to_string(answer.visible.size()) +
-                     " effects at their places would have shown from this size on",
+                     " effects (each at one place) would have shown from this size on",
                  visibility_table(answer.visible));
   if (answer.alike.empty()) return html;
   std::string groups = "<ul>\n";

@@ -34,7 +34,7 @@ std::string rivals_of(const FoundEffect& effect, std::size_t number, const Answe
   if (effect.rivals.empty()) return "";
   // Where too much is left for any of them, they are rivals of something that is not it either.
   std::string html = answer.verdict == "unexplained" && effect.left > kEvenOdds
-                         ? "<p>Others come as near:</p><ul>\n"
+                         ? "<p>Others explain the recordings as well:</p><ul>\n"
                          : "<p>These data do not exclude:</p><ul>\n";
   for (const Rival& rival : effect.rivals) {
     html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", " +
@@ -76,7 +76,7 @@ std::string gap_table(const Answer& answer) {
   };
   return "<table><tr><th>gap [floors]</th><th>model as given</th><th>recalibrated"
          "</th><th>with what was found</th><th>noise alone</th></tr>\n" +
-         row("held-out recordings", answer.test) + row("recordings learned from", answer.train) +
+         row("held-out recordings", answer.test) + row("training recordings", answer.train) +
          "</table>\n<p class=\"small\">Gap: root mean square of simulation minus measurement, all "
          "channels together, in units of the floor, which is what noise alone leaves. Held-out "
          "recordings were never fitted.</p>\n";
@@ -93,12 +93,13 @@ std::string findings(const Answer& answer) {
   }
   for (const Alternative& alternative : answer.alternatives) {
     html += "<p>Or " + escaped(alternative_text(alternative, answer)) +
-            ". To tell: " + escaped(alternative.separating_experiment) + ".</p>\n";
+            ". To tell them apart: " + escaped(alternative.separating_experiment) + ".</p>\n";
   }
   for (const std::string& dropped : answer.dropped) {
     html += "<p>Named at first, but not needed beside the others: " + escaped(dropped) + ".</p>\n";
   }
-  for (const std::string& line : answer.asked) html += "<p>Before: " + escaped(line) + ".</p>\n";
+  for (const std::string& line : answer.asked)
+    html += "<p>Asked after an earlier search: " + escaped(line) + ".</p>\n";
   if (!answer.improbable.empty()) html += "<p>" + improbable_sentence(answer) + "</p>\n";
   return html + refused(answer);
 }

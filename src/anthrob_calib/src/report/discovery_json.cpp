@@ -264,15 +264,17 @@ std::string summary(const Answer& answer) {
             probability_text(law.probability) + "\n";
   }
   for (const std::string& dropped : answer.dropped) {
-    text += "  not needed any more: " + dropped + "\n";
+    text += "  no longer needed: " + dropped + "\n";
   }
   if (!answer.refused.id.empty()) {
     text += "  refused " + answer.refused.id + " @ " + answer.refused.place + ": " +
             answer.refused.lack + "\n";
   }
-  text += "  held-out gap in units of the floor: " + short_number(answer.test.before) +
-          " as given, " + short_number(answer.test.recalibrated) + " recalibrated, " +
-          short_number(answer.test.after) + " after; left: " + answer.remaining_description + "\n";
+  text += "  gap to the held-out recordings, in units of the noise floor: " +
+          short_number(answer.test.before) + " as given, " +
+          short_number(answer.test.recalibrated) + " recalibrated, " +
+          short_number(answer.test.after) +
+          " with what was found; remaining: " + answer.remaining_description + "\n";
   return text;
 }
 

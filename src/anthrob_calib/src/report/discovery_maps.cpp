@@ -77,7 +77,8 @@ std::string dependence_figures(const std::vector<Dependence>& dependences) {
     html += figure.render() +
             "<p class=\"small\">In blocks of time that it was not "
             "fitted to, the curve predicts " +
-            short_number(100.0 * d.share) + " % of the square, beyond a constant.</p>\n";
+            short_number(100.0 * d.share) +
+            " % of the squared gap, in addition to a constant.</p>\n";
   }
   return html;
 }

@@ -26,7 +26,7 @@ const char* const kTerms = R"(<h2>Terms</h2><ul>
 without any, from how neighbouring values scatter; errors of rounding and of the simulation are in it.
 Gaps are given in floors</li>
 <li>recalibrated: the given model with its ordinary parameters, those of calibration.yaml, fitted to
-the recordings learned from, and without any effect added</li>
+the training recordings, and without any effect added</li>
 <li>share: the part of a channel in the squared gap of all channels together, each above the noise</li>
 <li>significance: by how many standard errors (sigma), over blocks of 2 s, a channel stands above what
 a wrong floor may look like</li>
@@ -47,8 +47,7 @@ std::string verdict_text(const Answer& answer) {
 
 std::string recordings(const Answer& answer, const Question& question) {
   std::string list;
-  for (const Dataset& r : question.train)
-    list += "<li>learned from: " + escaped(r.folder) + "</li>";
+  for (const Dataset& r : question.train) list += "<li>training: " + escaped(r.folder) + "</li>";
   for (const Dataset& r : question.test) list += "<li>held out: " + escaped(r.folder) + "</li>";
   for (const Dataset& r : question.repeats) list += "<li>repeat: " + escaped(r.folder) + "</li>";
   for (const std::string& remark : answer.remarks) list += "<li>" + escaped(remark) + "</li>";
@@ -72,9 +71,8 @@ std::string report_html(const Answer& answer, const Question& question, double r
          next_steps(answer) + gap_table(answer) + example_figures(answer) +
          "<h2>What was found</h2>\n" + findings(answer) +
          "<h2>Where model and measurements disagree</h2>\n" + where_table(answer) +
-         folded(
-             "By place and regime: is it worse when the place is fast, loaded, wrapped, or late?",
-             regime_map(answer)) +
+         folded("By place and regime: does the gap depend on speed, load, wrap angle or time?",
+                regime_map(answer)) +
          folded("Along the chain: which part from command to sensor is wrong?", seam_map(answer)) +
          dependences_of_gaps(answer) + "<h2>What remains</h2>\n" + what_remains(answer, question) +
          "<h2>Held-out gap by channel</h2>\n" + worse_channels(answer) +

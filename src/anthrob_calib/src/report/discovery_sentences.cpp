@@ -113,7 +113,8 @@ std::string range_text(const FoundParameter& p) {
 std::string limit_clause(const std::string& parameter) {
   return parameter.empty() ? ""
                            : ", with " + escaped(parameter) +
-                                 " at the end of its range, as where a law stands in for another";
+                                 " at the end of its range, which suggests that the law stands in "
+                                 "for another one";
 }
 
 std::string improbable_sentence(const Answer& answer) {
@@ -167,7 +168,8 @@ std::string next_steps(const Answer& answer) {
     const FoundEffect& effect = answer.effects[e];
     if (effect.rivals.empty() || effect.separating_recording.targets.empty()) continue;
     steps.push_back("To tell " + escaped(effect.name) + " from its rivals, record <code>" +
-                    separating_file(e + 1) + "</code> on the robot and run discovery again.");
+                    separating_file(e + 1) +
+                    "</code> on the robot (its first lines say how) and run discovery again.");
   }
   if (answer.verdict == "no_missing_effect") {
     steps.push_back(

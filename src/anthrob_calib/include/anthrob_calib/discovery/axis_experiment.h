@@ -6,12 +6,15 @@
 namespace anthrob {
 namespace discovery {
 
-/// A recording of driven joints. Nothing holds such a robot where it was, so a replay drifts away
-/// from whatever small error there is. Instead every bin starts from the measured motion, runs
-/// under the measured effort, and is judged by the velocity at its end: the difference, times the
-/// inertia the given model sees, over the length of the bin, is the effort that the model lacks.
+/// A recording of driven joints. Nothing pulls such a joint back to its recorded position, so that
+/// a replay would drift away because of any small error. Instead, the simulation of every bin
+/// starts from the measured motion and runs under the measured effort. The difference of velocity
+/// at the end of the bin, times the inertia of the given model, divided by the length of the bin,
+/// is the effort that the model is missing [N or Nm].
 ///
-/// Motion comes from the positions by local parabolas over +-kSmoothing.
+/// Positions and velocities at the edges of bins come from parabolas through the measured positions
+/// within +-kSmoothing. Bins next to a hole in the positions longer than 3.5 sampling periods, and
+/// than 2 kSmoothing, are not compared.
 class AxisExperiment final : public Experiment {
  public:
   static constexpr double kSmoothing = 0.006;  ///< [s]

@@ -14,14 +14,14 @@ struct Candidate {
   const Effect* effect = nullptr;
   std::string place;
   std::vector<EffectParameter> parameters;  ///< at this place
-  /// Ordinary parameters that are the same quantity: held where the model has them while the
-  /// effect is fitted, so that it is found whole.
+  /// Indices of ordinary parameters that are the same quantity. They are held at the model's values
+  /// while the effect is fitted, so that the whole effect is found.
   std::vector<int> same_as;
 
   std::string name() const { return effect->info().id + " @ " + place; }
-  /// The muscle, joint or motor that its place belongs to: of two, the first.
+  /// The muscle, joint or motor that its place belongs to; the first of two.
   std::string owner() const;
-  /// Whether its place is every muscle at once.
+  /// Whether its place is all muscles together ("all").
   bool is_everywhere() const { return place == "all"; }
   /// At its neutral sizes, other parameters at their defaults.
   EffectInstance neutral() const;

@@ -27,7 +27,7 @@ class ChainExperiment final : public Experiment {
     std::size_t offset;                           ///< of its (first) channel
     std::vector<double> mean;                     ///< measured, by bin; not of ball joints
     std::vector<std::array<double, 4>> rotation;  ///< measured, by row; of ball joints
-    double noise = 0.0;                           ///< of forces that were cut off at zero [N]
+    double noise = 0.0;  ///< standard deviation, of forces that were cut off at zero [N]
   };
   /// Readers whose samples were taken at the same times.
   struct Sampling {

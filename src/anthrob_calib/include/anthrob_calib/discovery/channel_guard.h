@@ -8,13 +8,13 @@
 namespace anthrob {
 namespace discovery {
 
-/// Least squares pays for a large gain in one channel with a little of the others, where the law
-/// that brings it is of nearly the right shape only, and where the valley is flat it stops
-/// anywhere. Here channels that a fit has made worse than another model has them, and above the
-/// floor, weigh more and more until they are not, all unknowns free; but never for more than a
-/// twentieth of what the fit has gained, nor for more than they gain themselves.
-/// @param fit, judge of what is fitted   @param reference residual of the other model
-/// @return the fit itself if no channel pays, or none can be spared that
+/// Protects channels that a fit has made worse. Where a law has nearly, but not quite, the right
+/// shape, least squares accepts a small loss in some channels for a large gain in another one.
+/// Channels that are above the floor and worse than with a reference model are given more and more
+/// weight, with all unknowns free, until they are no longer worse. This stops before it costs more
+/// than a twentieth of what the fit has gained, or more than those channels gain.
+/// @param fit, judge of what is fitted   @param reference residual of the reference model
+/// @return the fit itself if no channel got worse, or none can be protected
 Fitted spare_channels(const ModelFit& fit, const Judge& judge, const Eigen::VectorXf& reference,
                       const Fitted& fitted);
 

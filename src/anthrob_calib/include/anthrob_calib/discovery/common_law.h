@@ -9,8 +9,9 @@
 namespace anthrob {
 namespace discovery {
 
-/// Laws at one place may be one of more sizes: friction that differs by direction is friction and a
-/// constant torque, too. And one law at several places may be everywhere, of one size.
+/// One law instead of several named effects. Two laws at one place may be one law of more sizes:
+/// friction plus a constant torque is friction that differs by direction. And one law at several
+/// places may be the same law everywhere, with one size.
 class CommonLaw {
  public:
   /// An effect in a fit: its index in there, and which candidate it is.
@@ -20,25 +21,27 @@ class CommonLaw {
 
   CommonLaw(const Workbench& bench, Screening& screening) : bench_(bench), screening_(screening) {}
 
-  /// Whether a candidate may say alone what two others say.
+  /// Whether a candidate may replace two others.
   bool may_be(std::size_t law, std::size_t one, std::size_t other) const;
-  /// The same law everywhere that some parts may be; nothing if there is none.
+  /// The candidate that is the law of these parts everywhere; nothing if there is none.
   std::optional<std::size_t> everywhere(const std::vector<Part>& parts) const;
-  /// A law in place of others: the fit with it, its odds against them, and what it gains of the
-  /// cost where none of them is.
+  /// A law in place of others: the fit with it, its odds against them, and by how much it reduces
+  /// the cost of the model without any of them.
   struct Instead {
     Tested tested;
     Naming::Odds odds;
     double gained;
-    Eigen::VectorXf without;  ///< residual held out where none of them is
+    Eigen::VectorXf without;  ///< held-out residual of the model without any of them
 
     bool is_better() const;
-    /// So much that it is to be named in their stead.
+    /// Whether it is so much better that it is named instead of them.
     bool is_clearly_better() const;
   };
-  /// That candidate, fitted to the end instead of some effects; it is the fit's last effect.
-  /// @param with all of them, fitted to the end   @param parts what goes, in the fit's order
-  /// @return nothing if it is out of reach of them
+  /// Fits a candidate to the end in place of some effects; it becomes the last effect of the fit.
+  /// @param with the fit to the end with all those effects   @param parts the effects that are
+  /// replaced, in the order of the fit
+  /// @return nothing if a rough fit with it still lacks more than half of what they gain, or if it
+  /// cannot be simulated
   std::optional<Instead> instead(std::size_t law, const Tested& with,
                                  const std::vector<Part>& parts) const;
 

@@ -7,39 +7,41 @@
 namespace anthrob {
 namespace discovery {
 
-/// A channel's gap is one only beyond what a wrong estimate of the noise may look like [floors]. A
-/// fainter one is worth a look for what would explain it: evidence is judged by what is left, not
-/// by the floor.
+/// Gaps of a channel [floors]. Up to kRealGap, a gap may be due to a wrong estimate of the noise.
+/// Above kFaintGap, it is still worth a search for what explains it, because the evidence is judged
+/// by what the best model leaves, not by the floor.
 constexpr double kRealGap = 1.4;
 constexpr double kFaintGap = 1.15;
 
-/// Share of what an effect gains. A model without it that lacks more after a rough fit does not get
-/// there by a better one.
+/// Share of what an effect gains. A model without the effect that still lacks more than this after
+/// a rough fit is not fitted further.
 constexpr double kOutOfReach = 0.5;
 
-/// Share of what a law was to explain: where it leaves that, it is as likely that the true one is
-/// another. By how often answers of the study, seeds 1 to 6 (docs/studies), were right.
+/// Share of the squared gap that a law leaves of what it should explain, at which it is as likely
+/// as not that the true law is another one. Measured by how often the answers of the study
+/// (docs/studies), seeds 1 to 6, were right.
 constexpr double kEvenOdds = 0.05;
 
-/// A law whose shape ends where its range does, in a direction that nothing forbids, bends to do
-/// another one's work: of 65 effects named in the study (seeds 1 to 8) whose laws have such a
-/// shape, 7 ended there, none of them right; of the other 58 were 45.
+/// Factor for the probability of a law with a shape parameter at the end of its range where that
+/// parameter may have either sign: such a law tends to stand in for another one. Of 65 effects
+/// named in the study (seeds 1 to 8) whose laws have such a shape, 7 ended there, none of them
+/// right; of the other 58, 45 were right.
 constexpr double kAtLimit = 0.05;
-/// So near its end, as a share of the range.
+/// A parameter is at its limit if it is nearer to it than this share of its range.
 constexpr double kNearLimit = 0.03;
 
-/// A law of less probability, its rivals' included, does not extend the model. Of 15 effects in the
-/// study (seeds 1 to 6) that have less by themselves, two were right, both of one robot; of those
-/// with 0.1 to 0.2, two of six.
+/// A law whose probability, together with that of its rivals, is lower than this is not added to
+/// the model. Of 15 effects in the study (seeds 1 to 6) that have less by themselves, two were
+/// right, both in one robot; of those with 0.1 to 0.2, two of six.
 constexpr double kImprobable = 0.1;
 
-/// What of a channel's squared gap is more than that of a gap.
+/// Part of a channel's squared gap above the square of a level, at least 0. [floors^2]
 inline double excess(double gap, double least) {
   return std::max(0.0, gap * gap - least * least);
 }
 
-/// Gain in held-out log score that an effect must bring to be named [nat]: the more, the more
-/// candidates were searched.
+/// Gain in held-out log score that an effect needs to be named [nat]. It grows with the number of
+/// candidates that were searched.
 inline double needed_evidence(std::size_t candidates) {
   return 3.0 + std::log(static_cast<double>(std::max<std::size_t>(1, candidates)));
 }

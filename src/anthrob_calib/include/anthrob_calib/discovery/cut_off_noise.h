@@ -5,8 +5,9 @@
 namespace anthrob {
 namespace discovery {
 
-/// Mean of readings that are never below zero, of a value with normal noise about it. Where nothing
-/// pulls it is 0.4 standard deviations, which no offset of a sensor has to explain.
+/// Mean of the readings of a sensor that never reports less than zero, for a true value with normal
+/// noise. For a slack tendon (value 0) it is 0.4 standard deviations: no offset of the sensor is
+/// needed to explain it.
 /// @param value, noise standard deviation [N]
 double mean_above_zero(double value, double noise);
 

@@ -9,18 +9,18 @@
 namespace anthrob {
 namespace discovery {
 
-/// On what the disagreement in one channel depends: the measured quantity that predicts it best,
-/// and how.
+/// What the residual of one channel depends on: the measured quantity that predicts it best, and
+/// the curve.
 struct Dependence {
-  static constexpr double kTelling = 0.05;  ///< share that says something
+  static constexpr double kTelling = 0.05;  ///< a smaller share says nothing
 
   std::string channel;   ///< "<place>/<quantity>", components of an orientation named x, y, z
   std::string variable;  ///< "biceps_brachii/force"; empty if nothing predicts it
   std::string word;      ///< "sign of velocity", "load", "posture", "time", ...
-  /// Of its square, what the curve predicts in data it was not fitted to, beyond what a constant
-  /// does, which depends on nothing.
+  /// Share of the squared residual that the curve predicts in blocks to which it was not fitted, in
+  /// addition to what a constant predicts.
   double share = 0.0;
-  double constant = 0.0;                 ///< of its square, what a constant predicts there
+  double constant = 0.0;  ///< share of the squared residual that a constant predicts there
   std::vector<double> at, curve, error;  ///< variable and residual [their units], standard error
 };
 

@@ -16,7 +16,7 @@
 namespace anthrob {
 namespace discovery {
 
-/// A question to the data: what is this model missing?
+/// The input of discovery: a model, recordings and options.
 struct Question {
   std::string model_file;
   std::vector<ModelParameter> nuisances;
@@ -26,7 +26,7 @@ struct Question {
   int jobs = 1;
   std::uint64_t seed = 1;
   double step = 0.001;  ///< of the simulation [s]
-  /// Called with what is done next; returns false to stop.
+  /// Called with the name of each stage as it begins; returns false to stop.
   std::function<bool(const std::string&)> progress;
   std::function<void(const std::string&)> comment;  ///< a line on what was found so far
 };
@@ -34,7 +34,7 @@ struct Question {
 struct FoundParameter {
   std::string name, unit;
   double value = 0.0, low = 0.0, high = 0.0;  ///< 95 % interval
-  bool known = false;  ///< nothing that was fitted: the catalogue's number, without an interval
+  bool known = false;  ///< not fitted: the catalogue's number, without an interval
 };
 
 struct Rival {
@@ -43,26 +43,26 @@ struct Rival {
   double evidence = 0.0;  ///< gain in held-out log score [nat]
 };
 
-/// An effect that the data ask for.
+/// An effect that was named: it is in the extended model.
 struct FoundEffect {
   std::string id, name, place;
   double probability = 0.0, evidence = 0.0;
-  std::string shows_in;  ///< the channel in which it took away most, "<place>/<channel>"
-  double left = 0.0;     ///< of what was to be explained there: share of the squared gap
+  std::string shows_in;  ///< the channel whose gap it reduces most, "<place>/<channel>"
+  double left = 0.0;     ///< share of the squared gap in that channel that is left
   std::vector<FoundParameter> parameters;
-  std::string at_limit;  ///< a parameter of its shape that ends where the catalogue's range does
+  std::string at_limit;  ///< a shape parameter at the end of its range; empty: none
   std::vector<Rival> rivals;
-  std::string separating_experiment;         ///< from the first rival, in words
-  SeparatingRecording separating_recording;  ///< and for the recorder, where it can do it
+  std::string separating_experiment;         ///< how to tell it from the first rival, in words
+  SeparatingRecording separating_recording;  ///< for the recorder; empty where it cannot do it
 };
 
-/// One law that says alone what two named effects say together.
+/// One law that can replace two named effects.
 struct Alternative {
   std::string id, place;
   std::size_t instead_of[2] = {0, 0};  ///< indices of the effects
-  double probability = 0.0;            ///< if it is either this one or those two
-  double evidence = 0.0;               ///< log score on held-out data, less that of the two [nat]
-  std::string separating_experiment;   ///< from the first of them, in words
+  double probability = 0.0;            ///< given that either this law or those two are right
+  double evidence = 0.0;               ///< held-out log score minus that of the two [nat]
+  std::string separating_experiment;   ///< how to tell it from the first of them, in words
 };
 
 /// The last candidate that was not named, and why it was not.
@@ -72,12 +72,12 @@ struct Refused {
   std::string lack;
 };
 
-/// A law that earned its place, but leaves so much that it is hardly the right one: it does not
-/// extend the model.
+/// A law that met the criteria, but leaves so much of the gap, or ends so near the limit of its
+/// shape, that it is unlikely to be right. It is reported, but not added to the model.
 struct Improbable {
   std::string id, name, place;
   double probability = 0.0, evidence = 0.0;
-  std::string shows_in;  ///< as of a FoundEffect, the others too
+  std::string shows_in;  ///< this and the next two: as in FoundEffect
   double left = 0.0;
   std::string at_limit;
 };
@@ -92,20 +92,22 @@ struct Place {
   std::string channel, place, subsystem, regime, unit;
   double rmse = 0.0, noise_floor = 0.0;  ///< [unit]
   double share = 0.0;                    ///< of the squared gap
-  /// Standard errors beyond 1.4 floors, which a wrong estimate of noise may look like, or 1.15
-  /// where an effect was named; NaN: too little data to tell.
+  /// By how many standard errors it exceeds 1.4 floors (what a wrong noise estimate may look like),
+  /// or 1.15 floors where an effect was named. NaN: too little data.
   double significance = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// How large a channel's disagreement is, depending on what is fed with measured values: a gap
-/// that stays belongs behind the seam, one that goes belongs before it. [standard deviations]
+/// Gaps of a channel when the simulation is fed with measured values at one point (seam) of the
+/// chain from command to sensor [standard deviations]. A gap that disappears arises before the
+/// seam, a gap that stays arises behind it.
 struct SeamGap {
   std::string place, channel;
   bool of_joint = false;    ///< place is a joint, else a muscle
   double commands = -1.0;   ///< the whole chain replayed from its commands
   double voltages = -1.0;   ///< from measured voltages on: without controllers
   double positions = -1.0;  ///< measured motor positions imposed: without motors
-  /// Measured joint positions imposed, too: tendons and springs alone. Of forces; -1: not compared.
+  /// Measured joint positions imposed as well: tendons and springs alone. Only of forces. -1, here
+  /// and above: not compared.
   double postures = -1.0;
 };
 
@@ -115,10 +117,10 @@ struct Example {
   std::vector<double> t, recalibrated, after;  ///< simulated minus measured
 };
 
-/// From which size on these data would show an effect.
+/// The size from which on the recordings would show an effect.
 struct Visibility {
   std::string id, place, unit;
-  double smallest_visible = 0.0;  ///< of its most visible size; infinite if no size is
+  double smallest_visible = 0.0;  ///< of its most visible size parameter; infinite: none shows
 };
 
 struct Answer {
@@ -132,7 +134,7 @@ struct Answer {
   std::vector<FoundEffect> effects;
   std::vector<Alternative> alternatives;
   std::vector<Improbable> improbable;
-  std::vector<std::string> dropped;  ///< were named first, and are not needed beside the others
+  std::vector<std::string> dropped;  ///< named first, but no longer needed beside the others
   Refused refused;
   double remaining_share = 0.0;
   std::string remaining_description;
@@ -143,10 +145,11 @@ struct Answer {
   Scales scales;
   Variant given, recalibrated, extended;
   std::vector<std::string> remarks;  ///< what is odd about the recordings, for people
-  std::vector<std::string> asked;    ///< what the robot was recorded for in between (closed_loop.h)
+  std::vector<std::string> asked;    ///< separating recordings of the robot (closed_loop.h)
 };
 
-/// Locates, names, adds and judges, until nothing earns its place.
+/// Runs the whole search of docs/discovery_method.md: fits the ordinary parameters, adds effects
+/// one by one until no further one meets the criteria, then gives intervals and a verdict.
 /// @throws BadInput for recordings that cannot answer; Interrupted
 Answer discover(const Evaluator& evaluator, const Question& question);
 

@@ -32,17 +32,17 @@ using Differences = Eigen::VectorXf;
 /// What was simulated before an interruption.
 using Journal = resume::ResultFile<float>;
 
-/// How far the variants are that are compared together.
+/// Progress of the variants that are compared together.
 struct Batch {
   std::size_t done = 0, size = 0;
   double elapsed = 0.0;  ///< since it was begun [s]
 };
 
-/// Work was stopped from outside.
+/// Thrown when the user interrupts the work.
 class Interrupted : public std::exception {};
 
-/// Compares variants of a model with experiments, on many threads; results do not depend on how
-/// many.
+/// Compares variants of a model with experiments, on many threads. The results do not depend on the
+/// number of threads.
 class Evaluator {
  public:
   /// @param model_file, nuisances as read for it
@@ -56,18 +56,18 @@ class Evaluator {
   /// @param progress called when one more of a batch is done; returns false to stop
   void on_progress(std::function<bool(const Batch&)> progress) { progress_ = std::move(progress); }
 
-  /// Opens a journal: what it knows is not simulated again. Its context is this program, the model
-  /// and its ordinary parameters.
+  /// Opens a journal file: results that are in it are not simulated again. It is only valid for
+  /// this program, this model and these ordinary parameters; otherwise it is started again.
   Journal& keep_journal(const std::string& file);
   std::size_t simulated() const { return simulated_; }  ///< variants, so far
 
-  /// One result a variant. @throws Interrupted
+  /// @return one result for each variant. @throws Interrupted
   std::vector<Differences> compare(
       const std::vector<Variant>& variants,
       const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
 
-  /// Pieces of work that do not depend on each other, as many at once as there are threads. What
-  /// they throw comes out of here.
+  /// Runs `count` independent pieces of work, as many at a time as there are threads. Rethrows what
+  /// they throw.
   void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const;
 
   /// @throws BadInput if it cannot be built

@@ -10,7 +10,7 @@
 namespace anthrob {
 namespace discovery {
 
-/// The channels of a held-out recording in which most happened, for figures.
+/// The channels of a held-out recording that changed most, for figures.
 /// @param whitener of the residuals, of which this experiment's come first
 /// @param gaps by channel
 std::vector<Example> examples_of(const Experiment& experiment, const Eigen::VectorXf& whitener,

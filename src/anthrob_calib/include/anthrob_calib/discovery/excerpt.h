@@ -21,7 +21,7 @@ struct Excerpt {
   }
 };
 
-/// Of all recordings about as much.
+/// Takes about the same length of every recording.
 /// @param whole the recordings as experiments, in the same order   @param seconds in all
 Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
                 const Experiments& whole, double seconds);

@@ -64,18 +64,19 @@ class Experiment {
 using Experiments = std::vector<std::shared_ptr<const Experiment>>;
 
 double total_duration(const Experiments& experiments);  ///< [s]
-/// Channels of all experiments, each once, in the order in which they first come. Not every
-/// recording has to have all.
+/// Channels of all experiments, each once, in order of first appearance. A recording need not have
+/// all of them.
 std::vector<Channel> channels_of(const Experiments& experiments);
-/// The same channel of one experiment; null if it lacks it.
+/// The same channel in one experiment; null if it is not there.
 const Channel* find_channel(const Experiment& experiment, const Channel& channel);
 
 /// What a recording is replayed with.
 struct ExperimentOptions {
   double bin = 0.02;  ///< [s]
-  /// What is fed with measured values; by default the earliest input of the chain that there is.
+  /// Which quantity is fed with measured values; by default the earliest recorded input of the
+  /// chain.
   std::optional<ReplayMode> mode = {};
-  double seconds = std::numeric_limits<double>::infinity();  ///< no more than the first of them
+  double seconds = std::numeric_limits<double>::infinity();  ///< used, from the beginning
 };
 
 /// Replays all of a recording's commands, the whole chain from the controllers on. Robots whose

@@ -11,17 +11,19 @@ namespace discovery {
 
 constexpr double kMentioned = 0.02;  ///< least probability of a rival
 
-/// The first of a list, the others its rivals.
+/// The first of a short list as a found effect, with the others as its rivals.
 FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& candidates);
 
-/// A law that says more at an effect's place, or the same everywhere, does better: it is named, the
-/// other its rival. What it had as a rival is its own.
+/// Replaces a named effect by a law that does better: one that says more at the same place, or the
+/// same law everywhere. The replaced law becomes its rival. The two share what both had, the new
+/// law as a rival, by the odds.
 /// @param odds against the other
-/// @return whether that is the first rival: what tells the two apart is to be planned
+/// @return whether the replaced law is the first rival, so that a separating experiment is to be
+/// planned
 bool name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect);
 
-/// It does only nearly as well or a little better: what says less stays named, the other is its
-/// first rival, as probable.
+/// The law that says more is not clearly better: the simpler law stays named, and the other one
+/// becomes its first rival, with the same probability.
 void leave_open(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect);
 
 }  // namespace discovery

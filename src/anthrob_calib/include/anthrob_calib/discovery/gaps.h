@@ -7,7 +7,7 @@
 namespace anthrob {
 namespace discovery {
 
-/// The gaps that fits leave, and what an effect does to them.
+/// Gaps that fits leave, and how an effect changes them.
 class Gaps {
  public:
   /// @param train, test judges of what was fitted and of what is held out
@@ -15,19 +15,19 @@ class Gaps {
   Gaps(const Judge& train, const Judge& test, std::size_t candidates)
       : train_(train), test_(test), candidates_(candidates) {}
 
-  /// Whether a channel is above a level, in what was learned from and in what was held out.
+  /// Whether a channel is above a level both in training and in held-out recordings.
   bool any(const Tested& tested, double least) const;
-  /// The same, and not by chance (certain_gap()).
+  /// Whether a gap is certain, that is not by chance (certain_gap()).
   bool certain(const Tested& tested) const;
-  /// What all channels' squared gaps on held-out data have above a level.
+  /// Sum of excess() over all channels of the held-out recordings.
   double excess_of(const Eigen::VectorXf& held_out, double least) const;
 
-  /// Where the search begins: what effects are compared with.
+  /// Sets the start of the search, with which effects are compared.
   /// @param held_out residual there
   void begin(const Eigen::VectorXf& held_out) { first_ = held_out; }
   double first_excess(double least) const { return excess_of(first_, least); }
 
-  /// Of the first of a list that was judged against a base.
+  /// Merit of the first candidate of a short list that was judged against a base.
   Merit merit_of(const ShortList& list, const Tested& base) const;
 
  private:

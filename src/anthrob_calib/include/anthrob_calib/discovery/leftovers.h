@@ -9,20 +9,21 @@
 namespace anthrob {
 namespace discovery {
 
-/// What effects that were named leave, being of another shape than the true ones, may be more than
-/// what else is missing, and earn nothing a place. Muscles and joints of which only that is left
-/// are not looked at, for the others to be seen.
+/// A named law of not quite the true shape leaves something at its place, which may be larger than
+/// what else is missing, but not enough for another effect there to be named. Such muscles and
+/// joints are left out of the next short list, so that effects elsewhere can be found.
 class Leftovers {
  public:
   explicit Leftovers(const std::vector<Candidate>& candidates) : candidates_(candidates) {}
 
-  /// That the first of a short list was refused.
+  /// Notes that the first candidate of a short list was refused.
   /// @param accepted candidates that are in the model
-  /// @return whether that is news of what one of them leaves, so that another list is worth it
+  /// @return whether its muscle or joint is now left out for the first time, so that another short
+  /// list is worthwhile
   bool refused(std::size_t first, const std::vector<std::size_t>& accepted);
-  /// Of what is looked at.
+  /// The scores without those of places that are left out.
   std::vector<Score> besides(std::vector<Score> scores) const;
-  /// With another model all are looked at again.
+  /// Looks at all places again; to be called when the model has changed.
   void forget() { places_.clear(); }
 
  private:

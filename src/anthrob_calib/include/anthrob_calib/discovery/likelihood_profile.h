@@ -8,19 +8,21 @@
 namespace anthrob {
 namespace discovery {
 
-/// How much worse recordings are predicted if an effect has a size that it has not, the ordinary
-/// parameters fitted again: what they cannot take up, also where that is not linear.
+/// How much worse the recordings are predicted if an effect of a given size is put into the model
+/// and the ordinary parameters are fitted again: what they cannot imitate, also where that is not
+/// linear.
 class LikelihoodProfile {
  public:
-  /// @param base fitted without the effect, its sensitivities known; it is fitted a little further,
-  /// like what is compared with it, both by the fit's coarse step, whose error is in both
+  /// @param base fitted without the effect, with sensitivities. It is fitted a little further, like
+  /// the fits that are compared with it; all use the coarse step of the fit, so that its error
+  /// cancels
   LikelihoodProfile(const ModelFit& fit, Fitted base);
 
-  /// The mean of both sides: what is in the data already makes one of them higher and the other
-  /// lower.
+  /// Returns the mean for the size to either side of neutral, because an effect that is really
+  /// there makes one side worse and the other better.
   /// @param size index among the candidate's   @param doses how far from neutral
-  /// @return by how much half the sum of squares rises [nat], what it costs to move ordinary
-  /// parameters left out; nothing if a side cannot be simulated
+  /// @return the rise of half the sum of squares [nat], without the cost of moving ordinary
+  /// parameters from where they are expected; nothing if one side cannot be simulated
   std::optional<double> rise(const Candidate& candidate, std::size_t size, double doses) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace anthrob {
 namespace discovery {
 
-/// Something measured on which a disagreement might depend, at the bins of experiments.
+/// A measured quantity on which a residual might depend, at the bins of experiments.
 struct MeasuredVariable {
   std::string name;                         ///< column, "time"
   std::string word;                         ///< "load", "posture", "speed", "wrap angle", ...
@@ -18,8 +18,8 @@ struct MeasuredVariable {
   std::string owner() const { return name.substr(0, name.find('/')); }
 };
 
-/// Time, and the quantities of recordings that may explain something: columns that all recordings
-/// have, and the speeds of positions.
+/// Time, and the quantities that may explain a residual: columns that all recordings have, and
+/// speeds derived from positions.
 std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
                                                  const std::vector<Dataset>& recordings);
 

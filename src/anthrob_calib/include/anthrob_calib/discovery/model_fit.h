@@ -16,15 +16,15 @@ namespace discovery {
 
 /// A number to be found: an ordinary parameter of the model, or one of an effect.
 struct Unknown {
-  int nuisance = -1;      ///< index among Evaluator::nuisances(), or
-  int effect = -1;        ///< index among Variant::effects, and
-  std::string parameter;  ///< of that effect
+  int nuisance = -1;      ///< index among Evaluator::nuisances(), or -1
+  int effect = -1;        ///< index among Variant::effects, or -1
+  std::string parameter;  ///< name of the parameter of that effect
   double lower = 0.0, upper = 0.0;
-  double scale = 1.0;             ///< size of an ordinary change: the unit in which it is solved
-  double finest = 0.0;            ///< polishing makes the scale no smaller
-  double expected = 0.0;          ///< before any data were seen
-  double spread = 0.0;            ///< standard deviation of that expectation; 0: none
-  std::optional<double> neutral;  ///< of an effect's size: the value that does nothing
+  double scale = 1.0;     ///< size of an ordinary change: the unit in which equations are solved
+  double finest = 0.0;    ///< lower limit of the scale in polish()
+  double expected = 0.0;  ///< before any data were seen
+  double spread = 0.0;    ///< standard deviation of that expectation; 0: none
+  std::optional<double> neutral;  ///< of a size of an effect: the value at which it does nothing
 
   double read(const Variant& variant) const;
   void write(double value, Variant& variant) const;
@@ -36,19 +36,20 @@ class NotSimulated : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A variant, what is free in it, and how it fits.
+/// A variant of the model, its free numbers, and how well it fits.
 struct Fitted {
   Variant variant;
   std::vector<Unknown> unknowns;
   Eigen::VectorXf residual;     ///< whitened
-  Eigen::MatrixXf sensitivity;  ///< of the residual to the unknowns, each in units of its scale
+  Eigen::MatrixXf sensitivity;  ///< of the residual to the unknowns, each in units of its scale:
+                                ///< size of residual x unknowns
   double cost = 0.0;            ///< half the sum of squares, expectations included
 
   Eigen::VectorXd scaled() const;      ///< the unknowns' values in units of their scales
-  Eigen::VectorXd expected() const;    ///< the same of what is expected
-  Eigen::VectorXd lower_room() const;  ///< to their lower bounds, <= 0, in these units
-  Eigen::VectorXd upper_room() const;  ///< to their upper bounds, >= 0
-  Eigen::VectorXd precision() const;   ///< of the expectations, in these units
+  Eigen::VectorXd expected() const;    ///< their expected values, in the same units
+  Eigen::VectorXd lower_room() const;  ///< distances to their lower bounds, <= 0, in the same units
+  Eigen::VectorXd upper_room() const;  ///< distances to their upper bounds, >= 0
+  Eigen::VectorXd precision() const;   ///< 1 / spread^2 in these units; 0 without spread
   bool at_bound(std::size_t unknown) const;
 };
 
@@ -56,12 +57,12 @@ struct Fitted {
 std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator);
 
 /// Least squares in the full simulation: Levenberg-Marquardt with bounds. Sensitivities are
-/// simulated once and then carried along by what each step really did (Broyden); those to effects,
-/// which are few and less linear, once more after the first step.
+/// simulated once and then updated by the effect of each step (Broyden). Those to effects, which
+/// are few and less linear, are simulated once more after the first step.
 class ModelFit {
  public:
-  /// @param coarse step of simulations whose differences only count, as in changes() [s]; 0: as
-  /// usual
+  /// @param coarse longer step for simulations of which only differences are used, as in changes()
+  /// [s]; 0: the usual step
   ModelFit(const Evaluator& evaluator, Experiments experiments, Eigen::VectorXf whitener,
            double coarse = 0.0)
       : evaluator_(evaluator),
@@ -69,21 +70,23 @@ class ModelFit {
         whitener_(std::move(whitener)),
         coarse_(coarse) {}
 
-  /// From a variant and its unknowns, all sensitivities simulated.
+  /// Starts from a variant and its unknowns, and simulates all sensitivities.
   /// @throws NotSimulated
   Fitted start(const Variant& variant, std::vector<Unknown> unknowns) const;
-  /// Goes on until nothing is gained any more.
-  /// @param enough relative gain that is not worth another iteration
+  /// Iterates until nothing is gained any more.
+  /// @param enough stops at a smaller relative reduction of the cost
   void improve(Fitted& fitted, int iterations, double enough = 3e-3) const;
-  /// To another variant with the same unknowns; sensitivities stay. @return whether it can be
+  /// Moves to another variant with the same unknowns; sensitivities stay. @return whether it could
+  /// be simulated
   bool move(Fitted& fitted, const Variant& variant) const;
-  /// How the slopes of the valley are found: by steps to one side, good for the first steps; to
-  /// both sides, as friction that sticks a little earlier or later makes its ground rugged; to both
-  /// sides in the simulation as it is, which tells what the coarse step has wrong.
+  /// How sensitivities are simulated: by a change to one side, good enough for the first steps; by
+  /// changes to both sides, because friction that sticks a little earlier or later makes the cost
+  /// rugged; or by changes to both sides with the usual step, which avoids the error of the coarse
+  /// step.
   enum class Slopes { kOneSide, kBothSides, kExact };
-  /// All sensitivities simulated anew, then a few more iterations.
+  /// Simulates all sensitivities again, then makes a few more iterations.
   void polish(Fitted& fitted, int iterations, Slopes slopes = Slopes::kBothSides) const;
-  /// The same fit with more unknowns; those after the present ones are simulated.
+  /// The same fit with more unknowns, whose sensitivities are simulated.
   /// @throws NotSimulated
   Fitted extend(const Fitted& fitted, const Variant& variant,
                 const std::vector<Unknown>& more) const;
@@ -95,8 +98,9 @@ class ModelFit {
 
   Eigen::VectorXf residual(const Variant& variant) const;  ///< empty if it cannot be simulated
   std::vector<Eigen::VectorXf> residuals(const std::vector<Variant>& variants) const;
-  /// How the residual changes from one variant, whose residual is known, to others; with the coarse
-  /// step, whose error is in both, where it can be simulated with that. Empty if it cannot at all.
+  /// How the residual changes from one variant, whose residual is given, to others. Simulated with
+  /// the coarse step if possible, whose error cancels in the difference. Empty for a variant that
+  /// cannot be simulated.
   std::vector<Eigen::VectorXf> changes(const Variant& from, const Eigen::VectorXf& residual,
                                        std::vector<Variant> to) const;
   /// See Evaluator::side_by_side().
@@ -117,7 +121,7 @@ class ModelFit {
   };
   Trial try_step(const Fitted& fitted, const Eigen::VectorXd& step) const;
 
-  /// Goes on in a direction, in ever longer steps, while that leads down.
+  /// Repeats a step with growing length as long as the cost falls.
   void stride(Fitted& fitted, Eigen::VectorXd step) const;
 
   /// How the residual changes to variants, by the usual step.
@@ -136,7 +140,8 @@ class ModelFit {
   double coarse_;
 };
 
-/// Adds a little of the largest to the diagonal, so that what nothing depends on has a solution.
+/// Adds a small part of the largest diagonal element to the diagonal, so that unknowns on which
+/// nothing depends have a solution.
 void regularise(Eigen::MatrixXd& system);
 
 /// Minimises 1/2 x' A x + g' x within bounds (projected active set).

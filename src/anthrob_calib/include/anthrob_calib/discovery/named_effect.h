@@ -11,32 +11,33 @@
 namespace anthrob {
 namespace discovery {
 
-/// An effect in the model, and what the search remembers of how it came in.
+/// A named effect of the model, with what the search has to remember about it.
 struct NamedEffect {
   FoundEffect found;
   std::size_t candidate = 0;
-  double gained = 0.0;                ///< of the cost
-  std::optional<std::size_t> fuller;  ///< a law that says more there, and did better in its round
-  double before = 0.0;  ///< excess of the channel it shows in, then; 0: not to be counted
+  double gained = 0.0;                ///< reduction of the cost when it was named
+  std::optional<std::size_t> fuller;  ///< candidate that says more at its place and did better on
+                                      ///< held-out recordings in that round
+  double before = 0.0;                ///< excess() of its channel when it was named; 0: not counted
 };
 
-/// The channel of what is held out in which an effect takes away most.
+/// Stores the held-out channel whose squared gap an effect reduces most.
 /// @param judge of the residuals   @param without, with it
 void note_what_it_shows_in(const Judge& judge, const Eigen::VectorXf& without,
                            const Eigen::VectorXf& with, NamedEffect& effect);
 
-/// Of what the effects were to explain where each of them shows most, what is left: all, where one
-/// shows nowhere.
-/// @param first, left residuals held out, without any and with all of them
+/// Stores for each effect the share of the squared gap that is left in its channel; 1 if it shows
+/// in none.
+/// @param first, left held-out residuals without any of the effects and with all of them
 void measure_what_is_left(const Judge& judge, const Eigen::VectorXf& first,
                           const Eigen::VectorXf& left, std::vector<NamedEffect>& effects);
 
-/// A fitted parameter that is no size, of either sign, and ends where its range does; empty: none.
+/// Name of a fitted shape parameter that may have either sign and is at the end of its range
+/// (kNearLimit); empty: none.
 std::string limit_of(const Candidate& candidate, const EffectInstance& instance);
 
-/// Of effects that are improbable by what they leave or by where their shape has ended, the one
-/// that gained least; null: none is. Rivals count with a name: what cannot be told from others is
-/// no wrong answer.
+/// Of the effects whose probability, with that of their rivals and lowered by trust_in(), is below
+/// kImprobable: the one that gained least. Null: there is none.
 const NamedEffect* least_of_improbable(const std::vector<NamedEffect>& effects);
 
 }  // namespace discovery

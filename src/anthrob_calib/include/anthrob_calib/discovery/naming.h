@@ -8,7 +8,7 @@
 namespace anthrob {
 namespace discovery {
 
-/// A fit, and how it does where it was not fitted.
+/// A fit and its residual on recordings to which it was not fitted.
 struct Tested {
   Fitted fit;            ///< on the training recordings
   Eigen::VectorXf test;  ///< whitened residual of the held-out recordings; empty: not simulated
@@ -19,32 +19,33 @@ struct Named : Tested {
   std::size_t candidate = 0;
   double evidence = 0.0;      ///< gain in held-out log score [nat]
   double significance = 0.0;  ///< of the gain over blocks of all recordings
-  double probability = 0.0;   ///< among all that were fitted, and none
+  double probability = 0.0;   ///< among all that were fitted and "none of them"
 };
 
-/// The short list of one round, most probable first. What a simpler one nearly does as well stands
-/// behind it (share_of_simpler()). The simpler one's probability is then that of both, the other's
-/// is 0.
+/// The short list of one round, most probable first. A candidate that a simpler one nearly equals
+/// (share_of_simpler()) stands behind the simpler one, which then has the probability of both; its
+/// own is 0.
 struct ShortList {
   std::vector<Named> named;
-  double none = 0.0;  ///< probability that none of them is it
+  double none = 0.0;  ///< probability that none of them is right
 };
 
-/// Whether one is a law of fewer sizes than another at the same place and seam.
+/// Whether `part` is a law of fewer sizes than `whole` at the same place and in the same part of
+/// the chain.
 bool says_less(const Candidate& part, const Candidate& whole);
 
-/// The share of one candidate's gain that another must bring alone to be named in its stead,
-/// because it says less: a law of fewer sizes at the same place (one step at a time: whether more
-/// is needed the next round tells), or the same law everywhere on a muscle instead of at one point
-/// of it. 1: the other one is not simpler.
+/// The share of the gain of `whole` that `part` must bring alone to be named first because it is
+/// simpler: a law of fewer sizes at the same place (a later round decides whether more is needed),
+/// or the same law everywhere on a muscle instead of at one point of it. 1: `part` is not simpler.
 double share_of_simpler(const Candidate& part, const Candidate& whole);
 
-/// Weighs candidates: the best of the linear screening are simulated at the sizes it suggests, the
-/// best of those are fitted, and all are judged on data they were fitted to and on data they were
-/// not.
+/// Makes the short list: simulates the best candidates of the screening at several sizes, fits the
+/// best of those, and judges them on training and held-out recordings (steps 5 and 6 of
+/// docs/discovery_method.md).
 class Naming {
  public:
-  static constexpr std::size_t kJudged = 5;  ///< of those that are fitted roughly
+  static constexpr std::size_t kJudged =
+      5;  ///< of those that are fitted roughly, how many are fitted further and judged
 
   Naming(const ModelFit& train, const ModelFit& test, const Judge& train_judge,
          const Judge& test_judge, const std::vector<Candidate>& candidates, std::uint64_t seed)
@@ -57,14 +58,14 @@ class Naming {
 
   /// @param base fitted without them
   ShortList weigh(const Tested& base, const std::vector<Score>& scores) const;
-  /// The base has moved to a better valley: from there each is fitted once more, for the same
-  /// chance, and all are judged against it.
+  /// After the base has moved to a better fit: fits every candidate once more from there, and
+  /// judges all against the new base.
   void follow(const Tested& base, ShortList& list) const;
-  /// Evidence, significance and probability of each against a base; most probable first.
+  /// Computes evidence, significance and probability of each against a base, and sorts, most
+  /// probable first.
   void judge(const Tested& base, ShortList& list) const;
-  /// How likely one fit is right and not another, if only one of the two can be, and by how much
-  /// its log score is higher: both by held-out recordings alone, where neither is better for having
-  /// more unknowns.
+  /// Probability that one fit is right, given that one of the two is, and by how much its log score
+  /// is higher. Both from held-out recordings alone, where more unknowns are no advantage.
   struct Odds {
     double probability, evidence;  ///< [1], [nat]
   };

@@ -11,15 +11,15 @@
 namespace anthrob {
 namespace discovery {
 
-/// How exactly one quantity of one place can be known, averaged over a bin.
+/// The floor of one channel, for averages over a bin.
 struct ChannelScale {
   std::string unit;
-  /// Scatter of repeats, or of neighbouring bins where there are none; no less than what a count of
-  /// the sensor errs by: repeats share that, so that their scatter does not show it.
+  /// Scatter between repeats or, without repeats, between neighbouring bins; at least the rounding
+  /// error of the sensor, count / sqrt(12), which repeats share and therefore do not show.
   double floor = 0.0;
-  double numerics = 0.0;   ///< difference to a simulation with half the step
-  double counts = 0.0;     ///< difference to one whose controllers see the recorded sensors' counts
-  double inflation = 1.0;  ///< bins that count as one, because their noise is correlated; >= 1
+  double numerics = 0.0;  ///< rms difference from a simulation with half the step
+  double counts = 0.0;  ///< rms difference from one whose controllers see the counts of the sensors
+  double inflation = 1.0;  ///< bins that count as one because noise is correlated; >= 1
 
   double sigma() const;
 };
@@ -27,11 +27,11 @@ struct ChannelScale {
 /// By Channel::name().
 using Scales = std::map<std::string, ChannelScale>;
 
-/// Floors of all channels. With repeats: rms difference of repeats / sqrt 2. Without: a robust
-/// estimate from the third differences of neighbouring bins, which sees white noise only.
+/// Floors of all channels. With repeats: rms difference between repeats / sqrt(2). Without: a
+/// robust estimate from the third differences of neighbouring bins, which sees white noise only.
 /// @param repeats further runs of the commands of train.front(), may be empty
-/// @param lags by how many bins each repeat is behind it; none: they start together
-/// @throws BadInput if a repeat cannot be laid over the first recording
+/// @param lags by how many bins each repeat is behind it; empty: they start together
+/// @throws BadInput if a repeat has other columns than the first recording
 Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
                       const Experiments& repeats, const std::vector<long>& lags = {});
 

@@ -9,12 +9,12 @@
 namespace anthrob {
 namespace discovery {
 
-/// Whether two sizes of one unit, each of either sign, make up the candidate: an amplitude and a
-/// phase, as of cogging.
+/// Whether the candidate has two sizes of one unit that may have either sign: an amplitude and a
+/// phase, as for cogging.
 bool has_phase(const Candidate& candidate);
 
 /// The same amplitude a quarter, half and three quarters of a turn further.
-/// @param candidate has a phase   @param amount of its sizes [doses], as what is returned
+/// @param candidate one that has a phase   @param amount its sizes [doses], like the returned ones
 std::vector<std::vector<double>> other_phases(const Candidate& candidate,
                                               const std::vector<double>& amount);
 

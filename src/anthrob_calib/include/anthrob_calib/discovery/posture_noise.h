@@ -8,13 +8,13 @@
 namespace anthrob {
 namespace discovery {
 
-/// A recording whose joint positions have less of their sensors' noise: each is that of a parabola
-/// through the three rows before and after it, in time, too. Motions of the arm are slower.
+/// The recording with smoothed joint positions: each is replaced by the value of a parabola over
+/// time through it and the three rows before and after it.
 Dataset with_smooth_postures(const RobotModel& robot, const Dataset& recording);
 
-/// A recording whose joint positions have noise once more: white, as strong as that which is in
-/// them already, by column. Smoothed and replayed beside the one without, it tells what is left of
-/// the noise, and what that does.
+/// The recording with white noise added to the joint positions, as strong as what each column has
+/// already. Smoothed and replayed like the original, it shows what the noise that smoothing leaves
+/// does to the forces.
 Dataset with_noisier_postures(const RobotModel& robot, const Dataset& recording,
                               std::uint64_t seed);
 

@@ -12,15 +12,17 @@
 namespace anthrob {
 namespace discovery {
 
-/// What recordings can show, before any effect is named: of each candidate the smallest size that
-/// would mostly (nineteen times out of twenty) be named, and the groups that nothing tells apart.
+/// Finds out what the recordings can show before any effect is named: for each candidate the
+/// smallest size that would be named nineteen times out of twenty, and the groups of candidates
+/// that nothing tells apart.
 ///
-/// What is named must gain on held-out data, and some channel must show a gap without it.
+/// To be named, an effect must gain enough on held-out recordings, and some channel must show a gap
+/// without it ("What is visible" in docs/discovery_method.md).
 class PreFlight {
  public:
-  /// @param fit to what is there to learn from   @param base that of the ordinary parameters
-  /// @param train, test judges of what it was fitted to and of what is held out
-  /// @param held_out length of the latter [s]
+  /// @param fit to the training recordings   @param base the fit of the ordinary parameters
+  /// @param train, test judges of training and held-out recordings
+  /// @param held_out length of the held-out recordings [s]
   PreFlight(const std::vector<Candidate>& candidates, const ModelFit& fit, const Fitted& base,
             const Judge& train, const Judge& test, double held_out);
 
@@ -29,14 +31,14 @@ class PreFlight {
 
  private:
   double doses_for_evidence(const Score& score) const;
-  /// Ordinary parameters of all muscles together imitate a turn of the world, or of who looks at
-  /// it, and not linearly.
+  /// Checks turns of the world or of the observer by fitting, because ordinary parameters of all
+  /// muscles together imitate them, and not linearly.
   void check_turns(const std::vector<Score>& scores, std::vector<double>& doses) const;
-  /// So many doses or as many more as it takes until as much is left as is reckoned of them; as far
-  /// as they are met.
+  /// Increases a number of doses until nine tenths of the predicted evidence are left. @return that
+  /// number; infinite if it cannot be simulated or nothing is left
   double checked(const LikelihoodProfile& profile, const Score& score, double doses) const;
   Visibility visibility_of(const Score& score, double doses) const;
-  /// Whether sizes so far from neutral are ones that one meets.
+  /// Whether a size so far from neutral is realistic: at most five doses, and within its bounds.
   bool is_met(const Score& score, double doses) const;
   double taken_for_ordinary(const Candidate& candidate) const;
 

@@ -9,17 +9,19 @@ namespace discovery {
 /// Recordings as experiments, with the same bins.
 struct Laboratory {
   Experiments train, test, repeats;
-  std::vector<long> lags;            ///< of each repeat behind the first of `train` [bins]
+  std::vector<long> lags;  ///< by how much each repeat is behind the first of `train` [bins]
   std::vector<std::string> remarks;  ///< what is odd about the recordings
-  /// What of `train` a first look at quick effects takes, and at slow ones.
+  /// The parts of `train` along which doses of quick and of slow effects are simulated.
   Excerpt quick, slow;
 };
 
-/// Lays out bins and refuses recordings that cannot answer, saying what is missing.
-/// @throws BadInput with one line
+/// Chooses the bins, makes experiments of the recordings, and refuses recordings that cannot
+/// answer.
+/// @throws BadInput with one line that says what is wrong with which recording
 Laboratory prepare(const Evaluator& evaluator, const Question& question);
 
-/// A longer step that is good enough to tell how the differences change; 0 if there is none.
+/// A longer step of the simulation with which changes of the residual are exact enough [s]; 0:
+/// none.
 double coarse_step(const Evaluator& evaluator, const Experiments& train, const Scales& scales);
 
 }  // namespace discovery

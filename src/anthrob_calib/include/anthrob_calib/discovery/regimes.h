@@ -9,8 +9,8 @@
 namespace anthrob {
 namespace discovery {
 
-/// Of a measured quantity: about equally many bins are low, in the middle and high; a value that
-/// most have is in the middle.
+/// Levels of a measured quantity: low, middle and high, with about equally many bins each. A value
+/// that most bins have is in the middle.
 constexpr int kLevels = 3;
 
 /// A quantity that says how a place is used, and its level at every bin.
@@ -21,18 +21,19 @@ struct Regime {
 
 Regime regime_of(const MeasuredVariable& variable);
 
-/// A place's first speed, and its first load or else posture; what was not measured is left out.
+/// The regimes of a place: its first speed, and its first load or else posture. What was not
+/// measured is left out.
 std::vector<Regime> regimes_of(const std::string& place,
                                const std::vector<MeasuredVariable>& variables);
 
-/// How a place's disagreement, all its channels together, depends on one of its regimes.
+/// The gap of a place, all its channels together, at the levels of one regime.
 struct RegimeGap {
   std::string place, word;
   std::array<double, kLevels> gap;  ///< rms [standard deviations of the floor]; -1: no such bins
 };
 
-/// One row of a heat map, place x regime, for each place and for its regimes, the angle by which
-/// its tendon wraps, and time.
+/// Rows of the heat map: for each place one row for each of its regimes, for the angle by which its
+/// tendon wraps, and for time.
 /// @param residual, whitener independent, as of whitener(..., true)
 std::vector<RegimeGap> regime_gaps(const Experiments& experiments,
                                    const std::vector<MeasuredVariable>& variables,

@@ -9,18 +9,18 @@
 namespace anthrob {
 namespace discovery {
 
-/// Recordings that start no further apart than this start together: as much as the messages of a
-/// controller come early or late [s].
+/// Recordings whose commands start no further apart than this count as starting together [s].
+/// Messages of a controller come early or late by as much.
 constexpr double kTogether = 0.05;
 
-/// How much later, from its beginning on, a repeat is told what another recording is told; 0 where
-/// they start together [s]. References count, where there are none what was measured instead:
-/// voltages, motor positions, the motion of a driven axis.
-/// @throws BadInput with one line if it is no repeat: other references, modes or another motion. A
-/// message that was lost makes no other commands.
+/// By how much later, from its beginning, a repeat gets the same commands as the first recording
+/// [s]; 0 if they start together. Commands are references or, without them, what was measured
+/// instead: voltages, motor positions, the motion of a driven axis.
+/// @throws BadInput with one line if it is not a repeat: it has other references, modes or another
+/// motion. Single lost messages are accepted.
 double lateness_of_repeat(const RobotModel& robot, const Dataset& first, const Dataset& repeat);
 
-/// Whether the muscles are told the same at the same times. Where nothing is told they are not.
+/// Whether the muscles get the same commands at the same times. False if there are no references.
 bool have_same_commands(const RobotModel& robot, const Dataset& first, const Dataset& other);
 
 }  // namespace discovery

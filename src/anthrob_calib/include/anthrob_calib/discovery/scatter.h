@@ -6,12 +6,13 @@
 namespace anthrob {
 namespace discovery {
 
-/// Fits of one law to one recording end apart for no reason, and the true law may differ from what
-/// is fitted by as much: evidence of that size decides nothing, however many blocks agree.
-/// @param by_blocks how likely one law is right and not the other, by the blocks of recordings
+/// Limits a probability by the scatter of fits. Two fits of one law to one recording may end a
+/// little apart, and the true law may differ from both by as much. A difference of that size
+/// decides nothing, however many blocks agree.
+/// @param by_blocks probability of one law against the other, from the blocks of the recordings
 /// @param base fitted without them
 /// @param one, other fitted to the end
-/// @return that, no surer than the scatter lets it be
+/// @return the same, but no nearer to 0 or 1 than Phi(lead / scatter); this moves it at most to 0.5
 double allowing_for_scatter(double by_blocks, const Settling& settling, const Tested& base,
                             const Tested& one, const Tested& other);
 

@@ -11,43 +11,46 @@
 namespace anthrob {
 namespace discovery {
 
-/// What the data say about a candidate before it is fitted.
+/// Score of a candidate before it is fitted.
 struct Score {
   std::size_t candidate = 0;
-  double gain = 0.0;           ///< of the log likelihood, ordinary parameters free [nat]
-  std::vector<double> amount;  ///< of each size, in doses
-  /// Standard deviation of its most visible size, in doses, all ordinary parameters free, and which
-  /// it is; infinite if a dose changes nothing that they cannot imitate.
+  double gain = 0.0;           ///< in log likelihood, with free ordinary parameters [nat]
+  std::vector<double> amount;  ///< suggested size of each size parameter, in doses
+  /// Standard deviation of its most visible size parameter [doses], with free ordinary parameters,
+  /// and the index of that parameter. Infinite if ordinary parameters can imitate all that a dose
+  /// changes.
   double uncertainty = 0.0;
   std::size_t size = 0;
-  double seconds = 0.0;  ///< of recordings that say so; `gain` is per the shortest look at any
+  double seconds = 0.0;  ///< length of the recordings that were used; `gain` is scaled to the
+                         ///< shortest such length
 };
 
-/// Every candidate's unit dose, simulated; what ordinary parameters can imitate is taken off.
+/// Simulates a unit dose of every candidate and removes what ordinary parameters can imitate.
 ///
-/// A score test (Lagrange multiplier): all candidates are weighed at the fit without them, in
-/// linear approximation. Sizes that begin at neutral count in one direction only. A dose is
-/// simulated along the first seconds of the recordings only; one of a slow effect, or one that
-/// changes nothing there, along more.
+/// This is a score test (Lagrange multiplier): all candidates are compared at the fit without them,
+/// in linear approximation. Sizes whose range begins at neutral count in one direction only. A dose
+/// is simulated along the first seconds of the recordings; one of a slow effect, or one that
+/// changes nothing there, along a longer part.
 class Screening {
  public:
   /// Simulates a dose of each size of each candidate on top of a fitted variant.
-  /// @param quick, slow what is simulated of the recordings of `fit`
+  /// @param quick, slow the parts of the recordings of `fit` that are simulated
   Screening(const ModelFit& fit, const Fitted& base, const std::vector<Candidate>& candidates,
             const Excerpt& quick, const Excerpt& slow);
 
-  /// In order of falling gain. The base may have moved on since the doses were simulated.
+  /// Scores of all candidates, largest gain first. `base` may differ from the one for which the
+  /// doses were simulated.
   std::vector<Score> scores(const Fitted& base) const;
-  /// The same doses again, of some candidates only, on top of another base.
+  /// Simulates the doses of the first `count` candidates of `best` again, on top of another base.
   void renew(const Fitted& base, const std::vector<Score>& best, std::size_t count);
-  /// How many doses of each score's most visible size it takes until some channel stands as high as
-  /// its level [floors], once ordinary parameters have done what they can.
+  /// How many doses of each score's most visible size are needed until some channel reaches its
+  /// level [floors] although ordinary parameters are fitted again.
   /// @param judge of the recordings of the fit
   std::vector<double> doses_to_a_gap(const Fitted& base, const std::vector<Score>& scores,
                                      const Judge& judge,
                                      const std::map<std::string, double>& levels) const;
-  /// Groups of candidates whose doses change the data alike once ordinary parameters have done what
-  /// they can: nothing in these recordings tells them apart.
+  /// Groups of candidates whose responses, without what ordinary parameters can imitate, are nearly
+  /// proportional: nothing in these recordings tells them apart.
   std::vector<std::vector<std::size_t>> alike(const Fitted& base) const;
 
  private:

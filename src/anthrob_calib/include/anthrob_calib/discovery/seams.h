@@ -6,13 +6,13 @@
 namespace anthrob {
 namespace discovery {
 
-/// Replays the training recordings, fed with measured values at four seams, so that
-/// an error shows behind the seam where it arises and not behind all of them.
+/// Replays the training recordings four times, fed with measured values at one point (seam) of the
+/// chain after the other. A gap that disappears arises in the part that was cut off.
 std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Question& question,
                                const Laboratory& laboratory, const Scales& scales,
                                const Variant& variant);
 
-/// The part of the chain that a channel's gaps point at.
+/// The part of the chain to which the gaps of a channel point, in words.
 std::string subsystem_of(const SeamGap& gap);
 
 }  // namespace discovery

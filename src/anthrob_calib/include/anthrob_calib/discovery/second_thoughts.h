@@ -8,16 +8,17 @@
 namespace anthrob {
 namespace discovery {
 
-/// Whether an effect that was named before others were is needed beside them: it may have stood in
-/// for them.
+/// Checks whether an effect is still needed beside others that were named later, for which it may
+/// have stood in.
 class SecondThoughts {
  public:
   SecondThoughts(const Workbench& bench, const Gaps& gaps) : bench_(bench), gaps_(gaps) {}
 
-  /// Fitted to the end without it, if it does not earn its place; else nothing.
-  /// @param effect its index in the model   @param candidate which it is
-  /// @param gained of the cost when it came in: what lacks half of that without it is not fitted
-  /// further
+  /// Fits the model without the effect. @return the fit to the end without it if the effect does
+  /// not meet the criteria any more; nothing if it is still needed
+  /// @param effect index of the effect in the model   @param candidate index of its candidate
+  /// @param gained reduction of the cost when it was named: a fit without it that lacks half of
+  /// that is not continued
   std::optional<Tested> without(std::size_t effect, std::size_t candidate, double gained,
                                 const Tested& with) const;
 

@@ -5,7 +5,8 @@
 namespace anthrob {
 namespace discovery {
 
-/// The recording that tells two effects apart, in words; empty if none is known or needed.
+/// The experiment that tells two effects apart, in words. A general one if none is known for the
+/// two.
 std::string separating_experiment(const std::string& id, const std::string& rival);
 
 }  // namespace discovery

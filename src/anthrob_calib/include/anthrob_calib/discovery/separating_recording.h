@@ -9,25 +9,26 @@
 namespace anthrob {
 namespace discovery {
 
-/// A recording that tells two explanations apart: from a resting posture to targets and back, as
+/// A recording that tells two explanations apart: from a rest posture to each target and back, as
 /// the recorder's protocol `trajectories` does it.
 struct SeparatingRecording {
   struct Target {
     std::string name;
     std::vector<double> references;  ///< of the actuators, one a muscle [rad]
-    double distance = 0.0;           ///< log score that tells the explanations apart [nat]
+    double distance = 0.0;           ///< expected difference of the explanations in log score [nat]
   };
   std::vector<double> rest;     ///< references where it starts
-  std::vector<Target> targets;  ///< the one that tells most first; empty: none is known
+  std::vector<Target> targets;  ///< largest distance first; empty: no such recording is known
 
   double distance() const;
 };
 
-/// Simulates both explanations on the way to postures of a recording: as they were, with more
-/// co-contraction, and a tenth of the way, and keeps those in which they differ most. Empty if the
-/// robot has no muscles, the recording has no references or other ones than of positions, or one of
-/// the two cannot be simulated there.
-/// @param scales noise floors by channel, of bins so long [s]   @throws Interrupted
+/// Simulates both explanations on the way to postures of a recording: to the postures themselves,
+/// to the same with all spindles wound in 0.35 rad further, and a tenth of the way. Keeps the six
+/// targets in which the explanations differ most. Empty if the robot has no muscles, if the
+/// recording has no references or not all of them are positions, or if one of the two cannot be
+/// simulated.
+/// @param scales noise floors by channel, for bins of length `bin` [s]   @throws Interrupted
 SeparatingRecording plan_separation(const Evaluator& evaluator, const Variant& named,
                                     const Variant& rival, const Dataset& recording,
                                     const Scales& scales, double bin);

@@ -8,27 +8,28 @@
 namespace anthrob {
 namespace discovery {
 
-/// How far fits are taken: friction makes valleys rugged, and no model may be judged for having
-/// been left half way down.
+/// Decides how far fits are taken. Friction makes the cost rugged, and no model should lose because
+/// its fit was stopped too early.
 class Settling {
  public:
   /// @param judge of what is fitted
   Settling(const Evaluator& evaluator, const ModelFit& fit, const Judge& judge)
       : evaluator_(evaluator), fit_(fit), judge_(judge) {}
 
-  /// From a variant, rough steps first. @throws NotSimulated
+  /// Fits from a variant, with rough steps first. @throws NotSimulated
   Fitted settled(const Variant& variant, std::vector<Unknown> unknowns) const;
-  /// To the end. What was missing has led ordinary parameters astray, and friction does not let
-  /// them all find back: with what is found, a fit from the given parameters mostly ends lower.
+  /// Fits to the end, also once more from the given parameters: what was missing has led the
+  /// ordinary parameters astray, and friction does not let them all find back. @return the better
+  /// fit
   Fitted to_the_end(const Fitted& fitted) const;
-  /// The same; nothing if it is above a level both where it is and, after rough steps, from the
-  /// given parameters.
+  /// The same; nothing if the cost is above a level both where the fit is and after rough steps
+  /// from the given parameters.
   std::optional<Fitted> to_the_end_within_reach(const Fitted& fitted, double level) const;
-  /// From where a fit is; but only roughly, unless that brings the cost below a level.
-  /// @return whether it did
+  /// Continues a fit from where it is, but only roughly unless that brings the cost below a level.
+  /// @return whether it came below the level
   bool settle_within_reach(Fitted& fitted, double level) const;
 
-  /// What another round may still bring where a fit to the end has ended [nat].
+  /// By how much another round might still reduce the cost of a fit to the end [nat].
   double left_open(const Fitted& fitted) const;
 
  private:

@@ -9,8 +9,8 @@
 namespace anthrob {
 namespace discovery {
 
-/// What a simulated robot measures, with its sensors, while it is commanded as in `commands`:
-/// 200 rows a second of muscles, joints and spherical joints beside the commands.
+/// What the sensors of a simulated robot measure while it gets the commands of `commands`: muscles,
+/// joints and spherical joints at 200 rows per second, together with the commands.
 /// @param seed of the sensors' noise   @throws NumericalFailure
 Dataset simulated_recording(const std::shared_ptr<const RobotModel>& robot, const Dataset& commands,
                             std::uint64_t seed);

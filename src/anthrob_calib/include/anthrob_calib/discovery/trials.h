@@ -8,14 +8,15 @@
 namespace anthrob {
 namespace discovery {
 
-/// The first so many of a list, told by their effects; of each effect no more than so many as long
-/// as there are others: one effect at many places must not crowd out the rest.
+/// Indices of the first `most` entries of a list of candidates, given by their effects. Each effect
+/// gets at most `of_a_kind` of them as long as there are other effects, so that one effect at many
+/// places does not crowd out the rest.
 std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
                                        std::size_t of_a_kind, std::size_t most);
 
-/// Simulates candidates at several sizes: a unit dose says little of one ten times smaller or
-/// larger where an effect is not linear. Ordinary parameters stay as they are; what they could take
-/// up is taken off in linear approximation.
+/// Simulates candidates at several sizes, because a unit dose says little about a size ten times
+/// smaller or larger where an effect is not linear. Ordinary parameters stay as they are; what they
+/// can imitate is subtracted in linear approximation.
 class Trials {
  public:
   static constexpr std::size_t kTried = 30, kTriedOfAKind = 6;
@@ -24,9 +25,9 @@ class Trials {
   Trials(const ModelFit& fit, const std::vector<Candidate>& candidates)
       : fit_(fit), candidates_(candidates) {}
 
-  /// Of the best by the screening, and of all that can be where the first is (at the whole of its
-  /// muscle or joint), those that leave least, least first, each at its best size.
-  /// @param scores in order of falling gain
+  /// Tries the best candidates of the screening and every effect of the muscle, joint or motor of
+  /// the first one. @return those that leave least, best first, each at its best size
+  /// @param scores largest gain first
   std::vector<Score> best(const Fitted& base, const std::vector<Score>& scores) const;
 
  private:

@@ -8,17 +8,17 @@
 namespace anthrob {
 namespace discovery {
 
-/// What remains, in words, where no gap does.
-constexpr char kNoCertainGap[] = "no gap that is certain";
+/// Answer::remaining_description where no gap is certain.
+constexpr char kNoCertainGap[] = "no certain gap";
 
-/// How likely the law of an effect is right, by what it leaves and where its shape has ended: a
-/// factor of its probability.
+/// Factor for the probability of an effect: it is lower the more of the gap the law leaves, and if
+/// its shape ends at a limit.
 double trust_in(const FoundEffect& effect);
 
-/// Fills in the verdict and what is to be said of what remains, and takes from the named effects'
-/// probabilities what remains speaks against them.
-/// @param left each channel's gap in what was learned from, with the named effects [floors]
-/// @param certain whether some gap that is left is none by chance
+/// Fills in the verdict and the description of what remains, and lowers the probabilities of the
+/// named effects and their rivals by trust_in().
+/// @param left gap of each channel in the training recordings, with the named effects [floors]
+/// @param certain whether some gap that is left is certain (certain_gap())
 void pronounce(const std::map<std::string, double>& left, bool certain, Answer& answer);
 
 }  // namespace discovery

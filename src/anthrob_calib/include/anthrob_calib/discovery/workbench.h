@@ -11,7 +11,7 @@
 namespace anthrob {
 namespace discovery {
 
-/// What every decision of the search works with.
+/// The objects that every decision of the search needs.
 struct Workbench {
   const Evaluator& evaluator;
   const ModelFit &train, &test;
@@ -24,7 +24,7 @@ struct Workbench {
     Eigen::VectorXf residual = test.residual(fit.variant);
     return {std::move(fit), std::move(residual)};
   }
-  /// Without the effect of that index in the fit; see without_effect().
+  /// The fit without the effect at that index; see without_effect().
   std::optional<Fitted> without(std::size_t effect, std::size_t candidate,
                                 const Fitted& fit) const {
     return without_effect(evaluator, train, fit, effect, candidates[candidate]);

@@ -8,9 +8,9 @@
 namespace anthrob {
 namespace discovery {
 
-/// By how much each tendon turns on its way over eyelets and surfaces [rad], of the model in the
-/// measured postures, as variables "<muscle>/wrap_angle". Of muscles where it changes; none if a
-/// joint was not measured.
+/// The angle by which each tendon turns on its way over eyelets and surfaces [rad], computed by the
+/// model in the measured postures, as variables "<muscle>/wrap_angle". Only of muscles where it
+/// changes. Empty if a joint was not measured.
 std::vector<MeasuredVariable> wrap_angles(const Evaluator& evaluator,
                                           const std::vector<Dataset>& recordings,
                                           const Experiments& experiments, const Variant& variant);

@@ -17,7 +17,7 @@ std::string run_error_figure(const BeforeAfter& both, const RobotModel& model,
 /// One trajectory over time: joint positions measured and simulated, errors before and after
 /// (Figures 8.5, 8.15, 8.16).
 std::string trajectory_figure(const BeforeAfter& both, std::size_t run, const RobotModel& model);
-/// Fitness along parameters that the data cannot tell.
+/// Fitness along the least identifiable parameters.
 std::string profile_figure(const Identifiability& identifiability,
                            const std::vector<ModelParameter>& parameters, double best_fitness);
 

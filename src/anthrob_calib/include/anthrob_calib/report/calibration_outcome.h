@@ -13,13 +13,13 @@
 namespace anthrob {
 namespace calibration {
 
-/// Runs simulated in full length with the model as it was given and as it has become.
+/// Runs simulated in full length, with the given and with the calibrated model.
 struct BeforeAfter {
   std::vector<MeasuredRun> runs;
   std::vector<RunDifferences> before, after;
 };
 
-/// The calibrated model driven in another way (section 8.3).
+/// Errors of the calibrated model with other inputs of the actuators (section 8.3).
 struct DriveErrors {
   std::string drive;
   double posture = 0.0;   ///< root mean square over runs and joints [rad]
@@ -27,7 +27,7 @@ struct DriveErrors {
   double actuator = 0.0;  ///< largest difference of an actuator position [rad]
 };
 
-/// All there is to say about a calibration.
+/// All results of a calibration.
 struct CalibrationOutcome {
   std::string config_file, model_file;
   OptimiserSettings optimiser;
@@ -36,23 +36,23 @@ struct CalibrationOutcome {
   std::shared_ptr<const RobotModel> model;  ///< for the names of joints and muscles
   std::vector<ModelParameter> parameters;
   Point best;
-  std::map<std::string, double> overrides;  ///< of this calibration and those it started from
-  std::map<std::string, double> given;      ///< what the model file has where they are
+  std::map<std::string, double> overrides;  ///< of this calibration and of those it started from
+  std::map<std::string, double> given;      ///< values of the model file at the same paths
   double fitness_before = 0.0, fitness = 0.0;
   std::string reason;               ///< why the search ended
-  std::vector<double> sensitivity;  ///< SearchResult has it
+  std::vector<double> sensitivity;  ///< see SearchResult
   int evaluations = 0;
   std::vector<Generation> history;
-  BeforeAfter calibration, validation;  ///< no runs where they could not be simulated
-  bool held_out = false;                ///< recordings to validate by were given
+  BeforeAfter calibration, validation;  ///< without runs if the simulation failed
+  bool held_out = false;                ///< whether held-out recordings were given
   Identifiability identifiability;
   std::vector<DriveErrors> drives;
-  bool interrupted = false;  ///< before errors of the parameters were worked out
-  std::string doubt;         ///< what could not be told, and why; or empty
+  bool interrupted = false;  ///< before the errors of the parameters were computed
+  std::string doubt;         ///< what could not be computed, and why; or empty
 };
 
-/// Names of parameters that change nothing in what was compared, as far as the search's
-/// derivatives tell.
+/// Names of the parameters that have no influence on the compared quantities, by the derivatives of
+/// the search. Empty if the method has no derivatives.
 std::vector<std::string> untold(const CalibrationOutcome& outcome);
 
 /// Errors of runs as Tables C.12 and D.1 have them: means over runs of each run's mean.

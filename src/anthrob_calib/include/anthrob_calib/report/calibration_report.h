@@ -7,7 +7,7 @@
 namespace anthrob {
 namespace calibration {
 
-/// result.json: everything but how long it took, so that equal calibrations give equal files.
+/// result.json. Without run times, so that equal calibrations give equal files.
 std::string result_json(const CalibrationOutcome& outcome);
 /// report.html: one self-contained page.
 std::string report_html(const CalibrationOutcome& outcome);

@@ -7,10 +7,11 @@
 namespace anthrob {
 namespace discovery {
 
-/// All channels together, before and after, of what was learned from and what was held out.
+/// Gaps of all channels together, before and after, of training and held-out recordings.
 std::string gap_table(const Answer& answer);
 
-/// Each effect with its parameters, rivals and what tells them apart; and what was not named.
+/// Each effect with its parameters, rivals and the experiment that tells them apart; then what was
+/// not named.
 std::string findings(const Answer& answer);
 
 }  // namespace discovery

@@ -15,14 +15,15 @@ std::string where_table(const Answer& answer);
 /// three levels.
 std::string regime_map(const Answer& answer);
 
-/// Heat map, channel x what is fed with measured values: a gap that vanishes to the right belongs
-/// to what was cut off.
+/// Heat map, channel x quantity that is fed with measured values: a gap that disappears from one
+/// column to the next arises in the part that was cut off.
 std::string seam_map(const Answer& answer);
 
-/// Curves of what the recalibrated model leaves where it disagrees, over what it depends on most.
+/// Curves of the residual of the recalibrated model over the quantities on which it depends most,
+/// at places with a gap.
 std::string dependences_of_gaps(const Answer& answer);
 
-/// The same of what remains in the end.
+/// The same for the extended model.
 std::string dependences_of_rest(const Answer& answer);
 
 }  // namespace discovery

@@ -7,21 +7,23 @@
 namespace anthrob {
 namespace discovery {
 
-/// report.json, as scripts read it.
+/// report.json, for scripts (docs/files.md).
 std::string report_json(const Answer& answer, const Question& question, double runtime);
 
 /// report.html: one self-contained page, the answer first.
 std::string report_html(const Answer& answer, const Question& question, double runtime);
 
-/// model.yaml: extends the examined model by what was found, and says where that came from.
-/// @param folder where it will be put
+/// model.yaml: extends the examined model by what was found; its comment names verdict and
+/// recordings.
+/// @param folder the folder in which it will be saved
 std::string model_text(const Answer& answer, const Evaluator& evaluator, const Question& question,
                        const std::string& folder);
 
-/// For the recorder: protocols and postures that tell effects from their first rivals, by name.
+/// Protocols and postures for the recorder that tell effects from their first rivals. @return texts
+/// by file name
 std::map<std::string, std::string> separating_files(const Answer& answer, const RobotModel& model);
-/// Of an earlier answer in the folder, which it does not explain any more.
-/// @param files what belongs there, by name
+/// Removes protocols of an earlier answer from the folder.
+/// @param files files of this answer by name, which stay
 void remove_other_protocols(const std::string& folder,
                             const std::map<std::string, std::string>& files);
 /// "separating_1.yaml", of the first effect.
@@ -30,7 +32,7 @@ std::string separating_file(std::size_t number);
 /// A few lines for the terminal.
 std::string summary(const Answer& answer);
 
-/// Whether `max_effects` ended the search, and that in words; empty if it did not.
+/// Says that `max_effects` ended the search; empty if it did not.
 std::string cap_remark(const Answer& answer, const Question& question);
 
 /// "payload @ hand instead of both ... and ..., probability 0.5".
