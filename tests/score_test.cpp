@@ -185,7 +185,7 @@ TEST_F(Score, ReportsThatAreNowhereAreNoAnswers) {
   EXPECT_EQ(WEXITSTATUS(status), 2);
   std::ifstream log(at + "/log");
   const std::string said{std::istreambuf_iterator<char>(log), {}};
-  EXPECT_EQ(said, at + "/misspelt: no folder; expected NAME/report.json in it\n");
+  EXPECT_EQ(said, at + "/misspelt: no such folder; expected one that holds NAME/report.json\n");
 }
 
 TEST_F(Score, AMedianHasAnInterval) {

@@ -164,7 +164,7 @@ TEST_F(CalibrateTool, WhatAnotherProgramFoundIsFoundAnew) {
   const Outcome again = calibrate("other", "--generations 2 --resume",
                                   "LD_PRELOAD=" + std::string(ANTHROB_OTHER_LIBRARY) + " ");
   ASSERT_EQ(again.status, 0) << again.errors;
-  EXPECT_NE(again.errors.find("of another build of the program"), std::string::npos)
+  EXPECT_NE(again.errors.find("by another build of the program"), std::string::npos)
       << again.errors;
   for (const char* file : {"/result.json", "/model.yaml"}) {
     EXPECT_EQ(content(path("same") + file), content(path("other") + file)) << file;
@@ -200,7 +200,8 @@ TEST_F(CalibrateTool, NothingThatIsReadIsReplaced) {
     const std::string before = content(path(out + "/" + file));
     const Outcome outcome = calibrate(out, more);
     EXPECT_EQ(outcome.status, 2) << more;
-    EXPECT_NE(outcome.errors.find(std::string(file) + " is read and would be replaced"),
+    EXPECT_NE(outcome.errors.find(std::string(file) +
+                                  " is an input of this run and would be overwritten"),
               std::string::npos)
         << outcome.errors;
     EXPECT_EQ(content(path(out + "/" + file)), before);
@@ -241,7 +242,7 @@ TEST_F(CalibrateTool, InterruptedItKeepsTheBestAndGoesOn) {
       calibrate("stopped", "--generations 40",
                 interrupted_when(path("stopped/journal.txt"), path("interrupt.sh")));
   ASSERT_EQ(stopped.status, 130) << stopped.errors;
-  EXPECT_NE(stopped.errors.find("--resume goes on"), std::string::npos) << stopped.errors;
+  EXPECT_NE(stopped.errors.find("--resume continues"), std::string::npos) << stopped.errors;
   EXPECT_TRUE(fs::exists(path("stopped/model.yaml")));
   EXPECT_EQ(calibrate("stopped", "--generations 40 --resume").status, 0);
   expect_same("whole", "stopped");
@@ -254,7 +255,7 @@ TEST_F(CalibrateTool, InterruptedAfterTheSearchItHasTheResultButNoErrorsOfParame
       calibrate("errors", more, interrupted_when(path("errors/model.yaml"), script));
   if (!interrupt_was_sent(script)) GTEST_SKIP() << "too fast to be interrupted";
   ASSERT_EQ(stopped.status, 130) << stopped.errors;
-  EXPECT_NE(stopped.errors.find("before errors of the parameters"), std::string::npos)
+  EXPECT_NE(stopped.errors.find("before the errors of the parameters"), std::string::npos)
       << stopped.errors;
   const auto result = nlohmann::json::parse(content(path("errors/result.json")));
   EXPECT_LT(result["fitness"]["after"].get<double>(),
@@ -278,7 +279,7 @@ TEST_F(CalibrateTool, TrajectoriesValidationAndStart) {
   EXPECT_EQ(second["drives"].size(), 3u);
   EXPECT_TRUE(second["validation"].is_object());
   const std::string html = content(path("second/report.html"));
-  EXPECT_NE(html.find("On recordings it never saw"), std::string::npos);
+  EXPECT_NE(html.find("On held-out recordings"), std::string::npos);
   EXPECT_LT(html.find("Held-out"), html.find("Recordings of the calibration"));
   EXPECT_EQ(html.find("nan"), std::string::npos);
 }
@@ -338,13 +339,13 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
   fs::create_directories(path("held_out"));
   fs::copy(path("eq/E2"), path("held_out/of_them"), fs::copy_options::recursive);
   expect(config + out + " --data " + path("eq") + " --validation " + path("held_out"),
-         "held_out: of_them is E2 of " + path("eq"));
+         "held_out: of_them is the same recording as E2 of " + path("eq"));
   // Whatever is said of how it begins.
   Dataset other = Dataset::load(path("eq/E2"));
   other.meta.settle_s += 1.0;
   other.save(path("held_out_2/of_them"));
   expect(config + out + " --data " + path("eq") + " --validation " + path("held_out_2"),
-         "held_out_2: of_them is E2 of " + path("eq"));
+         "held_out_2: of_them is the same recording as E2 of " + path("eq"));
   fs::create_directories(path("doubled"));
   fs::copy(path("eq/E2"), path("doubled/E2"), fs::copy_options::recursive);
   write_bag(Dataset::load(path("eq/E2")), path("doubled/again.bag"));

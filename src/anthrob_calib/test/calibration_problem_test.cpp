@@ -322,7 +322,7 @@ TEST(CalibrationReport, TellsRecordingsThatCannotBeSimulatedFromNone) {
   CalibrationOutcome outcome;
   EXPECT_NE(report_html(outcome).find("None were given (--validation)"), std::string::npos);
   outcome.held_out = true;
-  outcome.doubt = "not all could be worked out: of numbers";
+  outcome.doubt = "some results could not be computed: of numbers";
   const std::string page = report_html(outcome);
   EXPECT_EQ(page.find("None were given"), std::string::npos);
   EXPECT_NE(page.find("could not be simulated"), std::string::npos);

@@ -423,7 +423,7 @@ TEST(ConvertTool, TellsWhatIsOddAndWhatItDoesNotCarry) {
   data.save(folder / "set");
   std::ofstream(folder / "set/meta.yaml", std::ios::app) << "weather: fine\n";
   ASSERT_EQ(convert(folder, folder / "set", folder / "a.bag"), 0);
-  EXPECT_EQ(content(folder / "said.txt"), "not carried: joints.csv: hinge/load\n");
+  EXPECT_EQ(content(folder / "said.txt"), "not converted: joints.csv: hinge/load\n");
   EXPECT_EQ(content(folder / "errors.txt"),
             "anthrob_convert: " + (folder / "set/meta.yaml") + ": weather: unknown key, kept\n");
   ASSERT_EQ(convert(folder, folder / "a.bag", folder / "back"), 0);

@@ -178,24 +178,25 @@ TEST_F(ForeignCsv, WhatIsWrongWithModesAndAnglesIsSaid) {
   expect("unit: deg", "unit: turns", "euler.unit: turns: expected rad or deg");
   expect("[roll, pitch, yaw]", "[roll, pitch]", "euler.from: expected three columns");
   expect("to: shoulder", "to: shoulder/w", "expected the name of a ball joint");
-  expect("to: hip", "to: shoulder", "named twice");
+  expect("to: hip", "to: shoulder", "used twice");
   expect("flexor: FORCE", "flexor: PUSH", "mode.flexor: PUSH: expected VOLTAGE, POSITION");
   expect("flexor: FORCE", "flexor: 3", "expected VOLTAGE, POSITION");
-  expect("flexor: FORCE", "biceps: FORCE", "biceps: no column goes to such a reference");
+  expect("flexor: FORCE", "biceps: FORCE", "mode.biceps: no column has to: biceps/reference");
   expect("yaw]", "jaw]", "column 'jaw' is not in");
 }
 
 TEST_F(ForeignCsv, WhatIsWrongIsSaidInOneLine) {
   const std::string head = "t [ms],y [mm],u\n";
   EXPECT_NE(error(kMap, "t [ms],y [mm]\n0,1\n").find("column 'u' is not in"), std::string::npos);
-  EXPECT_NE(error(kMap, "t [ms],y [mm],u,u\n0,1,2,3\n").find("column 'u' is there twice"),
+  EXPECT_NE(error(kMap, "t [ms],y [mm],u,u\n0,1,2,3\n").find("column 'u' appears twice"),
             std::string::npos);
   EXPECT_NE(error(kMap, head + "0,1,2\n1,one,2\n").find("data.csv:3: column 'y [mm]': 'one'"),
             std::string::npos);
-  EXPECT_NE(error(kMap, head + "0,1,2\n0,1,2\n").find(":3: time does not grow"), std::string::npos);
+  EXPECT_NE(error(kMap, head + "0,1,2\n0,1,2\n").find(":3: time does not increase"),
+            std::string::npos);
   EXPECT_NE(error(kMap, head + "0,1,2\n1,1\n").find(":3: 2 cells; expected 3"), std::string::npos);
   EXPECT_NE(error(kMap, head + "0,nan,2\n").find("expected a number"), std::string::npos);
-  EXPECT_NE(error(kMap, head + "0,1,2\n").find("less than two rows"), std::string::npos);
+  EXPECT_NE(error(kMap, head + "0,1,2\n").find("fewer than two rows"), std::string::npos);
   EXPECT_NE(error("robot: r\nrate: 1\ncolumns: [{from: u, to: axis/warmth}]\n", "u\n1\n2\n")
                 .find("axis/warmth: expected"),
             std::string::npos);

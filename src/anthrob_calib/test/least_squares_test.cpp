@@ -105,7 +105,7 @@ TEST(LeastSquares, SaysWhatCannotBeFitted) {
     solve(twins);
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("tell the parameters"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("distinguish the parameters"), std::string::npos);
   }
 }
 

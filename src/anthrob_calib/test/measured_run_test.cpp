@@ -58,7 +58,7 @@ TEST(MeasuredRun, RefusesBadRecordingsWithOneLine) {
     EXPECT_NE(error.find(part), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos);
   };
-  expect("holds less than two rows", [](Dataset& d) { d.tables.clear(); });
+  expect("fewer than two rows", [](Dataset& d) { d.tables.clear(); });
   const auto lose = [](Dataset& d, const char* column, std::size_t from, std::size_t count) {
     auto& values = d.tables[0].column(column).values;
     std::fill_n(values.begin() + static_cast<long>(from), count, NAN);
@@ -194,7 +194,7 @@ TEST(MeasuredRun, AModeHoldsUntilTheNext) {
 TEST(MeasuredRun, ARobotWithoutVoltageIsAtNoReference) {
   Dataset data = as_in_a_bag(record_simulation(rig(), plan(3.0, 1.0, "trajectory")));
   say(data, "flexor", 0, 100, 0.0, 0.0);
-  EXPECT_NE(error_of(data).find("flexor: without voltage when the recording began"),
+  EXPECT_NE(error_of(data).find("flexor: had no voltage when the recording began"),
             std::string::npos)
       << error_of(data);
   data.meta.start = "zero";

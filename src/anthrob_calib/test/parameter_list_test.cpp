@@ -73,14 +73,16 @@ TEST(ParameterList, RefusesWhatCannotBeMeant) {
             std::string::npos);
   EXPECT_NE(error_of("- {path: muscles.flexor.spindle_radius, unit: m, range: 1, step: 1}\n"
                      "- {path: muscles.*.spindle_radius, unit: m, range: 1, step: 1}")
-                .find("as another entry is"),
+                .find("which another entry matches already"),
             std::string::npos);
   EXPECT_NE(error_of("- {path: muscles.*.spindle_radius, unit: m, range: -1, step: 1}").find("-1"),
             std::string::npos);
   const std::string entry = "- {path: muscles.*.spindle_radius, unit: m, step: 1, ";
   for (const char* end : {"range: 1, low: 0}", "range: 1, high: 2}"}) {
-    EXPECT_EQ(error_of(entry + end),
-              "calibration.yaml:1: 0.range: beside low or high: expected one or the other");
+    EXPECT_EQ(
+        error_of(entry + end),
+        "calibration.yaml:1: 0.range: given together with low or high; expected either range, or "
+        "low and high");
   }
   EXPECT_EQ(error_of(entry + "range: 1, lower: 0}"), "calibration.yaml:1: 0.lower: unknown key");
   EXPECT_EQ(error_of("- {path: nowhere, if_presnt: true, unit: m, range: 1, step: 1}"),

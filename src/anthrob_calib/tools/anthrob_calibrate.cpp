@@ -47,12 +47,13 @@ CalibrationConfig configure(const Arguments& arguments) {
 
 std::string model_text(const Arguments& arguments, const CalibrationInput& input,
                        const std::map<std::string, double>& overrides) {
-  return extended_model_text(
-      ConfigNode::load(input.config.model_file), input.config.model_file, overrides, arguments.out,
-      "Calibrated by anthrob_calibrate; result.json and report.html say how well.");
+  return extended_model_text(ConfigNode::load(input.config.model_file), input.config.model_file,
+                             overrides, arguments.out,
+                             "Calibrated by anthrob_calibrate. result.json and report.html have "
+                             "the errors before and after.");
 }
 
-/// The model alone, before anything else can go wrong.
+/// Writes only model.yaml, before the remaining computations, which may fail or be interrupted.
 void keep_model(const Arguments& arguments, const CalibrationInput& input, const Problem& problem,
                 const Point& best) {
   std::map<std::string, double> overrides = input.started;
@@ -70,19 +71,21 @@ void write(const Arguments& arguments, const CalibrationInput& input,
   identification::write_files(arguments.out, files);
 }
 
-/// An earlier search is not thrown away by a forgotten --resume, nor for the errors of a model.
+/// Refuses to overwrite the journal of an earlier search: without --resume, or by --evaluate.
 void keep_earlier_search(const Arguments& arguments) {
   const fs::path journal = fs::path(arguments.out) / "journal.txt";
   if (!fs::exists(journal)) return;
   if (arguments.evaluate) {
-    throw BadInput(journal.string() + ": an earlier search; expected another --out to --evaluate");
+    throw BadInput(journal.string() +
+                   ": belongs to an earlier search; expected another --out for --evaluate");
   }
   if (arguments.resume) return;
-  throw BadInput(journal.string() +
-                 ": an earlier search; expected --resume to go on with it, or another --out");
+  throw BadInput(
+      journal.string() +
+      ": belongs to an earlier search; expected --resume to continue it, or another --out");
 }
 
-/// What is read is not replaced: not the files themselves, and no model by one that extends it.
+/// Refuses an --out whose files are inputs: the model, what it extends, --start.
 void keep_input(const Arguments& arguments, const std::string& model_file) {
   std::vector<std::string> read = extended_files(model_file);
   for (const std::string& file : extended_files(arguments.config)) read.push_back(file);
@@ -97,7 +100,7 @@ std::uint64_t program_of(const Arguments& arguments) {
   return resume::program_fingerprint(arguments.program, effect_library_files());
 }
 
-/// What a process needs; all stop, with one complaint, if one of them cannot.
+/// Reads the input in every process. If one of them fails, all stop, and one error is reported.
 CalibrationInput read_together(const Arguments& arguments, const MpiSession& session) {
   constexpr char kBad = 'B', kOther = 'O';  // first letter of a complaint: whose fault it is
   std::optional<CalibrationInput> input;
@@ -124,7 +127,8 @@ CalibrationInput read_together(const Arguments& arguments, const MpiSession& ses
                    "the same on all hosts");
   }
   if (!session.all_have(std::to_string(program_of(arguments)))) {
-    throw BadInput("the processes are of different builds: expected the same on all hosts");
+    throw BadInput(
+        "the processes run different builds of this program; expected the same build on all hosts");
   }
   return std::move(*input);
 }
@@ -161,11 +165,11 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   Journal journal(everywhere, options);
   if (journal.outdated()) {
     std::cerr << "anthrob_calibrate: " << options.file
-              << ": of another build of the program; what it found is found anew\n";
+              << ": written by another build of the program; its evaluations are repeated\n";
   }
   problem.build(problem.space().initial());  // a start that cannot be built has its own message
 
-  std::string reason = arguments.evaluate ? "errors only" : "interrupted";
+  std::string reason = arguments.evaluate ? "no search, --evaluate" : "interrupted";
   SearchResult found;
   bool complete = false;
   try {
@@ -189,42 +193,48 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   write(arguments, input, outcome);
   std::cout << summary(outcome);
   for (const std::string& name : untold(outcome)) {
-    std::cerr << "anthrob_calibrate: " << name << ": these recordings tell nothing of it\n";
+    std::cerr << "anthrob_calibrate: " << name << ": not identifiable from these recordings\n";
   }
   if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
   if (complete && !arguments.evaluate && !std::isfinite(outcome.fitness)) {
     std::cerr << "anthrob_calibrate: " << input.config.model_file
-              << ": no set of parameters could be simulated along the recordings: replay them with "
-                 "anthrob_replay to see where it fails\n";
+              << ": no set of parameters could be simulated over the recordings; replay them with "
+                 "anthrob_replay to see where the simulation fails\n";
     return tool::kFailed;
   }
   if (complete && !outcome.interrupted) {
     journal.forget_residuals();
     return tool::kDone;
   }
-  std::cerr << "anthrob_calibrate: interrupted; what was best so far is in " << arguments.out
-            << ", --resume goes on\n";
+  std::cerr << "anthrob_calibrate: interrupted; the best result so far is in " << arguments.out
+            << "; --resume continues the search\n";
   return tool::kInterrupted;
 }
 
 void add_options(CLI::App& app, Arguments& a) {
-  app.add_option("--config", a.config, "what to calibrate and how (docs/calibration.md)")
+  app.add_option("--config", a.config,
+                 "configuration: parameters, weights, optimiser (docs/calibration.md)")
       ->required();
   app.add_option("--data", a.data, "folder of recordings to fit")->required();
-  app.add_option("--validation", a.validation, "folder of recordings to judge by, never fitted");
+  app.add_option("--validation", a.validation,
+                 "folder of held-out recordings: evaluated, never fitted");
   app.add_option("--out", a.out, "folder for model.yaml, result.json, report.html")->required();
-  app.add_option("--model", a.model, "instead of the configuration's model file");
+  app.add_option("--model", a.model, "model file, instead of the configuration's");
   app.add_option("--start", a.start, "result.json of earlier calibrations to start from");
-  auto* resume = app.add_flag("--resume", a.resume, "go on after an interruption");
-  app.add_flag("--evaluate", a.evaluate, "no search: the errors of the model as it is")
+  auto* resume = app.add_flag("--resume", a.resume, "continue an interrupted search");
+  app.add_flag("--evaluate", a.evaluate, "no search: only compute the errors of the given model")
       ->excludes(resume);
-  app.add_flag("--brief", a.brief, "no errors of parameters, no replays of actuator positions");
+  app.add_flag("--brief", a.brief,
+               "leave out the errors of parameters and the replays of actuator positions");
   app.add_option("--jobs", a.jobs, "threads (default: all)")->check(CLI::Range(1, 1024));
-  app.add_option("--optimiser", a.method, "instead of the configuration's method")
+  app.add_option("--optimiser", a.method, "search method, instead of the configuration's")
       ->check(CLI::IsMember(OptimiserSettings::methods()));
-  app.add_option("--generations", a.generations, "instead of the configuration's")
+  app.add_option(
+         "--generations", a.generations,
+         "number of generations, instead of the configuration's; for least_squares the "
+         "largest number of finite-difference Jacobians, each of one evaluation per parameter")
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--seed", a.seed, "instead of the configuration's")
+  app.add_option("--seed", a.seed, "seed of the random numbers, instead of the configuration's")
       ->check(CLI::Range(0, 2147483647));
 }
 
@@ -241,12 +251,14 @@ int main(int argc, char** argv) {
   if (session.rank() > 0) std::cerr.rdbuf(nullptr);  // one process speaks for all
   const unsigned may = std::thread::hardware_concurrency();
   if (session.size() > 1 && static_cast<long>(may) < sysconf(_SC_NPROCESSORS_ONLN)) {
-    std::cerr << "anthrob_calibrate: mpirun lets this process have " << may << " of "
-              << sysconf(_SC_NPROCESSORS_ONLN) << " processors; with --bind-to none it has all\n";
+    std::cerr << "anthrob_calibrate: mpirun restricts this process to " << may << " of "
+              << sysconf(_SC_NPROCESSORS_ONLN)
+              << " processors; mpirun --bind-to none lets it use all\n";
   }
   CLI::App app(
       "Calibrates a model against recordings: fits parameters within their ranges so that the "
-      "simulated robot does what the recorded one did. Threads by itself, hosts by mpirun.",
+      "simulated robot moves as the recorded one did. Uses all threads of this host; mpirun adds "
+      "hosts.",
       "anthrob_calibrate");
   add_options(app, arguments);
   return tool::run(app, argc, argv, [&] {

@@ -11,7 +11,7 @@
 namespace {
 
 void say_not_carried(const std::vector<std::string>& list) {
-  for (const std::string& what : list) std::cout << "not carried: " << what << "\n";
+  for (const std::string& what : list) std::cout << "not converted: " << what << "\n";
 }
 
 }  // namespace
@@ -19,13 +19,14 @@ void say_not_carried(const std::vector<std::string>& list) {
 int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
-      "Converts a bag to a dataset folder, or a dataset folder to a bag (by the ending .bag), or "
-      "somebody else's CSV file to a dataset folder.",
+      "Converts a bag to a dataset folder or back; the bag is the one that ends in .bag. With "
+      "--columns, converts a CSV file of another program to a dataset folder.",
       "anthrob_convert");
   std::string in, out, columns;
   app.add_option("IN", in, "bag, dataset folder, or CSV file")->required();
   app.add_option("OUT", out, "dataset folder or bag")->required();
-  app.add_option("--columns", columns, "what the columns of a CSV file are, a YAML file");
+  app.add_option("--columns", columns,
+                 "YAML file that says what the columns of the CSV file are (docs/files.md)");
   return tool::run(app, argc, argv, [&]() -> int {
     if (!columns.empty()) {
       read_foreign_csv(in, ForeignColumns::load(columns)).save(out);
@@ -37,7 +38,8 @@ int main(int argc, char** argv) {
     if (!std::filesystem::exists(in))
       throw BadInput(in + ": no such recording; expected a bag or a dataset folder");
     if (is_bag(in) == is_bag(out)) {
-      throw BadInput("IN " + in + ", OUT " + out + ": expected one of them to end in .bag");
+      throw BadInput("IN " + in + ", OUT " + out +
+                     ": expected one of them to end in .bag; for a CSV file, give --columns");
     }
     if (!is_bag(in)) {
       const Dataset recording = Dataset::load(in);

@@ -36,7 +36,7 @@ std::vector<Recording> read_all(const std::vector<std::string>& paths) {
   return list;
 }
 
-/// All input is read, and the output tried, before anything is computed or written.
+/// Reads all input, and checks that the output can be written, before it computes anything.
 template <class Recording, class Identify, class Report, class Summary>
 int identify(const Arguments& arguments, Identify fit, Report report, Summary summary) {
   auto recordings = read_all<Recording>(arguments.recordings);
@@ -50,7 +50,7 @@ int identify(const Arguments& arguments, Identify fit, Report report, Summary su
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
                       Arguments& arguments) {
   CLI::App* command = app.add_subcommand(name, description);
-  command->add_option("REC", arguments.recordings, "dataset folders")->required();
+  command->add_option("REC", arguments.recordings, "recordings, as dataset folders")->required();
   command->add_option("--out", arguments.out, "folder for parameters, report and figures")
       ->required();
   return command;
@@ -62,8 +62,8 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
 int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
-      "Identifies components from recordings of the rigs (docs/identification.md): parameters to "
-      "paste into a model file, report.json and figures.",
+      "Identifies parameters of components from recordings of the test rigs "
+      "(docs/identification.md). Writes YAML to paste into a model file, report.json and figures.",
       "anthrob_identify");
   app.require_subcommand(1);
   Arguments arguments;

@@ -55,7 +55,7 @@ void add_ball_joint(const Dataset& data, const std::string& joint, SvgFigure& fi
   Series axes[3], angle;
   for (std::size_t i = 0; i < turns.t().size(); ++i) {
     const auto number = [&](int k) { return turns.number[k].values[i]; };
-    // Of a quaternion and its negative, the same turn, the one that says at most half a turn.
+    // A quaternion and its negative are the same rotation: take the one of at most 180 degrees.
     const double sign = number(0) < 0.0 ? -1.0 : 1.0;
     const Vec3 v = sign * Vec3(number(1), number(2), number(3));
     const double turned = 2.0 * std::atan2(v.norm(), sign * number(0));
@@ -70,7 +70,7 @@ void add_ball_joint(const Dataset& data, const std::string& joint, SvgFigure& fi
   for (int k = 0; k < 3; ++k) {
     panel.lines.push_back(line(std::string("about ") + "xyz"[k], axes[k], kDegrees));
   }
-  panel.lines.push_back(line("whole angle", angle, kDegrees));
+  panel.lines.push_back(line("total angle", angle, kDegrees));
   panel.lines.back().dashed = true;
   panel.lines.back().colour = 9;
 }

@@ -87,8 +87,9 @@ void make_ecu_recordings(double resistance, std::uint64_t seed, const std::strin
 
 int main(int argc, char** argv) {
   using namespace anthrob;
-  CLI::App app("Simulates recordings of the rigs for anthrob_identify: the thesis's protocols.",
-               "anthrob_virtual_rig");
+  CLI::App app(
+      "Simulates recordings of the test rigs for anthrob_identify, by the protocols of the thesis.",
+      "anthrob_virtual_rig");
   app.require_subcommand(1);
   std::string out;
   std::uint64_t seed = 1;
@@ -98,21 +99,25 @@ int main(int argc, char** argv) {
   const auto add = [&](const char* name, const char* description) {
     CLI::App* command = app.add_subcommand(name, description);
     command->add_option("--out", out, "folder for the recordings")->required();
-    command->add_option("--seed", seed, "of noise and of the rig's deviations")
+    command->add_option("--seed", seed, "seed of the noise and of the rig's deviations")
         ->check(CLI::NonNegativeNumber);
     return command;
   };
   CLI::App* see = add("see", "rubber rings on the stretcher");
-  see->add_option("--ring", rings.rings, "10x4, 10x5, ...; default: all of rings.yaml");
-  see->add_option("--truth", rings.truth, "what the rings are made of")
+  see->add_option("--ring", rings.rings,
+                  "type of ring: 10x4, 10x5, ...; default: all of rings.yaml");
+  see->add_option("--truth", rings.truth, "material model of the simulated rings")
       ->check(CLI::IsMember({"zener", "wiechert"}));
-  see->add_option("--levels", rings.options.levels, "relaxation tests a run")
+  see->add_option("--levels", rings.options.levels, "relaxation tests per run")
       ->check(CLI::Range(1, 100));
   CLI::App* eyelet = add("eyelet", "line, eyelet and weights");
-  eyelet->add_option("--pulling", pulling, "mu_k while pulling")->check(tool::within(0.0, 1.0));
-  eyelet->add_option("--relaxing", relaxing, "mu_k while relaxing")->check(tool::within(0.0, 1.0));
+  eyelet->add_option("--pulling", pulling, "friction coefficient mu_k while pulling [1]")
+      ->check(tool::within(0.0, 1.0));
+  eyelet->add_option("--relaxing", relaxing, "friction coefficient mu_k while relaxing [1]")
+      ->check(tool::within(0.0, 1.0));
   CLI::App* ecu = add("ecu", "power stage with load resistors");
-  ecu->add_option("--resistance", resistance, "R_ECU [ohm]")->check(tool::within(0.0, 1.0));
+  ecu->add_option("--resistance", resistance, "R_ECU, series resistance of the power stage [ohm]")
+      ->check(tool::within(0.0, 1.0));
   return tool::run(app, argc, argv, [&]() -> int {
     if (see->parsed()) make_ring_recordings(rings, seed, out);
     if (eyelet->parsed()) make_eyelet_recordings(pull, pulling, relaxing, seed, out);

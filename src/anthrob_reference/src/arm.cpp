@@ -22,7 +22,7 @@ double common_period(const std::vector<MuscleParameters>& muscles) {
   if (muscles.empty()) return kDefaultPeriod;
   const double period = muscles.front().controller.period;
   for (const MuscleParameters& muscle : muscles) {
-    require(muscle.controller.period == period, "one ECU period for all muscles",
+    require(muscle.controller.period == period, "the same ECU period for all muscles",
             muscle.controller.period);
   }
   return period;
@@ -156,7 +156,7 @@ void Arm::step(double h) {
     step(0.5 * h);
     return;
   }
-  if (!x_.allFinite()) throw std::runtime_error("the reference arm diverged");
+  if (!x_.allFinite()) throw std::runtime_error("the simulation of the reference arm diverged");
   const JointState joints = dynamics_.joints(x_);
   dynamics_.set_joints(joints, &x_);
   dynamics_.update_contacts(joints);

@@ -34,7 +34,7 @@ YAML::Node read(const std::filesystem::path& file, int depth = 0) {
   } catch (const YAML::Exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
-  if (!node.IsMap()) throw std::runtime_error(file.string() + ": not a map");
+  if (!node.IsMap()) throw std::runtime_error(file.string() + ": expected a map");
   // Relative to the file that names it, whoever extends that file.
   if (node["robot"])
     node["robot"] = (file.parent_path() / node["robot"].as<std::string>()).string();
@@ -91,7 +91,8 @@ void read_gear(YamlSection section, MotorParameters* motor) {
   motor->gear_inertia = section.number("inertia");
   motor->steepness = section.number("steepness");
   motor->shift = section.number("shift");
-  if (section.number("friction_torque") != 0.0) section.fail("friction_torque", "is not modelled");
+  if (section.number("friction_torque") != 0.0)
+    section.fail("friction_torque", "not modelled; expected 0");
   section.finish();
 }
 
@@ -143,7 +144,7 @@ Body body(YamlSection* entry) {
   if (name == "base") return Body::kBase;
   if (name == "humerus") return Body::kHumerus;
   if (name == "forearm") return Body::kForearm;
-  entry->fail("body", "no body " + name);
+  entry->fail("body", name + ": no such body");
 }
 
 PathEntry path_entry(YamlSection section) {
@@ -158,7 +159,7 @@ PathEntry path_entry(YamlSection section) {
     // Both starts are the short side; whether it touches there follows from the posture.
     const std::string start = cylinder.text("start");
     if (start != "positive" && start != "not_wrapping") {
-      cylinder.fail("start", start + " is not modelled");
+      cylinder.fail("start", start + ": not modelled; expected positive or not_wrapping");
     }
     cylinder.finish();
   }

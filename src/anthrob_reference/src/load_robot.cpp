@@ -44,7 +44,8 @@ class Robot {
   // Joint above the link, which hangs on `parent`.
   urdf::JointConstSharedPtr joint(const std::string& name, const std::string& parent) const {
     const urdf::JointConstSharedPtr found = link(name)->parent_joint;
-    if (!found || found->parent_link_name != parent) fail(name + " must hang on " + parent);
+    if (!found || found->parent_link_name != parent)
+      fail(name + " must be a child link of " + parent);
     return found;
   }
 
@@ -52,14 +53,14 @@ class Robot {
     const urdf::JointConstSharedPtr above = link("base")->parent_joint;
     if (!above) return Eigen::Isometry3d::Identity();
     if (above->type != urdf::Joint::FIXED || link(above->parent_link_name)->parent_joint) {
-      fail("base must be fixed to the root");
+      fail("link base must be the root, or fixed to it");
     }
     return eigen(above->parent_to_joint_origin_transform);
   }
 
   BodyParameters body(const std::string& name) const {
     const urdf::InertialSharedPtr inertial = link(name)->inertial;
-    if (!inertial) fail("link " + name + " has no inertial");
+    if (!inertial) fail("link " + name + " has no inertial element");
     Eigen::Matrix3d inertia;
     inertia << inertial->ixx, inertial->ixy, inertial->ixz,  //
         inertial->ixy, inertial->iyy, inertial->iyz,         //
@@ -79,8 +80,8 @@ void load_robot(const std::string& urdf_file, SkeletonParameters* skeleton) {
   const Robot robot(urdf_file);
   const urdf::JointConstSharedPtr shoulder = robot.joint("humerus", "base");
   const urdf::JointConstSharedPtr elbow = robot.joint("forearm", "humerus");
-  if (shoulder->type != urdf::Joint::FLOATING) robot.fail("the shoulder must be floating");
-  if (elbow->type != urdf::Joint::REVOLUTE) robot.fail("the elbow must be revolute");
+  if (shoulder->type != urdf::Joint::FLOATING) robot.fail("the shoulder must be a floating joint");
+  if (elbow->type != urdf::Joint::REVOLUTE) robot.fail("the elbow must be a revolute joint");
   skeleton->X_WB = robot.base_in_world();
   skeleton->X_WH_rest = skeleton->X_WB * eigen(shoulder->parent_to_joint_origin_transform);
   skeleton->X_HF_zero = eigen(elbow->parent_to_joint_origin_transform);

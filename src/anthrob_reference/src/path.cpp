@@ -30,15 +30,18 @@ PlacedCylinder body_fixed_cylinder(const PathEntry& entry) {
 }  // namespace
 
 Path::Path(const std::vector<PathEntry>& entries) {
-  require(entries.size() >= 2, "path has two points at least", static_cast<double>(entries.size()));
-  require(!entries.front().cylinder && !entries.back().cylinder, "path ends at via-points", 0.0);
+  require(entries.size() >= 2, "a path of at least two points",
+          static_cast<double>(entries.size()));
+  const int at_ends = (entries.front().cylinder ? 1 : 0) + (entries.back().cylinder ? 1 : 0);
+  require(at_ends == 0, "no cylinders at the ends of a path", at_ends);
   Span span;
   span.start = {entries.front().body, entries.front().position};
   for (std::size_t i = 1; i < entries.size(); ++i) {
     const PathEntry& entry = entries[i];
     span_of_segment_.push_back(spans_.size());
     if (entry.cylinder) {
-      require(!span.wrap, "via-point between two cylinders, path entry", static_cast<double>(i));
+      require(!span.wrap, "a via-point between two cylinders (index of the second one)",
+              static_cast<double>(i));
       span.wrap = Wrap{entry.body, body_fixed_cylinder(entry), {}};
       continue;
     }
@@ -64,7 +67,7 @@ void Path::find_fixed_deflections() {
 
 std::size_t Path::span_of_segment(int segment) const {
   const auto count = static_cast<int>(span_of_segment_.size());
-  require(segment >= 0 && segment < count, "path segment exists", segment);
+  require(segment >= 0 && segment < count, "an existing path segment", segment);
   return span_of_segment_[static_cast<std::size_t>(segment)];
 }
 

@@ -34,7 +34,7 @@ Skeleton::Skeleton(const SkeletonParameters& parameters)
       elbow_dry_(parameters.elbow_friction.dry) {
   require_positive("humerus mass", parameters.humerus.mass);
   require_positive("forearm mass", parameters.forearm.mass);
-  require(std::abs(parameters.elbow_axis_F.norm() - 1.0) < 1e-9, "unit elbow axis, length",
+  require(std::abs(parameters.elbow_axis_F.norm() - 1.0) < 1e-9, "an elbow axis of length 1",
           parameters.elbow_axis_F.norm());
   X_SB_rest_.pretranslate(-parameters.p_HS);
 }

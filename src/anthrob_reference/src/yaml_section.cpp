@@ -7,7 +7,7 @@ namespace anthrob::reference {
 
 YamlSection::YamlSection(const YAML::Node& node, const std::string& where)
     : node_(node), where_(where) {
-  if (!node_.IsMap()) throw std::runtime_error(where_ + ": a map is needed here");
+  if (!node_.IsMap()) throw std::runtime_error(where_ + ": expected a map");
 }
 
 bool YamlSection::has(const std::string& key) const {
@@ -17,7 +17,7 @@ bool YamlSection::has(const std::string& key) const {
 
 double YamlSection::number(const std::string& key) {
   const auto result = value<double>(key);
-  if (!std::isfinite(result)) fail(key, "must be finite");
+  if (!std::isfinite(result)) fail(key, "expected a finite number");
   return result;
 }
 
@@ -31,13 +31,13 @@ std::string YamlSection::text(const std::string& key) {
 
 Eigen::Vector3d YamlSection::vector(const std::string& key) {
   const YAML::Node found = list(key);
-  if (found.size() != 3) fail(key, "three numbers are needed");
+  if (found.size() != 3) fail(key, "expected three numbers");
   Eigen::Vector3d result;
   for (int i = 0; i < 3; ++i) {
     try {
       result(i) = found[i].as<double>();
     } catch (const YAML::Exception&) {
-      fail(key, "three numbers are needed");
+      fail(key, "expected three numbers");
     }
   }
   return result;
@@ -52,13 +52,13 @@ YamlSection YamlSection::section(const std::string& key) {
 YAML::Node YamlSection::list(const std::string& key) {
   if (!has(key)) fail(key, "missing");
   used_.insert(key);
-  if (!node_[key].IsSequence()) fail(key, "a list is needed");
+  if (!node_[key].IsSequence()) fail(key, "expected a list");
   return node_[key];
 }
 
 void YamlSection::expect(const std::string& key, const std::string& word) {
   const std::string found = text(key);
-  if (found != word) fail(key, "only " + word + " is modelled, not " + found);
+  if (found != word) fail(key, found + ": not modelled; expected " + word);
 }
 
 void YamlSection::finish() const {

@@ -8,8 +8,8 @@
 
 namespace anthrob::reference {
 
-/// One map of a model file, read key by key. finish() refuses what nobody asked for, so that a
-/// misspelt or unsupported key cannot pass unnoticed. Errors (std::runtime_error) name the place.
+/// One map of a model file, read key by key. finish() refuses keys that were not read, so that a
+/// misspelt or unsupported key does not go unnoticed. Errors (std::runtime_error) name the place.
 class YamlSection final {
  public:
   YamlSection(const YAML::Node& node, const std::string& where);
@@ -21,7 +21,7 @@ class YamlSection final {
   Eigen::Vector3d vector(const std::string& key);
   YamlSection section(const std::string& key);
   YAML::Node list(const std::string& key);
-  /// For keys that this model has no use for; they may be absent.
+  /// Accepts a key that this model does not use; it may be absent.
   void ignore(const std::string& key) { used_.insert(key); }
   /// @throws std::runtime_error unless the value of the key is this word.
   void expect(const std::string& key, const std::string& word);

@@ -249,7 +249,7 @@ CaseKind case_kind(const std::string& name) {
   }
   std::string kinds;
   for (const auto& [text, kind] : kKinds) kinds += (kinds.empty() ? "" : ", ") + std::string(text);
-  throw std::invalid_argument("no kind of case " + name + "; expected one of: " + kinds);
+  throw std::invalid_argument("--kind " + name + ": expected one of: " + kinds);
 }
 
 std::string word(CaseKind wanted) {
@@ -315,7 +315,7 @@ BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws
     if (std::find(places.begin(), places.end(), place) == places.end()) {
       std::string possible;
       for (const std::string& one : places) possible += (possible.empty() ? "" : ", ") + one;
-      throw std::invalid_argument(id + " cannot sit at " + place +
+      throw std::invalid_argument(id + " cannot be hidden at " + place +
                                   "; expected one of: " + possible);
     }
     hide(law, place, &random, &blind);

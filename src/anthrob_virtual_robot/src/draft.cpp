@@ -10,7 +10,7 @@ std::size_t Draft::muscle(const std::string& name) const {
   for (std::size_t i = 0; i < arm.muscles.size(); ++i) {
     if (arm.muscles[i].name == name) return i;
   }
-  throw std::invalid_argument("no muscle " + name);
+  throw std::invalid_argument(name + ": no such muscle");
 }
 
 std::vector<std::size_t> Draft::muscles(const std::string& place) const {

@@ -10,7 +10,7 @@ const HiddenLaw& hidden_law(const std::string& id) {
       if (law.id == id) return law;
     }
   }
-  throw std::invalid_argument("no hidden law " + id + "; --list tells them");
+  throw std::invalid_argument(id + ": no such law; --list shows all");
 }
 
 Hidden scaled(const Hidden& hidden, double factor) {

@@ -97,7 +97,7 @@ const Session::Known& Session::known(const std::string& name) const {
   for (const Known& one : known_) {
     if (one.target.name == name) return one;
   }
-  throw std::invalid_argument("no posture " + name);
+  throw std::invalid_argument(name + ": no such posture");
 }
 
 void Session::record_equilibria(const std::string& folder) {

@@ -44,18 +44,18 @@ std::filesystem::path whole(const std::string& path) {
   return all.has_filename() ? all : all.parent_path();
 }
 
-/// The truth must not lie where discovery looks.
+/// The truth must not lie in the folder that discovery gets.
 void refuse_inside(const std::string& truth, const std::string& out) {
   const auto folder = whole(out);
   auto file = whole(truth);
   while (file.has_relative_path()) {
     if (file == folder)
-      throw std::invalid_argument("--truth " + truth + ": expected outside --out");
+      throw std::invalid_argument("--truth " + truth + ": expected a file outside --out");
     file = file.parent_path();
   }
 }
 
-/// Recordings of another robot would be taken for this one's.
+/// Refuses a folder that holds other recordings: they would count as those of this robot.
 void refuse_recordings(const std::string& out) {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(out, none)) {
@@ -68,27 +68,36 @@ void refuse_recordings(const std::string& out) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes one case of a blind test of discovery.", "anthrob_blind_case");
+  CLI::App app(
+      "Makes one case of a blind test of discovery: recordings of a virtual robot with hidden "
+      "effects, the model without them, and the truth in a separate file.",
+      "anthrob_blind_case");
   std::string kind = "effect", out, truth, model, config;
   std::uint64_t number = 0, seed = 1;
   std::vector<std::string> hide;
   bool list = false;
-  auto* kind_option = app.add_option("--kind", kind, "effect, null, pair, outside or wrapped");
+  auto* kind_option = app.add_option(
+      "--kind", kind,
+      "what is hidden: effect (one of the catalogue), null (nothing), pair (two effects), "
+      "outside (one that the catalogue lacks), wrapped (all muscles wrap around bones)");
   auto* number_option =
-      app.add_option("--case", number, "number of the case; goes through all laws and places");
-  app.add_option("--seed", seed, "of everything that is drawn");
-  app.add_option("--hide", hide, "ID@PLACE in place of what --case would hide; may be repeated")
+      app.add_option("--case", number,
+                     "number of the case: successive numbers take the next law, then other places");
+  app.add_option("--seed", seed, "seed of all random choices");
+  app.add_option("--hide", hide,
+                 "ID@PLACE: hide this instead of what --case selects; may be repeated")
       ->excludes(kind_option)
       ->excludes(number_option);
-  app.add_option("--model", model, "model that is believed: .../config/anthrob/model_I.yaml");
+  app.add_option("--model", model,
+                 "model of the robot without what is hidden: .../config/anthrob/model_I.yaml");
   app.add_option("--config", config, "settings; default: virtual_robot.yaml beside the model");
   app.add_option("--out", out, "folder for recordings and model.yaml");
   app.add_option("--truth", truth, "file for the truth, outside of --out");
-  app.add_flag("--list", list, "tells what can be hidden");
+  app.add_flag("--list", list, "list what can be hidden");
   return run_tool(app, argc, argv, [&] {
     if (list) return list_laws();
     if (out.empty() || truth.empty() || model.empty()) {
-      throw std::invalid_argument("expected --model, --out and --truth");
+      throw std::invalid_argument("expected --model, --out and --truth, or --list");
     }
     refuse_inside(truth, out);
     refuse_recordings(out);

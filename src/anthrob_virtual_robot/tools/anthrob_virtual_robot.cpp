@@ -9,14 +9,16 @@
 
 int main(int argc, char** argv) {
   using namespace anthrob::virtual_robot;
-  CLI::App app("Records a virtual robot for the study of calibration.", "anthrob_virtual_robot");
+  CLI::App app("Makes recordings of a virtual robot for the study of calibration.",
+               "anthrob_virtual_robot");
   std::string out, model, config;
   std::uint64_t seed = 1;
   int tier = 1;
-  app.add_option("--seed", seed, "which robot");
+  app.add_option("--seed", seed, "number of the robot: seed of its errors and of the noise");
   app.add_option("--tier", tier, "1: forearm detached, 2: the whole arm")
       ->check(CLI::IsMember({1, 2}));
-  app.add_option("--model", model, "its geometry before errors: .../config/anthrob/model_II.yaml")
+  app.add_option("--model", model,
+                 "model file, to which errors are added: .../config/anthrob/model_II.yaml")
       ->required();
   app.add_option("--config", config,
                  "settings; default: virtual_robot_tables.yaml beside the model");

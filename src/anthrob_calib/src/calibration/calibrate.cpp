@@ -16,7 +16,7 @@ namespace calibration {
 
 namespace {
 
-/// Of what is compared and how: a journal of another one is no good. Counts up with every change.
+/// Version of the comparison, part of the fingerprint of a journal. Increase it with every change.
 constexpr int kComparison = 5;
 
 void add(const std::vector<double>& values, resume::Fingerprint& fingerprint) {
@@ -40,7 +40,7 @@ void add(const MeasuredRun& run, resume::Fingerprint& fingerprint) {
   for (const Samples* samples : {&run.before, &run.path, &run.after}) add(*samples, fingerprint);
 }
 
-/// A run that is fitted tells nothing about runs that are not, under whatever name.
+/// Refuses held-out runs that are also among those to fit, whatever their names.
 void keep_apart(const std::vector<MeasuredRun>& validation, const std::string& validation_folder,
                 const std::vector<MeasuredRun>& runs, const std::string& folder) {
   // The recording is the same, or what is fitted of it: a copy may lack columns.
@@ -54,34 +54,36 @@ void keep_apart(const std::vector<MeasuredRun>& validation, const std::string& v
       return run.content == fitted.content || used_of(run) == used_of(fitted);
     });
     if (same == runs.end()) continue;
-    throw BadInput(validation_folder + ": " + run.name + " is " + same->name + " of " + folder +
-                   ", which is fitted; expected recordings of its own for --validation");
+    throw BadInput(validation_folder + ": " + run.name + " is the same recording as " + same->name +
+                   " of " + folder +
+                   ", which is fitted; expected other recordings for --validation");
   }
 }
 
-/// The third point of a path is another one where the model has one more: what a place in a list
-/// held before its calibration must be what it holds here.
-/// @param given what the calibrated model's file had, by path   @param own what this one has
+/// Entries of a list are found by their index, and in another model the same index may be another
+/// point of the path. So the value before the calibration must equal that of this model.
+/// @param given values in the file of the calibrated model, by path
+/// @param own value in this model
 void require_same_place(const nlohmann::json& given, const std::string& path, double own,
                         const std::string& file, const ConfigNode& model) {
   const bool in_list = path.find(".path.") != std::string::npos;
   if (!in_list || !given.contains(path) || !given[path].is_number()) return;
   const double then = given[path].get<double>();
   if (then == own) return;
-  throw BadInput(file + ": " + path + ": was calibrated from " + exact_text(then) + ", " +
+  throw BadInput(file + ": " + path + ": was calibrated from " + exact_text(then) + ", but " +
                  model.file() + " has " + exact_text(own) +
-                 " there: expected the result of a model that means the same by it");
+                 " there; expected the result of a model whose path has the same points");
 }
 
-/// Numbers of an earlier calibration that this model has, too.
-/// @param own the model file without any of them
+/// Takes over the numbers of an earlier calibration that also exist in this model.
+/// @param own the model file without them
 void take_over(const std::string& file, const ConfigNode& own, ConfigNode& model,
                std::map<std::string, double>& numbers) {
   std::ifstream in(file);
   if (!in) throw BadInput(file + ": cannot be read; expected the result.json of a calibration");
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (json.is_discarded() || !json.contains("overrides") || !json["overrides"].is_object()) {
-    throw BadInput(file + ": no result of a calibration; expected a map 'overrides'");
+    throw BadInput(file + ": not the result of a calibration; expected a map 'overrides'");
   }
   int taken = 0;
   for (const auto& [path, value] : json["overrides"].items()) {
@@ -97,7 +99,7 @@ void take_over(const std::string& file, const ConfigNode& own, ConfigNode& model
     numbers[path] = value.get<double>();
     ++taken;
   }
-  if (taken == 0) throw BadInput(file + ": none of its numbers is in " + model.file());
+  if (taken == 0) throw BadInput(file + ": none of its overrides exists in " + model.file());
 }
 
 /// Rest and motion as long as the robot's.
@@ -204,7 +206,7 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   outcome.fitness_before = problem.fitness(initial);
   outcome.fitness = journal.best_fitness();
   outcome.best = journal.best();
-  // The start was not asked for by every optimiser, and nothing may come out worse.
+  // Not every optimiser evaluates the start, and the result must not be worse than that.
   if (outcome.best.empty() || outcome.fitness_before < outcome.fitness) {
     outcome.best = initial;
     outcome.fitness = outcome.fitness_before;
@@ -221,13 +223,13 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   outcome.history = journal.history();
   outcome.held_out = !input.validation.empty();
   constexpr int kProfiles = 3;
-  // A simulation may fail by the start, over the whole length, on other runs, or driven in another
-  // way; what was found is none the worse for it.
+  // A simulation may fail with the start values, over the full length, on other runs, or with other
+  // inputs. That does not affect the result of the search.
   const auto attempt = [&](const auto& work) {
     try {
       work();
     } catch (const NumericalFailure& error) {
-      outcome.doubt += (outcome.doubt.empty() ? "not all could be worked out: " : "; ");
+      outcome.doubt += (outcome.doubt.empty() ? "some results could not be computed: " : "; ");
       outcome.doubt += error.what();
     }
   };
@@ -243,7 +245,7 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
     attempt([&] { outcome.drives = compare_drives(problem, outcome.best, problem.runs()); });
   } catch (const Interrupted&) {
     outcome.interrupted = true;
-    outcome.doubt = "interrupted before errors of the parameters were worked out";
+    outcome.doubt = "interrupted before the errors of the parameters were computed";
   }
   return outcome;
 }

@@ -19,9 +19,10 @@ Weights read_weights(const ConfigNode& node) {
   read("before", weights.before);
   read("path", weights.path);
   read("after", weights.after);
-  if (!(weights.posture + weights.force > 0.0)) node.fail("posture and force: both 0");
+  if (!(weights.posture + weights.force > 0.0))
+    node.fail("posture and force: both are 0; expected one above 0");
   if (!(weights.before + weights.path + weights.after > 0.0)) {
-    node.fail("before, path and after: all 0");
+    node.fail("before, path and after: all are 0; expected one above 0");
   }
   return weights;
 }

@@ -39,7 +39,7 @@ class RunReader {
             const SamplingOptions& options)
       : recording_(recording), model_(*model), options_(options) {
     if (recording.tables.empty() || recording.end() <= recording.begin()) {
-      fail("holds less than two rows");
+      fail("fewer than two rows; expected a recording");
     }
     const Replay names_are_known(model, recording, ReplayMode::kReference);
     for (const MuscleModel& muscle : model_.muscles) read_muscle(muscle.name);
@@ -60,8 +60,9 @@ class RunReader {
     run.lead = std::max(0.0, origin_);
     run.duration = end_ - origin_;
     if (run.duration < options_.shortest) {
-      fail("ends " + std::to_string(run.duration) + " s after its first command; expected " +
-           std::to_string(options_.shortest) + " s at least");
+      fail("ends " + std::to_string(run.duration) +
+           " s after its first command; expected at least " + std::to_string(options_.shortest) +
+           " s");
     }
     run.after = mean_of(std::max(origin_, end_ - options_.average), end_);
     if (!run.is_trajectory) return run;
@@ -127,7 +128,7 @@ class RunReader {
     for (const double mode : column(name + "/mode", false).values) {
       if (mode != static_cast<double>(ecu::Mode::kPosition)) {
         fail(name + "/mode: " + word_of("mode", static_cast<int>(mode)) +
-             ": expected POSITION; calibration replays position control only");
+             ": expected POSITION; calibration can only use position control");
       }
     }
     column(name + "/reference");
@@ -150,7 +151,7 @@ class RunReader {
       held.t.push_back(told.reference.t[i]);
       held.values.push_back(told.reference.values[i]);
     }
-    if (held.empty()) fail(name + "/reference: no command that its unit followed");
+    if (held.empty()) fail(name + "/reference: its ECU did not follow any command");
     begins_held_.push_back(holds_position(0) ? 1 : 0);
     references_.push_back(std::move(held));
   }
@@ -207,7 +208,8 @@ class RunReader {
         fail(muscle.name +
              "/ecu_state: " + word_of("ecu_state", static_cast<int>(states.values[i])) +
              " at t = " + std::to_string(states.t[i]) +
-             " s: expected ENABLED from the first command to the end; cut the recording before it");
+             " s: expected ENABLED from the first command to the end; end the recording before "
+             "that time");
       }
     }
   }
@@ -216,8 +218,8 @@ class RunReader {
     if (recording_.meta.start == "first") {
       if (!begins_held_[muscle]) {
         fail(model_.muscles[muscle].name +
-             ": without voltage when the recording began: expected one that begins at a reference; "
-             "cut it, or let start of meta.yaml say at which references the robot was");
+             ": had no voltage when the recording began, so its reference at rest is unknown; cut "
+             "off the beginning, or state the references in meta.yaml as start.reference");
       }
       return references_[muscle].values.front();
     }
@@ -331,7 +333,7 @@ std::vector<MeasuredRun> read_runs(const std::string& folder,
     const auto [same, is_new] = known.emplace(resume::content_fingerprint(recording), path);
     if (!is_new) {
       throw BadInput(path + ": the same recording as " + same->second +
-                     ", which would count twice: expected every run once");
+                     "; expected every recording once");
     }
     leave_out_unanswered(recording);
     runs.push_back(read_run(recording, model, options));

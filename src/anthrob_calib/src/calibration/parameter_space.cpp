@@ -18,7 +18,7 @@ double number_at(const ConfigNode& model, const std::string& path) {
     const auto items = node.items();
     const bool is_index =
         !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
-    if (!is_index || std::stoul(word) >= items.size()) node.fail("no entry " + word);
+    if (!is_index || std::stoul(word) >= items.size()) node.fail("has no entry " + word);
     node = items[std::stoul(word)];
   }
   return node.as_number(Bounds::any(), "1");
@@ -29,7 +29,7 @@ ParameterSpace::ParameterSpace(const ConfigNode& config, const ConfigNode& model
   if (config.has("shares")) {
     for (const ConfigNode& entry : config.at("shares").items()) read_share(entry, model);
   }
-  if (parameters_.empty()) config.at("parameters").fail("no parameter to calibrate");
+  if (parameters_.empty()) config.at("parameters").fail("empty; expected at least one parameter");
 }
 
 void ParameterSpace::read_share(const ConfigNode& entry, const ConfigNode& model) {
@@ -48,11 +48,11 @@ void ParameterSpace::read_share(const ConfigNode& entry, const ConfigNode& model
   const double value = number_at(model, p.path);
   p.initial = share.base != 0.0 ? value / share.base : p.lower;
   if (p.initial < p.lower || p.initial > p.upper || (share.base == 0.0 && value != 0.0)) {
-    entry.at("path").fail("the model's " + entry.text("of") +
-                          " has a share outside low ... high: expected a range that holds it");
+    entry.at("path").fail("in the model, its share of " + entry.text("of") +
+                          " lies outside low ... high; expected a range that contains it");
   }
   for (const ModelParameter& other : parameters_) {
-    if (other.path == p.path) entry.at("path").fail("it is among the parameters already");
+    if (other.path == p.path) entry.at("path").fail("already listed; expected each path once");
   }
   parameters_.push_back(p);
   shares_.push_back(share);

@@ -32,8 +32,8 @@ ForeignColumns::Entry load_entry(const ConfigNode& node) {
       holds_words(named.quantity())) {
     node.at("to").fail_expected("<muscle or joint>/<quantity of numbers>, as in docs/files.md");
   }
-  entry.scale = node.number_or("scale", 1.0, Bounds::any(), "ours per theirs");
-  entry.offset = node.number_or("offset", 0.0, Bounds::any(), "ours");
+  entry.scale = node.number_or("scale", 1.0, Bounds::any(), "unit of to per unit of from");
+  entry.offset = node.number_or("offset", 0.0, Bounds::any(), "unit of to");
   entry.table = node.text_or("table", "");
   return entry;
 }
@@ -57,7 +57,7 @@ ForeignColumns::Orientation load_orientation(const ConfigNode& node) {
   if (euler) {
     orientation.order = angles.text("order");
     if (!is_order(orientation.order)) {
-      angles.at("order").fail_expected("three of x, y and z, no two neighbours the same");
+      angles.at("order").fail_expected("three of x, y and z, no two neighbours equal");
     }
   }
   const std::string unit = angles.text_or("unit", "rad");
@@ -88,14 +88,14 @@ void load_modes(const ConfigNode& node, std::vector<ForeignColumns::Entry>& entr
       entry.mode = mode;
       any = true;
     }
-    if (!any)
-      word.fail(muscle + (muscle.empty() ? "" : ": ") + "no column goes to such a reference");
+    if (!any) word.fail("no column has to: " + (muscle.empty() ? "MUSCLE" : muscle) + "/reference");
   };
   if (!node.is_map()) return give(node, "");
   for (const auto& [muscle, word] : node.entries()) give(word, muscle);
 }
 
-/// What is not said of tables: by what the whole list says of each name.
+/// Chooses the tables that are not given, by whether the list has a quantity of muscles under that
+/// name.
 void choose_tables(std::vector<ForeignColumns::Entry>& entries) {
   std::set<std::string> muscles;
   for (const ForeignColumns::Entry& entry : entries) {
@@ -132,14 +132,14 @@ ForeignColumns ForeignColumns::load(const std::string& file) {
     columns.time = node.at("time").text("column");
     columns.time_scale = node.at("time").number_or("scale", 1.0, Bounds::positive(), "s");
   } else if (!node.has("rate")) {
-    node.fail("key 'time' is missing, or, without a column of it, 'rate' [Hz]");
+    node.fail("expected the key 'time' or, if there is no column of times, 'rate' [Hz]");
   } else {
     columns.rate = node.number("rate", Bounds::positive(), "Hz");
     columns.meta.rate = columns.rate;
   }
   std::set<std::string> seen;
   const auto refuse_twice = [&](const ConfigNode& item, const std::string& to) {
-    if (!seen.insert(to).second) item.at("to").fail("named twice");
+    if (!seen.insert(to).second) item.at("to").fail("used twice; expected each quantity once");
   };
   for (const ConfigNode& item : node.at("columns").items()) {
     if (item.has("euler") || item.has("rotation_vector")) {

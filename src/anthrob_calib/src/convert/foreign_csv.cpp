@@ -64,7 +64,7 @@ class ForeignReader {
       if (!trimmed(line).empty()) read_row(cells_of(line, columns_.separator), &dataset);
     }
     if (dataset.tables.front().t.size() < 2) {
-      throw BadInput(file_ + ": less than two rows; expected a recording");
+      throw BadInput(file_ + ": fewer than two rows; expected a recording");
     }
     return dataset;
   }
@@ -94,7 +94,7 @@ class ForeignReader {
     const auto found = std::find(header_.begin(), header_.end(), name);
     if (found != header_.end()) {
       if (std::find(found + 1, header_.end(), name) != header_.end()) {
-        throw BadInput(file_ + ": column '" + name + "' is there twice: expected it once");
+        throw BadInput(file_ + ": column '" + name + "' appears twice; expected it once");
       }
       return static_cast<std::size_t>(found - header_.begin());
     }
@@ -122,14 +122,15 @@ class ForeignReader {
     if (!columns_.time.empty()) t = columns_.time_scale * number(cells, time_);
     if (!std::isfinite(t)) fail("column '" + columns_.time + "': empty; expected a time");
     const auto stamp = static_cast<Nanoseconds>(std::llround(1e9 * t));
-    if (count_ > 1 && stamp <= last_) fail("time does not grow; expected each row later");
+    if (count_ > 1 && stamp <= last_)
+      fail("time does not increase; expected every row later than the one before");
     return last_ = stamp;
   }
 
   void read_row(const std::vector<std::string>& cells, Dataset* dataset) {
     if (cells.size() != header_.size()) {
       fail(std::to_string(cells.size()) + " cells; expected " + std::to_string(header_.size()) +
-           ", as many as the header has");
+           ", as in the header");
     }
     const Nanoseconds t = time(cells);
     for (Table& table : dataset->tables) table.t.push_back(t);

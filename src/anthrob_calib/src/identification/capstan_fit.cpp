@@ -54,8 +54,9 @@ CapstanFit fit_capstan(const std::vector<SlidingPoint>& points, double turning_s
   if (points.empty()) throw BadInput("no steady motion over the eyelet in any recording");
   const Layout layout(points);
   if (static_cast<int>(points.size()) <= layout.count) {
-    throw BadInput(std::to_string(points.size()) +
-                   " pieces of steady motion: expected several loads, each pulled and relaxed");
+    throw BadInput(
+        std::to_string(points.size()) +
+        " pieces of steady motion are too few; expected several loads, each pulled and relaxed");
   }
   LeastSquares problem;
   problem.residual_count = points.size();

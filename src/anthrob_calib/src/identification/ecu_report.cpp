@@ -41,7 +41,7 @@ std::string drop_figure(const EcuResult& result) {
 }
 
 std::string power_stage_yaml(const Estimate& resistance) {
-  return "# Identified by anthrob_identify ecu; belongs into an actuator of a model "
+  return "# Identified by anthrob_identify ecu. Paste it into an actuator of a model "
          "file.\npower_stage:\n  resistance: " +
          rounded(resistance.value, 4) + "  # [ohm] 95 %: " + rounded(resistance.lo, 4) + " to " +
          rounded(resistance.hi, 4) + "\n";

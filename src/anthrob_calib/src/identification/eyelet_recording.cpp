@@ -71,7 +71,8 @@ double constant_load(const Dataset& recording) {
       std::minmax_element(columns.values[0].begin(), columns.values[0].end());
   if (!(*least > 0.0) || *most - *least > 0.01 * *most) {
     throw BadInput(recording_name(recording) + ": weight/load: from " + exact_text(*least) +
-                   " to " + exact_text(*most) + " N: expected one positive load a recording");
+                   " to " + exact_text(*most) +
+                   " N: expected one constant positive load per recording");
   }
   return *least;
 }
@@ -109,7 +110,7 @@ EyeletRecording EyeletRecording::read(const Dataset& recording) {
   }
   if (result.points.empty()) {
     throw BadInput(result.name +
-                   ": tendon/position: nowhere steady for 1.4 s: expected the line pulled or "
+                   ": tendon/position: never steady for 1.4 s: expected the line pulled or "
                    "relaxed at constant speed; is the recording cut off?");
   }
   return result;

@@ -102,8 +102,8 @@ void add_coefficients(const EyeletResult& result, SvgFigure& figure) {
 
 std::string friction_yaml(const CapstanFit& fit) {
   const double mu = fit.both.value;
-  return "# Identified by anthrob_identify eyelet; belongs into a model file. Not measured by this "
-         "rig: static (kinetic / 0.8,\n# the ratio of the thesis), stribeck_velocity and "
+  return "# Identified by anthrob_identify eyelet. Paste it into a model file. This rig does not "
+         "measure static (here\n# kinetic / 0.8, the ratio of the thesis), stribeck_velocity and "
          "steepness.\neyelet_friction:\n  law: smooth_stribeck\n  static: " +
          rounded(mu / kStaticRatio, 4) + "  # [1]\n  kinetic: " + rounded(mu, 4) +
          "  # [1] 95 %: " + rounded(fit.both.lo, 4) + " to " + rounded(fit.both.hi, 4) +

@@ -94,7 +94,7 @@ Eigen::MatrixXd covariance_of(const LeastSquares& problem, const Eigen::VectorXd
   const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
   if (!(eigen.eigenvalues()[0] > 1e-12 * eigen.eigenvalues().maxCoeff())) {
-    throw std::runtime_error("the data cannot tell the parameters of the fit apart");
+    throw std::runtime_error("the data cannot distinguish the parameters of the fit");
   }
   const Eigen::MatrixXd inverse = eigen.eigenvectors() *
                                   eigen.eigenvalues().cwiseInverse().asDiagonal() *

@@ -16,7 +16,7 @@ void require_writable(const std::string& folder) {
   const bool made = fs::create_directories(folder, error);
   std::error_code unseen;
   if (!fs::is_directory(folder, unseen)) {
-    throw std::runtime_error("--out " + folder + ": cannot be made: " +
+    throw std::runtime_error("--out " + folder + ": cannot be created: " +
                              (error    ? error.message()
                               : unseen ? unseen.message()
                                        : "it is a file") +
@@ -29,7 +29,7 @@ void require_writable(const std::string& folder) {
     throw std::runtime_error("--out " + folder + ": " + reason.what());
   }
   fs::remove(probe, error);
-  // What is refused later shall leave nothing behind.
+  // If a later check refuses the input, no empty folder is left behind.
   if (made) fs::remove(folder, error);
 }
 
@@ -39,7 +39,7 @@ void require_kept(const std::string& folder, const std::vector<std::string>& nam
     const std::string written = fs::weakly_canonical(fs::path(folder) / name).string();
     if (std::find(read.begin(), read.end(), written) == read.end()) continue;
     throw BadInput("--out " + folder + ": its " + name +
-                   " is read and would be replaced; expected another folder");
+                   " is an input of this run and would be overwritten; expected another folder");
   }
 }
 

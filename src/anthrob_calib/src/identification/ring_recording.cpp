@@ -149,7 +149,7 @@ class Reader {
                                         test.expansion.end(), 0.0) /
                         static_cast<double>(size - half);
     if (!(held > 0.0)) {
-      fail(stretch.begin, "the ring is not stretched although its reference grew");
+      fail(stretch.begin, "the ring is not stretched although ring/reference increased");
     }
     for (test.hold = start; test.expansion[test.hold] < kReached * held;) ++test.hold;
     test.strain = held / l0;

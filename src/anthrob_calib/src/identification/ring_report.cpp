@@ -44,7 +44,7 @@ std::string spring_yaml(const RingResult& ring, const RingModelResult& model) {
 }
 
 std::string springs_yaml(const std::vector<RingResult>& rings) {
-  std::string out = "# Identified by anthrob_identify see; belongs into a model file.\nsprings:\n";
+  std::string out = "# Identified by anthrob_identify see. Paste it into a model file.\nsprings:\n";
   for (const RingResult& ring : rings) {
     out += "  # from " + ring.recordings[ring.fitted].name + "\n";
     for (const RingModelResult& model : ring.models) {

@@ -109,7 +109,7 @@ SearchResult EvolutionStrategy::minimise(const std::vector<SearchVariable>& vari
     parents = select(std::move(offspring), settings_.parents);
     if (parents.empty()) return {best.y, best.fitness, "no valid individual left"};
   }
-  return {best.y, best.fitness, "all generations done"};
+  return {best.y, best.fitness, "limit of generations reached"};
 }
 
 }  // namespace calibration

@@ -38,7 +38,7 @@ Journal::Journal(Evaluator& evaluator, Options options)
   if (options_.resume) {
     load();
   } else {
-    write();  // a search that writes down nothing can be begun anew all the same
+    write();  // so that there is a journal to resume even before the first evaluation
   }
 }
 
@@ -51,7 +51,7 @@ void Journal::load() {
   if (title != kTitle + options_.fingerprint) {
     throw BadInput(options_.file +
                    ": belongs to other data, another configuration or another model; expected the "
-                   "same ones, or no --resume");
+                   "same ones, or another --out without --resume");
   }
   std::string program;
   std::getline(in, program);
@@ -100,7 +100,8 @@ std::vector<double> Journal::fitness(const std::vector<Point>& points) {
       const Entry& entry = entries_[known + i];
       if (entry.point != fingerprint_of(points[i])) {
         throw BadInput(options_.file + ": evaluation " + std::to_string(known + i + 1) +
-                       " was of another point; the program has changed: start without --resume");
+                       " was made for other parameter values, because the program has changed; "
+                       "start again with another --out, without --resume");
       }
       fitness.push_back(entry.fitness);
       ++replayed_;

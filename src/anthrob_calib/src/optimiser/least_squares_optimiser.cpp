@@ -168,11 +168,12 @@ SearchResult LeastSquaresOptimiser::minimise(const std::vector<SearchVariable>& 
     for (std::size_t i = 0; i < down.sensitivity.size(); ++i) {
       sensitivity[i] = std::max(sensitivity[i], down.sensitivity[i]);
     }
-    if (down.end == Descent::kInvalidStart) return {point, HUGE_VAL, "the start is invalid"};
+    if (down.end == Descent::kInvalidStart) return {point, HUGE_VAL, "the start is not valid"};
     if (down.end == Descent::kStuck) return end("no better point found");
-    if (jacobians <= 0) return end("all iterations done");
+    if (jacobians <= 0) return end("limit of Jacobians reached");
     const Descent other = better_valley(variables, down, evaluator, jacobians);
-    if (other.point == down.point) return end(jacobians > 0 ? "converged" : "all iterations done");
+    if (other.point == down.point)
+      return end(jacobians > 0 ? "converged" : "limit of Jacobians reached");
     down = other;
   }
 }

@@ -38,10 +38,10 @@ void OptimiserSettings::check(const ConfigNode& node) const {
     node.at("parents").fail_expected("at most as many parents as offspring");
   }
   if (method != "evolution_strategy" && target > 0.0) {
-    node.at("target").fail_expected("0: " + method + " does not stop at a fitness");
+    node.at("target").fail_expected("0: only evolution_strategy stops at a target fitness");
   }
   if ((method == "cmaes" || method == "sade" || method == "bee_colony") && offspring < 7) {
-    node.fail("offspring: " + std::to_string(offspring) + ": expected 7 at least for " + method);
+    node.fail("offspring: " + std::to_string(offspring) + ": expected at least 7 for " + method);
   }
 }
 

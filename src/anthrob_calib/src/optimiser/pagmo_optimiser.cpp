@@ -94,7 +94,7 @@ SearchResult PagmoOptimiser::minimise(const std::vector<SearchVariable>& variabl
   population = make_algorithm(settings_).evolve(population);
   const double fitness = population.champion_f().front();
   return {scaled.unscaled(population.champion_x()), fitness < kInvalid ? fitness : HUGE_VAL,
-          "all generations done"};
+          "limit of generations reached"};
 }
 
 }  // namespace calibration

@@ -75,7 +75,7 @@ ResultFile<Scalar>::ResultFile(std::string file, std::uint64_t context) : file_(
   if (descriptor_ < 0) fail(file_);
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     close(descriptor_);
-    throw BadInput(file_ + ": used by another run: expected a folder of its own");
+    throw BadInput(file_ + ": in use by another run; expected another --out folder");
   }
   char title[kHeader];
   char wanted[kHeader];

@@ -14,7 +14,7 @@
 
 namespace anthrob::reference {
 
-/// What can be known about one muscle.
+/// Quantities of one muscle.
 struct MuscleReadings {
   double position = 0.0;       ///< gear output, winding in positive, 0 at l_T = l_T0 [rad]
   double velocity = 0.0;       ///< gear output [rad/s]
@@ -48,7 +48,8 @@ class Arm final {
   /// Multiplies the present friction coefficients of all eyelets.
   void scale_eyelet_friction(double factor);
 
-  /// What this arm does beside its equations. Laws remember: give each arm its own, before place().
+  /// Adds a law to the equations of this arm. Laws have state: give each arm its own, before
+  /// place().
   void add_law(std::size_t i, std::shared_ptr<MuscleLaw> law);
   void add_law(std::shared_ptr<JointLaw> law);
 

@@ -6,10 +6,10 @@
 
 namespace anthrob::reference {
 
-/// @throws std::invalid_argument naming condition and value unless `holds`.
+/// @throws std::invalid_argument naming condition and value if `holds` is false
 inline void require(bool holds, const std::string& condition, double value) {
   if (!holds) {
-    throw std::invalid_argument(condition + " is violated by " + std::to_string(value));
+    throw std::invalid_argument("expected " + condition + ", got " + std::to_string(value));
   }
 }
 

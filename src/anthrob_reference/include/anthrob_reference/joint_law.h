@@ -4,8 +4,8 @@
 
 namespace anthrob::reference {
 
-/// What the joints do beside their equations: generalised torques on the skeleton. As with
-/// MuscleLaw only settle() changes what a law remembers.
+/// A law added to the equations of the joints: generalised torques on the skeleton. As with
+/// MuscleLaw, only settle() changes the state of a law.
 class JointLaw {
  public:
   virtual ~JointLaw() = default;

@@ -8,8 +8,8 @@ namespace anthrob::reference {
 
 /// Reads a model file and the skeleton it names. `extends: other.yaml` (relative to the file)
 /// merges maps recursively and replaces everything else.
-/// @throws std::runtime_error naming file and key: missing, misspelt, or asking for something that
-///   this model has no equation for.
+/// @throws std::runtime_error naming file and key, if a key is missing or misspelt, or if it needs
+///   something that this model has no equation for
 ArmParameters load_arm(const std::string& model_file);
 
 /// Fills frames, masses, elbow axis and elbow range from a URDF with the links base, humerus and

@@ -9,10 +9,10 @@ namespace anthrob::reference {
 struct MuscleState;
 struct MuscleSolution;
 
-/// What one muscle does beside its equations: a hook at each seam of the force chain, and every
-/// hook is neutral here. Within an integration step a law is a pure function of the state and of
-/// its own memory; only settle() changes the memory, between two steps, so that a step which is cut
-/// and repeated leaves no trace. What is remembered lags by less than one step.
+/// A law added to the equations of one muscle. It has a hook at each stage of the force chain; the
+/// hooks of this base class have no effect. Within an integration step a law is a pure function of
+/// the state and of its own memory. Only settle() changes the memory, between two steps, so that a
+/// step may be shortened and repeated. The memory lags by less than one step.
 class MuscleLaw {
  public:
   virtual ~MuscleLaw() = default;
@@ -22,22 +22,23 @@ class MuscleLaw {
   virtual double leverage(double /*position*/) const { return 0.0; }
   /// Length of the tendon beyond l_T [m].
   virtual double elongation() const { return 0.0; }
-  /// Force beside the ring's at this stretch of the ring [N]; a slack ring has none.
+  /// Additional force at this stretch of the ring [N]; a slack ring has none.
   virtual double spring_force(double /*stretch*/) const { return 0.0; }
-  /// Coefficient of friction of an eyelet whose law so far says `before`, and its slope [s/m].
+  /// Coefficient of friction of an eyelet, and its slope [s/m]; `before` is the value without this
+  /// law.
   virtual double friction(std::size_t /*eyelet*/, double /*sliding*/, double before) const {
     return before;
   }
   virtual double friction_slope(std::size_t /*eyelet*/, double /*sliding*/, double before) const {
     return before;
   }
-  /// Torque on the gear's output beside motor and tendon [Nm].
+  /// Additional torque on the gear's output [Nm].
   virtual double output_torque(double /*position*/, double /*speed*/) const { return 0.0; }
 
   /// An integration step of h [s] has led to this state.
   virtual void settle(double /*h*/, const MuscleState& /*state*/,
                       const MuscleSolution& /*solution*/) {}
-  /// Changes the motor of the steps to come; returns whether anything changed.
+  /// Changes the motor for the following steps; returns whether anything changed.
   virtual bool retune(MotorParameters* /*motor*/) { return false; }
 };
 

@@ -21,7 +21,7 @@ struct CalibrationRobotSettings {
   static CalibrationRobotSettings load(const std::string& file);
 };
 
-/// The arm with its forearm detached: eight muscles; what is left of the forearm weighs nothing.
+/// The arm with its forearm detached: eight muscles; the forearm that remains has negligible mass.
 reference::ArmParameters detached(const reference::ArmParameters& arm);
 
 /// The same arm with errors of calibration; the shoulder of one seed is the same in both tiers.
@@ -29,7 +29,7 @@ reference::ArmParameters with_table_errors(const reference::ArmParameters& arm,
                                            const CalibrationRobotSettings& settings,
                                            std::uint64_t seed);
 
-/// What the models lack, in place.
+/// Adds the effects that the models lack.
 Draft with_hidden(const reference::ArmParameters& arm, const CalibrationRobotSettings& settings);
 
 }  // namespace anthrob::virtual_robot

@@ -8,8 +8,8 @@
 
 namespace anthrob::virtual_robot {
 
-/// How far two runs of the same commands differ, channel by channel: root mean square over that of
-/// what a sensor errs by. "biceps_brachii/force" -> 4.2
+/// Difference of two runs of the same commands, by channel: its root mean square divided by that of
+/// the sensor's error. "biceps_brachii/force" -> 4.2
 std::map<std::string, double> difference(const Recording& a, const Recording& b,
                                          const reference::ArmParameters& arm,
                                          const SensorSettings& sensors);

@@ -4,9 +4,9 @@
 
 namespace anthrob::virtual_robot {
 
-/// A factor for which `change` is near `target`, within [least, most]; `change` grows with it. A
-/// secant on logarithms between the nearest on both sides, at most `tries` evaluations; of those the
-/// nearest.
+/// Finds a factor within [least, most] for which `change` is near `target`; `change` must grow with
+/// it. Uses secants on logarithms between the nearest values on both sides, and returns the best of
+/// at most `tries` evaluations.
 double dose(const std::function<double(double)>& change, double target, double least, double most,
             int tries = 6);
 

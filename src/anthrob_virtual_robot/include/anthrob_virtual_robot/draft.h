@@ -11,11 +11,11 @@
 
 namespace anthrob::virtual_robot {
 
-/// A robot about to be built: numbers of the reference arm, and laws beside them. Laws remember, so
-/// a draft serves for one robot.
+/// Description of a robot to build: parameters of the reference arm, and additional laws. Laws have
+/// state, so a draft can be used for one robot only.
 struct Draft {
   reference::ArmParameters arm;
-  std::uint64_t run = 0;  ///< of one robot: what happens by chance is other in each
+  std::uint64_t run = 0;  ///< number of the run: random events differ between runs
   std::vector<std::pair<std::size_t, std::shared_ptr<reference::MuscleLaw>>> muscle_laws;
   std::vector<std::shared_ptr<reference::JointLaw>> joint_laws;
   std::vector<std::shared_ptr<CommandLaw>> command_laws;
@@ -24,7 +24,7 @@ struct Draft {
 
   /// @throws std::invalid_argument
   std::size_t muscle(const std::string& name) const;
-  /// Of a place: one muscle, or all of them for "all".
+  /// Indices of the muscles at a place: one, or all of them for "all".
   std::vector<std::size_t> muscles(const std::string& place) const;
 };
 

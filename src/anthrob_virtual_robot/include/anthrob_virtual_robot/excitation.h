@@ -7,15 +7,15 @@
 
 namespace anthrob::virtual_robot {
 
-/// References of all muscles from a time on [s], [rad].
+/// References of all muscles [rad], in force from a time on [s].
 struct Command {
   double t = 0.0;
   std::vector<double> references;
 };
 
-/// Moves through postures of the whole workspace that show most of what an arm can have: slow and
-/// fast motion, pauses, the same posture from several sides and at several levels of
-/// co-contraction, small reversals. References are those of the model that one believes in.
+/// Motion through the whole workspace that makes most effects of an arm visible: slow and fast
+/// motion, pauses, the same posture from several sides and at several levels of co-contraction,
+/// small reversals. References are computed with the believed model.
 std::vector<Command> excitation(const reference::ArmParameters& believed, double seconds,
                                 Random random);
 

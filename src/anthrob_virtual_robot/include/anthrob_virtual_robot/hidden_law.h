@@ -13,11 +13,11 @@ namespace anthrob::virtual_robot {
 
 using Parameters = std::map<std::string, double>;
 
-/// One thing that a robot has and its model lacks.
+/// One effect that a robot has and its model lacks.
 struct Hidden {
   std::string id;
   std::string place;
-  Parameters parameters;  ///< in the words and units of the effect catalogue where it has them
+  Parameters parameters;  ///< names and units of the effect catalogue, if it has them
 
   double operator[](const std::string& name) const { return parameters.at(name); }
 };
@@ -28,33 +28,33 @@ struct ModelNumber {
   std::function<double&(reference::ArmParameters*, const std::string& place)> in;
 };
 
-/// A kind of hidden thing. Its law is this package's own: equations of the same name elsewhere may
-/// differ, as a real robot's do from any catalogue's.
+/// A kind of hidden effect. This package has its own equations. They may differ from those of the
+/// catalogue's effect of the same name, as those of a real robot would.
 struct HiddenLaw {
   std::string id;
-  std::string law;                 ///< one line: which law it is
-  std::vector<std::string> sizes;  ///< parameters that say how much of it there is; 0 is none
+  std::string law;                 ///< one line that describes the law
+  std::vector<std::string> sizes;  ///< parameters that give its size; 0: no effect
   std::function<std::vector<std::string>(const reference::ArmParameters&)> places;
-  /// A typical one of its kind.
+  /// Draws typical parameters.
   std::function<Parameters(const reference::ArmParameters&, const std::string& place, Random*)>
       draw;
   std::function<void(const Hidden&, Draft*)> build;
-  /// Of what `build` changes that which an ordinary calibration corrects, alone; none: nothing.
+  /// Applies only the part of `build` that an ordinary calibration corrects; empty: there is none.
   std::function<void(const Hidden&, Draft*)> ordinary = {};
-  /// What the first size adds to, if it is the same quantity as a number of the model file. What
-  /// an ordinary calibration may correct of it is no effect.
+  /// The number of the model file that the first size adds to, if it is the same quantity. The part
+  /// of the size that an ordinary calibration may correct does not count as an effect.
   std::optional<ModelNumber> same_as = {};
   double least = 0.02;   ///< smallest factor on the typical sizes that is still plausible
   double most = 5.0;     ///< largest one
-  double neutral = 0.0;  ///< value of the sizes at which there is nothing
+  double neutral = 0.0;  ///< value of the sizes without effect
   bool slow = false;     ///< needs recordings of two minutes and more
 };
 
-/// Those of the effect catalogue's names.
+/// The laws that the effect catalogue has, too.
 const std::vector<HiddenLaw>& catalogue_laws();
-/// Those that the effect catalogue knows nothing of.
+/// The laws that the effect catalogue lacks.
 const std::vector<HiddenLaw>& outside_laws();
-/// Of either kind. @throws std::invalid_argument
+/// The law of this id, of either kind. @throws std::invalid_argument if there is none
 const HiddenLaw& hidden_law(const std::string& id);
 
 /// The same with its sizes `factor` times as far from neutral.

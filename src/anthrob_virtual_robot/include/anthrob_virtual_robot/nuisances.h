@@ -6,7 +6,7 @@
 
 namespace anthrob::virtual_robot {
 
-/// How far an ordinary calibration may be off: half ranges of uniform errors.
+/// Errors of an ordinary calibration: half ranges of uniform distributions.
 struct NuisanceRanges {
   double rest_tendon_length = 0.0;               ///< [m]
   double spindle_radius = 0.0;                   ///< [m]

@@ -7,18 +7,18 @@
 
 namespace anthrob::virtual_robot {
 
-/// Where the joints should be, and how hard the muscles pull against each other there.
+/// A posture, and the co-contraction of the muscles there.
 struct Pose {
   Eigen::Vector3d shoulder = Eigen::Vector3d::Zero();  ///< rotation vector from rest, humerus axes
   double elbow = 0.0;                                  ///< [rad]
-  double lowest_tension = 1.0;                         ///< of any muscle [N]
+  double lowest_tension = 1.0;                         ///< least tension of any muscle [N]
 };
 
 Eigen::Quaterniond rotation(const Eigen::Vector3d& vector);
 Pose blend(const Pose& a, const Pose& b, double share);
 
-/// Least sum of squares of f with A f = torque and f >= lowest; where that cannot be, the nearest
-/// torque. Newton's method on the dual.
+/// Tensions f with the least sum of squares for which A f = torque and f >= lowest; if there are
+/// none, those with the nearest torque. Newton's method on the dual problem.
 Eigen::VectorXd least_effort(const Eigen::MatrixXd& A, const Eigen::VectorXd& torque,
                              double lowest);
 

@@ -21,17 +21,17 @@ struct Readings {
   double elbow = 0.0;                                            ///< [rad]
 };
 
-/// Something between what is and what sensors see, once an ECU period, in the order of
-/// installation.
+/// A law that changes the true values before the sensors measure them; applied once per ECU period,
+/// in the order of installation.
 class ReadingLaw {
  public:
   virtual ~ReadingLaw() = default;
-  /// The robot is put somewhere: what was read before does not count.
+  /// The robot was placed: forget earlier readings.
   virtual void start() {}
   virtual void apply(Readings* readings) = 0;
 };
 
-/// Something between control law and motors, once an ECU period.
+/// A law that changes the voltages between control law and motors, once per ECU period.
 class PowerLaw {
  public:
   virtual ~PowerLaw() = default;
@@ -40,7 +40,7 @@ class PowerLaw {
                      std::vector<double>* voltages) = 0;
 };
 
-/// Something between commands and control law, once an ECU period.
+/// A law that changes the references between commands and control law, once per ECU period.
 class CommandLaw {
  public:
   virtual ~CommandLaw() = default;

@@ -26,11 +26,11 @@ struct RecordingSettings {
   int mocap_divider = 20;
 };
 
-/// Settles at the first command, then follows all of them as follow() does.
+/// Settles at the first command, then follows all commands as follow() does.
 Recording record(Robot* robot, const std::vector<Command>& commands, double seconds,
                  const RecordingSettings& settings);
 
-/// Goes on from where the robot is; `t` of the commands counts from now.
+/// Continues from the present state of the robot; `t` of the commands counts from now.
 Recording follow(Robot* robot, const std::vector<Command>& commands, double seconds,
                  const RecordingSettings& settings);
 

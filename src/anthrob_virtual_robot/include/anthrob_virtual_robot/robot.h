@@ -10,13 +10,14 @@
 
 namespace anthrob::virtual_robot {
 
-/// The virtual robot: reference arm, hidden laws, sensors and ECUs. ECUs see what the sensors say.
+/// The virtual robot: reference arm, hidden laws, sensors and ECUs. The ECUs get the measured
+/// values.
 class Robot final {
  public:
   static constexpr double kStep =
       2.5e-4;  ///< of the arm; errs by less than 1e-3 of sensor noise [s]
 
-  /// Without sensors' errors if `sensors` is null.
+  /// @param sensors null: no sensor errors
   Robot(Draft draft, const SensorSettings* sensors, std::uint64_t noise_seed);
 
   /// At the rest posture with spindles at these positions [rad], holding them.
@@ -28,7 +29,7 @@ class Robot final {
   double period() const { return period_; }
   std::size_t muscle_count() const { return controllers_.size(); }
   const reference::Arm& arm() const { return arm_; }
-  /// Of now, as sensors say, and as it is.
+  /// Present measured values, and the true ones.
   const Readings& measured() const { return measured_; }
   const Readings& truth() const { return truth_; }
   /// Output of the control law of the last period [V].

@@ -14,7 +14,7 @@ struct SensorErrors {
   double quantum = 0.0;  ///< one count
   double memory = 0.0;   ///< correlation time of the noise; 0: white [s]
 
-  /// What a reading errs by, root mean square.
+  /// Root mean square error of a reading.
   double sigma() const;
 };
 

@@ -17,13 +17,13 @@ struct Target {
 };
 std::vector<Target> load_targets(const std::string& file, double lowest_tension);
 
-/// A recording session with a virtual robot in the manner of the recorder: every run starts at E0,
-/// at rest. References that lead to a posture are those of the plain geometry first, then corrected
-/// by how far the robot ends from it; what counts is the posture that was measured.
+/// A recording session with a virtual robot, as anthrob_recorder does it: every run starts at E0,
+/// at rest. The references for a posture are first computed from the believed geometry, and then
+/// corrected by the measured error of the posture that they lead to.
 class Session final {
  public:
-  /// @param robot makes the robot anew, with other noise each time
-  /// @param believed the geometry of which references are made
+  /// @param robot builds the robot; a new number each time gives other noise
+  /// @param believed the geometry from which references are computed
   Session(std::function<Robot(std::uint64_t)> robot, const reference::ArmParameters& believed,
           const CalibrationRobotSettings& settings, bool has_elbow);
 
@@ -32,10 +32,10 @@ class Session final {
 
   /// E0 to every posture, "E3_run1"; a posture at the end of each.
   void record_equilibria(const std::string& folder);
-  /// "E0_to_E3_run1" and "E3_to_E0_run1", of these postures or of all: there and, from where that
-  /// ended, back.
+  /// "E0_to_E3_run1" and "E3_to_E0_run1" for these postures, or for all if `names` is empty: there
+  /// and, from where that ended, back.
   void record_trajectories(const std::vector<std::string>& names, const std::string& folder);
-  /// Through these postures and back to E0, a while each.
+  /// Through these postures and back to E0, `each` [s] for every posture.
   void record_tour(const std::vector<std::string>& names, double each, const std::string& name,
                    const std::string& folder);
 

@@ -8,10 +8,11 @@
 
 namespace anthrob::virtual_robot {
 
-/// As tool::run; places and laws that there are not are bad input, too.
+/// As tool::run; std::invalid_argument (for example an unknown law or place) counts as bad input,
+/// too.
 int run_tool(CLI::App& app, int argc, char** argv, const std::function<void()>& body);
 
-/// The arm of a model file. @throws BadInput with one line, whatever is wrong with the file
+/// The arm of a model file. @throws BadInput with one line for any error in the file
 reference::ArmParameters load_arm(const std::string& file);
 
 }  // namespace anthrob::virtual_robot

@@ -10,7 +10,7 @@ double& coordinate(reference::ArmParameters* arm, const std::string& place) {
     if (muscle.name != parts[0]) continue;
     return muscle.path.at(std::stoul(parts[1])).position(parts[2][0] - 'x');
   }
-  throw std::invalid_argument("no muscle " + parts[0]);
+  throw std::invalid_argument(parts[0] + ": no such muscle");
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ HiddenLaw wrapping_surface() {
       const double largest = std::min(elbow ? 0.018 : 0.024, 0.98 * distance);
       return {{"radius", random->uniform(0.85, 1.0) * largest}};
     }
-    throw std::invalid_argument("no muscle " + place);
+    throw std::invalid_argument(place + ": no such muscle");
   };
   law.ordinary = [](const Hidden& h, Draft* draft) {
     if (h["radius"] != 0.0) cut_to_length(h, draft->muscle(h.place), &draft->arm);

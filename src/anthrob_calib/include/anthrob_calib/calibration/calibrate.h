@@ -24,14 +24,14 @@ struct CalibrationInput {
                                const std::vector<std::string>& start);
 
   Problem problem() const;
-  /// Of everything that fitnesses depend on.
+  /// Fingerprint of everything that the fitness depends on.
   std::string fingerprint() const;
 };
 
-/// What is left to do when the search is over: both models over all runs in full length,
-/// identifiability, other drives.
-/// @param thorough false: errors only   @param stop asked before each simulation for
-/// identifiability
+/// Computes the results after the search: simulates all runs in full length with the model before
+/// and after, examines identifiability, and simulates with other inputs (DriveErrors).
+/// @param thorough false: leaves out identifiability and other inputs
+/// @param stop whether to stop; called before each simulation for identifiability
 CalibrationOutcome conclude(const CalibrationInput& input, const Problem& problem,
                             const Journal& journal, const std::string& reason, bool thorough,
                             const std::function<bool()>& stop);

@@ -23,7 +23,7 @@ struct CalibrationConfig {
 
   /// @throws BadInput with one line
   static CalibrationConfig load(const std::string& file);
-  /// @throws BadInput if a run is not of the kind that is asked for
+  /// @throws BadInput if a run is not of the kind that `recordings` asks for
   void check(const std::vector<MeasuredRun>& runs, const std::string& folder) const;
 };
 

@@ -8,19 +8,23 @@
 namespace anthrob {
 namespace calibration {
 
-/// Derivatives that hold as far as noise leaves a parameter open, not only at the point: where a
-/// step to one side changes an instant much less than they promise, they become that little. A
-/// tendon that is just taut at the best point tells a lot there, and nothing as soon as it is
-/// slack.
-/// @param left the stack's list at `best`   @param columns derivatives of the list by steps
+/// Reduces derivatives to what holds for steps as large as the noise leaves the parameter
+/// uncertain, not only at the best point. Where a step to either side changes an instant much less
+/// than its derivative predicts, the derivative is replaced by the difference quotient of that
+/// step. Example: a tendon that is just taut at the best point has large derivatives there, and
+/// none as soon as it is slack.
+/// @param left the stack's list at `best`
+/// @param columns derivatives of the list with respect to each parameter, in steps; changed
 void be_cautious(const std::vector<SearchVariable>& variables, const Point& best,
                  const std::vector<double>& left, const ResidualNoise& noise,
                  DifferenceStack& stack, std::vector<std::vector<double>>& columns);
 
-/// The same along the line that leaves one parameter most room, the others following: a tendon's
-/// length and its spindle together keep one posture and give up another one.
-/// @param sigma of the parameter [steps]   @param direction of the line, by steps
-/// @return whether anything was taken away
+/// The same for steps along a direction in which one parameter changes and the others compensate
+/// for it as well as they can. Example: a tendon's length and its spindle radius can change
+/// together so that one posture stays the same, but not another one.
+/// @param sigma standard error of the parameter [steps]   @param direction in steps
+/// @param jacobian derivatives in steps; changed
+/// @return whether any derivative was reduced
 bool be_cautious_along(const std::vector<SearchVariable>& variables, const Point& best,
                        const std::vector<double>& left, const ResidualNoise& noise,
                        DifferenceStack& stack, double sigma, const Eigen::VectorXd& direction,

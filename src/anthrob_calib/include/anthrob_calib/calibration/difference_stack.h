@@ -11,8 +11,8 @@
 namespace anthrob {
 namespace calibration {
 
-/// All shown differences of all runs in one list, weighted as the fitness weights them. As an
-/// evaluator, so that derivatives() can be taken.
+/// The differences of all runs (RunDifferences::shown()) in one list, weighted as in the fitness.
+/// It is an Evaluator, so that derivatives() can use it.
 class DifferenceStack final : public Evaluator {
  public:
   enum Kind { kPosture, kForce };
@@ -24,14 +24,15 @@ class DifferenceStack final : public Evaluator {
   std::vector<double> fitness(const std::vector<Point>& points) override;
   std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
 
-  /// The list at the best point; rows are described along with it. @throws if it is invalid
+  /// Returns the list at the best point and fills the descriptions of its rows below.
+  /// @throws BadInput, NumericalFailure if the point is invalid
   std::vector<double> describe(const Point& best);
 
   std::vector<Kind> kind;      ///< of each row
   std::vector<double> weight;  ///< of each row
   std::vector<int> instant;    ///< of each row, counted over all runs
   int instants = 0;
-  /// Instants of a trajectory are no independent witnesses: so many of them count as one.
+  /// Neighbouring instants of a trajectory are correlated: this many of them count as one.
   double repetition = 1.0;
 
  private:
@@ -46,12 +47,12 @@ class DifferenceStack final : public Evaluator {
   std::function<void()> before_each_;
 };
 
-/// Noise of postures and forces from what is left. Rows that the parameters could follow count
-/// less: the fit has made them small.
+/// Noise of postures and forces, estimated from the remaining differences. Rows that the parameters
+/// could follow count less, because the fit has made them small.
 struct ResidualNoise {
   double posture = 0.0;         ///< [rad]
   double force = 0.0;           ///< [N]
-  double free[2] = {0.0, 0.0};  ///< rows of each kind that the parameters could not follow
+  double free[2] = {0.0, 0.0};  ///< degrees of freedom of each kind
 
   /// @param left the list at the best point   @param leverage of each row
   ResidualNoise(const DifferenceStack& stack, const std::vector<double>& left,

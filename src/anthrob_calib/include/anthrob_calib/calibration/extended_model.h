@@ -8,11 +8,12 @@
 namespace anthrob {
 namespace calibration {
 
-/// A model file that extends another one by some numbers: `extends:` and what changes. Lists are
-/// written whole, because a file that extends replaces them whole.
-/// @param model what is extended, with its own `extends` merged
+/// Text of a model file that extends another one: `extends:` and the numbers that change. If a
+/// number is in a list, the whole list is written, because an extending file replaces lists as a
+/// whole.
+/// @param model the model that is extended, with its own `extends` merged
 /// @param overrides numbers by key path
-/// @param folder where the text will be put: file names in it are relative to that
+/// @param folder of the new file; file names in the text are relative to it
 /// @param comment first lines, without "# "
 std::string extended_model_text(const ConfigNode& model, const std::string& model_file,
                                 const std::map<std::string, double>& overrides,

@@ -10,29 +10,30 @@
 namespace anthrob {
 namespace calibration {
 
-/// What the data say about one parameter, near the best point.
+/// What the data say about one parameter near the best point.
 struct ParameterKnowledge {
   double sigma = 0.0;        ///< standard error [unit of the parameter]; at most that of its range
-  double prior_sigma = 0.0;  ///< what its range alone says: range / sqrt(12)
-  double freedom = 0.0;      ///< of sigma, for Student's distribution: few rows may be behind it
+  double prior_sigma = 0.0;  ///< standard deviation of its range: range / sqrt(12)
+  double freedom = 0.0;      ///< degrees of freedom of sigma, for Student's distribution
   bool identifiable = false;
 };
 
-/// Fitness along one parameter, the others put where they do best to first order within bounds, or
-/// left where they are, whichever fits better: no more than an upper bound of the best.
+/// Fitness along one parameter. The others are moved within bounds to where they compensate best to
+/// first order, or are left where they are, whichever fits better. So the fitness is an upper bound
+/// of that after a new fit of the others.
 struct Profile {
   std::size_t parameter = 0;
   std::vector<double> value, fitness;  ///< fitness is infinite where the model is invalid
 };
 
-/// Which parameters the data can tell: from the derivatives of all differences at the best point,
-/// as far as these hold for steps that noise leaves open.
+/// Which parameters the data determine. Computed from the derivatives of all differences at the
+/// best point, reduced by be_cautious() to what holds for steps as large as the noise allows.
 struct Identifiability {
   std::vector<ParameterKnowledge> parameters;
-  Eigen::VectorXd singular_values;  ///< of the derivatives by steps, noise at 1
-  std::vector<double> flattest;     ///< direction the data tell least, in steps, length 1
+  Eigen::VectorXd singular_values;  ///< of the derivatives in steps, divided by the noise
+  std::vector<double> flattest;     ///< least identifiable direction, in steps, length 1
   std::vector<Profile> profiles;    ///< of the least identifiable parameters
-  double posture_noise = 0.0;       ///< standard deviation of what is left [rad]
+  double posture_noise = 0.0;       ///< standard deviation of the remaining differences [rad]
   double force_noise = 0.0;         ///< [N]
 };
 

@@ -14,7 +14,7 @@ namespace calibration {
 /// What was measured at some instants: one row each.
 struct Samples {
   std::vector<double> t;     ///< [s] since the first command
-  double window = 0.0;       ///< each row is a mean over so long, t in its middle [s]
+  double window = 0.0;       ///< each row is a mean over this time, t is its middle [s]
   Eigen::MatrixXd q;         ///< joint positions as in Simulation::configuration()
   Eigen::MatrixXd force;     ///< by muscle [N]
   Eigen::MatrixXd position;  ///< of actuators, by muscle [rad]; no columns: not measured
@@ -22,13 +22,13 @@ struct Samples {
   int count() const { return static_cast<int>(t.size()); }
 };
 
-/// References of all muscles from a time on.
+/// References of all muscles, in force from a time on.
 struct Command {
   double t = 0.0;                 ///< [s] since the first command
   std::vector<double> reference;  ///< by muscle [rad]
 };
 
-/// A recording as calibration sees it: a robot at rest, commands, and what came of them.
+/// A recording as calibration uses it: a robot at rest, commands, and the measured response.
 /// Time starts when the references first change.
 struct MeasuredRun {
   std::string name;
@@ -38,28 +38,28 @@ struct MeasuredRun {
   Samples before;                    ///< one row, the posture at rest; none for an equilibrium
   Samples path;                      ///< evenly spaced; none for an equilibrium
   Samples after;                     ///< one row: the posture at the end
-  double settle = 5.0;               ///< at `start`, before the recording began [s]
-  double lead = 0.0;                 ///< still there, from then to the first command [s]
-  double duration = 0.0;             ///< from then on [s]
+  double settle = 5.0;               ///< time at `start` before the recording began [s]
+  double lead = 0.0;                 ///< time from then to the first command [s]
+  double duration = 0.0;             ///< time from the first command to the end [s]
   std::uint64_t content = 0;         ///< resume::content_fingerprint of its recording
   std::vector<std::string> remarks;  ///< of its recording
 };
 
 struct SamplingOptions {
   double rate = 100.0;    ///< of path [Hz]
-  double average = 0.1;   ///< postures at rest are means over so long [s]
-  double shortest = 0.5;  ///< a recording has to go on so long after its first command [s]
+  double average = 0.1;   ///< postures at rest are means over this time [s]
+  double shortest = 0.5;  ///< least duration of a recording after its first command [s]
 };
 
-/// @throws BadInput with one line if the recording is no run of this robot in position control, or
-/// lacks what calibration needs
+/// @throws BadInput with one line if the recording is not a run of this robot under position
+/// control, or lacks columns that calibration needs
 MeasuredRun read_run(const Dataset& recording, const std::shared_ptr<const RobotModel>& model,
                      const SamplingOptions& options = {});
 
-/// The recordings of a folder (dataset folders and bags, in natural order of their names), or the
-/// one recording that it is.
-/// @throws BadInput if there is none, one cannot be used, or one is there twice (a bag beside the
-/// folder that it was converted to)
+/// Reads the recordings in a folder (dataset folders and bags, in natural order of their names), or
+/// the single recording at that path.
+/// @throws BadInput if there is none, if one cannot be used, or if two are the same (for example a
+/// bag and the folder that it was converted to)
 std::vector<MeasuredRun> read_runs(const std::string& folder,
                                    const std::shared_ptr<const RobotModel>& model,
                                    const SamplingOptions& options = {});

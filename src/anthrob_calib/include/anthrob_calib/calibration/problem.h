@@ -10,8 +10,8 @@
 namespace anthrob {
 namespace calibration {
 
-/// What is to be made small: a model with free parameters, runs of the robot, and weights. Knows no
-/// optimiser. All members may be called from many threads at once.
+/// The function to minimise: a model with free parameters, runs of the robot, and weights. It does
+/// not depend on the optimiser. All members may be called from several threads at once.
 class Problem {
  public:
   Problem(ConfigNode model, ParameterSpace space, std::vector<MeasuredRun> runs, Weights weights,
@@ -25,8 +25,8 @@ class Problem {
   /// @throws BadInput if the parameters make no valid model (a path point inside a surface)
   std::shared_ptr<const RobotModel> build(const std::vector<double>& values) const;
 
-  /// F_S or F_D: the mean over runs; infinite for an invalid individual, one whose model cannot be
-  /// built or whose motion is no longer finite.
+  /// F_S (5.9) or F_D (5.20): the mean over runs. Infinite for an invalid individual: its model
+  /// cannot be built, or its motion does not stay finite.
   double fitness(const std::vector<double>& values) const;
   /// Numbers whose squares add up to the fitness; empty for an invalid individual.
   std::vector<double> residuals(const std::vector<double>& values) const;

@@ -19,8 +19,8 @@ struct Weights {
 
 /// Simulated minus measured at some instants: one row each.
 struct Differences {
-  /// By joint: the number, or the rotation vector of a ball joint, whose length is the angular
-  /// distance [rad].
+  /// By joint: difference of the position [rad, m], or the rotation vector of a ball joint, whose
+  /// length is the angular distance [rad].
   Eigen::MatrixXd posture;
   Eigen::MatrixXd force;     ///< by muscle [N]
   Eigen::MatrixXd actuator;  ///< by muscle [rad]; no columns: not measured
@@ -33,7 +33,7 @@ struct Differences {
   double force_square() const;
   /// (5.9), (5.18) as means of squares.
   double fitness(const Weights& weights) const;
-  /// Length of each row's share of one joint [rad].
+  /// Absolute error of one joint in each row [rad, m].
   std::vector<double> joint_error(const JointModel& joint) const;
 };
 
@@ -43,13 +43,13 @@ struct RunDifferences {
 
   /// F_S of an equilibrium, F'_T (5.20) of a trajectory.
   double fitness(const Weights& weights) const;
-  /// Numbers whose squares add up to `share` times the fitness, appended.
+  /// Appends numbers whose squares add up to `share` times the fitness.
   void append_residuals(const Weights& weights, double share, std::vector<double>& residuals) const;
-  /// Of a trajectory the path, of an equilibrium the posture at the end: what figures show.
+  /// What reports show: the path of a trajectory, the final posture of an equilibrium.
   const Differences& shown() const { return path.count() > 0 ? path : after; }
 };
 
-/// Posture b minus posture a, as rows of Differences::posture have it.
+/// Posture b minus posture a, in the form of a row of Differences::posture.
 void posture_row(const SkeletonModel& skeleton, const double* a, const double* b, double* row);
 
 }  // namespace calibration

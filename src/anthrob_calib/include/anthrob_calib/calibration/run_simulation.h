@@ -12,9 +12,9 @@ namespace calibration {
 
 /// What drives the actuators of a simulated run (section 8.3).
 enum class Drive {
-  kReferences,        ///< what was commanded
-  kFinalPositions,    ///< position control to where the robot's actuators ended
-  kSampledPositions,  ///< actuators follow the robot's
+  kReferences,        ///< the commanded references
+  kFinalPositions,    ///< the final actuator positions of the robot, as references
+  kSampledPositions,  ///< the actuators follow the sampled positions of the recording
 };
 
 struct SimulationOptions {
@@ -23,28 +23,29 @@ struct SimulationOptions {
   Drive drive = Drive::kReferences;
 };
 
-/// Runs in the order in which one leads to the other: the first of a chain starts where the robot
-/// settles from its rest posture, each further one where the one before has ended.
+/// Runs that follow one another: the first of a chain starts where the robot settles from its rest
+/// posture, each further one where the run before it ended.
 struct Chain {
   std::vector<int> runs;
-  bool from_home = true;  ///< starts at the references at which most runs start, or the first
+  bool from_home = true;  ///< starts at the references of most runs; if tied, of the first run
 };
 std::vector<Chain> chains_of(const std::vector<MeasuredRun>& runs);
 
 /// Puts the simulation into its rest posture, commanded to the references at which a run starts.
 void stand_at_start(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
-/// For how long it settles there before the run's first command.
+/// Number of steps that it settles there before the run's first command.
 int steps_of_rest(const Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
 
-/// Stands still as long as the robot did before the first command of a run that another one led to.
+/// Waits for the first command of a run that follows another one in a chain, as long as the robot
+/// did.
 void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
 
-/// Simulates one run from where the simulation is, and compares. If the simulated part is shorter
-/// than the run, what it arrives at is compared with what the robot arrived at.
+/// Simulates one run from the present state of the simulation, and compares it. If the simulated
+/// part is shorter than the run, its end is compared with the end of the recorded run.
 /// @throws NumericalFailure
 RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
 
-/// All runs on one model; chains on as many threads as there are.
+/// Simulates all runs with one model. Chains run in parallel on all threads.
 /// @throws NumericalFailure
 std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& model,
                                           const std::vector<MeasuredRun>& runs,

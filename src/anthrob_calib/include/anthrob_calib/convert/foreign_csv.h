@@ -9,15 +9,15 @@
 
 namespace anthrob {
 
-/// What the columns of somebody else's CSV file are in our words: the file MAP.yaml of
+/// Meaning of the columns of a CSV file of another program: the file MAP.yaml of
 /// `anthrob_convert --columns MAP.yaml FILE.csv DIR`.
 struct ForeignColumns {
   struct Entry {
     std::string from;                  ///< as in the file's header
     std::string to;                    ///< `<joint>/position`, ...
-    double scale = 1.0, offset = 0.0;  ///< ours = scale * theirs + offset
+    double scale = 1.0, offset = 0.0;  ///< value = scale * cell + offset
     std::string table;                 ///< file of the dataset folder it goes to
-    int mode = -1;                     ///< of a reference; -1: not said
+    int mode = -1;                     ///< of a reference; -1: not given
   };
   /// A ball joint's orientation from three columns.
   struct Orientation {
@@ -29,7 +29,7 @@ struct ForeignColumns {
   };
   std::string file;         ///< of the map, for messages
   std::string time;         ///< column of the time; empty: rows are evenly spaced
-  double time_scale = 1.0;  ///< [s] a unit of it
+  double time_scale = 1.0;  ///< seconds per unit of that column
   double rate = 0.0;        ///< [Hz] without a time column
   char separator = ',';
   std::vector<Entry> entries;
@@ -47,7 +47,7 @@ Eigen::Quaterniond from_euler(const std::string& order, const Eigen::Vector3d& a
 /// @param rotation axis times angle [rad]   @return unit, w >= 0
 Eigen::Quaterniond from_rotation_vector(const Eigen::Vector3d& rotation);
 
-/// Numbers of a foreign file; empty cells are not measured.
+/// Reads a CSV file of another program; empty cells count as not measured.
 /// @throws BadInput naming file, line and column
 Dataset read_foreign_csv(const std::string& file, const ForeignColumns& columns);
 

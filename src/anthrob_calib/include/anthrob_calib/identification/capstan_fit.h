@@ -10,7 +10,7 @@
 namespace anthrob {
 namespace identification {
 
-/// A stretch of steady motion of a line over an eyelet: one point of Figure 7.9c.
+/// A piece of steady motion of a line over an eyelet: one point of Figure 7.9c.
 struct SlidingPoint {
   std::string recording;
   double load = 0.0;     ///< weight at the end of the line [N]
@@ -19,7 +19,7 @@ struct SlidingPoint {
   Estimate force;        ///< mean at the motor's side [N]
 };
 
-/// What was recorded of one eyelet.
+/// One recording of an eyelet.
 struct EyeletRecording {
   std::string name;
   int specimen = 1;

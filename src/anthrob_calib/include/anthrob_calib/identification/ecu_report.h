@@ -10,7 +10,7 @@
 namespace anthrob {
 namespace identification {
 
-/// The power stage of an ECU: fitted to the first specimen, tried on the others.
+/// The power stage of an ECU: fitted to the first specimen, validated on the others.
 struct EcuResult {
   std::vector<LoadRecording> fitted, others;
   SeriesResistanceFit fit;

@@ -6,14 +6,14 @@
 namespace anthrob {
 namespace identification {
 
-/// A number with what is known of its error.
+/// A number with its standard error and confidence interval.
 struct Estimate {
   double value = 0.0;
   double sigma = 0.0;         ///< standard error
   double lo = 0.0, hi = 0.0;  ///< 95 % confidence interval
 };
 
-/// @param freedom degrees of freedom of `sigma`, >= 1: the interval is Student's
+/// @param freedom degrees of freedom of `sigma`, >= 1; the interval is by Student's distribution
 Estimate make_estimate(double value, double sigma, double freedom);
 
 /// Adds an independent error of known size [unit of the value]: that of a scale, a gauge, a radius.
@@ -25,8 +25,8 @@ struct Spread {
 };
 Spread spread(const std::vector<double>& values);
 
-/// Mean of a correlated series. The error is that of the means of blocks, which are long against
-/// the correlation.
+/// Mean of a correlated series. Its error is computed from the means of blocks; blocks must be
+/// longer than the correlation.
 /// @param block samples in a block, >= 1; @throws std::invalid_argument for less than two blocks
 Estimate mean_of_series(const std::vector<double>& series, std::size_t block);
 

@@ -10,7 +10,7 @@
 namespace anthrob {
 namespace identification {
 
-/// The friction of an eyelet: fitted to the first specimen, tried on the others.
+/// The friction of an eyelet: fitted to the first specimen, validated on the others.
 struct EyeletResult {
   std::vector<EyeletRecording> recordings;
   int specimen = 1;  ///< the one that was fitted

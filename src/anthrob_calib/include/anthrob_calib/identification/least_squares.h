@@ -10,11 +10,11 @@
 namespace anthrob {
 namespace identification {
 
-/// Residuals as a function of a few parameters, to be made small in the square.
+/// A least-squares problem of a few parameters.
 struct LeastSquares {
   struct Parameter {
     double start;
-    double scale;  ///< size of an ordinary change, > 0: the solver sees value / scale
+    double scale;  ///< size of a typical change, > 0; the solver works with value / scale
     double lower, upper;
   };
 
@@ -31,8 +31,9 @@ struct LeastSquares {
 /// The parameters that fit best, and their errors.
 struct Fit {
   std::vector<double> values;
-  /// Of the parameters. With blocks from the scatter of their gradients (the "sandwich" of robust
-  /// statistics, jackknifed), so that it stays right for correlated residuals of unequal size.
+  /// Covariance of the parameters. With blocks it is computed from the scatter of their gradients
+  /// (the sandwich estimator of robust statistics, jackknifed), so that it holds for correlated
+  /// residuals of unequal size, too.
   Eigen::MatrixXd covariance;
   int freedom = 0;         ///< blocks (or residuals, without) minus parameters
   double deviation = 0.0;  ///< root mean square of the residuals
@@ -43,7 +44,7 @@ struct Fit {
 
 /// Levenberg-Marquardt (Ceres).
 /// @throws std::runtime_error with one line if it does not converge, if the parameters cannot be
-/// told apart, or if there are not more blocks than parameters
+/// distinguished, or if there are not more blocks than parameters
 Fit solve(const LeastSquares& problem);
 
 }  // namespace identification

@@ -7,20 +7,21 @@
 namespace anthrob {
 namespace identification {
 
-/// Files of a report by name, complete in memory before the first is written.
+/// Contents of a report's files by name; all are complete before the first one is written.
 using OutputFiles = std::map<std::string, std::string>;
 
-/// Makes sure that files can be written into a folder, or that it can be made.
+/// Checks that files can be written into a folder, or that it can be created.
 /// @throws std::runtime_error with one line: the folder and the reason
 void require_writable(const std::string& folder);
 
-/// Makes sure that what is read is not replaced by what is written.
-/// @param names of files in the folder   @param read canonical paths
+/// Checks that no input file would be overwritten.
+/// @param names of the files that will be written into the folder
+/// @param read canonical paths of the input files
 /// @throws BadInput with one line: the folder and the name
 void require_kept(const std::string& folder, const std::vector<std::string>& names,
                   const std::vector<std::string>& read);
 
-/// Makes the folder. Writes all or nothing of each file; an older file of that name is replaced.
+/// Creates the folder and writes each file atomically; replaces older files of the same names.
 /// @throws std::runtime_error naming the file and the reason
 void write_files(const std::string& folder, const OutputFiles& files);
 

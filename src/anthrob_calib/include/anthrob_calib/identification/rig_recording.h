@@ -25,7 +25,8 @@ struct RigColumns {
 RigColumns read_columns(const Dataset& recording, const std::string& rig,
                         const std::vector<std::string>& names);
 
-/// meta.yaml of a recording, where a rig's recording says what was on the rig.
+/// meta.yaml of a recording, which states what was on the rig.
+/// @throws BadInput for a bag, which has no such keys
 ConfigNode rig_meta(const Dataset& recording);
 
 /// Name of a recording in messages and reports.

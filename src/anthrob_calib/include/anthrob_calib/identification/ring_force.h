@@ -8,8 +8,8 @@
 namespace anthrob {
 namespace identification {
 
-/// A spring beside Maxwell arms: one arm is the Zener model (4.47)-(4.56), two the Wiechert model
-/// (4.57)-(4.59) of the thesis.
+/// A spring in parallel with Maxwell arms: one arm is the Zener model (4.47)-(4.56), two the
+/// Wiechert model (4.57)-(4.59) of the thesis.
 struct ViscoelasticModel {
   struct Arm {
     double modulus;          ///< E_i [Pa]

@@ -5,7 +5,7 @@
 namespace anthrob {
 namespace calibration {
 
-/// Where a way down ended.
+/// Result of one local minimisation.
 struct Descent {
   enum End {
     kMoreToGain,  ///< no Jacobian was left
@@ -16,16 +16,16 @@ struct Descent {
   Point point;
   double fitness = 0.0;  ///< infinite if the start is invalid
   End end = kMoreToGain;
-  /// By how much all residuals together change with a step of each variable, where its derivative
-  /// was largest; empty if none was taken.
+  /// For each variable the norm of the derivative of all residuals, per step, at the point where it
+  /// was largest; empty if no Jacobian was computed.
   std::vector<double> sensitivity = {};
 };
 
-/// Levenberg-Marquardt within bounds (Ceres). A Jacobian by differences costs an
-/// evaluation a variable; after a step it is brought up to date by Broyden's secant, of rank one,
-/// as long as steps by it help, and only then taken anew.
-/// @param difference of derivatives [steps]
-/// @param jacobians by differences that may be taken; counted down
+/// Levenberg-Marquardt within bounds (Ceres). A Jacobian by finite differences costs one evaluation
+/// per variable. After each step it is updated by Broyden's secant (rank one), as long as steps
+/// with it still improve the fitness; then it is computed again.
+/// @param difference of the finite differences [steps]
+/// @param jacobians number of finite-difference Jacobians that are still allowed; counted down
 Descent descend(const std::vector<SearchVariable>& variables, double difference, const Point& from,
                 Evaluator& evaluator, int& jacobians);
 

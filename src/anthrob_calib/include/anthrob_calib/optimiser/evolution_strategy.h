@@ -6,8 +6,8 @@ namespace anthrob {
 namespace calibration {
 
 /// The (mu, lambda) evolution strategy of section 5.1, Algorithm 5.1: comma selection, no
-/// recombination, one self-adapting step size a variable (5.2), (5.3), mutations out of bounds
-/// drawn again, invalid individuals not selected, best individual ever kept.
+/// recombination, one self-adapting step size per variable (5.2), (5.3). Mutations out of bounds
+/// are drawn again, invalid individuals are not selected, and the best individual ever is kept.
 class EvolutionStrategy final : public Optimiser {
  public:
   explicit EvolutionStrategy(const OptimiserSettings& settings) : settings_(settings) {}

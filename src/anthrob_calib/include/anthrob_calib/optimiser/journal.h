@@ -12,7 +12,7 @@
 namespace anthrob {
 namespace calibration {
 
-/// Thrown out of a search when its user wants it to end.
+/// Thrown out of a search that the user interrupts.
 struct Interrupted {};
 
 /// One batch of evaluations in the history of a search.
@@ -24,20 +24,20 @@ struct Generation {
   double best_ever = 0.0;
 };
 
-/// Stands between an optimiser and the evaluator: keeps the best point and the history, and writes
-/// down every fitness. After an interruption the optimiser simply starts again: as long as the
-/// journal has an answer it comes from there, so that every optimiser resumes to the same bits.
-/// What another build of the program has found may differ: it is found anew. Residuals are in a
-/// file of their own beside it, until forget_residuals().
+/// Stands between an optimiser and the evaluator: keeps the best point and the history, and stores
+/// every fitness in a file. After an interruption the optimiser starts again from the beginning;
+/// the evaluations that the journal already has come from there. So any optimiser resumes to the
+/// same result, to the last bit. Evaluations of another build of the program may differ; they are
+/// repeated. Residuals are stored in a separate file beside the journal until forget_residuals().
 class Journal final : public Evaluator {
  public:
   struct Options {
     std::string file;         ///< of the journal; empty: none is kept
     std::string fingerprint;  ///< of everything that the numbers depend on
-    bool resume = false;      ///< else an old journal is replaced
-    int batch = 36;           ///< single evaluations are taken together in the history
+    bool resume = false;      ///< false: replaces an existing journal
+    int batch = 36;           ///< that many single evaluations are one entry of the history
     std::function<bool()> stop = {};
-    std::function<void(int)> progress = {};  ///< told the number of evaluations
+    std::function<void(int)> progress = {};  ///< gets the number of evaluations
     std::uint64_t program = 0;               ///< fingerprint of the build that calculates them
   };
 
@@ -48,7 +48,7 @@ class Journal final : public Evaluator {
   std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
   /// Writes what has not been written yet.
   void save();
-  /// The search is over and all made of it: residuals are not asked for again.
+  /// Deletes the file of residuals, once everything has been computed from them.
   void forget_residuals() {
     if (lists_) lists_->remove();
   }
@@ -56,8 +56,8 @@ class Journal final : public Evaluator {
   const Point& best() const { return best_; }
   double best_fitness() const { return best_fitness_; }
   int evaluations() const { return evaluations_; }
-  int replayed() const { return replayed_; }  ///< evaluations that were known already
-  /// Whether there is a journal to go on with, but of another build.
+  int replayed() const { return replayed_; }  ///< evaluations taken from the journal
+  /// Whether the journal to resume was written by another build of the program.
   bool outdated() const { return outdated_; }
   std::vector<Generation> history() const;
 

@@ -7,10 +7,12 @@
 namespace anthrob {
 namespace calibration {
 
-/// Ways down by descend(); `generations` is the largest number of their Jacobians by differences.
-/// Tendons that go slack make kinks and several valleys: where it has converged it descends once
-/// more by derivatives that reach across kinks, and from the best of the points far along each
-/// variable (five evaluations a variable find them); what is better is gone on from.
+/// Local minimisations by descend(). `generations` is the largest number of finite-difference
+/// Jacobians in all of them.
+/// Tendons that go slack make kinks and several minima. So where it has converged, it starts again
+/// with derivatives over larger differences, which reach across kinks, and then from the best of
+/// the points far along each variable (finding them takes five evaluations per variable, which do
+/// not count as `generations`). If one of them ends clearly lower, the search continues there.
 class LeastSquaresOptimiser final : public Optimiser {
  public:
   static constexpr double kDifference = 0.02;
@@ -23,19 +25,22 @@ class LeastSquaresOptimiser final : public Optimiser {
   OptimiserSettings settings_;
 };
 
-/// Derivatives of residuals by steps of the variables, one row a residual, one column a variable;
-/// differences go the way that stays within bounds. A column of an invalid neighbour is zero.
+/// Derivatives of the residuals with respect to each variable, in steps, by one-sided differences:
+/// one list per variable, one entry per residual. Differences are taken to the side that stays
+/// within bounds. If the neighbouring point is invalid, the list is zero.
 /// @param residuals at `point`
 std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& variables,
                                              const Point& point,
                                              const std::vector<double>& residuals,
                                              double difference, Evaluator& evaluator);
 
-/// How the variables do best, to first order, when one of them changes by a step.
-/// @param information normal equations by steps, positive definite
+/// How all variables change, in steps, if one of them changes by one step and the others compensate
+/// for it as well as they can to first order.
+/// @param information matrix of the normal equations in steps, positive definite
 Eigen::VectorXd following(const Eigen::MatrixXd& information, std::size_t variable);
 
-/// @param direction by steps   @return within bounds
+/// The point moved by a number of steps along a direction, clipped to the bounds.
+/// @param direction in steps
 Point moved(const std::vector<SearchVariable>& variables, const Point& from,
             const Eigen::VectorXd& direction, double steps);
 

@@ -7,8 +7,8 @@
 namespace anthrob {
 namespace calibration {
 
-/// The processes that mpirun started, or this one alone. One object a process, first thing in
-/// main().
+/// The processes that mpirun started, or only this one. Create one object per process, at the
+/// beginning of main().
 class MpiSession {
  public:
   MpiSession(int* argc, char*** argv);
@@ -19,10 +19,11 @@ class MpiSession {
   int rank() const { return rank_; }
   int size() const { return size_; }
 
-  /// Everybody calls it, with what went wrong here or an empty text. @return to all: the complaint
-  /// of the first process that has one, or an empty text
+  /// All processes must call it.
+  /// @param own error message of this process, or an empty text
+  /// @return in all processes the first error message by rank, or an empty text
   std::string first_complaint(const std::string& own) const;
-  /// Everybody calls it. @return whether all have the same text
+  /// All processes must call it. @return whether all have the same text
   bool all_have(const std::string& text) const;
 
  private:
@@ -30,12 +31,12 @@ class MpiSession {
   int rank_ = 0, size_ = 1;
 };
 
-/// Rank 0's evaluator: deals points out to all processes, point i to process i mod size, itself
-/// included. Residuals are evaluated here.
+/// Evaluator of rank 0. Distributes points over all processes, itself included: point i to process
+/// i mod size. Residuals are evaluated on rank 0 only.
 class MpiEvaluator final : public Evaluator {
  public:
   MpiEvaluator(const MpiSession& session, Evaluator& local) : session_(session), local_(local) {}
-  ~MpiEvaluator() override;  ///< sends the others home
+  ~MpiEvaluator() override;  ///< ends serve() in the other processes
   std::vector<double> fitness(const std::vector<Point>& points) override;
   std::vector<std::vector<double>> residuals(const std::vector<Point>& points) override;
 
@@ -44,7 +45,7 @@ class MpiEvaluator final : public Evaluator {
   Evaluator& local_;
 };
 
-/// What the other processes do until rank 0 sends them home.
+/// Evaluates points in a process other than rank 0, until the MpiEvaluator is destroyed.
 void serve(const MpiSession& session, Evaluator& local);
 
 }  // namespace calibration

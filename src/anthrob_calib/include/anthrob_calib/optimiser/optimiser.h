@@ -14,19 +14,19 @@ namespace calibration {
 struct OptimiserSettings {
   /// evolution_strategy | cmaes | sade | bee_colony | least_squares
   std::string method = "evolution_strategy";
-  int parents = 6;     ///< mu; of the evolution strategy only
-  int offspring = 36;  ///< lambda, or the size of the population
-  int generations = 100;
-  double target = 0.0;  ///< the evolution strategy stops at a fitness below that
+  int parents = 6;        ///< mu; of the evolution strategy only
+  int offspring = 36;     ///< lambda, or the size of the population
+  int generations = 100;  ///< for least_squares: largest number of finite-difference Jacobians
+  double target = 0.0;    ///< the evolution strategy stops at a fitness below that
   std::uint64_t seed = 1;
 
-  /// @throws BadInput
-  /// What `method` may be.
+  /// The possible values of `method`.
   static const std::vector<std::string>& methods();
+  /// @throws BadInput
   static OptimiserSettings read(const ConfigNode& node);
-  /// @throws BadInput naming what does not fit the method
+  /// @throws BadInput naming the setting that the method does not allow
   void check(const ConfigNode& node) const;
-  /// Evaluations, about: for progress.
+  /// Approximate number of evaluations, for the progress display.
   int evaluations(std::size_t variables) const;
 };
 
@@ -34,12 +34,12 @@ struct SearchResult {
   Point best;
   double fitness = 0.0;  ///< infinite if no point was valid
   std::string reason;    ///< why it stopped
-  /// By how much all residuals together change with a step of each variable, where that is most;
-  /// empty for methods without derivatives.
+  /// Largest norm of the derivative of all residuals for each variable, per step; empty for methods
+  /// without derivatives.
   std::vector<double> sensitivity = {};
 };
 
-/// A way to search. Deterministic: the same variables, seed and fitnesses give the same points.
+/// A search method. Deterministic: the same variables, seed and fitnesses give the same points.
 class Optimiser {
  public:
   virtual ~Optimiser() = default;

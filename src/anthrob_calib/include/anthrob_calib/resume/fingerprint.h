@@ -9,13 +9,13 @@
 namespace anthrob {
 namespace resume {
 
-/// Bits of what a result depends on, in one number (FNV-1a, 64 bit).
+/// Hash of everything that a result depends on (FNV-1a, 64 bit).
 class Fingerprint {
  public:
   Fingerprint& add(const void* bytes, std::size_t count);
   Fingerprint& add(double value) { return add(&value, sizeof(value)); }
   Fingerprint& add(std::uint64_t value) { return add(&value, sizeof(value)); }
-  /// With its length, so that "ab", "c" is not "a", "bc".
+  /// Includes the length, so that "ab", "c" differs from "a", "bc".
   Fingerprint& add(const std::string& text);
   Fingerprint& add(const Dataset& recording);
 
@@ -25,14 +25,15 @@ class Fingerprint {
   std::uint64_t hash_ = 14695981039346656037ULL;
 };
 
-/// Of what a recording tells, however it is kept: the same for a bag, the folder it was converted
-/// to and a copy with another meta.yaml, with times from its beginning on.
+/// Fingerprint of the samples of a recording, with times counted from its beginning. It is the same
+/// for a bag, the folder that it was converted to, and a copy with another meta.yaml.
 std::uint64_t content_fingerprint(const Dataset& recording);
-/// Of the model file with all it extends, and of the files that it names.
+/// Fingerprint of a model file with all that it extends, and of the files that it names.
 std::uint64_t model_fingerprint(const ConfigNode& model);
-/// Of this program and its libraries, as the linker marked them.
+/// Fingerprint of this program and its libraries, from the build ids of the linker.
 std::uint64_t program_fingerprint();
-/// Of a program that has loaded more since. @param files by content; none: the program as it was
+/// Fingerprint of a program that has loaded more libraries since.
+/// @param files those libraries, by content; if there are none, returns `program`
 std::uint64_t program_fingerprint(std::uint64_t program, const std::vector<std::string>& files);
 
 }  // namespace resume

@@ -10,33 +10,33 @@
 namespace anthrob {
 namespace resume {
 
-/// Writes down every result of a simulation as it comes, so that a run that was interrupted goes on
-/// with the same bits: it starts again, and what the file knows is not simulated.
+/// Stores each result of a simulation as soon as it is computed. An interrupted run starts again,
+/// takes the stored results from this file instead of simulating, and so ends with the same bits.
 ///
-/// A file of records: key, count, numbers, and a sum over these. What follows a record that is cut
-/// off is lost. Used by many threads, by one process at a time.
+/// The file consists of records: key, count, numbers, and a checksum. Records behind one that is
+/// cut off are lost. Several threads may use it, but only one process at a time.
 /// @tparam Scalar float or double
 template <class Scalar>
 class ResultFile {
  public:
   using Result = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  /// Opens the file; one of another context, or of none, is begun anew. Its folder is made, and
-  /// goes again with it if nothing was written.
-  /// @param context of all that results depend on beside their keys
+  /// Opens the file. If it has another context or is not such a file, it is emptied. Creates its
+  /// folder; if nothing gets written, the destructor removes file and folder again.
+  /// @param context fingerprint of everything that results depend on beside their keys
   /// @throws BadInput if another run uses it; std::runtime_error if it cannot be written
   ResultFile(std::string file, std::uint64_t context);
   ~ResultFile();
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
 
-  /// Results that were there when it was opened.
+  /// Number of results that the file held when it was opened.
   std::size_t inherited() const { return inherited_; }
-  /// Whether there were some of another context, which are gone now.
+  /// Whether the file had another context, so that its results were deleted.
   bool begun_anew() const { return begun_anew_; }
   std::optional<Result> find(std::uint64_t key) const;
   void append(std::uint64_t key, const Result& result);
-  /// It has served: the file goes.
+  /// Deletes the file, once it is no longer needed.
   void remove();
 
  private:

@@ -9,7 +9,7 @@
 namespace anthrob {
 namespace virtual_rig {
 
-/// The protocol of section 7.2.4, and how far a real rig is from its drawing.
+/// The protocol of section 7.2.4, and the deviations of a real rig from its drawing.
 struct PullOptions {
   std::uint64_t seed = 1;
   int specimen = 1;    ///< the first eyelet has the known friction, others are of the same batch

@@ -8,7 +8,7 @@
 namespace anthrob {
 namespace virtual_rig {
 
-/// The protocol of section 7.3.2, and how far a real rig is from its drawing.
+/// The protocol of section 7.3.2, and the deviations of a real rig from its drawing.
 struct EcuLoadOptions {
   std::uint64_t seed = 1;
   int specimen = 1;  ///< the first ECU has the known resistance, others are of the same batch

@@ -9,7 +9,7 @@
 namespace anthrob {
 namespace virtual_rig {
 
-/// A rubber ring that is known: an entry of rings.yaml.
+/// A rubber ring of known parameters: an entry of rings.yaml.
 struct RingTruth {
   std::string name;                      ///< "10x5"
   double rest_length, section_diameter;  ///< [m]
@@ -24,7 +24,7 @@ struct RingTruth {
 /// Names of all rings of rings.yaml.
 std::vector<std::string> ring_names(const std::string& rig);
 
-/// The protocol of section 7.2.3, and how far a real rig is from its drawing.
+/// The protocol of section 7.2.3, and the deviations of a real rig from its drawing.
 struct StretchOptions {
   std::uint64_t seed = 1;
   int specimen = 1;  ///< the first has the known parameters, others are of the same batch
