@@ -1,21 +1,24 @@
-"""What the studies share: steps that can be interrupted, files, facts about the run, tables."""
+"""Shared by the studies: steps that can be interrupted, files, facts about the run, pages."""
 
 import argparse
 import html
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
+import textwrap
 
 OUT = "build/study"
 BAD_INPUT, INTERRUPTED = 2, 130
-PATIENCE = 30  # for a step that was interrupted to write down where it was [s]
+PATIENCE = 30  # time for an interrupted step to save its state [s]
+WIDTH = 120     # of a line of markdown
 
 
 def of_the_study(options):
-    """What is run elsewhere, for a look at it, is not what the documents tell of."""
+    """Whether the results go to docs/studies: only those in the default folder do."""
     return os.path.normpath(options.out) == OUT
 
 
@@ -24,13 +27,13 @@ def say(line):
 
 
 def run(command, log):
-    """Exit status of a step. The study ends where a step was interrupted."""
+    """Runs a step and returns its exit status. If the step was interrupted, the study ends as well."""
     with open(log, "a") as out:
         step = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT)
         try:
             status = step.wait()
         except KeyboardInterrupt:
-            step.terminate()  # if only the study was told
+            step.terminate()  # if the signal reached only the study
             try:
                 step.wait(PATIENCE)
             except subprocess.TimeoutExpired:
@@ -43,13 +46,13 @@ def run(command, log):
 
 
 def must(command, log):
-    """A step without which the study cannot go on."""
+    """Runs a step that has to succeed; otherwise the study ends."""
     if run(command, log) != 0:
         sys.exit(f"study: {' '.join(command)} failed: see {log}")
 
 
 class OneLineParser(argparse.ArgumentParser):
-    """Of a command line; what is wrong with one is said in a line, as by all tools."""
+    """Parser that reports a wrong command line in one line, as all tools do."""
 
     def error(self, message):
         self.exit(BAD_INPUT, f"{self.prog}: {message} (--help explains)\n")
@@ -61,7 +64,7 @@ def refuse(line):
 
 
 def start(main):
-    """Runs a study; Ctrl-C and a request to terminate are the same, and end with 130."""
+    """Runs a study. Ctrl-C and SIGTERM both end it with status 130."""
 
     def interrupt(*_):
         raise KeyboardInterrupt
@@ -70,10 +73,10 @@ def start(main):
     try:
         main()
     except KeyboardInterrupt:
-        say("interrupted; the same command goes on where it was")
+        say("interrupted; the same command continues where this one stopped")
         sys.exit(INTERRUPTED)
     except BrokenPipeError:
-        # `--list | head`: nobody reads on. Without another place to go the interpreter complains when it ends.
+        # `--list | head`: nobody reads the rest. The interpreter would complain at its end if it could not write it.
         for stream in (sys.stdout, sys.stderr):
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
         sys.exit(1)
@@ -85,14 +88,14 @@ def load(file):
 
 
 def load_published(file):
-    """What an earlier run, perhaps elsewhere, has left in the documents."""
+    """Results that an earlier run, perhaps on another machine, has written to docs/studies."""
     if not os.path.exists(file):
-        refuse(f"{file}: no such file; expected what an earlier run has written")
+        refuse(f"{file}: no such file; --adopt expects the results of an earlier run there")
     return load(file)
 
 
 def write(file, content):
-    part = f"{file}.{os.getpid()}.part"  # several slices may run beside each other
+    part = f"{file}.{os.getpid()}.part"  # several slices may run at the same time
     with open(part, "w") as out:
         out.write(content)
     os.replace(part, file)
@@ -105,7 +108,7 @@ def machine():
 
 
 def commit():
-    """With -dirty where files are not as committed; documents, which studies write, do not count. Without git, unknown."""
+    """Commit of the workspace, with -dirty if files differ from it (docs/ aside: studies write there). Else unknown."""
     if not shutil.which("git"):
         return "unknown"
 
@@ -120,25 +123,56 @@ def several(values):
     return ", ".join(sorted({str(value) for value in values}))
 
 
+def markdown_page(title, parts):
+    """Parts: text is a paragraph, or a heading if it begins with #; a dict is a list; (head, rows) is a table."""
+    lines = [f"# {title}"]
+    for part in parts:
+        lines.append("")
+        if isinstance(part, dict):
+            for key, value in part.items():
+                lines += wrapped(f"- {key}: {value}", "  ")
+        elif isinstance(part, tuple):
+            lines += markdown_table(*part)
+        else:
+            lines += wrapped(part)
+    return "\n".join(lines) + "\n"
+
+
+def wrapped(text, indent=""):
+    return textwrap.wrap(text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+
+
 def markdown_table(head, rows):
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     return lines + ["| " + " | ".join(row) + " |" for row in rows]
 
 
-def markdown_facts(facts):
-    return [f"- {key}: {value}" for key, value in facts.items()]
+def html_page(title, parts):
+    """The same parts without links: this page lies elsewhere than the documents."""
+    body = "".join(map(html_part, parts))
+    return (f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{title}</title>"
+            "<style>body{font-family:sans-serif}td,th{border:1px solid #ccc;padding:2px 8px;"
+            "text-align:left}table{border-collapse:collapse}</style></head><body>"
+            f"<h1>{title}</h1>{body}</body></html>\n")
+
+
+def html_part(part):
+    if isinstance(part, dict):
+        return "<ul>" + "".join(f"<li>{plain(f'{key}: {value}')}</li>" for key, value in part.items()) + "</ul>"
+    if isinstance(part, tuple):
+        return html_table(*part)
+    heading = re.match("#+ ", part)
+    tag = f"h{heading.end() - 1}" if heading else "p"
+    return f"<{tag}>{plain(part[heading.end():] if heading else part)}</{tag}>"
 
 
 def html_table(head, rows):
     def cells(row, tag):
-        return "<tr>" + "".join(f"<{tag}>{html.escape(c)}</{tag}>" for c in row) + "</tr>"
+        return "<tr>" + "".join(f"<{tag}>{plain(c)}</{tag}>" for c in row) + "</tr>"
 
     return "<table>" + cells(head, "th") + "".join(cells(row, "td") for row in rows) + "</table>"
 
 
-def html_page(title, facts, body):
-    items = "".join(f"<li>{html.escape(k)}: {html.escape(str(v))}</li>" for k, v in facts.items())
-    return (f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{title}</title>"
-            "<style>body{font-family:sans-serif}td,th{border:1px solid #ccc;padding:2px 8px;"
-            "text-align:left}table{border-collapse:collapse}</style></head><body>"
-            f"<h1>{title}</h1><ul>{items}</ul>{body}</body></html>\n")
+def plain(text):
+    """Markdown as HTML, without links, emphasis and marks of code."""
+    return html.escape(re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text).replace("`", "").replace("*", ""))

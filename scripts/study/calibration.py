@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""The study of chapter 8: models I, II, III calibrated tier by tier against virtual robots.
+"""Study of calibration: calibrates models I, II and III against virtual robots, tier by tier, as in chapter 8 of the
+thesis.
 
-Every step leaves its result under build/study/calibration/ and is not done again; what was
-interrupted goes on. Writes build/study/calibration.json and .html, docs/studies/calibration.md and, what it was made
-from, docs/studies/calibration.json: with --adopt, on another machine, the robots and models in it are done already.
+Every step leaves its result under build/study/calibration/. The same command continues an interrupted study and does
+not repeat finished steps. Writes build/study/calibration.json and .html, docs/studies/calibration.md, and the results
+behind it, docs/studies/calibration.json. With --adopt, also on another machine, what is in this file counts as done.
 """
 
 import argparse
@@ -16,8 +17,8 @@ import statistics
 import sys
 import time
 
-from _study import (OUT, OneLineParser, commit, html_page, html_table, load, load_published, machine, markdown_facts,
-                    markdown_table, must, of_the_study, say, several, start, write)
+from _study import (OUT, OneLineParser, commit, html_page, load, load_published, machine, markdown_page, must,
+                    of_the_study, say, several, start, write)
 
 MODELS = ["I", "II", "III"]
 STAGES = ["tier1_statics", "tier1_dynamics", "tier2_statics", "tier2_dynamics"]
@@ -44,18 +45,18 @@ TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 CONFIG = "config/anthrob/calibration"
 DOCUMENT = "docs/studies/calibration.md"
 PUBLISHED = "docs/studies/calibration.json"
-JACOBIANS = {"statics": 8, "dynamics": 4}  # most, of least squares; dynamics start from statics' result
+JACOBIANS = {"statics": 8, "dynamics": 4}  # at most, of least squares; dynamics start from the result of statics
 
 
 def search(stage, model, options):
-    """How a stage is searched: Ceres, or the thesis's evolution strategy with a share of its generations."""
+    """Options of a search: least squares, or another optimiser with a share of the thesis's generations."""
     if options.optimiser == "least_squares":
         return ["--optimiser", "least_squares", "--generations", str(JACOBIANS[stage.split("_")[1]])]
     return ["--optimiser", options.optimiser] + generations(stage, model, options.share)
 
 
 def generations(stage, model, share):
-    """Of the configuration, or a share of it."""
+    """Option for the share of the configured generations; none if it is all of them."""
     if share >= 1:
         return []
     with open(f"{CONFIG}/{stage}_{model}.yaml") as text:
@@ -63,7 +64,7 @@ def generations(stage, model, share):
             if line.strip().startswith("generations:"):
                 full = int(line.split(":")[1].split("#")[0])
                 return ["--generations", str(max(1, round(full * share)))]
-    sys.exit(f"study: {stage}_{model}.yaml names no generations")
+    sys.exit(f"study: {CONFIG}/{stage}_{model}.yaml: key generations is missing; --share needs it")
 
 
 def search_words(options):
@@ -72,7 +73,7 @@ def search_words(options):
 
 
 def searches(options):
-    """A stage; least squares knows no chance."""
+    """How many per stage: least squares draws no random numbers, so one is enough."""
     return 1 if options.optimiser == "least_squares" else options.runs
 
 
@@ -97,7 +98,7 @@ class Robot:
         write(f"{self.data}/complete", commit() + "\n")
 
     def step(self, stage, model, name, start, more):
-        """One run of anthrob_calibrate, unless the same was done before."""
+        """Runs anthrob_calibrate once, unless the same run is already done."""
         out = f"{self.folder}/{model}/{stage}/{name}"
         more = more + ([] if self.options.thorough else ["--brief"])
         key = fingerprint(more, f"{CONFIG}/{stage}_{model}.yaml", f"{self.data}/complete",
@@ -106,7 +107,7 @@ class Robot:
         if os.path.exists(f"{out}/step.json"):
             before = load(f"{out}/step.json")
             if before["key"] != key:
-                say(f"robot {self.seed}: model {model}, {stage}, {name}: something has changed, anew")
+                say(f"robot {self.seed}: model {model}, {stage}, {name}: its inputs have changed, starting again")
                 shutil.rmtree(out)
             elif before["done"]:
                 return out
@@ -136,7 +137,7 @@ class Robot:
         return out
 
     def adopted(self, stage, model):
-        """Result from elsewhere, or None."""
+        """Published result of a stage (with --adopt), or None."""
         return self.options.adopted.get(str(self.seed), {}).get(model, {}).get(stage)
 
     def calibrate(self, model):
@@ -157,7 +158,7 @@ class Robot:
             summarise(self.options)
 
     def result(self, stage, model):
-        """Errors before and after, None if the stage has not been done."""
+        """Errors before and after; None if the stage is not done."""
         folder = f"{self.folder}/{model}/{stage}"
         if not os.path.exists(f"{folder}/best"):
             return self.adopted(stage, model)
@@ -165,7 +166,7 @@ class Robot:
         result = load(f"{best}/result.json")
         before = load(f"{folder}/uncalibrated/result.json")["calibration"]
         if not (before and result["calibration"] and result["validation"]):
-            say(f"robot {self.seed}: model {model}, {stage}: some recording cannot be simulated in full: left out")
+            say(f"robot {self.seed}: model {model}, {stage}: left out, some recording cannot be simulated to its end")
             return None
         out = {
             "before": errors(before["mean"]["after"]),
@@ -183,12 +184,12 @@ class Robot:
 
 
 def robot_files():
-    """What the models that are calibrated are made of."""
+    """Files of which the calibrated models are made."""
     return sorted(glob.glob("config/anthrob/model_*.yaml") + glob.glob("config/anthrob/*.urdf"))
 
 
 def fingerprint(more, *files):
-    """Of what a step depends on: its options, and the files it reads."""
+    """Hash of everything a step depends on: its options and the files that it reads."""
     digest = hashlib.sha256(" ".join(more).encode())
     for file in files:
         if file:
@@ -203,7 +204,7 @@ def errors(mean):
 
 
 def median(lists):
-    """Of lists of numbers or None, place by place."""
+    """Element by element of several lists; None where one of them has None."""
     return [None if None in column else statistics.median(column) for column in zip(*lists)]
 
 
@@ -236,17 +237,48 @@ def collect(options):
     return table
 
 
-def head():
-    return ["model", "stage", "before", "after", "factor", "thesis before", "thesis after",
-            "thesis factor", "reached", "robots", "minutes"]
+HEAD = ["model", "stage", "error before", "error after", "factor", "thesis: before", "thesis: after", "thesis: factor",
+        "target reached", "robots", "minutes"]
+FACTS = {  # words of the pages for the facts of the JSON file
+    "commit": "program versions (commits) that calibrated",
+    "optimiser": "optimiser",
+    "searches a stage": "searches per stage",
+    "Jacobians a search, at most": "Jacobians per search, at most",
+    "machine": "computers",
+    "notes": "notes",
+}
+ABOUT = [
+    "How close does calibration bring a model to its robot? Here the robots are"
+    " [virtual](../virtual_robot.md#a-robot-to-be-calibrated): each is model II with parameters of its own and with"
+    " properties that the models lack, such as tendons that stretch. [Models I, II and III](../models.md) of Anthrob"
+    " are calibrated against every robot in four stages, as in chapter 8 of the thesis. The table compares the errors"
+    " before and after with those that the thesis measured on the real robot.",
+    "This page is written by `./catkin_ws.sh study calibration` from [these results](calibration.json). With `--adopt`,"
+    " the command takes these results as done and continues with other robots.",
+]
+KEY = {
+    "*stage*": "tier 1 is Anthrob without its forearm, tier 2 with it; *statics* fits equilibria, *dynamics* fits"
+               " trajectories. Each stage starts from the result of the one before.",
+    "*error*": "the mean difference between simulated and recorded robot. Tier 1: shoulder [deg] / muscle force [N];"
+               " tier 2: shoulder [deg] / elbow [deg] / muscle force [N]. Means over the recordings of a robot, then"
+               " medians over robots.",
+    "*before*, *after*": "of the uncalibrated model; of the model that this stage has calibrated.",
+    "*factor*": "the shoulder's error before, divided by that after.",
+    "*thesis*": "the same numbers from Tables C.12 and D.1 of the [thesis](../../README.md#sources-and-licence).",
+    "*target reached*": f"\"yes: <= {ENOUGH['statics']:.0f} deg\" (statics) or \"yes: <= {ENOUGH['dynamics']:.0f} deg\""
+                        " (dynamics) if the shoulder's error after calibration is that small; otherwise"
+                        " \"yes: factor\" if the factor is at least the thesis's, or \"no\".",
+    "*robots*": "the seeds of the virtual robots.",
+    "*minutes*": "computing time of the stage's search (the best one, if there are several); median over robots.",
+}
 
 
 def reached(entry):
-    """The shoulder's error falls by the thesis's factor, or to so many degrees."""
+    """Target: the shoulder's error falls to so many degrees, or by the thesis's factor."""
     enough = ENOUGH[entry["stage"].split("_")[1]]
     if entry["after"][0] <= enough:
-        return f"<= {enough:.0f} deg"
-    return "factor" if entry["factor"] >= entry["thesis"]["factor"] else "no"
+        return f"yes: <= {enough:.0f} deg"
+    return "yes: factor" if entry["factor"] >= entry["thesis"]["factor"] else "no"
 
 
 def rows(table):
@@ -258,25 +290,18 @@ def rows(table):
                f"{minutes:.1f}"]
 
 
-def markdown(table, facts):
-    lines = ["# Study: calibration against virtual robots", "",
-             "Written by `./catkin_ws.sh study calibration` from [these results](calibration.json). Errors are means",
-             "over runs, medians over robots (named by their seeds): shoulder [deg] / elbow [deg] / muscle force [N];",
-             "thesis: Tables C.12 and D.1, of the real robot. `--adopt` takes the results for done and goes on with",
-             "other robots.", ""]
-    lines += markdown_facts(facts) + [""] + markdown_table(head(), rows(table))
-    held_out = [[e["model"], e["stage"][4],
-                 text(median([r["validation"] for r in e["robots"].values()]))]
-                for e in table if e["stage"].endswith("dynamics")]
-    lines += ["", "## Held-out trajectories", "",
-              "A tour through several postures, never fitted; medians over robots.", ""]
-    lines += markdown_table(["model", "tier", "error of the calibrated model"], held_out)
-    return "\n".join(lines) + "\n"
-
-
 def page(table, facts):
-    body = "<p>shoulder [deg] / elbow [deg] / force [N]</p>" + html_table(head(), rows(table))
-    return html_page("Calibration against virtual robots", facts, body)
+    """Parts of the page, see markdown_page()."""
+    held_out = [[e["model"], e["stage"][4], text(median([r["validation"] for r in e["robots"].values()]))]
+                for e in table if e["stage"].endswith("dynamics")]
+    return ABOUT + [
+        "## Circumstances", {FACTS[key]: value for key, value in facts.items()},
+        "## Terms and columns", KEY,
+        "## Recordings that were fitted", (HEAD, rows(table)),
+        "## Held-out recordings",
+        "A tour through several postures, recorded but never fitted. Errors as above, of the model after the dynamics"
+        " stage of the tier.",
+        (["model", "tier", "error after"], held_out)]
 
 
 def summarise(options):
@@ -291,10 +316,11 @@ def summarise(options):
         "notes": several(result["note"] for result in done if "note" in result) or "none",
     }
     write(f"{options.out}/calibration.json", json.dumps({"facts": facts, "table": table}, indent=2))
-    write(f"{options.out}/calibration.html", page(table, facts))
+    title = "Study of calibration with virtual robots"
+    write(f"{options.out}/calibration.html", html_page(title, page(table, facts)))
     if of_the_study(options):
         os.makedirs("docs/studies", exist_ok=True)
-        write(DOCUMENT, markdown(table, facts))
+        write(DOCUMENT, markdown_page(title, page(table, facts)))
         write(PUBLISHED, json.dumps(published(table), indent=1) + "\n")
 
 
@@ -310,15 +336,17 @@ def published(table):
 def main():
     parser = OneLineParser(prog="catkin_ws.sh study calibration", description=__doc__,
                            formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--robots", type=int, nargs="+", default=[1, 2, 3], help="seeds")
-    parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS)
-    parser.add_argument("--optimiser", default="least_squares", help="or evolution_strategy, cmaes, ...")
-    parser.add_argument("--runs", type=int, default=2, help="searches a stage by chance; the better one survives")
-    parser.add_argument("--share", type=float, default=1.0, help="of the thesis's generations")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--thorough", action="store_true", help="errors of parameters, too, in each report")
-    parser.add_argument("--adopt", action="store_true", help=f"takes the results of {PUBLISHED} for done")
-    parser.add_argument("--out", default=OUT, help=f"elsewhere than in {OUT}, {DOCUMENT} stays as it is")
+    parser.add_argument("--robots", type=int, nargs="+", default=[1, 2, 3], help="seeds of the virtual robots")
+    parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS, help="models to calibrate")
+    parser.add_argument("--optimiser", default="least_squares", help="least_squares, evolution_strategy, cmaes, ...")
+    parser.add_argument("--runs", type=int, default=2, help="searches per stage with different"
+                        " random numbers, if not least_squares; the best one counts")
+    parser.add_argument("--share", type=float, default=1.0,
+                        help="share of the thesis's generations, if not least_squares")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads")
+    parser.add_argument("--thorough", action="store_true", help="reports also hold the errors of the parameters")
+    parser.add_argument("--adopt", action="store_true", help=f"take the results in {PUBLISHED} as done")
+    parser.add_argument("--out", default=OUT, help=f"folder of the results; if not {OUT}, {DOCUMENT} stays as it is")
     options = parser.parse_args()
     options.adopted = load_published(PUBLISHED) if options.adopt else {}
     for seed in options.robots:

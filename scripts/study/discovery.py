@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""The blind test of discovery: effects of the catalogue, pairs, nulls and things that it does not know, hidden in
-virtual robots; discovery sees recordings and a model only, and a third program compares its reports with the truth.
+"""Blind study of discovery. Virtual robots hide one effect of the catalogue, two, none, or a law that the catalogue
+lacks. Discovery gets only recordings and a model; a third program compares its reports with the truth.
 
-Every case leaves its result under build/study/discovery/ and is not done again; what was interrupted goes on. Writes
-build/study/discovery.json and .html, docs/studies/discovery.md and, what it was made from, docs/studies/discovery.json.
-Another --seed than 1 is another study, of other cases: discovery_seed_2 and so on in these names. Slices may run on
-several hosts: bring their reports/ and sealed/ together and run with --summary, or one after the other, each with the
-docs/studies/discovery.json of the one before and --adopt.
+Every case leaves its result under build/study/discovery/. The same command continues an interrupted study and does not
+repeat finished cases. Writes build/study/discovery.json and .html, docs/studies/discovery.md, and the answers behind
+it, docs/studies/discovery.json. A --seed other than 1 is a study of other cases; its files are named discovery_seed_2
+and so on. Slices may run on several hosts. Either bring their reports/ and sealed/ together and run with --summary, or
+run the slices one after the other with --adopt, each with the docs/studies/discovery.json of the one before.
 """
 
 import argparse
@@ -20,27 +20,25 @@ import subprocess
 import sys
 import time
 
-from _study import (OUT, OneLineParser, commit, html_page, html_table, load, load_published, machine, markdown_facts,
-                    markdown_table, must, of_the_study, refuse, run, say, several, start, write)
+from _study import (OUT, OneLineParser, commit, html_page, load, load_published, machine, markdown_page, must,
+                    of_the_study, refuse, run, say, several, start, write)
 
 MAKER = "devel/lib/anthrob_virtual_robot/anthrob_blind_case"
 DISCOVER = "devel/lib/anthrob_calib/anthrob_discover"
 SCORE = "src/anthrob_virtual_robot/scripts/anthrob_score"
 MODEL = "config/anthrob/model_I.yaml"
-ROUNDS = {"effect": 2}  # each law so often, every time at another place
+ROUNDS = {"effect": 2}  # cases per law, each at another place
 COUNTS = {"null": 60, "pair": 12, "wrapped": 1}
 KINDS = ["effect", "null", "pair", "outside", "wrapped"]
 MOST_EFFECTS = {"wrapped": 12}
 DOCUMENTS = "docs/studies"
-DRAWN = ["kind", "effects", "change", "slow", "stated_noise", "noise_memory"]  # of a truth, what tells what was asked
-TOLD = ["id", "place", "probability", "shows_in", "left", "parameters", "rivals"]  # of a named effect, what scoring needs
-
-
-SPENT = ["spent_s", "processor_s"]  # files that outlive an interruption
+DRAWN = ["kind", "effects", "change", "slow", "stated_noise", "noise_memory"]  # of a truth: what was asked
+TOLD = ["id", "place", "probability", "shows_in", "left", "parameters", "rivals"]  # of a named effect: to score it
+SPENT = ["spent_s", "processor_s"]  # files that remain after an interruption
 
 
 def clocks():
-    """Seconds now: of the clock, of the processors that ended steps have used."""
+    """Seconds: of the clock now, and of processor time that all finished steps have used."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return time.time(), used.ru_utime + used.ru_stime
 
@@ -69,7 +67,7 @@ class Case:
         self.kind = kind
         self.number = number
         self.name = f"{kind}_{number:02d}"
-        self.turn = number / count  # kinds take turns, so that a part of the study tells of all
+        self.turn = number / count  # kinds take turns, so that a part of the study covers all
         self.options = options
         folder = f"{options.out}/{study_name(options)}"
         self.data = f"{folder}/cases/{self.name}"
@@ -81,15 +79,15 @@ class Case:
         return os.path.exists(f"{self.report}/study.json")
 
     def failed(self):
-        """Ended without a report the last time: a wrong answer, until it is done again."""
+        """Whether the last run ended without a report: a wrong answer, until the case is done again."""
         return not self.done() and os.path.exists(f"{self.report}/failed")
 
     def state(self):
         return "done" if self.done() else "failed" if self.failed() else "begun" if os.path.exists(self.truth) else ""
 
     def make(self):
-        """Whether there is such a robot. The truth is written last; of a case that was done only the model is left. A
-        case is of one program: what another one began is begun anew."""
+        """Makes the robot and its recordings, unless they are there; False if that fails. The maker writes the truth
+        last. A case belongs to one version of the program: what another one began is made again."""
         program, made_by = commit(), f"{self.data}.made_by"
         begun = os.path.exists(self.truth) and os.path.exists(f"{self.data}/test_0")
         if begun and os.path.exists(made_by) and load(made_by) == program:
@@ -118,12 +116,12 @@ class Case:
                 write(f"{self.report}/{file}", str(earlier + now - since))
 
     def spent(self):
-        """Seconds of discovery so far, of runs that were interrupted, too: of the clock, of processors."""
+        """Seconds of discovery so far, interrupted runs included: of the clock, of processor time."""
         files = [f"{self.report}/{file}" for file in SPENT]
         return [float(load(file)) if os.path.exists(file) else 0.0 for file in files]
 
     def put_away(self):
-        """The recordings; the report's model extends the case's."""
+        """Deletes the recordings. The model stays, because the model in the report extends it."""
         for recording in glob.glob(f"{self.data}/*/"):
             shutil.rmtree(recording)
 
@@ -136,7 +134,7 @@ class Case:
         made = time.time()
         failed = f"{self.report}/failed"
         if self.examine() != 0:
-            say(f"{self.name} gave no report: see {self.log}")
+            say(f"{self.name} ended without a report: see {self.log}")
             os.makedirs(self.report, exist_ok=True)
             write(failed, "")
             return
@@ -153,7 +151,7 @@ class Case:
         return load(f"{self.report}/study.json")
 
     def published(self):
-        """Truth, answer and circumstances, as far as scoring needs them; None before there is an answer."""
+        """Truth, answer and circumstances, as far as scoring needs them; None if there is no answer."""
         if not self.done() and not self.failed():
             return None
         truth = load(self.truth)
@@ -174,7 +172,7 @@ class Case:
         return rounded({"truth": drawn, "report": answer, "facts": self.facts()})
 
     def adopt(self, published):
-        """Takes an answer from elsewhere for its own, or that there was none."""
+        """Takes over a published answer, or the fact that there was none."""
         files = {self.truth: published["truth"]}
         if published.get("failed"):
             files[f"{self.report}/failed"] = ""
@@ -187,7 +185,7 @@ class Case:
 
 
 def rounded(value):
-    """Numbers with six digits: enough to score by."""
+    """All numbers with six digits, which is enough for scoring."""
     if isinstance(value, dict):
         return {key: rounded(one) for key, one in value.items()}
     if isinstance(value, list):
@@ -213,7 +211,7 @@ def chosen(cases, options):
     if options.case:
         unknown = set(options.case) - {case.name for case in cases}
         if unknown:
-            refuse(f"no case {' '.join(sorted(unknown))}; --list tells them")
+            refuse(f"no case {' '.join(sorted(unknown))}; --list shows all")
         cases = [case for case in cases if case.name in options.case]
     share, shares = options.slice
     return cases[share - 1::shares]
@@ -225,7 +223,7 @@ def seconds_of(case):
 
 
 def time_left(cases):
-    """Hours, guessed from what cases of the same kind took; None before the first."""
+    """Hours, estimated from finished cases of the same kind; None if no case is done."""
     took = {case: seconds_of(case) for case in cases if case.done()}
     if not took:
         return None
@@ -238,7 +236,7 @@ def time_left(cases):
 
 
 def score(options):
-    """What the third program says of all reports that are there; None if there is none."""
+    """Scores of all reports that exist, by anthrob_score; None if no case was made."""
     folder = f"{options.out}/{study_name(options)}"
     if not os.path.isdir(f"{folder}/sealed"):
         return None
@@ -253,79 +251,167 @@ def facts_of(cases, options):
     processor = [facts["processor_s"] / 3600 for facts in done if "processor_s" in facts]
     failed = sum(case.failed() for case in cases)
     return {
-        "cases": f"{len(done)} of {len(cases)}" + (f", and {failed} that gave no report" if failed else ""),
+        "cases": f"{len(done)} of {len(cases)}" + (f", and {failed} that ended without a report" if failed else ""),
         "commit": several(facts["commit"] for facts in done),
         "seed": options.seed,
         "machine": several(facts["machine"] for facts in done),
         "threads a case": several(facts["jobs"] for facts in done),
-        "time": f"{sum(minutes) / 60:.1f} h of discovery, median {statistics.median(minutes):.1f}, "
-                f"longest {max(minutes):.1f} minutes a case"
-                + (f"; {sum(processor):.1f} h of processors in {len(processor)} cases" if processor else ""),
+        "time": f"{sum(minutes) / 60:.1f} h in total; per case {statistics.median(minutes):.1f} minutes in the "
+                f"median, {max(minutes):.1f} at most"
+                + (f"; processor time {sum(processor):.1f} h for {len(processor)} of the cases" if processor else ""),
     }
 
 
-def rate_rows(result):
-    return [[row["label"], row["said"], row["asked"]] for row in result["rates"]]
+FACTS = {  # words of the pages for the facts of the JSON file
+    "cases": "cases answered",
+    "commit": "program versions (commits) that answered",
+    "seed": "seed",
+    "machine": "computers",
+    "threads a case": "threads per case",
+    "time": "computing time",
+}
+SECTIONS = {  # of the rates
+    "One effect hidden": "Robots with one effect of the catalogue.",
+    "All muscles wrapped": "Robots whose muscles all wrap round surfaces, where the model has straight lines. Discovery"
+                           " counts as right if it first names the surface of any of them.",
+    "Two effects hidden": "Robots with two effects of the catalogue.",
+    "Nothing hidden": "Robots that differ from their model in ordinary parameters and noise only.",
+    "Law outside the catalogue": "Robots with a law that the catalogue lacks, so that every name is wrong.",
+    "Held-out gap": "How well the corrected model fits the held-out recording. The rows about the gap count all robots"
+                    " with effects of the catalogue. A share of 0 means that nothing is left above the floor, 1 that"
+                    " nothing is gained; a negative share means that the gap ends below the floor. The rows about"
+                    " channels count all answers that name an effect.",
+    "Wrong names": "Robots with one or two effects of the catalogue.",
+}
+RATES = {  # of anthrob_score, by its label: section (None: that of the row before), words of the page
+    "correct": ("One effect hidden", "effect named first, or in the class of what is named first"),
+    "of all, invisible too": (None, "the same, if effects reported as invisible count as missed"),
+    "named first": ("One effect hidden", "effect named first"),
+    "inside a class": ("One effect hidden", "effect only in the class of what is named first"),
+    "right place": ("One effect hidden", "effect named first or in the class, at its place"),
+    "said invisible": ("One effect hidden", "effect reported as invisible"),
+    "below 3 floors": ("One effect hidden", "effect that changes no channel by 3 floors"),
+    "parameter error [%]": ("One effect hidden", "error of the size [%], if named first at its place"),
+    "covered by ci95": ("One effect hidden", "95 % interval of the report holds the true size"),
+    "wrapping surface": ("All muscles wrapped", "surface found"),
+    "its radius [%]": ("All muscles wrapped", "error of its radius [%]"),
+    "both of two named": ("Two effects hidden", "both named, each at its place"),
+    "one inside a class": ("Two effects hidden", "both named, but one of them only in a class"),
+    "and nothing else": ("Two effects hidden", "both named, and nothing else"),
+    "one said invisible": ("Two effects hidden", "missed effect reported as invisible"),
+    "false on nothing": ("Nothing hidden", "false alarm: another verdict than `no_missing_effect`"),
+    "unexplained, as is": ("Law outside the catalogue", "verdict `unexplained`, the right answer"),
+    "confidently wrong": ("Law outside the catalogue", "an effect named with a probability of 0.9 or more"),
+    "gap left held out": ("Held-out gap", "share of the gap that is left"),
+    "no gap to begin with": ("Held-out gap", "no gap left for effects: ordinary parameters close it"),
+    "a channel worse": ("Held-out gap", "a channel more than 5 % worse than without the named effects"),
+    "and above its floor": ("Held-out gap", "a channel more than 5 % worse, and above its floor"),
+    "more named than hidden": ("Wrong names", "more effects named than hidden"),
+    "a false one certainly": ("Wrong names", "a wrong effect or place named with a probability of 0.9 or more"),
+}
+KEY = {
+    "*channel*, *floor*, *gap*": "a channel is a measured quantity, such as the force of one muscle. Its floor is its"
+                                 " noise and the error of the simulation's own numerics. The gap is the root mean"
+                                 " square difference between simulation and recording, in floors.",
+    "*held out*": "of the test recording, which was not used to fit anything.",
+    "*effect*, *place*": "what the model lacks and where it acts, for example `joint_coulomb @ elbow`; see the"
+                         " [catalogue](../effects.md).",
+    "*verdict*": "`effects_found`: at least one effect explains the held-out recording better, by more than chance."
+                 " `no_missing_effect`: no effect is named and no gap is certain. `unexplained`: a gap is certain, and"
+                 " no effect of the catalogue closes enough of it; effects may be named all the same, mostly with a low"
+                 " probability. `missing`: the program ended without a report, which counts as wrong.",
+    "*named first*": "the first effect in the report, if the verdict is `effects_found`.",
+    "*class*": "effects that the report cannot tell apart: a named one and its rivals with a probability of 0.05 or"
+               " more, at most three in all.",
+    "*reported as invisible*": "the effect is not named, and the report says that an effect of its size would be too"
+                               " small to show in these recordings. Such cases are left out of the rates of found"
+                               " effects, unless a row says otherwise.",
+}
+RATE_HEAD = ["result", "measured", "target"]
+ANSWER_HEAD = ["hidden", "answer (number of cases)"]
+CASE_HEAD = ["case", "hidden", "change [floors]", "verdict", "named", "probability of the first"]
 
 
-def confusion_rows(result):
-    rows = []
+def rate_parts(result):
+    """A heading, a sentence and a table for every kind of robot."""
+    rows, title = {}, "Other"
+    for row in result["rates"]:
+        section, name = RATES.get(row["label"], (None, row["label"]))
+        title = section or title
+        rows.setdefault(title, []).append([name, row["said"], target(row["asked"])])
+    for title, table in rows.items():
+        yield from [f"### {title}", *filter(None, [SECTIONS.get(title)]), (RATE_HEAD, table)]
+
+
+def target(asked):
+    """asked: 90 % -> at least 90 %; asked: 88-99 % -> 88-99 %"""
+    words = asked.removeprefix("asked: ")
+    return f"at least {words}" if words != asked and "-" not in words else words
+
+
+def answer_rows(result):
     for hidden, answers in sorted(result["confusion"].items()):
+        kind, _, law = hidden.rpartition(": ")
+        note = {"outside": " (not in the catalogue)", "wrapped": " at every muscle"}.get(kind, "")
         answers = sorted(answers.items(), key=lambda item: -item[1])
-        rows.append([hidden, ", ".join(f"{name} {count}" for name, count in answers)])
-    return rows
+        yield [law + note, ", ".join(f"{name} ({count})" for name, count in answers)]
 
 
 def case_rows(result):
     for case in result["cases"]:
+        hidden = "wrapping_surface @ every muscle" if case["kind"] == "wrapped" else ", ".join(case["hidden"])
         floors, probability = case["floors"], case["probability"]
-        yield [case["name"], ", ".join(case["hidden"]) if case["kind"] != "wrapped" else "all wrapped",
-               "" if floors is None else f"{floors:.1f}", case["verdict"], ", ".join(case["named"]),
-               "" if probability is None else f"{probability:.2f}"]
+        yield [case["name"], hidden or "nothing", "" if floors is None else f"{floors:.1f}", case["verdict"],
+               ", ".join(case["named"]), "" if probability is None else f"{probability:.2f}"]
 
 
-RATES = ["what", "measured, 95 % interval", "asked"]
-CONFUSION = ["hidden", "answers"]
-CASES = ["case", "hidden", "change [floors]", "verdict", "named", "probability"]
-
-
-def markdown(result, facts, options):
-    lines = ["# Study: discovery on blind cases", "",
-             f"Written by `./catkin_ws.sh study discovery --seed {options.seed}` from",
-             f"[these answers]({study_name(options)}.json); what a case is:",
-             "[the virtual robot](../virtual_robot.md). `--adopt` takes them for done and goes on with the others.", ""]
-    lines += markdown_facts(facts)
-    for title, head, rows in (("Rates", RATES, rate_rows(result)),
-                              ("Confusion", CONFUSION, confusion_rows(result)),
-                              ("Cases", CASES, case_rows(result))):
-        lines += ["", f"## {title}", ""] + markdown_table(head, rows)
-    return "\n".join(lines) + "\n"
-
-
-def page(result, facts):
-    body = "<h2>Rates</h2>" + html_table(RATES, rate_rows(result))
-    body += "<h2>Confusion</h2>" + html_table(CONFUSION, confusion_rows(result))
-    body += "<h2>Cases</h2>" + html_table(CASES, case_rows(result))
-    return html_page("Discovery on blind cases", facts, body)
+def page(result, facts, options):
+    """Parts of the page, see markdown_page()."""
+    return [
+        "Does [discovery](../discovery.md) find what a model lacks, and is it silent where nothing is missing? Each"
+        " case is a [virtual robot](../virtual_robot.md) in which something may be hidden that its model lacks."
+        " Discovery gets recordings and the model, but not the truth. Another program then compares its answer with"
+        " the truth.",
+        f"This page is written by `./catkin_ws.sh study discovery --seed {options.seed}` from"
+        f" [these answers]({study_name(options)}.json). With `--adopt`, the command takes them as done and continues"
+        " with the other cases. What went right and wrong in every seed is described in"
+        " [discovery_results.md](../discovery_results.md).",
+        "## Who answered", {FACTS[key]: value for key, value in facts.items()},
+        "If there are several versions, later ones may have been changed because of what earlier ones had answered.",
+        "## Terms", KEY,
+        "## Rates",
+        "A rate is given as number of cases/all cases = share [95 % interval], a median with its 95 % interval in"
+        " brackets if there are enough values.",
+        *rate_parts(result),
+        "## Answers by hidden effect",
+        "The answer of a case is the effect that is named first, or the verdict if that is not `effects_found`. A case"
+        " with two effects stands in the row of its first one; it may well be right to name the other one first.",
+        (ANSWER_HEAD, list(answer_rows(result))),
+        "## All cases",
+        "`effect_NN` hides one effect, `pair_NN` two, `null_NN` nothing, `outside_NN` a law that the catalogue lacks."
+        " In `wrapped_NN`, every muscle wraps round a surface. *Change*: by how many floors the hidden effects change"
+        " the channel that they change most.",
+        (CASE_HEAD, list(case_rows(result)))]
 
 
 def summarise(cases, options):
-    """Whether there was something to tell of."""
+    """Scores the reports and writes all files; False if there is no report."""
     result = score(options)
     if result is None or not any(case.done() for case in cases):
         return False
     facts = facts_of(cases, options)
     write(f"{options.out}/{study_name(options)}.json", as_json({"facts": facts, **result}))
-    write(f"{options.out}/{study_name(options)}.html", page(result, facts))
+    title, parts = f"Blind study of discovery, seed {options.seed}", page(result, facts, options)
+    write(f"{options.out}/{study_name(options)}.html", html_page(title, parts))
     if of_the_study(options):
         os.makedirs(DOCUMENTS, exist_ok=True)
-        write(document(options), markdown(result, facts, options))
+        write(document(options), markdown_page(title, parts))
         publish(cases, options)
     return True
 
 
 def publish(cases, options):
-    """A line a case, so that a reader sees what is new."""
+    """Writes one line per case, so that a diff shows what is new."""
     lines = [f"{json.dumps(case.name)}: {json.dumps(case.published())}"
              for case in sorted(cases, key=lambda case: case.name) if case.done() or case.failed()]
     write(published_file(options), "{\n" + ",\n".join(lines) + "\n}\n")
@@ -349,16 +435,17 @@ def a_slice(text):
 def arguments():
     parser = OneLineParser(prog="catkin_ws.sh study discovery", description=__doc__,
                            formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--slice", type=a_slice, default=(1, 1), metavar="K/N", help="every N-th case, from the K-th")
-    parser.add_argument("--only", nargs="+", choices=KINDS, help="these kinds")
-    parser.add_argument("--case", nargs="+", metavar="NAME", help="these cases")
-    parser.add_argument("--list", action="store_true", help="tells the cases and how far they are")
-    parser.add_argument("--summary", action="store_true", help="only scores the reports that are there")
-    parser.add_argument("--adopt", action="store_true", help=f"takes the cases of {DOCUMENTS}/*.json for done")
-    parser.add_argument("--keep", action="store_true", help="keeps recordings")
-    parser.add_argument("--seed", type=int, default=1, help="of everything that is drawn")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads of a case")
-    parser.add_argument("--out", default=OUT, help=f"elsewhere than in {OUT}, {DOCUMENTS} stay as they are")
+    parser.add_argument("--slice", type=a_slice, default=(1, 1), metavar="K/N",
+                        help="only every N-th case, from the K-th")
+    parser.add_argument("--only", nargs="+", choices=KINDS, help="only these kinds of cases")
+    parser.add_argument("--case", nargs="+", metavar="NAME", help="only these cases")
+    parser.add_argument("--list", action="store_true", help="list the cases and their state")
+    parser.add_argument("--summary", action="store_true", help="only score the reports that exist")
+    parser.add_argument("--adopt", action="store_true", help=f"take the cases in {DOCUMENTS}/*.json as done")
+    parser.add_argument("--keep", action="store_true", help="keep the recordings of finished cases")
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random numbers")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads per case")
+    parser.add_argument("--out", default=OUT, help=f"folder of the results; if not {OUT}, {DOCUMENTS} stays as it is")
     return parser.parse_args()
 
 
@@ -390,7 +477,7 @@ def main():
         return
     if options.summary:
         if not summarise(everything, options):
-            refuse("no case is done yet")
+            refuse("no case is done: run without --summary, or add --adopt to use the published cases")
         return
     carry_out(cases, everything, options)
 

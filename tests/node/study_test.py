@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The studies with programs that only pretend: what they run, in which order, and how they go on."""
+"""The studies with stand-ins for their programs: what they run, in which order, how they continue, what they write."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -88,7 +89,7 @@ class Study(unittest.TestCase):
             return len(file.readlines())
 
     def told(self):
-        """What the study says in the documents."""
+        """The page that the study writes into the documents."""
         with open(f'docs/studies/{self.study_of.__name__}.md') as file:
             return file.read()
 
@@ -119,7 +120,7 @@ class CalibrationStudy(Study):
         self.assertEqual(self.told(), before)
         self.study('--adopt', '--robots', '2', '--models', 'I')
         self.assertEqual(self.calls(), 2 * (2 + 2 * 4))
-        self.assertIn('| <= 5 deg | 1, 2 |', self.told())
+        self.assertIn('| yes: <= 5 deg | 1, 2 |', self.told())
 
     def test_a_study_elsewhere_leaves_the_document_alone(self):
         self.study('--robots', '1', '--models', 'I')
@@ -164,7 +165,8 @@ class DiscoveryStudy(Study):
         self.assertEqual(result['effect']['first'], 1)
         self.assertEqual(result['null']['false'], 1)
         self.assertIn('2 of 78', result['facts']['cases'])
-        self.assertIn('| correct | 1/1 = 100 %', self.told())
+        self.assertIn('| effect named first | 1/1 = 100 %', self.told())
+        self.assertIn('| effect named first or in the class, at its place | 1/1 = 100 %', self.told())
         self.assertEqual(os.listdir('out/discovery/cases/effect_01'), ['model.yaml'])
 
     def test_goes_on_elsewhere_with_what_is_published(self):
@@ -238,15 +240,15 @@ class DiscoveryStudy(Study):
             self.study('--case', 'effect_01')
         with open('out/discovery.json') as file:
             self.assertEqual(json.load(file)['missing'], ['effect_01'])
-        self.assertIn('| correct | 0/1 = 0 %', self.told())
-        self.assertIn('- cases: 1 of ', self.told())
-        self.assertIn(', and 1 that gave no report', self.told())
+        self.assertIn('| effect named first, or in the class of what is named first | 0/1 = 0 %', self.told())
+        self.assertIn('- cases answered: 1 of ', self.told())
+        self.assertIn(', and 1 that ended without a report', self.told())
         # Another host takes that over, too.
         shutil.rmtree('out')
         self.study('--adopt', '--summary')
         with open('out/discovery.json') as file:
             self.assertEqual(json.load(file)['missing'], ['effect_01'])
-        self.assertIn(', and 1 that gave no report', self.told())
+        self.assertIn(', and 1 that ended without a report', self.told())
 
     def test_times_are_of_all_runs_of_a_case(self):
         with open('status', 'w') as file:
@@ -264,7 +266,7 @@ class DiscoveryStudy(Study):
         self.assertGreater(facts['discovery_s'], 3600.0)
         self.assertGreater(facts['processor_s'], 0.0)
         self.assertLess(facts['processor_s'], 10.0)
-        self.assertIn(' h of processors in 1 cases', self.told())
+        self.assertIn('processor time 0.0 h for 1 of the cases', ' '.join(self.told().split()))
 
     def test_a_case_is_of_one_program(self):
         with open('status', 'w') as file:
@@ -274,6 +276,24 @@ class DiscoveryStudy(Study):
                 self.study('--case', 'null_00')
             with open('calls') as file:
                 self.assertEqual(file.read().count('made '), made, program)
+
+    def test_every_rate_of_the_scores_has_words(self):
+        with open(discovery.SCORE) as file:
+            labels = re.findall(r"sheet\.(?:rate|median)\('([^']+)'", file.read())
+        self.assertEqual({label.strip() for label in labels}, set(discovery.RATES))
+        self.assertLessEqual({section for section, _ in discovery.RATES.values() if section}, set(discovery.SECTIONS))
+
+    def test_rates_stand_in_the_section_of_what_was_hidden(self):
+        rates = [{'label': label, 'said': said, 'asked': asked} for label, said, asked in (
+            ('correct', 'a', 'asked: 90 %'), ('of all, invisible too', 'b', ''),
+            ('both of two named', 'c', 'asked: 80 %'), ('of all, invisible too', 'd', ''),
+            ('covered by ci95', 'e', 'asked: 88-99 %'), ('unheard of', 'f', ''))]
+        parts = list(discovery.rate_parts({'rates': rates}))
+        tables = {title: table for title, _, (_, table) in zip(*[iter(parts)] * 3)}
+        one, two = tables.values()
+        self.assertEqual(list(tables), ['### One effect hidden', '### Two effects hidden'])
+        self.assertEqual([row[1:] for row in one], [['a', 'at least 90 %'], ['b', ''], ['e', '88-99 %'], ['f', '']])
+        self.assertEqual([row[1:] for row in two], [['c', 'at least 80 %'], ['d', '']])
 
     def test_bad_input(self):
         for arguments in (['--case', 'nobody'], ['--slice', '3/2'], ['--slice', 'x'], ['--summary']):
