@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Pairs of images as the commands of motion capture read them: OUT/left and OUT/right with 000000.png, ..., and
-OUT/times.csv with the time of each pair [s].
+"""Saves pairs of images as the commands of motion capture read them: OUT/left/000000.png, OUT/right/000000.png, ...,
+and OUT/times.csv with the time of each pair [s].
 
     save_pairs.py OUT --bag BAG [--topics LEFT RIGHT] [--tolerance S] [--every N]
     save_pairs.py OUT --cameras LEFT RIGHT [--rate HZ] [--count N] [--exposure S]
 
-Of a recording: images (sensor_msgs/Image, mono8) that have equal stamps, or within the tolerance. Of GenICam cameras
-(python3-gi, gir1.2-aravis-0.8): pictures triggered together, until there are N of them or Ctrl-C."""
+With --bag, two images (sensor_msgs/Image, mono8) make a pair if their stamps are equal or differ by at most the
+tolerance. With --cameras, the script triggers two GenICam cameras together, until it has N pairs or you press Ctrl-C;
+this needs the packages python3-gi and gir1.2-aravis-0.8."""
 import argparse
 import pathlib
 import signal
@@ -75,7 +76,7 @@ class Pairs:
 
 
 def of_message(image, topic):
-    where = '%s: image of %.6f s: ' % (topic, image.header.stamp.to_sec())
+    where = '%s: image stamped %.6f s: ' % (topic, image.header.stamp.to_sec())
     if image.encoding not in ('mono8', '8UC1'):
         raise BadImage('%sencoding %s: expected mono8' % (where, image.encoding))
     if image.step < image.width or len(image.data) < image.step * image.height:
@@ -84,12 +85,12 @@ def of_message(image, topic):
 
 
 def matched(messages, topics, tolerance):
-    """(left, right) of near stamps, as they come; what has no partner is left out."""
+    """Yields pairs (left, right) whose stamps are within the tolerance; images without a partner are left out."""
     waiting, intervals, last = {topic: [] for topic in topics}, [], {}
     for topic, image, _ in messages:
         # Of stamps that stand still nobody knows which belong together.
         if image.header.stamp.is_zero() or image.header.stamp == last.get(topic):
-            raise ValueError('%s: image of %.6f s: expected the time of the exposure, after that of the image before'
+            raise ValueError('%s: image stamped %.6f s: expected the time of the exposure, after the previous stamp'
                              % (topic, image.header.stamp.to_sec()))
         others = waiting[topics[1 - topics.index(topic)]]
         if topic in last and image.header.stamp > last[topic]:
@@ -116,7 +117,7 @@ def save_bag(arguments):
     try:
         save_images(arguments, rosbag.Bag(arguments.bag))
     except rosbag.ROSBagException as error:
-        raise ValueError('%s: no bag that can be read (%s)' % (arguments.bag, error))
+        raise ValueError('%s: cannot be read as a bag (%s)' % (arguments.bag, error))
 
 
 def save_images(arguments, bag):
@@ -124,7 +125,7 @@ def save_images(arguments, bag):
               if what.msg_type == 'sensor_msgs/Image']
     for topic in arguments.topics:
         if topic not in images:
-            raise ValueError('%s: no images on topic %s; there are %s' %
+            raise ValueError('%s: no images on topic %s; image topics of this bag: %s' %
                              (arguments.bag, topic, ', '.join(sorted(images)) or 'none'))
     bad = None
     with Pairs(arguments.out) as folder:
@@ -143,9 +144,10 @@ def save_images(arguments, bag):
     if stop_asked:
         return
     if bad and not folder.times:
-        raise ValueError('%s: no pair that can be read' % arguments.bag)
+        raise ValueError('%s: no pair of two usable images' % arguments.bag)
     if not folder.times:
-        raise ValueError('%s: no pair with stamps within %g s: see --tolerance' % (arguments.bag, arguments.tolerance))
+        raise ValueError('%s: no pair with stamps within %g s of each other: try a larger --tolerance'
+                         % (arguments.bag, arguments.tolerance))
 
 
 class Camera:
@@ -183,9 +185,12 @@ class Camera:
 
 
 def save_cameras(arguments):
-    import gi
-    gi.require_version('Aravis', '0.8')
-    from gi.repository import Aravis, GLib
+    try:
+        import gi
+        gi.require_version('Aravis', '0.8')
+        from gi.repository import Aravis, GLib
+    except (ImportError, ValueError) as error:
+        raise ImportError('--cameras needs the packages python3-gi and gir1.2-aravis-0.8 (%s)' % error)
     Aravis.enable_interface('Fake')
     try:
         cameras = [Camera(Aravis, name, arguments.exposure) for name in arguments.cameras]
@@ -206,17 +211,24 @@ def save_cameras(arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('out', metavar='OUT')
+    parser.add_argument('out', metavar='OUT',
+                        help='folder to write to; its left/ and right/ must be empty or absent')
     source = parser.add_mutually_exclusive_group(required=True)
-    source.add_argument('--bag')
-    source.add_argument('--cameras', nargs=2, metavar=('LEFT', 'RIGHT'), help='names, as of source:=aravis')
+    source.add_argument('--bag', help='bag to read')
+    source.add_argument('--cameras', nargs=2, metavar=('LEFT', 'RIGHT'),
+                        help='names of the cameras, as for mocap.launch source:=aravis')
     parser.add_argument('--topics', nargs=2, metavar=('LEFT', 'RIGHT'),
-                        default=['/anthrob/mocap/left/image_raw', '/anthrob/mocap/right/image_raw'])
-    parser.add_argument('--tolerance', type=float, default=0.0, metavar='S', help='[s] between stamps of a pair')
-    parser.add_argument('--every', type=int, default=1, metavar='N', help='only every Nth pair')
-    parser.add_argument('--rate', type=float, default=30.0, metavar='HZ')
-    parser.add_argument('--count', type=int, default=600, metavar='N')
-    parser.add_argument('--exposure', type=float, default=0.0005, metavar='S')
+                        default=['/anthrob/mocap/left/image_raw', '/anthrob/mocap/right/image_raw'],
+                        help='image topics of the bag (default: mocap/.../image_raw of the robot anthrob)')
+    parser.add_argument('--tolerance', type=float, default=0.0, metavar='S',
+                        help='[s] largest difference between the stamps of a pair (default: 0, equal stamps)')
+    parser.add_argument('--every', type=int, default=1, metavar='N', help='save only every Nth pair of the bag')
+    parser.add_argument('--rate', type=float, default=30.0, metavar='HZ',
+                        help='[Hz] pairs a second taken with --cameras (default: %(default)s)')
+    parser.add_argument('--count', type=int, default=600, metavar='N',
+                        help='number of pairs taken with --cameras (default: %(default)s)')
+    parser.add_argument('--exposure', type=float, default=0.0005, metavar='S',
+                        help='[s] exposure of --cameras (default: %(default)s)')
     parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (--help explains)\n')
     arguments = parser.parse_args()
     for name in ('every', 'count', 'rate', 'exposure'):

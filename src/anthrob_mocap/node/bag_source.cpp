@@ -14,7 +14,7 @@ BagSource::BagSource(const std::string& file, const std::string& left, const std
   try {
     bag_.open(file, rosbag::bagmode::Read);
   } catch (const rosbag::BagException& error) {
-    throw BadInput(file + ": no bag that can be read (" + error.what() + ")");
+    throw BadInput(file + ": cannot be read as a bag (" + error.what() + ")");
   }
   view_ = std::make_unique<rosbag::View>(bag_,
                                          rosbag::TopicQuery(std::vector<std::string>{left, right}));
@@ -36,7 +36,7 @@ FrameSource::Grab BagSource::next(StereoFrame& frame, double) {
       if (!pairing_.add(side, timed_image(message), pair)) continue;
     } catch (const BadInput& error) {
       std::ostringstream text;
-      text << file_ << ": " << topics_[side] << ": image of " << message->header.stamp
+      text << file_ << ": " << topics_[side] << ": image stamped " << message->header.stamp
            << " s: " << error.what();
       refuse_(last_refusal_ = text.str());
       continue;

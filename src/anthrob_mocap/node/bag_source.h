@@ -13,15 +13,14 @@
 namespace anthrob {
 namespace mocap {
 
-/// Pairs from two image topics of a bag, as fast as they are taken.
+/// Pairs from two image topics of a bag, as fast as the caller takes them.
 class BagSource final : public FrameSource {
  public:
   using Refuse = std::function<void(const std::string& why)>;
 
   /// @param left, right topics
-  /// @param refuse is told of every image that is left out because it cannot be used, and at the
-  /// end
-  ///   of those without a partner if they are many
+  /// @param refuse gets a message for each image that cannot be used, and at the end one for images
+  ///   without a partner, if they are many
   /// @throws BadInput if there is no such bag or topic
   BagSource(const std::string& file, const std::string& left, const std::string& right,
             double sync_tolerance, Refuse refuse);

@@ -38,14 +38,16 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const std::string rig_file = optional_text(settings, "rig");
   if (!rig_file.empty()) setup = mocap::Setup::load(rig_file, set);
   if (options.joint_tf && !setup) {
-    throw anthrob::BadInput("parameter ~joint_tf: true needs ~rig, which says where joints are");
+    throw anthrob::BadInput(
+        "parameter ~joint_tf: true: expected parameter ~rig as well; rig.yaml says where the "
+        "joints are");
   }
   const std::string calibration = optional_text(settings, "calibration");
   const std::string source = optional_text(settings, "source", "topics");
   if (source != "topics" && calibration.empty()) {
     throw anthrob::BadInput(
-        "parameter ~calibration: missing; expected a folder with left.yaml and "
-        "right.yaml");
+        "parameter ~calibration: missing; expected a folder with left.yaml and right.yaml "
+        "(only source topics can take the calibration from camera_info)");
   }
   const std::optional<mocap::StereoRig> rig =
       calibration.empty() ? mocap::wait_for_rig(ros::NodeHandle(nh, "mocap"))
@@ -65,26 +67,37 @@ void track(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "mocap";
-  info.purpose = "Stereo infrared markers to poses of targets and ball joints.";
+  info.purpose =
+      "Tracks marker targets in the images of two cameras; publishes their poses and ball joints.";
   info.parameters = {
       {"targets", "path of targets.yaml (required)"},
-      {"rig", "path of rig.yaml: where the targets sit on the robot (default: none, poses only)"},
-      {"calibration", "folder with left.yaml and right.yaml (default: what camera_info says)"},
-      {"settings", "path of the tracker's settings (default: none)"},
+      {"rig",
+       "path of rig.yaml: where the cameras, targets and joints are on the robot; needed for tf "
+       "of the camera and for joint_tf (default: none)"},
+      {"calibration",
+       "folder with left.yaml and right.yaml; empty, only with source topics: taken from "
+       "camera_info (default: empty)"},
+      {"settings", "path of a YAML file with options of the stages (default: none)"},
       {"source", "topics, folder, bag, aravis or dc1394 (default: topics)"},
-      {"left", "of another source than topics: folder, topic or camera"},
-      {"right", "likewise"},
-      {"bag", "path of a bag, of source bag"},
+      {"left",
+       "source folder: folder of images; bag: image topic; aravis, dc1394: name or GUID of the "
+       "camera"},
+      {"right", "the same for the right camera"},
+      {"bag", "source bag: path of the bag"},
       {"rate",
-       "[Hz] of a folder without times.csv, or at which cameras are triggered (default: 60)"},
+       "[Hz] frame rate of a folder without times.csv, or of cameras, triggered or free (default: "
+       "60)"},
       {"trigger",
-       "of aravis: software, free or a line; of dc1394: external or free (default: the first of "
-       "these)"},
-      {"exposure", "[s] of cameras (default: 0.0005)"},
-      {"pipeline", "sequential or threaded (default: sequential)"},
-      {"sync_tolerance", "[s] between stamps of a pair, 0: as the source wants it (default: 0)"},
-      {"camera_frame", "frame of the left camera, rectified (default: mocap_camera)"},
-      {"joint_tf", "whether the joints go to tf, too (default: false)"},
+       "aravis: software, free or the name of a trigger line (default: software); dc1394: external "
+       "or free (default: external)"},
+      {"exposure", "[s] exposure of the cameras (default: 0.0005)"},
+      {"pipeline", "sequential or threaded; same results (default: sequential)"},
+      {"sync_tolerance",
+       "[s] largest difference between the stamps of a pair; 0 is the source's own default: topics "
+       "and bag: equal stamps; folder: 0.002; aravis and dc1394: 0.004, or half a period if that "
+       "is shorter (default: 0)"},
+      {"camera_frame", "tf frame of the rectified left camera (default: mocap_camera)"},
+      {"joint_tf", "whether to publish the links of the joints in tf (default: false)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     track(nh, settings);

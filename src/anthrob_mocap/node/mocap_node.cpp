@@ -131,8 +131,10 @@ void MocapNode::wait_for_listeners() const {
   if (heard()) {
     ros::WallDuration(kOthers).sleep();
   } else if (ros::ok()) {
-    ROS_WARN_STREAM("nobody listens to " << joints_.getTopic() << " or " << images_.getNamespace()
-                                         << "/targets: what is seen from now on is lost");
+    const std::string topics = images_.getNamespace();
+    ROS_WARN_STREAM("no subscriber to " << joints_.getTopic() << ", " << topics << "/targets or "
+                                        << topics << "/joints: starting anyway; later subscribers "
+                                        << "miss the beginning");
   }
 }
 
@@ -183,7 +185,7 @@ void MocapNode::check_stamp(const StereoFrame& frame) const {
   if (frame.ns >= 0 && frame.ns < (kSecond << 32) && frame.ns - now < (kSecond << 31)) return;
   std::ostringstream text;
   text << "left image: stamp " << std::fixed << frame.t << " s: expected the time of the exposure; "
-       << "now is " << 1e-9 * static_cast<double>(now) << " s";
+       << "the current time is " << 1e-9 * static_cast<double>(now) << " s";
   throw BadInput(text.str());
 }
 

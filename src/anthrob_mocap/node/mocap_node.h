@@ -24,7 +24,7 @@ class MocapNode {
     PipelineMode mode = PipelineMode::kSequential;
     std::string camera_frame = "mocap_camera";
     double sync_tolerance = 0.0;  ///< [s] between stamps of image topics
-    bool joint_tf = false;        ///< publish links of joints; not beside a simulator, which does
+    bool joint_tf = false;        ///< publish links of joints; a simulator does so itself
     bool recorded = false;        ///< a source that ends: no result may be lost, none is late
     TrackerOptions tracker;
   };
@@ -35,8 +35,8 @@ class MocapNode {
 
   /// Tracks image topics until ROS shuts down.
   void run();
-  /// Tracks what a source delivers, until it ends or ROS shuts down. What is recorded waits for
-  /// somebody who listens, some seconds at most.
+  /// Tracks what a source delivers, until it ends or ROS shuts down. With a recorded source it
+  /// first waits for a subscriber, for 5 s at most.
   void run(FrameSource& source);
   /// Logs and counts an image that could not be used.
   void refuse(const std::string& why);

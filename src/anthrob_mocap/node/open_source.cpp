@@ -58,8 +58,8 @@ std::unique_ptr<FrameSource> open_source(
 #endif
   throw BadInput(
       "parameter ~source: " + kind +
-      ": expected topics, folder, bag, aravis or (where libdc1394 was there at the build) "
-      "dc1394");
+      ": expected topics, folder, bag, aravis or dc1394 (the last only if libdc1394 was installed "
+      "at build time)");
 }
 
 }  // namespace mocap

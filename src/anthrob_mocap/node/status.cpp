@@ -94,14 +94,16 @@ void Status::judge(const std::string& trouble, const Pairing::Counts& images,
     for (std::size_t k = 0; k < targets_.size(); ++k) {
       if (seen_[k] > 0) continue;
       status.message = targets_[k] + " is not seen";
-      if (health_.cut() > 0) status.message += "; more points than most_points: the lowest are cut";
+      if (health_.cut() > 0)
+        status.message += "; more points than most_points: the lowest in the picture are ignored";
       if (health_.poses() == 0) status.message = health_.advice();
       return;
     }
   }
   for (const std::size_t j : health_.joints_without_velocity()) {
     status.message = joints_[j] + " is seen, but never twice within " +
-                     text(JointEstimator::kLongestGap) + " s: no velocity, so no state";
+                     text(JointEstimator::kLongestGap) +
+                     " s: no velocity, so the joint is not published";
     return;
   }
   status.level = DiagnosticStatus::OK;

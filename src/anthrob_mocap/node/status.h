@@ -26,7 +26,7 @@ class Status {
 
   /// @param elapsed [s] since the last report
   /// @param trouble of the source: an error, if not empty
-  /// @param images of the source since it was asked last
+  /// @param images counts of the source since its last take_counts
   diagnostic_msgs::DiagnosticStatus report(double elapsed, const std::string& trouble,
                                            const Pairing::Counts& images);
 

@@ -90,7 +90,7 @@ bool VirtualRig::scene_at(const ros::Time& time, Scene& scene) const {
       }
     }
   } catch (const tf2::TransformException& error) {
-    ROS_WARN_STREAM_THROTTLE(1.0, "no picture: " << error.what());
+    ROS_WARN_STREAM_THROTTLE(1.0, "no image rendered: " << error.what());
     return false;
   }
   scene.spheres.insert(scene.spheres.end(), setup_.distractors.begin(), setup_.distractors.end());
@@ -122,7 +122,8 @@ int main(int argc, char** argv) {
   namespace mocap = anthrob::mocap;
   anthrob::NodeInfo info;
   info.name = "virtual_rig";
-  info.purpose = "Two cameras that see the markers of a simulated robot.";
+  info.purpose =
+      "Renders the images of two virtual cameras that see the markers of a simulated robot.";
   info.parameters = {
       {"calibration", "folder with left.yaml and right.yaml (required)"},
       {"targets", "path of targets.yaml (required)"},

@@ -47,13 +47,14 @@ TEST_F(Bag, GoesOnAfterImagesThatCannotBeUsed) {
   record(bag, "/l", 1.3);
   bag.close();
   EXPECT_EQ(read(), (std::vector<double>{1.0, 1.3}));
-  EXPECT_EQ(refused_,
-            (std::vector<std::string>{
-                file_ + ": /l: image of 1.100000000 s: encoding mono16: expected mono8",
-                file_ + ": /r: image of 0.000000000 s: stamp 0: expected the time of the exposure",
-                file_ + ": /l: image of 1.300000000 s: stamp 1.300000 s: expected one after "
-                        "1.300000 s, the last",
-                file_ + ": 2 of 7 images have no partner, or came too late"}));
+  EXPECT_EQ(
+      refused_,
+      (std::vector<std::string>{
+          file_ + ": /l: image stamped 1.100000000 s: encoding mono16: expected mono8",
+          file_ + ": /r: image stamped 0.000000000 s: stamp 0: expected the time of the exposure",
+          file_ + ": /l: image stamped 1.300000000 s: stamp 1.300000 s: expected one "
+                  "later than the previous, 1.300000 s",
+          file_ + ": 2 of 7 images have no partner, or came too late"}));
 }
 
 TEST_F(Bag, SaysHowManyImagesHaveNoPartner) {
@@ -77,7 +78,7 @@ TEST_F(Bag, WithoutAPairIsRefused) {
   bag.open(file_, rosbag::bagmode::Append);
   record(bag, "/l", 0.0);
   bag.close();
-  test::expect_bad_input([&] { read(); }, "run.bag: /l: image of 0.000000000 s: stamp 0");
+  test::expect_bad_input([&] { read(); }, "run.bag: /l: image stamped 0.000000000 s: stamp 0");
   test::expect_bad_input([&] { BagSource source(file_, "/l", "/x", 0.0, {}); },
                          "run.bag: no images on topic /x");
 }

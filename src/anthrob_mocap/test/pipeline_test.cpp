@@ -287,7 +287,7 @@ TEST(TrackerFile, RefusesWhatIsNoSectionAndBoundsThatAreSwapped) {
   refuse("segmentation: 200\n", "t.yaml:1: segmentation: 200: expected a map");
   refuse("matching: oops\n", "t.yaml:1: matching: oops: expected a map");
   refuse("most_points: 9\nsegmentation:\n",
-         "t.yaml:2: segmentation: nothing: expected a value, or to be left out");
+         "t.yaml:2: segmentation: nothing: expected a value; otherwise leave the key out");
   refuse("matching: {max_depth: }\n", "t.yaml:1: matching.max_depth: nothing: expected a value");
   refuse("mathcing:\n", "t.yaml:1: mathcing: unknown key");
   refuse("pose: []\n", "t.yaml:1: pose: a list of 0: expected a map");

@@ -94,10 +94,10 @@ TEST(Pairing, RefusesStampsThatDoNotAdvance) {
   const auto refuse = [&](Side side, double t, const std::string& part) {
     test::expect_bad_input([&] { pairing.add(side, at(t), pair); }, part);
   };
-  refuse(kLeft, 5.0, "stamp 5.000000 s: expected one after 5.000000 s, the last");
+  refuse(kLeft, 5.0, "stamp 5.000000 s: expected one later than the previous, 5.000000 s");
   EXPECT_TRUE(pairing.add(kRight, at(5.0), pair));
   refuse(kRight, 5.0, "stamp 5.000000 s");  // paired already, but seen
-  refuse(kLeft, 4.5, "stamp 4.500000 s: expected one after 5.000000 s, the last");
+  refuse(kLeft, 4.5, "stamp 4.500000 s: expected one later than the previous, 5.000000 s");
   EXPECT_FALSE(pairing.add(kLeft, at(5.1), pair));
   EXPECT_TRUE(pairing.add(kRight, at(5.1), pair));
 }
@@ -201,7 +201,7 @@ TEST(LivePair, SaysThatStampsDoNotAdvance) {
   live.add(kLeft, at(5.0));
   live.add(kRight, at(5.0));
   EXPECT_EQ(live.trouble(),
-            "right camera: stamp 5.000000 s: expected one after 5.000000 s, the last");
+            "right camera: stamp 5.000000 s: expected one later than the previous, 5.000000 s");
   live.add(kRight, at(5.1));
   EXPECT_EQ(live.trouble(), "");
 }

@@ -34,7 +34,8 @@ std::map<std::string, std::string> by_key(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const std::string& file : mocap::list_images(folder)) {
     if (!files.emplace(key_of(file), folder + "/" + file).second) {
-      throw anthrob::BadInput(folder + "/" + file + ": another image has the same number " +
+      throw anthrob::BadInput(folder + "/" + file +
+                              ": another image of this folder has the same number, " +
                               key_of(file));
     }
   }
@@ -76,7 +77,7 @@ int calibrate(const Arguments& arguments) {
         throw anthrob::BadInput(name + ": " + std::to_string(image.width) + "x" +
                                 std::to_string(image.height) + " pixels: expected " +
                                 std::to_string(width) + "x" + std::to_string(height) +
-                                " as the others");
+                                ", as the other images have");
       }
       const auto corners = mocap::find_corners(image, board);
       if (corners)
@@ -103,14 +104,16 @@ int main(int argc, char** argv) {
   Arguments a;
   app.option_defaults()->always_capture_default();
   app.add_option("--left", a.left, "folder of the left camera's pictures")->required();
-  app.add_option("--right", a.right, "of the right camera's; same numbers, same moments")
+  app.add_option("--right", a.right,
+                 "the same for the right camera; equal numbers in the names make a pair")
       ->required();
-  app.add_option("--board", a.board, "inner corners, COLUMNSxROWS");
-  app.add_option("--square", a.square, "edge of a square [m]");
+  app.add_option("--board", a.board, "number of inner corners, COLUMNSxROWS");
+  app.add_option("--square", a.square, "edge length of a square [m]");
   app.add_option("--out", a.out, "folder for left.yaml and right.yaml");
-  app.add_option("--max-rms", a.limits.stereo_rms, "refuse a worse reprojection [pixel]")
+  app.add_option("--max-rms", a.limits.stereo_rms, "refuse a larger reprojection error [pixel]")
       ->check(anthrob::tool::within(0.01, 100.0));
-  app.add_option("--min-coverage", a.limits.least_coverage, "refuse less of the picture")
+  app.add_option("--min-coverage", a.limits.least_coverage,
+                 "refuse corners that cover a smaller share of the picture, 0 to 1")
       ->check(anthrob::tool::within(0.0, 1.0));
   return anthrob::tool::run(app, argc, argv, [&] { return calibrate(a); });
 }

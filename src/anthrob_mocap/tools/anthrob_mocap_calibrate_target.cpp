@@ -1,4 +1,4 @@
-// Measures where the markers of a target are, from a recording in which it moves.
+// Measures where the markers of a target are, from a recording in which both cameras see them.
 #include <cstdio>
 #include <iostream>
 #include <optional>
@@ -38,21 +38,21 @@ std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
   return frames;
 }
 
-/// What is still ambiguous with another target in it: those may be guesses, to be calibrated yet.
+/// Warns of targets that are still ambiguous: their positions may be guesses, not calibrated yet.
 void note_others(const mocap::TargetSet& set, const std::string& name, double edge_tolerance) {
   for (const mocap::MarkerTarget& a : set.targets) {
     for (const mocap::MarkerTarget& b : set.targets) {
       const std::string why = mocap::find_ambiguity(a, b, edge_tolerance);
       if (!why.empty() && !(a.name == name && b.name == name)) {
-        std::cerr << "not yet to be tracked: target " << a.name << ": " << why << "\n";
+        std::cerr << "cannot be tracked yet: target " << a.name << ": " << why << "\n";
       }
     }
   }
   const int triples = mocap::count_ambiguous_triples(set.targets, edge_tolerance);
   if (triples > 0) {
     std::cerr << "note: " << triples
-              << " triples of markers can be taken for others: where no more "
-              << "than such a one is seen there is no pose\n";
+              << " triples of markers can be taken for others: a target of which "
+              << "only such a triple is seen gets no pose\n";
   }
 }
 
@@ -88,14 +88,17 @@ int calibrate(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures where the markers of a target are, from a recording in which it moves.",
-               "anthrob_mocap_calibrate_target");
+  CLI::App app(
+      "Measures where the markers of a target are, from a recording in which both cameras see "
+      "each marker in 20 frames or more. The target may move or stand still.",
+      "anthrob_mocap_calibrate_target");
   Arguments a;
   a.recording.add_options(app);
-  app.add_option("--targets", a.targets, "targets.yaml with the markers as measured by hand")
+  app.add_option("--targets", a.targets,
+                 "targets.yaml with the markers as measured by hand, to a centimetre")
       ->required();
   app.add_option("--name", a.name, "the target to calibrate")->required();
-  app.add_option("--out", a.out, "targets.yaml to be written")->required();
+  app.add_option("--out", a.out, "targets.yaml to write")->required();
   app.add_option("--settings", a.settings, "options of the stages (YAML)");
   return anthrob::tool::run(app, argc, argv, [&] { return calibrate(a); });
 }

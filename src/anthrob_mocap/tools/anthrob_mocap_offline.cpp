@@ -70,7 +70,7 @@ int track(const Arguments& arguments) {
   if (done) recording.refuse_contradiction(health);
   out.close();
   if (!done) {
-    std::cerr << "anthrob_mocap_offline: interrupted; what was tracked until then is in "
+    std::cerr << "anthrob_mocap_offline: interrupted; the results so far are in "
               << out.move_beside() << "\n";
     return anthrob::tool::kInterrupted;
   }
@@ -93,11 +93,12 @@ int main(int argc, char** argv) {
   Arguments a;
   a.recording.add_options(app);
   app.add_option("--targets", a.targets, "targets.yaml")->required();
-  app.add_option("--out", a.out, "poses.csv, to be written")->required();
+  app.add_option("--out", a.out, "poses.csv to write")->required();
   app.add_option("--settings", a.settings, "options of the stages (YAML)");
-  app.add_option("--threshold", a.threshold, "grey levels above the background")
+  app.add_option("--threshold", a.threshold,
+                 "grey levels above the background; overrides segmentation.threshold of --settings")
       ->check(CLI::Range(1, 254));
-  app.add_option("--rate", a.recording.folder.rate, "pairs a second where there is no times.csv")
+  app.add_option("--rate", a.recording.folder.rate, "pairs a second, if there is no times.csv")
       ->check(anthrob::tool::within(0.001, 100000.0));
   app.add_option("--pipeline", a.pipeline, "sequential or threaded: same results");
   return anthrob::tool::run(app, argc, argv, [&] { return track(a); });

@@ -25,8 +25,9 @@ void Recording::add_options(CLI::App& app) {
   app.add_option("--left", left, "folder of images 000000.png, ..., 8-bit grey")->required();
   app.add_option("--right", right, "the same for the right camera")->required();
   app.add_option("--calibration", calibration, "folder with left.yaml and right.yaml")->required();
-  app.add_option("--sync-tolerance", folder.sync_tolerance,
-                 "[s] between left and right in their times.csv")
+  app.add_option(
+         "--sync-tolerance", folder.sync_tolerance,
+         "[s] largest difference between the times of a pair, if both folders have a times.csv")
       ->check(CLI::NonNegativeNumber);
 }
 

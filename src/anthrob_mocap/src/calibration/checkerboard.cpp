@@ -16,11 +16,12 @@ Board Board::parse(const std::string& size, double square) {
   if (std::sscanf(size.c_str(), "%dx%d%c", &board.columns, &board.rows, &rest) != 2 ||
       board.columns < 3 || board.rows < 3 || board.columns == board.rows) {
     throw BadInput("--board " + size +
-                   ": expected the inner corners as COLUMNSxROWS, at least 3 and not equal: a "
-                   "square board can be read in four ways");
+                   ": expected the inner corners as COLUMNSxROWS, both at least 3 and different (a "
+                   "square board can be read in four ways)");
   }
   if (!(square > 0.0 && square < 10.0)) {
-    throw BadInput("--square " + std::to_string(square) + ": expected the edge of a square [m]");
+    throw BadInput("--square " + std::to_string(square) +
+                   ": expected the edge of a square in metres, above 0");
   }
   board.square = square;
   return board;

@@ -140,9 +140,10 @@ std::string text(double value, int digits) {
 
 void check_limits(const StereoCalibration& result, const CalibrationLimits& limits) {
   if (!(result.stereo_rms <= limits.stereo_rms)) {
-    throw BadInput("calibration: reprojection error " + text(result.stereo_rms, 2) +
-                   " pixel: expected at most " + text(limits.stereo_rms, 2) +
-                   "; are the pairs synchronised, the board flat, none of the images mirrored?");
+    throw BadInput(
+        "calibration: reprojection error " + text(result.stereo_rms, 2) +
+        " pixel: expected at most " + text(limits.stereo_rms, 2) +
+        "; check that the pairs are synchronised, the board is flat and no image is mirrored");
   }
   if (!(result.epipolar_rms <= limits.epipolar_rms)) {
     throw BadInput("calibration: epipolar error " + text(result.epipolar_rms, 2) +
@@ -152,7 +153,8 @@ void check_limits(const StereoCalibration& result, const CalibrationLimits& limi
     if (result.coverage[side] >= limits.least_coverage) continue;
     throw BadInput("calibration: the board covers " + text(100.0 * result.coverage[side], 0) +
                    " % of the " + name(side) + " picture: expected at least " +
-                   text(100.0 * limits.least_coverage, 0) + " %; take views near the corners");
+                   text(100.0 * limits.least_coverage, 0) +
+                   " %; take views with the board near the corners of the picture");
   }
 }
 
@@ -204,12 +206,12 @@ std::string StereoCalibration::report() const {
   if (!dropped.empty()) {
     lines += "left out           ";
     for (const std::string& view : dropped) lines += view + " ";
-    lines += "(fit far worse than the others)\n";
+    lines += "(they fit far worse than the others)\n";
   }
   lines += "reprojection       " + text(stereo_rms, 3) + " pixel rms (left alone " +
            text(camera_rms[kLeft], 3) + ", right alone " + text(camera_rms[kRight], 3) + ")\n";
   lines += "epipolar error     " + text(epipolar_rms, 3) + " pixel rms\n";
-  lines += "edges of squares   " + text(1e3 * square_rms, 3) + " mm rms off\n";
+  lines += "edges of squares   " + text(1e3 * square_rms, 3) + " mm rms error\n";
   lines += "coverage           left " + text(100.0 * coverage[kLeft], 0) + " %, right " +
            text(100.0 * coverage[kRight], 0) + " %\n";
   lines += "baseline           " + text(1e3 * rig.baseline(), 2) + " mm\n";

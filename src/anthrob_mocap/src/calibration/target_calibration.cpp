@@ -99,14 +99,15 @@ TargetCalibration calibrate_target(const MarkerTarget& guess,
     throw BadInput("target " + guess.name + ": marker " + std::to_string(i) + " was seen in " +
                    std::to_string(result.seen[i]) + " frames: expected at least " +
                    std::to_string(kFewestFrames) +
-                   "; is the guess right to a centimetre, and does the target turn enough?");
+                   "; check that its position was measured to a centimetre, and that both cameras "
+                   "see it together with three others (two in a target of three)");
   }
   const auto worst = std::max_element(result.rms.begin(), result.rms.end());
   if (!(*worst <= kLargestRms)) {
     throw BadInput("target " + guess.name + ": marker " +
                    std::to_string(worst - result.rms.begin()) + " scatters by " +
                    std::to_string(1e3 * *worst) + " mm: expected at most " +
-                   std::to_string(1e3 * kLargestRms) + "; is it loose?");
+                   std::to_string(1e3 * kLargestRms) + "; check that it is fixed to the link");
   }
   anchor(guess, result.target);
   return result;

@@ -35,15 +35,16 @@ void StereoRig::check(const std::string& left_name, const std::string& right_nam
                    std::to_string(right.width) + "x" + std::to_string(right.height));
   }
   if (left.P(0, 3) < 0.0 && right.P(0, 3) == 0.0) {
-    throw BadInput(left_name + ": projection_matrix: left and right are swapped (the baseline " +
-                   text(-left.P(0, 3) / left.P(0, 0)) + " m is its own)");
+    throw BadInput(left_name +
+                   ": projection_matrix: left and right are swapped: this one has the baseline, " +
+                   text(-left.P(0, 3) / left.P(0, 0)) + " m, which belongs to the right camera");
   }
   if (left.P(0, 3) != 0.0 || left.P(1, 3) != 0.0) {
     throw BadInput(left_name + ": projection_matrix: expected Tx = Ty = 0 for the left camera");
   }
   if (right.P(1, 3) != 0.0) {
     throw BadInput(right_name + ": projection_matrix: Ty = " + text(right.P(1, 3)) +
-                   ": expected a pair side by side, not one above the other");
+                   ": expected cameras side by side, not one above the other");
   }
   if (baseline_ < 0.0) {
     throw BadInput(right_name + ": projection_matrix: baseline " + text(baseline_) +
@@ -57,7 +58,7 @@ void StereoRig::check(const std::string& left_name, const std::string& right_nam
       std::abs(left.P(1, 2) - right.P(1, 2)) > 1e-6 * focal_) {
     throw BadInput(left_name + " and " + right_name +
                    ": projection_matrix: expected the same f and cy in "
-                   "both; these are not of one stereo calibration");
+                   "both; these are not from one stereo calibration");
   }
 }
 

@@ -76,7 +76,7 @@ Settings Settings::parse(const std::string& text, const std::string& name) {
     const std::vector<YAML::Node> documents = YAML::LoadAll(odd_header ? "#" + text : text);
     if (documents.size() > 1) {
       throw BadInput(name + ":" + std::to_string(documents[1].Mark().line + 1) +
-                     ": a second document: expected one");
+                     ": a second YAML document: expected only one");
     }
     const YAML::Node node = documents.empty() ? YAML::Node() : documents.front();
     refuse_repeated_keys(node, name);
@@ -189,7 +189,7 @@ void Settings::refuse_unknown_keys() const {
       }
       if (entry.second.IsNull()) {
         throw BadInput(data_->file + ":" + std::to_string(entry.first.Mark().line + 1) + ": " +
-                       path + ": nothing: expected a value, or to be left out");
+                       path + ": nothing: expected a value; otherwise leave the key out");
       }
       at(entry.first.Scalar()).refuse_unknown_keys();
     }

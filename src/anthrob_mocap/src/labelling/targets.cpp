@@ -64,7 +64,8 @@ MarkerTarget read_target(const std::string& name, const Settings& node, double m
   for (int i = 0; i < static_cast<int>(count); ++i) {
     for (int j = 0; j < i; ++j) {
       if (edge(target, i, j) <= marker_diameter) {
-        node.at("markers").fail("markers " + edge_text(target, j, i) + " touch");
+        node.at("markers").fail("markers " + edge_text(target, j, i) +
+                                " touch: expected more than marker_diameter between them");
       }
     }
   }
@@ -75,7 +76,8 @@ MarkerTarget read_target(const std::string& name, const Settings& node, double m
   points.colwise() -= points.rowwise().mean().eval();
   const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(points);
   if (svd.singularValues()[1] < kLeastSpread) {
-    node.at("markers").fail("the markers are on one line: turning about it cannot be seen");
+    node.at("markers").fail(
+        "the markers are on one line: a rotation about that line cannot be seen");
   }
   return target;
 }
@@ -114,7 +116,9 @@ TargetSet read(const Settings& file, double edge_tolerance) {
       require_snake_case(joints.at(name), name);
       for (const MarkerTarget& target : set.targets) {
         if (target.name == name) {
-          joints.at(name).fail("a target has this name: expected another, for tables name both");
+          joints.at(name).fail(
+              "a target has this name: expected another one, because poses.csv has columns of "
+              "both");
         }
       }
       set.joints.push_back(read_joint(name, joints.at(name), set.targets));

@@ -81,8 +81,9 @@ void Health::try_rows(const StereoFrame& frame) {
 
 std::string Health::bend() const {
   if (std::abs(row_error()) <= kLargestRowError) return "";
-  char text[96];
-  std::snprintf(text, sizeof(text), "rows of left and right differ by %.3f pixels: calibrate anew",
+  char text[128];
+  std::snprintf(text, sizeof(text),
+                "rows of left and right differ by %.3f pixels: recalibrate the cameras",
                 row_error());
   return text;
 }
@@ -91,14 +92,15 @@ std::string Health::contradiction() const {
   if (sums_.frames == 0 || sums_.poses > 0) return "";
   const long frames = sums_.frames, fewest = std::min(sums_.blobs[kLeft], sums_.blobs[kRight]);
   if (sums_.cluttered == sums_.frames) {
-    return "the images are full of bright specks: too bright, or the threshold is too low";
+    return "the images are full of bright specks: the scene is too bright, or the threshold too "
+           "low";
   }
   if (sums_.matches_if_swapped >= 3 * frames && sums_.matches_if_swapped > 2 * sums_.matches) {
     return "left and right images are swapped";
   }
   if (fewest >= 4 * frames && 4 * sums_.on_common_rows < fewest) {
-    return "the blobs of left and right image do not lie on common rows: the pair is "
-           "unsynchronised, or this is not the calibration of these cameras";
+    return "the blobs of left and right image do not lie on common rows: the "
+           "cameras are not synchronised, or the calibration belongs to other cameras";
   }
   return "";
 }
@@ -108,9 +110,10 @@ std::string Health::advice() const {
   const std::string why = contradiction();
   if (!why.empty()) return why;
   if (std::min(sums_.blobs[kLeft], sums_.blobs[kRight]) < 3L * sums_.frames) {
-    return "hardly any marker is seen: lighting, threshold or view";
+    return "hardly any marker is seen: check lighting, threshold and view";
   }
-  return "markers are seen but form no target: wrong targets.yaml, wrong calibration, or occlusion";
+  return "markers are seen but form no target: check targets.yaml, the calibration and what hides "
+         "markers";
 }
 
 }  // namespace mocap

@@ -157,8 +157,8 @@ class AravisSource::Implementation {
 
   std::string lost() const {
     const bool own = options_.trigger == "software" || options_.trigger == "free";
-    return own ? "lost; connecting anew"
-               : "lost, or no pulses on " + options_.trigger + "; connecting anew";
+    return own ? "lost; reconnecting"
+               : "lost, or no pulses on " + options_.trigger + "; reconnecting";
   }
 
   void stream(Side side, Camera& camera) {

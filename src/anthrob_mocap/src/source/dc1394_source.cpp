@@ -40,19 +40,21 @@ class Camera {
       : camera_(dc1394_camera_new(bus, guid)) {
     if (!camera_) throw std::runtime_error("no such camera on the bus");
     dc1394camera_t* camera = camera_.get();
-    check(dc1394_video_set_mode(camera, DC1394_VIDEO_MODE_FORMAT7_0), "mode");
+    check(dc1394_video_set_mode(camera, DC1394_VIDEO_MODE_FORMAT7_0), "cannot set the video mode");
     check(dc1394_format7_set_roi(camera, DC1394_VIDEO_MODE_FORMAT7_0, DC1394_COLOR_CODING_MONO8,
                                  DC1394_USE_MAX_AVAIL, 0, 0, options.width, options.height),
-          "region");
+          "cannot set the image region");
     check(dc1394_feature_set_absolute_control(camera, DC1394_FEATURE_SHUTTER, DC1394_ON),
-          "shutter");
+          "cannot set the exposure");
     check(dc1394_feature_set_absolute_value(camera, DC1394_FEATURE_SHUTTER,
                                             static_cast<float>(options.exposure)),
-          "shutter");
+          "cannot set the exposure");
     const bool external = parse_trigger(options.trigger);
-    check(dc1394_external_trigger_set_power(camera, external ? DC1394_ON : DC1394_OFF), "trigger");
-    check(dc1394_capture_setup(camera, kBuffers, DC1394_CAPTURE_FLAGS_DEFAULT), "capture");
-    check(dc1394_video_set_transmission(camera, DC1394_ON), "transmission");
+    check(dc1394_external_trigger_set_power(camera, external ? DC1394_ON : DC1394_OFF),
+          "cannot set the trigger");
+    check(dc1394_capture_setup(camera, kBuffers, DC1394_CAPTURE_FLAGS_DEFAULT),
+          "cannot set up the capture");
+    check(dc1394_video_set_transmission(camera, DC1394_ON), "cannot start the transmission");
   }
   ~Camera() {
     dc1394_video_set_transmission(camera_.get(), DC1394_OFF);
@@ -61,7 +63,8 @@ class Camera {
 
   bool grab(double exposure, TimedImage& timed) {
     dc1394video_frame_t* frame = nullptr;
-    check(dc1394_capture_dequeue(camera_.get(), DC1394_CAPTURE_POLICY_POLL, &frame), "capture");
+    check(dc1394_capture_dequeue(camera_.get(), DC1394_CAPTURE_POLICY_POLL, &frame),
+          "cannot read an image");
     if (!frame) return false;
     const bool good = !dc1394_capture_is_frame_corrupt(camera_.get(), frame);
     if (good) {
@@ -138,8 +141,8 @@ class Dc1394Source::Implementation {
           }
         }
         live_.set_trouble(side, parse_trigger(options_.trigger)
-                                    ? "lost, or no pulses on its wire; connecting anew"
-                                    : "lost; connecting anew");
+                                    ? "lost, or no pulses on its trigger wire; reconnecting"
+                                    : "lost; reconnecting");
       } catch (const std::exception& error) {
         live_.set_trouble(side, error.what());
       }

@@ -89,7 +89,7 @@ void FolderSource::load_times(const Options& options) {
     }
     if (!right.empty() && right.count(index) == 0) {
       throw BadInput(folder_[kRight] + "/times.csv: no time for " + names_[i] +
-                     ", which the other one has");
+                     ", which the other times.csv has");
     }
     times_.push_back(times.empty() ? static_cast<double>(index) / options.rate : t->second);
     if (i > 0 && !(times_[i] > times_[i - 1])) {
@@ -99,7 +99,7 @@ void FolderSource::load_times(const Options& options) {
     if (!expressible(times_[i])) {
       throw BadInput(folder_[kLeft] + ": " + names_[i] + ": number " + std::to_string(index) +
                      " at " + std::to_string(options.rate) +
-                     " Hz: expected a time >= 0 and below 2^32 s");
+                     " Hz gives no time from 0 to 2^32 s: expected smaller numbers, or times.csv");
     }
   }
 }

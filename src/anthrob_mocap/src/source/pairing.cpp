@@ -26,9 +26,9 @@ void Pairing::advance(Side side, double t) {
     advancing = refused_[side] && t > *refused_[side] ? advancing + 1 : 1;
     refused_[side] = t;
     if (t > *last - kAnotherTime && advancing <= kAdvancing) {
-      char text[96];
-      std::snprintf(text, sizeof(text), "stamp %.6f s: expected one after %.6f s, the last", t,
-                    *last);
+      char text[128];
+      std::snprintf(text, sizeof(text),
+                    "stamp %.6f s: expected one later than the previous, %.6f s", t, *last);
       throw BadInput(text);
     }
     lose(side, waiting_[side].size());  // worth nothing any more

@@ -11,16 +11,17 @@ namespace mocap {
 struct TargetCalibration {
   MarkerTarget target;
   int frames = 0;           ///< used
-  std::vector<double> rms;  ///< by marker, about its place in the target, over all frames [m]
+  std::vector<double> rms;  ///< by marker: deviation from its place, over all frames [m]
   std::vector<int> seen;    ///< by marker: in how many frames
 };
 
-/// Where the markers of a target are, from frames in which it moves (section A.2): every frame is
-/// labelled with what is known so far, brought onto the others, and the mean is what is known next
-/// [generalised Procrustes]. The result stays where the first guess was, so it keeps its axes.
+/// Measures where the markers of a target are (section A.2) [generalised Procrustes]. Each round
+/// labels all frames with the markers as known so far, aligns the frames, and takes the mean as the
+/// next estimate. The result is aligned with the guess, so it keeps its axes. The target may move
+/// or stand still. A frame counts if at least four markers (or all three of three) are seen.
 /// @param guess measured by hand, to a centimetre
 /// @param frames points in space of every frame
-/// @throws BadInput if markers are never seen or do not stay in place
+/// @throws BadInput if a marker is seen in fewer than 20 frames, or scatters by more than 1.5 mm
 TargetCalibration calibrate_target(const MarkerTarget& guess,
                                    const std::vector<std::vector<MarkerPoint>>& frames);
 

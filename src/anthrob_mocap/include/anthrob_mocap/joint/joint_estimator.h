@@ -18,10 +18,10 @@ struct JointEstimate {
   Mat3 velocity_covariance = Mat3::Zero();  ///< [rad^2/s^2]
 };
 
-/// Joint orientation from two targets, (A.4), and its angular velocity: slope of a parabola through
-/// the last orientations, taken as rotation vectors about the latest, at its end. A parabola has no
-/// lag under constant acceleration, as a plain difference has. A gap or a step back in time starts
-/// anew.
+/// Joint orientation from two targets, (A.4), and its angular velocity. The velocity is the slope,
+/// at the latest picture, of a parabola through the last orientations, taken as rotation vectors
+/// relative to the latest. Unlike a plain difference, a parabola has no lag under constant
+/// acceleration. After a gap or a step back in time, the estimator starts over.
 class JointEstimator {
  public:
   static constexpr std::size_t kWindow = 6;   ///< pictures

@@ -13,9 +13,9 @@ namespace mocap {
 struct LabellingOptions {
   double edge_tolerance = 0.003;     ///< epsilon of (A.3.4) [m]
   double rms_tolerance = 0.0015;     ///< of a fit of four or more markers [m]
-  double triple_tolerance = 0.0005;  ///< of a fit of three: little else speaks for it [m]
-  double tie_margin = 0.00015;       ///< fits this much worse than twice the best are rivals [m]
-  int step_limit = 20000;            ///< of one search; bounds the time that clutter can cost
+  double triple_tolerance = 0.0005;  ///< of a fit of three markers, which can occur by chance [m]
+  double tie_margin = 0.00015;  ///< fits up to 2 * best + tie_margin are rivals of the best [m]
+  int step_limit = 20000;       ///< of one search; limits the time in cluttered images
 };
 
 /// Which points are the markers of a target.
@@ -24,9 +24,9 @@ struct Labelling {
   int count = 0;           ///< markers seen; 0: the target is not found
   RigidFit fit;            ///< target frame to rectified left frame
   bool ambiguous = false;  ///< another labelling fits as well, with another pose
-  bool gave_up = false;    ///< at the step limit: more markers, or a rival, may have been missed
+  bool gave_up = false;    ///< stopped at step_limit: may have missed markers or a rival
 
-  /// Whether another one of as many markers fits so well that either can be the true one.
+  /// Whether the other labelling has as many markers and fits about as well: either can be true.
   bool ties_with(const Labelling& other, const LabellingOptions& options) const {
     return count > 0 && other.count == count && other.fit.rms < 2.0 * fit.rms + options.tie_margin;
   }
@@ -35,8 +35,8 @@ struct Labelling {
 /// Finds the largest part of one target's reference graph in the candidate graph: a maximum clique
 /// of the graph whose nodes are (marker, point) and whose edges join nodes of equal distance within
 /// the tolerance. Depth first over the markers, on bit sets, with the best size so far as bound.
-/// Distances cannot tell a constellation from its mirror image: that is left to the fit, whose
-/// residual is large then.
+/// Distances do not distinguish a target from its mirror image: the rigid fit does, because its
+/// residual is then large.
 class CliqueSearch {
  public:
   CliqueSearch(const MarkerTarget& target, const LabellingOptions& options);

@@ -8,8 +8,8 @@
 namespace anthrob {
 namespace mocap {
 
-/// Finds all targets among the points; no blob is used twice, and none that two targets claim with
-/// the same right. Frames come in the order of time.
+/// Finds all targets among the points. No blob is used twice; if two targets claim the same blobs
+/// and fit them equally well, neither is found. Frames must come in the order of time.
 class Labeller {
  public:
   Labeller(const std::vector<MarkerTarget>& targets, const LabellingOptions& options,
@@ -20,7 +20,7 @@ class Labeller {
   void label(double t, const std::vector<MarkerPoint>& points, const std::vector<Edge>& edges,
              std::vector<Labelling>& result);
 
-  double longest_edge() const { return longest_; }  ///< [m] that matters to any target
+  double longest_edge() const { return longest_; }  ///< [m] the longest that any target needs
 
  private:
   void withdraw_used(const Labelling& labelling, const std::vector<MarkerPoint>& points);

@@ -8,13 +8,13 @@ namespace mocap {
 struct MotionOptions {
   double max_turn_rate = 6.0;  ///< [rad/s]
   double max_speed = 1.5;      ///< [m/s]
-  double memory = 0.25;        ///< [s] how long a pose speaks about the next ones
+  double memory = 0.25;        ///< [s] for how long a pose constrains the next ones
 };
 
-/// What the recent past says about a target's pose. It never adds a pose and never shapes one; it
-/// only doubts those that stand on three markers, where chance could have placed a reflection.
-/// Poses of more markers are believed and, where they jump (single pictures, a bag that loops),
-/// show that there is no motion to go by.
+/// Compares a pose with the recent motion of its target. It never creates or changes a pose; it
+/// only rejects implausible poses of three markers, one of which may be a reflection. Poses of more
+/// markers are always accepted. If they jump (single pictures, a bag that loops), there is no
+/// motion to compare with, and nothing is rejected.
 class MotionPrior {
  public:
   /// @param centre of the target, in its frame [m]
@@ -35,7 +35,7 @@ class MotionPrior {
   MotionOptions options_;
   Vec3 centre_;
   bool known_ = false;  ///< there is a last pose
-  int streak_ = 0;      ///< poses in a row that followed from the one before
+  int streak_ = 0;      ///< poses in a row that agree with the motion
   double t_ = 0.0;
   Pose X_;
 };

@@ -13,8 +13,8 @@ struct MarkerTarget {
   std::string name;
   std::vector<Vec3> markers;  ///< in the target's frame [m]
 
-  /// Mean of the markers [m]. How far two poses are apart is asked there: the frame's origin may
-  /// lie anywhere.
+  /// Mean of the markers [m]. The distance of two poses is measured there, because the origin of
+  /// the frame may be anywhere.
   Vec3 centre() const;
 };
 
@@ -32,7 +32,7 @@ struct TargetSet {
   std::vector<MarkerTarget> targets;
   std::vector<BallJoint> joints;
 
-  /// As edge_tolerance: whether targets can be told apart is not asked, not even of equal edges.
+  /// Passed as edge_tolerance: does not check whether targets can be told apart.
   static constexpr double kUnchecked = -1.0;
 
   /// @param edge_tolerance [m] edges closer than this cannot be told apart
@@ -48,8 +48,8 @@ struct TargetSet {
 /// tolerance. Names the offending edges; empty if there is none, or the tolerance is negative.
 std::string find_ambiguity(const MarkerTarget& a, const MarkerTarget& b, double edge_tolerance);
 
-/// Number of triples of one target's markers that another triple, or the same one turned round, can
-/// be taken for. Such a triple alone gives no pose.
+/// Number of triples of markers (each of one target) that can be taken for another triple, or for
+/// themselves in another order. Such a triple alone gives no pose.
 int count_ambiguous_triples(const std::vector<MarkerTarget>& targets, double edge_tolerance);
 
 }  // namespace mocap

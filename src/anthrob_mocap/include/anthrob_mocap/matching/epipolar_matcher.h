@@ -13,8 +13,8 @@ struct MatchingOptions {
   double epipolar_tolerance = 1.0;  ///< delta of (A.2) [pixel]
   double min_depth = 0.15;          ///< [m]
   double max_depth = 6.0;           ///< [m]
-  double marker_diameter = 0.0;     ///< [m]; 0: sizes say nothing
-  double size_factor = 2.0;  ///< how far a blob's radius may be off the marker's at its depth
+  double marker_diameter = 0.0;     ///< [m]; 0: sizes are not checked
+  double size_factor = 2.0;  ///< largest ratio of a blob's radius to a marker's there, either way
 };
 
 /// A blob of each image that could show the same marker.
@@ -22,8 +22,9 @@ struct Match {
   int left, right;
 };
 
-/// Pairs that fulfil the epipolar constraint (A.1), (A.2) -- in a rectified pair: lie on the same
-/// row -- and meet within the working depth, at a size that a marker there would have.
+/// Matches blobs of the two images that fulfil the epipolar constraint (A.1), (A.2): in a rectified
+/// pair they lie on the same row. The point in space must be within the working depth, and both
+/// blobs about as large as a marker at that depth.
 class EpipolarMatcher {
  public:
   EpipolarMatcher(const StereoRig& rig, const MatchingOptions& options);
@@ -38,7 +39,7 @@ class EpipolarMatcher {
 
   StereoRig rig_;
   MatchingOptions options_;
-  double pixel_focal_[2];  ///< of the cameras as they are: blobs are measured there
+  double pixel_focal_[2];  ///< of the cameras before rectification, where blobs are measured
   std::vector<int> by_row_;
 };
 

@@ -8,31 +8,32 @@
 namespace anthrob {
 namespace mocap {
 
-/// Whether rig, calibration and targets belong together, from what a run of frames shows.
+/// Judges from a series of frames whether rig, calibration and targets belong together.
 class Health {
  public:
   Health(const StereoRig& rig, const MatchingOptions& options);
 
   void add(const StereoFrame& frame);
-  void clear() { sums_ = Sums(); }  ///< all but what joints_without_velocity stands on
+  void clear() { sums_ = Sums(); }  ///< keeps the state of joints_without_velocity
 
   int frames() const { return sums_.frames; }
   int poses() const { return sums_.poses; }
-  int given_up() const { return sums_.given_up; }  ///< searches of targets, at their step limit
-  int cut() const { return sums_.cut; }            ///< frames with more matches than are looked at
+  int given_up() const { return sums_.given_up; }  ///< searches of targets that reached step_limit
+  int cut() const { return sums_.cut; }            ///< frames with more matches than most_points
   /// Mean of v_left - v_right over the markers used [pixel]; far from 0: the rig has moved.
   double row_error() const { return sums_.poses > 0 ? sums_.row_error / sums_.poses : 0.0; }
   double pixel_rms() const { return sums_.poses > 0 ? sums_.pixel_rms / sums_.poses : 0.0; }
 
-  /// Joints that were seen some times in a row, but never twice within the longest gap that their
-  /// velocity allows: nothing is published of them. Pictures are too rare, or not stamped.
+  /// Joints that were seen three times in a row or more, but never twice within
+  /// JointEstimator::kLongestGap: they have no velocity and are not published. Pictures are too
+  /// rare, or their stamps are wrong.
   std::vector<std::size_t> joints_without_velocity() const;
 
-  /// That the rig seems to have been bent a little: there are poses, but worse ones; else empty.
+  /// Says that the rig seems to be bent a little: there are poses, but rows differ; else empty.
   std::string bend() const;
-  /// What must be wrong with the images or the calibration; empty if nothing must.
+  /// What is certainly wrong with the images or the calibration; empty if nothing is.
   std::string contradiction() const;
-  /// What to look at if nothing was found; empty if something was.
+  /// What to check if no target was found; empty if one was.
   std::string advice() const;
 
  private:
@@ -47,7 +48,7 @@ class Health {
   StereoRig rig_;
   EpipolarMatcher matcher_, row_matcher_;  ///< the latter at any depth, of any size
   Sums sums_;
-  std::vector<int> still_;  ///< by joint: sightings in a row that had no velocity
+  std::vector<int> still_;  ///< by joint: pictures in a row in which it had no velocity
 };
 
 }  // namespace mocap

@@ -7,8 +7,8 @@
 namespace anthrob {
 namespace mocap {
 
-/// Options from a YAML file whose sections and keys are those of the structs; what is not named
-/// keeps its default.
+/// Reads options from a YAML file whose sections and keys are those of the structs. A key that is
+/// absent keeps its default.
 /// @throws BadInput with file, line, key and reason
 TrackerOptions load_tracker_options(const std::string& file);
 

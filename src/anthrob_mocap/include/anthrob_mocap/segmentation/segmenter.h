@@ -32,7 +32,8 @@ class Segmenter {
 
   /// @param blobs replaced; from top to bottom, left to right. Blobs at the border are dropped:
   ///   their centroid would be off.
-  /// @return false if the image holds more bright specks than any scene of markers does; no blobs
+  /// @return false if the image has more bright specks than a scene of markers can have; `blobs` is
+  ///   then empty
   bool find(const ImageView& image, std::vector<Blob>& blobs);
 
  private:

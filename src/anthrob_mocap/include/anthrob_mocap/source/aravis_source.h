@@ -9,11 +9,12 @@ namespace anthrob {
 namespace mocap {
 
 /// Two GenICam cameras (GigE Vision, USB3 Vision) through aravis; "Fake_1" is its built-in fake.
-/// Each has a thread that connects, streams, and connects again when the camera is lost. Stamps are
-/// those of arrival less half the exposure: the middle of the exposure, up to the transfer's start.
+/// Each has a thread that connects, streams, and reconnects when the camera is lost. A stamp is the
+/// arrival time minus half the exposure: the middle of the exposure, if the transfer starts at
+/// once.
 class AravisSource final : public FrameSource {
  public:
-  /// @throws BadInput if options make no sense; cameras that are missing are waited for
+  /// @throws BadInput if an option is out of range; it waits for cameras that are missing
   explicit AravisSource(const CameraOptions& options);
   ~AravisSource() override;
 

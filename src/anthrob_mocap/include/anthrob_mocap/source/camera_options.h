@@ -6,27 +6,31 @@
 namespace anthrob {
 namespace mocap {
 
-/// Two cameras that are driven by this computer.
+/// Options of two cameras that this computer controls.
 struct CameraOptions {
   std::string name[2];        ///< left, right: as the library calls them
   int width = 0, height = 0;  ///< [pixel] as calibrated
-  double rate = 60.0;  ///< [Hz] of triggers, or of cameras that run freely (dc1394: their own)
+  /// [Hz] of triggers, or of free cameras: aravis sets it; with dc1394 it must state their own.
+  double rate = 60.0;
   double exposure = 0.0005;  ///< [s]
-  /// Empty: the first of its source's. aravis: software, free, or a line of the camera ("Line0");
-  /// dc1394: external, free.
+  /// aravis: software (default), free, or a line of the camera ("Line0"); dc1394: external
+  /// (default) or free. Empty: the default of the source.
   std::string trigger;
-  /// [s] between the arrivals of a pair; half a period at most. 0: as tolerance() says.
+  /// [s] largest difference between the arrivals of a pair, at most half a period. 0: the default
+  /// of tolerance().
   double sync_tolerance = 0.0;
 
-  /// [s] sync_tolerance, or 0.004 s where cameras are slow enough for it
+  /// [s] sync_tolerance; if that is 0: 0.004 s, or half a period if that is shorter
   double tolerance() const {
     return sync_tolerance > 0.0 ? sync_tolerance : std::min(0.004, 0.5 / rate);
   }
-  double silence() const { return std::max(0.5, 3.0 / rate); }   ///< [s] without images: trouble
-  double patience() const { return std::max(1.0, 3.0 / rate); }  ///< [s] then: opened anew
+  /// [s] without images until trouble is reported.
+  double silence() const { return std::max(0.5, 3.0 / rate); }
+  /// [s] without images until the camera is reopened.
+  double patience() const { return std::max(1.0, 3.0 / rate); }
 
   /// @param source for the message
-  /// @throws BadInput if a number makes no sense
+  /// @throws BadInput if a number is out of range
   void check(const std::string& source) const;
 };
 

@@ -9,8 +9,8 @@ namespace anthrob {
 namespace mocap {
 
 /// Two FireWire cameras on one bus through libdc1394, as in the thesis (section A.3.1), named by
-/// their GUID in hexadecimal. Stamps are the driver's, less half the exposure.
-/// Compiled but never run by us: no such camera is at hand.
+/// their GUID in hexadecimal. Stamps are the driver's minus half the exposure.
+/// We compile this source but have never run it, because we have no such camera.
 class Dc1394Source final : public FrameSource {
  public:
   /// @throws BadInput if a name is no GUID, the trigger neither external nor free, or a number

@@ -19,11 +19,11 @@ class FrameSource {
   /// @throws BadInput for images that cannot be used
   virtual Grab next(StereoFrame& frame, double timeout) = 0;
 
-  /// What is wrong with the cameras at the moment, in one line; empty if nothing is. Sources heal
-  /// themselves: keep calling next.
+  /// What is wrong with the cameras at the moment, in one line; empty if nothing is. Sources
+  /// recover by themselves: keep calling next.
   virtual std::string trouble() const { return ""; }
 
-  /// What became of the images since the last call, where they have to be paired.
+  /// Counts of images and pairs since the last call, for sources that pair images.
   virtual Pairing::Counts take_counts() { return {}; }
 };
 

@@ -11,23 +11,23 @@
 namespace anthrob {
 namespace mocap {
 
-/// Where the threads of two cameras meet: images come in as they arrive, pairs go out, and silence
-/// is noticed.
+/// Pairs the images that the threads of two cameras deliver, and notices when a camera is silent.
 class LivePair {
  public:
-  /// @param silence [s] without images that is trouble
+  /// @param silence [s] without images after which trouble() reports the camera
   explicit LivePair(double sync_tolerance, double silence = 0.5)
       : silence_(silence), pairing_(sync_tolerance) {}
 
-  /// From the camera's thread.
+  /// Called by the camera's thread for each image.
   void add(Side side, const TimedImage& image);
-  /// From the camera's thread: what is wrong with it; empty: all is well.
+  /// Called by the camera's thread: what is wrong with the camera; empty if nothing is.
   void set_trouble(Side side, const std::string& what);
 
-  /// The oldest pair not taken; waits at most `timeout` [s].
+  /// Takes the oldest pair that was not taken yet; waits at most `timeout` [s].
+  /// @return false if there was none
   bool next(StereoFrame& frame, double timeout);
-  /// Of the camera that has been silent for longer first: cameras that are triggered together may
-  /// all fall silent when one of them is pulled.
+  /// What is wrong, in one line; empty if nothing is. Begins with the camera that has been silent
+  /// for longer: both of a triggered pair may fall silent when one is pulled.
   std::string trouble() const;
   /// Since the last call.
   Pairing::Counts take_counts();

@@ -12,25 +12,25 @@
 namespace anthrob {
 namespace mocap {
 
-/// One camera's image and its exposure.
+/// One camera's image and the time of its exposure.
 struct TimedImage {
-  double t = 0.0;       ///< [s]
-  std::int64_t ns = 0;  ///< the same [ns]: today's seconds are only good to 119 ns
+  double t = 0.0;       ///< [s], resolves only 119 ns today
+  std::int64_t ns = 0;  ///< the same, exact [ns]
   ImageView image;
   std::shared_ptr<const void> owner;
 };
 
-/// Brings images of two cameras together by their stamps: whatever arrives first waits for its
-/// partner; what turns out to have none is dropped and counted.
+/// Pairs images of two cameras by their stamps. The image that arrives first waits for its partner;
+/// an image without a partner is dropped and counted.
 class Pairing {
  public:
   /// @param tolerance [s] between the stamps of a pair; 0: they must be equal
   explicit Pairing(double tolerance) : tolerance_(tolerance) {}
 
   /// @return true if the image completes a pair, then in pair[kLeft], pair[kRight]
-  /// @throws BadInput if its stamp does not follow that of the side's image before: of stamps that
-  ///   stand still nobody knows which belong together. A second back and more is another time, and
-  ///   so are some in a row that do advance among themselves.
+  /// @throws BadInput if its stamp is not later than the previous one of this side: images with
+  ///   equal stamps cannot be paired. A step back by a second or more starts over (a bag that
+  ///   loops, a restarted simulator), and so do some refused stamps in a row that increase.
   bool add(Side side, const TimedImage& image, TimedImage pair[2]);
 
   struct Counts {
@@ -41,16 +41,16 @@ class Pairing {
   };
   /// Since the last call.
   Counts take_counts();
-  /// Nothing more will come: what still waits has no partner.
+  /// To be called after the last image: counts those that still wait as lost.
   void end();
   /// Why there are images but no pairs, or none of one camera; empty if all is well.
   static std::string complaint(const Counts& counts, double tolerance);
-  /// How many images were lost, if that is more than one in twenty; else empty.
+  /// How many images were lost, as text, if that is more than one in twenty; else empty.
   static std::string loss(const Counts& counts);
-  /// [s] as given, but at most half the time between images of a camera, once that is known: a
-  /// wider one would bring together images one period apart, and go on so.
+  /// [s] as given, but at most half the period of a camera, once that is known: with a wider one,
+  /// images one period apart would form pairs from then on.
   double tolerance() const;
-  /// [s] between images of a camera, the median of the last; 0: not known yet.
+  /// [s] period of the cameras: median of the last intervals between images; 0: not known yet.
   double period() const;
 
  private:

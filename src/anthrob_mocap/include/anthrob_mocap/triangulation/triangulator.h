@@ -12,11 +12,11 @@ namespace mocap {
 struct MarkerPoint {
   Vec3 p = Vec3::Zero();   ///< centre, rectified left frame [m]
   Vec2 image[2];           ///< rectified pixels of the centre, before the rows are averaged
-  int blob[2] = {-1, -1};  ///< which blobs it is made of
+  int blob[2] = {-1, -1};  ///< the blob of each image that it was triangulated from
 };
 
-/// Matches to points in space, optimally (see StereoRig::triangulate), with the outlines of spheres
-/// put right: the outline of a sphere is an ellipse, whose centre lies farther from the image
+/// Triangulates matches (optimally, see StereoRig::triangulate) and corrects for the outlines of
+/// spheres: the outline of a sphere is an ellipse, whose centre lies farther from the image
 /// centre than the sphere's does. For a sphere of radius r at depth z of a pinhole, exactly,
 ///   m_centre = m_ellipse (1 - r^2 / z^2).
 class Triangulator {
