@@ -25,7 +25,7 @@ void add_findings(DiagnosticStatus& status, const Findings& findings, int ecu, d
     status.values.push_back(key_value(what.name, std::to_string(entry.count) + "x" + detail));
     if (!findings.recent(entry, now)) continue;
     raise(status, what.stops ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN);
-    status.message += std::string("; ") + what.name + ": " + what.meaning;
+    status.message += std::string("; ") + what.name + ": " + what.meaning + " - " + what.remedy;
   }
 }
 
@@ -87,7 +87,7 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
   if (state == ecu::State::kStopping) raise(status, DiagnosticStatus::WARN);
   status.message = ecu::name(state);
   if (held && link.state() != ecu::State::kFault) {
-    status.message += std::string(", held by the driver: clear_faults (the unit: ") +
+    status.message += std::string(", held by the driver until clear_faults (the ECU itself: ") +
                       ecu::name(link.state()) + ")";
   }
   if (!link.heard() || !link.alive()) {
@@ -130,7 +130,7 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
     status.values.push_back(key_value(name + " heat", text(heat.heat())));
     if (heat.heat() <= MotorHeat::kCool) continue;
     raise(status, DiagnosticStatus::WARN);
-    status.message += "; the motor of " + name + " is hot by what it drew";
+    status.message += "; the motor of " + name + " is hot, judging by its current";
   }
   add_findings(status, driver.findings(), static_cast<int>(ecu), now);
   return status;

@@ -69,7 +69,7 @@ void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   double time = 0.0;
   const double old = command_age(command.header.stamp);
   thread_.call([&](RobotDriver& driver, double now) {
-    outcome = dropping_ ? driver.refuse("sent before the robot was ready for it")
+    outcome = dropping_ ? driver.refuse("sent before enable or home had answered")
                         : driver.command(command.name, command.mode, command.reference, now, old);
     time = now;
   });
@@ -105,7 +105,7 @@ DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, C
     thread_.call([&](RobotDriver& driver, double now) { pending = look(driver, now, outcome); });
   }
   // What the last look saw was not the end of it.
-  if (pending) outcome = {false, "the driver is being stopped"};
+  if (pending) outcome = {false, "the driver is shutting down"};
   if (refusing) {
     pass_commands();
     thread_.call([&](RobotDriver& driver, double) {
@@ -162,7 +162,7 @@ bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response)
   // Until the ECUs have cleared too: enable may follow at once.
   const auto look = [&](RobotDriver& driver, double now, Outcome& outcome) {
     if (driver.halts() != halts) {
-      outcome = {false, "stopped meanwhile"};
+      outcome = {false, "the motors were stopped meanwhile; call it again"};
       return false;
     }
     if (driver.clearing(now)) return true;

@@ -10,21 +10,26 @@
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "driver";
-  info.purpose = "The robot's motors: ECUs on a CAN bus.";
+  info.purpose = "Drives the robot's motors through their ECUs on a CAN bus.";
   info.only_one = true;
   info.parameters = {
       {"hardware", "path of hardware.yaml (required)"},
       {"model",
-       "path of a model that must be wired alike (default: the one that hardware.yaml names)"},
+       "path of a model; refused unless its muscles, gains and limits are those of the model that "
+       "hardware.yaml names (default: that model)"},
       {"can", "CAN interface (default: can0)"},
-      {"hand", "whether the hand's muscles are there, too (default: false)"},
-      {"rate", "[Hz] of cycles and states (default: 200)"},
-      {"command_timeout", "[s] after which a silent commander counts as gone (default: 0.5)"},
-      {"check_stamps", "whether commands that are older than that are refused (default: true)"},
+      {"hand", "whether the hand is attached (default: false)"},
+      {"rate", "[Hz] of bus cycles and published states, 100 to 1000 (default: 200)"},
+      {"command_timeout", "[s] without a fresh command after which the motors stop (default: 0.5)"},
+      {"check_stamps",
+       "whether commands stamped more than command_timeout ago or ahead are refused (default: "
+       "true)"},
       {"first_step",
-       "[rad] from where a motor is that its first reference may be, 0: any (default: 0)"},
+       "[rad] that a muscle's first POSITION reference may be away from its position; 0: no limit "
+       "(default: 0)"},
       {"realtime", "whether to ask for SCHED_FIFO and locked memory (default: false)"},
-      {"pace", "of emulated units, seconds a second, in (0, 1] (default: 1)"},
+      {"pace",
+       "speed of emulated ECUs relative to real time, in (0, 1]; a robot needs 1 (default: 1)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
@@ -56,8 +61,9 @@ int main(int argc, char** argv) {
     const std::string other_than_wired =
         model.empty() ? "" : difference(hardware, load_hardware(file, hand, model));
     if (!other_than_wired.empty()) {
-      throw BadInput("parameter ~model: expected the model that " + file + " names, or its like; " +
-                     model + " has " + other_than_wired);
+      throw BadInput("parameter ~model: " + model +
+                     ": expected the muscles, gains and limits of the model that " + file +
+                     " names; different: " + other_than_wired);
     }
     // A clock of another pace comes with the emulated units, which start when we do.
     const std::string no_time = options.pace < 1.0 ? "" : standing_clock(ros::WallDuration(5.0));

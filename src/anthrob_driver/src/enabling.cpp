@@ -25,14 +25,15 @@ Enabling::State Enabling::step(const std::vector<EcuLink>& links, double now, co
     const ecu::StateReport& report = link.report();
     const bool answered = sequence_[e] != 0 && report.sequence == sequence_[e];
     if (answered && report.refusal != ecu::Refusal::kAccepted) {
-      refusal_ = link.own().name + " refuses: " + ecu::name(report.refusal);
+      refusal_ = link.own().name + " refuses enable: " + ecu::name(report.refusal) +
+                 " (docs/ecu_protocol.md, Refusals)";
       return State::kRefused;
     }
     if (answered && report.state == ecu::State::kEnabled) continue;
     all = false;
     if (retry) sequence_[e] = ask(link);
     if (now >= deadline_) {
-      refusal_ = link.own().name + " does not confirm enable";
+      refusal_ = link.own().name + " did not confirm enable in time";
       return State::kRefused;
     }
   }

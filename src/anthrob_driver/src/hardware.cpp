@@ -50,9 +50,8 @@ std::string beside(const std::string& file, const std::string& name) {
 void set(MuscleHardware& muscle, Parameter parameter, double value, const ConfigNode& where) {
   const ecu::ParameterInfo& info = ecu::kParameters[static_cast<int>(parameter)];
   if (!muscle.parameters.set(parameter, value)) {
-    where.fail_expected(std::string(info.name) + " within what the ECU takes, " +
-                        std::to_string(info.lowest) + " to " + std::to_string(info.highest) + " " +
-                        info.unit);
+    where.fail_expected(std::string(info.name) + " in the range of the ECU, " + text(info.lowest) +
+                        " to " + text(info.highest) + " " + info.unit);
   }
 }
 
@@ -65,7 +64,7 @@ void load_controller(const ConfigNode& node, MuscleHardware& muscle) {
   };
   gain(node, "voltage_limit", Parameter::kVoltageLimit, "V");
   if (node.has("period") && node.at("period").as_number(Bounds::positive(), "s") != kTick) {
-    node.at("period").fail_expected(text(kTick) + " s, at which the units run");
+    node.at("period").fail_expected(text(kTick) + " s, the period of the ECUs' control laws");
   }
   const ConfigNode position = node.at("position"), current = node.at("current"),
                    force = node.at("force"), limits = node.at("limits");
@@ -90,7 +89,7 @@ void load_controller(const ConfigNode& node, MuscleHardware& muscle) {
 void load_gains(const ConfigNode& node, MuscleHardware& muscle) {
   for (const auto& [name, value] : node.entries()) {
     const ecu::ParameterInfo* gain = ecu::find_gain(name);
-    if (!gain) value.fail("no gain; expected position_proportional and the like");
+    if (!gain) value.fail("not a gain; expected a name such as position_proportional");
     set(muscle, gain->parameter, value.as_number(Bounds::nonnegative(), gain->unit), value);
   }
 }
@@ -139,7 +138,7 @@ void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
   }
   if (low > 0.0 || high < 0.0) {
     range.fail(text(low) + " to " + text(high) +
-               " rad: expected a range with 0 in it, where a unit counts from once it has power");
+               " rad: expected a range with 0 in it: an ECU counts from 0 when it is switched on");
   }
   const int order = node.at("filter_order").as_integer(0, ecu::kMaxFilterOrder);
   set(muscle, Parameter::kFilterOrder, order, node.at("filter_order"));
@@ -185,8 +184,8 @@ void check_home(const ConfigNode& node, const HomeRoutine& home, const MuscleHar
 void check_reach(const ConfigNode& unit, const char* key, double limit, double reach,
                  const std::string& muscle, const char* what) {
   if (limit <= reach) return;
-  unit.at(key).fail_expected("at most " + text(reach) + " " + what + ", which the sensor of " +
-                             muscle + " reads");
+  unit.at(key).fail_expected("at most " + text(reach) + " " + what +
+                             ", the most that the sensor of " + muscle + " can read");
 }
 
 void check_limits(const ConfigNode& unit, const MuscleHardware& muscle) {
@@ -314,7 +313,8 @@ class Loader {
       ignore_zeros_of_the_hand();
       return;
     }
-    if (!config_.has("hand")) config_.fail("hand: missing; this robot has none");
+    if (!config_.has("hand"))
+      config_.fail("key 'hand' is missing: this robot has no hand; start without hand:=true");
     const ConfigNode hand = config_.at("hand"), sensors = calibration_.at("hand");
     bool takes_controller = false;
     for (const auto& [name, node] : hand.at("muscles").entries()) {
@@ -345,13 +345,13 @@ class Loader {
     EcuHardware& ecu = hardware_.ecus[static_cast<std::size_t>(ecu_index)];
     // The driver would not listen to it. Another model may have no muscles there.
     if (own_model_ && ecu.muscles.empty()) {
-      node.at("ecu").fail(ecu.name + ": expected a unit with muscles, and " +
-                          (hand_ ? "" : "without hand ") + "this one has none");
+      node.at("ecu").fail(ecu.name + ": expected an ECU with muscles; " +
+                          (hand_ ? "" : "without the hand ") + "this one has none");
     }
     const auto [other, first] = sensor_at_.try_emplace({ecu_index, input}, sensor);
     if (!first) {
-      node.at("input").fail(std::to_string(input) + " of " + ecu.name + ": " + other->second +
-                            " is there already");
+      node.at("input").fail(std::to_string(input) + " of " + ecu.name + ": already used by " +
+                            other->second);
     }
     ecu.analogs = std::max(ecu.analogs, input + 1);
     return input;
@@ -480,23 +480,22 @@ bool has_hand(const std::string& file) {
 
 std::string difference(const Hardware& a, const Hardware& b) {
   for (std::size_t m = 0; m < std::max(a.muscles.size(), b.muscles.size()); ++m) {
-    if (m >= a.muscles.size()) return b.muscles[m].name + ": one muscle more";
+    if (m >= a.muscles.size()) return b.muscles[m].name + ": an additional muscle";
     const MuscleHardware& left = a.muscles[m];
-    if (m >= b.muscles.size() || left.name != b.muscles[m].name)
-      return left.name + ": is not there";
+    if (m >= b.muscles.size() || left.name != b.muscles[m].name) return left.name + ": missing";
     const MuscleHardware& right = b.muscles[m];
     if (left.limits.ecu != right.limits.ecu || left.channel != right.channel) {
-      return left.name + ": another motor";
+      return left.name + ": another ECU or channel";
     }
     for (int p = 0; p < ecu::kParameterCount; ++p) {
       if (left.parameters.raw(p) != right.parameters.raw(p)) {
-        return left.name + ": another " + ecu::kParameters[p].name;
+        return left.name + ": another value of " + ecu::kParameters[p].name;
       }
     }
     const bool same_limits = left.limits.modes == right.limits.modes &&
                              left.limits.lowest == right.limits.lowest &&
                              left.limits.highest == right.limits.highest;
-    if (!same_limits) return left.name + ": other limits of commands";
+    if (!same_limits) return left.name + ": other command limits";
   }
   return "";
 }

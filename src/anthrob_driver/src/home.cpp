@@ -51,7 +51,9 @@ bool Home::begin(const std::vector<Reading>& readings, double now) {
   // A muscle whose answer is missing would wind from nowhere, and no travel could be measured.
   const std::string missing = unknown(readings);
   if (!missing.empty()) {
-    if (now - started_ > hardware_.home.time_limit) abort(missing + ": no measurement to start at");
+    if (now - started_ > hardware_.home.time_limit) {
+      abort(missing + ": not measured within time_limit, so home could not start");
+    }
     return false;
   }
   begun_ = true;
@@ -66,18 +68,20 @@ std::string Home::check(const Reading& reading, Tendon& tendon) const {
   const double pretension = limits.pretension;
   if (!std::isfinite(reading.force)) return "its force is no longer measured";
   if (reading.force > limits.force_limit) {
-    return text("%.1f N, more than %.1f N: unwind it by hand", reading.force, limits.force_limit);
+    return text("%.1f N, more than force_limit (%.1f N): unwind it by hand", reading.force,
+                limits.force_limit);
   }
   const double wound = reading.position - tendon.start;
   const bool grips = reading.force > 0.5 * pretension;
   // One that was tight at the start may pay out down to the pretension, and holds that then.
   if (wound < -kUnwound && !grips && !tendon.held) {
-    return text("at %.2f rad, from %.2f: winds the wrong way: polarity of motor or encoder",
-                reading.position, tendon.start);
+    return text(
+        "winds the wrong way, from %.2f to %.2f rad: check the polarity of motor and encoder",
+        tendon.start, reading.position);
   }
   if (wound > limits.travel_limit && !grips) {
     tendon.lost = true;
-    return text("wound in by %.2f rad and only %.1f N: the tendon is broken or off its pulley",
+    return text("wound in by %.2f rad, but only %.1f N: the tendon is broken or off its pulley",
                 wound, reading.force);
   }
   if (grips && !tendon.gripped) tendon.grip = reading.position;
@@ -85,8 +89,10 @@ std::string Home::check(const Reading& reading, Tendon& tendon) const {
   // By force control from here on, which a sensor that always reads the same would lead anywhere.
   const double turned = reading.position - tendon.grip;
   if (tendon.gripped && std::abs(turned) > limits.travel_limit) {
-    return text("turned by %.2f rad since it gripped, and %.1f N: the force sensor does not follow",
-                turned, reading.force);
+    return text(
+        "turned by %.2f rad since its tendon gripped, and reads %.1f N: the force sensor does not "
+        "follow",
+        turned, reading.force);
   }
   tendon.held = tendon.held || reading.force > 0.8 * pretension;
   if (tendon.held && reading.force < (1.0 - limits.slip_drop) * pretension) {
@@ -127,8 +133,9 @@ void Home::step(const std::vector<Reading>& readings, double now) {
   if (now - settled_ >= hardware_.home.settle_time) {
     state_ = State::kReached;
   } else if (now - started_ > hardware_.home.time_limit) {
-    const char* const what = slack.empty() ? "%.1f s passed before all held %.1f N for settle_time"
-                                           : "%.1f s passed and %.1f N were not reached by ";
+    const char* const what =
+        slack.empty() ? "after %.1f s (time_limit) not all muscles had held %.1f N for settle_time"
+                      : "after %.1f s (time_limit) %.1f N were not reached by ";
     abort(text(what, hardware_.home.time_limit, hardware_.home.pretension) + slack);
   }
 }

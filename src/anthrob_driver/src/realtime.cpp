@@ -18,7 +18,8 @@ std::string become_realtime(int priority) {
            "; run as root or set rtprio in /etc/security/limits.conf";
   }
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
-    return "memory is not locked: " + std::string(std::strerror(errno));
+    return "memory is not locked: " + std::string(std::strerror(errno)) +
+           "; run as root or set memlock in /etc/security/limits.conf";
   }
   return "";
 }

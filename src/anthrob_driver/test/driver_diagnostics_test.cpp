@@ -39,8 +39,9 @@ TEST(DriverDiagnostics, NameTheFaultThatTheDriverHolds) {
   rig.run(10000);  // nothing of it is recent
   ASSERT_EQ(rig.driver().link(2).state(), ecu::State::kIdle);
   EXPECT_EQ(status().level, DiagnosticStatus::ERROR);
-  EXPECT_EQ(status().message,
-            "FAULT, held by the driver: clear_faults (the unit: IDLE), zero lost: home first");
+  EXPECT_EQ(
+      status().message,
+      "FAULT, held by the driver until clear_faults (the ECU itself: IDLE), zero lost: home first");
   rig.driver().clear_faults(rig.now());
   rig.run(200);
   EXPECT_EQ(status().level, DiagnosticStatus::WARN);
@@ -56,7 +57,7 @@ TEST(DriverDiagnostics, TellOfMotorsThatGetHot) {
   for (int i = 0; i < 10000 && rig.driver().heat(4).heat() < 1.0; ++i) rig.step();
   const DiagnosticStatus status = ecu_status(rig.driver(), 2, rig.now(), "/anthrob");
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
-  EXPECT_EQ(status.message, "ENABLED; the motor of infraspinatus is hot by what it drew");
+  EXPECT_EQ(status.message, "ENABLED; the motor of infraspinatus is hot, judging by its current");
   double told = 0.0;
   for (const auto& value : status.values) {
     if (value.key == "infraspinatus heat") told = std::stod(value.value);

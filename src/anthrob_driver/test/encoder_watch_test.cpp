@@ -59,7 +59,8 @@ Moment runs(double) {
 TEST(EncoderWatch, AMotorThatTurnsUncountedIsFoundWithinAFifthOfASecond) {
   double when = 0.0;
   EXPECT_EQ(watch({runs, stuck}, &when),
-            "at 2.0 V and 0.67 A its motor turned by 0.20 rad, and the encoder counted 0.000");
+            "at 2.0 V and 0.67 A its motor must have turned by 0.20 rad, but the encoder counted "
+            "0.000 rad");
   EXPECT_NEAR(when, EncoderWatch::kLasts, 2.0 * kPeriod);
   EXPECT_NE(watch({runs, flickers}), "");
   EXPECT_NE(watch({[](double) { return Moment{-2.0, -1.0}; }, stuck}), "");

@@ -176,7 +176,7 @@ std::vector<Kind> kinds() {
                  return Frames{f};
                }),
                untamper});
-  k.push_back({"frames longer than eight bytes say", K::kEverybody, int(Finding::kWrongLength),
+  k.push_back({"frames that claim more than eight bytes", K::kEverybody, int(Finding::kWrongLength),
                tamper([](ecu::Frame f) {
                  if (to_victim(f) || from_victim(f)) f.length = 15;
                  return Frames{f};

@@ -137,24 +137,24 @@ TEST(Hardware, AModelOfPartOfTheRobotIsAnother) {
   const Hardware own = load_hardware(kConfig / "hardware.yaml", false);
   const Hardware tier1 =
       load_hardware(kConfig / "hardware.yaml", false, kConfig / "model_I_tier1.yaml");
-  EXPECT_EQ(difference(own, tier1), "biceps_brachii: is not there");
+  EXPECT_EQ(difference(own, tier1), "biceps_brachii: missing");
 }
 
 TEST(Hardware, ADifferenceNamesMuscleAndWhat) {
   const Hardware own = load_hardware(kConfig / "hardware.yaml", false);
   Hardware other = own;
   other.muscles[3].parameters.set(Parameter::kForceIntegral, 7.5);
-  EXPECT_EQ(difference(own, other), "supraspinatus: another force_integral");
+  EXPECT_EQ(difference(own, other), "supraspinatus: another value of force_integral");
   other = own;
   other.muscles[3].limits.highest[1] *= 2.0;
-  EXPECT_EQ(difference(own, other), "supraspinatus: other limits of commands");
+  EXPECT_EQ(difference(own, other), "supraspinatus: other command limits");
   other = own;
   std::swap(other.muscles[9].limits.ecu, other.muscles[0].limits.ecu);
-  EXPECT_EQ(difference(own, other), "lateral_deltoid: another motor");
+  EXPECT_EQ(difference(own, other), "lateral_deltoid: another ECU or channel");
   other = own;
   other.muscles.pop_back();
-  EXPECT_EQ(difference(own, other), own.muscles.back().name + ": is not there");
-  EXPECT_EQ(difference(other, own), own.muscles.back().name + ": one muscle more");
+  EXPECT_EQ(difference(own, other), own.muscles.back().name + ": missing");
+  EXPECT_EQ(difference(other, own), own.muscles.back().name + ": an additional muscle");
 }
 
 /// Anthrob's files with one text replaced, or two.
@@ -216,7 +216,8 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"hardware.yaml", "positions: {}", "positions: {brachialis: 31.0}",
        "home.positions.brachialis"},
       {"sensors.yaml", "gain: 0.01", "gain: 0.005", "units.type_1.current_limit: 16"},
-      {"sensors.yaml", "gain: 0.06", "gain: 0.03", "which the sensor of lateral_deltoid reads"},
+      {"sensors.yaml", "gain: 0.06", "gain: 0.03",
+       "the most that the sensor of lateral_deltoid can read"},
       // 221.4 N would be a count between the highest that is a force and the converter's last.
       {"hardware.yaml", "force_limit: 220.0", "force_limit: 221.4", "at most 221.22 N"},
       {"hardware.yaml", "force_limit: 20.0", "force_limit: 2.0", "home.force_limit"},
@@ -238,9 +239,9 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
        "already has 2"},
       {"hardware.yaml", "metacarpal_1: {ecu: ecu_7, input: 1}",
        "metacarpal_1: {ecu: ecu_7, input: 0}",
-       "hand.touch.metacarpal_1.input: 0 of ecu_7: ring_finger_tip is there already"},
+       "hand.touch.metacarpal_1.input: 0 of ecu_7: already used by ring_finger_tip"},
       {"hardware.yaml", "elbow: {ecu: ecu_6, input: 0}", "elbow: {ecu: ecu_7, input: 3}",
-       "joints.elbow.input: 3 of ecu_7: metacarpal_3 is there already"},
+       "joints.elbow.input: 3 of ecu_7: already used by metacarpal_3"},
       {"hardware.yaml", "pretension: 5.0", "pretension: -5.0", "home.pretension"},
       {"hardware.yaml", "loaded: 20.0", "loaded: 2.0", "loaded: 2 N: expected 0, or more than"},
       {"sensors.yaml", "gain: 0.06", "gain: -0.06", "lateral_deltoid.force.gain"},
@@ -281,9 +282,8 @@ TEST(Hardware, ASensorOnAUnitThatIsNotListenedToIsRefused) {
       error_of("hardware.yaml", "ecu_7: {node: 7}", "ecu_7: {node: 7}\n  ecu_8: {node: 8}",
                "ecu_6, input: 0", "ecu_8, input: 0");
   EXPECT_NE(error.find("hardware.yaml:"), std::string::npos) << error;
-  EXPECT_NE(
-      error.find("joints.elbow.ecu: ecu_8: expected a unit with muscles, and this one has none"),
-      std::string::npos)
+  EXPECT_NE(error.find("joints.elbow.ecu: ecu_8: expected an ECU with muscles; this one has none"),
+            std::string::npos)
       << error;
 }
 

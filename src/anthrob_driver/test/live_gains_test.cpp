@@ -186,7 +186,7 @@ TEST_F(LiveGainsTest, AreRefusedWhereTheyCannotBeWritten) {
   EXPECT_EQ(rig.driver().start_gains({""}, {"current_integral"}, {2.0}, rig.now()).reason,
             "gains are being changed already");
   EXPECT_EQ(rig.driver().start_enable(rig.now()).reason,
-            "gains are being changed; try again when they are");
+            "gains are being changed; try again in a second");
 }
 
 }  // namespace

@@ -99,14 +99,16 @@ TEST(HotMotors, StopAllAndWaitUntilTheyAreCool) {
   EXPECT_EQ(rig.moving(), 0);
   const std::string last = rig.driver().stops().last();
   EXPECT_EQ(last.substr(0, 10), "motor_hot:") << last;
-  EXPECT_NE(last.find("infraspinatus: its motor is at 1.1"), std::string::npos) << last;
+  EXPECT_NE(last.find("infraspinatus: the estimated heat of its motor is 1.1"), std::string::npos)
+      << last;
 
   rig.driver().clear_faults(rig.now());
   rig.run(200);
   const RobotDriver::Outcome refused = rig.driver().start_enable(rig.now());
   EXPECT_FALSE(refused.accepted);
-  EXPECT_EQ(
-      refused.reason.find("infraspinatus: its motor is too hot by what it drew; try again in "), 0u)
+  EXPECT_EQ(refused.reason.find(
+                "infraspinatus: its motor is too hot, judging by its current; try again in "),
+            0u)
       << refused.reason;
   // The tension turns the motor back, which takes current, too.
   int waited = 0;

@@ -99,9 +99,10 @@ TEST(RobotDriver, AFirstPositionFarFromWhereTheMuscleIsIsRefused) {
     return rig.driver().command({"teres_minor", "brachialis"}, {0, static_cast<std::uint8_t>(mode)},
                                 {0.0, to}, rig.now());
   };
-  EXPECT_EQ(go(3.0).reason,
-            "muscle 'brachialis': POSITION 3.00 rad is 3.00 rad from where it is, first_step is "
-            "0.50 rad: start there");
+  EXPECT_EQ(
+      go(3.0).reason,
+      "muscle 'brachialis': POSITION 3.00 rad is 3.00 rad from where the muscle is, more than "
+      "first_step (0.50 rad): begin near its present position");
   EXPECT_EQ(rig.driver().supervisor().rejected_count(), 1u);
   EXPECT_LT(rig.driver().supervisor().command_age(rig.now()), 0.0);  // it feeds no watch
   rig.run(100);

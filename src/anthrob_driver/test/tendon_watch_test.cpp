@@ -85,7 +85,7 @@ TEST(TendonWatch, AForceThatIsWantedAndNeverComesIsABrokenTendon) {
                   return Moment{8.0 * t, 0.0, true};
                 },
                 &when),
-            "wound in by 6.00 rad and only 0.0 N: the tendon is broken or off its pulley");
+            "wound in by 6.00 rad, but only 0.0 N: the tendon is broken or off its pulley");
   EXPECT_NEAR(when, 0.755, 2.0 * kPeriod);
   // Force in between: it is there.
   EXPECT_EQ(watch([](double t) {

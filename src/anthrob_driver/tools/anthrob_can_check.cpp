@@ -1,6 +1,6 @@
-// Checks a CAN bus: how fast commands and answers go round, what is lost, how loaded the bus is.
-// With --emulate the ECUs run in software in this process, so that an adapter, a vcan or a driver
-// can be tried without a robot. On a real robot nothing is enabled and nothing is cleared; units
+// Checks a CAN bus: how long answers take, which are missing, how loaded the bus is. With --emulate
+// the ECUs run in software in this process, so that an adapter or a vcan can be tried without a
+// robot. On a real robot this is not read-only: nothing is enabled and nothing is cleared, but ECUs
 // that hold another configuration get that of hardware.yaml.
 #include <sys/resource.h>
 
@@ -117,7 +117,7 @@ double robot_time(const Arguments& arguments) {
   return arguments.pace * monotonic_now();
 }
 
-/// Volts for all muscles, a tenth of a newton's worth.
+/// Small volts for all muscles, worth a tenth of a newton.
 void command(DriverThread& thread, const Hardware& hardware) {
   std::vector<std::string> names;
   for (const MuscleHardware& muscle : hardware.muscles) names.push_back(muscle.name);
@@ -200,20 +200,19 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   std::printf("SYNC and references to last answer: median %.2f ms, 99 %% %.2f ms, worst %.2f ms\n",
               1e3 * quantile(round_trips, 0.5), 1e3 * quantile(round_trips, 0.99),
               1e3 * quantile(round_trips, 1.0));
-  std::printf("cycles answered by all: %.0f of %.0f; incomplete: %llu\n", answered, wanted,
+  std::printf("cycles answered by all ECUs: %.0f of %.0f; by only some: %llu\n", answered, wanted,
               static_cast<unsigned long long>(incomplete));
   std::printf(
       "bus load at 1 Mbit/s: calculated %.1f %% without stuff bits, %.1f %% at most;"
       " counted %.1f %% (%.0f frames/s)\n",
       load.plain / 1e4, load.worst / 1e4, listener.bits() / listened / 1e4,
       listener.frames() / listened);
-  std::printf("processor: %.2f ms a second of the robot%s\n", 1e3 * busy / elapsed,
+  std::printf("processor time: %.2f ms per second of robot time%s\n", 1e3 * busy / elapsed,
               arguments.emulate ? ", emulated ECUs included" : "");
   if (arguments.pace < 1.0) {
-    std::printf("all times are the robot's, at %.2f of real time\n", arguments.pace);
+    std::printf("all times are robot time, which runs at %.2f of real time\n", arguments.pace);
   }
-  std::printf("%s",
-              findings.empty() ? "nothing was found wrong\n" : ("found:\n" + findings).c_str());
+  std::printf("%s", findings.empty() ? "no findings\n" : ("findings:\n" + findings).c_str());
   if (tool::interrupted()) return tool::kInterrupted;
   return stopped || incomplete > 0 || round_trips.empty() ? 1 : 0;
 }
@@ -258,14 +257,14 @@ int run(const Arguments& arguments) {
                    ": expected more than 0 and no more than " + std::to_string(kLongest));
   }
   if (!arguments.emulate && arguments.pace < 1.0) {
-    throw BadInput("--pace: a robot has no other pace than 1; expected --emulate");
+    throw BadInput("--pace: below 1 only with --emulate: a robot runs in real time");
   }
   if (!arguments.emulate) return measure(arguments, hardware);
   refuse_physical_bus(arguments.can, arguments.physical);
   EmulatedRobot robot(hardware, arguments);
   const int status = measure(arguments, hardware);
   robot.stop();
-  std::printf("emulated milliseconds that took more than 6: %llu\n",
+  std::printf("emulated milliseconds that took more than 6 ms: %llu\n",
               static_cast<unsigned long long>(robot.late()));
   return status;
 }
@@ -277,20 +276,29 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   using namespace anthrob;
   driver::Arguments arguments;
-  CLI::App app("Checks a CAN bus with a robot or with emulated ECUs", "anthrob_can_check");
+  CLI::App app(
+      "Checks a CAN bus. NOT read-only: WRITES hardware.yaml's parameters to a robot's ECUs.\n"
+      "It acts as the host of the bus, so a driver on the same bus stops its motors.\n"
+      "On a robot it never enables motors and never clears faults; it passes a latched stop on\n"
+      "to all ECUs and disables them at the end. With --emulate it runs and drives ECUs in\n"
+      "software instead.",
+      "anthrob_can_check");
   app.add_option("--hardware", arguments.hardware, "hardware.yaml of the robot")->required();
   app.add_option("--can", arguments.can, "CAN interface")->capture_default_str();
-  app.add_option("--seconds", arguments.seconds, "how long, of the robot's time")
+  app.add_option("--seconds", arguments.seconds, "duration of the measurement [s], in robot time")
       ->capture_default_str();
-  app.add_option("--rate", arguments.rate, "[Hz] of SYNC")->capture_default_str();
-  app.add_option("--pace", arguments.pace, "with --emulate: below 1 all time runs slower")
+  app.add_option("--rate", arguments.rate, "cycles (SYNC frames) a second [Hz]")
+      ->capture_default_str();
+  app.add_option("--pace", arguments.pace, "with --emulate: speed relative to real time")
       ->capture_default_str()
       ->check(tool::within(0.01, 1.0));
-  app.add_flag("--emulate", arguments.emulate, "run the ECUs in software, on a vcan");
+  app.add_flag("--emulate", arguments.emulate,
+               "run the ECUs in software, on a vcan, and drive them");
   app.add_flag("--physical", arguments.physical,
-               "with --emulate: on a physical interface, too, where no robot is");
+               "with --emulate: allow a physical interface; no robot may be connected to it");
   app.add_flag("--hand,!--no-hand", arguments.hand,
-               "with the hand's ECU, if the robot has a hand (default)");
-  app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
+               "include the hand's ECU, if the robot has a hand (default)");
+  app.add_flag("--realtime", arguments.realtime,
+               "real-time scheduling (SCHED_FIFO) and locked memory");
   return tool::run(app, argc, argv, [&] { return driver::run(arguments); });
 }

@@ -54,16 +54,17 @@ std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
   if (gains.size() != names.size() || values.size() != names.size()) {
     return "muscle, gain and value: " + std::to_string(names.size()) + ", " +
            std::to_string(gains.size()) + " and " + std::to_string(values.size()) +
-           " entries: expected as many of each";
+           " entries: expected the same number of each";
   }
   // Each takes its time on a bus.
   const std::size_t most = gains_of(muscles).size();
-  const std::string too_many = "more entries than there are gains, " + std::to_string(most);
+  const std::string too_many =
+      "too many entries: expected at most " + std::to_string(most) + ", one for each gain";
   if (names.size() > most) return too_many;
   std::vector<GainChange> wanted;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const ParameterInfo* info = find_gain(gains[i]);
-    if (!info) return "'" + gains[i] + "': expected the name of a gain, as in held_gain";
+    if (!info) return "'" + gains[i] + "': expected the name of a gain; held_gain lists them";
     bool any = false;
     for (std::size_t m = 0; m < muscles.size(); ++m) {
       if (!names[i].empty() && names[i] != muscles[m].name) continue;

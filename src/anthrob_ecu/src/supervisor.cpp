@@ -50,7 +50,7 @@ std::string Supervisor::check(const std::vector<std::string>& names,
                               const std::vector<std::uint8_t>& modes,
                               const std::vector<double>& references,
                               std::vector<MuscleReference>& accepted) const {
-  if (names.empty()) return "no muscle is named";
+  if (names.empty()) return "no muscle: the command has no names";
   if (modes.size() != names.size() || references.size() != names.size()) {
     return std::to_string(names.size()) + " names, " + std::to_string(modes.size()) + " modes, " +
            std::to_string(references.size()) + " references: expected equal numbers";

@@ -79,20 +79,20 @@ TEST(Gains, ThatAreInRangeOnTheBusAreInRange) {
 TEST(Gains, ThatAreWrongAreRefusedWhole) {
   const std::string good = "position_proportional";
   EXPECT_EQ(refusal({"motor"}, {good}, {}),
-            "muscle, gain and value: 1, 1 and 0 entries: expected as many of each");
+            "muscle, gain and value: 1, 1 and 0 entries: expected the same number of each");
   EXPECT_EQ(refusal({"motor", "nobody"}, {good, good}, {1.0, 1.0}),
             "'nobody': expected the name of a muscle");
   EXPECT_EQ(refusal({"hill"}, {good}, {1.0}), "muscle 'hill' has no gains");
   EXPECT_EQ(refusal({"band"}, {good}, {1.0}), "muscle 'band' has no gains");
   EXPECT_EQ(refusal({"motor"}, {"K_P"}, {1.0}),
-            "'K_P': expected the name of a gain, as in held_gain");
+            "'K_P': expected the name of a gain; held_gain lists them");
   EXPECT_EQ(refusal({"motor"}, {"voltage_limit"}, {1.0}),
-            "'voltage_limit': expected the name of a gain, as in held_gain");
+            "'voltage_limit': expected the name of a gain; held_gain lists them");
   EXPECT_EQ(refusal({"motor", ""}, {good, good}, {1.0, -1.0}),
             "muscle 'motor': position_proportional: -1: expected 0 to 1000 V/rad");
   EXPECT_EQ(refusal(std::vector<std::string>(10, "motor"), std::vector<std::string>(10, good),
                     std::vector<double>(10, 1.0)),
-            "more entries than there are gains, 9");
+            "too many entries: expected at most 9, one for each gain");
   EXPECT_NE(refusal({"motor"}, {good}, {std::nan("")}), "");
   EXPECT_NE(refusal({"motor"}, {good}, {1000.1}), "");
 }

@@ -96,8 +96,8 @@ class RobotClock {
   ros::Publisher publisher_;
 };
 
-/// Another one at every start (the same comes again after 64 s): ECUs of an emulator that was
-/// started anew must not pass for those that were there before.
+/// Differs from start to start (it repeats after 64 s): after a restart of the emulator the driver
+/// must notice that these are not the ECUs that it knew.
 std::uint8_t session_now() {
   using Quarters = std::chrono::duration<std::int64_t, std::ratio<1, 4>>;
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -153,23 +153,28 @@ int main(int argc, char** argv) {
   anthrob::Arguments arguments;
   CLI::App app("Emulated ECUs of a robot on a CAN interface", "anthrob_emulator");
   app.add_option("--hardware", arguments.hardware, "hardware.yaml of the robot")->required();
-  app.add_option("--model", arguments.model,
-                 "model file: the simulator's physics; without, a bench of motors and springs");
-  app.add_option("--can", arguments.can, "CAN interface, a vcan")->capture_default_str();
-  app.add_flag("--physical", arguments.physical, "on a physical interface, too, where no robot is");
+  app.add_option(
+      "--model", arguments.model,
+      "model file for the simulator's physics; default: a test bench of motors and springs");
+  app.add_option("--can", arguments.can, "CAN interface; must be a vcan, see --physical")
+      ->capture_default_str();
+  app.add_flag("--physical", arguments.physical,
+               "allow a physical interface; no robot may be connected to it");
   app.add_option("--rate", arguments.rate, "[Hz] of spherical_joint_states")
       ->capture_default_str()
       ->check(anthrob::tool::within(1.0, 1000.0));
-  app.add_option("--pace", arguments.pace, "below 1: time runs slower, as the driver's ~pace")
+  app.add_option("--pace", arguments.pace,
+                 "speed relative to real time; set the driver's ~pace alike")
       ->capture_default_str()
       ->check(anthrob::tool::within(0.01, 1.0));
   app.add_flag("--hand", arguments.hand, "with the hand's muscles, if the robot has a hand");
   app.add_flag("--homed", arguments.homed,
-               "the units know the model's zero; else they want `home`");
-  app.add_flag("--realtime", arguments.realtime, "SCHED_FIFO");
+               "the ECUs know the model's zero from the start; otherwise POSITION needs `home`");
+  app.add_flag("--realtime", arguments.realtime,
+               "real-time scheduling (SCHED_FIFO) and locked memory");
   app.add_flag("--ros", arguments.ros,
-               "publish the ball joints, as motion capture would, once a driver speaks");
+               "publish the ball joints, as motion capture would, once a driver sends SYNC");
   app.add_flag("--clock", arguments.clock,
-               "publish /clock, the robot's time at --pace, once a driver speaks");
+               "publish /clock, the robot's time at --pace, once a driver sends SYNC");
   return anthrob::tool::run(app, argc, argv, [&] { return anthrob::run(arguments); });
 }

@@ -10,7 +10,9 @@ SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
     : simulation_(std::move(model)),
       steps_(static_cast<int>(std::lround(0.001 / simulation_.step_length()))) {
   if (steps_ < 1 || std::abs(steps_ * simulation_.step_length() - 0.001) > 1e-12) {
-    throw BadInput("simulation step: expected a whole part of a millisecond");
+    throw BadInput(
+        "simulation step: expected one that divides 1 ms (1, 0.5, 0.25 ms and so on) behind "
+        "emulated ECUs");
   }
   for (const driver::MuscleHardware& muscle : hardware.muscles) {
     muscles_.push_back(simulation_.model().find_muscle(muscle.name));
@@ -19,7 +21,7 @@ SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
     if (muscle.command_delay > 0.0) {
       throw BadInput(
           simulation_.model().file + ": effects: command_latency of muscle " + muscle.name +
-          ": emulated ECUs get their commands over the bus; expected a model without it");
+          ": expected a model without it: emulated ECUs get their commands over the bus");
     }
   }
   for (const driver::JointSensor& joint : hardware.joints) {

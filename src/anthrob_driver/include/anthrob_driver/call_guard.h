@@ -7,20 +7,21 @@
 namespace anthrob {
 namespace driver {
 
-/// A call of a user that waits for its turn, and then for the robot. Whatever stops the motors from
-/// the moment it came in wins over it.
+/// Guards a service call that waits for its turn and then for the robot. Anything that stops the
+/// motors after the call arrived takes precedence over it.
 class CallGuard {
  public:
   /// @param received RobotDriver::halts() when the call came in
   explicit CallGuard(std::uint64_t received) : received_(received) {}
 
-  /// Its turn has come. @return false if the motors were stopped meanwhile; `outcome` says so
+  /// To be called when its turn comes.
+  /// @return false if the motors were stopped since the call arrived; `outcome` then says so
   bool may_begin(const RobotDriver& driver, RobotDriver::Outcome& outcome) const {
     if (driver.halts() == received_) return true;
     outcome = {false, "the motors were stopped after this was called; call it again"};
     return false;
   }
-  /// Last of all: a success that was undone before it is told is none.
+  /// To be called last: turns a success into a failure if a stop undid it before the answer.
   void confirm(const RobotDriver& driver, RobotDriver::Outcome& outcome) const {
     if (!outcome.accepted || driver.halts() == received_) return;
     outcome = {false, "it succeeded, and then the motors were stopped"};

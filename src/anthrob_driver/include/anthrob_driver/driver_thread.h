@@ -24,10 +24,11 @@ class DriverThread {
  public:
   struct Options {
     RobotDriver::Options driver;
-    /// SCHED_FIFO and locked memory; needs rights, goes on without and says so in note().
+    /// Ask for SCHED_FIFO and locked memory. If the system refuses, the thread runs without them,
+    /// and note() says so.
     bool realtime = false;
-    /// Below 1 all of the driver's time runs slower, watchdogs too: for emulated ECUs of the same
-    /// pace on machines that are too slow for real time. Never with a robot.
+    /// Below 1, all of the driver's time runs slower, including time-outs: for emulated ECUs of the
+    /// same pace on machines that are too slow for real time. Never use it with a robot.
     double pace = 1.0;
   };
 
@@ -39,7 +40,8 @@ class DriverThread {
   /// Runs `work` between two events of the loop and waits until it is done.
   void call(const std::function<void(RobotDriver&, double now)>& work);
 
-  /// RobotDriver::halts(), for any thread and without waiting. Never behind what call() has done.
+  /// RobotDriver::halts(), for any thread and without waiting. It includes everything that finished
+  /// calls of call() have done.
   std::uint64_t halts() const { return halts_; }
 
   /// Waits for measurements, at most `seconds`. @return all that came since the last call

@@ -10,8 +10,8 @@
 namespace anthrob {
 namespace driver {
 
-/// Asks every ECU to enable, again and again, until each has confirmed a request of this time, or
-/// one refuses or says nothing.
+/// Asks every ECU to enable, repeatedly, until each has confirmed a request of this attempt, or one
+/// refuses or does not answer in time.
 class Enabling {
  public:
   static constexpr double kTimeout = 0.25;  ///< [s]
@@ -20,9 +20,9 @@ class Enabling {
   using Ask = std::function<std::uint8_t(const EcuLink& link)>;
 
   void start(std::size_t ecus, double now);
-  /// One cycle. @param links one an ECU
+  /// One cycle. @param links one for each ECU
   State step(const std::vector<EcuLink>& links, double now, const Ask& ask);
-  /// Who refused, and why.
+  /// Which ECU refused, and why.
   const std::string& refusal() const { return refusal_; }
 
  private:

@@ -7,7 +7,7 @@
 namespace anthrob {
 namespace driver {
 
-/// What the driver can find wrong with host, bus or ECUs.
+/// Faults of host, bus or ECUs that the driver can notice.
 enum class Finding : std::uint8_t {
   kInterfaceDown,
   kBusOff,
@@ -45,30 +45,30 @@ constexpr int kFindingCount = 30;
 struct FindingInfo {
   Finding finding;
   const char* name;
-  bool stops;  ///< motors are stopped and stay disabled until the user enables them again
+  bool stops;  ///< the driver stops all motors; they stay disabled until the user calls enable
   const char* meaning;
   const char* remedy;  ///< what the user should do
 };
 
-/// One row a finding, in their order.
+/// One row for each finding, in the order of the enum.
 extern const FindingInfo kFindings[kFindingCount];
 const FindingInfo& info(Finding finding);
 
-/// What was found, when and how often.
+/// What was found, when, and how often.
 class Findings {
  public:
   struct Entry {
     Finding finding;
-    int ecu;  ///< index; -1: not of one ECU
+    int ecu;  ///< index; -1: does not concern a single ECU
     std::string detail;
     double first = 0.0, last = 0.0;  ///< [s]
     std::uint64_t count = 0;
   };
 
   void add(Finding finding, int ecu, double time, const std::string& detail = "");
-  /// All that ever was found since the last clear.
+  /// Everything that was found since the last clear().
   const std::vector<Entry>& entries() const { return entries_; }
-  /// Seen during the last `seconds`.
+  /// Whether it was last seen at most `seconds` ago.
   bool recent(const Entry& entry, double time, double seconds = 3.0) const {
     return time - entry.last <= seconds;
   }

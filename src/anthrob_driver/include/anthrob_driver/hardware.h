@@ -20,7 +20,7 @@ struct MuscleHardware {
   ecu::MuscleChannel limits;  ///< of commands
   LinearSensor force, current;
   double encoder_scale = 0.0;  ///< [rad/count]
-  double home_position = 0.0;  ///< [rad] what home makes of the pretensioned posture
+  double home_position = 0.0;  ///< [rad] its position after home, in the pretensioned posture
   /// Of the model's motor: with its power stage [ohm], at the gear output [Vs/rad]; 0: not known
   double resistance = 0.0, back_emf = 0.0;
   /// What MotorHeat wants to know [A, s]; 0: not known
@@ -60,14 +60,14 @@ struct HomeRoutine {
   double time_limit = 15.0;   ///< [s]
 };
 
-/// When a tendon counts as broken in motion, see TendonWatch; of muscles with a force sensor.
+/// When the tendon of a muscle with force sensor counts as broken in motion, see TendonWatch.
 struct TendonLimits {
-  double loaded = 20.0;  ///< [N] a load that is missed if it is gone at once; 0: none is
+  double loaded = 20.0;  ///< [N] a load whose sudden loss is an alarm; 0: no such alarm
   double slack = 2.5;    ///< [N] less than this is no force
-  double travel = 12.0;  ///< [rad] wound in without force though one is wanted; 0: without end
+  double travel = 12.0;  ///< [rad] most winding in without force though one is commanded; 0: any
 };
 
-/// A robot as it is wired: hardware.yaml beside its model files.
+/// A robot as it is wired, from hardware.yaml, its model file and its calibration file.
 struct Hardware {
   std::string file;
   std::vector<MuscleHardware> muscles;  ///< in the order of the model file, hand last
@@ -83,20 +83,20 @@ struct Hardware {
 
 /// Muscles, gains and command limits come from the model file that hardware.yaml names, the rest
 /// from hardware.yaml and the calibration file it names.
-/// @param hand with the hand's muscles and touch sensors
-/// @param model model file to take instead of the one that hardware.yaml names; empty: that one
+/// @param hand whether to load the hand's muscles and touch sensors
+/// @param model model file to use instead of the one that hardware.yaml names; empty: that one
 /// @throws BadInput with one line: file, line, key, value, what was expected
 Hardware load_hardware(const std::string& file, bool hand, const std::string& model = "");
 
-/// After parameters of a muscle of this ECU have changed.
+/// Recomputes the checksum; to be called after parameters of a muscle of this ECU have changed.
 void update_configuration(Hardware& hardware, int ecu);
 
 /// Whether hardware.yaml describes a hand at all.
 /// @throws BadInput if it cannot be read
 bool has_hand(const std::string& file);
 
-/// The first thing that the units, or commands, would have otherwise from `b` than from `a`: muscle
-/// and what of it; empty if there is none.
+/// The first difference between `a` and `b` in what ECUs hold or in the limits of commands, as
+/// muscle and what differs ("NAME: missing" if `b` lacks it); empty if there is none.
 std::string difference(const Hardware& a, const Hardware& b);
 
 }  // namespace driver

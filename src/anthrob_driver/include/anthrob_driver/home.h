@@ -8,24 +8,24 @@
 namespace anthrob {
 namespace driver {
 
-/// Winds all tendons in slowly until they grip, brings them to a common tension by force control,
-/// watches for those that are broken, slack, slip or wind the wrong way, and then declares this
-/// posture the zero. Muscles without force sensor are left alone: neither pulled nor, unless their
-/// unit restarted, given a zero.
+/// Homing. It winds all tendons in slowly until they grip, brings them to a common tension by force
+/// control, and then makes this posture the zero. Meanwhile it watches for tendons that are broken,
+/// slack, slip or wind the wrong way. Muscles without force sensor are not pulled, and get a zero
+/// only if they have none.
 class Home {
  public:
   struct Reading {
-    double position, force;  ///< NaN: no answer to this SYNC; force alone: no sensor
+    double position, force;  ///< NaN: no answer to this SYNC; only force NaN: no sensor
   };
   enum class State { kIdle, kRunning, kReached, kFailed };
 
   explicit Home(const Hardware& hardware) : hardware_(hardware) {}
 
   void start(double now);
-  /// One cycle. @param readings one a muscle
+  /// One cycle. @param readings one for each muscle
   void step(const std::vector<Reading>& readings, double now);
   void abort(const std::string& reason);
-  /// The zero was taken over.
+  /// All ECUs have confirmed the zero.
   void finish() { state_ = State::kIdle; }
 
   State state() const { return state_; }
@@ -48,7 +48,7 @@ class Home {
     bool lost = false;     ///< broke, slipped or is off its pulley
   };
   bool pulls(std::size_t muscle) const;
-  /// Names of the muscles that pull and have no measurement in this cycle.
+  /// Names of the muscles that are to be pulled but have no measurement in this cycle.
   std::string unknown(const std::vector<Reading>& readings) const;
   bool begin(const std::vector<Reading>& readings, double now);
   std::string check(const Reading& reading, Tendon& tendon) const;

@@ -8,16 +8,17 @@
 namespace anthrob {
 namespace driver {
 
-/// Puts together what the sensors of one kind read at one instant: they hang on several ECUs, whose
-/// answers to one SYNC come one after the other.
+/// Groups the readings of all sensors of one kind at one instant. The sensors are connected to
+/// several ECUs, whose answers to one SYNC arrive one after the other.
 class ReadingGroup {
  public:
   /// @param sensors how many there are of this kind
   explicit ReadingGroup(std::size_t sensors) : sensors_(sensors) {}
 
-  /// @return the readings of one instant, in the order of the sensors: all of them as soon as the
-  ///     last one is in; what there is of an instant that a sensor did not answer, once there is a
-  ///     reading of the next; else nothing
+  /// @return the readings of one instant in the order of the sensors, as soon as all have arrived.
+  /// If
+  ///     a sensor did not answer, the others are returned with the first reading of the next
+  ///     instant. Otherwise nothing
   std::vector<AnalogSample> add(const AnalogSample& reading);
 
  private:

@@ -19,19 +19,20 @@
 namespace anthrob {
 namespace driver {
 
-/// The robot behind a bus: sends SYNC and references, collects answers, decides who may move.
-/// No ROS, no clock, no thread: somebody calls cycle() at the rate and receive() for what comes in.
+/// Drives a robot over a bus: sends SYNC and references, collects answers and decides whether
+/// motors may move. It has no ROS, no clock and no thread: the caller calls cycle() at the rate and
+/// receive() for every event of the bus.
 ///
-/// The rules: nothing moves before enable succeeded on every ECU. Whatever goes wrong stops all
-/// motors, and they stay disabled until the user enables again. An emergency stop wins over
-/// everything and holds until cleared.
+/// The rules: nothing moves before enable has succeeded on every ECU. Every finding that stops (see
+/// kFindings) stops all motors, and they stay disabled until the user enables them again. An
+/// emergency stop takes precedence over everything and holds until it is cleared.
 class RobotDriver {
  public:
   struct Options {
     double rate = 200.0;  ///< [Hz] of cycle()
     double command_timeout = 0.5;
-    /// [rad] that the first POSITION reference of a muscle after enable, home or another mode may
-    /// be away from where it is; 0: any
+    /// [rad] How far the first POSITION reference of a muscle after enable, home or another mode
+    /// may be from its position; 0: no limit
     double first_step = 0.0;
   };
   using Outcome = ecu::Supervisor::Outcome;
@@ -47,17 +48,18 @@ class RobotDriver {
   bool take_sample(Sample& sample) { return sampler_.take(sample); }
   bool take_analog(AnalogSample& sample) { return sampler_.take(sample); }
 
-  /// @param age [s] since it was sent, by its stamp; 0 without one. More than command_timeout, or
-  /// as far ahead of time, is refused: nobody sends it now
+  /// @param age [s] of the command by its stamp; 0 if it has none. A command that is more than
+  /// command_timeout old, or as far ahead of time, is refused: it cannot have been sent just now
   Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                   const std::vector<double>& references, double now, double age = 0.0);
-  /// A command that is not even looked at; counted and named as the others that are refused.
+  /// Refuses a command without checking it; it is counted and recorded like other refused ones.
   Outcome refuse(const std::string& reason) { return supervisor_.refuse(reason); }
-  /// Begins; phase() and last_outcome() tell how it went, within Enabling::kTimeout.
+  /// Begins; phase() and last_outcome() show the result within Enabling::kTimeout.
   Outcome start_enable(double now);
-  /// Begins; home().running() and its outcome tell how it went.
+  /// Begins; home().running() and home().failure() show the result.
   Outcome start_home(double now);
-  /// Begins, enabled or not; gains() tells how it goes. Held gains are in hardware().
+  /// Begins, enabled or not; gains() shows the progress. The gains that ECUs hold are in
+  /// hardware().
   /// @param names, gains, values as of read_gain_changes
   Outcome start_gains(const std::vector<std::string>& names, const std::vector<std::string>& gains,
                       const std::vector<double>& values, double now);
@@ -67,7 +69,7 @@ class RobotDriver {
 
   /// Between clear_faults and the moment the ECUs have cleared too.
   bool clearing(double now) const;
-  /// The first unit that answers and is in FAULT or holds an emergency stop, and why; empty: none.
+  /// The first ECU that answers and is in FAULT or holds an emergency stop, and why; empty: none.
   std::string not_cleared() const;
 
   Phase phase() const { return phase_; }
@@ -81,10 +83,10 @@ class RobotDriver {
   const Findings& findings() const { return findings_; }
   const BusWatch& bus_watch() const { return watch_; }
   std::uint64_t cycles() const { return cycles_; }
-  /// How often everything was disabled, by whomever and whether anything ran or not, or was told to
-  /// stop again.
+  /// How often everything was disabled or stopped, for whatever reason, whether anything was
+  /// enabled or not.
   std::uint64_t halts() const { return halts_; }
-  /// Why motors were stopped, when nobody had asked for it here.
+  /// Stops that no user of this driver had asked for, with their reasons.
   const StopLog& stops() const { return stops_; }
 
   static constexpr double kSilence = 1.0;  ///< [s] before an unheard ECU is reported
@@ -106,31 +108,33 @@ class RobotDriver {
   void send_parameters(double now);
   bool all_complete() const;
   std::string why_not_enable() const;
-  /// What first_step has against a command; empty: nothing.
+  /// Why first_step forbids a command; empty if it does not.
   std::string too_far(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                       const std::vector<double>& references) const;
   std::string reason(Finding finding, int ecu, const std::string& detail) const;
   /// The name of an ECU and a colon; nothing for -1.
   std::string prefix(int ecu) const;
 
-  // Whatever stops motors ends in disable(). Beside the user's two: what was found (stop), a STOP
-  // that somebody else sent (obey_stop), home that fails (fail_home). Those say why in stops().
+  // Everything that stops motors ends in disable(). Besides disable() and emergency_stop() of the
+  // user these are: a finding (stop), a STOP that somebody else sent (obey_stop), and a failed home
+  // (fail_home). These three record the reason in stops().
 
   /// @param ecu that failed: it stays in FAULT until cleared; -1: none
   /// @param detail which fault, which tendon; may be empty
   void stop(Finding finding, int ecu, const std::string& detail = "");
-  /// A unit says that it stopped some frames before it says why, so the motors are stopped at once
-  /// and the reason is noted when it comes (name_stop), or when it does not for kNamingTime.
+  /// An ECU reports that it stopped some frames before it reports why. So the motors are stopped at
+  /// once, and the reason is recorded when it arrives (name_stop), or without it after kNamingTime.
   void stop_for_unit(Finding finding, int ecu, double now);
-  /// @param now HUGE_VAL: with the name or without
+  /// @param now HUGE_VAL: record the stop now, with or without the reason
   void name_stop(double now);
   void halt(Finding finding, int ecu, const std::string& what);
   /// @param ecu which holds the stop; -1: a frame on the bus
   void obey_stop(int ecu);
   void fail_home(double now);
-  /// Its tendon is no longer where it was on its spindle.
+  /// To be called when its tendon has moved on its spindle: the zero no longer holds.
   void revoke_zero(const MuscleHardware& muscle);
-  void note_stop(Finding finding, const std::string& what);
+  /// @param remedy null: the finding's
+  void note_stop(Finding finding, const std::string& what, const char* remedy = nullptr);
 
   Hardware hardware_;
   Options options_;
@@ -153,7 +157,7 @@ class RobotDriver {
     double until;      ///< [s]
     std::string told;  ///< meanwhile
   };
-  std::optional<Unnamed> unnamed_;  ///< a stop whose reason is to be told yet
+  std::optional<Unnamed> unnamed_;  ///< a stop whose reason is not known yet
 
   Phase phase_ = Phase::kDisabled;
   Outcome last_outcome_{true, ""};

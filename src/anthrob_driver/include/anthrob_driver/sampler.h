@@ -13,9 +13,9 @@ namespace driver {
 
 /// One muscle at one SYNC.
 struct MuscleSample {
-  bool measured = false;  ///< its ECU answered this SYNC; else the numbers mean nothing
+  bool measured = false;  ///< its ECU answered this SYNC; otherwise the numbers are meaningless
   double position = 0.0, velocity = 0.0, current = 0.0, voltage = 0.0, force = 0.0;
-  double reference = 0.0;  ///< it and mode: what went out with this SYNC
+  double reference = 0.0;  ///< reference and mode that were sent with this SYNC
   ecu::Mode mode = ecu::Mode::kVoltage;
   ecu::State state = ecu::State::kBoot;
 };
@@ -28,7 +28,7 @@ struct Sample {
   std::vector<MuscleSample> muscles;
 };
 
-/// What an analogue sensor said to one SYNC.
+/// Reading of an analogue sensor at one SYNC.
 struct AnalogSample {
   enum class Kind { kJoint, kTouch };
   std::int64_t stamp_ns = 0;  ///< as Sample's
@@ -39,7 +39,7 @@ struct AnalogSample {
   double rate = 0.0;       ///< [rad/s] of joints; NaN for the first value after a gap
 };
 
-/// Puts together what the ECUs answer to one SYNC.
+/// Collects the answers of the ECUs to one SYNC.
 class Sampler {
  public:
   /// @param hardware must outlive the sampler
@@ -50,17 +50,18 @@ class Sampler {
   bool is_open() const { return open_; }
   /// The SYNC was on the wire [ns]: that is when the ECUs measured.
   void on_wire(std::int64_t stamp_ns) { sync_stamp_ = stamp_ns; }
-  /// The first frame after it [ns]: as near as one gets without an echo.
+  /// The first frame after it [ns]: the best estimate if there is no echo.
   void on_frame(std::int64_t stamp_ns) {
     if (sync_stamp_ == 0) sync_stamp_ = stamp_ns;
   }
-  /// The analogue inputs of one ECU are in.
+  /// The analogue inputs of one ECU have arrived.
   void add_analog(const EcuLink& link, int ecu, double now, Findings& findings);
-  /// No more answers count. Nothing is finished if no ECU has answered.
-  /// @param links one an ECU   @param supervisor its faults win over what ECUs say of themselves
+  /// Later answers no longer count. If no ECU has answered, there is no new sample.
+  /// @param links one for each ECU   @param supervisor its faults override the states that ECUs
+  /// report
   void close(const std::vector<EcuLink>& links, const ecu::Supervisor& supervisor, double now);
 
-  /// The last that was finished; muscles without measurement before the first one.
+  /// The last finished sample; before the first one, muscles without measurement.
   const Sample& last() const { return finished_; }
   /// @return false if there is no new one
   bool take(Sample& sample);

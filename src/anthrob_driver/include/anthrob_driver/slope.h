@@ -6,13 +6,13 @@
 namespace anthrob {
 namespace driver {
 
-/// How fast a quantity changes that is measured in counts: slope of the straight line through its
-/// last values. With potentiometers at 100 Hz (1.3 mrad a count) that is good to 0.01 rad/s, a
-/// difference of two values to 0.1 rad/s; it comes 25 ms late.
+/// Rate of change of a quantity that is measured in counts: the slope of the straight line through
+/// its last values. For potentiometers at 100 Hz (1.3 mrad per count) its error is about 0.01
+/// rad/s, that of a difference of two values 0.1 rad/s. It is 25 ms late.
 class Slope {
  public:
   static constexpr std::size_t kWindow = 6;
-  static constexpr double kLongestGap = 0.1;  ///< [s]; beyond it the past says nothing
+  static constexpr double kLongestGap = 0.1;  ///< [s]; after a longer gap older values are dropped
 
   /// @param t [s] of a clock that never jumps
   void add(double t, double value);

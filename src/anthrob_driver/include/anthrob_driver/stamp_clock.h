@@ -5,9 +5,9 @@
 namespace anthrob {
 namespace driver {
 
-/// Simulated ROS time, as it comes with /clock, for stamps: in ticks, and each tick late by as long
-/// as its message took. Measurements stamped by it could come in the order of the messages instead
-/// of their own. The driver's clock is smooth; what was least late tells how the two are apart.
+/// Simulated ROS time for stamps. /clock arrives in ticks, and each tick is late by the time that
+/// its message took, so stamps taken from it directly could put measurements in the wrong order.
+/// The driver's clock is smooth: this class adds to it the offset of the tick that was least late.
 class StampClock {
  public:
   /// @param ros_now [s] what /clock said last   @param robot_now [s] of the driver's clock

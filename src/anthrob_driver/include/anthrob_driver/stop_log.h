@@ -9,7 +9,7 @@
 namespace anthrob {
 namespace driver {
 
-/// Why motors were stopped: how often, and the last few reasons, for whoever looks now and then.
+/// How often motors were stopped, and the last few reasons, for readers that poll.
 class StopLog {
  public:
   static constexpr std::size_t kRemembered = 8;
@@ -22,7 +22,7 @@ class StopLog {
   std::uint64_t count() const { return count_; }
   /// Empty if there was none.
   std::string last() const { return reasons_.empty() ? "" : reasons_.back(); }
-  /// The reasons of those after the first `count`, as far as they are remembered.
+  /// The reasons of all stops after the first `count`, as far as they are still remembered.
   std::vector<std::string> since(std::uint64_t count) const {
     const auto missed = static_cast<std::size_t>(count_ - std::min(count, count_));
     return {reasons_.end() - static_cast<std::ptrdiff_t>(std::min(missed, reasons_.size())),

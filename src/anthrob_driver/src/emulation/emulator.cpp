@@ -22,9 +22,10 @@ void sleep_until(double time) {
 
 void refuse_physical_bus(const std::string& interface, bool physical) {
   if (physical || interface.rfind("vcan", 0) == 0) return;
-  throw BadInput("--can: " + interface +
-                 ": expected vcan0 or the like: emulated units disturb a robot on the same bus and "
-                 "clear its emergency stop; --physical if there is none");
+  throw BadInput(
+      "--can: " + interface +
+      ": expected vcan0 or the like: emulated ECUs would disturb a robot on this bus and "
+      "clear its emergency stop; if no robot is connected, add --physical");
 }
 
 void Emulator::run(const std::function<bool()>& quit, const std::function<void()>& each_tick) {

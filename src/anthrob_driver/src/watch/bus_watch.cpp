@@ -91,16 +91,18 @@ std::string BusWatch::trouble() const {
     case Condition::kDown:
       return "the CAN interface is down";
     case Condition::kOff:
-      return "the CAN controller is bus-off";
+      return "the CAN controller is bus-off; check cable, termination and bit rate";
     case Condition::kPassive:
       // Only it knows when that is over; single errors are not reported to us.
-      return "the CAN controller is error-passive and has not said that it is active again; where "
-             "it is, set the interface down and up";
+      return "the CAN controller is error-passive and has not reported that it recovered; if the "
+             "bus is in order, set the interface down and up";
     default:
       break;
   }
-  if (unheard_) return "nobody acknowledges our frames";
-  if (full_cycles_ >= kFullCycles) return "the CAN interface takes no frames";
+  if (unheard_)
+    return "no node on the bus acknowledges the driver's frames; are the ECUs switched on?";
+  if (full_cycles_ >= kFullCycles)
+    return "the CAN interface accepts no more frames; are the ECUs switched on?";
   return "";
 }
 

@@ -27,7 +27,8 @@ std::string EncoderWatch::step(double position, double voltage, double current, 
   if (std::abs(counted) >= kCounted * std::abs(turned)) return "";
   char text[160];
   std::snprintf(text, sizeof(text),
-                "at %.1f V and %.2f A its motor turned by %.2f rad, and the encoder counted %.3f",
+                "at %.1f V and %.2f A its motor must have turned by %.2f rad, but the encoder "
+                "counted %.3f rad",
                 voltage, current, turned, counted);
   return text;
 }

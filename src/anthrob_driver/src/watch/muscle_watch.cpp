@@ -31,7 +31,7 @@ std::optional<MuscleWatch::Alarm> MuscleWatch::step(const MuscleSample& sample, 
   if (heat_.heat() <= MotorHeat::kLimit) return std::nullopt;
   char text[120];
   std::snprintf(text, sizeof(text),
-                ": its motor is at %.2f of the heat that its nominal current leads to",
+                ": the estimated heat of its motor is %.2f times that of the nominal current",
                 heat_.heat());
   return Alarm{Finding::kMotorHot, name_ + text, false};
 }
@@ -45,8 +45,9 @@ std::string MuscleWatch::tendon(const MuscleSample& sample, double time) {
 std::string MuscleWatch::why_not_enable() const {
   const double wait = heat_.time_to_cool();
   if (wait <= 0.0) return "";
-  char text[80];
-  std::snprintf(text, sizeof(text), ": its motor is too hot by what it drew; try again in %.0f s",
+  char text[120];
+  std::snprintf(text, sizeof(text),
+                ": its motor is too hot, judging by its current; try again in %.0f s",
                 std::ceil(wait));
   return name_ + text;
 }

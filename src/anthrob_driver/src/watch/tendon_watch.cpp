@@ -65,7 +65,7 @@ std::string TendonWatch::step(double position, double force, bool pulled, double
                   held_force_, now - held_time_, force);
   } else if (is_free) {
     std::snprintf(text, sizeof(text),
-                  "wound in by %.2f rad and only %.1f N: the tendon is broken or off its pulley",
+                  "wound in by %.2f rad, but only %.1f N: the tendon is broken or off its pulley",
                   position - slack_from_, force);
   }
   if (text[0] != '\0') restart();

@@ -46,7 +46,7 @@ struct ControllerSettings {
 /// What a controller remembers between two ticks.
 struct ControllerMemory {
   double integral = 0.0;  ///< integral part of the output [V]
-  double mode = 0.0;      ///< of the tick that left it
+  double mode = 0.0;      ///< mode of the last tick
 };
 
 /// One tick of the control laws of section 7.3.1 (Figure 7.10):
@@ -54,8 +54,8 @@ struct ControllerMemory {
 ///   position  V = K_P (r - position) - K_D velocity + K_f force
 ///   current   V = K_P (r - current) + integral of K_I (r - current)
 ///   force     V = K_f r + K_P (r - force) - K_D velocity + integral of K_I (r - force)
-/// clipped to +- voltage_limit; an integral does not grow while the output is clipped against it,
-/// and belongs to its mode: another one begins without.
+/// clipped to +- voltage_limit. An integral does not grow while the output is clipped in its
+/// direction. It belongs to its mode: after a change of mode it starts at zero.
 /// @return voltage [V] to hold until the next tick
 double control(Mode mode, double reference, const Measurement& measured,
                const ControllerSettings& settings, ControllerMemory& memory);

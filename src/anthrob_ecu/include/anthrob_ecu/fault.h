@@ -5,7 +5,7 @@
 namespace anthrob {
 namespace ecu {
 
-/// What an ECU can find wrong; numbers as on the wire.
+/// The faults that an ECU can report; numbers as on the wire.
 enum class Fault : std::uint8_t {
   kNone = 0,
   // These lead to State::kFault.
@@ -19,7 +19,8 @@ enum class Fault : std::uint8_t {
   kSupplyHigh = 8,
   kForceSensor = 9,
   kEncoder = 10,
-  // These lead to State::kStopping: the bus is at fault, not the unit.
+  // These lead to State::kStopping, and only from State::kEnabled: the bus is at fault, not the
+  // unit.
   kSyncLost = 11,
   kReferenceLost = 12,
   kBusOff = 13,
@@ -33,17 +34,17 @@ struct FaultInfo {
   const char* remedy;  ///< what the user should do
 };
 
-/// One row a fault, in the order of their numbers.
+/// One row for each fault, in the order of their numbers.
 extern const FaultInfo kFaults[kFaultCount];
 
-/// Also for numbers that do not exist.
+/// Also works for numbers that do not exist.
 const char* name(Fault fault);
 
 constexpr bool stops_gently(Fault fault) {
   return fault == Fault::kSyncLost || fault == Fault::kReferenceLost || fault == Fault::kBusOff;
 }
 
-/// Of the whole unit, not of one of its muscles.
+/// Whether the fault concerns the whole unit, not one of its muscles.
 constexpr bool concerns_unit(Fault fault) {
   return stops_gently(fault) || fault == Fault::kSupplyLow || fault == Fault::kSupplyHigh;
 }

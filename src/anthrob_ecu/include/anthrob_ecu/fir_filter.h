@@ -25,7 +25,7 @@ class FirFilter {
     samples_[next_] = sample;
     sum_ += sample;
     next_ = next_ + 1 == length_ ? 0 : next_ + 1;
-    // The running sum is made anew once a round, so that rounding cannot build up.
+    // The running sum is recomputed once per round, so that rounding errors cannot accumulate.
     if (next_ == 0) {
       sum_ = 0.0;
       for (std::size_t i = 0; i < count_; ++i) sum_ += samples_[i];

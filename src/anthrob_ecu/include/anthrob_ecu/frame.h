@@ -18,8 +18,9 @@ struct Frame {
 };
 
 /// CRC-8 SAE J1850 (polynomial 0x1D, start and final value 0xFF) over the identifier, high byte
-/// first, and all data bytes but the last. It covers what CAN's own CRC does not: gateways, memory,
-/// software on both ends; the identifier is in it so that a frame cannot pass for another.
+/// first, and all data bytes except the last. It covers what CAN's own CRC does not: gateways,
+/// memory and software at both ends. The identifier is included so that no frame is taken for
+/// another.
 inline std::uint8_t checksum(const Frame& frame) {
   std::uint8_t crc = 0xFF;
   const auto feed = [&crc](std::uint8_t byte) {

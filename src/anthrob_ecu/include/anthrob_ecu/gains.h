@@ -9,8 +9,8 @@
 namespace anthrob {
 namespace ecu {
 
-/// The gains of the control laws as a user names, reads and changes them, the same on simulator and
-/// hardware: those parameters that may be written while enabled.
+/// A gain of a control law that a user may read and change, by the same names on simulator and
+/// hardware. Gains are the parameters that may be written while enabled.
 struct Gain {
   int muscle;
   Parameter parameter;
@@ -24,12 +24,12 @@ const char* name(Parameter parameter);
 /// @return null if there is no such gain
 const ParameterInfo* find_gain(const std::string& name);
 
-/// Of all muscles that have gains: a motor with a controller takes POSITION.
+/// The gains of all muscles that have gains, which are those that accept POSITION commands.
 std::vector<Gain> gains_of(const std::vector<MuscleChannel>& muscles);
 
 /// Checks a whole request; fills `changes` only if all of it is good.
-/// @param names of muscles; an empty one: all that have gains
-/// @return why it is refused; empty: it is not
+/// @param names muscle names; an empty name stands for all muscles that have gains
+/// @return why the request is refused; empty if it is accepted
 std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
                               const std::vector<std::string>& names,
                               const std::vector<std::string>& gains,

@@ -36,25 +36,24 @@ enum class Parameter : std::uint8_t {
   kFilterOrder,
 };
 constexpr int kParameterCount = 24;
-/// Written, it becomes the present position; read, it is the present position. Not part of the
-/// configuration.
+/// Writing sets the present position [rad], reading returns it. Not part of the configuration.
 constexpr std::uint8_t kPresentPosition = 64;
-/// Read: 1 if positions count from a zero, else 0. Writing kPresentPosition brings one; power-up,
-/// the faults of loses_zero() and writing 0 here take it away. Nothing but 0 may be written. Not
-/// part of the configuration.
+/// Read: 1 if the unit has a zero from which positions count, else 0. Writing kPresentPosition sets
+/// a zero. Power-up, the faults of loses_zero() and writing 0 here remove it. Only 0 may be
+/// written. Not part of the configuration.
 constexpr std::uint8_t kZeroKnown = 65;
 
 struct ParameterInfo {
   Parameter parameter;
   const char* name;
   const char* unit;
-  float initial;  ///< after power-up: useless on purpose, so that nothing moves unconfigured
+  float initial;  ///< after power-up; deliberately useless, so that nothing moves unconfigured
   float lowest, highest;
   bool live;  ///< may be written while enabled
   const char* meaning;
 };
 
-/// One row a parameter, in the order of their numbers.
+/// One row for each parameter, in the order of their numbers.
 extern const ParameterInfo kParameters[kParameterCount];
 
 constexpr int kMaxFilterOrder = 60;
@@ -79,11 +78,11 @@ class ParameterSet {
   std::array<float, kParameterCount> values_;
 };
 
-/// Where a control law keeps a gain; null if the parameter is none.
+/// @return where `settings` holds this gain; null if the parameter is not a gain
 double* gain_of(ControllerSettings& settings, Parameter parameter);
 
-/// CRC-16/CCITT over all parameters of the muscles in order: how host and ECU agree that they
-/// speak of the same configuration.
+/// CRC-16/CCITT over all parameters of the muscles, in order. Host and ECU compare it to make sure
+/// that they hold the same configuration.
 std::uint16_t configuration_checksum(const ParameterSet* muscles, int count);
 
 }  // namespace ecu

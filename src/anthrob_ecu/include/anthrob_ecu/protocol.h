@@ -10,8 +10,8 @@
 namespace anthrob {
 namespace ecu {
 
-/// The wire, docs/ecu_protocol.md: what every frame between host and ECUs means.
-/// identifier = function << 7 | node; node 0 is everybody. The lower, the more urgent.
+/// The CAN protocol between host and ECUs, see docs/ecu_protocol.md.
+/// identifier = function << 7 | node. Node 0 addresses all ECUs. A lower identifier is more urgent.
 constexpr std::uint8_t kProtocolVersion = 1;
 constexpr int kMaxNode = 127;
 constexpr int kMusclesPerEcu = 2;
@@ -46,14 +46,14 @@ constexpr int node_of(const Frame& frame) {
 /// Data bytes of a function's frames; STOP may have any.
 constexpr int kLengths[kFunctionCount] = {0, 4, 7, 8, 8, 8, 8, 8, 8, 8, 8, 8};
 
-/// Why a frame was not taken.
+/// Whether a frame is accepted, or why not.
 enum class Reading : std::uint8_t { kGood, kForeign, kWrongLength, kCorrupt };
-/// Identifier, length and checksum; everything else is for the decoders.
+/// Checks identifier, length and checksum only; the decoders read the rest.
 Reading inspect(const Frame& frame);
 
 enum class Operation : std::uint8_t { kEnable = 1, kDisable = 2, kClear = 3 };
 
-/// What an ECU says to a request.
+/// Answer of an ECU to a request.
 enum class Refusal : std::uint8_t {
   kAccepted = 0,
   kStopLatched = 1,
@@ -71,7 +71,7 @@ const char* name(Refusal refusal);
 struct Sync {
   std::uint8_t counter = 0;
   std::uint8_t version = kProtocolVersion;
-  bool enabled = false;  ///< what the host believes; informs, does not command
+  bool enabled = false;  ///< what the host believes; for information only
 };
 Frame encode(const Sync& sync);
 Sync decode_sync(const Frame& frame);
@@ -112,7 +112,7 @@ struct Effort {
 Frame encode(const Effort& effort, int node);
 Effort decode_effort(const Frame& frame);
 
-/// A sensor that reads below or above is broken or cut off [12-bit counts].
+/// A sensor that reads less or more is broken or disconnected [12-bit counts].
 constexpr int kLowestCount = 8, kHighestCount = 4087;
 
 struct Analog {
@@ -140,7 +140,7 @@ enum class ParameterResult : std::uint8_t {
   kOk = 0,
   kUnknown = 1,
   kOutOfRange = 2,
-  kNotNow = 3,  ///< limits and calibration stand still while enabled
+  kNotNow = 3,  ///< limits and calibration cannot be written while enabled
 };
 const char* name(ParameterResult result);
 

@@ -10,7 +10,7 @@
 namespace anthrob {
 namespace ecu {
 
-/// What a back end must know of a muscle to accept commands for it.
+/// What a back end (simulator or driver) must know about a muscle to accept commands for it.
 struct MuscleChannel {
   std::string name;
   std::string ecu;                          ///< muscles of one ECU stop together
@@ -27,12 +27,14 @@ struct MuscleReference {
   double reference;
 };
 
-/// Watches over commands and states of all ECUs of a robot, the same on simulator and hardware:
-/// nothing moves before enable, commands that are malformed or name a muscle that is stopped are
-/// refused whole, a command that is not renewed in time stops the motors, an emergency stop holds
-/// until it is cleared.
+/// Supervises the commands to all ECUs of a robot, and their states, in the same way on simulator
+/// and hardware:
+/// - Nothing moves before enable.
+/// - A command that is malformed or names a stopped muscle is refused as a whole.
+/// - A command that is not renewed in time stops the motors.
+/// - An emergency stop holds until it is cleared.
 ///
-/// Free of clocks: time comes in as an argument and may jump.
+/// It reads no clock: time is passed as an argument [s] and may jump.
 class Supervisor {
  public:
   struct Options {
@@ -54,28 +56,28 @@ class Supervisor {
   Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                   const std::vector<double>& references, double time,
                   std::vector<MuscleReference>& accepted);
-  /// Counts and names a command that the back end does not take for a reason of its own.
+  /// Records (count and reason) a command that the back end refuses for a reason of its own.
   Outcome refuse(const std::string& reason);
 
-  /// Where all is enabled already nothing changes: the watch over commands goes on.
+  /// If everything is enabled already, this changes nothing: the command time-out keeps running.
   Outcome enable(double time);
   Outcome disable();
   Outcome emergency_stop();
   Outcome clear_faults();
   Outcome fault(const std::string& ecu);
-  /// This ECU started anew, or may have taken a new zero or not: where its muscles are is not
-  /// known, so none of them takes positions until regain_zero().
+  /// This ECU restarted, or it is unknown whether it took a new zero. Where its muscles are is then
+  /// unknown, so none of them accepts POSITION commands until regain_zero().
   void lose_zero(const std::string& ecu);
   void regain_zero(const std::string& ecu);
   bool zero_lost(int muscle) const { return zero_lost_[ecu_of_[muscle]]; }
 
-  /// The back end moves muscles itself just now: the watch over commands starts anew at `time`, as
-  /// if one had come.
+  /// The back end is moving the muscles itself: the command time-out restarts at `time`, as if a
+  /// command had arrived.
   void restart_watch(double time) {
     commanded_ = true;
     last_command_ = time;
   }
-  /// Simulated time was put on by `seconds` in which nothing happened: no command gets older by it.
+  /// Simulated time jumped ahead by `seconds` in which nothing happened: commands do not age by it.
   void skip(double seconds) { last_command_ += seconds; }
   /// To be called often: handles the command time-out.
   /// @return whether motors were stopped by it just now
@@ -113,7 +115,7 @@ class Supervisor {
   std::vector<StateMachine> machines_;
   std::vector<char> zero_lost_;  ///< by ECU
   bool commanded_ = false;       ///< since the last enable
-  bool timed_out_ = false;       ///< what stopped, stopped for want of commands
+  bool timed_out_ = false;       ///< whether motors stopped because no command came
   double last_command_ = 0.0;
   std::size_t rejected_ = 0;
   std::string last_rejection_;

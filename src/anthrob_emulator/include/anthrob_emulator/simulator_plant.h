@@ -9,13 +9,13 @@
 
 namespace anthrob {
 
-/// The simulator's physics behind emulated ECUs: the boards' volts drive its motors, the boards'
-/// sensors see its state, or what the model's effects let sensors see. Muscles and pads that the
-/// model lacks (a hand) stand still and feel nothing.
+/// The simulator's physics behind emulated ECUs: the boards' voltages drive its motors, and the
+/// boards' sensors read its state (as changed by the model's effects on sensors). Muscles that the
+/// model lacks stand still, and pads that it lacks read no force (such as those of a hand).
 class SimulatorPlant final : public driver::Plant {
  public:
   /// @throws BadInput if the model's step does not divide a millisecond, or if an effect of the
-  /// model delays commands, which come from the boards' firmware here
+  /// model delays commands, which is impossible here: commands come from the boards' firmware
   SimulatorPlant(std::shared_ptr<const RobotModel> model, const driver::Hardware& hardware);
 
   Muscle muscle(std::size_t muscle) const override;

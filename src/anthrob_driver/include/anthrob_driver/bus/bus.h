@@ -13,14 +13,14 @@ struct BusEvent {
     kFrame,           ///< from another node
     kEcho,            ///< our own frame, now acknowledged on the wire
     kForeign,         ///< extended, remote or otherwise not of this protocol
-    kErrorActive,     ///< the controller is well again
+    kErrorActive,     ///< the controller has recovered
     kErrorWarning,    ///< 96 errors
-    kErrorPassive,    ///< 128 errors: it may hardly speak any more
+    kErrorPassive,    ///< 128 errors: it may send only in a restricted way
     kBusOff,          ///< 256 errors: it has left the bus
-    kNoAcknowledge,   ///< nobody heard our frame
-    kReceiveOverrun,  ///< frames were lost on our side
+    kNoAcknowledge,   ///< no node acknowledged our frame
+    kReceiveOverrun,  ///< frames were lost on the host
     kDown,            ///< the interface is down or gone
-    kUp,              ///< and back
+    kUp,              ///< the interface is up again
   };
   Kind kind = Kind::kFrame;
   ecu::Frame frame;
@@ -33,12 +33,12 @@ enum class SendResult : std::uint8_t { kSent, kQueueFull, kDown };
 class Bus {
  public:
   virtual ~Bus() = default;
-  /// May keep the frame until flush(), to hand many over at once; STOP never waits.
+  /// May keep the frame until flush(), to pass many to the kernel at once. STOP never waits.
   virtual SendResult send(const ecu::Frame& frame) = 0;
   virtual SendResult flush() { return SendResult::kSent; }
   /// @return false if nothing more has come in
   virtual bool receive(BusEvent& event) = 0;
-  /// To be called now and then while the interface is down: tries to get it back.
+  /// Tries to reopen the interface. To be called regularly while it is down.
   virtual void recover() {}
 };
 

@@ -7,9 +7,9 @@
 namespace anthrob {
 namespace driver {
 
-/// An emulated circuit board: processor with firmware, converters that make counts of the plant's
-/// truth, power stages, and the watchdog in hardware that drops them and resets the processor when
-/// ticks stop.
+/// An emulated circuit board: a processor with firmware, converters that turn the plant's values
+/// into counts, power stages, and the hardware watchdog that switches these off and resets the
+/// processor when ticks stop.
 class Board {
  public:
   /// [ticks] the hardware watchdog waits
@@ -29,7 +29,7 @@ class Board {
 
   /// The processor stops in the middle of everything: no ticks, no frames.
   void freeze(bool frozen);
-  /// Off: as if unplugged. On: boots anew, with another session, all forgotten.
+  /// Off: as if unplugged. On: boots with another session and without parameters and zero.
   void set_power(bool on);
   bool powered() const { return powered_; }
 

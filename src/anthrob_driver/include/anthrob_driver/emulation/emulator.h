@@ -9,14 +9,14 @@
 namespace anthrob {
 namespace driver {
 
-/// Emulated units beside a robot would answer with its units' numbers, and who emulates clears its
-/// emergency stop.
-/// @param physical the user has asked for it
-/// @throws BadInput if the interface is none of the virtual ones (vcan...)
+/// Refuses to emulate on a physical interface: emulated ECUs would answer with the node numbers of
+/// a robot's ECUs, and the programs that emulate clear its emergency stop.
+/// @param physical the user has allowed a physical interface
+/// @throws BadInput if the interface is not a virtual one (vcan...), unless `physical`
 void refuse_physical_bus(const std::string& interface, bool physical);
 
-/// Runs a rack of emulated ECUs on a CAN interface in real time. When the machine is too slow,
-/// its milliseconds get longer rather than fewer: the ECUs' watchdogs count their own ticks.
+/// Runs a rack of emulated ECUs on a CAN interface in real time. If the machine is too slow, ticks
+/// take longer, but none is left out: the ECUs' watchdogs count their own ticks.
 class Emulator {
  public:
   /// For become_realtime: above the driver's, as real ECUs do not wait for the host.
@@ -28,7 +28,7 @@ class Emulator {
 
   /// @param quit ends the loop   @param each_tick called after every millisecond
   void run(const std::function<bool()>& quit, const std::function<void()>& each_tick);
-  /// Milliseconds that took longer.
+  /// Ticks that were more than five milliseconds late.
   std::uint64_t late() const { return late_; }
 
  private:

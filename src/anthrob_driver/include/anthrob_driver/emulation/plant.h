@@ -5,8 +5,8 @@
 namespace anthrob {
 namespace driver {
 
-/// What emulated ECUs are wired to: motors, tendons and sensors of a robot, real or imagined. The
-/// numbers are the truth; the boards make counts of them.
+/// What emulated ECUs are wired to: motors, tendons and sensors of a simulated robot. Its values
+/// are exact; the boards turn them into counts.
 class Plant {
  public:
   struct Muscle {

@@ -16,8 +16,9 @@ class Rack {
   /// @param hardware, plant, bus must outlive the rack   @param session as a Board's
   Rack(const Hardware& hardware, Plant& plant, Bus& bus, std::uint8_t session = 0);
 
-  /// Every muscle is at 0 rad and its unit knows it, as after a `home` that found the plant's zero.
-  /// For comparisons with a simulator; units that were just switched on know no zero.
+  /// Gives every ECU the zero of the plant, as a `home` that found it would: the present positions
+  /// count as 0 rad. For comparisons with a simulator; ECUs that were just switched on have no
+  /// zero.
   void set_zeros();
   /// Hands out what came in from the bus.
   void receive();
@@ -26,7 +27,7 @@ class Rack {
 
   Board& board(std::size_t ecu) { return boards_[ecu]; }
   std::size_t size() const { return boards_.size(); }
-  /// Frames the bus would not take.
+  /// Frames that the bus did not accept.
   std::uint64_t dropped() const { return dropped_; }
 
  private:

@@ -8,8 +8,9 @@
 namespace anthrob {
 namespace driver {
 
-/// A test bench: every muscle is a DC motor with gear that winds a tendon onto a spring whose other
-/// end is fixed. No robot, no simulator; enough to try a bus, a controller and every fault.
+/// A test bench without robot or simulator: every muscle is a DC motor with a gear that winds in a
+/// tendon with a spring whose other end is fixed. Enough to try a bus, a controller and every
+/// fault.
 ///   V = R i + K N w,   J N^2 dw/dt = K N i - r f,   f = max(0, k r (position - slack))
 class TendonPlant final : public Plant {
  public:
@@ -28,7 +29,7 @@ class TendonPlant final : public Plant {
       : TendonPlant(muscles, joints, pads, Parameters{}) {}
   TendonPlant(std::size_t muscles, std::size_t joints, std::size_t pads,
               const Parameters& parameters);
-  /// With the motors of this robot, where they are known: their windings, the bench's else.
+  /// With the windings of this robot's motors where they are known, otherwise those of the bench.
   explicit TendonPlant(const Hardware& hardware);
 
   Muscle muscle(std::size_t muscle) const override;
@@ -40,7 +41,8 @@ class TendonPlant final : public Plant {
   void advance() override;
 
   double voltage(std::size_t muscle) const { return tendons_[muscle].voltage; }
-  /// For tests: no force any more; tight only from `position` on; stuck spindle.
+  /// For tests: the tendon breaks (cut); it is tight only from `position` on (slacken); the spindle
+  /// is stuck (jam).
   void cut(std::size_t muscle) { tendons_[muscle].cut = true; }
   void slacken(std::size_t muscle, double position) { tendons_[muscle].slack = position; }
   void jam(std::size_t muscle) { tendons_[muscle].jammed = true; }

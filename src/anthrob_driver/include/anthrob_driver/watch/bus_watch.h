@@ -8,7 +8,8 @@
 namespace anthrob {
 namespace driver {
 
-/// Health of our end of the bus, from error frames, full queues and echoes that do not come.
+/// State of the host's end of the bus, judged by error frames, full queues and missing echoes of
+/// our own frames.
 class BusWatch {
  public:
   enum class Condition { kGood, kPassive, kOff, kDown };
@@ -22,13 +23,13 @@ class BusWatch {
   void receive(const BusEvent& event, double now);
   void sent(SendResult result, double now);
   /// Once a cycle, before SYNC is sent.
-  /// @param late [s] in which the host did nothing: no echo is missed for it
+  /// @param late [s] for which the host itself was paused; missing echoes are excused for as long
   void cycle(double now, double late);
 
   Condition condition() const { return condition_; }
-  /// Empty if the bus can be trusted to carry motion; otherwise what is wrong.
+  /// Why motors must not be enabled on this bus; empty if nothing is wrong.
   std::string trouble() const;
-  /// Something that must stop the motors came up since the last call.
+  /// Whether something that must stop the motors was found since the last call.
   bool take_stop(Finding& finding);
   std::uint64_t frames() const { return frames_; }
 

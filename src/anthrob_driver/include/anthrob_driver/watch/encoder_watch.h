@@ -5,21 +5,21 @@
 namespace anthrob {
 namespace driver {
 
-/// Looks for an encoder that does not count though its motor turns. A motor that stands draws
-/// I = V / R, whatever holds it; what is missing of that is back-EMF:
+/// Detects an encoder that does not count although its motor turns. A motor that stands still draws
+/// I = V / R, whatever holds it. If it draws less, the difference is back-EMF, so it turns at
 ///   w = (V - R I) / k   [rad/s]
-/// Where that says for kLasts, in one direction, that the motor turns, and the position has moved
-/// by less than kCounted of it, somebody is wrong: encoder, motor cable or current sensor.
-/// Not seen: a motor so slow that its back-EMF is below kLeast.
+/// If w shows for kLasts, in one direction, that the motor turns, and the position has changed by
+/// less than kCounted of that, then encoder, motor cable or current sensor is broken.
+/// It does not notice this on a motor so slow that its back-EMF is below kLeast.
 class EncoderWatch {
  public:
   static constexpr double kLasts = 0.2;        ///< [s]
-  static constexpr double kLeast = 1.0;        ///< [V] brushes and power stage take some, too
-  static constexpr double kHot = 0.4;          ///< [1] R of a hot winding is so much larger
+  static constexpr double kLeast = 1.0;        ///< [V] allows for brushes and power stage
+  static constexpr double kHot = 0.4;          ///< [1] relative increase of R in a hot winding
   static constexpr double kCounted = 0.1;      ///< [1]
   static constexpr double kLongestGap = 0.05;  ///< [s] between two measurements
 
-  /// @param resistance R [ohm] of motor and power stage; 0: not known, nothing is found
+  /// @param resistance R [ohm] of motor and power stage; 0: not known, nothing is detected
   /// @param back_emf k [Vs/rad] at the gear output
   EncoderWatch(double resistance, double back_emf) : resistance_(resistance), back_emf_(back_emf) {}
 
@@ -28,7 +28,7 @@ class EncoderWatch {
   /// @param now [s]
   /// @return what is wrong, in words; empty: nothing
   std::string step(double position, double voltage, double current, double now);
-  /// Forgets all: the muscle was not enabled.
+  /// Forgets everything; to be called while the muscle is not enabled.
   void restart() { turning_ = 0; }
 
  private:

@@ -13,14 +13,14 @@
 namespace anthrob {
 namespace driver {
 
-/// All that is watched of one muscle: its tendon, its encoder, its motor.
+/// Watches one muscle: its tendon, its encoder and its motor.
 class MuscleWatch {
  public:
   /// Reason to stop all motors.
   struct Alarm {
     Finding finding;
-    std::string detail;  ///< which muscle and what of it, in words
-    bool zero_lost;      ///< its positions count from nowhere known any more
+    std::string detail;  ///< which muscle, and what is wrong with it
+    bool zero_lost;      ///< its zero is no longer known
   };
 
   /// @param muscle, tendons, pretension [N] of home, as they are wired
@@ -28,12 +28,12 @@ class MuscleWatch {
 
   /// Once a cycle.
   /// @param sample may be the one of the cycle before   @param time [s] when it was taken
-  /// @param enabled only then something can be wrong; a motor that is off cools down
+  /// @param enabled alarms are raised only then; a motor that is off cools down
   /// @param homing then `home` watches the tendon
   std::optional<Alarm> step(const MuscleSample& sample, double time, bool enabled, bool homing);
 
   const MotorHeat& heat() const { return heat_; }
-  /// Empty if nothing of this muscle is in the way.
+  /// Why this muscle prevents enabling; empty if it does not.
   std::string why_not_enable() const;
 
  private:

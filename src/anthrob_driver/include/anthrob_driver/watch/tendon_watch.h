@@ -8,17 +8,17 @@
 namespace anthrob {
 namespace driver {
 
-/// Looks for a tendon that breaks, slips or leaves its pulley while its muscle is enabled. A slack
-/// tendon is none: antagonists are slack in ordinary work. It tells of two things that are not:
-/// - torn: a load that was held is gone within kTear, though the spindle did not let it go, and
-///   does not come back for kConfirm;
-/// - runs free: a force is wanted, and the spindle winds in and in without any.
+/// Detects a tendon that breaks, slips or leaves its pulley while its muscle is enabled. A slack
+/// tendon alone is no alarm, because antagonists are often slack. Two events are:
+/// - torn: a load that was held disappears within kTear, although the spindle did not pay out, and
+///   does not come back within kConfirm;
+/// - runs free: a force is commanded, and the spindle winds in further and further without force.
 class TendonWatch {
  public:
-  static constexpr double kHeld = 0.2;     ///< [s] that long the load was there before
+  static constexpr double kHeld = 0.2;     ///< [s] for which the load must have been there before
   static constexpr double kTear = 0.08;    ///< [s] of which the unit's force filter takes 0.06
   static constexpr double kConfirm = 0.1;  ///< [s]
-  static constexpr double kPaidOut = 0.1;  ///< [rad] a spindle that paid out so much let it go
+  static constexpr double kPaidOut = 0.1;  ///< [rad] paid out: the spindle itself released it
   static constexpr double kSteady = 0.8;   ///< [1] of the load's peak in kHeld: not yet falling
 
   explicit TendonWatch(const TendonLimits& limits) : limits_(limits) {}
@@ -28,7 +28,7 @@ class TendonWatch {
   /// home's pretension went out with it   @param now [s]
   /// @return what is wrong, in words; empty: nothing
   std::string step(double position, double force, bool pulled, double now);
-  /// Forgets all: the muscle was not enabled, or something else watched it.
+  /// Forgets everything; to be called while the muscle is not enabled or `home` watches it.
   void restart();
 
  private:

@@ -24,7 +24,7 @@ class Persistence {
     if (!condition) {
       count_ = 0;
     } else if (count_ < ticks) {
-      ++count_;  // no further: what lasts for days must not start again at nought
+      ++count_;  // no further: a condition that lasts for days must not wrap around to 0
     }
     return count_ >= ticks;
   }
@@ -49,13 +49,13 @@ class Channel {
   bool refer(Mode mode, double reference);
   /// What is measured now becomes `position` [rad].
   void set_position(double position);
-  /// Counts were missed, or the tendon is no longer where it was on its spindle.
+  /// Counts were missed, or the tendon has moved on its spindle: the zero is no longer known.
   void lose_zero() { zero_known_ = false; }
   /// Calibration or limits were written: the filter starts again from the next reading.
   void reconfigure();
 
   const Measurement& measured() const { return measured_; }
-  /// set_position() was called, and no lose_zero() since.
+  /// Whether set_position() was called, and lose_zero() was not called since.
   bool zero_known() const { return zero_known_; }
   double force_or_nan() const;
   double voltage() const { return voltage_; }

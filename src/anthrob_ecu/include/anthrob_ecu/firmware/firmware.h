@@ -10,7 +10,7 @@
 namespace anthrob {
 namespace ecu {
 
-/// What one board is and has.
+/// Identity and equipment of one board.
 struct Wiring {
   int node = 1;              ///< on the bus
   int muscles = 2;           ///< 1 or 2
@@ -18,7 +18,7 @@ struct Wiring {
   std::uint8_t session = 1;  ///< must differ from start to start
 };
 
-/// All that the board's peripherals read at a tick.
+/// Everything that the board's peripherals read in one tick.
 struct Readings {
   std::array<MuscleReadings, kMusclesPerEcu> muscle;
   std::array<std::uint16_t, kAnalogInputs> analog{};
@@ -27,15 +27,15 @@ struct Readings {
   bool bus_off = false;  ///< of the CAN controller
 };
 
-/// The program of one ECU: frames in, frames out, a tick every millisecond. No heap, no exceptions,
-/// no operating system. Fail-silent: volts only in State::kEnabled, and there only while valid
-/// SYNC and REFERENCE frames keep coming.
+/// The program of one ECU: frames in, frames out, one tick every millisecond. It uses no heap, no
+/// exceptions and no operating system. It is fail-silent: it outputs volts only in State::kEnabled,
+/// and only while valid SYNC and REFERENCE frames keep arriving.
 ///
-/// Whoever calls tick() must have a watchdog in hardware that drops the power stage when ticks
-/// stop.
+/// The board must have a hardware watchdog that switches the power stage off if tick() is no longer
+/// called.
 class Firmware {
  public:
-  /// [ticks] without a valid SYNC, or without a valid REFERENCE while enabled, to zero volts.
+  /// [ticks] While enabled, this long without a valid SYNC or REFERENCE leads to zero volts.
   static constexpr int kWatchdogTicks = 15;
   static constexpr int kSelfTestTicks = 50;
   static constexpr int kStatePeriod = 100;   ///< [ticks]
@@ -43,7 +43,7 @@ class Firmware {
 
   explicit Firmware(const Wiring& wiring) : wiring_(wiring) {}
 
-  /// A frame from the bus; what is not for this node is ignored.
+  /// A frame from the bus. Frames for other nodes are ignored.
   void receive(const Frame& frame);
   /// @return volts for the power stages
   std::array<double, kMusclesPerEcu> tick(const Readings& readings);
@@ -53,7 +53,7 @@ class Firmware {
   State state() const { return machine_.state(); }
   Fault fault() const { return fault_; }
   bool stop_latched() const { return machine_.stop_latched(); }
-  /// Whether a host was ever there.
+  /// Whether a valid SYNC was ever received.
   bool sync_seen() const { return sync_seen_; }
   const Channel& channel(int muscle) const { return channels_[static_cast<std::size_t>(muscle)]; }
 

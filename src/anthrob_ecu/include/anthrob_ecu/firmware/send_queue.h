@@ -7,8 +7,8 @@
 namespace anthrob {
 namespace ecu {
 
-/// Frames that wait for the CAN controller, in fixed memory. When it is full the oldest goes: a new
-/// measurement is worth more than an old one.
+/// Frames that wait for the CAN controller, in fixed memory. If the queue is full, the oldest frame
+/// is dropped: a new measurement is worth more than an old one.
 class SendQueue {
  public:
   void push(const Frame& frame) {
