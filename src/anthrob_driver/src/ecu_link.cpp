@@ -92,7 +92,7 @@ void EcuLink::finish_answer(double now) {
 
 void EcuLink::take_state(ecu::State state) {
   if ((state == ecu::State::kFault) != (state_ == ecu::State::kFault)) {
-    // Some faults lose the zero, and in FAULT it is lost without a word: the unit knows.
+    // Some faults lose the zero, also without a report while in FAULT: only the unit knows.
     std::replace(zeros_.begin(), zeros_.end(), Zero::kKnown, Zero::kNotTold);
   }
   state_ = state;
@@ -156,8 +156,8 @@ bool EcuLink::next_parameter(double now, ecu::Frame& frame) {
     // All was read back, yet the checksum differs: once more, not too fast.
     if (++passes_ > 1) {
       findings_.add(Finding::kConfigurationRefused, index_, now,
-                    "all parameters read back, but not the checksum of all: it has another number "
-                    "of muscles than hardware.yaml gives it, or other firmware");
+                    "every parameter reads back right, but the checksum of all does not fit: the "
+                    "ECU has another number of muscles than in hardware.yaml, or other firmware");
     }
     next_ = 0;
     resume_ = now + kRetryPause;
@@ -232,16 +232,15 @@ void EcuLink::start_zero() {
   for (std::size_t c = 0; c < own().muscles.size(); ++c) {
     const auto muscle = static_cast<std::size_t>(own().muscles[c]);
     const bool pulled = hardware_.muscles[muscle].parameters.has_force_sensor();
-    // From here on it is the old one or the new one, until it is confirmed.
-    if (pulled || zeros_[c] != Zero::kKnown) zeros_[c] = Zero::kRevoked;
+    to_zero_[c] = pulled || zeros_[c] != Zero::kKnown;
   }
   zero_ = 0;
   zero_refused_ = waiting_ = false;
-  pass_over_unasked_zeros();
+  skip_zeros_to_keep();
 }
 
-void EcuLink::pass_over_unasked_zeros() {
-  while (!zeroed() && zeros_[zero_] != Zero::kRevoked) ++zero_;
+void EcuLink::skip_zeros_to_keep() {
+  while (!zeroed() && !to_zero_[zero_]) ++zero_;
 }
 
 const MuscleHardware& EcuLink::zeroing() const {
@@ -256,6 +255,7 @@ bool EcuLink::next_zero(double now, ecu::Frame& frame) {
   message.value = static_cast<float>(zeroing().home_position);
   message.write = true;
   frame = ask(Asked::kZero, message, now);
+  zeros_[zero_] = Zero::kRevoked;  // the old one or the new one, until it is confirmed
   return true;
 }
 
@@ -265,7 +265,8 @@ void EcuLink::on_zero_reply(const ecu::ParameterMessage& reply) {
   zero_refused_ = !taken;
   if (!taken) return;
   zeros_[zero_] = Zero::kKnown;
-  pass_over_unasked_zeros();
+  ++zero_;
+  skip_zeros_to_keep();
 }
 
 void EcuLink::on_zero_answer(const ecu::ParameterMessage& reply) {
@@ -294,7 +295,7 @@ void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
     return;
   }
   char text[128];
-  std::snprintf(text, sizeof(text), "%s: wrote %g, reads %g: %s", ecu::kParameters[index].name,
+  std::snprintf(text, sizeof(text), "%s: wrote %g, read back %g: %s", ecu::kParameters[index].name,
                 static_cast<double>(wanted_value()), static_cast<double>(reply.value),
                 ecu::name(reply.result));
   findings_.add(Finding::kConfigurationRefused, index_, now, text);
@@ -304,9 +305,10 @@ void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
 std::string EcuLink::why_not_enable() const {
   if (!heard_ && !other_version_.empty()) return "speaks another protocol: " + other_version_;
   if (!heard_) return "was never heard; is it switched on?";
-  if (!alive()) return "does not answer";
+  if (!alive()) return "does not answer; check its power and cable";
   if (!configured()) return "is being configured; try again in a second";
-  if (report_.fault == ecu::Fault::kSelfTest) return "its self test failed: switch it off and on";
+  if (report_.fault == ecu::Fault::kSelfTest)
+    return "its self test failed: check its current sensors, then switch it off and on";
   if (state_ == ecu::State::kFault) {
     return std::string("fault ") + ecu::name(report_.fault) + ": call clear_faults first";
   }

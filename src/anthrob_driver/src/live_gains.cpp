@@ -33,7 +33,7 @@ void LiveGains::step(double now, bool disabled, const Send& send) {
     const auto change = std::find_if(changes_.begin(), changes_.end(), differs);
     if (!disabled || change == changes_.end()) return finish("", now);
     if (now > deadline_)
-      finish(link_of(*change).own().name + " does not report what it should hold", now);
+      finish(link_of(*change).own().name + " does not report the gains that it was given", now);
     return;
   }
   const EcuLink::Write write = link().write();
@@ -45,11 +45,11 @@ void LiveGains::step(double now, bool disabled, const Send& send) {
   if (write == EcuLink::Write::kRefused || now > deadline_) {
     return finish(muscle().name + ": " + link().own().name + " does not confirm " +
                       ecu::name(changes_[at_].gain.parameter) +
-                      ": it may hold either; try again, or disable the motors, and it is given the "
-                      "old one",
+                      ", so it may hold the new or the previous value: try again, or disable the "
+                      "motors, and the driver restores the previous one",
                   now);
   }
-  if (cycles_ % kCyclesPerWrite != 0) return;
+  if (cycles_ % EcuLink::kCyclesPerWrite != 0) return;
   ecu::Frame frame;
   if (link().next_write(now, frame)) send(frame);
 }

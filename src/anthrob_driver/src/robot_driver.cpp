@@ -31,7 +31,7 @@ ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options)
   }
   if (!(options.first_step >= 0.0 && options.first_step <= 100.0)) {
     throw BadInput("first_step: " + std::to_string(options.first_step) +
-                   ": expected a number of 0 (any) to 100 rad");
+                   ": expected 0 (no limit) to 100 rad");
   }
   ecu::Supervisor::Options result;
   result.command_timeout = options.command_timeout;
@@ -47,10 +47,17 @@ std::vector<EcuLink> make_links(const Hardware& hardware, Findings& findings) {
   return links;
 }
 
-/// Empty before STATE, which leaves the bus to everybody's measurements, has told it.
+/// Empty until STATE has named the fault: on the bus, STATE comes after all measurements.
 std::string fault_of(const EcuLink& link) {
   const ecu::Fault fault = link.report().fault;
   return fault == ecu::Fault::kNone ? "" : ecu::name(fault);
+}
+
+/// What to do about the fault that an ECU reports; if it reports none, about the finding.
+const char* remedy_of(Finding finding, const EcuLink& link) {
+  const auto fault = static_cast<std::size_t>(link.report().fault);
+  const bool known = fault > 0 && fault < ecu::kFaultCount;
+  return known ? ecu::kFaults[fault].remedy : info(finding).remedy;
 }
 
 std::string too_old(double age, double limit) {
@@ -179,8 +186,8 @@ std::string RobotDriver::too_far(const std::vector<std::string>& names,
       if (step <= options_.first_step) continue;
       char text[160];
       std::snprintf(text, sizeof(text),
-                    "POSITION %.2f rad is %.2f rad from where it is, first_step is %.2f rad: start "
-                    "there",
+                    "POSITION %.2f rad is %.2f rad from where the muscle is, more than first_step "
+                    "(%.2f rad): begin near its present position",
                     references[i], step, options_.first_step);
       return "muscle '" + names[i] + "': " + text;
     }
@@ -191,7 +198,7 @@ std::string RobotDriver::too_far(const std::vector<std::string>& names,
 std::string RobotDriver::why_not_enable() const {
   if (supervisor_.stop_latched()) return "emergency stop is latched: call clear_faults first";
   if (!watch_.trouble().empty()) return watch_.trouble();
-  if (gains_.changing()) return "gains are being changed; try again when they are";
+  if (gains_.changing()) return "gains are being changed; try again in a second";
   for (const EcuLink& link : links_) {
     const std::string who = link.own().name + ": ";
     if (supervisor_.state(link.own().muscles.front()) == ecu::State::kFault) {
@@ -258,7 +265,7 @@ void RobotDriver::finish_enable(bool success, const std::string& reason) {
 RobotDriver::Outcome RobotDriver::start_home(double now) {
   if (phase_ != Phase::kEnabled) return {false, "not enabled: call enable first"};
   if (home_.running()) return {false, "home is running already"};
-  if (gains_.changing()) return {false, "gains are being changed; try again when they are"};
+  if (gains_.changing()) return {false, "gains are being changed; try again in a second"};
   home_.start(now);
   return {true, "homing"};
 }
@@ -284,7 +291,7 @@ RobotDriver::Outcome RobotDriver::start_gains(const std::vector<std::string>& na
   if (changes.empty()) return {true, ""};
   if (gains_.changing()) return {false, "gains are being changed already"};
   if (home_.running()) return {false, "home is running"};
-  if (phase_ == Phase::kEnabling) return {false, "enable is under way"};
+  if (phase_ == Phase::kEnabling) return {false, "enable is in progress; try again in a second"};
   for (const ecu::GainChange& change : changes) {
     const int ecu = hardware_.muscles[static_cast<std::size_t>(change.gain.muscle)].ecu;
     const EcuLink& link = links_[static_cast<std::size_t>(ecu)];
@@ -362,13 +369,14 @@ void RobotDriver::halt(Finding finding, int ecu, const std::string& what) {
 void RobotDriver::name_stop(double now) {
   if (!unnamed_) return;
   const Unnamed stop = *unnamed_;
-  const std::string fault = fault_of(links_[static_cast<std::size_t>(stop.ecu)]);
+  const EcuLink& link = links_[static_cast<std::size_t>(stop.ecu)];
+  const std::string fault = fault_of(link);
   if (fault.empty() && now < stop.until) return;
   unnamed_.reset();
   const std::string what = reason(stop.finding, stop.ecu, fault);
   findings_.add(stop.finding, stop.ecu, last_cycle_, fault);
   if (last_outcome_.reason == stop.told) last_outcome_ = {false, what};
-  note_stop(stop.finding, what);
+  note_stop(stop.finding, what, remedy_of(stop.finding, link));
 }
 
 void RobotDriver::obey_stop(int ecu) {
@@ -390,8 +398,9 @@ void RobotDriver::revoke_zero(const MuscleHardware& muscle) {
   links_[static_cast<std::size_t>(muscle.ecu)].revoke_zero(muscle.channel);
 }
 
-void RobotDriver::note_stop(Finding finding, const std::string& what) {
-  stops_.add(std::string(info(finding).name) + ": " + what + "; " + info(finding).remedy);
+void RobotDriver::note_stop(Finding finding, const std::string& what, const char* remedy) {
+  stops_.add(std::string(info(finding).name) + ": " + what + "; " +
+             (remedy ? remedy : info(finding).remedy));
 }
 
 std::string RobotDriver::reason(Finding finding, int ecu, const std::string& detail) const {
@@ -477,7 +486,7 @@ void RobotDriver::continue_home(double now) {
     references_[m] = home_.command(m, now);
   }
   if (home_.state() == Home::State::kFailed) return fail_home(now);
-  if (home_.state() == Home::State::kReached) zeros_.start(now);
+  if (home_.state() == Home::State::kReached) zeros_.start();
 }
 
 void RobotDriver::continue_zero(double now) {

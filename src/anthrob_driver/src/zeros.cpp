@@ -1,5 +1,7 @@
 #include "anthrob_driver/zeros.h"
 
+#include <algorithm>
+
 namespace anthrob {
 namespace driver {
 
@@ -18,25 +20,27 @@ void Zeros::update() {
   }
 }
 
-void Zeros::start(double now) {
-  deadline_ = now + kTimeout;
+void Zeros::start() {
+  asked_ = nullptr;
   for (EcuLink& link : links_) link.start_zero();
   update();
 }
 
 Zeros::State Zeros::step(double now, const Send& send) {
-  bool all = true;
-  for (EcuLink& link : links_) {
-    if (link.zeroed()) continue;
-    all = false;
-    if (link.zero_refused() || now > deadline_) {
-      refusal_ = link.zeroing().name + ": " + link.own().name + " does not take the zero";
-      return State::kRefused;
-    }
-    ecu::Frame frame;
-    if (link.next_zero(now, frame)) send(frame);
+  const auto link =
+      std::find_if(links_.begin(), links_.end(), [](const EcuLink& one) { return !one.zeroed(); });
+  if (link == links_.end()) return State::kTaken;
+  if (const MuscleHardware* next = &link->zeroing(); next != asked_) {
+    asked_ = next;
+    deadline_ = now + kTimeout;
   }
-  return all ? State::kTaken : State::kWaiting;
+  if (link->zero_refused() || now > deadline_) {
+    refusal_ = asked_->name + ": " + link->own().name + " does not confirm the new zero";
+    return State::kRefused;
+  }
+  ecu::Frame frame;
+  if (++cycles_ % EcuLink::kCyclesPerWrite == 0 && link->next_zero(now, frame)) send(frame);
+  return State::kWaiting;
 }
 
 }  // namespace driver

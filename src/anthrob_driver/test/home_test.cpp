@@ -111,7 +111,7 @@ TEST_F(HomeTest, NamesAMuscleWhoseZeroIsNotTaken) {
   };
   home();
   const auto muscle = static_cast<std::size_t>(rig.hardware.ecus[2].muscles[0]);
-  EXPECT_EQ(failure(), rig.hardware.muscles[muscle].name + ": ecu_3 does not take the zero");
+  EXPECT_EQ(failure(), rig.hardware.muscles[muscle].name + ": ecu_3 does not confirm the new zero");
   rig.run(20);
   EXPECT_EQ(rig.moving(), 0);
   EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
@@ -126,7 +126,7 @@ TEST_F(HomeTest, NamesAMuscleWhoseEcuRefusesTheZero) {
         ecu::encode_parameter_request(message, rig.hardware.ecus[2].node)};
   };
   home();
-  EXPECT_NE(failure().find("ecu_3 does not take the zero"), std::string::npos) << failure();
+  EXPECT_NE(failure().find("ecu_3 does not confirm the new zero"), std::string::npos) << failure();
 }
 
 TEST_F(HomeTest, NamesABrokenTendonAndStops) {
@@ -162,9 +162,10 @@ TEST_F(HomeTest, NamesAMotorThatWindsTheWrongWay) {
   EXPECT_TRUE(home.running());
   readings[3].position = -0.21;
   home.step(readings, 0.01);
-  EXPECT_EQ(home.failure(),
-            "supraspinatus: at -0.21 rad, from 0.30: winds the wrong way: polarity of motor or "
-            "encoder");
+  EXPECT_EQ(
+      home.failure(),
+      "supraspinatus: winds the wrong way, from 0.30 to -0.21 rad: check the polarity of motor "
+      "and encoder");
 }
 
 TEST_F(HomeTest, ATightTendonMayPayOutDownToThePretension) {
@@ -191,8 +192,8 @@ TEST_F(HomeTest, AForceSensorThatDoesNotFollowEndsItEitherWay) {
     char expected[160];
     std::snprintf(
         expected, sizeof(expected),
-        "supraspinatus: turned by %.2f rad since it gripped, and %.1f N: the force sensor "
-        "does not follow",
+        "supraspinatus: turned by %.2f rad since its tendon gripped, and reads %.1f N: the force "
+        "sensor does not follow",
         6.02 * turn, force);
     EXPECT_EQ(home.failure(), expected);
   }
@@ -281,7 +282,8 @@ TEST_F(HomeTest, NamesAMuscleThatIsNeverMeasured) {
     home.step(readings, t);
     EXPECT_EQ(home.command(3, t).mode, ecu::Mode::kVoltage);
   }
-  EXPECT_EQ(home.failure(), "supraspinatus: no measurement to start at");
+  EXPECT_EQ(home.failure(),
+            "supraspinatus: not measured within time_limit, so home could not start");
 }
 
 TEST_F(HomeTest, SaysWhyItEndsWhereAllAreTightTooLate) {
@@ -294,7 +296,8 @@ TEST_F(HomeTest, SaysWhyItEndsWhereAllAreTightTooLate) {
     for (Home::Reading& reading : readings) reading.force = tight ? routine.pretension : 0.0;
     home.step(readings, t);
   }
-  EXPECT_EQ(home.failure(), "20.0 s passed before all held 5.0 N for settle_time");
+  EXPECT_EQ(home.failure(),
+            "after 20.0 s (time_limit) not all muscles had held 5.0 N for settle_time");
 }
 
 TEST_F(HomeTest, NamesAMuscleWhoseForceIsNoLongerMeasured) {
@@ -398,7 +401,7 @@ TEST_F(HomeTest, AnInterruptedWriteOfZerosLosesThoseThatAreNotConfirmed) {
   ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
   while (unheard == 0 && rig.driver().home().running()) rig.step();
   ASSERT_GT(unheard, 0);
-  rig.run(40);  // the others have confirmed
+  rig.run(40);
   rig.driver().emergency_stop();
   rig.bus.tamper = nullptr;
   rig.run(20);
@@ -408,6 +411,8 @@ TEST_F(HomeTest, AnInterruptedWriteOfZerosLosesThoseThatAreNotConfirmed) {
   EXPECT_EQ(command("infraspinatus", ecu::Mode::kPosition, 0.0).reason,
             "muscle 'infraspinatus': ecu_3 has lost its zero: call home first");
   EXPECT_TRUE(command("infraspinatus", ecu::Mode::kForce, 2.0).accepted);
+  // Units before it have the new zero; later ones, not asked yet, have the old one.
+  EXPECT_TRUE(command("anterior_deltoid", ecu::Mode::kPosition, 0.0).accepted);
   EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
   EXPECT_TRUE(command(rig.hardware.muscles[11].name, ecu::Mode::kPosition, 0.0).accepted);
   rig.driver().disable();

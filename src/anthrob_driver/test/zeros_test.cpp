@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "rig.h"
 
 namespace anthrob {
@@ -57,6 +59,26 @@ TEST_F(ZerosTest, UnitsThatWereJustSwitchedOnTakeNoPositionsBeforeHome) {
   home();
   for (const MuscleHardware& muscle : rig.hardware.muscles) {
     EXPECT_TRUE(command(muscle.name, ecu::Mode::kPosition, 0.0).accepted) << muscle.name;
+  }
+}
+
+TEST_F(ZerosTest, TheZerosOfHomeLeaveTheBusRoomForTheReferences) {
+  enable();
+  std::vector<double> written;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool write = ecu::function_of(f) == static_cast<int>(ecu::Function::kParameterRequest) &&
+                       ecu::decode_parameter(f).index == ecu::kPresentPosition;
+    if (write) written.push_back(rig.now());
+    return std::vector<ecu::Frame>{f};
+  };
+  home();
+  const auto& muscles = rig.hardware.muscles;
+  EXPECT_EQ(written.size(), std::count_if(muscles.begin(), muscles.end(), [](const auto& muscle) {
+              return muscle.parameters.has_force_sensor();
+            }));
+  const double least = 1e-3 * rig.period_ms * EcuLink::kCyclesPerWrite;
+  for (std::size_t i = 1; i < written.size(); ++i) {
+    EXPECT_GT(written[i] - written[i - 1], 0.99 * least) << i;
   }
 }
 

@@ -11,70 +11,74 @@
 namespace anthrob {
 namespace driver {
 
-/// One ECU as the driver sees it: what it last said, how old that is, whether it holds the
-/// configuration that it should.
+/// One ECU as the driver sees it: what it reported last, how old that is, and whether it holds the
+/// right configuration.
 class EcuLink {
  public:
-  /// That many SYNCs in a row without an answer, and an ECU counts as lost: at 200 Hz the others
-  /// get zero volts within 20 ms. Counted, not timed: a host that was late must not blame the ECUs.
+  /// After so many SYNCs in a row without an answer an ECU counts as lost: at 200 Hz the others get
+  /// zero volts within 20 ms. SYNCs, not time, are counted, so that a late host does not blame
+  /// ECUs.
   static constexpr int kLostSyncs = 2;
+  /// While motors are enabled, the bus has room for one parameter in so many cycles, of all ECUs
+  /// together.
+  static constexpr int kCyclesPerWrite = 4;
   static constexpr double kReplyTimeout = 0.05;  ///< [s] of a parameter, then it is sent again
   static constexpr double kRetryPause = 1.0;     ///< [s] after a refused parameter
 
   /// @param hardware, findings must outlive the link   @param index of this ECU, for findings
   EcuLink(const Hardware& hardware, int index, Findings& findings);
 
-  /// A SYNC with this counter goes out now: answers to older ones no longer count.
+  /// A SYNC with this counter is about to be sent: answers to older ones no longer count.
   void start_cycle(std::uint8_t counter, double now);
   /// A good frame of this node.
   void receive(const ecu::Frame& frame, double now);
   /// @return the next parameter frame to send, if there is one to send now
   bool next_parameter(double now, ecu::Frame& frame);
 
-  /// Whether positions of all its muscles count from a zero, by its own word in this session. It is
-  /// asked once it is configured, and again after every fault.
+  /// Whether this ECU has reported, in this session, that all its muscles have a zero. The driver
+  /// asks it once it is configured, and again after every fault.
   bool zero_known() const;
-  /// This muscle's zero is none any more, and the unit is told so: it outlives this driver.
+  /// This muscle's zero no longer holds. The ECU is told so, because it may outlive this driver.
   void revoke_zero(int channel);
   /// @return whether `frame` is the next of these, to be sent now
   bool next_zero_question(double now, ecu::Frame& frame);
 
-  /// The positions of its muscles are to become their home_position from now on: of those with a
-  /// force sensor, which were pulled, and of those that have no zero anyway.
+  /// Begins to set the positions of its muscles to their home_position: of the muscles with a force
+  /// sensor, which were pulled, and of those that have no zero anyway.
   void start_zero();
   /// @return whether `frame` is the next write of a position, to be sent now
   bool next_zero(double now, ecu::Frame& frame);
-  /// All of them were confirmed, or none was asked for.
+  /// Whether all of them were confirmed, or none was to be written.
   bool zeroed() const { return zero_ == own().muscles.size(); }
   bool zero_refused() const { return zero_refused_; }
-  /// The muscle whose zero is not confirmed yet; not if zeroed().
+  /// The muscle whose zero is not confirmed yet. Must not be called if zeroed().
   const MuscleHardware& zeroing() const;
 
-  /// A gain is to become this from now on; `write` tells how it went.
+  /// Begins to write a gain; write() shows the result.
   void start_write(int channel, ecu::Parameter parameter, float value);
   /// @return whether `frame` is the write, to be sent now
   bool next_write(double now, ecu::Frame& frame);
   enum class Write { kNone, kAsked, kTaken, kRefused };
   Write write() const { return write_; }
   void end_write() { write_ = Write::kNone; }
-  /// The configuration that it should hold has changed: what it reports then may be on its way, and
-  /// is written anew only if it does not come.
+  /// The configuration that the ECU should hold has changed. Its report of the new one may still be
+  /// on its way; only if none comes is the configuration written again.
   void expect_configuration(double now);
 
   bool heard() const { return heard_; }
   /// Whether it answers.
   bool alive() const { return sampled_ && !returning_ && unanswered_ < kLostSyncs; }
   bool configured() const { return heard_ && report_.configuration == own().configuration; }
-  /// All frames of the current SYNC are in. Not so of an ECU that was lost and answers again for
-  /// the first time: what waited in its controller meanwhile may pass for an answer, for the
-  /// counter has four bits only.
+  /// Whether all frames that answer the current SYNC have arrived. False for the first answer of an
+  /// ECU that was lost: an old frame from its controller could pass for a new one, because the
+  /// counter has only four bits.
   bool complete() const { return got_ == wanted_ && !returning_; }
-  /// Session differs from the first report's: it restarted. True once.
+  /// Whether the session has changed, so that the ECU has restarted. True once for each restart.
   bool take_restart();
-  /// A report in another version of the protocol came, perhaps of a second unit with this number.
-  /// True once.
+  /// Whether a report in another version of the protocol came, perhaps from a second ECU with this
+  /// node number. True once.
   bool take_wrong_version();
-  /// What the last report in another version said; empty: there was none.
+  /// Which other version was reported last; empty if none was.
   const std::string& other_version() const { return other_version_; }
 
   /// Of the last complete answer.
@@ -88,23 +92,24 @@ class EcuLink {
   double sample_time() const { return sample_time_; }
   ecu::State state() const { return state_; }
   bool stop_latched() const { return latched_; }
-  /// What keeps it from being enabled; empty: nothing.
+  /// Why it cannot be enabled; empty if it can.
   std::string why_not_enable() const;
-  /// What clear_faults did not clear, of a unit that answers; empty: nothing.
+  /// What clear_faults did not clear, if the ECU answers; empty if nothing is left.
   std::string not_cleared() const;
 
   const EcuHardware& own() const { return hardware_.ecus[static_cast<std::size_t>(index_)]; }
 
  private:
   enum class Asked { kConfiguration, kZero, kZeroKnown, kGain };
-  /// Of one muscle. kRevoked: the unit must still be told, or given a new one.
+  /// State of one muscle's zero. kRevoked: the ECU must still be told, or be given a new one.
   enum class Zero { kNotTold, kRevoked, kLost, kKnown };
   struct Sample {
     ecu::Motion motion[ecu::kMusclesPerEcu];
     ecu::Effort effort;
   };
 
-  /// Whether this part of the answer is the current SYNC's first; only then its values count.
+  /// Whether this part of the answer belongs to the current SYNC and comes for the first time; only
+  /// then do its values count.
   bool take_part(unsigned part, std::uint8_t counter, double now);
   void finish_answer(double now);
   void take_state(ecu::State state);
@@ -117,7 +122,7 @@ class EcuLink {
   void begin_upload_anew();
   int wanted_index() const;
   float wanted_value() const;
-  void pass_over_unasked_zeros();
+  void skip_zeros_to_keep();
 
   const Hardware& hardware_;
   int index_;
@@ -146,8 +151,9 @@ class EcuLink {
   bool waiting_ = false;  ///< for a reply
   Asked asked_ = Asked::kConfiguration;
   double sent_ = 0.0, resume_ = 0.0;
-  std::array<Zero, ecu::kMusclesPerEcu> zeros_{};  ///< by channel
-  std::size_t zero_ = 0;                           ///< channel whose new one is written
+  std::array<Zero, ecu::kMusclesPerEcu> zeros_{};    ///< by channel
+  std::array<bool, ecu::kMusclesPerEcu> to_zero_{};  ///< whose new ones start_zero() has to write
+  std::size_t zero_ = 0;                             ///< channel whose new one is written
   bool zero_refused_ = false;
   Write write_ = Write::kNone;
   ecu::ParameterMessage written_;

@@ -11,29 +11,28 @@
 namespace anthrob {
 namespace driver {
 
-/// Gains that the user changes, on their way to the units, enabled or not: one after the other,
-/// each read back. What a unit has confirmed is the configuration from then on.
+/// Writes gains that the user changes to the ECUs, enabled or not, one after the other, and reads
+/// each back. A value that an ECU has confirmed belongs to the configuration from then on.
 class LiveGains {
  public:
-  static constexpr double kTimeout = 0.5;  ///< [s] for one gain, and for a unit to report them all
-  /// A write so often, however fast answers come: REFERENCE frames have the right of way.
-  static constexpr int kCyclesPerWrite = 4;
+  static constexpr double kTimeout = 0.5;  ///< [s] for one gain, and for the final checksum
   using Outcome = ecu::Supervisor::Outcome;
   using Send = std::function<void(const ecu::Frame& frame)>;
 
-  /// @param links one an ECU of the hardware   Both must outlive the gains.
+  /// @param hardware, links must outlive this object; one link for each ECU
   LiveGains(Hardware& hardware, std::vector<EcuLink>& links) : hardware_(hardware), links_(links) {}
 
   /// Not while changing().
   void start(std::vector<ecu::GainChange> changes, double now);
   /// One cycle after start().
-  /// @param disabled the motors are: the changes end with the units' word for all of their
-  ///   parameters, which the next enable wants
+  /// @param disabled whether the motors are disabled: then the changes end only when the ECUs
+  /// report
+  ///   the checksum of the new parameters, which the next enable requires
   void step(double now, bool disabled, const Send& send);
-  /// Ends changes that are under way to this ECU.
+  /// Ends changes to this ECU that are in progress.
   void abort(int ecu, const std::string& reason, double now);
   bool changing() const { return changing_; }
-  /// Of the last changes that ended; how many have.
+  /// Outcome of the last changes that ended, and how many have ended.
   const Outcome& outcome() const { return outcome_; }
   std::uint64_t ended() const { return ended_; }
 
