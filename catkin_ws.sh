@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Everything one does with this workspace, each command installing and building what it needs first.
+# All commands of this workspace. Each first installs and builds what it needs.
 set -u -o pipefail
 
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
@@ -22,10 +22,10 @@ needed_packages=(
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libpagmo-dev libopenmpi-dev openmpi-bin
   libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libusb-1.0-0-dev
-  libdc1394-dev pkg-config
+  libdc1394-dev pkg-config python3-numpy
   libgtest-dev libgmock-dev
 )
-# Wanted by tests, benchmarks and the demo's pictures only; what cannot be had is left out of them.
+# For tests, benchmarks and the demo's pictures only. What cannot be installed is left out of them.
 extra_packages=(
   libbenchmark-dev libmujoco-dev  # the second is a peer in benchmarks
   opencv-doc                      # stereo pictures of a real checkerboard
@@ -41,7 +41,7 @@ die() {
   exit 1
 }
 
-# The same for what was asked for wrongly.
+# The same for wrong arguments.
 refuse() {
   printf 'catkin_ws.sh: %s\n' "$*" >&2
   exit 2
@@ -51,25 +51,25 @@ help() {
   cat <<'TEXT'
 usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
 
-  deps              install what is needed (as root or through sudo); nothing if all is there
-  build             compile the workspace; build tests: its tests, too; build install: into install/, or elsewhere
-                    with -DCMAKE_INSTALL_PREFIX=DIR
-  sim [ARG:=VALUE]  simulate Anthrob, with RViz if there is a display; arguments as of sim.launch:
+  deps              install missing packages (as root or through sudo)
+  build             compile the workspace; build tests: also its tests; build install: install into install/, or
+                    elsewhere with -DCMAKE_INSTALL_PREFIX=DIR
+  sim [ARG:=VALUE]  simulate Anthrob, with RViz if there is a display; takes the arguments of sim.launch, such as
                     robot:=anthrob model:=II rviz:=false rate:=1 (0: as fast as possible)
-  demo              the arm raises, bends and returns; records demo.bag, converts it and draws build/demo/
-  test [PACKAGE...] all tests, or those of some packages; the last line counts them
-  bench             benchmarks beside MuJoCo and OpenCV; writes build/bench.json
-  study NAME        calibration: chapter 8 of the thesis against virtual robots
-                    discovery: the blind test; --slice K/N of it, --list, --summary, --help
-                    resumable; results in build/study/ and docs/studies/
-  shell             a shell in which rosrun, roslaunch and rostopic know the workspace
-  clean             remove build/ (but not build/study), devel/ and install/: keep results of yours elsewhere
-  help              this text
+  demo              simulate the arm as it rises, bends and returns; bag, figures and pictures go to build/demo/
+  test [PACKAGE...] run all tests, or those of the named packages; the last line counts them
+  bench             run the benchmarks, also of MuJoCo and OpenCV for comparison; writes build/bench.json
+  study NAME        calibration: repeat chapter 8 of the thesis with virtual robots
+                    discovery: the blind test; with --slice K/N a part of it; also --list, --summary, --help
+                    an interrupted study continues; results go to build/study/ and docs/studies/
+  shell             open a shell in which rosrun, roslaunch and rostopic know the workspace
+  clean             remove build/ (but not build/study), devel/ and install/, with any results you keep there
+  help              print this text
 TEXT
 }
 
-# A python from pyenv or conda in front of the system's breaks ROS: the system's comes first here. Another ROS that was
-# sourced would be built and run with: it is forgotten. Overlays of this workspace, whose ROS is Debian's, stay.
+# ROS needs the system's Python, so the system's paths come before those of pyenv or conda. Another ROS that was sourced
+# is removed from the environment. Overlays of this workspace, whose ROS is Debian's, stay.
 clean_environment() {
   export PATH="/usr/local/sbin:/usr/sbin:/usr/bin:/sbin:/bin:/usr/local/bin"
   unset PYTHONHOME PYTHONPATH CONDA_PREFIX CONDA_DEFAULT_ENV VIRTUAL_ENV
@@ -102,7 +102,7 @@ as_root() {
   fi
 }
 
-# Those of the packages named that are not installed.
+# Prints those of the named packages that are not installed.
 lacking() {
   local package
   for package in "$@"; do
@@ -118,12 +118,12 @@ install_packages() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
 }
 
-# Elsewhere packages of these names are not there, or would put a second ROS beside the one of /opt/ros.
+# Other systems lack these packages, or the packages would install a second ROS beside the one in /opt/ros.
 require_debian_12() {
   local release
   release="$(cat /etc/os-release 2>/dev/null)"
   grep -Eq '^VERSION_CODENAME="?bookworm"?$' <<<"$release" ||
-    die "packages are missing that only Debian 12 (bookworm) has, and this is $(
+    die "needed packages are missing; only Debian 12 (bookworm) has them, and this is $(
       sed -nE 's/^PRETTY_NAME="?([^"]*)"?$/\1/p' <<<"$release" | grep . || echo 'another system'
     ): use a container of debian:12 (README, On another system)"
 }
@@ -145,13 +145,13 @@ extras() {
   local missing package
   missing="$(lacking "${extra_packages[@]}")"
   [ -z "$missing" ] && return 0
-  say "installing $(wc -w <<<"$missing") more packages"
-  # In shells of their own: what fails here must not end us.
+  say "installing $(wc -w <<<"$missing") optional packages"
+  # In subshells: a failure here must not end this script.
   # shellcheck disable=SC2086
   (update_lists && install_packages $missing) && return 0
-  # One that is not there must not keep the others away.
+  # One that is not available must not prevent the others.
   for package in $missing; do
-    (install_packages "$package" >/dev/null) || say "cannot be installed here: $package; what needs it is left out"
+    (install_packages "$package" >/dev/null) || say "cannot install $package; whatever needs it is left out"
   done
 }
 
@@ -185,7 +185,7 @@ demo() {
   say "simulating and recording about 30 s"
   roslaunch anthrob_bringup demo.launch "bag:=$out/demo.bag" rviz:=$rviz >"$out/demo.log" 2>&1 ||
     die "the demo did not finish: see build/demo/demo.log"
-  # roslaunch ends with 0 also where a node failed.
+  # roslaunch ends with 0 even if a node failed.
   ! grep -q 'exit code -\?[1-9]' "$out/demo.log" || die "the demo did not finish: see build/demo/demo.log"
   [ -f "$out/demo.bag" ] || die "nothing was recorded: see build/demo/demo.log"
   rosrun anthrob_calib anthrob_convert "$out/demo.bag" "$out/recording" >>"$out/demo.log" ||
@@ -195,44 +195,45 @@ demo() {
     say "no pictures: xvfb or imagemagick is missing; the rest is in build/demo/"
     return 0
   fi
-  say "taking pictures of the arm in three postures"  # On a screen of its own, so that nothing else gets into the picture.
+  say "taking pictures of the arm in three postures"  # on a virtual screen, which shows nothing else
   xvfb-run -a -s "-screen 0 1280x960x24" scripts/picture_postures.sh "$out/postures.png" rest abducted flexed >>"$out/demo.log" 2>&1 ||
     die "the picture failed: see build/demo/demo.log"
   say "done: build/demo/ holds"
   (cd "$out" && ls -1 -- *.bag *.svg *.png && echo "recording/")
 }
 
-# Into build/tests.json: the tests that are registered, of the packages named or of all.
+# Writes the registered tests, of the named packages or of all, to build/tests.json.
 list_tests() {
   local names="_ctest_"
   [ $# -eq 0 ] || names="_ctest_($(IFS='|' && echo "$*"))_(gtest|rostest|vcan)_"
-  (cd build && ctest --show-only=json-v1 -R "$names") >build/tests.json || die "ctest does not list the tests: see build/tests.json"
+  (cd build && ctest --show-only=json-v1 -R "$names") >build/tests.json ||
+    die "ctest cannot list the tests: see build/tests.json"
 }
 
 tests() {
   local package run=(run_tests) built=(tests)
   for package in "$@"; do
     [ -f "src/$package/package.xml" ] ||
-      refuse "test: $package: expected packages: $(cd src && ls -d -- */ | tr -d / | tr '\n' ' ')"
+      refuse "test: $package: unknown package; expected one of: $(cd src && ls -d -- */ | tr -d / | tr '\n' ' ')"
   done
   [ $# -eq 0 ] || run=("${@/#/run_tests_}")
   extras
-  # The driver's own tests want a CAN bus: this kernel's, or user-mode Linux's.
+  # The driver's own tests need a CAN bus, of this kernel or of user-mode Linux.
   if timeout 60 scripts/with_vcan.sh true >/dev/null 2>&1; then
     export ANTHROB_VCAN_TESTS="${ANTHROB_VCAN_TESTS:-1}"
-    # A tenth of real time, so that a machine that is busy now and then does not make an ECU look dead.
+    # A tenth of real time, so that an ECU does not look dead when the machine is busy for a moment.
     export ANTHROB_PACE="${ANTHROB_PACE:-0.1}"
   else
-    local left_out="left out: tests of the driver on a CAN bus, which neither this kernel nor user-mode Linux has here"
+    local left_out="left out: tests of the driver on a CAN bus: neither this kernel nor user-mode Linux provides one"
     unset ANTHROB_VCAN_TESTS
     say "$left_out"
   fi
-  # What there is to test hangs on what is installed and on the bus, of which an earlier build knew less.
+  # Which tests exist depends on installed packages and on the bus, so CMake must look again.
   build --force-cmake
   rm -rf build/test_results
   list_tests "$@"
   for package in "$@"; do
-    grep -q "\"_ctest_${package}_" build/tests.json || refuse "test: $package: has no tests of its own"
+    grep -q "\"_ctest_${package}_" build/tests.json || refuse "test: $package: this package has no tests of its own"
   done
   # shellcheck disable=SC2207
   [ $# -eq 0 ] || built=($(sed -nE 's/.*"name" : "_ctest_.*_gtest_([a-z0-9_]+)".*/\1/p' build/tests.json))
@@ -240,10 +241,10 @@ tests() {
   [ ${#built[@]} -eq 0 ] || catkin_make -j"$(nproc)" "${built[@]}" >>build/build.log 2>&1 ||
     { grep -m5 -E 'error|Error' build/build.log >&2; die "the tests do not build: see build/build.log"; }
   say "running the tests (log: build/test.log)"
-  # One after the other: several roscores would share a port. A test that fails leaves the status at 0.
+  # One after the other: several roscores would share a port. The status is 0 even if a test fails.
   local status=0
   catkin_make -j1 "${run[@]}" >build/test.log 2>&1 || status=$?
-  [ -z "${left_out:-}" ] || say "$left_out"  # again, where who reads the end sees it
+  [ -z "${left_out:-}" ] || say "$left_out"  # again, at the end, where it is seen
   /usr/bin/python3 scripts/count_tests.py build/test_results --registered build/tests.json --status "$status"
 }
 
@@ -281,9 +282,11 @@ bench() {
 
 study() {
   local name="${1:-}"
-  # What begins with an underscore is shared by studies.
+  # Files that begin with an underscore are shared by the studies.
   [[ "$name" != _* && -f "scripts/study/$name.py" ]] ||
-    refuse "study: expected one of: $(cd scripts/study && ls -- [!_]*.py | sed 's/\.py$//' | tr '\n' ' ')"
+    refuse "study: ${name:-no name given}: expected one of: $(
+      cd scripts/study && ls -- [!_]*.py | sed 's/\.py$//' | tr '\n' ' '
+    )"
   shift
   build
   mkdir -p build/study
@@ -292,7 +295,7 @@ study() {
 
 shell() {
   build
-  say "a shell with the workspace; exit leaves it"
+  say "this shell knows the workspace; leave it with exit"
   bash --rcfile <(echo "[ -f ~/.bashrc ] && . ~/.bashrc; export PATH='$PATH'; . '$here/devel/setup.bash'") -i
 }
 
@@ -309,5 +312,5 @@ case "$command" in
   deps | build | sim | demo | bench | study | shell | clean | help) "$command" "$@" ;;
   test) tests "$@" ;;
   -h | --help) help ;;
-  *) refuse "unknown command '$command': ./catkin_ws.sh help lists them" ;;
+  *) refuse "unknown command '$command': run ./catkin_ws.sh help for a list" ;;
 esac

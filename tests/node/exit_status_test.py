@@ -83,6 +83,10 @@ class ExitStatus(unittest.TestCase):
             said = self.refused(muscles, '--robot', robot, '--model', 'I', option, value)
             self.assertEqual(said.count('\n'), 1, said)
             self.assertIn(value.split('=')[0], said)
+        file = os.path.join(CONFIG, 'model_I.yaml')
+        by_path, by_name = run(muscles, '--model', file), run(muscles, '--robot', 'anthrob', '--model', 'I')
+        self.assertEqual((by_path.returncode, by_path.stdout), (0, by_name.stdout), by_path.stderr)
+        self.assertIn('no such file', self.refused(muscles, '--model', file + '.yaml'))
 
     def test_virtual_robot(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -93,7 +97,7 @@ class ExitStatus(unittest.TestCase):
             for out, truth in ((folder + '/out/', folder + '/out/truth.json'), (folder + '/out', folder + '/x/../out/t.json')):
                 said = self.refused(program('anthrob_virtual_robot', 'anthrob_blind_case'), '--model', nowhere,
                                     '--out', out, '--truth', truth)
-                self.assertIn('expected outside --out', said)
+                self.assertIn('expected a file outside --out', said)
             os.makedirs(folder + '/out/train_1')
             said = self.refused(program('anthrob_virtual_robot', 'anthrob_blind_case'), '--model', nowhere,
                                 '--out', folder + '/out', '--truth', folder + '/truth.json')

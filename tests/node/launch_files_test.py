@@ -38,6 +38,8 @@ class LaunchFiles(unittest.TestCase):
     def check(self, file):
         asked = ['%s:=tier1' % arg.get('name') for arg in ElementTree.parse(file).getroot().findall('arg')
                  if arg.get('default') is None and arg.get('value') is None]
+        if os.path.basename(file) == 'record.launch':
+            asked.append('protocol:=tier1')  # or protocol_file
         config = load(os.path.basename(file), *asked)
         self.assertFalse(config.config_errors)
         self.assertTrue(config.nodes)
@@ -68,6 +70,24 @@ class LaunchFiles(unittest.TestCase):
             self.assertIn('--%s 0' % name.replace('_', '-'), node.args)
         recorder = load('record.launch', 'protocol:=1', 'out:=/tmp/1').params['/anthrob/recorder/protocol']
         self.assertTrue(recorder.value.endswith('/record_1.yaml'), recorder.value)
+
+    def test_a_protocol_is_named_or_is_a_file(self):
+        for asked, protocol, model in (
+                (['protocol:=tier1_equilibria'], '/config/anthrob/record_tier1_equilibria.yaml', 'II_tier1'),
+                (['protocol:=tier2_equilibria'], '/config/anthrob/record_tier2_equilibria.yaml', 'II'),
+                (['protocol_file:=/a/separating_1.yaml'], '/a/separating_1.yaml', 'II'),
+                (['protocol_file:=/a/tier1_mine.yaml'], '/a/tier1_mine.yaml', 'II_tier1'),
+                (['protocol_file:=/tier1/record_tier1.yaml'], '/tier1/record_tier1.yaml', 'II_tier1'),
+                (['protocol_file:=/tier1/mine.yaml'], '/tier1/mine.yaml', 'II'),
+                (['protocol:=tier1', 'protocol_file:=/a/mine.yaml'], '/a/mine.yaml', 'II_tier1'),
+                (['protocol:=mine', 'protocol_file:=/a/tier1.yaml'], '/a/tier1.yaml', 'II')):
+            with self.subTest(' '.join(asked)):
+                params = load('record.launch', 'out:=/tmp/1', *asked).params
+                self.assertTrue(params['/anthrob/recorder/protocol'].value.endswith(protocol))
+                self.assertTrue(params['/anthrob/recorder/model'].value.endswith('/model_%s.yaml' % model))
+        missing = 'convert string to float: .protocol:= and protocol_file:= are missing'
+        with self.assertRaisesRegex(roslaunch.core.RLException, missing):
+            load('record.launch', 'out:=/tmp/1')
 
     def test_motion_capture_is_asked_for_by_the_same_words(self):
         for file in ['sim.launch'], ['demo.launch'], ['robot.launch', 'backend:=sim']:

@@ -79,7 +79,7 @@ class Parameters(unittest.TestCase):
         rosgraph.Master('test').setParam(name + '/ratee', 2)
         done = subprocess.run(['rosrun', 'anthrob_sim', 'anthrob_simulator', '__name:=' + name[1:], '_model:=nowhere.yaml'],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=40)
-        self.assertIn('parameter ~ratee: passed over', done.stdout)
+        self.assertIn('parameter ~ratee: ignored', done.stdout)
         self.assertIn('rosparam delete %s/ratee' % name, done.stdout)
         self.assertIn('nowhere.yaml', done.stdout)
         self.assertEqual(done.returncode, 2, done.stdout)

@@ -23,9 +23,10 @@ class PosturePlayer(unittest.TestCase):
         answer = rospy.ServiceProxy(name, Trigger)()
         self.assertTrue(answer.success, answer.message)
 
-    def start(self, postures=os.path.join(CONFIG, 'demo_postures.yaml')):
+    def start(self, postures=os.path.join(CONFIG, 'demo_postures.yaml'), namespace=None):
         return subprocess.Popen(
-            ['rosrun', 'anthrob_control', 'anthrob_posture_player', '__ns:=' + rospy.get_namespace(), '__name:=player',
+            ['rosrun', 'anthrob_control', 'anthrob_posture_player', '__ns:=' + (namespace or rospy.get_namespace()),
+             '__name:=player',
              '_model:=' + os.path.join(CONFIG, 'model_I.yaml'),
              '_postures:=' + postures],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -33,7 +34,7 @@ class PosturePlayer(unittest.TestCase):
     def ends(self, player):
         output = player.communicate(timeout=60)[0]
         self.assertEqual(player.returncode, 1, output)
-        self.assertEqual(output.count('is not enabled; enable, then start again'), 1, output)
+        self.assertEqual(output.count('is not enabled; call enable, then start the player again'), 1, output)
 
     def test_1_motors_that_were_not_enabled(self):
         rospy.wait_for_message('muscle_states', MuscleStates, 60)
@@ -77,6 +78,17 @@ class PosturePlayer(unittest.TestCase):
         for (t, before), (u, after) in zip(commands, commands[1:]):
             for name in there:
                 self.assertLess(abs(after[name] - before[name]), 1.0 * (u - t) + 1e-6, name)
+
+    def test_4_the_namespace_of_no_robot(self):
+        player = self.start(namespace='/nowhere')
+        killer = threading.Timer(60, player.kill)
+        killer.start()
+        said = next((line for line in player.stdout if 'waiting for' in line), 'nothing')
+        killer.cancel()
+        player.terminate()
+        player.communicate(timeout=60)
+        self.assertIn('waiting for /nowhere/muscle_states, which nobody publishes', said)
+        self.assertIn('__ns:=/anthrob', said)
 
 
 if __name__ == '__main__':

@@ -41,12 +41,13 @@ class Recorder(unittest.TestCase):
 
     def start(self, out, launch='record.launch', **values):
         """roslaunch with a roscore of its own."""
-        with open(self.path('protocol.yaml'), 'w') as file:
+        # By its name, of the robot without forearm.
+        with open(self.path('tier1_protocol.yaml'), 'w') as file:
             file.write(PROTOCOL % dict(self.values, **values))
         environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + self.port)
         return subprocess.Popen(
-            ['roslaunch', '-p', self.port, 'anthrob_bringup', launch, 'protocol:=tier1', 'out:=' + out,
-             'protocol_file:=' + self.path('protocol.yaml')],
+            ['roslaunch', '-p', self.port, 'anthrob_bringup', launch, 'out:=' + out,
+             'protocol_file:=' + self.path('tier1_protocol.yaml')],
             env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def record(self, out, **values):
@@ -143,7 +144,7 @@ class Recorder(unittest.TestCase):
         for out, values, expected in [
                 (self.path('a'), dict(protocol='dance'), 'expected equilibria, trajectories or zero_gravity'),
                 (self.path('a'), dict(postures='nothing.yaml'), 'nothing.yaml'),
-                ('/proc/nowhere/out', {}, 'cannot be made')]:
+                ('/proc/nowhere/out', {}, 'cannot be created')]:
             lines = [line for line in self.record(out, **values).splitlines() if 'FATAL' in line]
             self.assertEqual(len(lines), 1, lines)
             self.assertIn(expected, lines[0])

@@ -78,13 +78,13 @@ class SavePairs(unittest.TestCase):
                     bag.write(TOPICS[side], message, t=rospy.Time(1 + i))
             done = self.save()
             self.assertEqual(done.returncode, 2, done.stdout)
-            self.assertIn(TOPICS[0] + ': image of ' + stamp + ' s: expected the time of the exposure', done.stdout)
+            self.assertIn(TOPICS[0] + ': image stamped ' + stamp + ' s: expected the time of the exposure', done.stdout)
 
     def test_bad_images_are_left_out_and_named(self):
         self.record([(0, image(1.0, 1, 'rgb8')), (1, image(1.0, 1)), (0, image(2.0, 1)), (1, image(2.0, 1))])
         done = self.save()
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertIn('left out: ' + TOPICS[0] + ': image of 1.000000 s: encoding rgb8: expected mono8', done.stdout)
+        self.assertIn('left out: ' + TOPICS[0] + ': image stamped 1.000000 s: encoding rgb8: expected mono8', done.stdout)
         with open(self.path('out/times.csv')) as times:
             self.assertEqual(times.read(), 'index,t\n0,2.000000000\n')
 

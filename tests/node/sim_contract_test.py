@@ -358,7 +358,7 @@ class SimContract(unittest.TestCase):
         wait_for(lambda: self.step(1).success and self.states.last().reference[0] == 1.0, 5, 'the command ahead')
         answer = self.step(1, self.states.last().header.stamp)
         self.assertFalse(answer.success)
-        self.assertIn('no muscle_command with the stamp asked for', answer.message)
+        self.assertIn('no muscle_command with the requested stamp', answer.message)
 
     def test_paused_time_stands_still(self):
         stamp = self.step(1).stamp

@@ -31,8 +31,8 @@ class WorkspaceScript(unittest.TestCase):
     def test_installs_nothing_on_another_system(self):
         status, said = run('deps', {**NOTHING, **system(UBUNTU)})
         self.assertEqual(status, 1)
-        self.assertEqual(said, 'catkin_ws.sh: packages are missing that only Debian 12 (bookworm) has, and this is Ubuntu 20.04.6'
-                               ' LTS: use a container of debian:12 (README, On another system)\n')
+        self.assertEqual(said, 'catkin_ws.sh: needed packages are missing; only Debian 12 (bookworm) has them, and this '
+                               'is Ubuntu 20.04.6 LTS: use a container of debian:12 (README, On another system)\n')
 
     def test_says_so_where_no_system_tells_its_name(self):
         status, said = run('deps', {**NOTHING, 'cat': 'false'})

@@ -50,7 +50,7 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
     app.exit(e);
     return kDone;
   } catch (const CLI::ParseError& e) {
-    std::cerr << app.get_name() << ": " << one_line(e.what()) << " (--help explains)\n";
+    std::cerr << app.get_name() << ": " << one_line(e.what()) << " (see --help)\n";
     return kBadInput;
   } catch (const BadInput& e) {
     std::cerr << app.get_name() << ": " << e.what() << "\n";

@@ -47,7 +47,7 @@ using DataPtr = std::shared_ptr<Data>;
   throw BadInput(file + ":" + std::to_string(line) + ": " + message);
 }
 
-/// No file is meant to be nested so deep; an alias inside its own anchor is without end.
+/// No sensible file is nested deeper; an alias inside its own anchor would never end.
 constexpr int kDeepest = 100;
 
 DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>& file,
@@ -55,7 +55,7 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
   if (depth > kDeepest) {
     fail_at(*file, node.Mark().line + 1,
             "nested more than " + std::to_string(kDeepest) +
-                " deep; expected less, and no alias inside what it stands for");
+                " deep; expected fewer levels, and no alias inside its own anchor");
   }
   auto data = std::make_shared<Data>();
   data->file = file;
@@ -121,7 +121,7 @@ std::string base_file(const std::string& path, const Data& name) {
   return base.string();
 }
 
-/// What comes behind a second "---" must not be passed over without a word.
+/// Whatever follows a second "---" must not be ignored silently.
 YAML::Node only_document(const std::vector<YAML::Node>& documents, const std::string& path) {
   if (documents.size() > 1) {
     const int line = documents[1].Mark().line;
@@ -256,7 +256,7 @@ bool ConfigNode::is_scalar() const {
   return data_->kind == Kind::kScalar;
 }
 bool ConfigNode::has(const std::string& key) const {
-  // Else what stands there would be passed over: no key was asked for, so none is unknown.
+  // Otherwise a word or list here would be ignored silently: it has no keys that could be unknown.
   if (data_->kind == Kind::kScalar || data_->kind == Kind::kSequence) fail_expected("a map");
   const DataPtr child = data_->find(key);
   if (child && child->kind == Kind::kNull) child->read = true;

@@ -68,7 +68,8 @@ void check_keys(const ConfigNode& entry) {
     if (!kKnown.count(key)) value.fail("unknown key");
   }
   if (entry.has("range") && (entry.has("low") || entry.has("high"))) {
-    entry.at("range").fail("beside low or high: expected one or the other");
+    entry.at("range").fail(
+        "given together with low or high; expected either range, or low and high");
   }
 }
 
@@ -108,8 +109,8 @@ void check_file(const ConfigNode& file, std::vector<std::string>* remarks) {
     unused += (unused.empty() ? "" : ", ") + key;
   }
   if (unused.empty() || !remarks) return;
-  remarks->push_back(file.file() + ": " + unused +
-                     ": for anthrob_calibrate; of ordinary parameters only the list counts");
+  remarks->push_back(file.file() + ": ignored: " + unused +
+                     " (for anthrob_calibrate); only the list 'parameters' is used here");
 }
 
 }  // namespace
@@ -146,7 +147,8 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
     for (const ConfigNode& number : numbers) {
       parameters.push_back(read_parameter(entry, number, outside));
       if (!taken.insert(parameters.back().path).second) {
-        entry.at("path").fail("it is about " + parameters.back().path + ", as another entry is");
+        entry.at("path").fail("matches " + parameters.back().path +
+                              ", which another entry matches already");
       }
     }
   }

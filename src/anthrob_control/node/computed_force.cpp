@@ -13,12 +13,14 @@ namespace {
 
 using anthrob::BadInput;
 
-/// @param q where joints that are not named go   @throws BadInput
+/// @param q positions of the joints that the request does not name   @throws BadInput
 std::vector<double> posture_of(const anthrob_msgs::GoTo::Request& request,
                                const anthrob::RobotModel& model, const std::vector<double>& q) {
   if (request.joint_name.size() != request.joint_position.size() ||
       request.ball_joint_name.size() != request.ball_joint_orientation.size()) {
-    throw BadInput("names and values differ in number");
+    throw BadInput(
+        "names and values differ in number: expected one joint_position for each joint_name, and "
+        "one ball_joint_orientation for each ball_joint_name");
   }
   anthrob::Placement posture(model, q);
   for (std::size_t i = 0; i < request.joint_name.size(); ++i) {
@@ -59,7 +61,7 @@ class ComputedForceNode {
       if (trouble_.empty()) trouble_ = missing_force();
       if (!trouble_.empty()) {
         // Nothing is sent on stale measurements: after command_timeout the motors stop. The
-        // controller is told how long it was, and decides what is past.
+        // controller gets the length of the pause, and decides what it still holds.
         silent_ += link_.dt();
       } else {
         control();
@@ -69,16 +71,16 @@ class ComputedForceNode {
   }
 
  private:
-  /// @throws BadInput if simulation steps make another period than the settings ask for
+  /// @throws BadInput if ~steps simulation steps are not one period of the settings
   void check_period() {
     const double dt = link_.dt(), period = 1.0 / settings_.rate;
     // sim/reset and sim/set_state make one longer.
     const bool again = std::abs(dt - last_dt_) < 1e-6;
     last_dt_ = dt;
     if (!options_.lock_step || !again || dt == 0.0 || std::abs(dt - period) < 1e-6) return;
-    throw BadInput("parameter ~steps: " + std::to_string(options_.steps) + ": take " +
-                   std::to_string(dt) + " s; expected as many as make " + std::to_string(period) +
-                   " s, the period of the settings' rate");
+    throw BadInput("parameter ~steps: " + std::to_string(options_.steps) + ": these steps take " +
+                   std::to_string(dt) + " s; expected as many as take " + std::to_string(period) +
+                   " s, one period of 'rate' in the settings file");
   }
 
   /// Voltages are this node's own force law; FORCE and POSITION are the units'.
@@ -86,8 +88,9 @@ class ComputedForceNode {
     const bool needed = settings_.hold_output == anthrob::ecu::Mode::kVoltage ||
                         settings_.move_output == anthrob::ecu::Mode::kVoltage;
     const std::string muscle = needed ? link_.state().muscle_without_force() : "";
-    return muscle.empty() ? ""
-                          : "muscle " + muscle + ": its force is not measured, output is VOLTAGE";
+    return muscle.empty()
+               ? ""
+               : "muscle " + muscle + ": its force is not measured; output VOLTAGE needs it";
   }
 
   void control() {
@@ -178,12 +181,12 @@ class ComputedForceNode {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "computed_force";
-  info.purpose = "Computed-force control of the joints.";
+  info.purpose = "Computed-force control of the joints: zero gravity, and going to postures.";
   info.parameters = {
-      {"model", "path of the model the controller believes in (required)"},
-      {"settings", "path of its gains (required)"},
-      {"lock_step", "whether the simulator waits for each command (default: false)"},
-      {"steps", "of the simulation, a period with lock_step (default: 5)"},
+      {"model", "path of the model file that the controller computes with (required)"},
+      {"settings", "path of the controller's settings, such as control.yaml (required)"},
+      {"lock_step", "true: the controller steps the simulator (default: false)"},
+      {"steps", "with lock_step: simulation steps per control period (default: 5)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =

@@ -45,10 +45,11 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const auto step = std::find_if(sequence.steps.begin(), sequence.steps.end(),
                                  [&](const anthrob::PostureStep& s) { return s.name == wanted; });
   if (step == sequence.steps.end())
-    throw anthrob::BadInput("parameter ~posture: '" + wanted + "': no such posture");
+    throw anthrob::BadInput("parameter ~posture: '" + wanted +
+                            "': expected the name of a posture in the file of ~postures");
   if (!step->reference.empty()) {
     throw anthrob::BadInput("parameter ~posture: '" + wanted +
-                            "': is given by references; expected one given by joints");
+                            "': has references; expected a posture that has joints instead");
   }
   anthrob::refuse_without_controllers(*model);
   anthrob::Simulation scratch(model);
@@ -62,7 +63,8 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   auto state = state_of(*model, step->q, equilibrium.position);
   const bool answered = ros::service::call("sim/set_state", state);
   if (!ros::ok()) return false;
-  if (!answered) throw std::runtime_error("sim/set_state: no answer; does the simulator run?");
+  if (!answered)
+    throw std::runtime_error("sim/set_state: no answer: is the simulator still running?");
   if (!state.response.success) throw anthrob::BadInput("sim/set_state: " + state.response.message);
   while (ros::ok() && commands.getNumSubscribers() == 0) ros::WallDuration(0.05).sleep();
   if (!ros::ok()) return false;
@@ -77,12 +79,13 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "hold_posture";
-  info.purpose = "Puts a running simulator into a posture, at equilibrium.";
+  info.purpose =
+      "Puts a running simulator into one posture of a file, at equilibrium, and commands it once.";
   info.options = ros::init_options::AnonymousName;
   info.parameters = {
       {"model", "path of a model file (required)"},
       {"postures", "path of a posture file (required)"},
-      {"posture", "name of one in it (required)"},
+      {"posture", "name of a posture in that file; must be given by joints (required)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     return hold(nh, settings) ? 0 : 130;

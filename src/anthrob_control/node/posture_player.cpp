@@ -1,5 +1,6 @@
-// Visits a list of postures by actuator position references derived from the model: no joint
-// feedback. To the first one they are led, from where the motors are.
+// Moves the robot through a list of postures by actuator position references that are derived from
+// the model, without joint feedback. To the first posture the references move slowly, from where
+// the motors are.
 #include <ros/ros.h>
 
 #include <stdexcept>
@@ -17,19 +18,21 @@ namespace {
 constexpr double kCommandRate = 50.0;  // [Hz]
 constexpr int kUnheeded = 25;          // 0.5 s of commands: motors may start with the first of them
 
-/// Whoever stopped the motors did not mean that the next enable takes up a posture. Commands are
-/// counted, not time: where the player itself was held up, the next one may start the motors again.
-/// @param unheeded commands in a row while one was off
+/// Ends the player when motors are off, so that the next enable does not resume a posture. It
+/// counts commands, not time: after a pause of the player itself, its next command may start the
+/// motors again.
+/// @param unheeded commands in a row while a motor was off
 /// @throws std::runtime_error naming a motor that is off
 void check_motors(const anthrob::RobotLink& link, int& unheeded) {
   const std::string off = link.state().disabled_muscle();
   unheeded = off.empty() ? 0 : unheeded + 1;
   if (unheeded > kUnheeded) {
-    throw std::runtime_error("the motor of " + off + " is not enabled; enable, then start again");
+    throw std::runtime_error("the motor of " + off +
+                             " is not enabled; call enable, then start the player again");
   }
 }
 
-/// Nobody follows a player whose robot is gone.
+/// Ends the player when the robot is gone.
 class Silence {
  public:
   /// @return whether all muscles are measured now
@@ -72,7 +75,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const auto references = sequence.references(model);
   anthrob::Approach approach(model, speed);
   const std::string first =
-      "leads the muscles to the posture " + sequence.steps.front().name + ", if it is far away";
+      "moving slowly to the posture " + sequence.steps.front().name + " first, if it is far away";
 
   anthrob::RobotLink::Options options;
   options.period = 1.0 / kCommandRate;
@@ -85,7 +88,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   ROS_INFO_STREAM(first);
   for (std::size_t i = 0; i < sequence.steps.size();) {
     if (link.time_jumped()) {
-      ROS_WARN_STREAM("time jumped back: begins anew, " << first);
+      ROS_WARN_STREAM("time jumped back: starting again, " << first);
       approach.begin();
       i = 0;
       end = ros::Time();
@@ -121,11 +124,11 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "posture_player";
-  info.purpose = "Leads the robot through the postures of a file.";
+  info.purpose = "Moves the robot through the postures of a file.";
   info.parameters = {
       {"model", "path of a model file (required)"},
       {"postures", "path of a posture file (required)"},
-      {"approach_speed", "[rad/s] of motors on the way to the first one (default: 1)"},
+      {"approach_speed", "[rad/s] of the motors on the way to the first posture (default: 1)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     return play(nh, settings) ? 0 : 130;

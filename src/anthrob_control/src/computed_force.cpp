@@ -43,7 +43,7 @@ ComputedForce::ComputedForce(std::shared_ptr<const RobotModel> model,
       Eigen::VectorXd::Zero(model->skeleton->velocity_count);
   command_.tension = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model->muscles.size()));
   command_.reference.assign(model->muscles.size(), 0.0);
-  // What cannot be held in POSITION is told before the arm hangs on it.
+  // Muscles that cannot be held in POSITION are refused here, before the arm depends on them.
   const bool positions =
       settings.hold_output == ecu::Mode::kPosition || settings.move_output == ecu::Mode::kPosition;
   for (const MuscleModel& muscle : model->muscles) {
@@ -93,20 +93,22 @@ void ComputedForce::refuse_haste(const std::vector<double>& q, double duration) 
     const double way = PostureMotion::kFastest * joint_distance(joints[j], target(), q);
     const double fastest = settings_.joints[j].fastest;
     if (way <= fastest * duration) continue;
-    char text[160];
-    std::snprintf(text, sizeof(text),
-                  "duration: %g s: joint '%s' would move at %.3g rad/s, more than its fastest, %g; "
-                  "expected %.3g s at least",
-                  duration, joints[j].name.c_str(), way / duration, fastest, way / fastest);
+    char text[200];
+    std::snprintf(
+        text, sizeof(text),
+        "duration: %g s: joint '%s' would move at %.3g rad/s, but 'fastest' allows %g rad/s; "
+        "expected at least %.3g s",
+        duration, joints[j].name.c_str(), way / duration, fastest, way / fastest);
     throw BadInput(text);
   }
 }
 
 const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, double dt) {
   if (!(dt >= 0.0) || measured.muscles.size() != command_.reference.size()) {
-    throw std::invalid_argument("ComputedForce: time step or number of muscles");
+    throw std::invalid_argument(
+        "ComputedForce: expected a time step >= 0 and one measurement per muscle");
   }
-  // The units' motors stopped meanwhile, or the arm was left alone: what it was told is past.
+  // Meanwhile the motors have stopped, or nobody held the arm: earlier targets are out of date.
   if (dt > std::max(kForgotten, 2.0 / settings_.rate)) reset();
   if (fresh_) filter_.reset();
   filter_.step(measured.q, measured.u, dt);

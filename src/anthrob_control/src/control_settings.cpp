@@ -43,7 +43,7 @@ ControlSettings ControlSettings::load(const std::string& file, const RobotModel&
   const ConfigNode joints = node.at("joints");
   for (const auto& [name, value] : joints.entries()) {
     if (model.skeleton->find_joint(name) < 0)
-      value.fail("no movable joint of that name in " + model.file);
+      value.fail("unknown joint; expected a movable joint of " + model.file);
   }
   for (const JointModel& joint : model.skeleton->joints)
     settings.joints.push_back(read_gains(joints.at(joint.name)));

@@ -10,7 +10,7 @@ namespace anthrob {
 
 namespace {
 
-/// The shortest text that the units hold as this.
+/// The shortest text that gives the same float 32, which the units hold.
 std::string short_text(double value) {
   char text[32];
   for (int digits = 6; digits <= 9; ++digits) {
@@ -20,7 +20,7 @@ std::string short_text(double value) {
   return text;
 }
 
-/// Those gains that differ from the model's, as a YAML map without its braces.
+/// The gains that differ from the model's, as a YAML map without braces.
 std::string differing(const MuscleModel& muscle, const std::map<std::string, double>& held) {
   ecu::ControllerSettings own = muscle.controller;
   std::string text;
@@ -40,9 +40,9 @@ std::string gains_file(const RobotModel& model, const HeldGains& held, const std
   for (const auto& [name, gains] : held) {
     const int index = model.find_muscle(name);
     if (index < 0 || !model.muscles[static_cast<std::size_t>(index)].has_controller) {
-      throw BadInput(model.file + ": no muscle '" + name +
-                     "' with a controller: expected the model that the robot was started with, "
-                     "with the hand if it has one");
+      throw BadInput(model.file + ": has no muscle '" + name +
+                     "' with a controller; expected the model that the robot was started with "
+                     "(model_NAME_hand.yaml if with the hand)");
     }
   }
   std::string muscles;
@@ -52,7 +52,8 @@ std::string gains_file(const RobotModel& model, const HeldGains& held, const std
     if (!gains.empty()) muscles += "  " + muscle.name + ": {gains: {" + gains + "}}\n";
   }
   if (muscles.empty()) return "";
-  return "# Gains as the robot held them.\nextends: \"" + extends + "\"\n\nmuscles:\n" + muscles;
+  return "# Gains that the robot held when this file was saved.\nextends: \"" + extends +
+         "\"\n\nmuscles:\n" + muscles;
 }
 
 }  // namespace anthrob

@@ -33,8 +33,8 @@ void PostureMotion::advance(double dt) {
     stand(to_);
     return;
   }
-  // Flash and Hogan's polynomial. The rotation of a ball joint is about one axis, which is the same
-  // in the child's axes all along.
+  // Flash and Hogan's polynomial. A ball joint turns about one axis, which stays the same in the
+  // child's axes.
   const double s = time_ / duration_;
   const double share = s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
   const double speed = 30.0 * s * s * (1.0 - s) * (1.0 - s) / duration_;

@@ -8,7 +8,7 @@ namespace anthrob {
 
 namespace {
 
-/// More shortfall than this and the posture cannot be held [Nm].
+/// With more shortfall than this the posture cannot be held [Nm].
 constexpr double kHoldable = 0.02;
 
 void read_joint(const ConfigNode& node, const JointModel& joint, std::vector<double>& q) {
@@ -36,7 +36,7 @@ void read_joint(const ConfigNode& node, const JointModel& joint, std::vector<dou
   }
 }
 
-/// Names become files, cells of tables and keys.
+/// Names become file names, table cells and keys.
 std::string read_name(const ConfigNode& item) {
   const std::string name = item.text("name");
   const bool good = std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -52,7 +52,7 @@ std::vector<double> read_references(const ConfigNode& node, const RobotModel& mo
   std::vector<double> references(model.muscles.size(), NAN);
   for (const auto& [name, value] : node.entries()) {
     const int muscle = model.find_muscle(name);
-    if (muscle < 0) value.fail("no muscle of that name in " + model.file);
+    if (muscle < 0) value.fail("unknown muscle; expected one of " + model.file);
     const double limit = model.muscles[muscle].limits.position;
     references[muscle] = value.as_number(Bounds::between(-limit, limit), "rad");
   }
@@ -60,7 +60,8 @@ std::vector<double> read_references(const ConfigNode& node, const RobotModel& mo
     if (!model.muscles[m].has_controller) {
       references[m] = 0.0;
     } else if (std::isnan(references[m])) {
-      node.fail("muscle '" + model.muscles[m].name + "' is missing; expected all muscles");
+      node.fail("muscle '" + model.muscles[m].name +
+                "' is missing; expected references of all muscles");
     }
   }
   return references;
@@ -81,7 +82,7 @@ PostureSequence PostureSequence::load(const std::string& file, const RobotModel&
     if (item.has("joints")) {
       for (const auto& [name, value] : item.at("joints").entries()) {
         const int joint = model.skeleton->find_joint(name);
-        if (joint < 0) value.fail("no movable joint of that name in " + model.file);
+        if (joint < 0) value.fail("unknown joint; expected a movable joint of " + model.file);
         read_joint(value, model.skeleton->joints[joint], step.q);
       }
     }
@@ -97,8 +98,8 @@ void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
                             const Equilibrium& equilibrium) {
   const double shortfall = equilibrium.shortfall.norm();
   if (shortfall <= kHoldable) return;
-  throw BadInput("posture '" + name + "': the muscles of " + model.file +
-                 " cannot hold it: " + std::to_string(shortfall) + " Nm short");
+  throw BadInput("posture '" + name + "': the muscles of " + model.file + " cannot hold it: " +
+                 std::to_string(shortfall) + " Nm of joint torque are missing");
 }
 
 void refuse_beyond_limits(const std::string& posture, const RobotModel& model,
@@ -106,9 +107,10 @@ void refuse_beyond_limits(const std::string& posture, const RobotModel& model,
   for (std::size_t m = 0; m < reference.size(); ++m) {
     const MuscleModel& muscle = model.muscles[m];
     if (!muscle.has_controller || std::abs(reference[m]) <= muscle.limits.position) continue;
-    throw BadInput("posture '" + posture + "': muscle '" + muscle.name + "' would have to go to " +
-                   std::to_string(reference[m]) + " rad, more than its limit in " + model.file +
-                   ", " + std::to_string(muscle.limits.position));
+    throw BadInput("posture '" + posture + "': muscle '" + muscle.name + "' would need " +
+                   std::to_string(reference[m]) + " rad; expected at most " +
+                   std::to_string(muscle.limits.position) + " rad, its position limit in " +
+                   model.file);
   }
 }
 
@@ -116,7 +118,9 @@ void refuse_without_controllers(const RobotModel& model) {
   for (const MuscleModel& muscle : model.muscles) {
     if (muscle.has_controller) return;
   }
-  throw BadInput(model.file + ": no muscle has a controller; expected one that takes POSITION");
+  throw BadInput(
+      model.file +
+      ": no muscle has a controller; expected at least one that takes POSITION commands");
 }
 
 std::vector<std::vector<double>> PostureSequence::references(

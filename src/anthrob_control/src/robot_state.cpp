@@ -22,7 +22,7 @@ std::string check_age(const std::string& who, double stamp, double now, double s
   char text[32];
   std::snprintf(text, sizeof(text), "%.3f", std::abs(age));
   return who + ": the last measurement is " + text +
-         (from_ahead ? " s ahead of time: clocks differ, or time was set back" : " s old");
+         (from_ahead ? " s in the future: clocks differ, or time was set back" : " s old");
 }
 
 }  // namespace

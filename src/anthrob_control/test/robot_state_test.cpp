@@ -39,7 +39,7 @@ TEST_F(RobotStateTest, WhatIsStampedAheadOfTimeIsNotFresh) {
   see_all(1.0);
   EXPECT_EQ(state.complaint(0.9, 0.1), "");  // clocks are never quite the same
   EXPECT_EQ(state.complaint(0.0, 0.1),
-            "joint shoulder: the last measurement is 1.000 s ahead of time: clocks differ, or time "
+            "joint shoulder: the last measurement is 1.000 s in the future: clocks differ, or time "
             "was set back");
 }
 

@@ -35,7 +35,7 @@ void read_change(const std::string& text, Gains::Request& request) {
       equals == std::string::npos ? 0.0 : std::strtod(text.c_str() + equals + 1, &end);
   if (slash == std::string::npos || equals == std::string::npos || slash > equals ||
       end == text.c_str() + equals + 1 || *end != 0) {
-    throw BadInput(text + ": expected MUSCLE/GAIN=VALUE, or all/GAIN=VALUE");
+    throw BadInput(text + ": expected MUSCLE/GAIN=VALUE or all/GAIN=VALUE");
   }
   const std::string muscle = text.substr(0, slash);
   request.muscle.push_back(muscle == "all" ? "" : muscle);
@@ -44,11 +44,13 @@ void read_change(const std::string& text, Gains::Request& request) {
 }
 
 Gains::Response ask(const std::string& robot, Gains::Request& request) {
-  if (!ros::master::check()) throw std::runtime_error("no ROS master: is a launch file running?");
+  if (!ros::master::check())
+    throw std::runtime_error("no ROS master: start the robot or the simulator first");
   const std::string service = "/" + robot + "/gains";
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
   while (!ros::service::exists(service, false)) {
-    if (ros::WallTime::now() > end) throw std::runtime_error(service + ": no robot answers");
+    if (ros::WallTime::now() > end)
+      throw std::runtime_error(service + ": no robot answers; is --robot its namespace?");
     ros::WallDuration(0.1).sleep();
   }
   Gains::Response response;
@@ -58,8 +60,8 @@ Gains::Response ask(const std::string& robot, Gains::Request& request) {
   return response;
 }
 
-/// What the robot would refuse, before it is asked to change anything.
-/// @param held what it says when nothing is changed
+/// Finds what the robot would refuse, before it is asked to change anything.
+/// @param held the robot's reply to a request without changes
 void check(const Gains::Request& request, const Gains::Response& held) {
   const auto known = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -67,10 +69,10 @@ void check(const Gains::Request& request, const Gains::Response& held) {
   for (std::size_t i = 0; i < request.muscle.size(); ++i) {
     const anthrob::ecu::ParameterInfo* info = anthrob::ecu::find_gain(request.gain[i]);
     if (!request.muscle[i].empty() && !known(held.held_muscle, request.muscle[i])) {
-      throw BadInput(request.muscle[i] + ": expected one of the robot's muscles, or all");
+      throw BadInput(request.muscle[i] + ": unknown muscle; expected one of the robot's, or all");
     }
     if (!info || !known(held.held_gain, request.gain[i])) {
-      throw BadInput(request.gain[i] + ": expected a gain, as position_proportional");
+      throw BadInput(request.gain[i] + ": unknown gain; expected e.g. position_proportional");
     }
     const double value = request.value[i];
     if (value >= info->lowest && value <= info->highest) continue;
@@ -82,15 +84,15 @@ void check(const Gains::Request& request, const Gains::Response& held) {
   }
 }
 
-/// @throws BadInput if the model that is to be extended would be written over
+/// @throws BadInput if --save would overwrite the model or a file that it extends
 std::shared_ptr<const anthrob::RobotModel> load(const Arguments& arguments) {
   const auto model = anthrob::load_robot_model(arguments.model);
   const std::string out = fs::weakly_canonical(arguments.save).string();
   for (const std::string& file : anthrob::extended_files(arguments.model)) {
     if (file == out) {
       throw BadInput("--save " + arguments.save +
-                     ": expected another file than the model, or what "
-                     "it extends");
+                     ": expected another file than the model "
+                     "and those that it extends");
     }
   }
   return model;
@@ -111,7 +113,7 @@ void save(const Gains::Response& response, const anthrob::RobotModel& model,
           const Arguments& arguments) {
   const std::string text = file_of(response, model, arguments);
   if (text.empty()) {
-    std::fprintf(stderr, "all gains are those of %s: nothing saved\n", arguments.model.c_str());
+    std::fprintf(stderr, "nothing saved: all gains are those of %s\n", arguments.model.c_str());
     return;
   }
   anthrob::write_file_atomically(arguments.save, text);
@@ -119,7 +121,7 @@ void save(const Gains::Response& response, const anthrob::RobotModel& model,
 
 int run(const Arguments& arguments) {
   if (arguments.save.empty() != arguments.model.empty()) {
-    throw BadInput("--save FILE and --model FILE: expected both or none");
+    throw BadInput("--save FILE and --model FILE: expected both or neither");
   }
   const auto model = arguments.save.empty() ? nullptr : load(arguments);
   Gains::Request request, nothing;
@@ -143,13 +145,15 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "gains",
             ros::init_options::AnonymousName | ros::init_options::NoSigintHandler);
   CLI::App app(
-      "Reads, changes and saves the gains of a robot that runs. Prints all gains as they are held, "
-      "in the form in which they are changed.",
+      "Reads, changes and saves the gains of a running robot or simulator. Without arguments it "
+      "changes nothing. It prints all gains that are in force afterwards, as MUSCLE/GAIN=VALUE.",
       "anthrob_gains");
   Arguments arguments;
-  app.add_option("changes", arguments.changes, "MUSCLE/GAIN=VALUE, or all/GAIN=VALUE");
+  app.add_option("changes", arguments.changes,
+                 "gains to change: MUSCLE/GAIN=VALUE or all/GAIN=VALUE");
   app.add_option("--robot", arguments.robot, "namespace of the robot")->capture_default_str();
-  app.add_option("--save", arguments.save, "model file to be written: it extends --model");
+  app.add_option("--save", arguments.save,
+                 "model file to write: extends --model by the changed gains");
   app.add_option("--model", arguments.model, "model file that the robot was started with");
   return anthrob::tool::run(app, argc, argv, [&] { return run(arguments); });
 }

@@ -1,4 +1,4 @@
-// Records a robot by protocol; interrupted, the same command goes on.
+// Records a robot by protocol. After an interruption, the same command continues.
 #include <filesystem>
 
 #include "anthrob_ros/parameters.h"
@@ -11,18 +11,18 @@ namespace {
 constexpr double kPatience = 30.0;  // [s] of wall time that a robot may take to appear
 
 /// @return false if ROS shut down first
-/// @throws std::runtime_error if the robot does not let itself be enabled
+/// @throws std::runtime_error if no robot answers, or if it refuses
 bool enable(ros::NodeHandle& nh) {
   std_srvs::Trigger call;
   const std::string name = nh.resolveName("enable");
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
-  // In short waits: by a clock that stands a long one would not end.
+  // In short waits of wall time: a long wait of ROS time would never end while its clock stands.
   while (ros::ok() && !ros::service::exists(name, false) && ros::WallTime::now() < end)
     ros::WallDuration(0.1).sleep();
   if (!ros::ok()) return false;
   if (!ros::service::call(name, call)) {
     if (!ros::ok()) return false;
-    throw std::runtime_error("enable: no robot answers");
+    throw std::runtime_error(name + ": no robot answers; start the driver or the simulator first");
   }
   if (!call.response.success) throw std::runtime_error("enable: " + call.response.message);
   return true;
@@ -33,15 +33,16 @@ bool enable(ros::NodeHandle& nh) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "recorder";
-  info.purpose = "Recordings by protocol: motions, equilibria, repeats.";
+  info.purpose = "Records equilibria or trajectories of a robot by protocol.";
   info.parameters = {
       {"model", "path of a model file (required)"},
       {"protocol", "path of a protocol file (required)"},
-      {"out", "whole path of a folder to record into (required)"},
-      {"approach_speed", "[rad/s] of motors on the way to where a motion begins (default: 1)"},
-      {"enable", "whether the motors are enabled first (default: false)"},
-      {"lock_step", "whether the simulator waits for each reference (default: false)"},
-      {"steps", "of the simulation, a reference with lock_step (default: 5)"},
+      {"out", "folder to record into, as a whole path (required)"},
+      {"approach_speed",
+       "[rad/s] of the motors on the way to the rest posture at first (default: 1)"},
+      {"enable", "true: enable the motors first (default: false)"},
+      {"lock_step", "true: the recorder steps the simulator (default: false)"},
+      {"steps", "with lock_step: simulation steps per reference (default: 5)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =
@@ -51,7 +52,8 @@ int main(int argc, char** argv) {
     const std::string folder = anthrob::required(settings, "out", "a folder to record into");
     if (!std::filesystem::path(folder).is_absolute()) {
       // roslaunch starts nodes in a folder of its own.
-      throw anthrob::BadInput("parameter ~out: " + folder + ": expected a whole path, /home/...");
+      throw anthrob::BadInput("parameter ~out: " + folder +
+                              ": expected a whole path, such as /home/me/run");
     }
     anthrob::RobotLink::Options options;
     anthrob::take(settings, "lock_step", anthrob::truth_of, options.lock_step);
@@ -62,10 +64,11 @@ int main(int argc, char** argv) {
     anthrob::take(settings, "enable", anthrob::truth_of, enable_first);
     if (options.lock_step && protocol.kind == anthrob::Protocol::Kind::kZeroGravity) {
       throw anthrob::BadInput(
-          "parameter ~lock_step: in zero gravity it is the controller that may step the simulator");
+          "parameter ~lock_step: true: expected false for a zero_gravity protocol, in which only "
+          "the controller may step the simulator");
     }
     anthrob::Recorder recorder(nh, settings, model, protocol, folder, options, approach_speed);
-    ROS_INFO_STREAM("recordings go to " << folder);
+    ROS_INFO_STREAM("recording into " << folder);
     const bool ready = !enable_first || enable(nh);
     return ready && recorder.run() ? 0 : 130;
   });

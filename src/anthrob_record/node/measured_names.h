@@ -10,9 +10,9 @@
 
 namespace anthrob {
 
-/// Names in a message of which it holds what recordings are made for, as numbers: a back end names
-/// a muscle with NaN where its ECU did not answer. Whose force has once been a number has a sensor,
-/// and is measured with it only.
+/// Names of the muscles or joints that a message really measures. Where an ECU did not answer, the
+/// message has its muscle with NaN; such a muscle is left out. A muscle whose force has ever been a
+/// number has a force sensor; from then on it is left out whenever its force is NaN.
 class MeasuredNames {
  public:
   std::vector<std::string> operator()(const anthrob_msgs::MuscleStates& message);

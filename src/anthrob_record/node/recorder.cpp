@@ -11,11 +11,11 @@ namespace anthrob {
 
 namespace {
 
-/// Commands are renewed faster than they time out [s].
+/// Commands are repeated faster than they time out [s].
 constexpr double kCommandPeriod = 0.02;
-/// What is older is no measurement: what is not seen does not stand still [s].
+/// Older measurements do not count: what is not seen may be moving [s].
 constexpr double kFresh = 0.1;
-/// Silence after which the robot counts as gone, and the time that a refusal may last [s].
+/// Silence after which the robot counts as gone; also how long a refusal may last [s].
 constexpr double kSilence = 1.0;
 constexpr double kAskAgain = 0.05;  ///< [s] of wall time
 constexpr double kUndriven = 0.5;   ///< [s]: motors may start with the first commands
@@ -56,15 +56,17 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
 
 bool Recorder::on_sample(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   response.success = visit_ && visit_->trigger();
-  response.message = response.success ? "the posture is recorded when the arm is at rest"
-                                      : "no posture is waited for; call again when one is";
+  response.message =
+      response.success
+          ? "the posture will be recorded once the arm is at rest"
+          : "the recorder is not waiting for a posture now; call again when it asks for one";
   return true;
 }
 
 bool Recorder::run() {
   if (!is_there()) {
-    ROS_INFO_STREAM("leads the muscles to the posture " << protocol_.rest.name
-                                                        << " first, if it is far away");
+    ROS_INFO_STREAM("moving slowly to the posture " << protocol_.rest.name
+                                                    << " first, if it is far away");
   }
   for (int repeat = 1; repeat <= protocol_.repeats; ++repeat) {
     for (const Protocol::Target& target : protocol_.targets) {
@@ -78,8 +80,9 @@ bool Recorder::run() {
         result = record(target, repeat);
       if (result == Result::kShutdown) return false;
       if (result == Result::kAgain) {
-        throw std::runtime_error(bags_.names().front() + ": " + trouble_ +
-                                 "; given up, what is complete stays, the same command goes on");
+        throw std::runtime_error(
+            bags_.names().front() + ": " + trouble_ +
+            "; giving up: complete recordings are kept, and the same command continues");
       }
     }
   }
@@ -94,7 +97,10 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
   aimed_ = false;
   order_ = {Visit::Aim::kRest, 0};
   refused_since_ = ros::WallTime();
-  if (protocol_.by_hand) ROS_INFO_STREAM(target.name << ": set the posture, then call ~sample");
+  if (protocol_.by_hand) {
+    ROS_INFO_STREAM(target.name << ": set the posture by hand, then: rosservice call "
+                                << sample_.getService());
+  }
   bool running = true;
   try {
     while (running && visit.outcome() == Visit::Outcome::kRunning) running = advance(visit, target);
@@ -127,16 +133,17 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
     // By the wall's clock: simulated time may outrun the messages.
     if ((ros::WallTime::now() - heard_).toSec() > (is_underway(visit) ? kSilence : kPatience))
       throw std::runtime_error("the robot is silent: " + silence);
-    // Nothing is sent to one that is gone, so that the watchdog stops the motors.
+    // Nothing is sent to a robot that is gone, so that the command time-out stops its motors.
     if (is_underway(visit) && link_.state().complaint(now, kSilence).empty())
       carry_out(visit, target);
     return true;
   }
   heard_ = ros::WallTime::now();
   check_motors();
-  // However short: whoever reads the recording would find a stop in it.
+  // However short the stop was, it would be in the recording.
   const std::string stopped = link_.take_disabled();
-  // A controller of zero gravity forgets where it was sent: the arm would be sampled elsewhere.
+  // After a stop, the zero-gravity controller holds whatever posture it finds: the arm would be
+  // sampled elsewhere.
   const bool spoilt =
       bags_.recording() || (protocol_.kind == Protocol::Kind::kZeroGravity && visit.begun());
   if (!stopped.empty() && spoilt)
@@ -165,22 +172,23 @@ void Recorder::carry_out(Visit& visit, const Protocol::Target& target) {
     refused_since_ = ros::WallTime();
     return;
   }
-  // A controller that is not there yet, or that has missed a measurement.
+  // The controller may not run yet, or may have missed a measurement.
   aimed_ = false;
   if (refused_since_.isZero()) refused_since_ = now;
   if ((now - refused_since_).toSec() > (obeyed_ ? kSilence : kPatience)) visit.fail(refused);
 }
 
 void Recorder::check_motors() {
-  // Of zero gravity the controller knows.
+  // In zero gravity this is the controller's task.
   if (protocol_.kind != Protocol::Kind::kZeroGravity && !sent_.isZero()) {
     heed_.look(link_.state(), link_.now(), lock_step_);
   }
   const std::string off = link_.state().disabled_muscle();
   if (off.empty() || driven_.isZero()) driven_ = link_.now();
   if ((link_.now() - driven_).toSec() > kUndriven) {
-    throw std::runtime_error("the motor of " + off +
-                             " is not enabled; enable, then the same command goes on");
+    throw std::runtime_error(
+        "the motor of " + off +
+        " is not enabled; call enable, then run the same command again to continue");
   }
 }
 
@@ -210,7 +218,7 @@ std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& ta
   if (aim == Visit::Aim::kRelease) {
     std_srvs::Trigger call;
     if (!ros::service::call(nh_.resolveName("controller/zero_gravity"), call))
-      return "controller/zero_gravity: no controller answers";
+      return "controller/zero_gravity: no answer; is the computed-force controller running?";
     return call.response.success ? "" : "controller/zero_gravity: " + call.response.message;
   }
   anthrob_msgs::GoTo call;
@@ -229,7 +237,7 @@ std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& ta
     }
   }
   if (!ros::service::call(nh_.resolveName("controller/go_to"), call))
-    return "controller/go_to: no controller answers";
+    return "controller/go_to: no answer; is the computed-force controller running?";
   return call.response.success ? "" : "controller/go_to: " + call.response.message;
 }
 
@@ -292,8 +300,10 @@ void Recorder::write_files(const Visit& visit, const Protocol::Target& target, i
 void Recorder::report(const std::string& name, const Visit& visit) {
   const int all = protocol_.repeats * static_cast<int>(protocol_.targets.size());
   const double each = (ros::WallTime::now() - start_).toSec() / recorded_;
-  ROS_INFO("[%d/%d] %s: settled after %.1f s, rest posture within %.2f degrees; %.0f s left", done_,
-           all, name.c_str(), visit.settling_time(), visit.drift() / kDegree, each * (all - done_));
+  ROS_INFO(
+      "[%d/%d] %s: settled after %.1f s, rest posture off by up to %.2f degrees; about %.0f s left",
+      done_, all, name.c_str(), visit.settling_time(), visit.drift() / kDegree,
+      each * (all - done_));
 }
 
 }  // namespace anthrob

@@ -15,7 +15,8 @@
 
 namespace anthrob {
 
-/// Carries out a protocol on a robot, simulated or real: topics and services of the contract only.
+/// Carries out a protocol on a robot, simulated or real. Uses only the topics and services that
+/// both have.
 class Recorder {
  public:
   Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<const RobotModel> model,
@@ -30,19 +31,20 @@ class Recorder {
   enum class Result { kDone, kAgain, kShutdown };
 
   Result record(const Protocol::Target& target, int repeat);
-  /// Whether the robot has reached what the first visit begins with.
+  /// Whether the robot has reached the posture with which the first visit begins.
   bool is_there() const {
     return approach_.arrived() || protocol_.kind == Protocol::Kind::kZeroGravity;
   }
-  /// Whether somebody follows.
+  /// Whether the robot has begun to follow.
   bool is_underway(const Visit& visit) const;
   /// One instant of a visit. @return false if ROS shut down
   bool advance(Visit& visit, const Protocol::Target& target);
-  /// Lets the robot follow; whoever refuses is asked again for a while.
+  /// Sends the current order; repeats it for a while if it is refused.
   void carry_out(Visit& visit, const Protocol::Target& target);
-  /// @throws std::runtime_error if motors are off: what hangs there is no equilibrium
+  /// @throws std::runtime_error if motors are off: the posture is then no equilibrium of the
+  /// muscles
   void check_motors();
-  /// @return why the controller refused; empty: it did not
+  /// @return why the controller refused; empty if it did not
   std::string follow(const Visit::Order& order, const Protocol::Target& target);
   void send_references(const std::vector<double>& references);
   std::string call_controller(Visit::Aim aim, const Protocol::Target& target);
@@ -70,7 +72,7 @@ class Recorder {
   bool aimed_ = false;
   Visit::Aim aim_ = Visit::Aim::kRest;
   Visit::Order order_{Visit::Aim::kRest, 0};
-  bool obeyed_ = false;          ///< somebody has ever followed an order
+  bool obeyed_ = false;          ///< any order has been followed
   ros::WallTime refused_since_;  ///< zero: the last order is followed
   ros::WallTime asked_;
   ros::Time sent_, driven_;

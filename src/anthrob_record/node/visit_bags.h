@@ -12,50 +12,52 @@
 
 namespace anthrob {
 
-/// The bags of one visit, recorded one after the other: all are kept, or none.
+/// The bags of one visit, recorded one after the other. Either all are kept or none.
 class VisitBags {
  public:
-  /// @param store must outlive the bags   @param model what there is to be measured
+  /// @param store must outlive the bags   @param model its muscles and joints must be measured
   /// @param prefix of the topics, "/anthrob/"
   VisitBags(const RecordingStore& store, std::shared_ptr<const RobotModel> model,
             const std::string& prefix)
       : store_(store), model_(std::move(model)), prefix_(prefix) {}
 
-  /// A visit begins whose recordings have these names.
+  /// Begins a visit whose recordings have these names.
   void begin(const std::vector<std::string>& names);
   const std::vector<std::string>& names() const { return names_; }
-  /// From now on messages go into this recording, the first being 1; 0: into none.
+  /// From now on messages go into this recording, counted from 1; 0: into none.
   void record(int recording, const ros::Time& now);
   bool recording() const { return recording_ > 0; }
 
-  /// Whether a message is of the recording that runs. Not by its arrival: topics overtake each
-  /// other, and a straggler of the instant before would be in one recording and not in the next.
+  /// Whether a message belongs to the running recording. Decided by its stamp, not by its arrival:
+  /// topics overtake each other, so a late message would be in one run's recording and not in the
+  /// next one's.
   bool belongs(const std_msgs::Header& header) const {
     return recording() && header.stamp > since_;
   }
-  /// Nothing if it does not belong.
+  /// Writes the message if it belongs to the running recording.
   template <class Message>
   void write(const std::string& topic, const Message& message) {
     if (belongs(message.header)) current().write(topic, message);
   }
-  /// What is sent just now, at the instant the recording begins too.
+  /// Writes a message that is sent right now, even at the very instant when the recording begins.
   template <class Message>
   void write_sent(const std::string& topic, const Message& message) {
     if (recording()) current().write(topic, message);
   }
-  /// These were measured, at the header's time.
+  /// Notes that these muscles or joints were measured at the header's time.
   void see(const std::vector<std::string>& names, const std_msgs::Header& header);
 
-  /// [s] that something was not measured in a recording. @param recording as in record
+  /// Longest time that anything was not measured in a recording [s].
+  /// @param recording as in record
   double largest_gap(int recording) const { return bag(recording).gaps.largest(); }
-  /// What was not measured for too long; empty: nothing.
+  /// What was not measured for too long, and for how long; empty if nothing.
   std::string trouble() const;
 
-  /// @throws rosbag::BagException, if the disk is full, say
+  /// @throws rosbag::BagException, for example if the disk is full
   void close();
-  /// After close(), once the store has taken them over.
+  /// To be called after close(), once the store has taken the bags over.
   void release();
-  /// None of them is kept.
+  /// Deletes all bags of the visit.
   void discard();
 
  private:
@@ -68,7 +70,7 @@ class VisitBags {
   std::vector<std::string> names_;
   std::vector<std::unique_ptr<BagFile>> bags_;  ///< null before they are recorded
   int recording_ = 0;
-  ros::Time since_;  ///< what the recording that runs begins after
+  ros::Time since_;  ///< the running recording holds what is later
 };
 
 }  // namespace anthrob

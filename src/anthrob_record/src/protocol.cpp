@@ -39,7 +39,7 @@ std::vector<Protocol::Target> read_targets(const std::string& file,
   return targets;
 }
 
-/// What the model makes of the postures; rounded, so that another build of the program goes on.
+/// The references of all postures, rounded so that another build of the program can continue.
 std::string references_text(const Protocol& protocol) {
   std::ostringstream text;
   text << std::setprecision(4) << std::fixed;
@@ -78,7 +78,8 @@ Protocol Protocol::load(const std::string& file, const std::shared_ptr<const Rob
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (all[k].name == all[i].name)
-        throw BadInput(postures + ": posture '" + all[i].name + "' is there twice");
+        throw BadInput(postures + ": posture '" + all[i].name +
+                       "' is listed twice; expected each name once");
     }
   }
   protocol.rest = pick(all, postures, node.at("rest"));
@@ -87,9 +88,9 @@ Protocol Protocol::load(const std::string& file, const std::shared_ptr<const Rob
       const Target& target = pick(all, postures, name);
       const auto again = [&](const Target& other) { return other.name == target.name; };
       if (std::any_of(protocol.targets.begin(), protocol.targets.end(), again))
-        name.fail("is there twice; repeats: tells how often all are visited");
+        name.fail("is listed twice; to visit all postures several times, set 'repeats'");
       if (target.name == protocol.rest.name && protocol.kind == Kind::kTrajectories)
-        name.fail("there is no way from the rest posture to itself");
+        name.fail("is the rest posture; expected another one, to which a trajectory can lead");
       protocol.targets.push_back(target);
     }
   } else {
@@ -112,14 +113,14 @@ Protocol Protocol::load(const std::string& file, const std::shared_ptr<const Rob
     protocol.go_duration =
         node.number_or("go_duration", protocol.go_duration, Bounds::positive(), "s");
   }
-  // Of what was recorded as references the controller, which goes to joint positions, knows none.
+  // The controller goes to joint positions, so it cannot use references.
   if (protocol.kind == Kind::kZeroGravity && !protocol.by_hand) {
     std::vector<Target> visited = protocol.targets;
     visited.push_back(protocol.rest);
     for (const Target& target : visited) {
       if (!target.by_references) continue;
       throw BadInput(postures + ": posture '" + target.name +
-                     "': is given by references; expected one given by joints for zero gravity");
+                     "': has references; zero gravity expects joints instead");
     }
   }
   node.refuse_unknown_keys();

@@ -40,7 +40,7 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
     : folder_(folder), model_(std::move(model)), protocol_(protocol), time_(time) {
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) throw std::runtime_error(folder_ + ": cannot be made: " + error.message());
+  if (error) throw std::runtime_error(folder_ + ": cannot be created: " + error.message());
   const auto remove_parts = [&](const std::string& of) {
     for (const auto& entry : fs::directory_iterator(folder_)) {
       const bool wanted = of.empty() || entry.path().stem() == of;
@@ -51,7 +51,7 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   if (!fs::exists(session)) {
     remove_parts("session.yaml");  // killed while it was written
     if (!fs::is_empty(folder_))
-      throw BadInput(folder_ + ": holds no session.yaml; expected an empty or a new folder");
+      throw BadInput(folder_ + ": has files but no session.yaml; expected a new or empty folder");
     write_file_atomically(session, session_text());
     return;
   }
@@ -59,13 +59,13 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   if (node.text("fingerprint") != "f" + fingerprint(protocol_.text) ||
       node.text("model") != fs::path(model_->file).filename().string()) {
     throw BadInput(session + ": belongs to another protocol, other postures or another model; " +
-                   "expected a new folder, or the same ones to go on with");
+                   "expected a new folder, or those with which it began");
   }
   const auto expect = [&](const char* key, const std::string& now) {
     if (node.has(key) && node.text(key) != now) {
       node.at(key).fail_expected(now +
-                                 ", or a new folder: a session is of one robot, simulated or "
-                                 "not");
+                                 ", or a new folder: a session has one robot, and either "
+                                 "simulated or true time");
     }
   };
   expect("robot", model_->name);
@@ -76,13 +76,13 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
 
 std::string RecordingStore::session_text() const {
   std::ostringstream out;
-  out << "# A session of anthrob_recorder; the same command goes on where it was interrupted.\n"
+  out << "# Session of anthrob_recorder. After an interruption, the same command continues it.\n"
       << "protocol: " << word(protocol_.kind) << "\nrobot: " << model_->name << "\ntime: " << time_
       << "\nmodel: " << fs::path(model_->file).filename().string() << "\nfingerprint: f"
-      << fingerprint(protocol_.text) << "  # of protocol and postures\n";
+      << fingerprint(protocol_.text) << "  # of protocol, postures and references\n";
   if (baseline()) {
     out << "rest: " << sample_yaml(*model_, baseline_)
-        << "  # the first one, drift is measured against it\n";
+        << "  # the first rest posture; drift is measured from it\n";
   }
   return out.str();
 }
@@ -116,7 +116,7 @@ void RecordingStore::finish(const std::string& name, DatasetMeta meta, const Sam
   meta.robot = model_->name;
   meta.other["sample"] = sample_yaml(*model_, sample) + "\n";
   keep_on_disk(partial_bag(name));
-  // Of an earlier run, should there be one: it must not describe this bag.
+  // A description that an earlier run left must not describe this bag.
   fs::remove(file(name + ".yaml"));
   fs::rename(partial_bag(name), file(name + ".bag"));
   write_file_atomically(file(name + ".yaml"), meta_text(meta));

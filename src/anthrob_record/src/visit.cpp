@@ -30,32 +30,32 @@ std::vector<Visit::Step> Visit::steps_of(const Protocol& protocol) {
     case Protocol::Kind::kTrajectories:
       return {{"to the rest posture", rest, 0, End::kSettled, kNone},
               {"lead", rest, 1, End::kElapsed, kBefore},
-              {"out", there, 1, End::kSettled, kNone},
+              {"to the posture", there, 1, End::kSettled, kNone},
               {"hold", there, 1, End::kElapsed, kTarget},
               {"lead", there, 2, End::kElapsed, kNone},
-              {"back", rest, 2, End::kSettled, kNone},
+              {"back to the rest posture", rest, 2, End::kSettled, kNone},
               {"hold", rest, 2, End::kElapsed, kAfter}};
     case Protocol::Kind::kZeroGravity:
       if (protocol.by_hand) {
         return {{"by hand", Aim::kRelease, 0, End::kTrigger, kNone},
-                {"settle", Aim::kRelease, 1, End::kSettled, kNone},
+                {"set by hand", Aim::kRelease, 1, End::kSettled, kNone},
                 {"hold", Aim::kRelease, 1, End::kElapsed, kTarget}};
       }
       return {{"to the rest posture", rest, 0, End::kSettled, kNone},
               {"hold", rest, 0, End::kElapsed, kBefore},
-              {"out", there, 0, End::kSettled, kNone},
-              {"release", Aim::kRelease, 1, End::kSettled, kNone},
+              {"to the posture", there, 0, End::kSettled, kNone},
+              {"in zero gravity", Aim::kRelease, 1, End::kSettled, kNone},
               {"hold", Aim::kRelease, 1, End::kElapsed, kTarget},
-              {"back", rest, 0, End::kSettled, kNone},
+              {"back to the rest posture", rest, 0, End::kSettled, kNone},
               {"hold", rest, 0, End::kElapsed, kAfter}};
     case Protocol::Kind::kEquilibria:
       break;
   }
   return {{"to the rest posture", rest, 0, End::kSettled, kNone},
           {"lead", rest, 1, End::kElapsed, kBefore},
-          {"out", there, 1, End::kSettled, kNone},
+          {"to the posture", there, 1, End::kSettled, kNone},
           {"hold", there, 1, End::kElapsed, kTarget},
-          {"back", rest, 0, End::kSettled, kNone},
+          {"back to the rest posture", rest, 0, End::kSettled, kNone},
           {"hold", rest, 0, End::kElapsed, kAfter}};
 }
 
@@ -103,7 +103,7 @@ Visit::Order Visit::step(const RobotMeasurement& measured, double time) {
   bool over = false;
   switch (now.end) {
     case End::kSettled:
-      // Who sets out slowly seems to stand.
+      // An arm that starts slowly seems to stand still.
       over = elapsed >= duration_of(now.aim) && settle_.step(measured, time);
       if (!over && elapsed > duration_of(now.aim) + protocol_.settle.timeout)
         fail(std::string(now.name) + ": not settled after " + seconds_text(elapsed));
@@ -148,7 +148,7 @@ void Visit::check_drift(const Sample& rest) {
   if (difference <= protocol_.drift_limit) return;
   outcome_ = Outcome::kDrifted;
   reason_ = "the rest posture has drifted by " + degrees_text(difference) + " at joint " + joint +
-            ", more than " + degrees_text(protocol_.drift_limit);
+            ", more than the limit of " + degrees_text(protocol_.drift_limit);
 }
 
 }  // namespace anthrob

@@ -39,7 +39,7 @@ TEST(Protocol, RefusesWhatItCannotUse) {
       {"rest: E0", "rest: E99", "'E99': expected the name of a posture in "},
       {"rest: E0", "rest: E0\nvisit: [E77]", "'E77': expected the name of a posture in "},
       {"rest: E0", "rest: E0\nvisit: []", "no posture to visit"},
-      {"rest: E0", "rest: E0\nvisit: [E1, E3, E1]", "is there twice"},
+      {"rest: E0", "rest: E0\nvisit: [E1, E3, E1]", "is listed twice"},
       {"repeats: 1", "repeats: 0", "repeats"},
       {"hold: 0.5", "hold: .nan", "hold"},
       {"average: 0.1", "average: 3", "average"},

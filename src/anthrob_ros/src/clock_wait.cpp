@@ -12,8 +12,8 @@ namespace {
 
 const ros::WallDuration kFirst(3.0), kAgain(10.0);
 const char* const kStands =
-    "/use_sim_time is true and nobody has published /clock yet; start the simulator, or, without "
-    "one: rosparam set /use_sim_time false, and start this anew";
+    "/use_sim_time is true and nobody has published /clock yet; start the simulator, or, to run "
+    "without one: rosparam set /use_sim_time false, then restart this node";
 
 }  // namespace
 
@@ -22,10 +22,11 @@ void ClockWait::look() {
   if (next_.isZero()) next_ = now + kFirst;
   if (now < next_) return;
   next_ = now + kAgain;
-  ROS_WARN_STREAM("waiting for /clock: "
-                  << (living_publisher("/clock").empty()
-                          ? kStands
-                          : "the simulator is paused at its start; sim/step or sim/pause false"));
+  ROS_WARN_STREAM(
+      "waiting for /clock: "
+      << (living_publisher("/clock").empty()
+              ? kStands
+              : "the simulator is paused at its start; call sim/step, or sim/pause with false"));
 }
 
 void ClockWatch::look(const ros::Time& time) {
@@ -37,7 +38,9 @@ void ClockWatch::look(const ros::Time& time) {
   if (now < next_) return;
   next_ = now + kAgain;
   if (living_publisher("/clock").empty()) {
-    throw std::runtime_error("simulated time stands still and nobody publishes /clock any more");
+    throw std::runtime_error(
+        "simulated time stands still and nobody publishes /clock any more: has the simulator "
+        "ended?");
   }
   ROS_WARN("simulated time stands still: the simulator is paused or held up");
 }

@@ -30,10 +30,10 @@ void warn_of_unknown_parameters(const NodeInfo& info, const std::string& own) {
   for (const std::string& name : names) {
     if (name.compare(0, own.size() + 1, own + "/") != 0) continue;
     const std::string key = name.substr(own.size() + 1);
-    // What has folders is of a library, as of image_transport.
+    // Keys with a slash belong to libraries, such as image_transport.
     if (key.find('/') != std::string::npos || info.has(key)) continue;
-    ROS_WARN_STREAM("parameter ~" << key << ": passed over, for this node has only "
-                                  << keys_of(info) << " (rosparam delete " << name << ")");
+    ROS_WARN_STREAM("parameter ~" << key << ": ignored; this node only knows " << keys_of(info)
+                                  << " (to remove it: rosparam delete " << name << ")");
   }
 }
 
@@ -83,12 +83,12 @@ int run_node(int argc, char** argv, const NodeInfo& info, const NodeBody& body) 
   }
   try {
     ros::init(argc, argv, info.name, info.options);
-  } catch (const ros::Exception& error) {  // a name that is none
+  } catch (const ros::Exception& error) {  // not a valid name
     std::cerr << error.what() << "\n";
     return kBadInput;
   }
   if (info.only_one && name_is_taken()) return kBadInput;
-  // They outlive those of the body: without one nothing is logged.
+  // These handles outlive those of the body: without any handle nothing is logged.
   ros::NodeHandle nh, settings("~");
   try {
     warn_of_unknown_parameters(info, settings.getNamespace());

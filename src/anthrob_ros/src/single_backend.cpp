@@ -17,8 +17,9 @@ namespace {
 
 constexpr double kPatience = 2.0;  // [s] for an answer
 
-/// Whether somebody answers there, or is connected and says nothing: a process that was stopped, or
-/// that a debugger holds, may go on at any time. A host that is gone takes the patience.
+/// Whether somebody answers there, or accepts the connection without answering: a process that was
+/// stopped, or that a debugger holds, may continue at any time. If the host is gone, this takes
+/// kPatience.
 bool answers(const std::string& host, std::uint32_t port) {
   XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
   XmlRpc::XmlRpcValue caller, answer;
@@ -30,7 +31,7 @@ bool answers(const std::string& host, std::uint32_t port) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
   while (client.getfd() >= 0 && ros::WallTime::now() < end) {
     dispatch.work(0.05);
-    // Done is also who was refused, without an answer.
+    // A refused connection is done, too, but without an answer.
     if (client.executeCheckDone(answer)) return answer.valid();
   }
   sockaddr_storage peer;
@@ -53,7 +54,7 @@ bool lives(const std::string& node) {
   return ros::network::splitURI(uri, host, port) && answers(host, port);
 }
 
-/// Alive or not.
+/// Whether they are alive or not.
 std::vector<std::string> publishers_of(const std::string& topic) {
   XmlRpc::XmlRpcValue args, result, state;
   args[0] = ros::this_node::getName();
@@ -68,8 +69,8 @@ std::vector<std::string> publishers_of(const std::string& topic) {
   return names;
 }
 
-/// The launch file of who is refused may have set `/use_sim_time`. Who publishes the clock may have
-/// the name of who is refused.
+/// The launch file of the refused node may have set `/use_sim_time`. The living publisher of the
+/// clock may have the same name as the refused node.
 void restore_time_of_those_who_run() {
   const std::vector<std::string> clocks = publishers_of("/clock");
   ros::param::set("/use_sim_time", std::any_of(clocks.begin(), clocks.end(), lives));
@@ -90,14 +91,15 @@ ros::Publisher claim_robot(ros::NodeHandle& nh) {
   if (other.empty()) return claim;
   restore_time_of_those_who_run();
   throw BadInput(claim.getTopic() + ": " + other +
-                 " publishes it already; stop that back end first");
+                 " publishes it already; stop that simulator or driver first");
 }
 
 bool name_is_taken() {
   const std::string& name = ros::this_node::getName();
   if (!lives(name)) return false;
   restore_time_of_those_who_run();
-  ROS_FATAL_STREAM(name << " runs already; stop it first, or name this one otherwise");
+  ROS_FATAL_STREAM(
+      name << " runs already; stop it first, or give this node another name (__name:=NAME)");
   return true;
 }
 

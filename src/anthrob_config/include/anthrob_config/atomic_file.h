@@ -7,28 +7,28 @@
 
 namespace anthrob {
 
-/// Until a file, or what a folder lists, is on the disk: what is renamed before that may be there
-/// without its content after a power cut. As far as the file system can.
-/// @throws std::runtime_error if the disk does not take it
+/// Waits until a file, or a folder's list of files, is on the disk, as far as the file system
+/// supports it. A file that is renamed earlier may be empty after a power cut.
+/// @throws std::runtime_error if the disk is full or fails
 void keep_on_disk(const std::string& path);
 
-/// A file that is written beside its place and moved there when it is whole, so that its place has
-/// the old file or the complete new one. What is not moved is removed.
+/// A file that is written beside its final place and moved there once it is complete. So the place
+/// always has either the old file or the complete new one. If it is not moved, it is deleted.
 class AtomicFile {
  public:
-  /// @throws std::runtime_error naming the file and the reason, like the others
+  /// All members throw std::runtime_error naming the file and the reason.
   explicit AtomicFile(const std::string& file);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   std::ostream& stream() { return out_; }
-  /// All that was written is on the disk, beside its place.
+  /// Finishes writing: everything is then on the disk, beside its final place.
   void close();
   /// After close().
   void move_into_place();
-  /// After close(), instead: what was not finished goes to FILE.partial, FILE stays as it is.
-  /// @return its name
+  /// After close(), for an unfinished result: moves it to FILE.partial and leaves FILE unchanged.
+  /// @return the name FILE.partial
   std::string move_beside();
 
  private:
@@ -42,8 +42,9 @@ class AtomicFile {
 /// @throws std::runtime_error naming the file and the reason
 void write_file_atomically(const std::string& file, const std::string& content);
 
-/// Files that belong together, by name and content: all are complete beside their targets before
-/// the first is renamed, so that a full disk replaces none of them.
+/// Writes files that belong together.
+/// @param files name and content. All are complete beside their targets before the first is
+/// renamed, so that a full disk replaces none of them
 /// @throws std::runtime_error naming the file and the reason
 void write_files_atomically(const std::vector<std::pair<std::string, std::string>>& files);
 

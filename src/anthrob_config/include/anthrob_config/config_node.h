@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <map>
 #include <memory>
@@ -7,11 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 namespace anthrob {
 
-/// What a number in a file may be, and the words for it.
+/// The allowed range of a number in a file, and its description for messages.
 struct Bounds {
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
@@ -29,9 +28,10 @@ struct Bounds {
   std::string text() const;
 };
 
-/// A strict view of a YAML file: every value knows its file, line and key path, every key must be
-/// asked for, and `extends: OTHER.yaml` is already merged (maps key by key, everything else
-/// replaced). All errors are BadInput with one line, "FILE:LINE: KEY: VALUE: expected ...".
+/// A strict view of a YAML file. Every value knows its file, line and key path. Keys that the
+/// program never reads are errors (refuse_unknown_keys). `extends: OTHER.yaml` is already merged:
+/// maps key by key, everything else is replaced. All errors are BadInput with one line, "FILE:LINE:
+/// KEY: VALUE: expected ...".
 class ConfigNode {
  public:
   /// @throws BadInput if a file is missing, is not YAML, repeats a key, or extends itself
@@ -42,7 +42,8 @@ class ConfigNode {
   bool is_map() const;
   bool is_sequence() const;
   bool is_scalar() const;
-  /// A key without value, or null, is not there: so a file takes away what it extends.
+  /// Whether a map has the key. A key with an empty value or null counts as absent: in this way a
+  /// file removes a key of the file that it extends.
   /// @throws BadInput if this is a word, a number or a list
   bool has(const std::string& key) const;
 
@@ -69,10 +70,10 @@ class ConfigNode {
     return has(key) ? text(key) : fallback;
   }
 
-  /// Refuses keys of this map, at any depth below it, that nobody asked for.
+  /// Refuses keys of this map, at any depth below it, that were never read.
   void refuse_unknown_keys() const;
 
-  /// Marks the whole subtree as read; for parts that belong to somebody else.
+  /// Marks the whole subtree as read; for parts that another program reads.
   void ignore() const;
 
   /// Sets an existing number; "muscles.biceps_brachii.path.2.point.0".

@@ -5,7 +5,7 @@
 
 namespace anthrob {
 
-/// A YAML file and all that it extends, by canonical path: what must stay for it to be read again.
+/// Canonical paths of a YAML file and of all files that it extends.
 /// @param file one that ConfigNode::load() accepts
 /// @throws BadInput if a file is missing or is not YAML
 std::vector<std::string> extended_files(const std::string& file);

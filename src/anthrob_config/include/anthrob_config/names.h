@@ -4,7 +4,7 @@
 
 namespace anthrob {
 
-/// Whether a name of a user's file can be a part of topics, columns and diagnostics.
+/// Whether a name from a user's file can be used in topics, columns and diagnostics.
 inline bool is_snake_case(const std::string& name) {
   bool good = !name.empty() && name[0] >= 'a' && name[0] <= 'z';
   for (const char c : name)

@@ -7,23 +7,23 @@
 
 namespace anthrob {
 
-/// Leads position references from where the motors are to those that are wanted, straight and at
-/// one speed: motors that were just enabled must not jump. Once there, references are taken as they
-/// are. Muscles that pulled before it began, held by somebody else, let go of it at first.
+/// Moves position references from where the motors are to the wanted ones, straight and at constant
+/// speed, so that motors that were just enabled do not jump. After arrival, wanted references are
+/// passed through unchanged. Since it begins at the measured positions, muscles that were holding
+/// a load before may give way at first.
 class Approach {
  public:
-  static constexpr double kSpeed = 1.0;  ///< [rad/s], where nobody asks for another
+  static constexpr double kSpeed = 1.0;  ///< default [rad/s]
 
-  /// @param speed of the muscle that has the longest way [rad/s]
-  /// @throws std::invalid_argument for one that is not above 0
+  /// @param speed of the muscle with the longest way [rad/s]
+  /// @throws std::invalid_argument unless speed > 0
   Approach(std::shared_ptr<const RobotModel> model, double speed);
 
-  /// Begins anew, from where the motors are at the next step.
+  /// Starts again at the next step, from where the motors are then.
   void begin();
 
-  /// References for now, one a muscle [rad], within the muscles' limits where the motors are
-  /// beyond.
-  /// @param wanted references, one a muscle [rad]   @param dt since the last step [s]
+  /// @return references for now, one per muscle [rad]; the start is clamped to the muscles' limits
+  /// @param wanted references, one per muscle [rad]   @param dt since the last step [s]
   const std::vector<double>& step(const std::vector<double>& wanted,
                                   const RobotMeasurement& measured, double dt);
 

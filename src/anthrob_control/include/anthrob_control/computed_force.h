@@ -24,30 +24,33 @@ struct RobotMeasurement {
 struct ForceCommand {
   ecu::Mode mode = ecu::Mode::kForce;
   std::vector<double> reference;  ///< by muscle: N, rad or V as the mode says
-  Eigen::VectorXd torque;         ///< that was asked of the muscles [Nm]
-  Eigen::VectorXd shortfall;      ///< what of it they cannot deliver [Nm]
-  Eigen::VectorXd tension;        ///< least-effort tensions; of ligaments their own [N]
+  Eigen::VectorXd torque;         ///< wanted of the muscles [Nm]
+  Eigen::VectorXd shortfall;      ///< the part of it that they cannot deliver [Nm]
+  Eigen::VectorXd tension;        ///< least-effort tensions; ligaments: their own [N]
   bool converged = true;          ///< whether the split is the least-effort one
 };
 
-/// Computed-force control: a torque for every joint from the model's gravity, centrifugal and
-/// inertia terms and a servo on the joints, split over the muscles at least effort. In zero gravity
-/// the arm holds the posture it was left in and yields to a hand (the muscles are told forces, so
-/// only the servo resists); or it goes to a posture and stays (the muscles are told the positions
-/// that give those forces, so that their springs help against friction).
+/// Computed-force control. The joint torques are the model's gravity, centrifugal and inertia terms
+/// plus a servo on the joints; they are split over the muscles with least effort.
+/// - In zero gravity, the arm holds its posture and yields to a hand. The muscles get force
+///   references, so only the servo resists.
+/// - After go_to, the arm moves to a posture and stays there. The muscles get the positions that
+/// give
+///   the wanted forces, so that their springs help against friction.
+/// (The settings may choose other outputs.)
 ///
-/// Free of clocks; does not allocate while running.
+/// Uses no clock, and does not allocate while running.
 class ComputedForce {
  public:
   ComputedForce(std::shared_ptr<const RobotModel> model, const ControlSettings& settings);
 
-  /// Begins anew: the next update holds the posture it finds.
+  /// Starts again: the next update holds the posture that it finds.
   void reset();
-  /// Holds, from now on, the posture the arm is in.
+  /// From now on holds the posture that the arm is in.
   void zero_gravity();
   /// @param q posture, size position_count   @param duration [s], > 0
   /// @throws std::invalid_argument
-  /// @throws BadInput, and goes on as before, if a joint would move faster than it may
+  /// @throws BadInput if a joint would move faster than it may; the controller continues as before
   void go_to(const std::vector<double>& q, double duration);
 
   /// @param dt since the last update [s]
@@ -61,7 +64,7 @@ class ComputedForce {
   const RobotModel& model() const { return posture_.model(); }
 
  private:
-  /// A muscle without an input: its stretch says how it pulls.
+  /// A muscle without input: its force follows from its stretch.
   struct Ligament {
     std::size_t muscle;
     double slack_length;  ///< of tendon and spring [m]
@@ -82,7 +85,7 @@ class ComputedForce {
   PostureMotion motion_;
   TensionSplit split_;
   std::vector<Ligament> ligaments_;
-  Eigen::VectorXd wanted_;  ///< torque that is left to the muscles with controllers [Nm]
+  Eigen::VectorXd wanted_;  ///< torque for the muscles with controllers [Nm]
   std::vector<ecu::ControllerMemory> voltage_memory_;
   std::vector<double> held_;
   Eigen::VectorXd zero_;

@@ -7,15 +7,15 @@
 
 namespace anthrob {
 
-/// Gains by their names, position_proportional and the like, of muscles by theirs.
+/// Muscle name -> gain name (such as position_proportional) -> value.
 using HeldGains = std::map<std::string, std::map<std::string, double>>;
 
-/// A model file with the gains that a robot holds: what extends the model, and `gains:` of the
-/// muscles that hold others than the model's. Units hold float 32: a gain that only differs from
-/// the model's by that does not differ.
-/// @param extends the model's file as it is seen from the new one
+/// Text of a model file with the gains that a robot holds: it extends the model, and has `gains:`
+/// for the muscles whose gains differ from the model's. Units hold float 32, so gains that are
+/// equal as float 32 do not count as different.
+/// @param extends path of the model's file, relative to the new file
 /// @return empty if no gain differs
-/// @throws BadInput for muscles that the model has not, or that have no controller
+/// @throws BadInput for muscles that the model lacks, or that have no controller
 std::string gains_file(const RobotModel& model, const HeldGains& held, const std::string& extends);
 
 }  // namespace anthrob

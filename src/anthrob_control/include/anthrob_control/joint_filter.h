@@ -8,8 +8,8 @@
 
 namespace anthrob {
 
-/// First-order low-pass filters on measured joint positions and velocities; on ball joints along
-/// the rotation. Takes its first sample as it is.
+/// First-order low-pass filters on measured joint positions and velocities. Orientations of ball
+/// joints are filtered along the rotation between them. The first sample passes unchanged.
 class JointFilter {
  public:
   /// @param position_cutoff, velocity_cutoff [Hz], > 0
@@ -39,7 +39,7 @@ class JointFilter {
   const Eigen::VectorXd& velocity() const { return u_; }
 
  private:
-  /// Exact for a signal that is held between samples.
+  /// Exact for a signal that is constant between samples.
   static double share(double cutoff, double dt) {
     constexpr double kTwoPi = 6.283185307179586;
     return -std::expm1(-kTwoPi * cutoff * dt);

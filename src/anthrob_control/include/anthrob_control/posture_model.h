@@ -10,9 +10,9 @@
 
 namespace anthrob {
 
-/// What the model says about a measured posture: moment arms, muscle lengths, gravity, inertia.
-/// Ball joints count in their child's axes throughout. Wrapping follows the motion from posture to
-/// posture, as on the robot; a jump is walked through in small steps.
+/// Evaluates the model in a measured posture: moment arms, muscle lengths, gravity, inertia. All
+/// quantities of ball joints are in the child's axes. Wrapping follows the motion from posture to
+/// posture, as on the robot; a large change of posture is divided into small steps.
 class PostureModel {
  public:
   /// Starts at rest.
@@ -24,9 +24,9 @@ class PostureModel {
 
   const RobotModel& model() const { return *model_; }
   const std::vector<double>& configuration() const { return q_; }
-  /// -dl/dq: one row a velocity, one column a muscle [m].
+  /// -dl/dq: one row per joint velocity, one column per muscle [m].
   const Eigen::MatrixXd& moment_arms() const { return arms_; }
-  /// What holds the posture against gravity, and against centrifugal forces [Nm].
+  /// Joint torques that balance gravity and centrifugal forces [Nm].
   const Eigen::VectorXd& load() const { return load_; }
   const Eigen::MatrixXd& mass_matrix() const { return mass_; }
   double muscle_length(std::size_t muscle) const { return paths_[muscle].length(); }

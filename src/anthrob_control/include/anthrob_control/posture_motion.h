@@ -7,14 +7,14 @@
 
 namespace anthrob {
 
-/// From one posture to another on the shortest way, with least jerk: at rest at both ends.
+/// Minimum-jerk motion from one posture to another on the shortest way, at rest at both ends.
 class PostureMotion {
  public:
-  static constexpr double kFastest = 1.875;  ///< highest speed on the way, of the mean speed
+  static constexpr double kFastest = 1.875;  ///< highest speed divided by mean speed
 
   explicit PostureMotion(const SkeletonModel& skeleton);
 
-  /// Stands at a posture.
+  /// Stands still at a posture.
   void stand(const std::vector<double>& q);
   /// @param duration [s], > 0
   void start(const std::vector<double>& from, const std::vector<double>& to, double duration);

@@ -8,22 +8,22 @@
 
 namespace anthrob {
 
-/// @throws BadInput naming posture and model where the muscles lack more than 0.02 Nm
+/// @throws BadInput naming posture and model if more than 0.02 Nm are missing to hold the posture
 void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
                             const Equilibrium& equilibrium);
-/// Of references that back ends would refuse.
+/// Refuses references beyond the muscles' limits, as simulator and driver would.
 /// @throws BadInput naming posture, muscle and limit
 void refuse_beyond_limits(const std::string& posture, const RobotModel& model,
                           const std::vector<double>& reference);
-/// @throws BadInput for a robot that takes no POSITION, of which nothing would move
+/// @throws BadInput for a robot without any muscle that takes POSITION: nothing would move
 void refuse_without_controllers(const RobotModel& model);
 
 /// A posture to visit, and how long to stay.
 struct PostureStep {
   std::string name;
   std::vector<double> q;  ///< joint positions, as in a configuration
-  double hold = 3.0;      ///< [s] from the command on
-  /// Actuator references if the file gives them, one a muscle [rad]; else derived from the posture.
+  double hold = 3.0;      ///< time from the command to the next step [s]
+  /// Actuator references, one per muscle [rad]; empty if they must be derived from the posture.
   std::vector<double> reference;
 };
 

@@ -7,20 +7,21 @@
 
 namespace anthrob {
 
-/// The torque that draws every joint to a posture: a bounded spring and a damper.
+/// The torque that drives every joint towards a posture: a bounded spring and a damper.
 class PostureServo {
  public:
   PostureServo(const SkeletonModel& skeleton, const std::vector<JointGains>& gains);
 
   void reset() { integral_.setZero(); }
 
-  /// Draws to `target`, with at most the joints' strength; an integral makes up for what the model
-  /// does not know.
+  /// Torque towards `target`: spring and integral together have at most the joint's `strength`. The
+  /// integral compensates errors of the model. Sizes: q and target position_count, the others
+  /// velocity_count [Nm].
   const Eigen::VectorXd& track(const std::vector<double>& target, const Eigen::VectorXd& velocity,
                                const std::vector<double>& q, const Eigen::VectorXd& u, double dt);
 
-  /// Holds `target` like dry friction would: who pushes harder than the joints' yield drags the
-  /// target along. Without integral: with dry friction in the tendons it would hunt.
+  /// Torque that holds `target` as dry friction would: a push beyond the joint's `yield` drags
+  /// `target` along. Has no integral, with which dry friction in the tendons would cause hunting.
   const Eigen::VectorXd& hold(std::vector<double>& target, const std::vector<double>& q,
                               const Eigen::VectorXd& u);
 

@@ -8,41 +8,42 @@
 
 namespace anthrob {
 
-/// The last measurement of every muscle and joint of a robot, from sources that come and go.
-/// Free of clocks and of ROS: stamps come in as arguments [s].
+/// The last measurement of every muscle and joint of a robot, from sources that may fail at any
+/// time. Uses neither a clock nor ROS: stamps are arguments [s]. Names that the model lacks are
+/// ignored, because a robot may have more parts than the model.
 class RobotState {
  public:
   explicit RobotState(std::shared_ptr<const RobotModel> model);
 
   void see_muscle(const std::string& name, const ecu::Measurement& measured, bool enabled,
                   double stamp);
-  /// What a muscle's motor follows. A robot need not tell.
+  /// The control mode of a muscle's motor. Not every robot reports it.
   void see_mode(const std::string& name, ecu::Mode mode);
-  /// Unknown names are passed over: a robot may carry more than the model.
   void see_joint(const std::string& name, double position, double velocity, double stamp);
   void see_ball_joint(const std::string& name, const Quat& orientation, const Vec3& velocity,
                       double stamp);
 
-  /// Why one cannot control with what is known at `now`; empty if one can. Values that are not
-  /// finite, or no rotation, count as not measured; forces alone may be NaN, where there is no
-  /// sensor. Muscles that take no input, such as ligaments, need no measurement: no unit has them.
+  /// The first joint or muscle that was not measured within `stale_after` before `now`, as one
+  /// line; empty if all were. Values that are not finite, or not a rotation, count as not measured.
+  /// Only forces may be NaN, where there is no sensor. Muscles without input, such as ligaments,
+  /// need no measurement, because no unit measures them.
   std::string complaint(double now, double stale_after) const;
-  /// The same of the muscles alone.
+  /// The same for muscles only.
   std::string complaint_of_muscles(double now, double stale_after) const;
-  /// Whether all that must be was measured at `stamp` or later.
+  /// Whether everything that must be measured was measured at `stamp` or later.
   bool complete_since(double stamp) const;
   /// The first muscle whose ECU does not follow references, or empty.
   std::string disabled_muscle() const;
-  /// The first muscle with a controller that is enabled and follows something else, or empty: what
-  /// it was told was refused.
+  /// The first muscle with a controller that is enabled but in another mode, or empty. Such a
+  /// muscle has refused its commands.
   std::string muscle_not_in(ecu::Mode mode) const;
-  /// The first muscle with a controller whose force is not a number, or empty: it has no sensor.
+  /// The first muscle with a controller whose force is NaN (it has no sensor), or empty.
   std::string muscle_without_force() const;
-  /// The first muscle that was seen not to follow references since the last call, or empty: one
-  /// that was stopped and enabled again between two looks is enabled now, and elsewhere than it was
-  /// told. One that was not measured was not seen.
+  /// The first muscle that was measured as not enabled since the last call, or empty. This also
+  /// finds a motor that was stopped and enabled again between two calls: it is enabled now, but no
+  /// longer where its reference was.
   std::string take_disabled();
-  /// Forgets all, as when time jumps back.
+  /// Forgets all measurements, for example when time jumps back.
   void clear();
 
   const RobotMeasurement& measurement() const { return measured_; }

@@ -5,31 +5,32 @@
 
 namespace anthrob {
 
-/// Splits joint torques over muscles that can only pull, in real time:
-///   least sum of squares of f, with A f = tau and lowest <= f <= highest.
+/// Splits joint torques tau over muscles, which can only pull, in real time:
+///   minimise the sum of squares of f, subject to A f = tau and lowest <= f <= highest.
 ///
-/// Solved in its dual: f = clip(A^T lambda), and lambda, one number a torque, is the root of
-///   A clip(A^T lambda) + softness lambda = tau,
-/// piecewise linear and monotone, found by a damped Newton method in a few steps. Where no allowed
-/// forces reach the torque the softness makes it the nearest one.
+/// Solves the dual problem: f = clip(A^T lambda), where lambda (one number per torque) is the root
+/// of
+///   A clip(A^T lambda) + softness lambda = tau.
+/// This equation is piecewise linear and monotone; a damped Newton method finds the root in a few
+/// steps. If no allowed forces reach the torque, the softness makes the solution the nearest one.
 ///
 /// Debian's libraries for quadratic programmes either allocate and start cold (NLopt's SLSQP, with
-/// which statics/least_effort.h solves the same problem) or are first-order; this one starts from
-/// the last solution, never allocates after construction and stops after a fixed number of steps:
-/// 9 us for 4 torques and 11 muscles where SLSQP takes 80.
+/// which statics/least_effort.h solves the same problem) or are first-order. This solver starts
+/// from the last solution, never allocates after construction and stops after a fixed number of
+/// steps: it takes 9 us for 4 torques and 11 muscles, SLSQP 80 us.
 class TensionSplit {
  public:
   struct Result {
-    Eigen::VectorXd tension;    ///< [N], one a muscle
+    Eigen::VectorXd tension;    ///< [N], one per muscle
     Eigen::VectorXd shortfall;  ///< torque that was not reached: wanted - delivered [Nm]
     int iterations = 0;
-    bool converged = false;  ///< if not, tensions are allowed but may not be those of least effort
+    bool converged = false;  ///< if not, tensions keep the bounds but may not be of least effort
   };
 
-  /// @throws std::invalid_argument if sizes differ, or not 0 <= lowest <= highest, or not finite
+  /// @throws std::invalid_argument unless sizes agree and 0 <= lowest <= highest, all finite
   TensionSplit(int torques, const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest);
 
-  /// @param moment_arms A, one row a torque, one column a muscle [m]
+  /// @param moment_arms A: one row per torque, one column per muscle [m]
   /// @throws std::invalid_argument if sizes differ or a number is not finite
   const Result& solve(const Eigen::MatrixXd& moment_arms, const Eigen::VectorXd& torque);
 

@@ -21,8 +21,8 @@ void HeedWatch::look(const RobotState& state, const ros::Time& now, bool sure) {
   const bool long_enough = sure || (wall - wall_since_).toSec() > kPatience;
   if ((now - since_).toSec() > kPatience && long_enough) {
     throw std::runtime_error("the robot does not follow the references of " + deaf +
-                             ": /diagnostics tell why (last_rejection); after power-up it wants "
-                             "home");
+                             ": last_rejection in /diagnostics says why; after power-up, call home "
+                             "first");
   }
 }
 

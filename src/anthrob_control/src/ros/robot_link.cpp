@@ -12,6 +12,8 @@ namespace {
 /// How long a simulator may take to answer, of wall time [s].
 constexpr double kStepPatience = 10.0;
 constexpr int kFirstAttempts = 10;
+/// How long no muscle_states may come before a warning, of wall time [s].
+constexpr double kSilence = 5.0;
 
 bool fits(std::size_t names, std::size_t values) {
   return values == names;
@@ -32,6 +34,7 @@ RobotLink::RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model
 }
 
 void RobotLink::see_muscles(const anthrob_msgs::MuscleStates& m) {
+  heard_ = true;
   const std::size_t n = m.name.size();
   if (fits(n, m.position.size()) && fits(n, m.velocity.size()) && fits(n, m.current.size()) &&
       fits(n, m.force.size()) && fits(n, m.ecu_state.size())) {
@@ -76,6 +79,18 @@ void RobotLink::advance_to(const ros::Time& time) {
   now_ = time;
 }
 
+void RobotLink::look_for_robot() {
+  if (heard_ || warned_) return;
+  if ((ros::SteadyTime::now() - started_).toSec() < kSilence) return;
+  const ros::Subscriber& states = subscribers_.front();
+  if (states.getNumPublishers() > 0) return;
+  warned_ = true;
+  ROS_WARN_STREAM("waiting for "
+                  << states.getTopic()
+                  << ", which nobody publishes: is the robot or the simulator running? Start this "
+                     "node in the robot's namespace, e.g. __ns:=/anthrob");
+}
+
 bool RobotLink::wait() {
   return options_.lock_step ? step_simulator() : wait_for_period();
 }
@@ -89,6 +104,7 @@ bool RobotLink::wait_for_period() {
       clock_wait_.look();
       continue;
     }
+    look_for_robot();
     if (time >= now_ && time < next_) {
       if (ros::Time::isSimTime()) clock_watch_.look(time);
       continue;
@@ -111,9 +127,11 @@ bool RobotLink::connected() const {
 
 bool RobotLink::wait_for_simulator() {
   const std::string step = nh_.resolveName("sim/step");
-  while (ros::ok() && !ros::service::waitForService(step, ros::Duration(0.5))) {
+  while (ros::ok() && !ros::service::waitForService(step, ros::Duration(0.5))) look_for_robot();
+  while (ros::ok() && !connected()) {
+    look_for_robot();
+    ros::WallDuration(0.01).sleep();
   }
-  while (ros::ok() && !connected()) ros::WallDuration(0.01).sleep();
   step_ = nh_.serviceClient<anthrob_msgs::Step>(step, true);
   return ros::ok();
 }
@@ -130,7 +148,7 @@ bool RobotLink::step_simulator() {
     }
     if (!ros::ok()) return false;
     if (!first || attempt == kFirstAttempts) {
-      throw std::runtime_error("sim/step: no states of the last step: " +
+      throw std::runtime_error("sim/step: not all states of the last step arrived: " +
                                state_.complaint(stamp.toSec(), 0.0));
     }
   }

@@ -5,15 +5,15 @@
 
 namespace anthrob {
 
-/// How long measurements were missing while a recording ran: each thing that is measured for
-/// itself, for one that falls silent hides behind the others.
+/// How long measurements were missing during a recording. Watches every muscle and joint
+/// separately, because one that falls silent would not be noticed among the others.
 class GapWatch {
  public:
-  /// Expected from `time` on [s].
+  /// From `time` [s] on, `what` is expected to be measured.
   void expect(const std::string& what, double time) { last_[what] = time; }
-  /// What was not expected is not watched.
+  /// `what` was measured at `stamp` [s]. Ignored if it is not expected.
   void see(const std::string& what, double stamp);
-  /// Nothing more comes of what was recorded until `time`.
+  /// The recording ends at `time` [s]: counts the gaps until then.
   void finish(double time);
 
   double largest() const { return largest_; }           ///< [s]

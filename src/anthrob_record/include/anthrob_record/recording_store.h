@@ -9,18 +9,19 @@
 
 namespace anthrob {
 
-/// The output folder of a session: for every recording NAME.bag, and NAME.yaml as a dataset
-/// folder's meta.yaml, which is written last: a recording is there when both are. And
-///   session.yaml       protocol, robot, whose time, first rest posture; a folder belongs to one
+/// The output folder of a session. Every recording has NAME.bag and NAME.yaml, which has the keys
+/// of a dataset folder's meta.yaml. NAME.yaml is written last, so a recording is complete when both
+/// exist. Further files:
+///   session.yaml       protocol, robot, kind of time, first rest posture; a folder belongs to one
 ///                      session
-///   samples.csv        one row a recording: theta, f, q at its end
+///   samples.csv        one row per recording: theta, f, q at its end
 ///   repeatability.csv  how far repeated runs are apart
 class RecordingStore {
  public:
-  /// Makes the folder, or goes on in one; throws half-written recordings away.
-  /// @param time whose it is, "simulated" or "true": what a simulator and a robot did is not mixed
-  /// @throws BadInput if the folder is another session's, std::runtime_error if it cannot be
-  /// written
+  /// Creates the folder, or continues its session; deletes incomplete recordings.
+  /// @param time "simulated" or "true": recordings of a simulator and of a robot must not be mixed
+  /// @throws BadInput if the folder belongs to another session
+  /// @throws std::runtime_error if it cannot be written
   RecordingStore(const std::string& folder, std::shared_ptr<const RobotModel> model,
                  const Protocol& protocol, const std::string& time);
 
@@ -28,16 +29,16 @@ class RecordingStore {
   std::vector<std::string> names(const Protocol::Target& target, int repeat) const;
   bool complete(const std::string& name) const;
 
-  /// Where to write a bag until it is complete.
+  /// File to which a bag is written until it is complete.
   std::string partial_bag(const std::string& name) const;
   void discard(const std::string& name) const;
-  /// Puts a complete bag in its place, with its sample.
+  /// Moves a complete bag to its final name, and writes its description with the sample.
   void finish(const std::string& name, DatasetMeta meta, const Sample& sample);
 
   const Sample* baseline() const { return baseline_.position.empty() ? nullptr : &baseline_; }
   void set_baseline(const Sample& rest);
 
-  /// Writes samples.csv and repeatability.csv of what is complete.
+  /// Writes samples.csv and repeatability.csv for the complete recordings.
   void summarise() const;
 
  private:

@@ -13,13 +13,13 @@ struct SettleOptions {
   double timeout = 20.0;            ///< [s]
 };
 
-/// Tells when a robot has come to rest: nothing has moved further from where it was than the
-/// velocities allow within the window. Positions, not measured velocities: those are noisy.
+/// Detects when a robot has come to rest: within the window, nothing has moved further than the
+/// allowed velocity times the window. Uses positions, because measured velocities are noisy.
 class SettleDetector {
  public:
   SettleDetector(std::shared_ptr<const RobotModel> model, const SettleOptions& options);
 
-  /// Begins anew at `time` [s].
+  /// Starts again at `time` [s].
   void start(double time);
   /// @return whether the robot has settled
   bool step(const RobotMeasurement& measured, double time);

@@ -8,16 +8,18 @@
 
 namespace anthrob {
 
-/// One visit to a posture: from rest, there, hold, and back, step by step. Says at every instant
-/// where the robot shall be and what is recorded; knows neither topics nor files.
+/// One visit to a posture, step by step: from rest to the posture, hold, and back. Decides at every
+/// instant where the robot must go and what is recorded; knows neither topics nor files.
 ///
-/// equilibria:    to rest | lead*1, sample | out*1 | hold*1, sample | back | hold, sample
-/// trajectories:  to rest | lead*1, sample | out*1 | hold*1, sample | lead*2 | back*2 | hold*2,
-/// sample zero gravity:  to rest | hold, sample | out | release*1 | hold*1, sample | back | hold,
-/// sample
-///    by hand:    wait for the operator | settle*1 | hold*1, sample
-/// (*n: goes into the visit's n-th recording; hold and lead last for a time, the others until the
-/// robot has settled.)
+/// - Equilibria: to rest | lead*1, sample | out*1 | hold*1, sample | back | hold, sample
+/// - Trajectories:
+///   to rest | lead*1, sample | out*1 | hold*1, sample | lead*2 | back*2 | hold*2, sample
+/// - Zero gravity:
+///   to rest | hold, sample | out | release*1 | hold*1, sample | back | hold, sample
+/// - Zero gravity by hand: wait for the operator | settle*1 | hold*1, sample
+///
+/// *n: goes into the visit's n-th recording. Hold and lead last for a fixed time, the others until
+/// the robot has settled.
 class Visit {
  public:
   enum class Aim { kRest, kTarget, kRelease };
@@ -32,13 +34,13 @@ class Visit {
 
   /// @param time [s]   @return what to do until the next call
   Order step(const RobotMeasurement& measured, double time);
-  /// The operator says: the posture is set. @return whether that is what is waited for
+  /// The operator has set the posture. @return whether the visit was waiting for this
   bool trigger();
-  /// Something went wrong meanwhile that steps do not show. @param reason one line
+  /// Ends the visit because of an error that its steps cannot see. @param reason one line
   void fail(const std::string& reason);
 
   Outcome outcome() const { return outcome_; }
-  /// Whether it has ever been stepped.
+  /// Whether step has been called.
   bool begun() const { return at_ > 0 || begun_; }
   const std::string& reason() const { return reason_; }  ///< of a failure or a drift, one line
   /// The posture at rest before and after, and at the target; empty position: not sampled.
@@ -49,7 +51,7 @@ class Visit {
   double drift() const { return drift_; }
   double settling_time() const { return settling_time_; }  ///< on the way to the target [s]
 
-  /// How many recordings a visit gives.
+  /// Number of recordings that a visit makes.
   static int recordings(const Protocol& protocol);
 
  private:
@@ -67,7 +69,7 @@ class Visit {
   void begin(double time);
   void finish_step(double time);
   void check_drift(const Sample& rest);
-  /// How long a controller takes to go there [s]; 0: references are given at once.
+  /// How long a controller takes to get there [s]; 0 where references are sent directly.
   double duration_of(Aim aim) const;
 
   std::shared_ptr<const RobotModel> model_;

@@ -6,27 +6,27 @@
 
 namespace anthrob {
 
-/// Where /use_sim_time is true ROS time stands at zero until somebody publishes /clock. A simulator
-/// leaves that parameter on a master that outlives it, and what waits for time waits for ever.
+/// For loops that wait for ROS time to start: warns in the log.
 ///
-/// For loops that wait: says so in the log.
+/// While /use_sim_time is true, ROS time is zero until somebody publishes /clock. A simulator that
+/// ends leaves the parameter true on the master, and later nodes then wait for ever.
 class ClockWait {
  public:
-  /// To be called as often as one likes while ros::Time::now() is zero. Warns after 3 s, then every
-  /// 10 s, of wall time: throttled log macros go by ROS time, which stands.
+  /// To be called as often as one likes while ros::Time::now() is zero. Warns after 3 s of wall
+  /// time, then every 10 s. (Throttled log macros use ROS time, which stands still.)
   void look();
 
  private:
   ros::SteadyTime next_;  ///< when to warn; zero: not looked yet
 };
 
-/// For loops that wait for simulated time to go on, when it ran once: it stands while a simulator
-/// is paused, and for ever when the simulator is gone.
+/// For loops that wait for simulated time to advance after it has started. It stands still while
+/// the simulator is paused, and for ever once the simulator has ended.
 class ClockWatch {
  public:
-  /// To be called with ros::Time::now() as often as one likes. Warns when time has stood for 3 s of
-  /// wall time, then every 10 s.
-  /// @throws std::runtime_error if it stands and no living node publishes /clock
+  /// To be called with ros::Time::now() as often as one likes. Warns when time has not advanced
+  /// for 3 s of wall time, then every 10 s.
+  /// @throws std::runtime_error if it does not advance and no living node publishes /clock
   void look(const ros::Time& time);
 
  private:
@@ -34,8 +34,9 @@ class ClockWatch {
   ros::SteadyTime next_;  ///< when to look who publishes; zero: not looked yet
 };
 
-/// @param patience how long, of wall time, somebody may take to publish
-/// @return one line, what is wrong and what to do, if ROS time stands at zero; empty if it runs
+/// Waits until ROS time is not zero.
+/// @param patience longest wait, in wall time
+/// @return one line (what is wrong and what to do) if ROS time is still zero; otherwise empty
 std::string standing_clock(const ros::WallDuration& patience);
 
 }  // namespace anthrob

@@ -6,8 +6,8 @@
 
 namespace anthrob {
 
-/// Values from the parameter server. One of another type must not pass for a missing one: the
-/// default would be taken without a word.
+/// Values from the parameter server. A value of the wrong type is an error, so that it is not
+/// silently replaced by the default.
 /// @param key for the message   @throws BadInput for another type, or a number that is not finite
 double number_of(const std::string& key, XmlRpc::XmlRpcValue value);
 double positive_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
@@ -16,16 +16,16 @@ int positive_whole_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
 bool truth_of(const std::string& key, XmlRpc::XmlRpcValue value);
 std::string text_of(const std::string& key, XmlRpc::XmlRpcValue value);
 
-/// Takes a parameter over if it is there.
-/// @param read one of the above
+/// Sets `to` to a parameter, if the parameter exists.
+/// @param read one of the functions above
 template <typename T, typename Read>
 void take(const ros::NodeHandle& settings, const std::string& key, Read read, T& to) {
   XmlRpc::XmlRpcValue value;
   if (settings.getParam(key, value)) to = read(key, value);
 }
 
-/// A text that must be there.
-/// @param what is expected   @throws BadInput if it is missing or empty
+/// A text parameter that must exist.
+/// @param what is expected, for the message   @throws BadInput if it is missing or empty
 std::string required(const ros::NodeHandle& settings, const std::string& key,
                      const std::string& what);
 

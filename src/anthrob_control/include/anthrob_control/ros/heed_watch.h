@@ -6,14 +6,15 @@
 
 namespace anthrob {
 
-/// Whether a robot follows the POSITION references that it is sent. One whose units have no zero,
-/// or that takes the sender's clock for wrong, stays enabled, refuses each, and nothing moves.
+/// Checks that a robot follows the POSITION references that it receives. A robot whose units have
+/// no zero, or that takes the sender's clock for wrong, stays enabled but refuses every reference,
+/// and nothing moves.
 class HeedWatch {
  public:
-  /// Once a period, while references are sent.
-  /// @param sure whether what is sent arrives, as in lock-step; else it may take a while of wall
-  /// time, too, until they are connected
-  /// @throws std::runtime_error naming a muscle that follows something else for a second
+  /// To be called once a period while references are sent.
+  /// @param sure whether every reference arrives, as in lock-step; otherwise a second of wall time
+  /// must pass as well, for the connection may take a while
+  /// @throws std::runtime_error naming a muscle that has been in another mode for a second
   void look(const RobotState& state, const ros::Time& now, bool sure);
 
  private:

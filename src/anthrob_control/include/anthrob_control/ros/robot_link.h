@@ -13,15 +13,16 @@
 
 namespace anthrob {
 
-/// A controller's connection to a robot, simulated or real: its topics, and its time. Example of a
-/// software-in-the-loop controller:
+/// A controller's connection to a robot, simulated or real: its topics and its time. Topic names
+/// are relative, so the node must run in the robot's namespace. Example:
 ///
 ///   RobotLink link(nh, model, options);
 ///   while (link.wait()) link.send(my_controller(link.state().measurement(), link.dt()));
 ///
-/// In real time `wait` returns once a period of ROS time, and warns while that stands. In
-/// lock-step it lets the simulator take its steps, with the command that was sent last, and returns
-/// when their outcome is in: the same run gives the same bits, at whatever speed.
+/// In real time, `wait` returns once every period of ROS time, and warns while ROS time stands
+/// still. In lock-step, it lets the simulator take its steps with the command that was sent last,
+/// and returns when their results have arrived: a run gives the same bits at any speed.
+/// If nobody publishes muscle_states for 5 s of wall time, `wait` warns once.
 class RobotLink {
  public:
   struct Options {
@@ -33,18 +34,19 @@ class RobotLink {
   RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model, const Options& options);
 
   /// Serves callbacks until the next period. @return false when ROS shuts down
-  /// @throws std::runtime_error if the simulator does not step, or is gone
+  /// @throws std::runtime_error if the simulator does not step, or no longer runs
   bool wait();
-  /// Stamps and publishes. @return the stamp
+  /// Stamps the command with now() and publishes it. @return the stamp
   ros::Time send(anthrob_msgs::MuscleCommand command);
 
   const RobotState& state() const { return state_; }
-  /// Of the state, see there.
+  /// As RobotState::take_disabled.
   std::string take_disabled() { return state_.take_disabled(); }
   ros::Time now() const { return now_; }
-  /// Time since the last return of wait [s]; 0 the first time and when time jumped back.
+  /// Time from the previous return of wait to the last one [s]; 0 the first time and when time
+  /// jumped back.
   double dt() const { return dt_; }
-  /// Whether time jumped back during the last wait; the state was forgotten then.
+  /// Whether time jumped back during the last wait; if so, the state was cleared.
   bool time_jumped() const { return jumped_; }
 
   /// Called with every message, before wait returns; may be empty.
@@ -56,6 +58,7 @@ class RobotLink {
   void see_muscles(const anthrob_msgs::MuscleStates& message);
   void see_joints(const sensor_msgs::JointState& message);
   void see_ball_joints(const anthrob_msgs::SphericalJointStates& message);
+  void look_for_robot();
   bool wait_for_period();
   bool connected() const;
   bool wait_for_simulator();
@@ -69,17 +72,22 @@ class RobotLink {
   RobotState state_;
   ros::Publisher commands_;
   ros::ServiceClient step_;
-  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::Subscriber> subscribers_;  ///< the first one: muscle_states
   ros::Time now_, next_, unstepped_command_;
   anthrob_msgs::MuscleCommand command_;  ///< the last one
-  bool command_arrived_ = false;         ///< of any that the simulator knows of
+  bool command_arrived_ = false;         ///< the simulator has received any command
+  ros::SteadyTime started_ = ros::SteadyTime::now();
+  bool heard_ = false;   ///< any muscle_states
+  bool warned_ = false;  ///< that nobody publishes them
   ClockWait clock_wait_;
   ClockWatch clock_watch_;
   double dt_ = 0.0;
   bool jumped_ = false;
 };
 
-/// References for all muscles that have the mode: a command with another would be refused whole.
+/// A command for all muscles that have the mode. It leaves the others out, because with one of them
+/// the whole command would be refused.
+/// @param references one per muscle of the model, in its order [V, rad, A or N, by mode]
 anthrob_msgs::MuscleCommand make_command(const RobotModel& model, ecu::Mode mode,
                                          const std::vector<double>& references);
 
