@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Joins the results of several benchmark programs into one file and prints them as tables.
+"""Joins the results of several benchmark programs into ALL.json and prints them as tables.
 
     bench_table.py ALL.json PART.json...
 """

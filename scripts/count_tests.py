@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """usage: count_tests.py RESULTS [--registered FILE] [--status N]
 
-Adds up JUnit results: lists failures, says what was skipped, ends with `N passed, N failed`. A test that is registered
-and left no result has failed, and so has a run that ended with another status than 0."""
+Adds up JUnit results: lists failures and skipped tests, and ends with `N passed, N failed`. A registered test without a
+result counts as failed, and so does a run that ended with a status other than 0."""
 import argparse
 import json
 import pathlib

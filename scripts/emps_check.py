@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Judges a model of the EMPS drive as its authors do: residual of the force, and replay in closed loop.
+"""Evaluates a model of the EMPS drive as the authors of its data do: force residual, and replay in closed loop.
 
     emps_check.py MODEL.yaml DATA.csv...
 
@@ -37,7 +37,7 @@ def load_model(file):
     if 'extends' not in own:
         return own
     if not isinstance(own['extends'], str):
-        refuse('%s: extends: expected one file' % file)
+        refuse('%s: extends: expected the name of one file' % file)
     base = load_model(os.path.join(os.path.dirname(os.path.abspath(file)), own['extends']))
 
     def over(low, high):
@@ -51,10 +51,10 @@ def load_model(file):
 def numbers_of(model):
     """Mass [kg], viscous [Ns/m], Coulomb [N] and offset friction [N]."""
     if 'axis' not in model.get('joints', {}):
-        refuse('expected a model of config/driven_axis')
+        refuse('expected a model of config/driven_axis, with the joint axis')
     effects = {effect['id']: effect for effect in model.get('effects') or []}
     for unknown in sorted(set(effects) - set(KNOWN)):
-        refuse('effects: %s: expected %s only' % (unknown, ' and '.join(KNOWN)))
+        refuse('effects: %s: expected only %s' % (unknown, ' and '.join(KNOWN)))
     return (95.1089, model['joints']['axis']['friction']['viscous'],
             effects.get('joint_coulomb', {}).get('torque', 0.0),
             -effects.get('joint_offset_torque', {}).get('torque', 0.0))
@@ -106,7 +106,7 @@ def rms(values):
 
 def main():
     if len(sys.argv) < 3:
-        refuse('expected MODEL.yaml DATA.csv...')
+        refuse('expected MODEL.yaml and one or more DATA.csv')
     for file in sys.argv[1:]:
         if not os.path.isfile(file):
             refuse('%s: no such file' % file)

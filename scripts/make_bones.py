@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes humerus.stl and scapula.stl of Anthrob: bones of its measures, since its CAD data is not public.
+"""Writes humerus.stl and scapula.stl of Anthrob: bones of its dimensions, because its CAD data is not public.
 
 A bone is a loft: rings across an axis, each an ellipse whose centre and half-axes follow smooth curves through the
-knots below, with dents that only the eye notices (a convex hull does not). Insertions lie on the surface: rings pass
-0.15 mm below them. What the thesis leaves open was fitted so that the tendons of model III are as long at rest as
-Table C.9 says. The same input gives the same bytes.
+knots below, with dents that are only for the eye (a convex hull ignores them). Muscle insertions lie on the surface:
+rings pass 0.15 mm below them. Dimensions that the thesis does not give were fitted such that the tendons of model III
+have the rest lengths of Table C.9. The same input gives the same bytes.
 
 usage: make_bones.py OUTPUT_FOLDER
 """

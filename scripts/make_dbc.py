@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes config/anthrob/anthrob_ecu.dbc, docs/ecu_protocol.md in the words of CAN tools (candump's and SavvyCAN's).
+"""Writes config/anthrob/anthrob_ecu.dbc: the protocol of docs/ecu_protocol.md as a DBC file for CAN tools.
 
 dbc_test of anthrob_driver compares the result with the codec."""
 import os

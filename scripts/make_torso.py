@@ -4,7 +4,8 @@
     scripts/make_torso.py --joints 20 --muscles 100 --out config/torso_100
 
 Joints come from a fixed list of ball joints and hinges, muscles go round the joints in turn, over nothing, cylinders,
-spheres or a mesh. It is no copy of any machine: it is there to load something large and to measure how cost grows with size.
+spheres or a mesh. It copies no real machine: it serves to load something large and to measure how the cost grows with
+its size.
 """
 import argparse
 import math
@@ -334,9 +335,9 @@ def write(path, content):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('--joints', type=int, default=20)
-    parser.add_argument('--muscles', type=int, default=100)
-    parser.add_argument('--out', required=True, help='folder of the robot; its name becomes the robot\'s')
+    parser.add_argument('--joints', type=int, default=20, help='number of joints (default: %(default)s)')
+    parser.add_argument('--muscles', type=int, default=100, help='number of muscles (default: %(default)s)')
+    parser.add_argument('--out', required=True, help='folder to write; its name becomes the name of the robot')
     parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (--help explains)\n')
     args = parser.parse_args()
     joints = all_joints()

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""How well a ball joint seen by virtual cameras agrees with the simulator's own.
+"""Compares a ball joint measured by virtual cameras with the simulator's own.
 
-    mocap_agreement.py BAG    a bag of demo.launch mocap:=virtual, or any with both spherical_joint_states
+    mocap_agreement.py BAG    BAG: of demo.launch mocap:=virtual, or any with spherical_joint_states and
+                              sim/spherical_joint_states
 """
 import bisect
 import math
@@ -26,7 +27,7 @@ def angle_deg(a, b):
 
 
 def read(bag):
-    """Of each of the two topics {joint: [(time, quaternion), ...]}."""
+    """Measured and simulated joints, each as {joint: [(time, quaternion), ...]}."""
     seen, truth = {}, {}
     for topic, message, _ in bag.read_messages():
         parts = topic.split('/')
@@ -39,7 +40,7 @@ def read(bag):
 
 
 def interpolated(truth, t):
-    """Between two states that are some milliseconds apart; none at the ends."""
+    """The true quaternion at time t, linear between its neighbours; None before the first state and after the last."""
     i = bisect.bisect(truth, (t,))
     if i == 0 or i == len(truth):
         return None
@@ -52,7 +53,7 @@ def report(name, seen, truth):
     pairs = [(q, interpolated(truth, t)) for t, q in seen]
     errors = sorted(angle_deg(q, p) for q, p in pairs if p)
     if not errors or len(seen) < 2:
-        refuse('%s: expected two measurements or more, at times of which the truth is known' % name)
+        refuse('%s: expected two measurements or more, recorded while the simulated state was recorded, too' % name)
     motion = max(angle_deg(p, (1, 0, 0, 0)) for _, p in pairs if p)
     gaps = [b[0] - a[0] for a, b in zip(seen, seen[1:])]
     seconds = seen[-1][0] - seen[0][0]
@@ -65,7 +66,7 @@ def report(name, seen, truth):
 
 def main():
     if len(sys.argv) != 2:
-        refuse('expected BAG')
+        refuse('expected BAG, a bag file, as the only argument')
     try:
         with rosbag.Bag(sys.argv[1]) as bag:
             seen, truth = read(bag)
@@ -73,7 +74,7 @@ def main():
         refuse('%s: %s' % (sys.argv[1], error))
     both = sorted(set(seen) & set(truth))
     if not both:
-        refuse('%s: expected spherical_joint_states and sim/spherical_joint_states' % sys.argv[1])
+        refuse('%s: expected spherical_joint_states and sim/spherical_joint_states, with a joint in both' % sys.argv[1])
     for name in both:
         report(name, seen[name], sorted(truth[name]))
 
