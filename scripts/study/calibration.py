@@ -269,7 +269,7 @@ KEY = {
                         " (dynamics) if the shoulder's error after calibration is that small; otherwise"
                         " \"yes: factor\" if the factor is at least the thesis's, or \"no\".",
     "*robots*": "the seeds of the virtual robots.",
-    "*minutes*": "computing time of the stage's search (the best one, if there are several); median over robots.",
+    "*minutes*": "time of the stage's search by the clock (of the best one, if there are several); median over robots.",
 }
 
 

@@ -268,7 +268,7 @@ FACTS = {  # words of the pages for the facts of the JSON file
     "seed": "seed",
     "machine": "computers",
     "threads a case": "threads per case",
-    "time": "computing time",
+    "time": "time by the clock",
 }
 SECTIONS = {  # of the rates
     "One effect hidden": "Robots with one effect of the catalogue.",
@@ -312,7 +312,9 @@ RATES = {  # of anthrob_score, by its label: section (None: that of the row befo
 KEY = {
     "*channel*, *floor*, *gap*": "a channel is a measured quantity, such as the force of one muscle. Its floor is its"
                                  " noise and the error of the simulation's own numerics. The gap is the root mean"
-                                 " square difference between simulation and recording, in floors.",
+                                 " square difference between simulation and recording, in floors. Where the change"
+                                 " that an effect makes is given in floors, a floor is the error of the channel's"
+                                 " sensor alone.",
     "*held out*": "of the test recording, which was not used to fit anything.",
     "*effect*, *place*": "what the model lacks and where it acts, for example `joint_coulomb @ elbow`; see the"
                          " [catalogue](../effects.md).",
