@@ -209,8 +209,9 @@ bool EcuLink::zero_known() const {
 
 void EcuLink::revoke_zero(int channel) {
   zeros_[static_cast<std::size_t>(channel)] = Zero::kRevoked;
-  // The answer that is on its way is to a question about the zero as it was.
-  if (asked_ == Asked::kZeroKnown) waiting_ = false;
+  // The answer that is on its way is about the zero as it was.
+  const bool is_written = asked_ == Asked::kZero && zero_ == static_cast<std::size_t>(channel);
+  if (asked_ == Asked::kZeroKnown || is_written) waiting_ = false;
 }
 
 bool EcuLink::next_zero_question(double now, ecu::Frame& frame) {
@@ -233,6 +234,9 @@ void EcuLink::start_zero() {
     const auto muscle = static_cast<std::size_t>(own().muscles[c]);
     const bool pulled = hardware_.muscles[muscle].parameters.has_force_sensor();
     to_zero_[c] = pulled || zeros_[c] != Zero::kKnown;
+    // From here on it is the old one or the new one. If home ends before it is confirmed, a robot
+    // with some zeros of each must not take positions.
+    if (to_zero_[c]) zeros_[c] = Zero::kRevoked;
   }
   zero_ = 0;
   zero_refused_ = waiting_ = false;
@@ -255,7 +259,6 @@ bool EcuLink::next_zero(double now, ecu::Frame& frame) {
   message.value = static_cast<float>(zeroing().home_position);
   message.write = true;
   frame = ask(Asked::kZero, message, now);
-  zeros_[zero_] = Zero::kRevoked;  // the old one or the new one, until it is confirmed
   return true;
 }
 

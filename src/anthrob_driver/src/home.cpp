@@ -63,14 +63,24 @@ bool Home::begin(const std::vector<Reading>& readings, double now) {
   return true;
 }
 
+std::string Home::check_force(const Reading& reading) const {
+  if (!std::isfinite(reading.force)) return "its force is no longer measured";
+  if (reading.force <= hardware_.home.force_limit) return "";
+  return text("%.1f N, more than force_limit (%.1f N): unwind it by hand", reading.force,
+              hardware_.home.force_limit);
+}
+
+std::string Home::check_grip(const Reading& reading, Tendon& tendon) const {
+  const double pretension = hardware_.home.pretension;
+  if (!tendon.held || reading.force >= (1.0 - hardware_.home.slip_drop) * pretension) return "";
+  tendon.lost = true;
+  return text("held %.1f N, now %.1f N: the tendon slips or broke", pretension, reading.force);
+}
+
 std::string Home::check(const Reading& reading, Tendon& tendon) const {
   const HomeRoutine& limits = hardware_.home;
   const double pretension = limits.pretension;
-  if (!std::isfinite(reading.force)) return "its force is no longer measured";
-  if (reading.force > limits.force_limit) {
-    return text("%.1f N, more than force_limit (%.1f N): unwind it by hand", reading.force,
-                limits.force_limit);
-  }
+  if (const std::string wrong = check_force(reading); !wrong.empty()) return wrong;
   const double wound = reading.position - tendon.start;
   const bool grips = reading.force > 0.5 * pretension;
   // One that was tight at the start may pay out down to the pretension, and holds that then.
@@ -95,11 +105,16 @@ std::string Home::check(const Reading& reading, Tendon& tendon) const {
         turned, reading.force);
   }
   tendon.held = tendon.held || reading.force > 0.8 * pretension;
-  if (tendon.held && reading.force < (1.0 - limits.slip_drop) * pretension) {
-    tendon.lost = true;
-    return text("held %.1f N, now %.1f N: the tendon slips or broke", pretension, reading.force);
+  return check_grip(reading, tendon);
+}
+
+void Home::hold(const std::vector<Reading>& readings) {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (!pulls(i) || !std::isfinite(readings[i].position)) continue;
+    std::string wrong = check_force(readings[i]);
+    if (wrong.empty()) wrong = check_grip(readings[i], tendons_[i]);
+    if (!wrong.empty()) return abort(hardware_.muscles[i].name + ": " + wrong);
   }
-  return "";
 }
 
 ecu::MuscleReference Home::command(std::size_t muscle, double now) const {

@@ -14,11 +14,10 @@ namespace {
 using ecu::Function;
 using ecu::Operation;
 
-constexpr double kClearGrace = 0.15;   // [s] until ECUs have cleared their latches
-constexpr double kNamingTime = 0.15;   // [s] for a STATE, sent every 0.1 s and when it changes
-constexpr int kIdleNode = -2;          // on the bus, but not used
-constexpr int kRepeats = 3;            // cycles in which disable and clear are sent
-constexpr int kCyclesPerQuestion = 4;  // of what is asked of enabled units
+constexpr double kClearGrace = 0.15;  // [s] until ECUs have cleared their latches
+constexpr double kNamingTime = 0.15;  // [s] for a STATE, sent every 0.1 s and when it changes
+constexpr int kIdleNode = -2;         // on the bus, but not used
+constexpr int kRepeats = 3;           // cycles in which disable and clear are sent
 
 ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options) {
   if (!(options.rate >= 100.0 && options.rate <= 1000.0)) {
@@ -475,12 +474,12 @@ void RobotDriver::check_muscles(double now) {
 }
 
 void RobotDriver::continue_home(double now) {
-  if (home_.state() == Home::State::kReached) return continue_zero(now);
-  if (home_.state() != Home::State::kRunning) return;
+  if (!home_.running()) return;
   std::vector<Home::Reading> readings;
   for (const MuscleSample& muscle : sampler_.last().muscles) {
     readings.push_back({muscle.position, muscle.force});
   }
+  if (home_.state() == Home::State::kReached) return continue_zero(readings, now);
   home_.step(readings, now);
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
     references_[m] = home_.command(m, now);
@@ -489,8 +488,10 @@ void RobotDriver::continue_home(double now) {
   if (home_.state() == Home::State::kReached) zeros_.start();
 }
 
-void RobotDriver::continue_zero(double now) {
-  // The tendons are held meanwhile. The zero counts only if every ECU confirms it.
+void RobotDriver::continue_zero(const std::vector<Home::Reading>& readings, double now) {
+  // The tendons are held meanwhile. A zero counts once its ECU has confirmed it.
+  home_.hold(readings);
+  if (home_.state() == Home::State::kFailed) return fail_home(now);
   switch (zeros_.step(now, [this](const ecu::Frame& frame) { send(frame); })) {
     case Zeros::State::kWaiting:
       return;
@@ -581,7 +582,8 @@ void RobotDriver::send_parameters(double now) {
   const bool disabled = phase_ == Phase::kDisabled;
   // Nearly all was asked before enable. What is left goes as gains do: REFERENCE frames have the
   // right of way.
-  if (!disabled && (home_.running() || gains_.changing() || cycles_ % kCyclesPerQuestion != 0)) {
+  if (!disabled &&
+      (home_.running() || gains_.changing() || cycles_ % EcuLink::kCyclesPerWrite != 0)) {
     return;
   }
   for (EcuLink& link : links_) {

@@ -388,6 +388,26 @@ TEST_F(HomeTest, AHomeThatFailedBringsNoZeroBack) {
   EXPECT_FALSE(command("infraspinatus", ecu::Mode::kPosition, 1.0).accepted);
 }
 
+TEST_F(HomeTest, ATendonThatBreaksWhileZerosAreWrittenGetsNoZero) {
+  const MuscleHardware& broken = rig.hardware.muscles[3];
+  bool cut = false;
+  rig.bus.tamper = [&](const ecu::Frame& f, const MemoryBus::Port&) {
+    if (!cut && ecu::function_of(f) == static_cast<int>(ecu::Function::kParameterRequest) &&
+        ecu::decode_parameter(f).index == ecu::kPresentPosition) {
+      rig.plant.cut(3);
+      cut = true;
+    }
+    return std::vector<ecu::Frame>{f};
+  };
+  home();
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(failure().rfind(broken.name + ": held", 0), 0u) << failure();
+  rig.bus.tamper = nullptr;
+  rig.run(300);
+  ASSERT_TRUE(rig.enable());
+  EXPECT_FALSE(command(broken.name, ecu::Mode::kPosition, 0.0).accepted);
+}
+
 TEST_F(HomeTest, AnInterruptedWriteOfZerosLosesThoseThatAreNotConfirmed) {
   // One unit takes its zero, and nobody hears that it did.
   const int node = rig.hardware.ecus[2].node;
@@ -411,9 +431,8 @@ TEST_F(HomeTest, AnInterruptedWriteOfZerosLosesThoseThatAreNotConfirmed) {
   EXPECT_EQ(command("infraspinatus", ecu::Mode::kPosition, 0.0).reason,
             "muscle 'infraspinatus': ecu_3 has lost its zero: call home first");
   EXPECT_TRUE(command("infraspinatus", ecu::Mode::kForce, 2.0).accepted);
-  // Units before it have the new zero; later ones, not asked yet, have the old one.
-  EXPECT_TRUE(command("anterior_deltoid", ecu::Mode::kPosition, 0.0).accepted);
-  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+  EXPECT_TRUE(command("anterior_deltoid", ecu::Mode::kPosition, 0.0).accepted);  // confirmed
+  EXPECT_FALSE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);       // not asked yet
   EXPECT_TRUE(command(rig.hardware.muscles[11].name, ecu::Mode::kPosition, 0.0).accepted);
   rig.driver().disable();
   rig.run(100);

@@ -139,7 +139,8 @@ TEST_F(ZerosTest, AHomeThatWasInterruptedIsRememberedByTheUnits) {
   rig.restart_driver();
   enable();
   EXPECT_EQ(refusal(), kNoZero);
-  EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
+  EXPECT_TRUE(command("anterior_deltoid", ecu::Mode::kPosition, 0.0).accepted);
+  EXPECT_FALSE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);  // was not asked yet
 }
 
 TEST_F(ZerosTest, ATendonThatBrokeTakesTheZeroOfItsMuscleAlong) {

@@ -24,6 +24,8 @@ class Home {
   void start(double now);
   /// One cycle. @param readings one for each muscle
   void step(const std::vector<Reading>& readings, double now);
+  /// One cycle in which the zeros are written: positions jump then, so only forces are watched.
+  void hold(const std::vector<Reading>& readings);
   void abort(const std::string& reason);
   /// All ECUs have confirmed the zero.
   void finish() { state_ = State::kIdle; }
@@ -52,6 +54,8 @@ class Home {
   std::string unknown(const std::vector<Reading>& readings) const;
   bool begin(const std::vector<Reading>& readings, double now);
   std::string check(const Reading& reading, Tendon& tendon) const;
+  std::string check_force(const Reading& reading) const;
+  std::string check_grip(const Reading& reading, Tendon& tendon) const;
 
   const Hardware& hardware_;
   State state_ = State::kIdle;

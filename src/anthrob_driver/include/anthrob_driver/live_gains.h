@@ -26,8 +26,7 @@ class LiveGains {
   void start(std::vector<ecu::GainChange> changes, double now);
   /// One cycle after start().
   /// @param disabled whether the motors are disabled: then the changes end only when the ECUs
-  /// report
-  ///   the checksum of the new parameters, which the next enable requires
+  /// report the checksum of the new parameters, which the next enable requires
   void step(double now, bool disabled, const Send& send);
   /// Ends changes to this ECU that are in progress.
   void abort(int ecu, const std::string& reason, double now);

@@ -15,10 +15,9 @@ class ReadingGroup {
   /// @param sensors how many there are of this kind
   explicit ReadingGroup(std::size_t sensors) : sensors_(sensors) {}
 
-  /// @return the readings of one instant in the order of the sensors, as soon as all have arrived.
-  /// If
-  ///     a sensor did not answer, the others are returned with the first reading of the next
-  ///     instant. Otherwise nothing
+  /// @return the readings of one instant in the order of the sensors, as soon as all have arrived;
+  /// if a sensor did not answer, the others' with the first reading of the next instant; otherwise
+  /// nothing
   std::vector<AnalogSample> add(const AnalogSample& reading);
 
  private:

@@ -103,7 +103,7 @@ class RobotDriver {
   void continue_enable(double now);
   void finish_enable(bool success, const std::string& reason);
   void continue_home(double now);
-  void continue_zero(double now);
+  void continue_zero(const std::vector<Home::Reading>& readings, double now);
   void send_cycle(double now);
   void send_parameters(double now);
   bool all_complete() const;
