@@ -34,7 +34,7 @@ std::string rivals_of(const FoundEffect& effect, std::size_t number, const Answe
   if (effect.rivals.empty()) return "";
   // Where too much is left for any of them, they are rivals of something that is not it either.
   std::string html = answer.verdict == "unexplained" && effect.left > kEvenOdds
-                         ? "<p>Others explain the recordings as well:</p><ul>\n"
+                         ? "<p>Others come as near:</p><ul>\n"
                          : "<p>These data do not exclude:</p><ul>\n";
   for (const Rival& rival : effect.rivals) {
     html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", " +

@@ -16,6 +16,21 @@ namespace discovery {
 
 namespace {
 
+const char* const kAboutRegimes =
+    R"(<p>Gap of each place (recalibrated model, all channels of the place). The recordings are cut
+into thirds: by speed (low is backwards), by load (of a joint: by posture), by the angle over which
+the tendon wraps, and by time.</p>
+)";
+
+const char* const kAboutSeams =
+    R"(<p>Gap of each channel when the recalibrated model is replayed four times: from its commands;
+from measured voltages; from measured motor positions; and, for forces, from measured motor positions
+and postures (what noise of the postures adds is subtracted). Where a gap disappears from one column
+to the next, its cause is in the part that measurements replaced. A force that is still red in the
+last column is wrong because of something between motor and force sensor. A gap that grows (grey)
+says nothing: motors fed with voltages drift away from the measured ones.</p>
+)";
+
 std::string colour_of(double gap) {
   if (gap < 0.0) return "#ffffff";
   const double heat = std::clamp(std::log(std::max(gap, 1.0)) / std::log(20.0), 0.0, 1.0);
@@ -120,16 +135,12 @@ std::string regime_map(const Answer& answer) {
   }
   if (rows.empty()) return "";
   const std::string levels = "<th>low</th><th>middle</th><th>high</th>";
-  std::string html =
-      "<p>Gap of each place (recalibrated model, all channels of the place). The recordings are "
-      "cut "
-      "into thirds: by speed (low is backwards), by load (of a joint: by posture), by the angle "
-      "over "
-      "which the tendon wraps, and by time.</p>\n<table><tr><th rowspan=\"2\">place</th><th "
-      "colspan=\"3\">speed"
-      "</th><th colspan=\"3\">load or posture</th><th colspan=\"3\">wrap angle</th>"
-      "<th colspan=\"3\">time</th></tr>\n<tr>" +
-      levels + levels + levels + levels + "</tr>\n";
+  std::string html = kAboutRegimes +
+                     std::string(
+                         "<table><tr><th rowspan=\"2\">place</th><th colspan=\"3\">speed</th>"
+                         "<th colspan=\"3\">load or posture</th><th colspan=\"3\">wrap angle</th>"
+                         "<th colspan=\"3\">time</th></tr>\n<tr>") +
+                     levels + levels + levels + levels + "</tr>\n";
   for (const Row& row : rows) {
     if (row.largest < kFaintGap) continue;
     html += "<tr><th>" + escaped(row.place) + "</th>";
@@ -146,19 +157,11 @@ std::string regime_map(const Answer& answer) {
 std::string seam_map(const Answer& answer) {
   if (answer.seams.empty()) return "";
   std::string html =
-      "<p>Gap of each channel when the recalibrated model is replayed four times: from its "
-      "commands; "
-      "from measured voltages; from measured motor positions; and, for forces, from measured motor "
-      "positions and postures (what noise of the postures adds is subtracted). Where a gap "
-      "disappears from one column to the next, its cause is in the part that measurements "
-      "replaced. "
-      "A force that is still red in the last column is wrong because of something between motor "
-      "and "
-      "force sensor. A gap that grows (grey) says nothing: motors fed with voltages drift away "
-      "from "
-      "the measured ones.</p>\n<table>"
-      "<tr><th>place / channel</th><th>commands</th><th>voltages</th><th>positions</th><th>"
-      "postures</th></tr>\n";
+      kAboutSeams +
+      std::string(
+          "<table>"
+          "<tr><th>place / channel</th><th>commands</th><th>voltages</th><th>positions</th><th>"
+          "postures</th></tr>\n");
   for (const SeamGap& seam : answer.seams) {
     const double largest = std::max({seam.commands, seam.voltages, seam.positions, seam.postures});
     if (largest < kFaintGap) continue;

@@ -11,7 +11,7 @@ namespace discovery {
 namespace {
 
 const char* const kHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>Discovery: what the model misses</title><style>
+<html lang="en"><head><meta charset="utf-8"><title>Discovery report</title><style>
 body{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222;line-height:1.45}
 h1{margin-bottom:.2em}table{border-collapse:collapse;margin:1em 0}
 td,th{border:1px solid #ccc;padding:.25em .6em;text-align:left}th{background:#f2f2f2}
@@ -39,7 +39,7 @@ catalogue lacks</li>
 )";
 
 std::string verdict_text(const Answer& answer) {
-  if (answer.verdict == "no_missing_effect") return "no missing effect";
+  if (answer.verdict == "no_missing_effect") return "no missing effect found";
   if (answer.verdict == "unexplained") return "unexplained gap";
   const std::size_t count = answer.effects.size();
   return std::to_string(count) + (count == 1 ? " missing effect" : " missing effects");
