@@ -338,7 +338,7 @@ def main():
     parser.add_argument('--joints', type=int, default=20, help='number of joints (default: %(default)s)')
     parser.add_argument('--muscles', type=int, default=100, help='number of muscles (default: %(default)s)')
     parser.add_argument('--out', required=True, help='folder to write; its name becomes the name of the robot')
-    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (--help explains)\n')
+    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (see --help)\n')
     args = parser.parse_args()
     joints = all_joints()
     if not 1 <= args.joints <= len(joints):

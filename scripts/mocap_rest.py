@@ -214,7 +214,7 @@ def arguments():
     parser.add_argument('--child-mount', nargs=4, type=float, default=[1.0, 0.0, 0.0, 0.0],
                         metavar=('W', 'X', 'Y', 'Z'),
                         help="orientation of the child's target in its link, used without --turn (default: 1 0 0 0)")
-    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (--help explains)\n')
+    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (see --help)\n')
     parser._negative_number_matcher = re.compile(r'^-\.?\d')  # argparse would take -1e-3 for an option
     options = parser.parse_args()
     for name in 'origin_rpy', 'position', 'mount', 'child_mount':

@@ -229,7 +229,7 @@ def main():
                         help='number of pairs taken with --cameras (default: %(default)s)')
     parser.add_argument('--exposure', type=float, default=0.0005, metavar='S',
                         help='[s] exposure of --cameras (default: %(default)s)')
-    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (--help explains)\n')
+    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (see --help)\n')
     arguments = parser.parse_args()
     for name in ('every', 'count', 'rate', 'exposure'):
         if not getattr(arguments, name) > 0:

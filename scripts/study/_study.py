@@ -55,7 +55,7 @@ class OneLineParser(argparse.ArgumentParser):
     """Parser that reports a wrong command line in one line, as all tools do."""
 
     def error(self, message):
-        self.exit(BAD_INPUT, f"{self.prog}: {message} (--help explains)\n")
+        self.exit(BAD_INPUT, f"{self.prog}: {message} (see --help)\n")
 
 
 def refuse(line):

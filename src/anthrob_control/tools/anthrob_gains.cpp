@@ -153,7 +153,7 @@ int main(int argc, char** argv) {
                  "gains to change: MUSCLE/GAIN=VALUE or all/GAIN=VALUE");
   app.add_option("--robot", arguments.robot, "namespace of the robot")->capture_default_str();
   app.add_option("--save", arguments.save,
-                 "model file to write: extends --model by the changed gains");
+                 "model file to write: extends --model by the gains that differ from it");
   app.add_option("--model", arguments.model, "model file that the robot was started with");
   return anthrob::tool::run(app, argc, argv, [&] { return run(arguments); });
 }

@@ -132,9 +132,10 @@ void MocapNode::wait_for_listeners() const {
     ros::WallDuration(kOthers).sleep();
   } else if (ros::ok()) {
     const std::string topics = images_.getNamespace();
-    ROS_WARN_STREAM("no subscriber to " << joints_.getTopic() << ", " << topics << "/targets or "
-                                        << topics << "/joints: starting anyway; later subscribers "
-                                        << "miss the beginning");
+    ROS_WARN_STREAM("no subscriber to " << joints_.getTopic() << ", " << topics
+                                        << "/targets/... or " << topics
+                                        << "/joints/...: starting anyway; later "
+                                        << "subscribers miss the beginning");
   }
 }
 

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
       {"step", "simulation step [s], in (0, 0.1] (default: 0.001)"},
       {"rate", "real-time factor, 0: as fast as possible (default: 1)"},
       {"state_rate", "rate of states and clock [Hz of simulated time], at least 1 (default: 500)"},
-      {"paused", "start paused and wait for sim/step or sim/pause (default: false)"},
+      {"paused", "start paused: sim/step advances time, sim/pause lets it run (default: false)"},
       {"auto_enable", "enable the motors at the start (default: true)"},
       {"command_timeout",
        "motors stop after this time without commands [s], 0: never (default: 0.5)"},

@@ -35,8 +35,7 @@ struct ForceCommand {
 /// - In zero gravity, the arm holds its posture and yields to a hand. The muscles get force
 ///   references, so only the servo resists.
 /// - After go_to, the arm moves to a posture and stays there. The muscles get the positions that
-/// give
-///   the wanted forces, so that their springs help against friction.
+///   give the wanted forces, so that their springs help against friction.
 /// (The settings may choose other outputs.)
 ///
 /// Uses no clock, and does not allocate while running.

@@ -14,9 +14,10 @@ class PostureServo {
 
   void reset() { integral_.setZero(); }
 
-  /// Torque towards `target`: spring and integral together have at most the joint's `strength`. The
-  /// integral compensates errors of the model. Sizes: q and target position_count, the others
-  /// velocity_count [Nm].
+  /// Torque towards `target`. Spring and integral together have at most the joint's `strength`;
+  /// damping is added to them. The integral compensates errors of the model.
+  /// @param target, q of size position_count, the other vectors of size velocity_count
+  /// @return torques [Nm]
   const Eigen::VectorXd& track(const std::vector<double>& target, const Eigen::VectorXd& velocity,
                                const std::vector<double>& q, const Eigen::VectorXd& u, double dt);
 
