@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -96,6 +97,15 @@ TEST(Report, WhatWasNotFittedHasNoInterval) {
   EXPECT_EQ(parameters["periods"]["known"], true);
 }
 
+TEST(Report, NumbersAreShortAndHaveNoExponentOfUsualSize) {
+  EXPECT_EQ(short_number(0.04212), "0.0421");
+  EXPECT_EQ(short_number(999.4), "999");
+  EXPECT_EQ(short_number(999.6), "1000");
+  EXPECT_EQ(short_number(-26123.4), "-26123");
+  EXPECT_EQ(short_number(2.5e8), "2.5e+08");
+  EXPECT_EQ(short_number(HUGE_VAL), "unlimited");
+}
+
 TEST(Report, CallsNothingCertain) {
   EXPECT_EQ(probability_text(0.934), "probability 0.934");
   EXPECT_EQ(probability_text(1.0), "probability above 0.999");
@@ -105,8 +115,10 @@ TEST(Report, CallsNothingCertain) {
   answer.effects = {cogging()};
   answer.effects[0].rivals.resize(1);
   EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "These data do not exclude"));
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "simulate, control and calibrate with it"));
   // A rival of what is not it either is not something the data leave possible.
   answer.verdict = "unexplained";
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "More than that is missing"));
   answer.effects[0].left = 0.4;
   EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "These data do not exclude"));
 }

@@ -209,8 +209,10 @@ std::string report_json(const Answer& answer, const Question& question, double r
 
 std::string short_number(double value) {
   if (!std::isfinite(value)) return "unlimited";
+  const double size = std::abs(value);
+  const bool is_whole = size >= 999.5 && size < 1e7;  // rather than 1.04e+03
   char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
+  std::snprintf(text, sizeof(text), is_whole ? "%.0f" : "%.3g", value);
   return text;
 }
 

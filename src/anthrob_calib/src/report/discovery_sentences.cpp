@@ -160,9 +160,11 @@ std::string answer_sentences(const Answer& answer, const Question& question) {
 std::string next_steps(const Answer& answer) {
   std::vector<std::string> steps;
   if (!answer.effects.empty()) {
+    const bool enough = answer.verdict == "effects_found";
     steps.push_back(
-        "<code>model.yaml</code> in this folder is the examined model with what was found: "
-        "simulate, control and calibrate with it.");
+        std::string("<code>model.yaml</code> in this folder is the examined model with what was "
+                    "found") +
+        (enough ? ": simulate, control and calibrate with it." : ". More than that is missing."));
   }
   for (std::size_t e = 0; e < answer.effects.size(); ++e) {
     const FoundEffect& effect = answer.effects[e];

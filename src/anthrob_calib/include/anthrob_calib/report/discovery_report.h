@@ -41,7 +41,7 @@ std::string alternative_text(const Alternative& alternative, const Answer& answe
 /// "0.0421 [0.038, 0.047] Nm"; without unit where there is none.
 std::string interval_text(const FoundParameter& parameter);
 
-/// "0.0421", three significant digits.
+/// "0.0421", three significant digits, or all before the point if there are more: "26123".
 std::string short_number(double value);
 
 /// "probability 0.93", or that it is above 0.999 or below 0.001: none is certain.
