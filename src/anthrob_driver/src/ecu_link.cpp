@@ -233,10 +233,9 @@ void EcuLink::start_zero() {
   for (std::size_t c = 0; c < own().muscles.size(); ++c) {
     const auto muscle = static_cast<std::size_t>(own().muscles[c]);
     const bool pulled = hardware_.muscles[muscle].parameters.has_force_sensor();
-    to_zero_[c] = pulled || zeros_[c] != Zero::kKnown;
     // From here on it is the old one or the new one. If home ends before it is confirmed, a robot
     // with some zeros of each must not take positions.
-    if (to_zero_[c]) zeros_[c] = Zero::kRevoked;
+    if (pulled || zeros_[c] != Zero::kKnown) zeros_[c] = Zero::kRevoked;
   }
   zero_ = 0;
   zero_refused_ = waiting_ = false;
@@ -244,7 +243,7 @@ void EcuLink::start_zero() {
 }
 
 void EcuLink::skip_zeros_to_keep() {
-  while (!zeroed() && !to_zero_[zero_]) ++zero_;
+  while (!zeroed() && zeros_[zero_] != Zero::kRevoked) ++zero_;
 }
 
 const MuscleHardware& EcuLink::zeroing() const {
@@ -268,7 +267,6 @@ void EcuLink::on_zero_reply(const ecu::ParameterMessage& reply) {
   zero_refused_ = !taken;
   if (!taken) return;
   zeros_[zero_] = Zero::kKnown;
-  ++zero_;
   skip_zeros_to_keep();
 }
 

@@ -82,6 +82,22 @@ TEST_F(ZerosTest, TheZerosOfHomeLeaveTheBusRoomForTheReferences) {
   }
 }
 
+TEST_F(ZerosTest, AConfirmationThatIsOnItsWayDoesNotBringARevokedZeroBack) {
+  for (const bool revoked : {false, true}) {
+    Findings findings;
+    EcuLink link(rig.hardware, static_cast<int>(kUnit), findings);
+    link.start_zero();
+    const std::string first = link.zeroing().name;
+    ecu::Frame frame;
+    ASSERT_TRUE(link.next_zero(0.0, frame));
+    if (revoked) link.revoke_zero(0);
+    ecu::ParameterMessage confirmation = ecu::decode_parameter(frame);
+    confirmation.result = ecu::ParameterResult::kOk;
+    link.receive(ecu::encode_parameter_reply(confirmation, link.own().node), 0.01);
+    EXPECT_EQ(link.zeroing().name == first, revoked);
+  }
+}
+
 TEST_F(ZerosTest, ADriverThatIsStartedAnewNeedsNoHomeWhileTheUnitsStayOn) {
   rig.power_cycle();
   enable();

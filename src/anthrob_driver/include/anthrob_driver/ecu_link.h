@@ -151,9 +151,8 @@ class EcuLink {
   bool waiting_ = false;  ///< for a reply
   Asked asked_ = Asked::kConfiguration;
   double sent_ = 0.0, resume_ = 0.0;
-  std::array<Zero, ecu::kMusclesPerEcu> zeros_{};    ///< by channel
-  std::array<bool, ecu::kMusclesPerEcu> to_zero_{};  ///< whose new ones start_zero() has to write
-  std::size_t zero_ = 0;                             ///< channel whose new one is written
+  std::array<Zero, ecu::kMusclesPerEcu> zeros_{};  ///< by channel
+  std::size_t zero_ = 0;                           ///< channel whose new one is written
   bool zero_refused_ = false;
   Write write_ = Write::kNone;
   ecu::ParameterMessage written_;
