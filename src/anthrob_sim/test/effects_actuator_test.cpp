@@ -171,28 +171,74 @@ TEST(Cogging, FirstPushIsTheAmplitudeAndWorkOverATurnIsNone) {
   EXPECT_NEAR(cogged.read().position, plain.read().position, 2e-3 * plain.read().position);
 }
 
-TEST(Cogging, ComesToRestUpToTheLimitAndIsRefusedBeyond) {
-  const double inertia = 4.6e-7, periods = 100.0, limit = 1.5 * inertia / (kStep * kStep * periods);
-  Bench bench({"cogging", "flexor", {{"sine", 0.98 * limit}, {"periods", periods}}});
-  for (double start = 0.1; start < 2.0 * M_PI; start += 0.2) {
-    bench.place(start / (periods * 128.0));
-    bench.run(0.0, 0.0, 10000);
-    EXPECT_LT(std::abs(bench.read().velocity), 1e-5) << start;
+/// Largest amplitude of the rig's motor that is accepted [Nm].
+double largest_cogging(double periods) {
+  return 1.2 * 4.6e-7 / (kStep * kStep * periods);
+}
+
+TEST(Cogging, ComesToRestUpToTheLimit) {
+  for (const double periods : {25.0, 100.0, 200.0}) {
+    const double amplitude = 0.98 * largest_cogging(periods);
+    Bench bench({"cogging", "flexor", {{"sine", amplitude}, {"periods", periods}}});
+    for (double start = 0.1; start < 2.0 * M_PI; start += 0.6) {
+      // From rest, and at speeds of parts of a period in a step, with which it could keep in step.
+      for (int part = 0; part <= 16; ++part) {
+        const double way = 2.0 * M_PI * part / (16.0 * periods * 128.0);
+        bench.place(start / (periods * 128.0) - way);
+        bench.impose(start / (periods * 128.0), 0.0);
+        bench.run(0.0, 0.0, 5000);
+        EXPECT_LT(std::abs(bench.read().velocity), 1e-5) << periods << " " << start << " " << part;
+      }
+    }
   }
+}
+
+TEST(Cogging, OfTwoEntriesComesToRestUpToTheirLimit) {
+  const double some = 0.4 * largest_cogging(12.0), more = 0.58 * largest_cogging(25.0);
+  const auto robot =
+      robot_with(kRig, {{"cogging", "all", {{"sine", some}}},
+                        {"cogging", "flexor", {{"cosine", more}, {"periods", 25.0}}}});
+  const Actuator& motor = *robot->muscles[robot->find_muscle("flexor")].actuator;
+  Memory state(motor.state_size());
+  for (int start = 0; start < 40; ++start) {
+    motor.place(1e-4 * start, state);
+    motor.impose(1e-4 * start, 0.1 * start, 0.0, state);
+    for (int i = 0; i < 5000; ++i) motor.advance(0.0, 0.0, state);
+    EXPECT_LT(std::abs(motor.read(state).velocity), 1e-5) << start;
+  }
+}
+
+std::string refusal_of(const std::vector<EffectInstance>& effects) {
+  try {
+    robot_with(kRig, effects);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Cogging, IsRefusedBeyondTheLimitAloneOrTogether) {
+  const double periods = 100.0, limit = largest_cogging(periods);
   const EffectInstance beyond = {
       "cogging", "flexor", {{"cosine", -1.01 * limit}, {"periods", periods}}};
-  try {
-    robot_with(kRig, {beyond});
-    FAIL() << "accepted";
-  } catch (const BadInput& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("effect cogging at flexor: cosine: -0.006969: expected an amplitude below "
-                        "0.0069 Nm, for this number of periods and this simulation step"),
-              std::string::npos)
-        << text;
-    EXPECT_EQ(text.find('\n'), std::string::npos);
-  }
+  const std::string text = refusal_of({beyond});
+  EXPECT_NE(text.find("effect cogging at flexor: cosine: -0.0055752: expected an amplitude below "
+                      "0.00552 Nm, for this number of periods and this simulation step"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos);
   EXPECT_NO_THROW(robot_with(kRig, {beyond}, 0.5 * kStep));
+
+  const auto half = [&](const std::string& place) {
+    return EffectInstance{"cogging", place, {{"sine", 0.51 * limit}, {"periods", periods}}};
+  };
+  EXPECT_NO_THROW(robot_with(kRig, {half("flexor"), half("extensor")}));
+  const std::string together = refusal_of({half("flexor"), half("all")});
+  EXPECT_NE(together.find("sine: 0.0028152: expected an amplitude below 0.0027048 Nm, for this "
+                          "number of periods and this simulation step, beside the other cogging "
+                          "of this muscle"),
+            std::string::npos)
+      << together;
 }
 
 TEST(GearEfficiency, ChangesTheLoadByDirection) {
