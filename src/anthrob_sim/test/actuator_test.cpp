@@ -230,6 +230,8 @@ TEST(HillMuscle, CurvesAreThelens) {
   EXPECT_NEAR(HillMuscle::force_velocity(1e9), 1.4, 1e-6);
   EXPECT_EQ(HillMuscle::passive_force(1.0), 0.0);
   EXPECT_NEAR(HillMuscle::passive_force(1.6), 1.0, 1e-12);
+  // Half of the strain at F_0: (exp(k/2) - 1) / (exp(k) - 1) = 1 / (exp(k/2) + 1), k = 5.
+  EXPECT_NEAR(HillMuscle::passive_force(1.3), 1.0 / (std::exp(2.5) + 1.0), 1e-12);
   for (double v = -0.95; v < 2.0; v += 0.1) {
     const double h = 1e-6;
     if (std::abs(v) < h) continue;

@@ -9,9 +9,9 @@ namespace {
 // Thelen 2003, young adult values.
 constexpr double kShapeWidth = 0.45;    // gamma of the active force-length curve
 constexpr double kPassiveStrain = 0.6;  // strain at which passive force reaches F_0
-constexpr double kPassiveShape = 4.0;
-constexpr double kCurvature = 0.25;   // A_f of the force-velocity hyperbola
-constexpr double kLengthening = 1.4;  // largest force when lengthened, in F_0
+constexpr double kPassiveShape = 5.0;   // k_PE
+constexpr double kCurvature = 0.25;     // A_f of the force-velocity hyperbola
+constexpr double kLengthening = 1.4;    // largest force when lengthened, in F_0
 constexpr double kMinActivation = 0.01;
 constexpr double kShortest = 0.2;  // of the optimal length
 }  // namespace
