@@ -7,6 +7,9 @@
 #include <map>
 #include <set>
 
+#include "anthrob_sim/effects/friction_effect.h"
+#include "anthrob_sim/friction/smooth_stribeck.h"
+#include "anthrob_sim/friction/sticking.h"
 #include "anthrob_sim/report/solved_path.h"
 #include "effects_support.h"
 
@@ -62,6 +65,31 @@ TEST(EyeletFriction, ExcessAtRestIsFreeAndTheSlopeIsTheCurves) {
       const double slope =
           (raised.evaluate(v + h, nothing).mu - raised.evaluate(v - h, nothing).mu) / (2.0 * h);
       EXPECT_NEAR(raised.evaluate(v, nothing).slope, slope, 1e-4 * std::abs(slope) + 1e-4) << v;
+    }
+  }
+}
+
+TEST(EyeletFriction, IsAddedBesideALawThatHasNoneInMotion) {
+  const double mu = 0.15, rest_ratio = 1.2, step = 1e-3, presliding = 1e-4;
+  const SmoothStribeck thesis(1.25 * rest_ratio * mu, mu, 1e-3, 10.0);
+  // exp(-1 m/s / v_s) is 2e-22 and 0.
+  for (const double stribeck_velocity : {0.02, 0.001}) {
+    const std::shared_ptr<const FrictionLaw> laws[] = {
+        std::make_shared<SmoothStribeck>(0.2, 0.0, stribeck_velocity, 10.0),
+        std::make_shared<Sticking>(0.2, 0.0, stribeck_velocity, presliding, step)};
+    for (const auto& law : laws) {
+      const auto more = raise_friction(law, mu, rest_ratio);
+      ASSERT_EQ(more->state_size(), law->state_size());
+      Memory plain(law->state_size()), raised(law->state_size()), nothing(0);
+      for (const double v : {0.0, 2e-4, -5e-3, 1e-2, 1.0}) {
+        const FrictionLaw::Value a = law->evaluate(v, plain), b = thesis.evaluate(v, nothing),
+                                 both = more->evaluate(v, raised);
+        EXPECT_NEAR(both.mu, a.mu + b.mu, 1e-15) << v;
+        EXPECT_NEAR(both.slope, a.slope + b.slope, 1e-12 * std::abs(both.slope)) << v;
+        EXPECT_NEAR(more->level(std::abs(v)), law->level(std::abs(v)) + thesis.level(std::abs(v)),
+                    1e-15);
+        law->commit(v, plain), more->commit(v, raised);
+      }
     }
   }
 }

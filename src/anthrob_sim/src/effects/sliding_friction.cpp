@@ -9,6 +9,9 @@ namespace {
 
 /// A speed at which friction is kinetic [m/s].
 constexpr double kFast = 1.0;
+/// Below this share of the static level it is what the Stribeck curve leaves of that: none that
+/// could be scaled.
+constexpr double kNoLevel = 1e-6;
 /// Of the thesis's law, section 7.2.4.
 constexpr double kStaticOverKinetic = 1.25, kStribeckVelocity = 0.001, kSteepness = 10.0;
 
@@ -39,14 +42,36 @@ class Raised final : public FrictionLaw {
   double factor_, at_rest_;
 };
 
+/// Two laws at one place: their coefficients add up. The second has no state.
+class Sum final : public FrictionLaw {
+ public:
+  Sum(std::shared_ptr<const FrictionLaw> law, const SmoothStribeck& more)
+      : law_(std::move(law)), more_(more) {}
+  std::size_t state_size() const override { return law_->state_size(); }
+  Value evaluate(double v, StateView state) const override {
+    const Value a = law_->evaluate(v, state), b = more_.evaluate(v, state);
+    return {a.mu + b.mu, a.slope + b.slope};
+  }
+  double level(double speed) const override { return law_->level(speed) + more_.level(speed); }
+  void commit(double v, StateView state) const override { law_->commit(v, state); }
+
+ private:
+  std::shared_ptr<const FrictionLaw> law_;
+  SmoothStribeck more_;
+};
+
 }  // namespace
 
 std::shared_ptr<const FrictionLaw> raise_friction(const std::shared_ptr<const FrictionLaw>& law,
                                                   double mu, double rest_ratio) {
   const double kinetic = law ? law->level(kFast) : 0.0;
-  if (kinetic > 0.0) return std::make_shared<Raised>(law, mu / kinetic, rest_ratio);
-  return std::make_shared<SmoothStribeck>(kStaticOverKinetic * rest_ratio * mu, mu,
-                                          kStribeckVelocity, kSteepness);
+  if (law && kinetic > kNoLevel * law->level(0.0)) {
+    return std::make_shared<Raised>(law, mu / kinetic, rest_ratio);
+  }
+  const SmoothStribeck added(kStaticOverKinetic * rest_ratio * mu, mu, kStribeckVelocity,
+                             kSteepness);
+  if (law) return std::make_shared<Sum>(law, added);
+  return std::make_shared<SmoothStribeck>(added);
 }
 
 std::vector<EffectParameter> friction_parameters(double typical) {

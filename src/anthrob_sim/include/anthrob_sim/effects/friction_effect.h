@@ -7,7 +7,8 @@
 namespace anthrob {
 
 /// Adds friction to a law: scales its curve so that the kinetic coefficient grows by `mu`. Without
-/// friction so far, returns the thesis's law (4.75) with its ratio of coefficients.
+/// friction so far, returns the thesis's law (4.75) with its ratio of coefficients. A law without
+/// kinetic friction has nothing to scale: the thesis's law acts beside it.
 /// @param law may be null: no friction
 /// @param mu added kinetic coefficient [1]
 /// @param rest_ratio static over kinetic coefficient of the added friction, relative to the law's
