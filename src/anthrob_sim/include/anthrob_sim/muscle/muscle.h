@@ -89,10 +89,13 @@ class Muscle {
   double reference() const;
   bool enabled() const;
   double voltage() const;
-  /// Tension of segment i [N].
+  /// Tension of segment i [N]. Up to the spring: of the posture at the end of the last step. Beyond
+  /// the spring, where the tensions are solved together with the motion of the joints: of the
+  /// spring's tension at the beginning of that step.
   double tension(std::size_t segment) const;
   double spring_tension() const { return tension(model_.spring_segment); }
-  /// Tension at the force sensor [N].
+  /// Tension at the force sensor [N]. A sensor beyond the spring reads one step late, see
+  /// tension().
   double force() const { return tension(model_.sensor_segment); }
 
   /// Elastic energy of the spring [J], and the power it turns into heat [W].
