@@ -119,6 +119,25 @@ TEST(Replay, OneThatIsStoppedHasTheRowsUntilThen) {
   EXPECT_EQ(replay(rig(), part, ReplayMode::kReference).meta.other.count("cut_short"), 0u);
 }
 
+TEST(Replay, OneThatIsStoppedWhileTheRobotSettlesHasNoRows) {
+  Dataset recording = loaded(0.1);
+  recording.meta.settle_s = 30.0;
+  recording.table("muscles").t = {0};
+  recording.table("muscles").columns = {{"flexor/position", {0.5}, {1}},
+                                        {"extensor/position", {0.5}, {1}}};
+  for (const ReplayMode mode :
+       {ReplayMode::kReference, ReplayMode::kPosition, ReplayMode::kPosture}) {
+    int asked = 0;
+    const Dataset part = replay(rig(), recording, mode, [&](double share) {
+      EXPECT_EQ(share, 0.0);
+      return ++asked < 3;
+    });
+    EXPECT_EQ(asked, 3);
+    EXPECT_EQ(part.meta.other.at("cut_short"), "at 0 s of 3 s\n");
+    for (const Table& table : part.tables) EXPECT_TRUE(table.t.empty()) << table.name;
+  }
+}
+
 TEST(Replay, OneThatFailsHasTheRowsUntilThen) {
   const Dataset recording = loaded(1e200);
   EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), NumericalFailure);

@@ -155,6 +155,28 @@ TEST(ReplayStart, BeginsWhereItWasRecordedHoweverShortTheTimeToSettle) {
   }
 }
 
+TEST(ReplayStart, PlacesMotorsThatThereIsNoTimeToWind) {
+  Dataset recording = still(0.0);
+  Table& measured = recording.table("muscles");
+  measured.columns = {{"flexor/position", {2.0, 2.0}, {1, 1}},
+                      {"extensor/position", {2.0, 2.0}, {1, 1}}};
+  for (const double settle : {0.0, 0.001, 0.1}) {
+    recording.meta.settle_s = settle;
+    const Replay input(rig(), recording, ReplayMode::kPosition);
+    Simulation sim(rig());
+    input.start(sim);
+    EXPECT_NEAR(sim.reading(0).position, 2.0, 1e-12) << settle;
+    const double force = sim.muscle(0).spring_tension();
+    EXPECT_GT(force, 1.0);
+    Replay::Run run(input, sim);
+    run.drive(0.0);
+    sim.step();
+    // Springs are relaxed: no jerk that they would remember.
+    EXPECT_NEAR(sim.muscle(0).spring_tension(), force, 0.02 * force) << settle;
+    EXPECT_NEAR(sim.reading(0).velocity, 0.0, 1e-9);
+  }
+}
+
 TEST(ReplayStart, StartsMusclesWithoutControllersAtRest) {
   const auto hill = load_robot_model(config("two_muscle_rig/model_hill.yaml"));
   Dataset recording;

@@ -225,15 +225,40 @@ double share_of_way(long step, long steps) {
   return std::min(1.0, 5.0 * static_cast<double>(step) / static_cast<double>(steps));
 }
 
+/// Whether that leaves time for a way [rad].
+bool has_time_for(double way, long steps) {
+  constexpr double kFastest = 0.03;  // [rad] a step
+  return 5.0 * way < kFastest * static_cast<double>(steps);
+}
+
+/// Not at once: what settles for no longer than that is soon done.
+bool is_stopped(const std::function<bool()>& wanted, long step) {
+  return wanted && step % 1000 == 999 && !wanted();
+}
+
 }  // namespace
 
-Replay::Settled Replay::settle(Simulation& sim) const {
+void Replay::lead(Simulation& sim, const std::vector<Way>& ways, long step, long steps) {
+  for (const Way& way : ways) {
+    const double length = way.to - way.from;
+    sim.impose_reading(way.muscle, way.from + share_of_way(step, steps) * length,
+                       way.from + share_of_way(step + 1, steps) * length);
+  }
+}
+
+bool Replay::start(Simulation& sim, const std::function<bool()>& wanted) const {
+  const Settled settled = settle(sim, wanted);
+  if (!settled.stopped) start(sim, settled);
+  return !settled.stopped;
+}
+
+Replay::Settled Replay::settle(Simulation& sim, const std::function<bool()>& wanted) const {
   const auto steps = std::lround(meta_.settle_s / sim.step_length());
   const bool stands = mode_ != ReplayMode::kPosture && !muscles_.empty();
   load_joints(sim, stands);
   if (mode_ == ReplayMode::kPosture) {
-    start_where_recorded(sim, steps);
-    return {sim.snapshot(), sim.snapshot()};
+    const bool started = start_where_recorded(sim, steps, wanted);
+    return {sim.snapshot(), sim.snapshot(), !started};
   }
   const RobotModel& model = sim.model();
   std::vector<double> q = model.skeleton->rest_configuration();
@@ -243,29 +268,31 @@ Replay::Settled Replay::settle(Simulation& sim) const {
       q[model.skeleton->joints[input.joint].position_offset] = input.position.values.front();
     }
   }
-  sim.place(q, std::vector<double>(model.muscles.size(), 0.0));
+  std::vector<double> placed(model.muscles.size(), 0.0);
+  std::vector<Way> imposed;
+  for (const MuscleInput& muscle : muscles_) {
+    const StartInput input = start_input(muscle);
+    if (!input.imposed) continue;
+    if (!has_time_for(std::abs(input.value), steps)) placed[muscle.muscle] = input.value;
+    imposed.push_back({muscle.muscle, placed[muscle.muscle], input.value});
+  }
+  sim.place(q, placed);
   if (muscles_.empty()) return {sim.snapshot(), sim.snapshot()};
 
-  std::vector<std::pair<int, double>> imposed;
   for (const MuscleInput& muscle : muscles_) {
     const StartInput input = start_input(muscle);
     sim.release(muscle.muscle);
     sim.command(muscle.muscle, ecu::Mode::kVoltage, 0.0);
-    if (input.imposed) {
-      imposed.emplace_back(muscle.muscle, input.value);
-    } else {
-      sim.command(muscle.muscle, input.mode, input.value);
-    }
+    if (!input.imposed) sim.command(muscle.muscle, input.mode, input.value);
   }
   const long late = steps - last_steps(sim);
   Settled settled;
   for (long i = 0; i < steps; ++i) {
     if (i == late) settled.late = sim.snapshot();
-    for (const auto& [muscle, position] : imposed) {
-      sim.impose_reading(muscle, share_of_way(i, steps) * position,
-                         share_of_way(i + 1, steps) * position);
-    }
+    lead(sim, imposed, i, steps);
     sim.step();
+    settled.stopped = is_stopped(wanted, i);
+    if (settled.stopped) break;
   }
   for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
   settled.last = sim.snapshot();
@@ -291,10 +318,6 @@ void Replay::start(Simulation& sim, const Settled& settled) const {
   if (leads.empty()) return;
   const long steps = last_steps(sim);
   sim.restore(settled.late);
-  struct Way {
-    int muscle;
-    double from, to;
-  };
   std::vector<Way> ways;
   for (const Lead& lead : leads) {
     ways.push_back({lead.muscle, sim.reading(lead.muscle).position, lead.position});
@@ -304,11 +327,7 @@ void Replay::start(Simulation& sim, const Settled& settled) const {
     if (input.imposed) ways.push_back({muscle.muscle, input.value, input.value});
   }
   for (long i = 0; i < steps; ++i) {
-    for (const Way& way : ways) {
-      const double length = way.to - way.from;
-      sim.impose_reading(way.muscle, way.from + share_of_way(i, steps) * length,
-                         way.from + share_of_way(i + 1, steps) * length);
-    }
+    lead(sim, ways, i, steps);
     sim.step();
   }
   for (const Way& way : ways) sim.release(way.muscle);
@@ -350,14 +369,14 @@ Replay::RecordedStart Replay::recorded_start() const {
   return first;
 }
 
-void Replay::start_where_recorded(Simulation& sim, long steps) const {
+bool Replay::start_where_recorded(Simulation& sim, long steps,
+                                  const std::function<bool()>& wanted) const {
   // Paths wrap as in a motion; where there is no time for one, placing sees to that.
-  constexpr double kFastest = 0.03;  // [rad] a step
   const SkeletonModel& skeleton = *model_->skeleton;
   const RecordedStart first = recorded_start();
   std::vector<double> q = skeleton.rest_configuration();
   const std::vector<double> rest = q;
-  const bool leads = 5.0 * posture_distance(skeleton, rest, first.q) < kFastest * steps;
+  const bool leads = has_time_for(posture_distance(skeleton, rest, first.q), steps);
   for (const MuscleInput& muscle : muscles_) {
     sim.release(muscle.muscle);
     sim.command(muscle.muscle, ecu::Mode::kVoltage, 0.0);
@@ -377,8 +396,10 @@ void Replay::start_where_recorded(Simulation& sim, long steps) const {
       sim.impose_reading(muscles_[m].muscle, from * first.positions[m], to * first.positions[m]);
     }
     sim.step();
+    if (is_stopped(wanted, i)) return false;
   }
   for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
+  return true;
 }
 
 ecu::Mode Replay::unsaid_mode(std::size_t muscle) const {
@@ -513,12 +534,15 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
 
   const auto steps = static_cast<std::int64_t>(std::ceil(input.duration() / model->step - 1e-6));
   std::int64_t done = 0;
+  bool started = false;
   try {
     Simulation sim(model);
-    input.start(sim);
+    started = input.start(sim, [&] { return !progress || progress(0.0); });
     Replay::Run run(input, sim);
-    for (auto& sampler : samplers) sampler.sample(sim, 0.0);
-    for (bool wanted = true; wanted && done < steps; ++done) {
+    for (auto& sampler : samplers) {
+      if (started) sampler.sample(sim, 0.0);
+    }
+    for (bool wanted = started; wanted && done < steps; ++done) {
       const double time = static_cast<double>(done) * model->step;
       run.drive(time);
       sim.step();
@@ -535,7 +559,7 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
   out.meta = recording.meta;
   out.meta.other["simulated_by"] = "anthrob_replay\n";
   out.meta.other.erase("cut_short");  // that of the recording was another's
-  if (done < steps || (failure && !failure->empty())) {
+  if (done < steps || !started || (failure && !failure->empty())) {
     out.meta.other["cut_short"] = "at " + exact_text(static_cast<double>(done) * model->step) +
                                   " s of " + exact_text(input.duration()) + " s\n";
   }

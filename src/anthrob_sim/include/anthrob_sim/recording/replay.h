@@ -42,12 +42,17 @@ class Replay {
   /// their first measured position in the last second of the settling, or in its second half if it
   /// is shorter than 2 s. This is done if the motor would end farther from that position than one
   /// encoder count or the noise, but at most 1 rad away, and if the settling takes at least 0.5 s.
-  void start(Simulation& sim) const { start(sim, settle(sim)); }
+  /// Where the settling is too short for a motor to be wound to where it was measured, it is placed
+  /// there at once.
+  /// @param wanted asked every 1000 steps of the settling (may be empty); false stops it
+  /// @return whether the simulation has started, false if it was stopped
+  bool start(Simulation& sim, const std::function<bool()>& wanted = {}) const;
   /// States of a simulation that settles. Recordings with equal start_inputs() can share them.
   struct Settled {
-    Snapshot late, last;  ///< at the beginning of the last second; at the end
+    Snapshot late, last;   ///< at the beginning of the last second; at the end
+    bool stopped = false;  ///< before the end
   };
-  Settled settle(Simulation& sim) const;
+  Settled settle(Simulation& sim, const std::function<bool()>& wanted = {}) const;
   /// start() of a simulation that has settled before. @param sim of the same model
   void start(Simulation& sim, const Settled& settled) const;
   /// Everything that settle() depends on, apart from the model.
@@ -75,6 +80,12 @@ class Replay {
     OrientationSeries turns;
   };
 
+  /// The way of a motor that is led somewhere [rad].
+  struct Way {
+    int muscle;
+    double from, to;
+  };
+  static void lead(Simulation& sim, const std::vector<Way>& ways, long step, long steps);
   /// What holds a muscle while the robot settles.
   struct StartInput {
     bool imposed;    ///< the actuator's position; else a command
@@ -96,7 +107,8 @@ class Replay {
     std::vector<double> q, positions;
   };
   RecordedStart recorded_start() const;
-  void start_where_recorded(Simulation& sim, long steps) const;
+  /// @return false if it was stopped
+  bool start_where_recorded(Simulation& sim, long steps, const std::function<bool()>& wanted) const;
   /// Efforts and loads of all joints: those that act when the recording begins, or none.
   void load_joints(Simulation& sim, bool as_recorded) const;
 
@@ -153,7 +165,8 @@ class Replay::Run {
 /// Replays a whole recording and samples the simulation, with ideal sensors, at the recording's
 /// rows. The result has all files and columns of the recording; quantities that it lacks are added
 /// to muscles.csv, joints.csv and spherical_joints.csv. Values are interpolated between steps.
-/// @param progress called with the share done in [0, 1]; returns false to stop early (may be empty)
+/// @param progress called with the share done in [0, 1], also while the robot settles; returns
+/// false to stop early (may be empty)
 /// @param failure if not null, gets the message of a NumericalFailure, which is then not thrown
 /// @return the simulated recording. If the replay was stopped or failed: the rows up to there (none
 /// if it failed before the first), and `cut_short` in its meta says up to which time
