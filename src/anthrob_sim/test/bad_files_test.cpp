@@ -589,6 +589,13 @@ TEST(BadFiles, ImpossibleTimeStep) {
   EXPECT_THROW(robot.load(0.0), BadInput);
   EXPECT_THROW(robot.load(-1e-3), BadInput);
   EXPECT_THROW(robot.load(0.002), BadInput);  // longer than a controller's period
+  try {
+    robot.load(0.10000001);
+    FAIL() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "simulation step 0.10000001 s: expected a number in (0, 0.1]");
+  }
 }
 
 }  // namespace

@@ -85,6 +85,43 @@ TEST(FindModelFile, NamesWhatItDidNotFind) {
             "--robot nowhere/robot: no such folder: nowhere/robot");
 }
 
+TEST(FindModelFile, SaysWhereAFolderIsNoRobots) {
+  const fs::path folder = fs::temp_directory_path() / ("anthrob_empty_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  EXPECT_EQ(refusal_of(folder.string(), "II"),
+            "--model II: no file " + folder.string() +
+                "/model_II.yaml; expected a folder of a robot, with a file model_NAME.yaml");
+  fs::remove_all(folder);
+}
+
+TEST(ParseRange, SplitsNameEndsAndPoints) {
+  const tool::Range range = tool::parse_range("--sweep", "shoulder_x=-1:1.5:100000");
+  EXPECT_EQ(range.name, "shoulder_x");
+  EXPECT_EQ(range.from, -1.0);
+  EXPECT_EQ(range.to, 1.5);
+  EXPECT_EQ(range.points, 100000);
+}
+
+TEST(ParseRange, RefusesAnyOtherFormAndTooManyPoints) {
+  const auto said = [](const std::string& text) -> std::string {
+    try {
+      tool::parse_range("--sweep", text);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  for (const char* text : {"elbow", "=0:2:5", "elbow=0", "elbow=0:2", "elbow=:2:5", "elbow=0:two:5",
+                           "elbow=0:inf:5", "elbow=0x:2:5"}) {
+    EXPECT_EQ(said(text), "--sweep " + std::string(text) + ": expected NAME=FROM:TO:POINTS");
+  }
+  for (const char* text : {"elbow=0:2:", "elbow=0:2:1", "elbow=0:2:-5", "elbow=0:2:5.5",
+                           "elbow=0:2:5:6", "elbow=0:2:100001", "elbow=0:2:99999999999"}) {
+    EXPECT_EQ(said(text), "--sweep " + std::string(text) +
+                              ": expected a whole number of POINTS from 2 to 100000");
+  }
+}
+
 TEST(ProgressText, SaysWhatIsLeftWhereThatIsKnown) {
   EXPECT_EQ(tool::progress_text(0.25, 10.0), " 25 %, 30 s left");
   EXPECT_EQ(tool::progress_text(1.0, 10.0), "100 %, 10 s so far");

@@ -1,7 +1,6 @@
 // Muscles of a robot in one posture: lengths, forces, wrapping, moment arms.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -187,21 +186,15 @@ void set_position(const RobotModel& model, const std::string& option, Placement&
 /// elbow=0:2:50 or shoulder_x=-1:1:50
 MuscleSweep run_sweep(const std::shared_ptr<const RobotModel>& model, const std::string& option,
                       const std::vector<double>& q, const std::vector<double>& actuators) {
-  const auto equals = option.find('=');
-  double from = 0.0, to = 0.0;
-  int count = 0;
-  char rest = 0;
-  if (equals == std::string::npos ||
-      std::sscanf(option.c_str() + equals + 1, "%lf:%lf:%d%c", &from, &to, &count, &rest) != 3) {
-    throw BadInput("--sweep " + option + ": expected AXIS=FROM:TO:POINTS, e.g. elbow=0:2:50");
-  }
-  const std::string name = option.substr(0, equals);
+  const tool::Range range = tool::parse_range("--sweep", option);
   std::string known;
   for (const SweepAxis& axis : sweep_axes(*model->skeleton)) {
-    if (axis.name == name) return sweep_muscles(model, q, actuators, axis, from, to, count);
+    if (axis.name == range.name) {
+      return sweep_muscles(model, q, actuators, axis, range.from, range.to, range.points);
+    }
     known += (known.empty() ? "" : ", ") + axis.name;
   }
-  throw BadInput("--sweep " + option + ": no axis '" + name + "'; " + model->file +
+  throw BadInput("--sweep " + option + ": no axis '" + range.name + "'; " + model->file +
                  " has: " + known);
 }
 
@@ -256,7 +249,8 @@ int main(int argc, char** argv) {
       "joint position, shoulder=w,x,y,z or elbow=1.57 [rad, m]; other joints are at rest");
   app.add_option("--position", positions, "motor position MUSCLE=rad; other motors are at 0");
   app.add_option("--sweep", sweep,
-                 "move one axis, AXIS=FROM:TO:POINTS, e.g. elbow=0:2:50 or shoulder_x=-1:1:50");
+                 "move one axis, AXIS=FROM:TO:POINTS with 2 to 100000 points, e.g. elbow=0:2:50 or "
+                 "shoulder_x=-1:1:50");
   app.add_option("--muscle", only, "show only this muscle of a sweep; may be repeated")
       ->needs("--sweep");
   app.add_option("--plot", plot, "draw a sweep to FILE.svg")->needs("--sweep");

@@ -3,7 +3,10 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iomanip>
+#include <limits>
 #include <set>
+#include <sstream>
 
 #include "anthrob_config/names.h"
 #include "anthrob_ecu/gains.h"
@@ -428,8 +431,9 @@ std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,
 std::shared_ptr<const RobotModel> build_robot_model(const ConfigNode& config,
                                                     const LoadOptions& options) {
   if (!(options.step > 0.0 && options.step <= kMaximumStep)) {
-    throw BadInput("simulation step " + std::to_string(options.step) +
-                   " s: expected a number in (0, 0.1]");
+    std::ostringstream given;
+    given << std::setprecision(std::numeric_limits<double>::digits10) << options.step;
+    throw BadInput("simulation step " + given.str() + " s: expected a number in (0, 0.1]");
   }
   ConfigNode own = config.clone();
   for (const auto& [path, value] : options.overrides) own.set_number(path, value);

@@ -3,7 +3,9 @@
 #include <ros/package.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -20,6 +22,17 @@ namespace {
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Whether all of a text is one finite number.
+bool read_number(const std::string& text, double& value) {
+  std::size_t used = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    return false;
+  }
+  return used == text.size() && std::isfinite(value);
 }
 
 }  // namespace
@@ -56,7 +69,8 @@ std::string find_model_file(const std::string& robot, const std::string& model) 
       if (stem.rfind("model_", 0) == 0) known += (known.empty() ? "" : ", ") + stem.substr(6);
     }
     throw BadInput("--model " + model + ": no file " + file.string() +
-                   "; this robot has: " + known);
+                   (known.empty() ? "; expected a folder of a robot, with a file model_NAME.yaml"
+                                  : "; this robot has: " + known));
   }
   return file.string();
 }
@@ -82,16 +96,34 @@ Assignment parse_assignment(const std::string& option, const std::string& text) 
   std::istringstream values(text.substr(equals + 1));
   std::string value;
   while (std::getline(values, value, ',')) {
-    std::size_t used = 0;
-    try {
-      assignment.values.push_back(std::stod(value, &used));
-    } catch (const std::exception&) {
-      fail();
-    }
-    if (used != value.size() || !std::isfinite(assignment.values.back())) fail();
+    assignment.values.emplace_back();
+    if (!read_number(value, assignment.values.back())) fail();
   }
   if (assignment.values.empty()) fail();
   return assignment;
+}
+
+Range parse_range(const std::string& option, const std::string& text) {
+  const auto fail = [&](const std::string& expected) {
+    throw BadInput(option + " " + text + ": expected " + expected);
+  };
+  const auto equals = text.find('=');
+  const auto first = text.find(':', equals == std::string::npos ? 0 : equals),
+             second = first == std::string::npos ? first : text.find(':', first + 1);
+  Range range;
+  const bool split = equals != std::string::npos && equals > 0 && second != std::string::npos;
+  if (!split || !read_number(text.substr(equals + 1, first - equals - 1), range.from) ||
+      !read_number(text.substr(first + 1, second - first - 1), range.to)) {
+    fail("NAME=FROM:TO:POINTS");
+  }
+  range.name = text.substr(0, equals);
+  const char* end = text.data() + text.size();
+  const auto points = std::from_chars(text.data() + second + 1, end, range.points);
+  if (points.ec != std::errc() || points.ptr != end || range.points < 2 ||
+      range.points > kMostPoints) {
+    fail("a whole number of POINTS from 2 to " + std::to_string(kMostPoints));
+  }
+  return range;
 }
 
 Progress::Progress(const std::string& what)

@@ -33,6 +33,16 @@ struct Assignment {
 };
 Assignment parse_assignment(const std::string& option, const std::string& text);
 
+/// Splits "elbow=0:2:50" into name, ends and number of points.
+/// @throws BadInput for any other form, or if the points are not 2 to kMostPoints
+struct Range {
+  std::string name;
+  double from = 0.0, to = 0.0;
+  int points = 0;
+};
+constexpr int kMostPoints = 100000;
+Range parse_range(const std::string& option, const std::string& text);
+
 /// Shows progress on standard error if that is a terminal: share done and time left.
 class Progress {
  public:
