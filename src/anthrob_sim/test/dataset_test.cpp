@@ -210,6 +210,51 @@ TEST(Dataset, BadOnesAreRefusedWithOneLine) {
   EXPECT_THROW(Dataset::load(folder.path() + "/nowhere"), BadInput);
 }
 
+TEST(Dataset, ALongerTimeThanIsCountedIsRefused) {
+  const TemporaryFolder folder;
+  folder.write("meta.yaml", kMeta);
+  folder.write("m.csv", "t,a/position\n-4e9,1\n5e9,1\n");
+  const Dataset long_one = Dataset::load(folder.path());
+  EXPECT_EQ(long_one.end() - long_one.begin(), Nanoseconds{9000000000} * 1000000000);
+  folder.write("n.csv", "t,b/position\n9e9,1\n");
+  try {
+    Dataset::load(folder.path());
+    FAIL() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("times from -4000000000.000 to 9000000000.000 s: expected a recording "
+                        "shorter than 9.2e9 s"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Dataset, NamesOfAnyKindComeBack) {
+  const TemporaryFolder folder;
+  Dataset data;
+  data.meta.robot = "left arm: #2";
+  data.meta.start = "given";
+  data.meta.start_position = {{"a, b: {c}", 0.5}, {"#d", -1e-7}, {"plain", 2.0}};
+  data.meta.other["what: #is"] = "this\n";
+  data.meta.other_start["and: [this"] = "too\n";
+  data.table("m").t = {0};
+  data.table("m").columns.push_back({"a/position", {1.0}, {1}});
+  data.save(folder.path());
+  const DatasetMeta back = Dataset::load(folder.path()).meta;
+  EXPECT_EQ(back.robot, data.meta.robot);
+  EXPECT_EQ(back.start_position, data.meta.start_position);
+  EXPECT_EQ(back.other, data.meta.other);
+  EXPECT_EQ(back.other_start, data.meta.other_start);
+  // Plain names stay plain.
+  data.meta = DatasetMeta();
+  data.meta.robot = "anthrob";
+  data.meta.start = "given";
+  EXPECT_NE(meta_text(data.meta).find("  reference: {}\n"), std::string::npos);
+  data.meta.start_position = {{"a", 0.5}, {"b", 1e-7}};
+  EXPECT_EQ(meta_text(data.meta).find("robot: anthrob\n"), 0u);
+  EXPECT_NE(meta_text(data.meta).find("  reference: {a: 0.5, b: 1e-07}\n"), std::string::npos);
+}
+
 TEST(Dataset, UnwritableFolderIsReported) {
   Dataset data;
   data.table("m").t.push_back(0);

@@ -1,11 +1,14 @@
 #include "anthrob_sim/recording/dataset.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -359,12 +362,30 @@ void load_start(const ConfigNode& start, DatasetMeta& meta, std::vector<std::str
   }
 }
 
+/// A word as YAML has it: in quotes if it needs them.
+std::string yaml_word(const std::string& word) {
+  YAML::Emitter out;
+  out << word;
+  return out.c_str();
+}
+
+/// "{muscle: rad, ...}"
+std::string yaml_map(const std::map<std::string, double>& positions) {
+  YAML::Emitter out;
+  out << YAML::Flow << YAML::BeginMap;
+  for (const auto& [muscle, position] : positions) {
+    out << YAML::Key << muscle << YAML::Value << exact_text(position);
+  }
+  out << YAML::EndMap;
+  return out.c_str();
+}
+
 /// "key: value", or the value's lines below the key.
 void put_yaml(const std::string& indent, const std::string& key, const std::string& yaml,
               std::ostream& out) {
   std::istringstream lines(yaml);
   std::string line;
-  out << indent << key << ":";
+  out << indent << yaml_word(key) << ":";
   const bool beside =
       ConfigNode::parse(yaml, key).is_scalar() && yaml.find('\n') == yaml.size() - 1;
   while (std::getline(lines, line)) out << (beside ? " " : "\n  " + indent) << line;
@@ -400,21 +421,12 @@ DatasetMeta load_meta(const std::string& file, std::vector<std::string>* remarks
 
 std::string meta_text(const DatasetMeta& meta) {
   std::ostringstream out;
-  if (!meta.robot.empty()) out << "robot: " << meta.robot << "\n";
+  if (!meta.robot.empty()) out << "robot: " << yaml_word(meta.robot) << "\n";
   out << "kind: " << meta.kind << "\n";
   if (meta.rate > 0.0) out << "rate: " << exact_text(meta.rate) << "  # [Hz]\n";
-  out << "start:\n  settle_s: " << exact_text(meta.settle_s) << "\n  reference: ";
-  if (meta.start == "given") {
-    out << "{";
-    const char* separator = "";
-    for (const auto& [muscle, position] : meta.start_position) {
-      out << separator << muscle << ": " << exact_text(position);
-      separator = ", ";
-    }
-    out << "}\n";
-  } else {
-    out << meta.start << "\n";
-  }
+  out << "start:\n  settle_s: " << exact_text(meta.settle_s)
+      << "\n  reference: " << (meta.start == "given" ? yaml_map(meta.start_position) : meta.start)
+      << "\n";
   for (const auto& [key, yaml] : meta.other_start) put_yaml("  ", key, yaml, out);
   for (const auto& [key, yaml] : meta.other) put_yaml("", key, yaml, out);
   return out.str();
@@ -453,6 +465,14 @@ std::vector<fs::path> csv_files(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// Times are counted in nanoseconds from the first one, in 64 bits.
+void refuse_longer_than_counted(const Dataset& dataset) {
+  const Nanoseconds begin = dataset.begin(), end = dataset.end();
+  if (begin >= 0 || end <= std::numeric_limits<Nanoseconds>::max() + begin) return;
+  throw BadInput(dataset.folder + ": times from " + time_text(begin) + " to " + time_text(end) +
+                 " s: expected a recording shorter than 9.2e9 s");
 }
 
 /// Which of the two would be meant?
@@ -506,6 +526,7 @@ Dataset Dataset::load(const std::string& folder) {
   const std::vector<fs::path> files = csv_files(folder);
   if (files.empty()) throw BadInput(folder + ": expected at least one .csv file beside meta.yaml");
   for (const auto& file : files) dataset.tables.push_back(TableReader(file).read());
+  refuse_longer_than_counted(dataset);
   refuse_measured_twice(dataset);
   return dataset;
 }
