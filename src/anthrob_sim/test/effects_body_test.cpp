@@ -162,6 +162,15 @@ TEST(GravityTilt, TurnsGravityAgainstTheTiltOfTheBase) {
   EXPECT_TRUE(find_effect("gravity_tilt")->places(*load_robot_model(config(kAxis))).empty());
 }
 
+TEST(GravityTilt, AboutTheVerticalIsRefusedBesideAnotherTiltToo) {
+  const EffectInstance x = {"gravity_tilt", "x", {{"angle", 0.1}}};
+  const EffectInstance y = {"gravity_tilt", "y", {{"angle", 0.1}}};
+  const EffectInstance z = {"gravity_tilt", "z", {{"angle", 0.1}}};
+  EXPECT_NO_THROW(robot_with(kArm, {x, y}));
+  EXPECT_THROW(robot_with(kArm, {z}), BadInput);
+  EXPECT_THROW(robot_with(kArm, {x, z}), BadInput);
+}
+
 TEST(Payload, MassCentreAndInertiaAreThoseOfBoth) {
   const double mass = 0.25;
   const Vec3 d(0.01, -0.02, 0.05);

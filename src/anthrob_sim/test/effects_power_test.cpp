@@ -175,6 +175,16 @@ TEST(SupplySag, CountsTheMotorsOfItsEcuOrAllOfThem) {
   }
 }
 
+TEST(SupplySag, HasTheWholeRobotForAPlaceWhereNoEcuIsNamed) {
+  const std::string file = "rig_ecu_load/model_I.yaml";
+  const auto robot = robot_with(file, {{"supply_sag", "global", {{"resistance", 0.2}}}}, 1e-4);
+  EXPECT_EQ(find_effect("supply_sag")->places(*robot), std::vector<std::string>{"global"});
+  EXPECT_EQ(robot->power_effects.at(0)->state_size(), 1u);
+  EXPECT_TRUE(find_effect("supply_sag")
+                  ->places(*load_robot_model(config("driven_axis/model_I.yaml")))
+                  .empty());
+}
+
 TEST(SupplySag, ALargeResistanceIsADividerAndDoesNotSwing) {
   // Both motors of the rig stalled at the same share of a supply of more resistance than theirs:
   // their currents follow their voltages in 60 us.

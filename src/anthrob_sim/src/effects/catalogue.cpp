@@ -189,8 +189,16 @@ std::vector<EffectSetting> read_effects(const ConfigNode& config,
 }
 
 void build_in(const std::vector<EffectSetting>& settings, Stage stage, ModelDraft& draft) {
+  const auto comes_now = [&](const EffectSetting& setting) {
+    return setting.effect().info().stage == stage;
+  };
+  // An effect must not make a place for another one beside it, as a base tilted about x would for a
+  // tilt about z; nor must it take one away.
   for (const EffectSetting& setting : settings) {
-    if (setting.effect().info().stage != stage) continue;
+    if (comes_now(setting)) check_place(setting, draft.robot);
+  }
+  for (const EffectSetting& setting : settings) {
+    if (!comes_now(setting)) continue;
     check_place(setting, draft.robot);
     if (!setting.neutral()) setting.effect().build_in(setting, draft);
   }

@@ -73,11 +73,14 @@ class SupplySag final : public Effect {
 
   std::vector<std::string> places(const RobotModel& robot) const override {
     std::vector<std::string> list;
+    bool any = false;
     for (const MuscleModel& muscle : robot.muscles) {
-      if (!motor_of(muscle) || muscle.ecu.empty()) continue;
+      if (!motor_of(muscle)) continue;
+      any = true;
+      if (muscle.ecu.empty()) continue;
       if (std::find(list.begin(), list.end(), muscle.ecu) == list.end()) list.push_back(muscle.ecu);
     }
-    if (!list.empty()) list.push_back("global");
+    if (any) list.push_back("global");
     return list;
   }
 
