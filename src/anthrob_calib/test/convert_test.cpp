@@ -386,6 +386,58 @@ TEST(Convert, ACommandHasAReference) {
   EXPECT_NO_THROW(write_bag(data, folder / "a.bag"));
 }
 
+TEST(Convert, CommandsWithoutAModeGetTheOneThatAReplayTakes) {
+  const Folder folder;
+  Dataset data = hinge();
+  Table& table = data.table("commands");
+  table.t = {0, 5000000, 10000000, 15000000};
+  const std::vector<double> references = {6.0, 6.0, 6.0, 6.0};
+  const std::vector<char> all = {1, 1, 1, 1};
+  // FORCE from the second row on; CURRENT among the states only; none anywhere.
+  table.columns = {{"flexor/mode", {0, 3, 0, 1}, {0, 1, 0, 1}},
+                   {"flexor/reference", references, all},
+                   {"extensor/reference", references, all},
+                   {"third/reference", references, {1, 0, 1, 1}}};
+  Table& states = data.table("muscles");
+  states.t = {0, 10000000};
+  states.columns = {{"extensor/mode", {2, 0}, {1, 1}}, {"extensor/force", {1, 1}, {1, 1}}};
+  write_bag(data, folder / "a.bag");
+  const auto commands =
+      messages<anthrob_msgs::MuscleCommand>(folder / "a.bag", "/rig/muscle_command");
+  ASSERT_EQ(commands.size(), 4u);
+  const std::vector<std::vector<std::uint8_t>> expected = {{3, 2, 1}, {3, 2}, {3, 0, 1}, {1, 0, 1}};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(commands[i].second.mode, expected[i]) << i;
+    EXPECT_EQ(commands[i].second.name[0], "flexor");
+    EXPECT_EQ(commands[i].second.name[1], "extensor");
+  }
+}
+
+TEST(Convert, ATopicNeedsNoLeadingSlash) {
+  const Folder folder;
+  {
+    rosbag::Bag bag(folder / "a.bag", rosbag::bagmode::Write);
+    sensor_msgs::JointState joints;
+    joints.name = {"elbow"}, joints.position = {0.5};
+    bag.write("rig/joint_states", ros::Time(1), joints);
+    bag.write("/rig/joint_states", ros::Time(2), joints);
+    anthrob_msgs::MuscleCommand command;
+    command.name = {"flexor"}, command.mode = {1}, command.reference = {0.5};
+    bag.write("/rig/muscle_command", ros::Time(1), command);
+    bag.write("rig/sim/joint_states", ros::Time(1), joints);
+  }
+  const BagContents contents = read_bag(folder / "a.bag");
+  EXPECT_EQ(contents.dataset.meta.robot, "rig");
+  EXPECT_EQ(contents.dataset.find_table("joints")->t.size(), 2u);
+  EXPECT_EQ(contents.dataset.find_table("commands")->t.size(), 1u);
+  EXPECT_EQ(contents.not_carried, std::vector<std::string>{"rig/sim/joint_states (1 messages)"});
+  {
+    rosbag::Bag bag(folder / "b.bag", rosbag::bagmode::Write);
+    bag.write("joint_states", ros::Time(1), sensor_msgs::JointState());
+  }
+  EXPECT_EQ(read_bag(folder / "b.bag").dataset.meta.robot, "");
+}
+
 TEST(Convert, AnOrientationIsWholeOrNotThere) {
   const Folder folder;
   for (const char* missing : {"w", "x", "z", "wy"}) {

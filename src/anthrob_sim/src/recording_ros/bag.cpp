@@ -170,7 +170,6 @@ void from_row(const RowView& row, MuscleCommand& m) {
   row.get("mode", m.mode);
   row.get("reference", m.reference);
   if (m.reference.empty() && !m.name.empty()) row.fail("expected a reference in a row of commands");
-  if (m.mode.empty()) m.mode.assign(m.name.size(), MuscleCommand::POSITION);
 }
 
 void from_row(const RowView& row, MuscleStates& m) {
@@ -333,12 +332,13 @@ const std::pair<const char*, const char*> kTopics[] = {
     {"spherical_joint_states", "spherical_joints"}};
 
 template <class Message>
-void add_all(rosbag::Bag& bag, const std::string& topic, TableBuilder& builder) {
-  for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+void add_all(rosbag::Bag& bag, const std::vector<std::string>& topics, TableBuilder& builder) {
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topics))) {
     const auto message = instance.instantiate<Message>();
     if (!message) {
-      throw BadInput(bag.getFileName() + ": topic " + topic + " is " + instance.getDataType() +
-                     ": expected " + ros::message_traits::DataType<Message>::value());
+      throw BadInput(bag.getFileName() + ": topic " + instance.getTopic() + " is " +
+                     instance.getDataType() + ": expected " +
+                     ros::message_traits::DataType<Message>::value());
     }
     builder.add(*message, instance.getTime());
   }
@@ -354,6 +354,14 @@ std::string leaf(const std::string& topic) {
 std::string parent(const std::string& topic) {
   const auto slash = topic.rfind('/');
   return slash == std::string::npos || slash == 0 ? "" : topic.substr(0, slash);
+}
+/// Not all writers of bags begin a topic with a slash.
+std::string without_leading_slash(const std::string& topic) {
+  return topic.substr(topic.rfind('/', 0) == 0 ? 1 : 0);
+}
+/// "anthrob" of "/anthrob/joint_states"; empty if there is no namespace.
+std::string namespace_of(const std::string& topic) {
+  return without_leading_slash(parent(topic));
 }
 bool is_of_a_recording(const std::string& topic) {
   return std::any_of(std::begin(kTopics), std::end(kTopics),
@@ -372,9 +380,9 @@ BagContents contents_of(const std::string& file) {
   for (const rosbag::MessageInstance& instance : everything) ++counts[instance.getTopic()];
 
   std::set<std::string> namespaces;
-  std::map<std::string, std::string> chosen;
+  std::map<std::string, std::vector<std::string>> chosen;
   for (const auto& [topic, count] : counts) {
-    if (is_of_a_recording(topic)) namespaces.insert(parent(topic));
+    if (is_of_a_recording(topic)) namespaces.insert(namespace_of(topic));
   }
   // What stands below a robot's namespace (sim/...) is beside its contract.
   const std::set<std::string> all = namespaces;
@@ -385,8 +393,8 @@ BagContents contents_of(const std::string& file) {
     }
   }
   for (const auto& [topic, count] : counts) {
-    if (is_of_a_recording(topic) && namespaces.count(parent(topic))) {
-      chosen[leaf(topic)] = topic;
+    if (is_of_a_recording(topic) && namespaces.count(namespace_of(topic))) {
+      chosen[leaf(topic)].push_back(topic);
     } else {
       contents.not_carried.push_back(topic + " (" + std::to_string(count) + " messages)");
     }
@@ -404,7 +412,7 @@ BagContents contents_of(const std::string& file) {
   const std::string beside = meta_beside(file);
   if (std::filesystem::exists(beside))
     contents.dataset.meta = load_meta(beside, &contents.dataset.remarks);
-  contents.dataset.meta.robot = robot.empty() ? "" : robot.substr(1);
+  contents.dataset.meta.robot = robot;
   for (const auto& [topic, table] : kTopics) {
     if (!chosen.count(topic)) continue;
     TableBuilder builder(table);
@@ -413,7 +421,7 @@ BagContents contents_of(const std::string& file) {
     if (name == "muscle_states") add_all<MuscleStates>(bag, chosen[name], builder);
     if (name == "joint_states") add_all<JointState>(bag, chosen[name], builder);
     if (name == "spherical_joint_states") add_all<SphericalJointStates>(bag, chosen[name], builder);
-    builder.finish(chosen[name], contents);
+    builder.finish(chosen[name].front(), contents);
   }
   if (contents.dataset.tables.empty()) throw BadInput(file + ": its topics hold no messages");
   return contents;
@@ -435,6 +443,26 @@ BagContents read_bag(const std::string& file) {
 // ---- dataset to bag -----------------------------------------------------------------------------
 
 namespace {
+
+/// Modes that a replay takes where none is written: the last one, before the first one the first,
+/// POSITION where there is none at all.
+Table with_all_modes(Table commands, const Dataset& dataset) {
+  const std::vector<Column> columns = commands.columns;
+  const Nanoseconds begin = dataset.begin();
+  for (const Column& reference : columns) {
+    if (reference.quantity() != "reference") continue;
+    const std::string name = reference.owner() + "/mode";
+    const Series said = dataset.series(name);
+    Column& mode = commands.column(name);
+    for (std::size_t row = 0; row < commands.t.size(); ++row) {
+      if (!reference.present[row] || mode.present[row]) continue;
+      mode.present[row] = 1;
+      mode.values[row] = said.empty() ? static_cast<double>(MuscleCommand::POSITION)
+                                      : said.held_at(seconds(commands.t[row] - begin));
+    }
+  }
+  return commands;
+}
 
 template <class Message>
 void write_rows(const Table& table, const Dataset& dataset, const std::string& topic,
@@ -473,7 +501,8 @@ BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
     bag->open(temporary, rosbag::bagmode::Write);
     for (const Table& table : topics.tables) {
       if (table.name == "commands")
-        write_rows<MuscleCommand>(table, dataset, prefix + "muscle_command", *bag);
+        write_rows<MuscleCommand>(with_all_modes(table, dataset), dataset,
+                                  prefix + "muscle_command", *bag);
       if (table.name == "muscles")
         write_rows<MuscleStates>(table, dataset, prefix + "muscle_states", *bag);
       if (table.name == "joints")
