@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""sim.launch beside a robot that somebody else drives, in true time: refused, and all is as it was."""
+"""Launch files beside a robot that somebody else drives, in true time: refused, all is as it was, and none of their
+nodes commands that robot."""
 import contextlib
 import os
 import subprocess
 import sys
+import tempfile
+import threading
 import time
 import unittest
 
@@ -11,8 +14,55 @@ import rosnode
 import rosservice
 import rospy
 import rostest
-from anthrob_msgs.msg import MuscleStates
+from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
+from geometry_msgs.msg import Quaternion, Vector3
+from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger, TriggerResponse
+
+
+MUSCLES = ['lateral_deltoid', 'anterior_deltoid', 'posterior_deltoid', 'supraspinatus', 'infraspinatus', 'teres_minor',
+           'teres_major', 'pectoralis_major', 'biceps_brachii', 'triceps_brachii', 'brachialis']
+
+
+class Robot:
+    """An enabled robot at rest, which tells what it was asked for."""
+
+    def __init__(self):
+        self.asked = []
+        self.muscles = rospy.Publisher('muscle_states', MuscleStates, queue_size=10)
+        self.joints = rospy.Publisher('joint_states', JointState, queue_size=10)
+        self.balls = rospy.Publisher('spherical_joint_states', SphericalJointStates, queue_size=10)
+        self.commands = rospy.Subscriber('muscle_command', MuscleCommand,
+                                         lambda command: self.asked.append('muscle_command'))
+        self.service = rospy.Service('enable', Trigger, self.enable)
+        self.runs = True
+        self.thread = threading.Thread(target=self.publish)
+        self.thread.start()
+
+    def enable(self, request):
+        self.asked.append('enable')
+        return TriggerResponse(success=True)
+
+    def publish(self):
+        count = len(MUSCLES)
+        while self.runs:
+            states = MuscleStates(name=MUSCLES, mode=bytes(count), ecu_state=bytes([MuscleStates.ENABLED] * count))
+            for quantity in 'position', 'velocity', 'current', 'voltage', 'reference':
+                setattr(states, quantity, [0.0] * count)
+            states.force = [5.0] * count
+            joints = JointState(name=['elbow'], position=[0.1], velocity=[0.0])
+            balls = SphericalJointStates(name=['shoulder'], orientation=[Quaternion(w=1.0)], angular_velocity=[Vector3()])
+            for message, publisher in (states, self.muscles), (joints, self.joints), (balls, self.balls):
+                message.header.stamp = rospy.Time.now()
+                publisher.publish(message)
+            time.sleep(0.005)
+
+    def close(self):
+        self.runs = False
+        self.thread.join()
+        for connection in self.muscles, self.joints, self.balls, self.commands:
+            connection.unregister()
+        self.service.shutdown()
 
 
 class RefusedLaunch(unittest.TestCase):
@@ -57,6 +107,31 @@ class RefusedLaunch(unittest.TestCase):
             self.check_is_as_it_was()
         states.unregister()
         stop.shutdown()
+
+    def test_commands_no_robot_but_its_own_simulator(self):
+        robot = Robot()
+        outside = {key: value for key, value in os.environ.items() if key != 'ROS_NAMESPACE'}
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                for arguments in (['computed_force.launch'], ['demo.launch', 'bag:=' + folder + '/demo.bag'],
+                                  ['record.launch', 'protocol:=tier2_equilibria', 'out:=' + folder + '/record',
+                                   'enable:=true'],
+                                  ['record_zero_gravity.launch', 'out:=' + folder + '/zero']):
+                    said = self.launch(arguments, outside)
+                    self.assertIn('~back_end: simulator: but %s publishes /anthrob/muscle_states' % rospy.get_name(),
+                                  said)
+                    self.assertEqual(robot.asked, [], arguments[0])
+        finally:
+            robot.close()
+
+    def test_ends_no_node_of_the_same_name(self):
+        outside = {key: value for key, value in os.environ.items() if key != 'ROS_NAMESPACE'}
+        for name, arguments in (('/anthrob/mocap', ['mocap.launch']),
+                                ('/anthrob/computed_force', ['computed_force.launch', 'sim:=false'])):
+            with self.named_as(name):
+                said = subprocess.run(['timeout', '-s', 'INT', '8', 'roslaunch', 'anthrob_bringup'] + arguments,
+                                      env=outside, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+                self.assertIn(name + ' runs already', said)
 
 
 if __name__ == '__main__':

@@ -181,6 +181,7 @@ class ComputedForceNode {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "computed_force";
+  info.role = anthrob::NodeInfo::Role::kCommander;
   info.purpose = "Computed-force control of the joints: zero gravity, and going to postures.";
   info.parameters = {
       {"model", "path of the model file that the controller computes with (required)"},

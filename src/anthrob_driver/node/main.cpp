@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "driver";
   info.purpose = "Drives the robot's motors through their ECUs on a CAN bus.";
-  info.only_one = true;
+  info.role = anthrob::NodeInfo::Role::kBackEnd;
   info.parameters = {
       {"hardware", "path of hardware.yaml (required)"},
       {"model",
@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
        "true)"},
       {"first_step",
        "[rad] that a muscle's first POSITION reference may be away from its position; 0: no limit "
-       "(default: 0)"},
+       "(default: 0.5; 0 on a vcan)"},
       {"realtime", "whether to ask for SCHED_FIFO and locked memory (default: false)"},
       {"pace",
        "speed of emulated ECUs relative to real time, in (0, 1]; a robot needs 1 (default: 1)"},
@@ -42,7 +42,9 @@ int main(int argc, char** argv) {
     take(settings, "can", text_of, can);
     bool hand = false;
     take(settings, "hand", truth_of, hand);
+    const bool in_memory = can.rfind("vcan", 0) == 0;
     DriverThread::Options options;
+    options.driver.first_step = in_memory ? 0.0 : 0.5;
     take(settings, "rate", number_of, options.driver.rate);
     take(settings, "command_timeout", number_of, options.driver.command_timeout);
     take(settings, "first_step", number_of, options.driver.first_step);
@@ -50,7 +52,6 @@ int main(int argc, char** argv) {
     take(settings, "check_stamps", truth_of, check_stamps);
     take(settings, "realtime", truth_of, options.realtime);
     take(settings, "pace", number_of, options.pace);
-    const bool in_memory = can.rfind("vcan", 0) == 0;
     if (!(options.pace > 0.0 && options.pace <= 1.0) || (options.pace < 1.0 && !in_memory)) {
       throw BadInput("parameter ~pace: " + std::to_string(options.pace) + " with ~can " + can +
                      ": expected 1, or a number in (0, 1] on a vcan");

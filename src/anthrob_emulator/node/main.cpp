@@ -106,7 +106,10 @@ std::uint8_t session_now() {
 
 int run(const Arguments& arguments) {
   driver::refuse_physical_bus(arguments.can, arguments.physical);
-  if ((arguments.ros || arguments.clock) && name_is_taken()) return tool::kBadInput;
+  if ((arguments.ros || arguments.clock) && name_is_taken()) {
+    restore_time();
+    return tool::kBadInput;
+  }
   const bool hand = arguments.hand && driver::has_hand(arguments.hardware);
   const driver::Hardware hardware = driver::load_hardware(arguments.hardware, hand);
   std::unique_ptr<driver::Plant> plant;

@@ -33,6 +33,7 @@ bool enable(ros::NodeHandle& nh) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "recorder";
+  info.role = anthrob::NodeInfo::Role::kCommander;
   info.purpose = "Records equilibria or trajectories of a robot by protocol.";
   info.parameters = {
       {"model", "path of a model file (required)"},

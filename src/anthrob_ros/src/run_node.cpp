@@ -12,6 +12,10 @@ namespace {
 
 constexpr int kBadInput = 2, kFailed = 1;
 
+const NodeInfo::Parameter kBackEndParameter = {
+    "back_end",
+    "name of the only back end that may be commanded, such as simulator (default: any)"};
+
 bool asks_for_help(const std::string& argument) {
   return argument == "--help" || argument == "-h";
 }
@@ -70,7 +74,9 @@ std::string wrong_argument(const NodeInfo& info, const std::vector<std::string>&
   return "";
 }
 
-int run_node(int argc, char** argv, const NodeInfo& info, const NodeBody& body) {
+int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
+  const bool commands = info.role == NodeInfo::Role::kCommander;
+  if (commands) info.parameters.push_back(kBackEndParameter);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (std::any_of(arguments.begin(), arguments.end(), asks_for_help)) {
     std::cout << help_of(info, argv[0]);
@@ -87,11 +93,16 @@ int run_node(int argc, char** argv, const NodeInfo& info, const NodeBody& body) 
     std::cerr << error.what() << "\n";
     return kBadInput;
   }
-  if (info.only_one && name_is_taken()) return kBadInput;
+  if (name_is_taken()) {
+    if (info.role == NodeInfo::Role::kBackEnd) restore_time();
+    return kBadInput;
+  }
   // These handles outlive those of the body: without any handle nothing is logged.
   ros::NodeHandle nh, settings("~");
   try {
     warn_of_unknown_parameters(info, settings.getNamespace());
+    if (commands)
+      refuse_other_back_ends(nh, settings.param<std::string>(kBackEndParameter.key, ""));
     return body(nh, settings);
   } catch (const BadInput& error) {
     ROS_FATAL_STREAM(error.what());

@@ -69,13 +69,6 @@ std::vector<std::string> publishers_of(const std::string& topic) {
   return names;
 }
 
-/// The launch file of the refused node may have set `/use_sim_time`. The living publisher of the
-/// clock may have the same name as the refused node.
-void restore_time_of_those_who_run() {
-  const std::vector<std::string> clocks = publishers_of("/clock");
-  ros::param::set("/use_sim_time", std::any_of(clocks.begin(), clocks.end(), lives));
-}
-
 }  // namespace
 
 std::string living_publisher(const std::string& topic) {
@@ -89,18 +82,33 @@ ros::Publisher claim_robot(ros::NodeHandle& nh) {
   const ros::Publisher claim = nh.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
   const std::string other = living_publisher(claim.getTopic());
   if (other.empty()) return claim;
-  restore_time_of_those_who_run();
+  restore_time();
   throw BadInput(claim.getTopic() + ": " + other +
                  " publishes it already; stop that simulator or driver first");
+}
+
+void refuse_other_back_ends(ros::NodeHandle& nh, const std::string& own) {
+  if (own.empty()) return;
+  const std::string topic = nh.resolveName("muscle_states"), meant = nh.resolveName(own);
+  for (const std::string& node : publishers_of(topic)) {
+    if (node == meant || !lives(node)) continue;
+    throw BadInput("parameter ~back_end: " + own + ": but " + node + " publishes " + topic +
+                   "; stop it first, or use the robot that is running (launch files: sim:=false)");
+  }
 }
 
 bool name_is_taken() {
   const std::string& name = ros::this_node::getName();
   if (!lives(name)) return false;
-  restore_time_of_those_who_run();
   ROS_FATAL_STREAM(
       name << " runs already; stop it first, or give this node another name (__name:=NAME)");
   return true;
+}
+
+void restore_time() {
+  // The living publisher of the clock may have the same name as the refused node.
+  const std::vector<std::string> clocks = publishers_of("/clock");
+  ros::param::set("/use_sim_time", std::any_of(clocks.begin(), clocks.end(), lives));
 }
 
 }  // namespace anthrob

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   info.name = "simulator";
   info.purpose =
       "The simulated robot: simulates physics, sensors and controllers instead of the hardware.";
-  info.only_one = true;
+  info.role = anthrob::NodeInfo::Role::kBackEnd;
   info.parameters = {
       {"model", "path of a model file (required)"},
       {"step", "simulation step [s], in (0, 0.1] (default: 0.001)"},

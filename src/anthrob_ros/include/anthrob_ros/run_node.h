@@ -19,8 +19,12 @@ struct NodeInfo {
   std::string purpose;
   std::vector<Parameter> parameters;
   std::uint32_t options = 0;  ///< for ros::init
-  /// The node refuses to start if a living node has its name.
-  bool only_one = false;
+  enum class Role {
+    kOther,
+    kBackEnd,    ///< serves a robot: simulator or driver
+    kCommander,  ///< commands or enables a robot: has the parameter ~back_end (single_backend.h)
+  };
+  Role role = Role::kOther;
 
   bool has(const std::string& key) const;
 };
@@ -29,11 +33,11 @@ struct NodeInfo {
 using NodeBody = std::function<int(ros::NodeHandle& nh, ros::NodeHandle& settings)>;
 
 /// Runs a node, or prints its help. Every error becomes one line of the log and an exit status: 2
-/// for BadInput, for an unknown argument and for a name that is taken, and 1 for anything else.
-/// Warns of parameters on the server that the node does not know; an earlier start may have left
-/// them there.
+/// for BadInput, for an unknown argument and for the name of a living node, and 1 for anything
+/// else. Warns of parameters on the server that the node does not know; an earlier start may have
+/// left them there.
 /// @param body gets a handle of the node's namespace and one of its private parameters
-int run_node(int argc, char** argv, const NodeInfo& info, const NodeBody& body);
+int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body);
 
 /// The text that --help prints. @param program path with which the node was called
 std::string help_of(const NodeInfo& info, const std::string& program);

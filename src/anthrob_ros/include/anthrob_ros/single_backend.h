@@ -20,11 +20,21 @@ std::string living_publisher(const std::string& topic);
 ///   `/use_sim_time`; it is first set back to what the running nodes need
 ros::Publisher claim_robot(ros::NodeHandle& nh);
 
+/// A launch file starts a simulator and a node that commands it. If a driver serves the robot, the
+/// simulator is refused, and that node must not command the driver instead. To be called before the
+/// node commands or enables anything.
+/// @param own name of the only back end that it may command, in its namespace; empty: any
+/// @throws BadInput naming another one that serves the robot
+void refuse_other_back_ends(ros::NodeHandle& nh, const std::string& own);
+
 /// If a launch file is started twice, two nodes have the same name, and ROS ends the first one when
 /// the second one registers, even while the robot moves. To be called between ros::init and the
 /// first NodeHandle, which registers.
-/// For back ends only, because it sets `/use_sim_time` back as claim_robot does.
 /// @return whether a living node has this node's name; if so, it is logged
 bool name_is_taken();
+
+/// Sets `/use_sim_time`, which the launch file of a refused back end may have set, back to what the
+/// running nodes need: true where a living node publishes the clock.
+void restore_time();
 
 }  // namespace anthrob
