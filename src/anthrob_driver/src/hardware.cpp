@@ -174,6 +174,15 @@ void check_home(const ConfigNode& node, const HomeRoutine& home, const MuscleHar
   };
   at_most("wind_speed", home.wind_speed, 0.5 * limit(Parameter::kSpeedLimit),
           "rad/s, half of speed_limit");
+  // Else a broken tendon would end `home` by its time, without being named.
+  const double rate = limit(Parameter::kPositionRate);
+  const double furthest = std::min(home.wind_speed, rate) * home.time_limit;
+  if (home.travel_limit >= furthest) {
+    const std::string speed =
+        rate < home.wind_speed ? "position_rate of " + muscle.name : "wind_speed";
+    node.at("travel_limit")
+        .fail_expected("less than " + text(furthest) + " rad, " + speed + " x time_limit");
+  }
   // After power-up a unit counts from 0, and winds in no further than its range goes.
   at_most("travel_limit", home.travel_limit, limit(Parameter::kPositionHigh),
           "rad, the end of position_range");
@@ -393,12 +402,6 @@ class Loader {
     }
     if (home.settle_time >= home.time_limit) {
       node.at("settle_time").fail_expected("less than time_limit");
-    }
-    // Else a broken tendon would end `home` by its time, without being named.
-    const double furthest = home.wind_speed * home.time_limit;
-    if (home.travel_limit >= furthest) {
-      node.at("travel_limit")
-          .fail_expected("less than " + text(furthest) + " rad, wind_speed x time_limit");
     }
     for (const MuscleHardware& muscle : hardware_.muscles) check_home(node, home, muscle);
   }

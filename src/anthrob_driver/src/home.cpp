@@ -148,6 +148,10 @@ void Home::step(const std::vector<Reading>& readings, double now) {
   if (now - settled_ >= hardware_.home.settle_time) {
     state_ = State::kReached;
   } else if (now - started_ > hardware_.home.time_limit) {
+    // What never gripped, because its position_range ends or its motor does not turn, has no zero.
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      tendons_[i].lost = tendons_[i].lost || (pulls(i) && !tendons_[i].gripped);
+    }
     const char* const what =
         slack.empty() ? "after %.1f s (time_limit) not all muscles had held %.1f N for settle_time"
                       : "after %.1f s (time_limit) %.1f N were not reached by ";

@@ -227,6 +227,8 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
        "home.wind_speed: 6.1: expected at most 6 rad/s, half of speed_limit of lateral_deltoid"},
       {"hardware.yaml", "travel_limit: 6.0", "travel_limit: 61",
        "home.travel_limit: 61: expected less than 20 rad, wind_speed x time_limit"},
+      {"hardware.yaml", "position_rate: 50.0", "position_rate: 0.25",
+       "home.travel_limit: 6.0: expected less than 5 rad, position_rate of lateral_deltoid x time"},
       {"hardware.yaml", "settle_time: 1.0", "settle_time: 20", "expected less than time_limit"},
       {"hardware.yaml", "travel_limit: 6.0", "travel_limit: 19",
        "home.travel_limit: 19: expected at most 10 rad, the end of position_range of lateral",

@@ -459,6 +459,38 @@ TEST_F(HomeTest, ARestartedHandIsZeroWhereItIs) {
   EXPECT_TRUE(command(muscle, ecu::Mode::kPosition, 0.0).accepted);
 }
 
+/// At the end of its range a muscle cannot wind in by travel_limit.
+TEST(HomeNearTheEndOfARange, ATendonThatDoesNotGripInTimeHasNoZero) {
+  Hardware robot = load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml", true);
+  MuscleHardware& muscle = robot.muscles[3];
+  muscle.home_position =
+      muscle.parameters.get(ecu::Parameter::kPositionHigh) - 0.5 * robot.home.travel_limit;
+  Rig rig(robot);
+  rig.run(1000);
+  ASSERT_TRUE(rig.enable());
+  const auto home = [&] {
+    EXPECT_TRUE(rig.driver().start_home(rig.now()).accepted);
+    for (int ms = 0; ms < 30000 && rig.driver().home().running(); ++ms) rig.step();
+    rig.run(100);
+    return rig.driver().home().failure();
+  };
+  const auto takes_positions = [&] {
+    const auto mode = static_cast<std::uint8_t>(ecu::Mode::kPosition);
+    return rig.driver().command({muscle.name}, {mode}, {muscle.home_position}, rig.now()).accepted;
+  };
+  ASSERT_EQ(home(), "");
+  EXPECT_TRUE(takes_positions());
+  rig.driver().disable();
+  rig.plant.cut(3);
+  rig.run(1000);
+  ASSERT_TRUE(rig.enable());
+  EXPECT_TRUE(takes_positions());
+  const std::string failure = home();
+  EXPECT_NE(failure.find("were not reached by supraspinatus"), std::string::npos) << failure;
+  ASSERT_TRUE(rig.enable());
+  EXPECT_FALSE(takes_positions());
+}
+
 TEST(HomeOfTheCarefulRobot, Succeeds) {
   Rig rig(load_hardware(ANTHROB_CONFIG_DIR "/anthrob/hardware_careful.yaml", true));
   for (std::size_t m = 0; m < rig.hardware.muscles.size(); ++m) rig.plant.slacken(m, 1.0);

@@ -34,7 +34,7 @@ class Home {
   bool running() const { return state_ == State::kRunning || state_ == State::kReached; }
   /// Empty after success.
   const std::string& failure() const { return failure_; }
-  /// Whether it ended because this muscle's tendon broke, slipped or is off its pulley.
+  /// Whether this muscle's tendon broke, slipped, is off its pulley or did not grip in time.
   bool tendon_lost(std::size_t muscle) const {
     return muscle < tendons_.size() && tendons_[muscle].lost;
   }
@@ -47,7 +47,7 @@ class Home {
     bool gripped = false;  ///< was seen at half the pretension
     double grip = 0.0;     ///< [rad] where that was
     bool held = false;     ///< was seen near the pretension
-    bool lost = false;     ///< broke, slipped or is off its pulley
+    bool lost = false;     ///< see tendon_lost()
   };
   bool pulls(std::size_t muscle) const;
   /// Names of the muscles that are to be pulled but have no measurement in this cycle.
