@@ -59,7 +59,7 @@ DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
   joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
   if (!hardware_.touch.empty()) touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
-  if (!thread_.note().empty()) ROS_WARN_STREAM(thread_.note());
+  for (const std::string& note : thread_.notes()) ROS_WARN_STREAM(note);
 }
 
 // ---- commands and services ----

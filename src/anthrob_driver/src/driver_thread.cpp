@@ -73,12 +73,16 @@ DriverThread::DriverThread(Hardware hardware, const Options& options, const std:
       wakeup_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   watch(epoll_, timer_);
   watch(epoll_, wakeup_);
+  if (bus_.descriptor() < 0) {
+    notes_.push_back("CAN interface " + interface + " is missing or down; waiting for it");
+  }
   thread_ = std::thread([this] {
-    if (options_.realtime) note_ = become_realtime(kPriority);
+    const std::string refused = options_.realtime ? become_realtime(kPriority) : "";
+    if (!refused.empty()) notes_.push_back(refused);
     start_timer(timer_, options_.driver.rate * options_.pace);
     loop();
   });
-  call([](RobotDriver&, double) {});  // until it runs, and note_ is there
+  call([](RobotDriver&, double) {});  // until it runs, and all notes are there
 }
 
 DriverThread::~DriverThread() {

@@ -140,7 +140,7 @@ int measure(const Arguments& arguments, const Hardware& hardware) {
   options.realtime = arguments.realtime;
   options.pace = arguments.pace;
   DriverThread thread(hardware, options, arguments.can);
-  if (!thread.note().empty()) std::cerr << "anthrob_can_check: " << thread.note() << "\n";
+  for (const std::string& note : thread.notes()) std::cerr << "anthrob_can_check: " << note << "\n";
   // On a robot a latched stop, or a fault, is somebody's: it stays.
   if (arguments.emulate) {
     thread.call([](RobotDriver& driver, double now) { driver.clear_faults(now); });

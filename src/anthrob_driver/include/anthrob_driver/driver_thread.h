@@ -7,7 +7,9 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "anthrob_driver/bus/socketcan_bus.h"
 #include "anthrob_driver/robot_driver.h"
@@ -25,7 +27,7 @@ class DriverThread {
   struct Options {
     RobotDriver::Options driver;
     /// Ask for SCHED_FIFO and locked memory. If the system refuses, the thread runs without them,
-    /// and note() says so.
+    /// and notes() says so.
     bool realtime = false;
     /// Below 1, all of the driver's time runs slower, including time-outs: for emulated ECUs of the
     /// same pace on machines that are too slow for real time. Never use it with a robot.
@@ -51,7 +53,8 @@ class DriverThread {
   };
   Batch wait(double seconds);
 
-  const std::string& note() const { return note_; }
+  /// What did not go as asked at the start, one line each.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   double now() const { return options_.pace * monotonic_now(); }
@@ -64,7 +67,7 @@ class DriverThread {
   SocketCanBus bus_;
   RobotDriver driver_;
   Options options_;
-  std::string note_;
+  std::vector<std::string> notes_;
   int epoll_, timer_, wakeup_;
   std::uint64_t watched_ = 0;  ///< SocketCanBus::openings() of the socket that is waited on
 

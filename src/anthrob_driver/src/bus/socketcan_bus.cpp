@@ -4,6 +4,7 @@
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
+#include <net/if_arp.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
@@ -23,6 +24,13 @@ namespace {
 /// Bands of the queue of an interface (pfifo_fast): 6 is served before 0, and needs no privilege as
 /// 7 would.
 constexpr int kOrdinary = 0, kUrgent = 6;
+
+/// To ask the kernel about an interface.
+ifreq request_for(const std::string& interface) {
+  ifreq request{};
+  std::strncpy(request.ifr_name, interface.c_str(), IFNAMSIZ - 1);
+  return request;
+}
 
 int open_socket(unsigned index) {
   const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
@@ -121,7 +129,12 @@ SocketCanBus::SocketCanBus(const std::string& interface)
     throw std::runtime_error("CAN sockets: " + std::string(std::strerror(errno)) +
                              "; this kernel lacks can_raw (modprobe can_raw)");
   }
+  ifreq request = request_for(interface);
+  const bool exists = ::ioctl(probe, SIOCGIFHWADDR, &request) == 0;
   ::close(probe);
+  if (exists && request.ifr_hwaddr.sa_family != ARPHRD_CAN) {
+    throw BadInput("CAN interface '" + interface + "': expected a CAN interface; this is another");
+  }
   recover();
 }
 
@@ -131,8 +144,7 @@ SocketCanBus::~SocketCanBus() {
 
 bool SocketCanBus::interface_is_up() const {
   const int probe = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
-  ifreq request{};
-  std::strncpy(request.ifr_name, interface_.c_str(), IFNAMSIZ - 1);
+  ifreq request = request_for(interface_);
   const bool up = ::ioctl(probe, SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
   ::close(probe);
   return up;
@@ -146,7 +158,8 @@ bool SocketCanBus::open_interface() {
   ++openings_;
   option(socket_, SOL_SOCKET, SO_TIMESTAMPNS, int{1});
   option(socket_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, int{1});
-  option(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});
+  // That a frame waited for one of higher priority is no error.
+  option(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK & ~CAN_ERR_LOSTARB});
   option(socket_, SOL_SOCKET, SO_RXQ_OVFL, int{1});
   dropped_ = 0;
   // Bursts of a whole cycle must fit, whatever the scheduler does.

@@ -89,7 +89,7 @@ void BusWatch::cycle(double now, double late) {
 std::string BusWatch::trouble() const {
   switch (condition_) {
     case Condition::kDown:
-      return "the CAN interface is down";
+      return "the CAN interface is down or missing";
     case Condition::kOff:
       return "the CAN controller is bus-off; check cable, termination and bit rate";
     case Condition::kPassive:

@@ -16,7 +16,8 @@ namespace driver {
 class SocketCanBus final : public Bus {
  public:
   /// @param interface such as "can0"; may be down or missing: recover() waits for it
-  /// @throws std::runtime_error if this kernel has no CAN sockets
+  /// @throws std::runtime_error if this kernel has no CAN sockets; BadInput if the interface is
+  ///   not a CAN interface
   explicit SocketCanBus(const std::string& interface);
   ~SocketCanBus() override;
   SocketCanBus(const SocketCanBus&) = delete;
