@@ -28,7 +28,7 @@ void Recording::add_options(CLI::App& app) {
   app.add_option(
          "--sync-tolerance", folder.sync_tolerance,
          "[s] largest difference between the times of a pair, if both folders have a times.csv")
-      ->check(CLI::NonNegativeNumber);
+      ->check(tool::within(0.0, 10.0));
 }
 
 void Recording::refuse_contradiction(const Health& health) const {
