@@ -20,6 +20,7 @@
 #include <set>
 #include <thread>
 
+#include "anthrob_config/errors.h"
 #include "anthrob_driver/driver_thread.h"
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
@@ -358,6 +359,12 @@ TEST(SocketCan, TellsOfFramesThatItsQueueCouldNotHold) {
   talker.flush();
   while (sleeper.receive(event)) overruns += event.kind == BusEvent::Kind::kReceiveOverrun;
   EXPECT_EQ(overruns, 1);
+}
+
+TEST(SocketCan, RefusesAnInterfaceOfAnotherKind) {
+  if (::if_nametoindex(kInterface) == 0) GTEST_SKIP() << "no vcan0: scripts/with_vcan.sh";
+  EXPECT_THROW(SocketCanBus("lo"), BadInput);
+  EXPECT_NO_THROW(SocketCanBus("can99"));  // it may come
 }
 
 TEST(SocketCan, ASocketThatIsOpenedAnewIsAnother) {

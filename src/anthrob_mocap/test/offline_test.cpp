@@ -129,6 +129,7 @@ TEST_F(Offline, TakesTimesFromAFile) {
   folder_.write("right/times.csv", test::replaced(times, "100.030000", "100.045000"));
   refuse("index 3: unsynchronised pair: left and right are 15.0");
   EXPECT_EQ(run("--sync-tolerance 0.02"), 0) << folder_.read("err");
+  EXPECT_EQ(run("--sync-tolerance nan"), 2);
   folder_.write("right/times.csv", times.substr(0, times.rfind('\n', times.size() - 2) + 1));
   refuse("right/times.csv: no time for");
   folder_.write("right/times.csv", "index,t\n0,zero\n");
