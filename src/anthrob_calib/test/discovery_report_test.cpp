@@ -60,6 +60,7 @@ TEST(Report, EveryKeyIsDocumented) {
   answer.alternatives.resize(1);
   answer.improbable.resize(1);
   answer.improbable[0].at_limit = "offset_u";
+  answer.improbable[0].spoils = "brachialis/position";
   answer.refused.id = "cogging";
   answer.asked = {"more"};
   answer.remaining.resize(1);
@@ -201,7 +202,7 @@ TEST(Report, TellsWhatIsTooImprobableToBeAdded) {
   Answer answer;
   answer.verdict = "unexplained";
   answer.improbable = {
-      {"payload", "Payload", "forearm", 0.03, 200.0, "biceps_brachii/force", 0.4, ""}};
+      {"payload", "Payload", "forearm", 0.03, 200.0, "biceps_brachii/force", 0.4, "", ""}};
   const char* const kImprobableLaw =
       "Tried, but too improbable to be added: Payload at forearm, probability 0.03, "
       "which leaves 40 % of the squared gap of biceps_brachii/force.";
@@ -235,6 +236,25 @@ TEST(Report, TellsOfAShapeAtTheEndOfItsRange) {
   EXPECT_TRUE(holds(page, "with offset_v at the end of its range"));
   EXPECT_EQ(nlohmann::json::parse(report_json(answer, {}, 1.0))["effects"][0]["at_limit"],
             "offset_u");
+}
+
+TEST(Report, TellsOfAChannelThatALawSpoils) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "clearly worse"));
+  EXPECT_FALSE(
+      nlohmann::json::parse(report_json(answer, {}, 1.0))["effects"][0].contains("spoils"));
+  answer.effects[0].spoils = "brachialis/position";
+  answer.improbable.resize(1);
+  answer.improbable[0].at_limit = "offset_v";
+  answer.improbable[0].spoils = "triceps_brachii/position";
+  const std::string page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "with brachialis/position clearly worse than without it, which"));
+  EXPECT_TRUE(holds(page, "with offset_v at the end of its range and triceps_brachii/position "));
+  const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
+  EXPECT_EQ(json["effects"][0]["spoils"], "brachialis/position");
+  EXPECT_EQ(json["improbable"][0]["spoils"], "triceps_brachii/position");
 }
 
 TEST(Report, TellsWhatTheNamedLawLeavesAndWhatItMakesWorse) {

@@ -64,6 +64,15 @@ TEST(Verdict, ALawThatEndsAtTheLimitOfItsShapeIsUnlikely) {
   EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 * 0.05);
 }
 
+TEST(Verdict, ALawThatSpoilsAChannelIsUnlikely) {
+  Answer answer = named(0.9, 0.0);
+  answer.effects[0].spoils = "brachialis/position";
+  answer.effects[0].left = 0.05;
+  EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], false), 1.0 / 13.0);
+  pronounce({{"elbow/position", 1.2}}, false, answer);
+  EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 / 13.0);
+}
+
 TEST(LimitOf, IsAFittedShapeThatCouldHaveGoneEitherWay) {
   Candidate surface{find_effect("wrapping_surface"), "brachialis/2", {}, {}};
   surface.parameters = surface.effect->info().parameters;

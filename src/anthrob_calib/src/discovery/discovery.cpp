@@ -78,7 +78,7 @@ class Search {
     drop_improbable(answer);
     find_alternatives(screening, answer);
     measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
-    spare_channels_that_pay();
+    if (!named_.empty()) base_ = spared();
     conclude(answer);
     return answer;
   }
@@ -258,7 +258,7 @@ class Search {
     for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
       remove(part->effect, instead->tested);
     }
-    note_what_it_shows_in(test_judge_, instead->without, base_.test, united);
+    note_what_it_changes(test_judge_, instead->without, base_.test, united);
     if (name_instead(candidate, instead->odds, united.found)) {
       separate(base_.fit.variant, apart, united.found);
     }
@@ -309,15 +309,21 @@ class Search {
     }
   }
 
-  /// What leaves so much, or bends so far, that it is hardly the right law does not extend the
-  /// model: it may do what another one should.
+  bool charge_for_spoilt_channels(const Tested& with_all) {
+    return charge_spoilt_channels(test_judge_, recalibrated_.test, with_all.test, named_);
+  }
+
+  /// What leaves so much, bends so far, or costs a channel so much that it is hardly the right law
+  /// does not extend the model: it may do what another one should.
   void drop_improbable(Answer& answer) {
     // What was not let in may be what is left.
-    if (!has_room() && gaps_.any(base_, kFaintGap)) return;
+    const bool left_counts = has_room() || !gaps_.any(base_, kFaintGap);
     for (;;) {
       measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
       note_limits();
-      const NamedEffect* const improbable = least_of_improbable(named_);
+      // What can be spared is not spoilt.
+      if (charge_for_spoilt_channels(base_)) charge_for_spoilt_channels(spared());
+      const NamedEffect* const improbable = least_of_improbable(named_, left_counts);
       if (!improbable) return;
       const auto e = static_cast<std::size_t>(improbable - named_.data());
       const Candidate& candidate = candidates_[improbable->candidate];
@@ -330,7 +336,7 @@ class Search {
       const FoundEffect& found = improbable->found;
       answer.improbable.push_back({found.id, found.name, found.place,
                                    found.probability * trust_in(found), found.evidence,
-                                   found.shows_in, found.left, found.at_limit});
+                                   found.shows_in, found.left, found.at_limit, found.spoils});
       forget_refusals(candidate, answer);
       answer.dropped.clear();  // beside this one they were not needed
       remove(e, std::move(base));
@@ -349,13 +355,13 @@ class Search {
     }
   }
 
-  /// What was found should cost no channel anything.
-  void spare_channels_that_pay() {
-    if (named_.empty()) return;
+  /// The model as it is, fitted so that what was found costs no channel anything, as far as that
+  /// goes.
+  Tested spared() const {
     stage("checking whether a channel got worse");
     Tested spared =
         bench_.tested(spare_channels(train_, train_judge_, recalibrated_.fit.residual, base_.fit));
-    if (spared.test.size() > 0) base_ = std::move(spared);
+    return spared.test.size() > 0 ? spared : base_;
   }
 
   void find_alternatives(Screening& screening, Answer& answer) const {
@@ -388,6 +394,7 @@ class Search {
   void measure_effects() {
     if (named_.empty()) return;
     note_limits();
+    charge_for_spoilt_channels(base_);
     const auto ranges =
         bootstrap_intervals(base_.fit, train_.experiments(), variables_, question_.seed);
     for (std::size_t e = 0; e < named_.size(); ++e) {
@@ -445,7 +452,7 @@ class Search {
     effect.candidate = best.candidate;
     effect.gained = base_.fit.cost - best.fit.cost;
     effect.fuller = fuller_than(best.candidate, in_its_round);
-    note_what_it_shows_in(test_judge_, base_.test, best.test, effect);
+    note_what_it_changes(test_judge_, base_.test, best.test, effect);
     named_.push_back(std::move(effect));
     forget_refusals(candidates_[best.candidate], answer);
     base_ = best;

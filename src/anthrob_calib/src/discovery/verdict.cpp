@@ -43,9 +43,11 @@ const Dependence* strongest(const std::map<std::string, double>& left,
 
 }  // namespace
 
-double trust_in(const FoundEffect& effect) {
+double trust_in(const FoundEffect& effect, bool left_counts) {
   const double of_shape = effect.at_limit.empty() ? 1.0 : kAtLimit;
-  return of_shape * kEvenOdds / (kEvenOdds + effect.left);
+  const double of_channels = effect.spoils.empty() ? 1.0 : kSpoils;
+  const double of_left = left_counts ? kEvenOdds / (kEvenOdds + effect.left) : 1.0;
+  return of_shape * of_channels * of_left;
 }
 
 void pronounce(const std::map<std::string, double>& left, bool certain, Answer& answer) {

@@ -51,7 +51,7 @@ std::string finding(const FoundEffect& effect, std::size_t number, const Answer&
   return "<h3>" + escaped(effect.name) + ": " + escaped(effect.id) + " @ " + escaped(effect.place) +
          "</h3>\n" + parameter_table(effect) + "<p>Evidence: " + short_number(effect.evidence) +
          " nat gained in held-out log score, " + probability_text(effect.probability) +
-         limit_clause(effect.at_limit) + "." + what_is_left(effect) + "</p>\n" +
+         doubt_clause(effect.at_limit, effect.spoils) + "." + what_is_left(effect) + "</p>\n" +
          rivals_of(effect, number, answer);
 }
 

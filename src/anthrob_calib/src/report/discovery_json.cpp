@@ -52,6 +52,7 @@ Json effect_json(const FoundEffect& effect) {
             {"rivals", rivals},
             {"separating_experiment", effect.separating_experiment}};
   if (!effect.at_limit.empty()) json["at_limit"] = effect.at_limit;
+  if (!effect.spoils.empty()) json["spoils"] = effect.spoils;
   return json;
 }
 
@@ -143,6 +144,7 @@ Json improbable_json(const Answer& answer) {
                     {"shows_in", law.shows_in},
                     {"left", number(law.left)}});
     if (!law.at_limit.empty()) list.back()["at_limit"] = law.at_limit;
+    if (!law.spoils.empty()) list.back()["spoils"] = law.spoils;
   }
   return list;
 }

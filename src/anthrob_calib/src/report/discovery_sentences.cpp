@@ -110,18 +110,22 @@ std::string range_text(const FoundParameter& p) {
   return short_number(p.low) + " to " + short_number(p.high);
 }
 
-std::string limit_clause(const std::string& parameter) {
-  return parameter.empty() ? ""
-                           : ", with " + escaped(parameter) +
-                                 " at the end of its range, which suggests that the law stands in "
-                                 "for another one";
+std::string doubt_clause(const std::string& at_limit, const std::string& spoils) {
+  std::string signs;
+  if (!at_limit.empty()) signs = escaped(at_limit) + " at the end of its range";
+  if (!spoils.empty()) {
+    signs += (signs.empty() ? "" : " and ") + escaped(spoils) + " clearly worse than without it";
+  }
+  return signs.empty()
+             ? ""
+             : ", with " + signs + ", which suggests that the law stands in for another one";
 }
 
 std::string improbable_sentence(const Answer& answer) {
   std::string text;
   for (const Improbable& law : answer.improbable) {
     text += (text.empty() ? "" : "; ") + escaped(law.name) + " at " + escaped(law.place) + ", " +
-            probability_text(law.probability) + limit_clause(law.at_limit);
+            probability_text(law.probability) + doubt_clause(law.at_limit, law.spoils);
     if (law.shows_in.empty()) continue;
     text += ", which leaves " + short_number(100.0 * law.left) + " % of the squared gap of " +
             escaped(law.shows_in);

@@ -51,6 +51,7 @@ struct FoundEffect {
   double left = 0.0;     ///< share of the squared gap in that channel that is left
   std::vector<FoundParameter> parameters;
   std::string at_limit;  ///< a shape parameter at the end of its range; empty: none
+  std::string spoils;    ///< a held-out channel that it makes clearly worse; empty: none
   std::vector<Rival> rivals;
   std::string separating_experiment;         ///< how to tell it from the first rival, in words
   SeparatingRecording separating_recording;  ///< for the recorder; empty where it cannot do it
@@ -72,14 +73,15 @@ struct Refused {
   std::string lack;
 };
 
-/// A law that met the criteria, but leaves so much of the gap, or ends so near the limit of its
-/// shape, that it is unlikely to be right. It is reported, but not added to the model.
+/// A law that met the criteria, but leaves so much of the gap, ends so near the limit of its shape,
+/// or makes a channel so much worse that it is unlikely to be right. It is reported, but not added
+/// to the model.
 struct Improbable {
   std::string id, name, place;
   double probability = 0.0, evidence = 0.0;
-  std::string shows_in;  ///< this and the next two: as in FoundEffect
+  std::string shows_in;  ///< this and the next three: as in FoundEffect
   double left = 0.0;
-  std::string at_limit;
+  std::string at_limit, spoils;
 };
 
 /// Root mean squares in standard deviations of the floor.

@@ -11,9 +11,10 @@ namespace discovery {
 /// Answer::remaining_description where no gap is certain.
 constexpr char kNoCertainGap[] = "no certain gap";
 
-/// Factor for the probability of an effect: it is lower the more of the gap the law leaves, and if
-/// its shape ends at a limit.
-double trust_in(const FoundEffect& effect);
+/// Factor for the probability of an effect: it is lower the more of the gap the law leaves, if its
+/// shape ends at a limit, and if it spoils a channel.
+/// @param left_counts whether what the law leaves matters
+double trust_in(const FoundEffect& effect, bool left_counts = true);
 
 /// Fills in the verdict and the description of what remains, and lowers the probabilities of the
 /// named effects and their rivals by trust_in().

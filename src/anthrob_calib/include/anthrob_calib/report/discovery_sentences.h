@@ -16,8 +16,9 @@ std::string next_steps(const Answer& answer);
 /// Laws that earned their place and were not added, with what speaks against them; empty: none.
 std::string improbable_sentence(const Answer& answer);
 
-/// ", with offset_u at the end of its range ..."; empty if no parameter is.
-std::string limit_clause(const std::string& parameter);
+/// What speaks against a law: ", with offset_u at the end of its range ..."; empty: nothing.
+/// @param at_limit, spoils of the law (FoundEffect)
+std::string doubt_clause(const std::string& at_limit, const std::string& spoils);
 
 /// "0.05 Nm", not to be broken between lines; without unit where there is none.
 std::string with_unit(double value, const std::string& unit);
