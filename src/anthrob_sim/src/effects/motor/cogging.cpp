@@ -15,9 +15,8 @@ EffectInfo describe() {
       "the rotor angle and shows as ripple of current or speed at fixed rotor angles. Two sizes "
       "give its amplitude (root of the sum of their squares) and its phase. In each step acts the "
       "mean of the torque over the angle that the rotor is about to turn, so fast turning averages "
-      "it out. Refused if it could move the rotor by a large part of a period in one step, "
-      "together "
-      "with other cogging of the same muscle.";
+      "it out. Refused if all cogging of the muscle together could move the rotor by a large part "
+      "of a period in one step.";
   i.equation = "tau_shaft = sine sin(periods phi) + cosine cos(periods phi), phi = N position";
   i.source = "known";
   i.where = "MUSCLE | all";
