@@ -63,6 +63,21 @@ class LaunchFiles(unittest.TestCase):
                 with self.assertRaisesRegex(roslaunch.core.RLException, re.escape(wrong).replace('true', 'True') + '.*: expected '):
                     load(*asked)
 
+    def test_a_controller_in_real_time_needs_measurements_that_are_not_late(self):
+        for file in 'demo.launch', 'computed_force.launch':
+            for rate in '0', '1.5', '-1', 'nan':
+                with self.subTest(file + ' rate:=' + rate):
+                    with self.assertRaisesRegex(roslaunch.core.RLException, 'rate:=.*: expected above 0 and at most 1, because'):
+                        load(file, 'rate:=' + rate)
+            with self.subTest(file + ' rate:=fast'), self.assertRaises(roslaunch.core.RLException):
+                load(file, 'rate:=fast')
+            for rate in '0.2', '1', '1.0':
+                with self.subTest(file + ' rate:=' + rate):
+                    self.assertEqual(load(file, 'rate:=' + rate).params['/anthrob/simulator/rate'].value, float(rate))
+        for other in 'lock_step:=true', 'sim:=false':
+            with self.subTest('rate:=0 ' + other):
+                self.assertTrue(load('computed_force.launch', 'rate:=0', other).nodes)
+
     def test_names_that_are_numbers(self):
         given = dict(model='m', train='a', test='b', out='c')
         for name in 'repeat', 'effects', 'calibration', 'close_the_loop':
