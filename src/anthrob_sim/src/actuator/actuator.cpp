@@ -35,6 +35,10 @@ std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const Conf
   return factory_of(kind)(kind, muscle, step);
 }
 
+double read_rest_tendon_length(const ConfigNode& muscle) {
+  return muscle.number("rest_tendon_length", {0.0, 10.0, true, false}, "m");
+}
+
 void require_actuator_type(const ConfigNode& kind) {
   factory_of(kind);
 }

@@ -116,7 +116,7 @@ std::shared_ptr<const Actuator> DcMotor::load(const ConfigNode& kind, const Conf
   p.ratio = gear.number("ratio", Bounds::positive(), "1");
   p.friction_torque = gear.number("friction_torque", Bounds::nonnegative(), "Nm");
   p.spindle_radius = muscle.number("spindle_radius", Bounds::positive(), "m");
-  p.rest_tendon_length = muscle.number("rest_tendon_length", Bounds::positive(), "m");
+  p.rest_tendon_length = read_rest_tendon_length(muscle);
   p.voltage_limit = kind.number("nominal_voltage", Bounds::positive(), "V");
   return std::make_shared<DcMotor>(p, make_gear_law(gear), step);
 }

@@ -118,7 +118,7 @@ std::shared_ptr<const Actuator> HillMuscle::load(const ConfigNode& kind, const C
   p.activation_time = kind.number("activation_time", Bounds::positive(), "s");
   p.deactivation_time = kind.number("deactivation_time", Bounds::positive(), "s");
   p.damping = kind.number("damping", Bounds::positive(), "1");
-  p.rest_tendon_length = muscle.number("rest_tendon_length", Bounds::positive(), "m");
+  p.rest_tendon_length = read_rest_tendon_length(muscle);
   return std::make_shared<HillMuscle>(p, step);
 }
 

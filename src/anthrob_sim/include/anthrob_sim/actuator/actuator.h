@@ -59,6 +59,10 @@ class Actuator {
 std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const ConfigNode& muscle,
                                               double step);
 
+/// `rest_tendon_length` of a muscle [m]. Throws BadInput above 10 m, as a number meant in
+/// millimetres is.
+double read_rest_tendon_length(const ConfigNode& muscle);
+
 /// Throws BadInput if a kind of actuator has an unknown `type`.
 void require_actuator_type(const ConfigNode& kind);
 
