@@ -42,8 +42,11 @@ Placement::Placement(const Simulation& sim) : model_(sim.model()), q_(sim.config
 void Placement::set_joint(const std::string& name, double position) {
   const std::string who = "joint '" + name + "'";
   const int index = model_.skeleton->find_joint(name);
-  if (index < 0 || model_.skeleton->joints[index].type == JointType::kBall) {
-    throw BadInput(who + ": no hinge or prismatic joint of that name");
+  if (index < 0) throw BadInput(who + ": no hinge or prismatic joint of that name");
+  if (model_.skeleton->joints[index].type == JointType::kBall) {
+    throw BadInput(who +
+                   " is a ball joint: give its orientation (ball_joint_name, "
+                   "ball_joint_orientation)");
   }
   const JointModel& joint = model_.skeleton->joints[index];
   if (!(std::abs(position) < Simulation::kSensible)) {

@@ -57,8 +57,11 @@ TEST(Placement, HingesStayWithinTheirStopAndWhatItGives) {
     EXPECT_NE(text.find("limits"), std::string::npos) << text;
   }
   EXPECT_NE(refusal([&] { placement.set_joint("elbow", std::nan("")); }), "");
-  EXPECT_NE(refusal([&] { placement.set_joint("shoulder", 0.0); }), "");
-  EXPECT_NE(refusal([&] { placement.set_joint("knee", 0.0); }), "");
+  EXPECT_EQ(refusal([&] { placement.set_joint("shoulder", 0.0); }),
+            "joint 'shoulder' is a ball joint: give its orientation (ball_joint_name, "
+            "ball_joint_orientation)");
+  EXPECT_EQ(refusal([&] { placement.set_joint("knee", 0.0); }),
+            "joint 'knee': no hinge or prismatic joint of that name");
 }
 
 TEST(Placement, JointsWithoutAStopGoAsFarAsNumbersMakeSense) {
