@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "anthrob_config/errors.h"
+#include "require_file.h"
 
 namespace anthrob {
 
@@ -137,9 +138,7 @@ DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
   }
   chain.push_back(canonical);
 
-  if (std::filesystem::is_directory(path)) {
-    throw BadInput(path + ": expected a YAML file, not a folder");
-  }
+  require_file(path);
   YAML::Node root;
   try {
     root = only_document(YAML::LoadAllFromFile(path), path);

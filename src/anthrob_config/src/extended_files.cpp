@@ -6,6 +6,7 @@
 
 #include "anthrob_config/config_node.h"
 #include "anthrob_config/errors.h"
+#include "require_file.h"
 
 namespace anthrob {
 
@@ -13,9 +14,7 @@ namespace {
 
 /// Without what it extends.
 ConfigNode alone(const std::string& file) {
-  if (std::filesystem::is_directory(file)) {
-    throw BadInput(file + ": expected a YAML file, not a folder");
-  }
+  require_file(file);
   std::ifstream in(file);
   if (!in) throw BadInput(file + ": cannot be read; expected a YAML file");
   return ConfigNode::parse({std::istreambuf_iterator<char>(in), {}}, file);
