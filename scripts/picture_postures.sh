@@ -17,8 +17,9 @@ config="$(rospack find anthrob_bringup)"
 export ROS_MASTER_URI="http://localhost:11399" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1
 work="$(mktemp -d)"
 
-# The view only, without panels.
-sed '/^Panels:/,/^Visualization Manager:/{/^Visualization Manager:/!d}; 1i Panels: []' \
+# The view only, without panels, and nearer.
+sed -e 's/^\( *Distance:\) .*/\1 0.95/' \
+  -e '/^Panels:/,/^Visualization Manager:/{/^Visualization Manager:/!d}; 1i Panels: []' \
   "$config/launch/anthrob.rviz" >"$work/view.rviz"
 roslaunch -p 11399 anthrob_bringup sim.launch "robot:=$robot" "model:=$model" rviz:=true \
   "rviz_config:=$work/view.rviz" command_timeout:=0 >"$work/launch.log" 2>&1 &
