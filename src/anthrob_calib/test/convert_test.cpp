@@ -516,6 +516,20 @@ TEST(Plot, AnOrientationIsWhole) {
       << line;
 }
 
+TEST(Plot, AFigureWithoutLinesIsNotDrawn) {
+  const Folder folder;
+  hinge().save(folder / "set");
+  const std::string command = std::string(ANTHROB_PLOT) + " " + (folder / "set") + " --out " +
+                              (folder / "figures") + " 2>" + (folder / "errors.txt");
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(content(folder / "errors.txt"),
+            "anthrob_plot: no actuator_positions.svg: the recording has no positions of muscles\n"
+            "anthrob_plot: no muscle_forces.svg: the recording has no forces of muscles\n");
+  EXPECT_TRUE(std::filesystem::exists(folder / "figures/joint_angles.svg"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "figures/actuator_positions.svg"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "figures/muscle_forces.svg"));
+}
+
 TEST(Convert, ABrokenBagIsNamed) {
   const Folder folder;
   write_original(folder / "a.bag");

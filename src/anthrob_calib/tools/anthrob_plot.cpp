@@ -75,10 +75,13 @@ void add_ball_joint(const Dataset& data, const std::string& joint, SvgFigure& fi
   panel.lines.back().colour = 9;
 }
 
+/// Empty without joints.
 std::string joint_figure(const Dataset& data) {
+  const auto balls = owners(data, "w", false), others = owners(data, "position", false);
+  if (balls.empty() && others.empty()) return "";
   SvgFigure figure("Joint angles");
-  for (const std::string& joint : owners(data, "w", false)) add_ball_joint(data, joint, figure);
-  for (const std::string& joint : owners(data, "position", false)) {
+  for (const std::string& joint : balls) add_ball_joint(data, joint, figure);
+  for (const std::string& joint : others) {
     // A recording does not say whether a joint turns or slides.
     auto& panel = figure.add_panel("time [s]", joint + " [rad or m]");
     panel.lines.push_back(line(joint, data.series(joint + "/position"), 1.0));
@@ -86,11 +89,14 @@ std::string joint_figure(const Dataset& data) {
   return figure.render();
 }
 
+/// Empty if no muscle has the quantity.
 std::string muscle_figure(const Dataset& data, const std::string& title,
                           const std::string& quantity, const std::string& unit) {
+  const auto muscles = owners(data, quantity, true);
+  if (muscles.empty()) return "";
   SvgFigure figure(title);
   auto& panel = figure.add_panel("time [s]", quantity + " [" + unit + "]");
-  for (const std::string& muscle : owners(data, quantity, true)) {
+  for (const std::string& muscle : muscles) {
     panel.lines.push_back(line(muscle, data.series(muscle + "/" + quantity), 1.0));
   }
   return figure.render();
@@ -111,11 +117,18 @@ int main(int argc, char** argv) {
     tool::say(app, data.remarks);
     std::error_code error;
     std::filesystem::create_directories(out, error);
-    write_file_atomically(out + "/joint_angles.svg", joint_figure(data));
-    write_file_atomically(out + "/actuator_positions.svg",
-                          muscle_figure(data, "Actuator positions", "position", "rad"));
-    write_file_atomically(out + "/muscle_forces.svg",
-                          muscle_figure(data, "Muscle forces", "force", "N"));
+    const auto write = [&](const std::string& name, const std::string& svg, const char* shown) {
+      if (svg.empty()) {
+        tool::say(app, {"no " + name + ": the recording has no " + shown});
+      } else {
+        write_file_atomically(out + "/" + name, svg);
+      }
+    };
+    write("joint_angles.svg", joint_figure(data), "joints");
+    write("actuator_positions.svg", muscle_figure(data, "Actuator positions", "position", "rad"),
+          "positions of muscles");
+    write("muscle_forces.svg", muscle_figure(data, "Muscle forces", "force", "N"),
+          "forces of muscles");
     return tool::kDone;
   });
 }
