@@ -51,6 +51,8 @@ class Parameters(unittest.TestCase):
             source = ''.join(open(file).read() for file in glob.glob(folder))
             read = set(re.findall(r'(?:take|required|optional_text)\(\s*settings,\s*"(\w+)"', source))
             self.assertTrue(read, package)
+            if 'Role::kCommander' in source:
+                read.add('back_end')  # by run_node()
             self.assertEqual(told, read, package)
 
     def test_launch_files_give_what_nodes_know(self):
@@ -116,7 +118,7 @@ class Parameters(unittest.TestCase):
         self.check('anthrob_control', 'anthrob_posture_player',
                    [('model', os.path.join(CONFIG, 'model_I.yaml')),
                     ('postures', os.path.join(CONFIG, 'demo_postures.yaml'))],
-                   [('approach_speed', 'slow'), ('approach_speed', '-1.0')])
+                   [('approach_speed', 'slow'), ('approach_speed', '-1.0'), ('back_end', '1')])
 
     def test_motion_capture(self):
         self.check('anthrob_mocap', 'anthrob_mocap', [],

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "anthrob_config/errors.h"
+#include "anthrob_ros/parameters.h"
 #include "anthrob_ros/single_backend.h"
 
 namespace anthrob {
@@ -101,8 +102,11 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
   ros::NodeHandle nh, settings("~");
   try {
     warn_of_unknown_parameters(info, settings.getNamespace());
-    if (commands)
-      refuse_other_back_ends(nh, settings.param<std::string>(kBackEndParameter.key, ""));
+    if (commands) {
+      std::string own;
+      take(settings, kBackEndParameter.key, text_of, own);
+      refuse_other_back_ends(nh, own);
+    }
     return body(nh, settings);
   } catch (const BadInput& error) {
     ROS_FATAL_STREAM(error.what());
