@@ -49,6 +49,13 @@ class Tendons(unittest.TestCase):
                 return self.drawn[-1].markers
         self.fail('not drawn: %s' % self.drawn[-1:])
 
+    def test_surfaces_are_sent_again(self):
+        """For an RViz that did not know their frames at first."""
+        seen = []
+        rospy.Subscriber('wrapping_surfaces', MarkerArray, seen.append)
+        wait_for(lambda: len(seen) > 1, 15, 'the surfaces once more')
+        self.assertEqual(seen[0], seen[1])
+
     def test_where_joints_are_measured_and_only_while_they_are(self):
         time.sleep(0.5)
         self.assertFalse(self.drawn)  # nothing is known yet

@@ -38,7 +38,8 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       steps_per_state_(steps_in(1.0 / options.state_rate)),
       steps_per_cycle_(std::min(steps_per_state_, steps_in(kHearing))),
       steps_to_state_(steps_per_state_),
-      nh_(nh) {
+      nh_(nh),
+      surfaces_(nh_, sim_.model()) {
   clock_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
   joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
@@ -49,7 +50,6 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
     touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);
   }
   solved_paths_ = nh_.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
-  surfaces_ = nh_.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
 
   ros::NodeHandle commands(nh_);
@@ -76,7 +76,6 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       nh_.advertiseService("sim/reset", &SimulatorNode::on_reset, this),
       nh_.advertiseService("sim/set_state", &SimulatorNode::on_set_state, this),
   };
-  surfaces_.publish(surface_markers(sim_.model()));
   apply_supervision();
 }
 

@@ -19,6 +19,7 @@
 #include "anthrob_sim/driven_joints.h"
 #include "anthrob_sim/report/solved_path.h"
 #include "anthrob_sim/simulation.h"
+#include "surface_display.h"
 
 namespace anthrob {
 
@@ -108,7 +109,8 @@ class SimulatorNode {
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher clock_, muscles_, joints_, spherical_joints_, muscle_paths_, touch_, solved_paths_,
-      surfaces_, diagnostics_;
+      diagnostics_;
+  SurfaceDisplay surfaces_;
   tf2_ros::TransformBroadcaster transforms_;
 
   Clock::time_point deadline_, report_time_, marker_time_, clock_time_;

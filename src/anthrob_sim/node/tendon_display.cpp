@@ -30,10 +30,9 @@ TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeH
     : sim_(std::move(model)),
       q_(sim_.model().skeleton->rest_configuration()),
       forces_(sim_.muscle_count(), kNotMeasured),
-      stamps_(sim_.model().skeleton->joints.size()) {
+      stamps_(sim_.model().skeleton->joints.size()),
+      surfaces_(nh, sim_.model()) {
   paths_ = nh.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
-  surfaces_ = nh.advertise<visualization_msgs::MarkerArray>("wrapping_surfaces", 1, true);
-  surfaces_.publish(surface_markers(sim_.model()));
   solved_paths_ = nh.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {

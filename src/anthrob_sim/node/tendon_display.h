@@ -11,6 +11,7 @@
 
 #include "anthrob_ros/clock_wait.h"
 #include "anthrob_sim/simulation.h"
+#include "surface_display.h"
 
 namespace anthrob {
 
@@ -39,7 +40,8 @@ class TendonDisplay {
   std::vector<double> forces_;  ///< of all muscles [N]; NaN: not measured
   ros::Time forces_stamp_;
   std::vector<ros::Time> stamps_;  ///< of all joints
-  ros::Publisher paths_, surfaces_, solved_paths_;
+  SurfaceDisplay surfaces_;
+  ros::Publisher paths_, solved_paths_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
   ClockWait clock_wait_;
