@@ -121,6 +121,7 @@ class RefusedLaunch(unittest.TestCase):
                     self.assertIn('~back_end: simulator: but %s publishes /anthrob/muscle_states' % rospy.get_name(),
                                   said)
                     self.assertEqual(robot.asked, [], arguments[0])
+                    self.assertFalse(rospy.get_param('/use_sim_time'))
         finally:
             robot.close()
 

@@ -41,8 +41,8 @@ void require_file(const std::string& path) {
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) throw BadInput(path + ": expected a YAML file, not a folder");
   if (status.type() != fs::file_type::not_found) return;
-  const fs::path folder = fs::absolute(path).parent_path();
-  const std::string models = model_name(path).empty() ? "" : models_in(folder);
+  const bool is_model = !model_name(path).empty();
+  const std::string models = is_model ? models_in(fs::absolute(path).parent_path()) : "";
   throw BadInput(path + ": no such file" +
                  (models.empty() ? "" : "; its folder has the models " + models));
 }

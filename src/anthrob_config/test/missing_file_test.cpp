@@ -49,6 +49,8 @@ TEST_F(MissingFile, IsNotCalledUnreadable) {
   expect_refused("settings.yaml", "no such file");
   expect_refused("nowhere/model_I.yaml", "no such file");
   expect_refused("control.yaml/model_I.yaml", "no such file");
+  EXPECT_THROW(ConfigNode::load(""), BadInput);
+  EXPECT_THROW(extended_files(""), BadInput);
 }
 
 TEST_F(MissingFile, OfAModelNamesTheOthersOfItsFolder) {

@@ -95,7 +95,7 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
     return kBadInput;
   }
   if (name_is_taken()) {
-    if (info.role == NodeInfo::Role::kBackEnd) restore_time();
+    if (info.role != NodeInfo::Role::kOther) restore_time();
     return kBadInput;
   }
   // These handles outlive those of the body: without any handle nothing is logged.

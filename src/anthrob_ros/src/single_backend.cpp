@@ -92,8 +92,11 @@ void refuse_other_back_ends(ros::NodeHandle& nh, const std::string& own) {
   const std::string topic = nh.resolveName("muscle_states"), meant = nh.resolveName(own);
   for (const std::string& node : publishers_of(topic)) {
     if (node == meant || !lives(node)) continue;
+    restore_time();
     throw BadInput("parameter ~back_end: " + own + ": but " + node + " publishes " + topic +
-                   "; stop it first, or use the robot that is running (launch files: sim:=false)");
+                   "; stop it first, or use the robot that is running (launch files: sim:=false; "
+                   "rosrun: rosparam delete " +
+                   ros::this_node::getName() + "/back_end)");
   }
 }
 

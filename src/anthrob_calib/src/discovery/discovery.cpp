@@ -78,7 +78,7 @@ class Search {
     drop_improbable(answer);
     find_alternatives(screening, answer);
     measure_what_is_left(test_judge_, recalibrated_.test, base_.test, named_);
-    if (!named_.empty()) base_ = spared();
+    spare_channels_that_pay();
     conclude(answer);
     return answer;
   }
@@ -362,6 +362,15 @@ class Search {
     Tested spared =
         bench_.tested(spare_channels(train_, train_judge_, recalibrated_.fit.residual, base_.fit));
     return spared.test.size() > 0 ? spared : base_;
+  }
+
+  /// Unless sparing one channel spoils another one.
+  void spare_channels_that_pay() {
+    if (named_.empty()) return;
+    Tested without_loss = spared();
+    const bool spoilt_before = charge_for_spoilt_channels(base_);
+    if (charge_for_spoilt_channels(without_loss) && !spoilt_before) return;
+    base_ = std::move(without_loss);
   }
 
   void find_alternatives(Screening& screening, Answer& answer) const {

@@ -24,7 +24,7 @@ ros::Publisher claim_robot(ros::NodeHandle& nh);
 /// simulator is refused, and that node must not command the driver instead. To be called before the
 /// node commands or enables anything.
 /// @param own name of the only back end that it may command, in its namespace; empty: any
-/// @throws BadInput naming another one that serves the robot
+/// @throws BadInput naming another one that serves the robot, as claim_robot does
 void refuse_other_back_ends(ros::NodeHandle& nh, const std::string& own);
 
 /// If a launch file is started twice, two nodes have the same name, and ROS ends the first one when

@@ -32,7 +32,8 @@ BagContents read_bag(const std::string& file);
 /// written to NAME.yaml beside NAME.bag, replacing an existing file. topic_tables.h says which
 /// column goes to which topic. A row without any cell becomes a message without names. Commands
 /// without a mode get the one that a replay takes: the muscle's last one, before its first one the
-/// first, POSITION if it has none anywhere.
+/// first, POSITION if it has none anywhere (a replay takes VOLTAGE for a muscle without
+/// controller).
 /// @throws BadInput if a row cannot become a message (a quantity given for some names only, an
 /// incomplete orientation or command, a time before 0), or if no column has a topic
 BagRemarks write_bag(const Dataset& dataset, const std::string& file);
