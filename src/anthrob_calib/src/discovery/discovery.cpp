@@ -309,6 +309,7 @@ class Search {
     }
   }
 
+  /// @return whether any effect is charged
   bool charge_for_spoilt_channels(const Tested& with_all) {
     return charge_spoilt_channels(test_judge_, recalibrated_.test, with_all.test, named_);
   }

@@ -133,7 +133,8 @@ SocketCanBus::SocketCanBus(const std::string& interface)
   const bool exists = ::ioctl(probe, SIOCGIFHWADDR, &request) == 0;
   ::close(probe);
   if (exists && request.ifr_hwaddr.sa_family != ARPHRD_CAN) {
-    throw BadInput("CAN interface '" + interface + "': expected a CAN interface; this is another");
+    throw BadInput("CAN interface '" + interface +
+                   "': expected a CAN interface, not one of another kind");
   }
   recover();
 }

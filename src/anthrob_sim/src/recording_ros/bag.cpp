@@ -444,8 +444,8 @@ BagContents read_bag(const std::string& file) {
 
 namespace {
 
-/// Modes that a replay takes where none is written: the last one, before the first one the first,
-/// POSITION where there is none at all.
+/// Fills in the modes that are not written, as a replay does: the last one, before the first one
+/// the first. POSITION where there is none at all: which muscles have a controller is not known.
 Table with_all_modes(Table commands, const Dataset& dataset) {
   const std::vector<Column> columns = commands.columns;
   const Nanoseconds begin = dataset.begin();
