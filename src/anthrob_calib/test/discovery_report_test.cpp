@@ -54,6 +54,7 @@ TEST(Report, EveryKeyIsDocumented) {
   Answer answer;
   answer.verdict = "effects_found";
   answer.effects = {cogging()};
+  answer.effects[0].parameters[0].undetermined = true;
   answer.effects[0].rivals.resize(1);
   answer.effects[0].separating_recording.targets.resize(1);
   answer.where.resize(1);
@@ -96,6 +97,24 @@ TEST(Report, WhatWasNotFittedHasNoInterval) {
   const auto& parameters = json["effects"][0]["parameters"];
   EXPECT_FALSE(parameters["amplitude"].contains("known"));
   EXPECT_EQ(parameters["periods"]["known"], true);
+}
+
+TEST(Report, WhatTheRecordingsDoNotDetermineIsSaidInWords) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  FoundParameter& amplitude = answer.effects[0].parameters[0];
+  ASSERT_EQ(amplitude.name, "amplitude");
+  amplitude.undetermined = true;
+  const std::string page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "not determined by these recordings"));
+  EXPECT_FALSE(holds(page, "95 % interval not"));
+  EXPECT_FALSE(holds(page, "0.004 to 0.006"));
+  EXPECT_TRUE(holds(summary(answer), "amplitude 0.005 Nm, not determined by these recordings"))
+      << summary(answer);
+  const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
+  EXPECT_EQ(json["effects"][0]["parameters"]["amplitude"]["undetermined"], true);
+  EXPECT_FALSE(json["effects"][0]["parameters"]["periods"].contains("undetermined"));
 }
 
 TEST(Report, NumbersAreShortAndHaveNoExponentOfUsualSize) {

@@ -197,6 +197,12 @@ TEST(DrivenAxis, WhatLeavesNearlyAllOfTheGapDoesNotExtendTheModel) {
   const Answer capped = ask(question);
   ASSERT_EQ(capped.effects.size(), 1u) << summary(capped);
   EXPECT_LT(capped.effects[0].probability, 0.1);
+  // Where the mass sits makes no difference to an axis that does not turn.
+  const FoundParameter *mass = find_parameter(capped.effects[0], "mass"),
+                       *x = find_parameter(capped.effects[0], "x");
+  ASSERT_TRUE(mass && x);
+  EXPECT_TRUE(mass->has_interval()) << summary(capped);
+  EXPECT_TRUE(x->undetermined) << summary(capped);
 }
 
 TEST(DrivenAxis, NothingIsNamedWhereNothingIsMissing) {

@@ -410,13 +410,14 @@ class Search {
     for (std::size_t e = 0; e < named_.size(); ++e) {
       for (const EffectParameter& p : candidates_[named_[e].candidate].parameters) {
         const double value = base_.fit.variant.effects[e].parameters.at(p.name);
-        FoundParameter found{p.name, p.unit, value, value, value, true};
+        FoundParameter found{p.name, p.unit, value, value, value, true, false};
         for (std::size_t i = 0; i < ranges.size(); ++i) {
           const Unknown& u = base_.fit.unknowns[i];
           if (u.effect != static_cast<int>(e) || u.parameter != p.name) continue;
           found.known = false;
           found.low = ranges[i].first;
           found.high = ranges[i].second;
+          found.undetermined = found.low <= u.lower && found.high >= u.upper;
         }
         named_[e].found.parameters.push_back(std::move(found));
       }

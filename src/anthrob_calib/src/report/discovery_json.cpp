@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anthrob_calib/report/discovery_report.h"
+#include "anthrob_calib/report/discovery_sentences.h"
 
 namespace anthrob {
 namespace discovery {
@@ -29,6 +30,7 @@ Json parameters_json(const std::vector<FoundParameter>& parameters) {
     json[p.name] = {
         {"value", number(p.value)}, {"ci95", {number(p.low), number(p.high)}}, {"unit", p.unit}};
     if (p.known) json[p.name]["known"] = true;
+    if (p.undetermined) json[p.name]["undetermined"] = true;
   }
   return json;
 }
@@ -226,7 +228,7 @@ std::string probability_text(double probability) {
 
 std::string interval_text(const FoundParameter& p) {
   const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-  if (p.known) return short_number(p.value) + unit + ", taken as known";
+  if (!p.has_interval()) return short_number(p.value) + unit + ", " + range_text(p);
   return short_number(p.value) + " [" + short_number(p.low) + ", " + short_number(p.high) + "]" +
          unit;
 }

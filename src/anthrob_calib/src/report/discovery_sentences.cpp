@@ -55,7 +55,7 @@ std::string named(const FoundEffect& effect) {
   if (!effect.parameters.empty()) {
     const FoundParameter& p = effect.parameters.front();
     text += " (" + escaped(p.name) + " " + escaped(with_unit(p.value, p.unit)) + ", " +
-            (p.known ? "taken as known" : "95 % interval " + range_text(p)) + ")";
+            (p.has_interval() ? "95 % interval " : "") + range_text(p) + ")";
   }
   return text + ", " + probability_text(effect.probability) + ". ";
 }
@@ -107,6 +107,8 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 std::string range_text(const FoundParameter& p) {
+  if (p.known) return "taken as known";
+  if (p.undetermined) return "not determined by these recordings";
   return short_number(p.low) + " to " + short_number(p.high);
 }
 
