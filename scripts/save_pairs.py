@@ -84,14 +84,16 @@ def of_message(image, topic):
     return encoded(image.width, image.height, image.step, image.data)
 
 
-def matched(messages, topics, tolerance):
-    """Yields pairs (left, right) whose stamps are within the tolerance; images without a partner are left out."""
+def matched(messages, topics, tolerance, leave_out):
+    """Yields pairs (left, right) whose stamps are within the tolerance; images without a partner are left out.
+    leave_out is called with the reason for each image whose stamp cannot be used."""
     waiting, intervals, last = {topic: [] for topic in topics}, [], {}
     for topic, image, _ in messages:
         # Of stamps that stand still nobody knows which belong together.
         if image.header.stamp.is_zero() or image.header.stamp == last.get(topic):
-            raise ValueError('%s: image stamped %.6f s: expected the time of the exposure, after the previous stamp'
-                             % (topic, image.header.stamp.to_sec()))
+            leave_out('%s: image stamped %.6f s: expected the time of the exposure, after the previous stamp'
+                      % (topic, image.header.stamp.to_sec()))
+            continue
         others = waiting[topics[1 - topics.index(topic)]]
         if topic in last and image.header.stamp > last[topic]:
             intervals = (intervals + [(image.header.stamp - last[topic]).to_nsec()])[-9:]
@@ -127,10 +129,14 @@ def save_images(arguments, bag):
         if topic not in images:
             raise ValueError('%s: no images on topic %s; image topics of this bag: %s' %
                              (arguments.bag, topic, ', '.join(sorted(images)) or 'none'))
-    bad = None
+    bad = []
+
+    def leave_out(why):
+        bad.append(why)
+        print('left out: %s' % why, file=sys.stderr)
     with Pairs(arguments.out) as folder:
         messages = bag.read_messages(topics=arguments.topics)
-        for i, (left, right) in enumerate(matched(messages, arguments.topics, arguments.tolerance)):
+        for i, (left, right) in enumerate(matched(messages, arguments.topics, arguments.tolerance, leave_out)):
             if stop_asked:
                 break
             if i % arguments.every:
@@ -139,8 +145,7 @@ def save_images(arguments, bag):
             try:
                 folder.add(stamp, of_message(left, arguments.topics[0]), of_message(right, arguments.topics[1]))
             except BadImage as error:
-                bad = error
-                print('left out: %s' % error, file=sys.stderr)
+                leave_out(error)
     if stop_asked:
         return
     if bad and not folder.times:

@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
-"""What the mocap node says to images it cannot use, and to a camera that is pulled and comes back."""
+"""What the mocap node says to images it cannot use, to a camera that is pulled and comes back, and at the end of a
+recording."""
+import os
+import shutil
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -11,6 +15,10 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from sensor_msgs.msg import Image
 from tf2_msgs.msg import TFMessage
+
+
+CONFIG = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__)))),
+                      'config', 'anthrob', 'mocap')
 
 
 class Watch:
@@ -121,6 +129,31 @@ class MocapInput(unittest.TestCase):
         subscriber.unregister()
         self.assertGreaterEqual(len(shown), 3)
         self.assertLessEqual({m.header.stamp for m in shown}, set(sent))
+
+    def track_folder(self, pixels):
+        """What the node prints that tracks six copies of a pair from files."""
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        for side, picture in zip(['left', 'right'], pixels):
+            os.mkdir(os.path.join(folder, side))
+            for i in range(6):
+                with open(os.path.join(folder, side, '%06d.pgm' % i), 'wb') as file:
+                    file.write(b'P5\n648 488\n255\n' + picture)
+        done = subprocess.run(['rosrun', 'anthrob_mocap', 'anthrob_mocap', '__ns:=/recorded', '_source:=folder',
+                               '_left:=' + os.path.join(folder, 'left'), '_right:=' + os.path.join(folder, 'right'),
+                               '_calibration:=' + CONFIG, '_targets:=' + os.path.join(CONFIG, 'targets.yaml')],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout
+
+    def test_end_of_a_recording(self):
+        watch = Watch('/recorded: mocap')
+        self.assertIn('left and right images are swapped', self.track_folder(self.pixels[::-1]))
+        self.assertIn('rate', watch.values)
+        self.assertNotIn('exposure_to_result_ms', watch.values)
+        said = self.track_folder(self.pixels)
+        for finding in 'swapped', 'no pose', 'pixels', 'most_points':
+            self.assertNotIn(finding, said)
 
     def test_pulled_camera(self):
         watch = Watch('/cameras: mocap')

@@ -70,15 +70,33 @@ class SavePairs(unittest.TestCase):
             self.assertEqual(times.read(), 'index,t\n0,1.000000000\n1,3.000000000\n')
         self.assertIn('expected an empty folder', self.save().stdout)
 
-    def test_stamps_that_stand_still_are_refused(self):
-        for stamp, images in (('0.000000', [(0, image(0.0, 1)), (1, image(0.0, 1))]),
-                              ('2.000000', [(0, image(2.0, 1)), (0, image(2.0, 1)), (1, image(2.0, 1))])):
-            with rosbag.Bag(self.path('run.bag'), 'w') as bag:
-                for i, (side, message) in enumerate(images):
-                    bag.write(TOPICS[side], message, t=rospy.Time(1 + i))
-            done = self.save()
-            self.assertEqual(done.returncode, 2, done.stdout)
-            self.assertIn(TOPICS[0] + ': image stamped ' + stamp + ' s: expected the time of the exposure', done.stdout)
+    def record_at_their_place(self, images):
+        """In this order, whatever their stamps are."""
+        with rosbag.Bag(self.path('run.bag'), 'w') as bag:
+            for i, (side, message) in enumerate(images):
+                bag.write(TOPICS[side], message, t=rospy.Time(1 + i))
+
+    def test_a_recording_without_any_stamp_is_refused(self):
+        self.record_at_their_place([(0, image(0.0, 1)), (1, image(0.0, 1)), (0, image(0.0, 1)), (1, image(0.0, 1))])
+        done = self.save()
+        self.assertEqual(done.returncode, 2, done.stdout)
+        for topic in TOPICS:
+            self.assertIn(topic + ': image stamped 0.000000 s: expected the time of the exposure', done.stdout)
+        self.assertIn('run.bag: no pair of two usable images', done.stdout)
+
+    def test_a_stamp_that_stands_still_costs_one_image(self):
+        images = []
+        for i, stamp in enumerate((1.0, 1.1, 1.2, 1.2, 1.3, 1.4)):
+            images += [(0, image(stamp, 10 * i))] + ([(1, image(stamp, 10 * i))] if i != 3 else [])
+        self.record_at_their_place(images)
+        done = self.save()
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(done.stdout.count('left out: '), 1, done.stdout)
+        self.assertIn('left out: ' + TOPICS[0] + ': image stamped 1.200000 s: expected the time of the exposure',
+                      done.stdout)
+        self.assertEqual(len(os.listdir(self.path('out/left'))), 5)
+        self.assertEqual(pixels(self.path('out/left/000002.png')), [bytes([20, 21, 22])] * 2)
+        self.assertEqual(pixels(self.path('out/right/000003.png')), [bytes([40, 41, 42])] * 2)
 
     def test_bad_images_are_left_out_and_named(self):
         self.record([(0, image(1.0, 1, 'rgb8')), (1, image(1.0, 1)), (0, image(2.0, 1)), (1, image(2.0, 1))])

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "anthrob_config/errors.h"
@@ -75,7 +77,12 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
     case YAML::NodeType::Map:
       data->kind = Kind::kMap;
       for (const auto& entry : node) {
-        const std::string key = entry.first.Scalar();
+        const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+        if (key.empty()) {
+          // An empty key has no mark of its own.
+          const int line = std::max(entry.first.Mark().line, node.Mark().line);
+          fail_at(*file, line + 1, "a key that is no word: expected KEY: VALUE");
+        }
         if (data->find(key)) {
           fail_at(*file, entry.first.Mark().line + 1, key + ": appears twice in the same map");
         }
@@ -122,8 +129,11 @@ std::string base_file(const std::string& path, const Data& name) {
   return base.string();
 }
 
-/// Whatever follows a second "---" must not be ignored silently.
-YAML::Node only_document(const std::vector<YAML::Node>& documents, const std::string& path) {
+/// Whatever follows a second "---" must not be ignored silently. Files of OpenCV and of older ROS
+/// camera calibrators begin with "%YAML:1.0", which is no valid YAML directive.
+YAML::Node only_document(const std::string& text, const std::string& path) {
+  const bool opencv_header = text.rfind("%YAML:", 0) == 0;
+  const std::vector<YAML::Node> documents = YAML::LoadAll(opencv_header ? "#" + text : text);
   if (documents.size() > 1) {
     const int line = documents[1].Mark().line;
     fail_at(path, line < 0 ? 1 : line + 1, "a second document: expected one");
@@ -141,9 +151,9 @@ DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
   require_file(path);
   YAML::Node root;
   try {
-    root = only_document(YAML::LoadAllFromFile(path), path);
-  } catch (const YAML::BadFile&) {
-    throw BadInput(path + ": cannot be read; expected a YAML file");
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw BadInput(path + ": cannot be read; expected a YAML file");
+    root = only_document({std::istreambuf_iterator<char>(in), {}}, path);
   } catch (const YAML::Exception& e) {
     fail_at(path, e.mark.line + 1, "not valid YAML: " + e.msg);
   }
@@ -238,7 +248,7 @@ ConfigNode ConfigNode::load(const std::string& file) {
 
 ConfigNode ConfigNode::parse(const std::string& text, const std::string& name) {
   try {
-    const YAML::Node root = only_document(YAML::LoadAll(text), name);
+    const YAML::Node root = only_document(text, name);
     return ConfigNode(convert(root, std::make_shared<const std::string>(name)), "");
   } catch (const YAML::Exception& e) {
     fail_at(name, e.mark.line + 1, "not valid YAML: " + e.msg);
@@ -271,10 +281,11 @@ void ConfigNode::fail(const std::string& message) const {
 }
 
 void ConfigNode::fail_expected(const std::string& expectation) const {
-  const std::string value = data_->kind == Kind::kScalar     ? data_->scalar
-                            : data_->kind == Kind::kSequence ? "[...]"
-                            : data_->kind == Kind::kMap      ? "{...}"
-                                                             : "(empty)";
+  const std::string value = data_->kind == Kind::kScalar ? data_->scalar
+                            : data_->kind == Kind::kSequence
+                                ? "a list of " + std::to_string(data_->items.size())
+                            : data_->kind == Kind::kMap ? "{...}"
+                                                        : "(empty)";
   fail(value + ": expected " + expectation);
 }
 
@@ -357,6 +368,15 @@ Eigen::Vector3d ConfigNode::as_vector3(const std::string& unit) const {
           nodes[2].as_number(Bounds::any(), unit)};
 }
 
+std::vector<double> ConfigNode::as_numbers(std::size_t count, const std::string& unit) const {
+  if (data_->kind != Kind::kSequence || data_->items.size() != count) {
+    fail_expected(std::to_string(count) + " numbers [" + unit + "]");
+  }
+  std::vector<double> values;
+  for (const ConfigNode& item : items()) values.push_back(item.as_number(Bounds::any(), unit));
+  return values;
+}
+
 void ConfigNode::refuse_unknown_keys() const {
   for (const auto& [key, value] : data_->entries) {
     const ConfigNode child(value, join(path_, key));
@@ -365,6 +385,17 @@ void ConfigNode::refuse_unknown_keys() const {
   }
   for (std::size_t i = 0; i < data_->items.size(); ++i) {
     ConfigNode(data_->items[i], join(path_, std::to_string(i))).refuse_unknown_keys();
+  }
+}
+
+void ConfigNode::refuse_empty_values() const {
+  for (const auto& [key, value] : data_->entries) {
+    const ConfigNode child(value, join(path_, key));
+    if (value->kind == Kind::kNull) child.fail_expected("a value; otherwise leave the key out");
+    child.refuse_empty_values();
+  }
+  for (std::size_t i = 0; i < data_->items.size(); ++i) {
+    ConfigNode(data_->items[i], join(path_, std::to_string(i))).refuse_empty_values();
   }
 }
 

@@ -1,6 +1,7 @@
 #include "anthrob_config/parameter_list.h"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -37,9 +38,11 @@ std::vector<std::string> matches(const std::string& word, const ConfigNode& node
   std::vector<std::string> found;
   for (const std::string& name : wanted) {
     std::string key = name;
+    long from_end = 0;  // stays 0 for a number that no list is long enough for
     if (node.is_sequence() && is_integer(name) && name[0] == '-') {
-      key = std::to_string(static_cast<long>(keys.size()) + std::stol(name));
+      std::from_chars(name.data(), name.data() + name.size(), from_end);
     }
+    if (from_end < 0) key = std::to_string(static_cast<long>(keys.size()) + from_end);
     if (std::count(keys.begin(), keys.end(), key)) found.push_back(key);
   }
   return found;

@@ -16,8 +16,8 @@ namespace {
 constexpr double kReportPeriod = 0.5;   // [s] a lost camera is known within a second
 constexpr double kMarkerPeriod = 0.04;  // [s]
 constexpr double kDebugPeriod = 0.1;    // [s]
-constexpr double kGreeting = 5.0;       // [s] that a recording waits for somebody who listens,
-constexpr double kOthers = 0.5;         // [s] then for those who come with him,
+constexpr double kGreeting = 5.0;       // [s] that a recording waits for a first subscriber,
+constexpr double kOthers = 0.5;         // [s] then for further subscribers,
 constexpr double kFarewell = 1.0;       // [s] and at its end until what is queued is sent
 
 bool due(ros::WallTime& last, double period) {
@@ -38,7 +38,8 @@ MocapNode::MocapNode(ros::NodeHandle nh, const StereoRig& rig, const TargetSet& 
       setup_(setup),
       options_(options),
       last_report_(ros::WallTime::now()),
-      status_(nh.getNamespace() + ": mocap", rig, set, options.tracker),
+      status_(nh.getNamespace() + ": mocap", rig, set, options.tracker, options.recorded),
+      recording_(rig, matching_of(set, options.tracker)),
       pipeline_(tracking_stages(rig, set, options.tracker), options.mode, 4,
                 [this](PacketPtr packet) { publish(static_cast<StereoFrame&>(*packet)); }) {
   advertise();
@@ -116,7 +117,22 @@ void MocapNode::run(FrameSource& source) {
   pipeline_.drain();
   if (!ended) return;
   publish_diagnostics(source.trouble(), source.take_counts());
+  log_findings();
   ros::WallDuration(kFarewell).sleep();
+}
+
+/// What a whole recording shows; nobody may have looked at the diagnostics while it ran.
+void MocapNode::log_findings() const {
+  if (!options_.recorded) return;
+  const std::string contradiction = recording_.contradiction(), bend = recording_.bend();
+  if (!contradiction.empty()) {
+    ROS_ERROR_STREAM("no pose: " << contradiction);
+  } else if (!recording_.advice().empty()) {
+    ROS_WARN_STREAM("no pose: " << recording_.advice());
+  } else if (!recording_.crowd().empty()) {
+    ROS_WARN_STREAM(recording_.crowd());
+  }
+  if (!bend.empty()) ROS_WARN_STREAM(bend);
 }
 
 bool MocapNode::heard() const {
@@ -179,8 +195,8 @@ void MocapNode::check_size(const StereoFrame& frame) const {
 }
 
 void MocapNode::check_stamp(const StereoFrame& frame) const {
-  // ROS counts nanoseconds from 0 and seconds in 32 bits; whoever takes the difference of a stamp
-  // and now has 31 bits.
+  // ROS counts nanoseconds from 0 and seconds in 32 bits; the difference of two times must fit into
+  // 31 bits.
   constexpr std::int64_t kSecond = 1000000000;
   const auto now = static_cast<std::int64_t>(ros::Time::now().toNSec());
   if (frame.ns >= 0 && frame.ns < (kSecond << 32) && frame.ns - now < (kSecond << 31)) return;
@@ -210,6 +226,7 @@ void MocapNode::publish(const StereoFrame& frame) {
   publish_transforms(frame, header);
   publish_pictures(frame, header);
   status_.add(frame, ros::Time::now().toSec() - frame.t);
+  if (options_.recorded) recording_.add(frame);
 }
 
 /// A joint's quantities are in its child's axes, wherever the camera is.

@@ -25,7 +25,7 @@ class MocapNode {
     std::string camera_frame = "mocap_camera";
     double sync_tolerance = 0.0;  ///< [s] between stamps of image topics
     bool joint_tf = false;        ///< publish links of joints; a simulator does so itself
-    bool recorded = false;        ///< a source that ends: no result may be lost, none is late
+    bool recorded = false;        ///< a source that ends: every result is published, however late
     TrackerOptions tracker;
   };
 
@@ -56,6 +56,7 @@ class MocapNode {
   void check_size(const StereoFrame& frame) const;
   void check_stamp(const StereoFrame& frame) const;
   void report_on(TopicInput& input);
+  void log_findings() const;
 
   ros::NodeHandle nh_, images_;
   StereoRig rig_;
@@ -73,6 +74,7 @@ class MocapNode {
   Pairing::Counts last_counts_;
 
   Status status_;
+  Health recording_;  ///< of all pictures of a recorded source
   std::uint64_t index_ = 0;
   Pipeline pipeline_;  ///< last: its threads use all of the above
 };

@@ -26,8 +26,8 @@ double quantile(std::vector<double>& values, double share) {
 }  // namespace
 
 Status::Status(const std::string& name, const StereoRig& rig, const TargetSet& set,
-               const TrackerOptions& options)
-    : name_(name), health_(rig, matching_of(set, options)) {
+               const TrackerOptions& options, bool recorded)
+    : name_(name), recorded_(recorded), health_(rig, matching_of(set, options)) {
   for (const MarkerTarget& target : set.targets) targets_.push_back(target.name);
   for (const BallJoint& joint : set.joints) joints_.push_back(joint.name);
   for (const Stage& stage : tracking_stages(rig, set, options)) stages_.push_back(stage.name);
@@ -106,6 +106,8 @@ void Status::judge(const std::string& trouble, const Pairing::Counts& images,
                      " s: no velocity, so the joint is not published";
     return;
   }
+  status.message = health_.crowd();
+  if (!status.message.empty()) return;
   status.level = DiagnosticStatus::OK;
   status.message = health_.frames() > 0 ? "tracking" : "waiting";
 }
@@ -115,7 +117,7 @@ void Status::list_values(double elapsed, DiagnosticStatus& status) {
   add_value(status, "rate", text(health_.frames() / elapsed));
   add_value(status, "processing_ms_median", text(1e3 * quantile(processing_, 0.5)));
   add_value(status, "processing_ms_worst", text(1e3 * quantile(processing_, 1.0)));
-  add_value(status, "exposure_to_result_ms", text(1e3 * quantile(delay_, 0.5)));
+  if (!recorded_) add_value(status, "exposure_to_result_ms", text(1e3 * quantile(delay_, 0.5)));
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     add_value(status, stages_[i] + "_us", text(1e6 * stage_seconds_[i] / frames));
   }

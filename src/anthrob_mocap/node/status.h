@@ -16,8 +16,9 @@ namespace mocap {
 /// What the node has seen since the last report. Frames and reports may come from two threads.
 class Status {
  public:
+  /// @param recorded the time from exposure to result says nothing and is not reported
   Status(const std::string& name, const StereoRig& rig, const TargetSet& set,
-         const TrackerOptions& options);
+         const TrackerOptions& options, bool recorded);
 
   /// @param delay [s] from exposure to result
   void add(const StereoFrame& frame, double delay);
@@ -37,6 +38,7 @@ class Status {
   void clear();
 
   std::string name_;
+  bool recorded_;
   std::vector<std::string> targets_, joints_, stages_;
   std::mutex mutex_;
   Health health_;

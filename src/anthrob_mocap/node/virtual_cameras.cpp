@@ -66,15 +66,13 @@ void VirtualRig::run() {
   }
 }
 
-bool VirtualRig::expose(const ros::Time& stamp) {
+void VirtualRig::expose(const ros::Time& stamp) {
   std::vector<Scene> instants(static_cast<std::size_t>(setup_.instants));
   for (int i = 0; i < setup_.instants; ++i) {
     const double offset = setup_.exposure * ((i + 0.5) / setup_.instants - 0.5);
-    if (!scene_at(stamp + ros::Duration(offset), instants[static_cast<std::size_t>(i)]))
-      return false;
+    if (!scene_at(stamp + ros::Duration(offset), instants[static_cast<std::size_t>(i)])) return;
   }
   publish(stamp, instants);
-  return true;
 }
 
 bool VirtualRig::scene_at(const ros::Time& time, Scene& scene) const {
@@ -132,7 +130,7 @@ int main(int argc, char** argv) {
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto rig = mocap::StereoRig::load(
         anthrob::required(settings, "calibration", "a folder with left.yaml and right.yaml"));
-    // It only draws: what looks alike is the tracker's affair.
+    // Ambiguous targets can be drawn; only the tracker must refuse them.
     const auto set =
         mocap::TargetSet::load(anthrob::required(settings, "targets", "the path of targets.yaml"),
                                mocap::TargetSet::kUnchecked);

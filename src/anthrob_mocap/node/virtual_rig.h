@@ -23,7 +23,7 @@ class VirtualRig {
   void run();
 
  private:
-  bool expose(const ros::Time& stamp);
+  void expose(const ros::Time& stamp);
   bool scene_at(const ros::Time& time, Scene& scene) const;
   void publish(const ros::Time& stamp, const std::vector<Scene>& instants);
   ros::Time latest() const;

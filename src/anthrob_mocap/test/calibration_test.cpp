@@ -72,6 +72,7 @@ TEST(StereoCalibration, RefusesWhatCannotBeTrusted) {
   std::vector<BoardView> views = good;
   for (BoardView& view : views) std::swap(view.corners[kLeft], view.corners[kRight]);
   expect_bad_input([&] { calibrate(views); }, "swapped or the images mirrored");
+  expect_bad_input([&] { calibrate(views); }, "never flip pictures");
 
   views = good;  // both cameras behind a mirror
   for (BoardView& view : views) {
@@ -108,6 +109,8 @@ TEST(Board, IsChecked) {
   expect_bad_input([] { Board::parse("9by6", 0.03); }, "--board 9by6");
   expect_bad_input([] { Board::parse("6x6", 0.03); }, "square board");
   expect_bad_input([] { Board::parse("9x6", -1.0); }, "--square");
+  expect_bad_input([] { Board::parse("9x6", 2.5); }, "--square 2.5");  // [cm]
+  expect_bad_input([] { Board::parse("9x6", 25.0); }, "in metres, above 0 and below 1");
 }
 
 /// A picture of squares of so many pixels, seen straight on but drawn together as by a slant.
@@ -204,6 +207,91 @@ TEST(TargetCalibration, RecoversATargetMeasuredByHand) {
   wrong.markers[2].x() += 0.05;
   expect_bad_input([&] { calibrate_target(wrong, record(0.0)); }, "marker 2 was seen in 0 frames");
   expect_bad_input([&] { calibrate_target(guess, record(0.0025)); }, "marker 2 scatters by ");
+}
+
+/// A target whose mirror image lies within the tolerance of a guess.
+MarkerTarget thin_target() {
+  return {"thin",
+          {{0.0, 0.0, 0.0},
+           {0.15, 0.0, 0.0},
+           {0.0, 0.095, 0.009},
+           {0.1, 0.12, -0.009},
+           {0.045, 0.04, 0.015}}};
+}
+
+/// Poses in view of the rig of the tests, with the markers in the middle of the picture.
+std::vector<Pose> poses_in_view(const MarkerTarget& target) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> turn(-0.4, 0.4);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 30; ++i) {
+    Pose X{exp_rotation({turn(random), turn(random), turn(random)}), Vec3(0.15, 0.0, 1.1)};
+    X.p -= X.R * target.centre();
+    poses.push_back(X);
+  }
+  return poses;
+}
+
+using Frames = std::vector<std::vector<MarkerPoint>>;
+
+/// What `see` makes of the markers of a target in 30 poses.
+template <typename See>
+Frames frames_of(const MarkerTarget& target, const See& see) {
+  Frames frames;
+  for (const Pose& X : poses_in_view(target)) {
+    frames.emplace_back();
+    for (std::size_t i = 0; i < target.markers.size(); ++i) {
+      MarkerPoint point;
+      point.p = see(X * target.markers[i]);
+      point.blob[kLeft] = point.blob[kRight] = static_cast<int>(i);
+      frames.back().push_back(point);
+    }
+  }
+  return frames;
+}
+
+TEST(TargetCalibration, RefusesAMirrorImage) {
+  const MarkerTarget truth = thin_target();
+  const Frames seen = frames_of(truth, [](const Vec3& p) { return p; });
+  EXPECT_NO_THROW(calibrate_target(truth, seen));
+  const Frames mirrored =
+      frames_of(truth, [](const Vec3& p) { return Vec3(p.x(), -p.y(), p.z()); });
+  const std::string why = "target thin: the markers come out mirrored: is an image flipped?";
+  expect_bad_input([&] { calibrate_target(truth, mirrored); }, why);
+  MarkerTarget by_hand = truth;  // off by some millimetres
+  by_hand.markers[1] += Vec3(0.004, -0.003, 0.002), by_hand.markers[3].z() += 0.004;
+  EXPECT_NO_THROW(calibrate_target(by_hand, seen));
+  expect_bad_input([&] { calibrate_target(by_hand, mirrored); }, why);
+}
+
+TEST(TargetCalibration, NoticesPicturesThatWereUpsideDownAllTheTime) {
+  // Nothing is wrong with the calibration of the cameras, but that it is mirrored.
+  const StereoRig rig = make_rig();
+  const auto flip = [](Vec2 c) { return Vec2(c.x(), 487.0 - c.y()); };
+  std::vector<BoardView> views = simulate(rig, 20, 0.05);
+  for (BoardView& view : views) {
+    for (const Side side : {kLeft, kRight}) {
+      for (Vec2& c : view.corners[side]) c = flip(c);
+    }
+  }
+  const StereoRig believed = calibrate(views).rig;
+  const MarkerTarget truth = thin_target();
+  const Frames frames = frames_of(truth, [&](const Vec3& p) {
+    return believed.triangulate(believed.rectify(kLeft, flip(rig.project(kLeft, p))),
+                                believed.rectify(kRight, flip(rig.project(kRight, p))));
+  });
+  expect_bad_input([&] { calibrate_target(truth, frames); }, "is an image flipped?");
+}
+
+TEST(TargetCalibration, RefusesATargetUnlikeTheGuess) {
+  // A marker of the guess stands 35 mm out of the plane in which it is.
+  const MarkerTarget guess{
+      "flat", {{0, 0, 0}, {0.15, 0, 0}, {0, 0.095, 0}, {0.1, 0.12, 0}, {0.045, 0.04, 0.035}}};
+  MarkerTarget truth = guess;
+  truth.markers[4].z() = 0.0;
+  const Frames frames = frames_of(truth, [](const Vec3& p) { return p; });
+  EXPECT_NO_THROW(calibrate_target(truth, frames));
+  expect_bad_input([&] { calibrate_target(guess, frames); }, "target flat: marker 4 comes out 27.");
 }
 
 }  // namespace

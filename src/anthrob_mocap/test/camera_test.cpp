@@ -140,13 +140,32 @@ TEST_F(RigFiles, AreNamedOnlyWhereTheCalibrationIsFromThem) {
 
 TEST_F(RigFiles, WithBrokenValuesAreRefused) {
   refuse(replaced(left_, "image_width: 648", "image_width: wide"), right_,
-         "left.yaml:1: image_width: wide: expected a number");
+         "left.yaml:1: image_width: wide: expected an integer from 1 to 100000");
   refuse(replaced(left_, "plumb_bob", "equidistant"), right_,
          "left.yaml:8: distortion_model: equidistant: expected plumb_bob or rational_polynomial");
-  refuse(replaced(left_, "camera_matrix", "kamera_matrix"), right_, "'camera_matrix': missing");
-  refuse(left_ + "camera_name: twice\n", right_, "appears once");
+  refuse(replaced(left_, "camera_matrix", "kamera_matrix"), right_,
+         "left.yaml:1: key 'camera_matrix' is missing");
+  refuse(left_ + "camera_name: twice\n", right_, "camera_name: appears twice");
   refuse("[1, 2", right_, "left.yaml:1");
-  expect_bad_input([] { StereoRig::load("/nowhere"); }, "cannot be read");
+  expect_bad_input([] { StereoRig::load("/nowhere"); }, "/nowhere/left.yaml: no such file");
+  refuse(replaced(left_, "rows: 3", "rows: 2"), right_,
+         "camera_matrix.rows: 2: expected an integer from 3 to 3");
+  refuse(replaced(left_, "data: [", "data: [7, "), right_,
+         "camera_matrix.data: a list of 10: expected 9 numbers");
+}
+
+TEST_F(RigFiles, MayHoldMoreKeysButNoEndlessOnes) {
+  write(left_ + "extra: {x: 1}\n", right_ + "empty:\n");
+  EXPECT_NO_THROW(StereoRig::load(folder_.path()));
+  refuse(left_ + "extra: &e {x: *e}\n", right_, "nested more than 100 deep");
+  refuse(left_, right_ + "extra: &e [*e, *e]\n", "nested more than 100 deep");
+}
+
+TEST_F(RigFiles, InOtherUnitsThanMetresAreRefused) {
+  // --square 2.5 of a board of 25 mm.
+  refuse(left_, replaced(right_, "-454.86", "-45486."),
+         "right.yaml: projection_matrix: baseline 30.0");
+  refuse(left_, replaced(right_, "-454.86", "-45486."), "in metres (between 0.001 and 5)");
 }
 
 TEST_F(RigFiles, WithAMirrorAreRefused) {

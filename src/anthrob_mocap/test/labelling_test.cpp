@@ -45,9 +45,9 @@ TEST(Targets, AreReadAndWritten) {
 TEST(Targets, ThatAreWrongAreRefused) {
   refuse("[0, 0.07, 0]", "[0, 0.07]",
          "targets.yaml:4: targets.scapula.markers.2: a list of 2: "
-         "expected 3 numbers");
+         "expected three numbers [x, y, z] [m]");
   refuse("  scapula:", "  left-arm:",
-         "targets.yaml:4: targets.left-arm: 'left-arm': expected a name in lower_snake_case");
+         "targets.yaml:3: targets.left-arm: 'left-arm': expected a name in lower_snake_case");
   refuse("  shoulder:", "  'a,b':", "joints.a,b: 'a,b': expected a name in lower_snake_case");
   refuse("  shoulder:", "  humerus:", "joints.humerus: a target has this name");
   refuse("parent: scapula", "parent: spacula",
@@ -56,12 +56,26 @@ TEST(Targets, ThatAreWrongAreRefused) {
   refuse("child: humerus", "child: scapula", "the same target");
   refuse("rest: [0, 1, 0, 0]", "rest: [0, 1, 1, 0]", "unit quaternion");
   refuse("rest:", "resr:", "resr: unknown key");
-  refuse("marker_diameter: 0.016", "marker_diameter: -1", "expected a number between 0 and 1 [m]");
+  refuse("marker_diameter: 0.016", "marker_diameter: -1",
+         "targets.yaml:1: marker_diameter: -1: expected a number in [0, 1] [m]");
   refuse("[0.1, 0, 0]", "[0.01, 0, 0]", "touch");
   refuse("[[0, 0, 0], [0.1, 0, 0], [0, 0.07, 0], [0.03, 0.02, 0.09]]",
          "[[0, 0, 0], [0.1, 0, 0], [0.25, 0, 0]]", "on one line");
   refuse("[[0, 0, 0], [0.1, 0, 0], [0, 0.07, 0], [0.03, 0.02, 0.09]]", "[[0, 0, 0], [0.1, 0, 0]]",
          "3 to 16 markers");
+  refuse("rest: [0, 1, 0, 0]", "rest: ~", "joints.shoulder.rest: (empty): expected a value");
+  refuse("[0.1, 0, 0]", "[100, 0, 0]",
+         "targets.yaml:4: targets.scapula.markers.1: a list of 3: expected metres: less than 2 m "
+         "from marker 0");
+  refuse("[0.1, 0, 0]", "[1e200, 0, 0]", "expected metres");
+}
+
+TEST(Targets, ThatContainThemselvesAreRefused) {
+  for (const char* text : {"targets: &x {a: *x}\n", "marker_diameter: 0.016\ntargets: &x {a: *x}\n",
+                           "targets: &x [*x]\n", "extra: &e {x: *e}\n"}) {
+    expect_bad_input([&] { TargetSet::parse(text, "targets.yaml", 0.003); },
+                     "nested more than 100 deep");
+  }
 }
 
 TEST(Targets, ThatAreAmbiguousAreRefusedWithTheEdges) {
@@ -240,9 +254,31 @@ TEST(Labeller, DoubtsThreeMarkersOfASearchThatGaveUp) {
       std::vector<Edge> edges;
       find_edges(points, labeller.longest_edge(), edges);
       std::vector<Labelling> labels;
-      labeller.label(0.0, points, edges, labels);
+      labeller.label(0.0, points, false, edges, labels);
       EXPECT_EQ(labels[0].gave_up, limit < 20000) << seen;
       EXPECT_EQ(labels[0].count, seen == 3 && limit < 20000 ? 0 : seen) << limit;
+    }
+  }
+}
+
+TEST(Labeller, DoubtsThreeMarkersInACrowd) {
+  const MarkerTarget target = make_targets().targets[0];
+  for (const int seen : {3, 4}) {
+    for (const bool cut : {false, true}) {
+      for (const int others : {0, 40, 60}) {
+        std::vector<MarkerPoint> points;
+        for (int i = 0; i < seen; ++i) {
+          points.push_back(point_at(target.markers[static_cast<std::size_t>(i)], i));
+        }
+        for (int i = 0; i < others; ++i) points.push_back(point_at({10.0 + i, 0, 0}, 100 + i));
+        Labeller labeller({target}, {}, {});
+        std::vector<Edge> edges;
+        find_edges(points, labeller.longest_edge(), edges);
+        std::vector<Labelling> labels;
+        labeller.label(0.0, points, cut, edges, labels);
+        const bool doubted = seen == 3 && (cut || others == 60);
+        EXPECT_EQ(labels[0].count, doubted ? 0 : seen) << seen << cut << others;
+      }
     }
   }
 }
@@ -263,7 +299,7 @@ TEST(Labeller, UsesNoBlobTwice) {
   std::vector<Edge> edges;
   find_edges(points, labeller.longest_edge(), edges);
   std::vector<Labelling> labels;
-  labeller.label(0.0, points, edges, labels);
+  labeller.label(0.0, points, false, edges, labels);
   EXPECT_EQ(labels[0].count, 5);
   EXPECT_EQ(labels[1].count, 3);
   EXPECT_EQ(labels[1].point[3], -1);
@@ -283,7 +319,7 @@ TEST(Labeller, GivesNobodyWhatTwoTargetsCanClaim) {
     std::vector<Edge> edges;
     find_edges(points, labeller.longest_edge(), edges);
     std::vector<Labelling> labels;
-    labeller.label(0.0, points, edges, labels);
+    labeller.label(0.0, points, false, edges, labels);
     return std::vector<int>{labels[0].count, labels[1].count};
   };
   for (int i = 0; i < 4; ++i) {

@@ -46,11 +46,11 @@ class Offline : public ::testing::Test {
   }
   int run(const std::string& more = "", const std::string& left = "left",
           const std::string& right = "right") {
-    const std::string command =
-        std::string(ANTHROB_MOCAP_OFFLINE) + " --left " + folder_.path(left) + " --right " +
-        folder_.path(right) + " --calibration " + folder_.path("calibration") + " --targets " +
-        folder_.path("targets.yaml") + " --out " + folder_.path("poses.csv") + " " + more + " > " +
-        folder_.path("out") + " 2> " + folder_.path("err");
+    const std::string command = std::string(ANTHROB_MOCAP_OFFLINE) + " --left " +
+                                folder_.path(left) + " --right " + folder_.path(right) +
+                                " --calibration " + folder_.path("calibration") + " --targets " +
+                                folder_.path("targets.yaml") + " --out " + out_ + " " + more +
+                                " > " + folder_.path("out") + " 2> " + folder_.path("err");
     return WEXITSTATUS(std::system(command.c_str()));
   }
   void refuse(const std::string& part, const std::string& left = "left",
@@ -77,6 +77,7 @@ class Offline : public ::testing::Test {
   }
 
   test::TemporaryFolder folder_;
+  std::string out_ = folder_.path("poses.csv");
 };
 
 TEST_F(Offline, WritesPosesAndJoints) {
@@ -168,6 +169,11 @@ TEST_F(Offline, RefusesImagesItCannotUse) {
   const std::string good = folder_.read("left/000003.png");
   folder_.write("left/000003.png", good.substr(0, good.size() / 2));
   refuse("left/000003.png: truncated image");
+  // A bit of the pixels: one line, none of the decoder's beside it.
+  std::string flipped = good;
+  flipped[good.find("IDAT") + 100] ^= 0x10;
+  folder_.write("left/000003.png", flipped);
+  refuse("left/000003.png: damaged image: wrong checksum");
   folder_.write("left/000003.png", "not an image");
   refuse("left/000003.png: not an image that can be decoded");
   for (const std::string header :
@@ -203,18 +209,35 @@ TEST_F(Offline, RefusesWhatDoesNotBelongTogether) {
   folder_.write("calibration/right.yaml", left);
   refuse("left and right are swapped");
   folder_.write("calibration/right.yaml", "image_width: 648\n");
-  refuse("right.yaml:1: 'image_height': missing");
+  refuse("right.yaml:1: key 'image_height' is missing");
 }
 
 TEST_F(Offline, WarnsOfARigThatWasBentALittle) {
   ASSERT_EQ(run(), 0);
   EXPECT_EQ(folder_.read("err"), "");
+  const std::string out = folder_.read("out");
+  EXPECT_NE(out.find("humerus in 7 (residual 0.0"), std::string::npos) << out;
   CameraModel tilted = make_rig().camera(kRight);
   tilted.R = exp_rotation({0.0004, 0.0, 0.0}) * tilted.R;
   folder_.write("calibration/right.yaml", tilted.to_yaml());
   EXPECT_EQ(run(), 0);
   const std::string error = folder_.read("err");
   EXPECT_EQ(error.find("warning: rows of left and right differ by "), 0u) << error;
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+  CameraModel turned = make_rig().camera(kRight);
+  turned.R = exp_rotation({0.0, 0.003, 0.0}) * turned.R;
+  folder_.write("calibration/right.yaml", turned.to_yaml());
+  EXPECT_EQ(run(), 0);
+  const std::string other = folder_.read("err");
+  EXPECT_EQ(other.find("warning: markers are "), 0u) << other;
+  EXPECT_EQ(std::count(other.begin(), other.end(), '\n'), 1) << other;
+}
+
+TEST_F(Offline, NamesAFileThatCannotBeWritten) {
+  out_ = "/nowhere/poses.csv";
+  EXPECT_EQ(run(), 1);
+  const std::string error = folder_.read("err");
+  EXPECT_NE(error.find("/nowhere/poses.csv"), std::string::npos) << error;
   EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
 }
 
@@ -269,6 +292,7 @@ TEST_F(CalibrateTarget, KeepsItsResultBesideTargetsThatAreGuessesYet) {
   const std::string note = folder_.read("err");
   EXPECT_NE(note.find("target scapula: ambiguous: "), std::string::npos) << note;
   EXPECT_EQ(note.find("target humerus"), std::string::npos) << note;
+  EXPECT_EQ(note.find("warning"), std::string::npos) << note;  // guesses need not fit
   const TargetSet result = TargetSet::load(folder_.path("targets.yaml"), TargetSet::kUnchecked);
   const auto edge = [](const TargetSet& set) {
     return (set.targets[1].markers[0] - set.targets[1].markers[1]).norm();

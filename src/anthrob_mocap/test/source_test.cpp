@@ -1,17 +1,22 @@
-// Sources: pairing by stamps, and cameras through aravis, one of which dies and comes back.
+// Sources: folders, pairing by stamps, and cameras through aravis, one of which dies and comes
+// back.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <thread>
 
 #include "anthrob_mocap/source/aravis_source.h"
+#include "anthrob_mocap/source/folder_source.h"
+#include "anthrob_mocap/source/image_file.h"
 #include "anthrob_mocap/source/live_pair.h"
 #include "anthrob_mocap/source/pairing.h"
 #include "expect_bad_input.h"
+#include "temporary_folder.h"
 #ifdef ANTHROB_HAVE_DC1394
 #include "anthrob_mocap/source/dc1394_source.h"
 #endif
@@ -24,6 +29,72 @@ TimedImage at(double t) {
   TimedImage image;
   image.t = t;
   return image;
+}
+
+/// Two folders of pictures, each all of the grey level that is its number.
+class Folders : public ::testing::Test {
+ protected:
+  void write(const std::string& name, int grey) {
+    Image image;
+    image.resize(4, 3);
+    std::fill(image.pixels.begin(), image.pixels.end(), static_cast<std::uint8_t>(grey));
+    for (const char* side : {"left", "right"}) {
+      folder_.folder(side);
+      write_grey_image(folder_.path(side) + "/" + name, image);
+    }
+  }
+  FolderSource open() const {
+    return FolderSource(folder_.path("left"), folder_.path("right"), FolderSource::Options());
+  }
+  /// Grey levels in the order of the source, with their times.
+  std::vector<std::pair<int, double>> read() const {
+    FolderSource source = open();
+    std::vector<std::pair<int, double>> result;
+    StereoFrame frame;
+    while (source.next(frame, 0.0) == FrameSource::Grab::kFrame) {
+      EXPECT_EQ(frame.image[kLeft].row(0)[0], frame.image[kRight].row(0)[0]);
+      result.emplace_back(frame.image[kLeft].row(0)[0], frame.t);
+    }
+    return result;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Folders, AreReadInTheOrderOfTheirNumbers) {
+  for (int i = 0; i < 12; ++i) write("img" + std::to_string(i) + ".png", i);
+  const auto frames = read();
+  ASSERT_EQ(frames.size(), 12u);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_EQ(frames[static_cast<std::size_t>(i)].first, i);
+    EXPECT_DOUBLE_EQ(frames[static_cast<std::size_t>(i)].second, i / 60.0);
+  }
+}
+
+TEST_F(Folders, TakeTheTimesOfTheirNumbers) {
+  for (const int i : {0, 1, 2, 3, 7, 8}) {
+    write("rig2_frame_00000" + std::to_string(i) + ".png", i);
+  }
+  std::string times = "index,t\n";
+  for (int i = 0; i < 9; ++i) times += std::to_string(i) + "," + std::to_string(100 + i) + "\n";
+  folder_.write("times.csv", times);
+  const auto frames = read();
+  ASSERT_EQ(frames.size(), 6u);
+  for (const auto& [grey, t] : frames) EXPECT_EQ(t, 100.0 + grey);
+}
+
+TEST_F(Folders, OfNamesWithoutNumbersAreInTheirOrder) {
+  write("b.png", 1), write("a.png", 0);
+  const std::vector<std::pair<int, double>> expected = {{0, 0.0}, {1, 1.0 / 60.0}};
+  EXPECT_EQ(read(), expected);
+  write("2.png", 2);
+  test::expect_bad_input([&] { open(); }, "expected a number in the name");
+}
+
+TEST_F(Folders, WithOneNumberTwiceAreRefused) {
+  write("cam1_7.png", 1), write("cam2_07.png", 2);
+  test::expect_bad_input([&] { open(); },
+                         "left: cam1_7.png and cam2_07.png have the same number in their names");
 }
 
 TEST(Pairing, FindsPartnersInAnyOrder) {

@@ -20,14 +20,10 @@ struct Arguments {
   mocap::CalibrationLimits limits;
 };
 
-/// left07.jpg and right07.jpg belong together: the last number of a name, else the name.
+/// left07.jpg and right07.jpg belong together.
 std::string key_of(const std::string& file) {
-  const std::string stem = fs::path(file).stem().string();
-  const auto end = stem.find_last_of("0123456789");
-  if (end == std::string::npos) return stem;
-  const auto before = stem.find_last_not_of("0123456789", end);
-  const auto begin = before == std::string::npos ? 0 : before + 1;
-  return stem.substr(begin, end + 1 - begin);
+  const std::string number = mocap::image_number(file);
+  return number.empty() ? fs::path(file).stem().string() : number;
 }
 
 std::map<std::string, std::string> by_key(const std::string& folder) {

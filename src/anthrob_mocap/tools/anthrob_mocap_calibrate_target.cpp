@@ -34,7 +34,9 @@ std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
   mocap::FolderSource source(recording.left, recording.right, recording.folder);
   if (!mocap::track_all(source, rig, recording, pipeline)) return std::nullopt;
   recording.refuse_contradiction(health);
-  if (!health.bend().empty()) std::cerr << "warning: " << health.bend() << "\n";
+  if (!health.crowd().empty()) std::cerr << "warning: " << health.crowd() << "\n";
+  // Markers need not fit yet.
+  if (!health.uneven_rows().empty()) std::cerr << "warning: " << health.uneven_rows() << "\n";
   return frames;
 }
 

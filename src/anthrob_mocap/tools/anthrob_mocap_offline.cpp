@@ -1,5 +1,6 @@
 // Tracks targets in recorded pairs of images: the same pipeline as the node's.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "anthrob_config/atomic_file.h"
@@ -19,7 +20,7 @@ struct Arguments {
   int threshold = 0;
 };
 
-/// Frames, availability and latency, for people.
+/// Frames, availability, residuals and latency, for people.
 class Report {
  public:
   explicit Report(const mocap::TargetSet& set) : set_(set), seen_(set.targets.size(), 0) {}
@@ -30,10 +31,13 @@ class Report {
     latency_.push_back(total);
     for (std::size_t k = 0; k < seen_.size(); ++k) seen_[k] += frame.targets[k].valid ? 1 : 0;
   }
-  void print() {
+  void print(const mocap::Health& health) {
     std::cout << latency_.size() << " pairs";
     for (std::size_t k = 0; k < seen_.size(); ++k) {
       std::cout << ", " << set_.targets[k].name << " in " << seen_[k];
+      if (seen_[k] > 0) {
+        std::cout << " (residual " << std::round(1e3 * health.residual(k)) / 1e3 << " pixels rms)";
+      }
     }
     if (!latency_.empty()) {
       std::nth_element(latency_.begin(), latency_.begin() + latency_.size() / 2, latency_.end());
@@ -75,11 +79,14 @@ int track(const Arguments& arguments) {
     return anthrob::tool::kInterrupted;
   }
   out.move_into_place();
-  report.print();
+  report.print(health);
   if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
   if (health.given_up() > 0) {
     std::cerr << "warning: " << health.given_up()
               << " searches of targets were given up at step_limit: too many bright blobs\n";
+  }
+  if (!health.crowd().empty() && health.crowd() != health.advice()) {
+    std::cerr << "warning: " << health.crowd() << "\n";
   }
   if (!health.bend().empty()) std::cerr << "warning: " << health.bend() << "\n";
   return anthrob::tool::kDone;

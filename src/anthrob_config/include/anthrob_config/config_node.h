@@ -30,8 +30,8 @@ struct Bounds {
 
 /// A strict view of a YAML file. Every value knows its file, line and key path. Keys that the
 /// program never reads are errors (refuse_unknown_keys). `extends: OTHER.yaml` is already merged:
-/// maps key by key, everything else is replaced. All errors are BadInput with one line, "FILE:LINE:
-/// KEY: VALUE: expected ...".
+/// maps key by key, everything else is replaced. A first line "%YAML:1.0", as OpenCV writes it, is
+/// ignored. All errors are BadInput with one line, "FILE:LINE: KEY: VALUE: expected ...".
 class ConfigNode {
  public:
   /// @throws BadInput if a file is missing, is not YAML, repeats a key, or extends itself
@@ -57,6 +57,8 @@ class ConfigNode {
   bool as_bool() const;
   std::string as_text() const;
   Eigen::Vector3d as_vector3(const std::string& unit) const;
+  /// A list of exactly so many numbers.
+  std::vector<double> as_numbers(std::size_t count, const std::string& unit) const;
 
   double number(const std::string& key, const Bounds& bounds, const std::string& unit) const {
     return at(key).as_number(bounds, unit);
@@ -72,6 +74,10 @@ class ConfigNode {
 
   /// Refuses keys of this map, at any depth below it, that were never read.
   void refuse_unknown_keys() const;
+
+  /// Refuses keys without a value, at any depth below this node: for files in which such a key is a
+  /// mistake. Elsewhere it counts as absent (has()).
+  void refuse_empty_values() const;
 
   /// Marks the whole subtree as read; for parts that another program reads.
   void ignore() const;

@@ -19,9 +19,9 @@ Board Board::parse(const std::string& size, double square) {
                    ": expected the inner corners as COLUMNSxROWS, both at least 3 and different (a "
                    "square board can be read in four ways)");
   }
-  if (!(square > 0.0 && square < 10.0)) {
+  if (!(square > 0.0 && square < 1.0)) {
     throw BadInput("--square " + std::to_string(square) +
-                   ": expected the edge of a square in metres, above 0");
+                   ": expected the edge of a square in metres, above 0 and below 1");
   }
   board.square = square;
   return board;
@@ -43,7 +43,7 @@ std::optional<std::vector<Vec2>> find_corners(const Image& image, const Board& b
                                  cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE)) {
     return std::nullopt;
   }
-  // The window must stay within the squares around a corner, of a board seen at a slant, too.
+  // The search window must stay within the squares around a corner, even if the board is slanted.
   const std::size_t columns = static_cast<std::size_t>(board.columns);
   float shortest = 1e9f;
   const auto limit = [&](const cv::Point2f& a, const cv::Point2f& b) {

@@ -185,7 +185,10 @@ StereoCalibration calibrate_stereo(const std::vector<BoardView>& all, const Boar
   if (!(x > 0.0)) {
     throw BadInput(
         "calibration: the right camera comes out " + text(-1e3 * x, 1) +
-        " mm to the left of the left one: the folders are swapped or the images mirrored");
+        " mm to the left of the left one: the folders are swapped or the images mirrored; swap the "
+        "folders only if they are, and never flip pictures (flips that keep left and right, such "
+        "as "
+        "upside down, are not noticed here)");
   }
   StereoCalibration result{
       rectify_pair(camera_of(problem, kLeft), camera_of(problem, kRight), X_RL)};

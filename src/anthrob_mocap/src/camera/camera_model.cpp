@@ -4,7 +4,7 @@
 #include <limits>
 #include <sstream>
 
-#include "anthrob_mocap/file/settings.h"
+#include "anthrob_config/config_node.h"
 
 namespace anthrob {
 namespace mocap {
@@ -13,27 +13,22 @@ namespace {
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-std::vector<double> matrix(const Settings& parent, const std::string& key, int rows, int cols) {
-  const Settings node = parent.at(key);
-  node.at("rows").integer(rows, rows);
-  node.at("cols").integer(cols, cols);
-  for (const char* extra : {"dt"}) {
-    if (node.has(extra)) node.at(extra);
-  }
-  return node.at("data").numbers(static_cast<std::size_t>(rows * cols));
+std::vector<double> matrix(const ConfigNode& parent, const std::string& key, int rows, int cols) {
+  const ConfigNode node = parent.at(key);
+  node.at("rows").as_integer(rows, rows);
+  node.at("cols").as_integer(cols, cols);
+  return node.at("data").as_numbers(static_cast<std::size_t>(rows * cols), "pixel or 1");
 }
 
-void read_distortion(const Settings& file, CameraModel& camera) {
-  const std::string model =
-      file.has("distortion_model") ? file.at("distortion_model").text() : "plumb_bob";
+void read_distortion(const ConfigNode& file, CameraModel& camera) {
+  const std::string model = file.text_or("distortion_model", "plumb_bob");
   if (model != "plumb_bob" && model != "rational_polynomial") {
     file.at("distortion_model").fail_expected("plumb_bob or rational_polynomial");
   }
-  const Settings node = file.at("distortion_coefficients");
-  const Settings data = node.at("data");
+  const ConfigNode data = file.at("distortion_coefficients").at("data");
   const std::size_t count = data.items().size();
   if (!is_distortion_count(count)) data.fail_expected("4, 5 or 8 numbers");
-  const std::vector<double> values = data.numbers(count);
+  const std::vector<double> values = data.as_numbers(count, "1");
   std::copy(values.begin(), values.end(), camera.distortion.begin());
 }
 
@@ -47,7 +42,7 @@ bool is_camera_matrix(const Mat3& K) {
 }
 
 bool is_rotation(const Mat3& R) {
-  // A mirrored calibration passes every test of distances; its determinant gives it away.
+  // A mirrored calibration keeps all distances; only the determinant shows it.
   return (R * R.transpose() - Mat3::Identity()).norm() < 1e-4 && R.determinant() > 0.0;
 }
 
@@ -61,11 +56,11 @@ bool is_distortion_count(std::size_t coefficients) {
 }
 
 CameraModel CameraModel::load(const std::string& path) {
-  const Settings file = Settings::load(path);
+  const ConfigNode file = ConfigNode::load(path);
   CameraModel camera;
-  camera.width = file.at("image_width").integer(1, 100000);
-  camera.height = file.at("image_height").integer(1, 100000);
-  camera.name = file.has("camera_name") ? file.at("camera_name").text() : "camera";
+  camera.width = file.at("image_width").as_integer(1, 100000);
+  camera.height = file.at("image_height").as_integer(1, 100000);
+  camera.name = file.text_or("camera_name", "camera");
   const std::vector<double> K = matrix(file, "camera_matrix", 3, 3);
   camera.fx = K[0], camera.cx = K[2], camera.fy = K[4], camera.cy = K[5];
   if (!is_camera_matrix(Eigen::Map<const RowMajor3>(K.data()))) {

@@ -9,8 +9,8 @@ namespace mocap {
 
 StereoRig StereoRig::load(const std::string& folder) {
   try {
-    return StereoRig(CameraModel::load(folder + "/left.yaml"),
-                     CameraModel::load(folder + "/right.yaml"), ".yaml");
+    const CameraModel left = CameraModel::load(folder + "/left.yaml");
+    return StereoRig(left, CameraModel::load(folder + "/right.yaml"), ".yaml");
   } catch (const BadInput& error) {
     const std::string what = error.what();
     if (what.rfind(folder, 0) == 0) throw;
@@ -50,9 +50,9 @@ void StereoRig::check(const std::string& left_name, const std::string& right_nam
     throw BadInput(right_name + ": projection_matrix: baseline " + text(baseline_) +
                    " m: left and right are swapped, or the calibration is mirrored");
   }
-  if (!(baseline_ > 1e-3 && baseline_ < 100.0)) {
+  if (!(baseline_ > 1e-3 && baseline_ < 5.0)) {
     throw BadInput(right_name + ": projection_matrix: baseline " + text(baseline_) +
-                   " m: expected the calibration of a pair in metres (between 0.001 and 100)");
+                   " m: expected the calibration of a pair in metres (between 0.001 and 5)");
   }
   if (std::abs(left.P(0, 0) - right.P(0, 0)) > 1e-6 * focal_ ||
       std::abs(left.P(1, 2) - right.P(1, 2)) > 1e-6 * focal_) {

@@ -105,7 +105,7 @@ void CliqueSearch::descend(int level, int chosen) {
       descend(level + 1, chosen + 1);
     }
   }
-  // Or this marker is not seen.
+  // The other possibility: this marker is not seen.
   for (int j = level + 1; j < markers; ++j) {
     std::copy_n(allowed(level, j), words_, allowed(level + 1, j));
   }
@@ -122,7 +122,8 @@ void CliqueSearch::judge(int chosen) {
   }
   const RigidFit fit = fit_rigid(pairs);
   if (chosen > kFewest && fit.rms > 3.0 * options_.edge_tolerance) {
-    // Right distances, wrong shape: a mirror image. Its triples are no better than it is.
+    // The distances fit but the shape does not: a mirror image. Triples of its points are refused,
+    // too.
     if (mirrored_.size() == mirrored_count_) mirrored_.emplace_back();
     mirrored_[mirrored_count_++] = assigned_;
     return;
@@ -145,7 +146,7 @@ void CliqueSearch::judge(int chosen) {
   }
 }
 
-/// Poses this far apart are different answers, not one answer twice.
+/// Whether two poses are too far apart to be the same solution, found with different points.
 bool CliqueSearch::differ(const Pose& a, const Pose& b) const {
   return (a * centre_ - b * centre_).norm() > 0.005 || angular_distance(a.R, b.R) > 0.03;
 }

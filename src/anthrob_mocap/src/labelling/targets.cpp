@@ -7,9 +7,9 @@
 #include <limits>
 #include <sstream>
 
-#include "anthrob_config/errors.h"
+#include "../unit_quaternion.h"
+#include "anthrob_config/config_node.h"
 #include "anthrob_config/names.h"
-#include "anthrob_mocap/file/settings.h"
 
 namespace anthrob {
 namespace mocap {
@@ -17,6 +17,7 @@ namespace mocap {
 namespace {
 
 constexpr double kLeastSpread = 0.005;  // [m] across the line nearest to all markers
+constexpr double kLongestEdge = 2.0;    // [m] no link is longer: other units
 
 double edge(const MarkerTarget& target, int i, int j) {
   return (target.markers[static_cast<std::size_t>(i)] - target.markers[static_cast<std::size_t>(j)])
@@ -50,19 +51,23 @@ bool assign(const MarkerTarget& a, const MarkerTarget& b, double tolerance, std:
   return false;
 }
 
-void require_snake_case(const Settings& node, const std::string& name) {
+void require_snake_case(const ConfigNode& node, const std::string& name) {
   if (!is_snake_case(name)) node.fail("'" + name + "': expected a name in lower_snake_case");
 }
 
-MarkerTarget read_target(const std::string& name, const Settings& node, double marker_diameter) {
+MarkerTarget read_target(const std::string& name, const ConfigNode& node, double marker_diameter) {
   MarkerTarget target{name, {}};
-  for (const Settings& marker : node.at("markers").items()) {
-    target.markers.push_back(marker.vector3());
+  for (const ConfigNode& marker : node.at("markers").items()) {
+    target.markers.push_back(marker.as_vector3("m"));
   }
   const std::size_t count = target.markers.size();
   if (count < 3 || count > 16) node.at("markers").fail_expected("3 to 16 markers");
   for (int i = 0; i < static_cast<int>(count); ++i) {
     for (int j = 0; j < i; ++j) {
+      if (!(edge(target, i, j) < kLongestEdge)) {
+        node.at("markers").items()[static_cast<std::size_t>(i)].fail_expected(
+            "metres: less than 2 m from marker " + std::to_string(j));
+      }
       if (edge(target, i, j) <= marker_diameter) {
         node.at("markers").fail("markers " + edge_text(target, j, i) +
                                 " touch: expected more than marker_diameter between them");
@@ -82,12 +87,12 @@ MarkerTarget read_target(const std::string& name, const Settings& node, double m
   return target;
 }
 
-BallJoint read_joint(const std::string& name, const Settings& node,
+BallJoint read_joint(const std::string& name, const ConfigNode& node,
                      const std::vector<MarkerTarget>& targets) {
   BallJoint joint;
   joint.name = name;
   const auto index = [&](const std::string& key) {
-    const std::string wanted = node.at(key).text();
+    const std::string wanted = node.text(key);
     for (std::size_t i = 0; i < targets.size(); ++i) {
       if (targets[i].name == wanted) return static_cast<int>(i);
     }
@@ -96,35 +101,35 @@ BallJoint read_joint(const std::string& name, const Settings& node,
   joint.parent = index("parent");
   joint.child = index("child");
   if (joint.parent == joint.child) node.at("child").fail("parent and child are the same target");
-  if (node.has("rest")) joint.rest = node.at("rest").unit_quaternion();
-  if (node.has("child_mount")) joint.child_mount = node.at("child_mount").unit_quaternion();
+  if (node.has("rest")) joint.rest = unit_quaternion(node.at("rest"));
+  if (node.has("child_mount")) joint.child_mount = unit_quaternion(node.at("child_mount"));
   return joint;
 }
 
-TargetSet read(const Settings& file, double edge_tolerance) {
+TargetSet read(const ConfigNode& file, double edge_tolerance) {
   TargetSet set;
-  set.marker_diameter = file.at("marker_diameter").number(0.0, 1.0, "m");
-  const Settings targets = file.at("targets");
-  for (const std::string& name : targets.keys()) {
-    require_snake_case(targets.at(name), name);
-    set.targets.push_back(read_target(name, targets.at(name), set.marker_diameter));
+  set.marker_diameter = file.number("marker_diameter", Bounds::between(0.0, 1.0), "m");
+  const ConfigNode targets = file.at("targets");
+  for (const auto& [name, node] : targets.entries()) {
+    require_snake_case(node, name);
+    set.targets.push_back(read_target(name, node, set.marker_diameter));
   }
   if (set.targets.empty()) targets.fail_expected("at least one target");
   if (file.has("joints")) {
-    const Settings joints = file.at("joints");
-    for (const std::string& name : joints.keys()) {
-      require_snake_case(joints.at(name), name);
+    for (const auto& [name, node] : file.at("joints").entries()) {
+      require_snake_case(node, name);
       for (const MarkerTarget& target : set.targets) {
         if (target.name == name) {
-          joints.at(name).fail(
+          node.fail(
               "a target has this name: expected another one, because poses.csv has columns of "
               "both");
         }
       }
-      set.joints.push_back(read_joint(name, joints.at(name), set.targets));
+      set.joints.push_back(read_joint(name, node, set.targets));
     }
   }
   file.refuse_unknown_keys();
+  file.refuse_empty_values();
   for (const MarkerTarget& a : set.targets) {
     for (const MarkerTarget& b : set.targets) {
       const std::string why = find_ambiguity(a, b, edge_tolerance);
@@ -143,12 +148,12 @@ Vec3 MarkerTarget::centre() const {
 }
 
 TargetSet TargetSet::load(const std::string& file, double edge_tolerance) {
-  return read(Settings::load(file), edge_tolerance);
+  return read(ConfigNode::load(file), edge_tolerance);
 }
 
 TargetSet TargetSet::parse(const std::string& text, const std::string& name,
                            double edge_tolerance) {
-  return read(Settings::parse(text, name), edge_tolerance);
+  return read(ConfigNode::parse(text, name), edge_tolerance);
 }
 
 std::string TargetSet::to_yaml() const {

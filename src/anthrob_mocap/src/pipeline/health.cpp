@@ -10,8 +10,20 @@ namespace mocap {
 
 namespace {
 
-constexpr int kRare = 3;  // sightings in a row without a velocity that are no coincidence
+constexpr int kRare = 3;  // sightings in a row without a velocity before a joint is reported
 constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not moved stays below
+// [pixel] root mean square. Centroids that scatter by 0.1 pixels, three times what PoseOptions
+// believes, give 0.09. A right camera turned by 3 mrad gives 0.4 to 0.5, a target that turns at
+// 0.7 rad/s in pairs that are 1/60 s apart 0.2 to 0.4. Larger values hardly occur: such markers
+// form no target.
+constexpr double kLargestRms = 0.2;
+constexpr int kFewestPoses = 5;  // of a target; fewer may be one merged blob
+
+std::string format(const char* form, double value) {
+  char text[160];
+  std::snprintf(text, sizeof(text), form, value);
+  return text;
+}
 
 MatchingOptions rows_only(MatchingOptions options) {
   options.marker_diameter = 0.0;
@@ -35,13 +47,22 @@ void Health::add(const StereoFrame& frame) {
   }
   for (const Labelling& labelling : frame.labels) sums_.given_up += labelling.gave_up ? 1 : 0;
   const int before = sums_.poses;
-  for (const TargetPose& pose : frame.targets) {
+  sums_.targets.resize(frame.targets.size());
+  for (std::size_t k = 0; k < frame.targets.size(); ++k) {
+    const TargetPose& pose = frame.targets[k];
     if (!pose.valid) continue;
     ++sums_.poses;
     sums_.row_error += pose.row_error;
     sums_.pixel_rms += pose.pixel_rms;
+    ++sums_.targets[k].poses;
+    sums_.targets[k].row_error += pose.row_error * pose.row_error;
+    sums_.targets[k].pixel_rms += pose.pixel_rms * pose.pixel_rms;
   }
-  if (sums_.poses == before) try_swapped(frame), try_rows(frame);
+  if (sums_.poses == before) {
+    // The matches of a picture that was cut cannot be compared with those of the swapped one.
+    if (!frame.cut) try_swapped(frame);
+    try_rows(frame);
+  }
   still_.resize(frame.joints.size(), 0);
   for (std::size_t j = 0; j < still_.size(); ++j) {
     const JointEstimate& joint = frame.joints[j];
@@ -68,7 +89,8 @@ void Health::try_swapped(const StereoFrame& frame) {
   sums_.matches_if_swapped += static_cast<long>(matches.size());
 }
 
-/// Counts left blobs that a right one shares its row with. Lamps are of no marker's size.
+/// Counts the left blobs that have a right blob on their row, at any depth and of any size: lamps
+/// are not as large as markers.
 void Health::try_rows(const StereoFrame& frame) {
   std::vector<Match> matches;
   row_matcher_.match(frame.blobs, frame.rectified, matches);
@@ -79,13 +101,50 @@ void Health::try_rows(const StereoFrame& frame) {
   }
 }
 
+double Health::residual(std::size_t target) const {
+  if (target >= sums_.targets.size() || sums_.targets[target].poses == 0) return 0.0;
+  return std::sqrt(sums_.targets[target].pixel_rms / sums_.targets[target].poses);
+}
+
+/// The largest root mean square of all targets.
+double Health::worst(double Squares::*sum) const {
+  double largest = 0.0;
+  for (const Squares& target : sums_.targets) {
+    if (target.poses < kFewestPoses) continue;
+    largest = std::max(largest, std::sqrt(target.*sum / target.poses));
+  }
+  return largest;
+}
+
+std::string Health::uneven_rows() const {
+  if (std::abs(row_error()) > kLargestRowError) {
+    return format("rows of left and right differ by %.3f pixels: recalibrate the cameras",
+                  row_error());
+  }
+  const double rms = worst(&Squares::row_error);
+  if (rms <= kLargestRms) return "";
+  return format(
+      "rows of left and right differ by %.3f pixels rms: the rig has been bent, or the pair is not "
+      "synchronised",
+      rms);
+}
+
 std::string Health::bend() const {
-  if (std::abs(row_error()) <= kLargestRowError) return "";
-  char text[128];
-  std::snprintf(text, sizeof(text),
-                "rows of left and right differ by %.3f pixels: recalibrate the cameras",
-                row_error());
-  return text;
+  const std::string rows = uneven_rows();
+  if (!rows.empty()) return rows;
+  const double rms = worst(&Squares::pixel_rms);
+  if (rms <= kLargestRms) return "";
+  return format(
+      "markers are %.3f pixels rms off their target: the rig has been bent, the pair is not "
+      "synchronised, or the target is not calibrated",
+      rms);
+}
+
+std::string Health::crowd() const {
+  if (sums_.cut == 0) return "";
+  return std::to_string(sums_.cut) + " of " + std::to_string(sums_.frames) +
+         " pairs show more points than most_points: the lowest in the picture are ignored, and "
+         "three markers make no pose; cover reflections, or raise the threshold";
 }
 
 std::string Health::contradiction() const {
@@ -109,6 +168,7 @@ std::string Health::advice() const {
   if (sums_.frames == 0 || sums_.poses > 0) return "";
   const std::string why = contradiction();
   if (!why.empty()) return why;
+  if (2 * sums_.cut > sums_.frames) return crowd();
   if (std::min(sums_.blobs[kLeft], sums_.blobs[kRight]) < 3L * sums_.frames) {
     return "hardly any marker is seen: check lighting, threshold and view";
   }

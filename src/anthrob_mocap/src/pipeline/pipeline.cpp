@@ -75,7 +75,7 @@ class ThreadedRunner final : public Pipeline::Runner {
       : Runner(std::move(stages), std::move(sink)), free_(in_flight) {
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       nodes_.push_back(std::make_unique<Node>(graph_, tbb::flow::serial, [this, i](Packet* packet) {
-        // Nothing may leave a packet behind: it would never be counted as done.
+        // An exception must not leave this function: the packet would never be counted as done.
         try {
           if (!failed()) run_stage(stages_[i], i, *packet, true);
         } catch (...) {
@@ -98,7 +98,7 @@ class ThreadedRunner final : public Pipeline::Runner {
     {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return free_ > 0; });
-      // It stays: what is in flight must not run on from a stage that has failed.
+      // failure_ is kept until drain(): packets in flight must not continue after a failed stage.
       if (failure_) std::rethrow_exception(failure_);
       --free_;
     }

@@ -74,7 +74,7 @@ std::vector<Stage> tracking_stages(const StereoRig& rig, const TargetSet& set,
             }),
       stage("labelling",
             [labeller](StereoFrame& frame) {
-              labeller->label(frame.t, frame.points, frame.edges, frame.labels);
+              labeller->label(frame.t, frame.points, frame.cut, frame.edges, frame.labels);
             }),
       stage("pose",
             [pose_estimator](StereoFrame& frame) {

@@ -2,15 +2,15 @@
 
 #include <sstream>
 
-#include "anthrob_mocap/file/settings.h"
+#include "anthrob_config/config_node.h"
 
 namespace anthrob {
 namespace mocap {
 
 namespace {
 
-/// Between bounds that are swapped there is nothing, so nothing would be seen.
-void expect_order(const Settings& node, const std::string& low, double least,
+/// With swapped bounds no value would lie between them, and no marker would be seen.
+void expect_order(const ConfigNode& node, const std::string& low, double least,
                   const std::string& high, double most) {
   if (least < most) return;
   std::ostringstream text;
@@ -22,55 +22,58 @@ void expect_order(const Settings& node, const std::string& low, double least,
 }  // namespace
 
 TrackerOptions load_tracker_options(const std::string& path) {
-  const Settings file = Settings::load(path);
+  const ConfigNode file = ConfigNode::load(path);
   TrackerOptions options;
   const auto section = [&](const char* name, auto&& read) {
     if (!file.has(name)) return;
-    const Settings node = file.at(name);
-    node.keys();  // refuses what is no map
+    const ConfigNode node = file.at(name);
+    if (!node.is_map()) node.fail_expected("a map");
     read(node);
   };
-  const auto number = [](const Settings& node, const char* key, double& value, double lo,
-                         double hi) { value = node.number_or(key, value, lo, hi); };
-  section("segmentation", [&](const Settings& node) {
+  const auto number = [](const ConfigNode& node, const char* key, double& value, double lo,
+                         double hi, const char* unit) {
+    value = node.number_or(key, value, Bounds::between(lo, hi), unit);
+  };
+  section("segmentation", [&](const ConfigNode& node) {
     SegmentationOptions& o = options.segmentation;
-    if (node.has("threshold")) o.threshold = node.at("threshold").integer(1, 254);
-    number(node, "min_area", o.min_area, 1.0, 1e6);
-    number(node, "max_area", o.max_area, 1.0, 1e6);
+    if (node.has("threshold")) o.threshold = node.at("threshold").as_integer(1, 254);
+    number(node, "min_area", o.min_area, 1.0, 1e6, "pixel");
+    number(node, "max_area", o.max_area, 1.0, 1e6, "pixel");
     expect_order(node, "min_area", o.min_area, "max_area", o.max_area);
-    number(node, "max_axis_ratio", o.max_axis_ratio, 1.0, 100.0);
-    number(node, "min_fill", o.min_fill, 0.0, 1.0);
-    number(node, "least_shape_area", o.least_shape_area, 0.0, 1e6);
+    number(node, "max_axis_ratio", o.max_axis_ratio, 1.0, 100.0, "1");
+    number(node, "min_fill", o.min_fill, 0.0, 1.0, "1");
+    number(node, "least_shape_area", o.least_shape_area, 0.0, 1e6, "pixel");
   });
-  section("matching", [&](const Settings& node) {
+  section("matching", [&](const ConfigNode& node) {
     MatchingOptions& o = options.matching;
-    number(node, "epipolar_tolerance", o.epipolar_tolerance, 0.01, 100.0);
-    number(node, "min_depth", o.min_depth, 0.01, 100.0);
-    number(node, "max_depth", o.max_depth, 0.01, 1000.0);
+    number(node, "epipolar_tolerance", o.epipolar_tolerance, 0.01, 100.0, "pixel");
+    number(node, "min_depth", o.min_depth, 0.01, 100.0, "m");
+    number(node, "max_depth", o.max_depth, 0.01, 1000.0, "m");
     expect_order(node, "min_depth", o.min_depth, "max_depth", o.max_depth);
-    number(node, "size_factor", o.size_factor, 1.0, 100.0);
+    number(node, "size_factor", o.size_factor, 1.0, 100.0, "1");
   });
-  section("labelling", [&](const Settings& node) {
+  section("labelling", [&](const ConfigNode& node) {
     LabellingOptions& o = options.labelling;
-    number(node, "edge_tolerance", o.edge_tolerance, 1e-5, 0.1);
-    number(node, "rms_tolerance", o.rms_tolerance, 1e-5, 0.1);
-    number(node, "triple_tolerance", o.triple_tolerance, 1e-5, 0.1);
-    number(node, "tie_margin", o.tie_margin, 0.0, 0.1);
-    if (node.has("step_limit")) o.step_limit = node.at("step_limit").integer(100, 100000000);
+    number(node, "edge_tolerance", o.edge_tolerance, 1e-5, 0.1, "m");
+    number(node, "rms_tolerance", o.rms_tolerance, 1e-5, 0.1, "m");
+    number(node, "triple_tolerance", o.triple_tolerance, 1e-5, 0.1, "m");
+    number(node, "tie_margin", o.tie_margin, 0.0, 0.1, "m");
+    if (node.has("step_limit")) o.step_limit = node.at("step_limit").as_integer(100, 100000000);
   });
-  section("motion", [&](const Settings& node) {
+  section("motion", [&](const ConfigNode& node) {
     MotionOptions& o = options.motion;
-    number(node, "max_turn_rate", o.max_turn_rate, 0.01, 1000.0);
-    number(node, "max_speed", o.max_speed, 0.01, 1000.0);
-    number(node, "memory", o.memory, 0.0, 10.0);
+    number(node, "max_turn_rate", o.max_turn_rate, 0.01, 1000.0, "rad/s");
+    number(node, "max_speed", o.max_speed, 0.01, 1000.0, "m/s");
+    number(node, "memory", o.memory, 0.0, 10.0, "s");
   });
-  section("pose", [&](const Settings& node) {
+  section("pose", [&](const ConfigNode& node) {
     PoseOptions& o = options.pose;
-    number(node, "pixel_noise", o.pixel_noise, 1e-4, 10.0);
-    number(node, "max_turn_sigma", o.max_turn_sigma, 1e-5, 1.0);
+    number(node, "pixel_noise", o.pixel_noise, 1e-4, 10.0, "pixel");
+    number(node, "max_turn_sigma", o.max_turn_sigma, 1e-5, 1.0, "rad");
   });
-  if (file.has("most_points")) options.most_points = file.at("most_points").integer(3, 10000);
+  if (file.has("most_points")) options.most_points = file.at("most_points").as_integer(3, 10000);
   file.refuse_unknown_keys();
+  file.refuse_empty_values();
   return options;
 }
 

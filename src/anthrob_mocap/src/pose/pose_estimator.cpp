@@ -11,7 +11,7 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Row6 = Eigen::Matrix<double, 2, 6>;
 
-constexpr double kPriorFreedom = 6.0;  // residuals that the believed pixel noise counts for
+constexpr double kPriorFreedom = 6.0;  // weight of the assumed pixel noise, in residuals
 constexpr int kSteps = 2;              // the closed form starts within a tenth of a millimetre
 constexpr double kSuspicious = 2.0;    // times the believed noise: look for a marker that is off
 
@@ -48,7 +48,7 @@ TargetPose PoseEstimator::estimate(int target, const Labelling& labelling,
     fewer.list[normal.worst] = fewer.list[--fewer.count];
     Pose X = pose.X;
     const Normal without = refine(fewer, X);
-    // Half is more than losing four of the residuals would gain by itself.
+    // Leaving out four residuals of noise alone lowers the rms by less than half.
     if (pixel_rms(without, fewer.count) > 0.5 * pixel_rms(normal, markers.count)) break;
     markers = fewer, normal = without, pose.X = X;
   }
@@ -104,7 +104,7 @@ void PoseEstimator::describe(const Observations& markers, const Normal& normal,
   }
   pose.rms = std::sqrt(squares / pose.markers);
   pose.pixel_rms = pixel_rms(normal, markers.count);
-  // The residuals speak for the noise as far as there are any to spare.
+  // Residuals beyond the six unknowns tell the noise; the assumed noise completes them.
   const double believed = std::pow(options_.pixel_noise * rig_.zoom(), 2);
   const double freedom = 4.0 * pose.markers - 6.0;
   const double variance = (kPriorFreedom * believed + normal.squares) / (kPriorFreedom + freedom);

@@ -1,6 +1,7 @@
 #include "anthrob_mocap/source/folder_source.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a stamp of ROS, which counts seconds from 0 in 32 bits, can say it.
+/// Whether a stamp of ROS, which counts seconds from 0 in 32 bits, can represent the time.
 bool expressible(double t) {
   return t >= 0.0 && t < 4294967296.0;
 }
@@ -34,7 +35,27 @@ FolderSource::FolderSource(const std::string& left, const std::string& right,
                    (left_first ? names_[i] : right_names[i]) +
                    ", which the other folder has: expected the same names in both");
   }
+  sort_names();
   load_times(options);
+}
+
+void FolderSource::sort_names() {
+  std::map<long, std::string> by_index;
+  for (const std::string& name : names_) {
+    const std::string number = image_number(name);
+    if (number.empty() != image_number(names_.front()).empty()) {
+      throw BadInput(folder_[kLeft] + ": " + (number.empty() ? name : names_.front()) +
+                     ": expected a number in the name, as other images of this folder have");
+    }
+    const long index = number.empty() ? static_cast<long>(by_index.size())
+                                      : std::strtol(number.c_str(), nullptr, 10);
+    const auto [other, fresh] = by_index.emplace(index, name);
+    if (fresh) continue;
+    throw BadInput(folder_[kLeft] + ": " + other->second + " and " + name +
+                   " have the same number in their names");
+  }
+  names_.clear();
+  for (const auto& [index, name] : by_index) indices_.push_back(index), names_.push_back(name);
 }
 
 FolderSource::Times FolderSource::read_times(const std::string& file) {
@@ -79,10 +100,7 @@ void FolderSource::load_times(const Options& options) {
     times = read_times(file);
   }
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    const std::string stem = fs::path(names_[i]).stem().string();
-    char* end = nullptr;
-    const long number = std::strtol(stem.c_str(), &end, 10);
-    const long index = *end == 0 && !stem.empty() ? number : static_cast<long>(i);
+    const long index = indices_[i];
     const auto t = times.find(index);
     if (!times.empty() && t == times.end()) {
       throw BadInput(file + ": no time for " + names_[i]);

@@ -1,6 +1,7 @@
 #include "anthrob_mocap/source/image_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -41,8 +42,45 @@ bool truncated_pgm(const Bytes& bytes) {
   return bytes.size() < header + numbers[0] * numbers[1] * (numbers[2] > 255 ? 2 : 1);
 }
 
-/// The decoders fill what is missing with grey, or chatter on standard error.
-bool truncated(const Bytes& bytes) {
+std::uint32_t big_endian(const std::uint8_t* bytes) {
+  return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 |
+         std::uint32_t{bytes[2]} << 8 | std::uint32_t{bytes[3]};
+}
+
+/// The checksum of PNG chunks (ISO 3309).
+std::uint32_t crc32(const std::uint8_t* begin, const std::uint8_t* end) {
+  static const std::array<std::uint32_t, 256> kTable = [] {
+    std::array<std::uint32_t, 256> table{};
+    for (std::uint32_t n = 0; n < 256; ++n) {
+      std::uint32_t c = n;
+      for (int bit = 0; bit < 8; ++bit) c = (c & 1) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
+      table[n] = c;
+    }
+    return table;
+  }();
+  std::uint32_t crc = 0xffffffffu;
+  for (; begin != end; ++begin) crc = kTable[(crc ^ *begin) & 0xff] ^ (crc >> 8);
+  return ~crc;
+}
+
+/// Why a PNG cannot be whole; empty if its chunks are, from the first to IEND.
+std::string damage_of_png(const Bytes& bytes) {
+  constexpr std::size_t kSignature = 8, kFrame = 12;  // length, type and checksum of a chunk
+  for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
+    const std::uint8_t* chunk = &bytes[at];
+    const std::size_t length = big_endian(chunk);
+    if (length > bytes.size() - at - kFrame) break;
+    const std::uint8_t *type = chunk + 4, *checksum = type + 4 + length;
+    if (crc32(type, checksum) != big_endian(checksum)) return "damaged image: wrong checksum";
+    if (std::equal(type, type + 4, "IEND")) return "";
+    at += kFrame + length;
+  }
+  return "truncated image";
+}
+
+/// Why the bytes cannot be a whole image; empty if nothing speaks against it. The decoders fill
+/// what is missing with grey, or print lines of their own on standard error.
+std::string damage_of(const Bytes& bytes) {
   const auto begins = [&](const Bytes& mark) {
     return bytes.size() >= mark.size() && std::equal(mark.begin(), mark.end(), bytes.begin());
   };
@@ -51,21 +89,22 @@ bool truncated(const Bytes& bytes) {
     return std::search(bytes.end() - static_cast<std::ptrdiff_t>(tail), bytes.end(), mark.begin(),
                        mark.end()) != bytes.end();
   };
-  if (begins({0x89, 'P', 'N', 'G'})) return !holds_near_end({'I', 'E', 'N', 'D'});
-  if (begins({0xff, 0xd8})) return !holds_near_end({0xff, 0xd9});
-  if (begins({'P', '5'})) return truncated_pgm(bytes);
-  return false;
+  if (begins({0x89, 'P', 'N', 'G'})) return damage_of_png(bytes);
+  const bool truncated = (begins({0xff, 0xd8}) && !holds_near_end({0xff, 0xd9})) ||
+                         (begins({'P', '5'}) && truncated_pgm(bytes));
+  return truncated ? "truncated image" : "";
 }
 
 cv::Mat decode(const std::string& file, int flags) {
   const Bytes bytes = read_bytes(file);
   if (bytes.empty()) throw BadInput(file + ": the file is empty");
-  if (truncated(bytes)) throw BadInput(file + ": truncated image");
+  const std::string damage = damage_of(bytes);
+  if (!damage.empty()) throw BadInput(file + ": " + damage);
   cv::Mat image;
   try {
     image = cv::imdecode(bytes, flags);
   } catch (const cv::Exception&) {
-    // Said below.
+    // Reported below, as an empty image.
   }
   if (image.empty()) throw BadInput(file + ": not an image that can be decoded");
   return image;
@@ -97,6 +136,15 @@ void write_grey_image(const std::string& file, const Image& image) {
   const cv::Mat view(image.height, image.width, CV_8U,
                      const_cast<std::uint8_t*>(image.pixels.data()));
   if (!cv::imwrite(file, view)) throw std::runtime_error(file + ": cannot be written");
+}
+
+std::string image_number(const std::string& file) {
+  const std::string stem = fs::path(file).stem().string();
+  const auto end = stem.find_last_of("0123456789");
+  if (end == std::string::npos) return "";
+  const auto before = stem.find_last_not_of("0123456789", end);
+  const auto begin = before == std::string::npos ? 0 : before + 1;
+  return stem.substr(begin, end + 1 - begin);
 }
 
 std::vector<std::string> list_images(const std::string& folder) {

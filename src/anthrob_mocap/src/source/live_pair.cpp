@@ -10,7 +10,7 @@ namespace mocap {
 
 namespace {
 
-constexpr std::size_t kMostPairs = 4;  // older ones are late anyway
+constexpr std::size_t kMostPairs = 4;  // that wait to be taken; older ones are dropped
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

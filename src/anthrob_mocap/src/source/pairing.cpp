@@ -11,11 +11,11 @@ namespace mocap {
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 8;  // more than this long no partner comes
-constexpr std::size_t kIntervals = 9;    // whose median is the cameras' period
-constexpr double kAnotherTime = 1.0;     // [s] back: a bag that loops, a simulator anew
-constexpr int kAdvancing = 4;            // refused stamps in a row: a bag of less than that
-constexpr double kBearableLoss = 0.05;   // [1] of all images: some get lost wherever one starts
+constexpr std::size_t kMostWaiting = 8;  // images per side; of more, the oldest are lost
+constexpr std::size_t kIntervals = 9;    // between images; their median is the period
+constexpr double kAnotherTime = 1.0;     // [s] a step back that starts over
+constexpr int kAdvancing = 4;            // refused stamps in a row; after them it starts over
+constexpr double kBearableLoss = 0.05;   // [1] of all images; a few are lost at every start
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void Pairing::advance(Side side, double t) {
                     "stamp %.6f s: expected one later than the previous, %.6f s", t, *last);
       throw BadInput(text);
     }
-    lose(side, waiting_[side].size());  // worth nothing any more
+    lose(side, waiting_[side].size());  // they are of the time before
   } else if (last) {
     intervals_.push_back(t - *last);
     if (intervals_.size() > kIntervals) intervals_.pop_front();
@@ -40,7 +40,7 @@ void Pairing::advance(Side side, double t) {
   refused_[side].reset();
 }
 
-/// The oldest that wait have no partner.
+/// Drops the oldest waiting images, which have no partner.
 void Pairing::lose(Side side, std::size_t count) {
   std::deque<TimedImage>& waiting = waiting_[side];
   waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));

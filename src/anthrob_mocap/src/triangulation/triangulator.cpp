@@ -23,7 +23,7 @@ void Triangulator::triangulate(const std::array<std::vector<Vec2>, 2>& points,
 
 Vec2 Triangulator::centre_of_sphere(Side side, const Vec2& ellipse, const Vec3& p) const {
   if (radius_ <= 0.0) return ellipse;
-  // The outline was seen by the camera as it stands, not by the rectified one.
+  // The outline is that in the real camera, not in the rectified one.
   const Mat3& R = rig_.camera(side).R;
   const double depth = rig_.in_camera(side, p).z();
   const Vec3 d = R.transpose() * rig_.rectified_ray(side, ellipse);

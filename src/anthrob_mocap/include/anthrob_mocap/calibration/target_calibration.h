@@ -21,7 +21,8 @@ struct TargetCalibration {
 /// or stand still. A frame counts if at least four markers (or all three of three) are seen.
 /// @param guess measured by hand, to a centimetre
 /// @param frames points in space of every frame
-/// @throws BadInput if a marker is seen in fewer than 20 frames, or scatters by more than 1.5 mm
+/// @throws BadInput if a marker is seen in fewer than 20 frames, scatters by more than 1.5 mm or
+///   comes out more than 20 mm from the guess, or if the target comes out mirrored
 TargetCalibration calibrate_target(const MarkerTarget& guess,
                                    const std::vector<std::vector<MarkerPoint>>& frames);
 

@@ -26,7 +26,7 @@ class StereoRig {
   int height() const { return cameras_[0].height; }
   double focal() const { return focal_; }        ///< of the rectified images [pixel]
   double baseline() const { return baseline_; }  ///< [m]
-  /// Rectified pixels for a pixel of the cameras: calibrators zoom as they like.
+  /// Rectified pixels per pixel of the cameras: calibrators choose the scale freely.
   double zoom() const { return focal_ / std::sqrt(cameras_[0].fx * cameras_[0].fy); }
 
   /// Rectified pixel of a pixel; NaN where the lens model has no inverse.

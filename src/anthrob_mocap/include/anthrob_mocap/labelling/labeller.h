@@ -16,9 +16,11 @@ class Labeller {
            const MotionOptions& motion);
 
   /// @param t [s] exposure
+  /// @param cut some points of the picture were left out: three markers make no pose then, nor in a
+  ///   crowd of points
   /// @param result replaced: one for every target, of count 0 if it is not found
-  void label(double t, const std::vector<MarkerPoint>& points, const std::vector<Edge>& edges,
-             std::vector<Labelling>& result);
+  void label(double t, const std::vector<MarkerPoint>& points, bool cut,
+             const std::vector<Edge>& edges, std::vector<Labelling>& result);
 
   double longest_edge() const { return longest_; }  ///< [m] the longest that any target needs
 

@@ -29,19 +29,34 @@ class Health {
   /// rare, or their stamps are wrong.
   std::vector<std::size_t> joints_without_velocity() const;
 
-  /// Says that the rig seems to be bent a little: there are poses, but rows differ; else empty.
+  /// Says that rows of left and right differ, though targets are found; else empty. Does not depend
+  /// on where the markers of the targets are.
+  std::string uneven_rows() const;
+  /// uneven_rows, or that the markers do not fit the targets: the rig has been bent or the pair is
+  /// not synchronised, so angles are wrong. For targets that are calibrated; else empty.
   std::string bend() const;
+  /// Says that pictures were cut at most_points; else empty.
+  std::string crowd() const;
+  /// Root mean square of pixel_rms over the poses of a target [pixel]; 0 without poses.
+  double residual(std::size_t target) const;
   /// What is certainly wrong with the images or the calibration; empty if nothing is.
   std::string contradiction() const;
   /// What to check if no target was found; empty if one was.
   std::string advice() const;
 
  private:
+  /// Of one target. A movement to and fro shows in the squares, not in the mean.
+  struct Squares {
+    int poses = 0;
+    double row_error = 0.0, pixel_rms = 0.0;  ///< sums of squares
+  };
   struct Sums {
     int frames = 0, poses = 0, cluttered = 0, cut = 0, given_up = 0;
     long matches = 0, matches_if_swapped = 0, on_common_rows = 0, blobs[2] = {0, 0};
     double row_error = 0.0, pixel_rms = 0.0;
+    std::vector<Squares> targets;
   };
+  double worst(double Squares::*sum) const;
   void try_swapped(const StereoFrame& frame);
   void try_rows(const StereoFrame& frame);
 

@@ -19,7 +19,7 @@ struct Setup {
   struct JointFrame {
     std::string parent, child;   ///< links
     Pose X_PC;                   ///< child in parent at rest
-    Vec3 center = Vec3::Zero();  ///< of rotation, in the child's frame [m]
+    Vec3 centre = Vec3::Zero();  ///< of rotation, in the child's frame [m]
 
     Pose at(const Quat& q) const;  ///< child in parent at rotation q from rest
   };

@@ -9,9 +9,10 @@
 namespace anthrob {
 namespace mocap {
 
-/// Pairs of images 000000.png, ... of two folders. Times are in times.csv ("index,t") in one of the
-/// folders, in both (then for all images), or beside them; without it, the index divided by the
-/// rate.
+/// Pairs of images 000000.png, ... of two folders, in the order of the last number in their names,
+/// which is their index (names without any number: in the order of the names). Times are in
+/// times.csv ("index,t") in one of the folders, in both (then for all images), or beside them;
+/// without it, the index divided by the rate.
 class FolderSource final : public FrameSource {
  public:
   struct Options {
@@ -28,11 +29,13 @@ class FolderSource final : public FrameSource {
  private:
   using Times = std::map<long, double>;
   static Times read_times(const std::string& file);
+  void sort_names();
   void load_times(const Options& options);
   void check_times(const Times& left, const Times& right, double tolerance) const;
 
   std::string folder_[2];
   std::vector<std::string> names_;
+  std::vector<long> indices_;  ///< by name
   std::vector<double> times_;
   std::size_t position_ = 0;
 };

@@ -16,7 +16,11 @@ Image read_any_image(const std::string& file);
 
 void write_grey_image(const std::string& file, const Image& image);
 
-/// Names of the image files of a folder, sorted.
+/// The last number in the name of an image file, as written: "07" of "rig2_07_l.png". It says which
+/// images belong together and in which order they were taken. Empty if there is no number.
+std::string image_number(const std::string& file);
+
+/// Names of the image files of a folder, sorted as text.
 /// @throws BadInput if there is no such folder or no image in it
 std::vector<std::string> list_images(const std::string& folder);
 

@@ -10,8 +10,9 @@ namespace mocap {
 
 /// A point in space that could be a marker.
 struct MarkerPoint {
-  Vec3 p = Vec3::Zero();   ///< centre, rectified left frame [m]
-  Vec2 image[2];           ///< rectified pixels of the centre, before the rows are averaged
+  Vec3 p = Vec3::Zero();  ///< centre, rectified left frame [m]
+  /// Rectified pixels of the centre, before the rows are averaged
+  Vec2 image[2] = {Vec2::Zero(), Vec2::Zero()};
   int blob[2] = {-1, -1};  ///< the blob of each image that it was triangulated from
 };
 
