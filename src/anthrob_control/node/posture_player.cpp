@@ -7,7 +7,7 @@
 
 #include "anthrob_control/approach.h"
 #include "anthrob_control/posture_sequence.h"
-#include "anthrob_control/ros/heed_watch.h"
+#include "anthrob_control/ros/reference_watch.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
@@ -84,7 +84,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   ros::Time end;
   int unheeded = 0;
   Silence silence;
-  anthrob::HeedWatch heed;
+  anthrob::ReferenceWatch reference_watch;
   ROS_INFO_STREAM(first);
   for (std::size_t i = 0; i < sequence.steps.size();) {
     if (link.time_jumped()) {
@@ -106,7 +106,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
     }
     const bool measured = silence.check(link);
     check_motors(link, unheeded);
-    heed.look(link.state(), link.now(), false);
+    reference_watch.look(link.state(), link.now(), false);
     // Motors that were off begin where they are, if only for a moment.
     if (!link.take_disabled().empty()) approach.begin();
     if (measured || approach.begun()) {

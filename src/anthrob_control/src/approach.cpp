@@ -9,7 +9,7 @@ namespace anthrob {
 
 namespace {
 
-/// Whoever was held up for longer goes on from where he was, and does not make up for it [s].
+/// Longest step [s]; after a longer pause the motion continues from where it was.
 constexpr double kLongestStep = 0.1;
 
 }  // namespace

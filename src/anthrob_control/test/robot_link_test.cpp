@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "anthrob_control/ros/heed_watch.h"
+#include "anthrob_control/ros/reference_watch.h"
 
 namespace anthrob {
 namespace {
@@ -22,7 +22,7 @@ TEST(MakeCommand, LeavesMusclesOutThatLackTheMode) {
   for (const std::string& name : force.name) EXPECT_EQ(name.rfind("hand", 0), std::string::npos);
 }
 
-TEST(HeedWatch, NamesAMuscleThatFollowsSomethingElseForASecond) {
+TEST(ReferenceWatch, NamesAMuscleThatFollowsSomethingElseForASecond) {
   const auto model =
       load_robot_model(std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/model_I.yaml");
   RobotState state(model);
@@ -30,7 +30,7 @@ TEST(HeedWatch, NamesAMuscleThatFollowsSomethingElseForASecond) {
     state.see_muscle(muscle, {0.1, 0.0, 0.0, 5.0}, true, 10.0);
     state.see_mode(muscle, ecu::Mode::kVoltage);
   }
-  HeedWatch sure, watch, other;
+  ReferenceWatch sure, watch, other;
   sure.look(state, ros::Time(10.0), true);
   sure.look(state, ros::Time(10.9), true);
   EXPECT_THROW(sure.look(state, ros::Time(11.1), true), std::runtime_error);

@@ -124,11 +124,11 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
                                       std::to_string(health.temperature[c])));
   }
   for (const int muscle : link.own().muscles) {
-    const MotorHeat& heat = driver.heat(static_cast<std::size_t>(muscle));
-    if (!heat.known()) continue;
+    const WindingTemperatureModel& winding = driver.winding(static_cast<std::size_t>(muscle));
+    if (!winding.known()) continue;
     const std::string& name = driver.hardware().muscles[static_cast<std::size_t>(muscle)].name;
-    status.values.push_back(key_value(name + " heat", text(heat.heat())));
-    if (heat.heat() <= MotorHeat::kCool) continue;
+    status.values.push_back(key_value(name + " heat", text(winding.relative_temperature_rise())));
+    if (winding.relative_temperature_rise() <= WindingTemperatureModel::kCool) continue;
     raise(status, DiagnosticStatus::WARN);
     status.message += "; the motor of " + name + " is hot, judging by its current";
   }

@@ -220,8 +220,8 @@ ros::Time DriverNode::ros_now() {
 }
 
 std::optional<ros::Time> DriverNode::stamp(double time, std::int64_t kernel_ns) {
-  // ROS time may be another than both clocks of the driver: what carries over is the age. ROS time
-  // comes first: if this thread is held up between the two a stamp is too old, never too new.
+  // ROS time may differ from both clocks of the driver; only the age carries over. ROS time is read
+  // first: if this thread is held up between the two, a stamp is too old, never too new.
   const ros::Time now = ros_now();
   const double old = age(time, kernel_ns);
   if (!(old <= kOldestMeasurement)) return std::nullopt;

@@ -23,9 +23,9 @@ namespace driver {
 
 /// The ROS contract around the driver: topics, services, diagnostics; the same as the simulator's.
 ///
-/// The bus has a thread of its own, stops have one, so that nothing can hold them up, and the calls
-/// that wait for the robot (enable, home, clear_faults) have some; all the rest is in run(). A call
-/// that came in before a stop does not undo it.
+/// The bus has a thread of its own, and so have stops, so that nothing can delay them. The calls
+/// that wait for the robot (enable, home, clear_faults) run in further threads, and everything else
+/// in run(). A call that came in before a stop does not undo it.
 class DriverNode {
  public:
   /// @param check_stamps refuse commands whose stamp says that they were not sent just now
@@ -39,18 +39,18 @@ class DriverNode {
   using Trigger = std_srvs::Trigger;
 
   void on_command(const anthrob_msgs::MuscleCommand& command);
-  /// [s] of ROS time since `stamp`; 0 if it says nothing.
+  /// [s] of ROS time since `stamp`; 0 if the command has no stamp.
   double command_age(const ros::Time& stamp) const;
   using Outcome = RobotDriver::Outcome;
-  /// Says what has come of a request so far. @return whether it goes on
+  /// Polls a pending request. @return whether it is still pending
   using Step = std::function<bool(RobotDriver& driver, double now, Outcome& outcome)>;
   enum class Commands { kTaken, kRefused };
-  /// Within a service: `begin`, unless the motors were stopped since the call came in, then `look`
-  /// again and again while that goes on.
-  /// @param commands meanwhile. Refused is also what comes before the answer: it was sent for a
-  /// state that is past when it could be followed
+  /// Carries out a service call: `begin`, unless the motors were stopped since the call came in,
+  /// then `look` repeatedly while the request is pending.
+  /// @param commands that come meanwhile. kRefused also drops commands queued before the reply:
+  /// they were meant for the old state
   Outcome carry_out(const Step& begin, const Step& look, Commands commands);
-  /// Until all commands that have come so far were taken or refused.
+  /// Waits until all commands that have come so far were accepted or refused.
   void pass_commands();
   bool on_enable(Trigger::Request& request, Trigger::Response& response);
   bool on_home(Trigger::Request& request, Trigger::Response& response);

@@ -34,8 +34,8 @@ int main(int argc, char** argv) {
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
     using namespace anthrob::driver;
-    // First of all: before the bus is opened, for our first SYNC would stop the motors of a driver
-    // that is there, and whatever else is wrong, for our launch file may have set its time.
+    // Claim first: our first SYNC would stop another driver's motors, and our launch file may have
+    // set /use_sim_time.
     const ros::Publisher claim = claim_robot(nh);
     const std::string file = required(settings, "hardware", "the path of hardware.yaml");
     std::string can = "can0";

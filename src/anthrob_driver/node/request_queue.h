@@ -8,8 +8,8 @@
 namespace anthrob {
 namespace driver {
 
-/// Service calls that wait for a thread, each with a count that was read when it came in: who
-/// carries it out sees what has happened since.
+/// Service calls that wait for a thread. Each keeps a count that was read when it came in, so that
+/// the thread that carries it out can tell what has happened since.
 class RequestQueue final : public ros::CallbackQueue {
  public:
   /// @param count read in ROS's thread, whenever a call comes in

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "anthrob_config/config_node.h"
-#include "anthrob_ecu/gains.h"
+#include "anthrob_ecu/model_file.h"
+#include "muscle_hardware.h"
 
 namespace anthrob {
 namespace driver {
@@ -18,26 +19,6 @@ namespace {
 using ecu::Parameter;
 
 constexpr double kLongestHome = 120.0;  // [s]
-constexpr double kTick = 0.001;         // [s] of the units' control laws
-/// Of a muscle of a model file (docs/files.md). What the simulator reads only must not hide a
-/// misspelt `gains` from the driver.
-const std::set<std::string> kMuscleKeys = {"actuator",
-                                           "controller",
-                                           "ecu",
-                                           "eyelet_friction",
-                                           "force_sensor_segment",
-                                           "gains",
-                                           "path",
-                                           "rest_tendon_length",
-                                           "spindle_radius",
-                                           "spring",
-                                           "surface_friction"};
-
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 std::string choose(const std::string& wanted, const std::string& otherwise) {
   return wanted.empty() ? otherwise : wanted;
@@ -45,167 +26,6 @@ std::string choose(const std::string& wanted, const std::string& otherwise) {
 
 std::string beside(const std::string& file, const std::string& name) {
   return (std::filesystem::path(file).parent_path() / name).string();
-}
-
-void set(MuscleHardware& muscle, Parameter parameter, double value, const ConfigNode& where) {
-  const ecu::ParameterInfo& info = ecu::kParameters[static_cast<int>(parameter)];
-  if (!muscle.parameters.set(parameter, value)) {
-    where.fail_expected(std::string(info.name) + " in the range of the ECU, " + text(info.lowest) +
-                        " to " + text(info.highest) + " " + info.unit);
-  }
-}
-
-/// Gains and command limits, as the simulator has them: one entry of `controllers`.
-void load_controller(const ConfigNode& node, MuscleHardware& muscle) {
-  const auto gain = [&](const ConfigNode& from, const char* key, Parameter parameter,
-                        const char* unit) {
-    const ConfigNode value = from.at(key);
-    set(muscle, parameter, value.as_number(Bounds::nonnegative(), unit), value);
-  };
-  gain(node, "voltage_limit", Parameter::kVoltageLimit, "V");
-  if (node.has("period") && node.at("period").as_number(Bounds::positive(), "s") != kTick) {
-    node.at("period").fail_expected(text(kTick) + " s, the period of the ECUs' control laws");
-  }
-  const ConfigNode position = node.at("position"), current = node.at("current"),
-                   force = node.at("force"), limits = node.at("limits");
-  gain(position, "proportional", Parameter::kPositionProportional, "V/rad");
-  gain(position, "derivative", Parameter::kPositionDerivative, "Vs/rad");
-  gain(position, "force_feedforward", Parameter::kPositionForceFeedforward, "V/N");
-  gain(current, "proportional", Parameter::kCurrentProportional, "V/A");
-  gain(current, "integral", Parameter::kCurrentIntegral, "V/(As)");
-  gain(force, "proportional", Parameter::kForceProportional, "V/N");
-  gain(force, "integral", Parameter::kForceIntegral, "V/(Ns)");
-  gain(force, "derivative", Parameter::kForceDerivative, "Vs/rad");
-  gain(force, "force_feedforward", Parameter::kForceForceFeedforward, "V/N");
-  const double volts = muscle.parameters.get(Parameter::kVoltageLimit);
-  const double radians = limits.number("position", Bounds::positive(), "rad");
-  const double amperes = limits.number("current", Bounds::positive(), "A");
-  const double newtons = limits.number("force", Bounds::nonnegative(), "N");
-  muscle.limits.lowest = {-volts, -radians, -amperes, 0.0};
-  muscle.limits.highest = {volts, radians, amperes, newtons};
-}
-
-/// What a muscle of a model file has otherwise than its controller's kind.
-void load_gains(const ConfigNode& node, MuscleHardware& muscle) {
-  for (const auto& [name, value] : node.entries()) {
-    const ecu::ParameterInfo* gain = ecu::find_gain(name);
-    if (!gain) value.fail("not a gain; expected a name such as position_proportional");
-    set(muscle, gain->parameter, value.as_number(Bounds::nonnegative(), gain->unit), value);
-  }
-}
-
-LinearSensor load_linear(const ConfigNode& node, const std::string& unit) {
-  LinearSensor sensor;
-  sensor.gain = node.number("gain", Bounds::any(), unit + "/count");
-  if (sensor.gain == 0.0) node.at("gain").fail_expected("a number other than 0");
-  sensor.offset = node.number("offset", Bounds::between(0.0, 4095.0), "count");
-  return sensor;
-}
-
-/// What EncoderWatch wants to know: one entry of `actuators`.
-void load_motor(const ConfigNode& node, MuscleHardware& muscle) {
-  if (node.text("type") != "dc_motor") return;
-  const ConfigNode motor = node.at("motor"), gear = node.at("gear"), stage = node.at("power_stage");
-  muscle.resistance = motor.number("resistance", Bounds::positive(), "ohm") +
-                      stage.number("resistance", Bounds::nonnegative(), "ohm");
-  muscle.back_emf = motor.number("back_emf_constant", Bounds::positive(), "Vs/rad") *
-                    gear.number("ratio", Bounds::positive(), "1");
-}
-
-/// Limits that the ECU watches, and its sensors: one entry of `units`.
-void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
-  const auto limit = [&](const char* key, Parameter parameter, const char* unit) {
-    const ConfigNode value = node.at(key);
-    set(muscle, parameter, value.as_number(Bounds::positive(), unit), value);
-  };
-  limit("current_limit", Parameter::kCurrentLimit, "A");
-  limit("force_limit", Parameter::kForceLimit, "N");
-  limit("speed_limit", Parameter::kSpeedLimit, "rad/s");
-  limit("temperature_limit", Parameter::kTemperatureLimit, "deg C");
-  limit("position_rate", Parameter::kPositionRate, "rad/s");
-  limit("force_rate", Parameter::kForceRate, "N/s");
-  limit("encoder_scale", Parameter::kEncoderScale, "rad/count");
-  muscle.encoder_scale = muscle.parameters.get(Parameter::kEncoderScale);
-  const ConfigNode range = node.at("position_range");
-  const auto ends = range.items();
-  if (ends.size() != 2) range.fail_expected("two numbers [lowest, highest] [rad]");
-  set(muscle, Parameter::kPositionLow, ends[0].as_number(Bounds::any(), "rad"), ends[0]);
-  set(muscle, Parameter::kPositionHigh, ends[1].as_number(Bounds::any(), "rad"), ends[1]);
-  const double low = muscle.parameters.get(Parameter::kPositionLow),
-               high = muscle.parameters.get(Parameter::kPositionHigh);
-  if (!(low < high)) {
-    range.fail(text(low) + " to " + text(high) + " rad: expected [lowest, highest]");
-  }
-  if (low > 0.0 || high < 0.0) {
-    range.fail(text(low) + " to " + text(high) +
-               " rad: expected a range with 0 in it: an ECU counts from 0 when it is switched on");
-  }
-  const int order = node.at("filter_order").as_integer(0, ecu::kMaxFilterOrder);
-  set(muscle, Parameter::kFilterOrder, order, node.at("filter_order"));
-  if (!node.has("nominal_current") && !node.has("thermal_time_constant")) return;
-  muscle.nominal_current = node.number("nominal_current", Bounds::positive(), "A");
-  muscle.thermal_time_constant = node.number("thermal_time_constant", Bounds::positive(), "s");
-}
-
-/// Sensors of one muscle: one entry of the calibration file's `muscles`. Its controller is loaded.
-void load_sensors(const ConfigNode& node, MuscleHardware& muscle) {
-  muscle.current = load_linear(node.at("current"), "A");
-  set(muscle, Parameter::kCurrentGain, muscle.current.gain, node.at("current"));
-  set(muscle, Parameter::kCurrentOffset, muscle.current.offset, node.at("current"));
-  const bool has_force = node.has("force");
-  if (has_force) {
-    muscle.force = load_linear(node.at("force"), "N");
-    if (muscle.force.gain < 0.0) node.at("force").at("gain").fail_expected("a number > 0");
-    set(muscle, Parameter::kForceGain, muscle.force.gain, node.at("force"));
-    set(muscle, Parameter::kForceOffset, muscle.force.offset, node.at("force"));
-  }
-  const bool takes_forces = muscle.limits.highest[static_cast<int>(ecu::Mode::kForce)] > 0.0;
-  muscle.limits.modes = {true, true, true, has_force && takes_forces};
-}
-
-/// `home` may ask nothing of a muscle that its unit does not stand. Others are not pulled.
-void check_home(const ConfigNode& node, const HomeRoutine& home, const MuscleHardware& muscle) {
-  if (!muscle.parameters.has_force_sensor()) return;
-  const auto limit = [&](Parameter p) { return muscle.parameters.get(p); };
-  const auto at_most = [&](const char* key, double value, double most, const std::string& what) {
-    if (value > most) {
-      node.at(key).fail_expected("at most " + text(most) + " " + what + " of " + muscle.name);
-    }
-  };
-  at_most("wind_speed", home.wind_speed, 0.5 * limit(Parameter::kSpeedLimit),
-          "rad/s, half of speed_limit");
-  // Else a broken tendon would end `home` by its time, without being named.
-  const double rate = limit(Parameter::kPositionRate);
-  const double furthest = std::min(home.wind_speed, rate) * home.time_limit;
-  if (home.travel_limit >= furthest) {
-    const std::string speed =
-        rate < home.wind_speed ? "position_rate of " + muscle.name : "wind_speed";
-    node.at("travel_limit")
-        .fail_expected("less than " + text(furthest) + " rad, " + speed + " x time_limit");
-  }
-  // After power-up a unit counts from 0, and winds in no further than its range goes.
-  at_most("travel_limit", home.travel_limit, limit(Parameter::kPositionHigh),
-          "rad, the end of position_range");
-  at_most("force_limit", home.force_limit, limit(Parameter::kForceLimit), "N, force_limit");
-}
-
-/// A limit that its sensor cannot read is none.
-void check_reach(const ConfigNode& unit, const char* key, double limit, double reach,
-                 const std::string& muscle, const char* what) {
-  if (limit <= reach) return;
-  unit.at(key).fail_expected("at most " + text(reach) + " " + what +
-                             ", the most that the sensor of " + muscle + " can read");
-}
-
-void check_limits(const ConfigNode& unit, const MuscleHardware& muscle) {
-  constexpr double kLargestCount = 4095.0;
-  const LinearSensor &current = muscle.current, &force = muscle.force;
-  const double either_way = std::min(current.offset, kLargestCount - current.offset);
-  check_reach(unit, "current_limit", muscle.parameters.get(Parameter::kCurrentLimit),
-              current.gain * either_way, muscle.name, "A");
-  if (!muscle.parameters.has_force_sensor()) return;
-  check_reach(unit, "force_limit", muscle.parameters.get(Parameter::kForceLimit),
-              force.gain * (ecu::kHighestCount - force.offset), muscle.name, "N");
 }
 
 class Loader {
@@ -222,16 +42,17 @@ class Loader {
   Hardware load() {
     load_ecus();
     for (const auto& [name, node] : model_.at("muscles").entries()) {
-      for (const auto& [key, value] : node.entries()) {
-        if (!kMuscleKeys.count(key)) value.fail("unknown key");
-      }
+      ecu::check_muscle(node);
       if (!node.has("controller") || !node.has("ecu")) continue;
       // A model with the hand may be used without it.
       if (!hand_ && name.rfind("hand_", 0) == 0) continue;
       const std::string kind = node.text("controller");
       const bool of_hand = name.rfind("hand_", 0) == 0;
+      if (!model_.has("controllers") || !model_.at("controllers").has(kind)) {
+        node.at("controller").fail_expected("the name of an entry of 'controllers'");
+      }
       const ConfigNode controller = model_.at("controllers").at(kind);
-      add_muscle(name, node.text("ecu"), kind, controller,
+      add_muscle(name, node.text("ecu"), kind, controller, {},
                  of_hand ? calibration_.at("hand").at("muscles") : calibration_.at("muscles"),
                  node);
       controller.refuse_unknown_keys();
@@ -272,9 +93,10 @@ class Loader {
     where.fail("ecu " + name + ": not listed under ecus in " + config_.file());
   }
 
+  /// @param period [s] of a controller that need not name it
   void add_muscle(const std::string& name, const std::string& ecu_name, const std::string& kind,
-                  const ConfigNode& controller, const ConfigNode& sensors,
-                  const ConfigNode& where) {
+                  const ConfigNode& controller, std::optional<double> period,
+                  const ConfigNode& sensors, const ConfigNode& where) {
     MuscleHardware muscle;
     muscle.name = muscle.limits.name = name;
     muscle.limits.ecu = ecu_name;
@@ -285,8 +107,7 @@ class Loader {
       where.fail(ecu_name + " already has " + std::to_string(ecu::kMusclesPerEcu) + " muscles");
     }
     ecu.muscles.push_back(static_cast<int>(hardware_.muscles.size()));
-    load_controller(controller, muscle);
-    if (where.has("gains")) load_gains(where.at("gains"), muscle);
+    load_controller(controller, period, where, muscle);
     load_unit(config_.at("units").at(kind), muscle);
     load_sensors(sensors.at(name), muscle);
     check_limits(config_.at("units").at(kind), muscle);
@@ -332,7 +153,8 @@ class Loader {
       const std::string ecu_name = node.text("ecu");
       if (!in_model) {
         takes_controller = true;
-        add_muscle(name, ecu_name, "hand", hand.at("controller"), sensors.at("muscles"), node);
+        add_muscle(name, ecu_name, "hand", hand.at("controller"), kTick, sensors.at("muscles"),
+                   node);
       }
     }
     if (!takes_controller) hand.at("controller").ignore();

@@ -15,7 +15,6 @@ using ecu::Function;
 using ecu::Operation;
 
 constexpr double kClearGrace = 0.15;  // [s] until ECUs have cleared their latches
-constexpr double kNamingTime = 0.15;  // [s] for a STATE, sent every 0.1 s and when it changes
 constexpr int kIdleNode = -2;         // on the bus, but not used
 constexpr int kRepeats = 3;           // cycles in which disable and clear are sent
 
@@ -46,19 +45,6 @@ std::vector<EcuLink> make_links(const Hardware& hardware, Findings& findings) {
   return links;
 }
 
-/// Empty until STATE has named the fault: on the bus, STATE comes after all measurements.
-std::string fault_of(const EcuLink& link) {
-  const ecu::Fault fault = link.report().fault;
-  return fault == ecu::Fault::kNone ? "" : ecu::name(fault);
-}
-
-/// What to do about the fault that an ECU reports; if it reports none, about the finding.
-const char* remedy_of(Finding finding, const EcuLink& link) {
-  const auto fault = static_cast<std::size_t>(link.report().fault);
-  const bool known = fault > 0 && fault < ecu::kFaultCount;
-  return known ? ecu::kFaults[fault].remedy : info(finding).remedy;
-}
-
 std::string too_old(double age, double limit) {
   if (std::abs(age) <= limit) return "";
   char text[120];
@@ -79,9 +65,11 @@ RobotDriver::RobotDriver(Hardware hardware, const Options& options, Bus& bus)
       links_(make_links(hardware_, findings_)),
       link_of_node_(ecu::kMaxNode + 1, -1),
       sampler_(hardware_),
+      first_step_(hardware_, options.first_step),
       home_(hardware_),
       zeros_(links_, supervisor_),
-      gains_(hardware_, links_) {
+      gains_(hardware_, links_),
+      stopping_(links_) {
   for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
     link_of_node_[static_cast<std::size_t>(hardware_.ecus[e].node)] = static_cast<int>(e);
   }
@@ -131,8 +119,8 @@ void RobotDriver::on_frame(const ecu::Frame& frame, double now) {
     if (!supervisor_.stop_latched()) {
       obey_stop(-1);
     } else {
-      // Passed on already, and each cycle repeats it: two hosts that answered each other would
-      // never end. But no call that came before it may undo it.
+      // The latched STOP is already repeated each cycle; answering again would loop between two
+      // hosts. But no call that came before it may undo it.
       ++halts_;
     }
     return;
@@ -158,40 +146,17 @@ RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
   const std::string old = too_old(age, options_.command_timeout);
   if (!old.empty()) return refuse(old);
   if (home_.running()) return refuse("home is running");
-  const std::string far = too_far(names, modes, references);
-  if (!far.empty()) return refuse(far);
+  if (phase_ == Phase::kEnabled) {
+    const std::string far =
+        first_step_.too_far(names, modes, references, references_, sampler_.last());
+    if (!far.empty()) return refuse(far);
+  }
   const Outcome outcome = supervisor_.command(names, modes, references, now, accepted_);
   if (!outcome.accepted) return outcome;
   for (const ecu::MuscleReference& reference : accepted_) {
     references_[static_cast<std::size_t>(reference.muscle)] = reference;
   }
   return outcome;
-}
-
-std::string RobotDriver::too_far(const std::vector<std::string>& names,
-                                 const std::vector<std::uint8_t>& modes,
-                                 const std::vector<double>& references) const {
-  const std::size_t count = std::min({names.size(), modes.size(), references.size()});
-  if (options_.first_step <= 0.0 || phase_ != Phase::kEnabled || home_.running()) return "";
-  if (count > hardware_.muscles.size()) return "";  // malformed, however long it is
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool position = static_cast<ecu::Mode>(modes[i]) == ecu::Mode::kPosition;
-    if (!position || !std::isfinite(references[i])) continue;
-    for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
-      if (hardware_.muscles[m].name != names[i]) continue;
-      if (references_[m].mode == ecu::Mode::kPosition) continue;  // it follows already
-      // Enabled, so that there was a measurement; NaN if there is none just now.
-      const double step = std::abs(references[i] - sampler_.last().muscles[m].position);
-      if (step <= options_.first_step) continue;
-      char text[160];
-      std::snprintf(text, sizeof(text),
-                    "POSITION %.2f rad is %.2f rad from where the muscle is, more than first_step "
-                    "(%.2f rad): begin near its present position",
-                    references[i], step, options_.first_step);
-      return "muscle '" + names[i] + "': " + text;
-    }
-  }
-  return "";
 }
 
 std::string RobotDriver::why_not_enable() const {
@@ -223,7 +188,7 @@ RobotDriver::Outcome RobotDriver::start_enable(double now) {
     return last_outcome_ = {false, reason};
   }
   phase_ = Phase::kEnabling;
-  // What stays if somebody disables meanwhile.
+  // Outcome reported if disable() comes before confirmation.
   last_outcome_ = {false, "disabled before every ECU confirmed"};
   disable_repeats_ = clear_repeats_ = 0;
   enabling_.start(links_.size(), now);
@@ -342,17 +307,17 @@ RobotDriver::Outcome RobotDriver::emergency_stop() {
 
 void RobotDriver::stop(Finding finding, int ecu, const std::string& detail) {
   if (phase_ == Phase::kDisabled) return;
-  const std::string what = reason(finding, ecu, detail);
+  const std::string what = stopping_.reason(finding, ecu, detail);
   halt(finding, ecu, what);
-  note_stop(finding, what);
+  stopping_.record(finding, what);
 }
 
 void RobotDriver::stop_for_unit(Finding finding, int ecu, double now) {
   if (phase_ == Phase::kDisabled) return;
-  name_stop(HUGE_VAL);  // one that waits for its name still
-  const std::string what = reason(finding, ecu, fault_of(links_[static_cast<std::size_t>(ecu)]));
+  name_stop(HUGE_VAL);  // record an earlier stop that still waits for its reason
+  const std::string what = stopping_.reason(finding, ecu, stopping_.fault_of(ecu));
   halt(finding, ecu, what);
-  unnamed_ = Unnamed{finding, ecu, now + kNamingTime, what};
+  stopping_.expect_reason(finding, ecu, what, now);
 }
 
 void RobotDriver::halt(Finding finding, int ecu, const std::string& what) {
@@ -366,22 +331,18 @@ void RobotDriver::halt(Finding finding, int ecu, const std::string& what) {
 }
 
 void RobotDriver::name_stop(double now) {
-  if (!unnamed_) return;
-  const Unnamed stop = *unnamed_;
-  const EcuLink& link = links_[static_cast<std::size_t>(stop.ecu)];
-  const std::string fault = fault_of(link);
-  if (fault.empty() && now < stop.until) return;
-  unnamed_.reset();
-  const std::string what = reason(stop.finding, stop.ecu, fault);
-  findings_.add(stop.finding, stop.ecu, last_cycle_, fault);
-  if (last_outcome_.reason == stop.told) last_outcome_ = {false, what};
-  note_stop(stop.finding, what, remedy_of(stop.finding, link));
+  const std::optional<Stopping::Explained> stop = stopping_.take_reason(now);
+  if (!stop) return;
+  findings_.add(stop->finding, stop->ecu, last_cycle_, stop->fault);
+  if (last_outcome_.reason == stop->told) last_outcome_ = {false, stop->what};
+  stopping_.record(stop->finding, stop->what, stop->remedy);
 }
 
 void RobotDriver::obey_stop(int ecu) {
   emergency_stop();
-  note_stop(Finding::kStopLatched, ecu < 0 ? "a STOP frame came from elsewhere on the bus"
-                                           : prefix(ecu) + info(Finding::kStopLatched).meaning);
+  stopping_.record(Finding::kStopLatched,
+                   ecu < 0 ? "a STOP frame came from elsewhere on the bus"
+                           : stopping_.prefix(ecu) + info(Finding::kStopLatched).meaning);
 }
 
 void RobotDriver::fail_home(double now) {
@@ -390,24 +351,11 @@ void RobotDriver::fail_home(double now) {
     if (home_.tendon_lost(m)) revoke_zero(hardware_.muscles[m]);
   }
   disable();
-  note_stop(Finding::kHomeFailed, home_.failure());
+  stopping_.record(Finding::kHomeFailed, home_.failure());
 }
 
 void RobotDriver::revoke_zero(const MuscleHardware& muscle) {
   links_[static_cast<std::size_t>(muscle.ecu)].revoke_zero(muscle.channel);
-}
-
-void RobotDriver::note_stop(Finding finding, const std::string& what, const char* remedy) {
-  stops_.add(std::string(info(finding).name) + ": " + what + "; " +
-             (remedy ? remedy : info(finding).remedy));
-}
-
-std::string RobotDriver::reason(Finding finding, int ecu, const std::string& detail) const {
-  return prefix(ecu) + info(finding).meaning + (detail.empty() ? "" : " (" + detail + ")");
-}
-
-std::string RobotDriver::prefix(int ecu) const {
-  return ecu < 0 ? "" : links_[static_cast<std::size_t>(ecu)].own().name + ": ";
 }
 
 // ---- watching ----
@@ -443,9 +391,9 @@ void RobotDriver::check_ecus(double now) {
       stop(Finding::kEcuLost, index);
       continue;
     }
-    // One that is just being cleared is not found anew.
+    // Do not report again a fault that is being cleared.
     if (link.state() == ecu::State::kFault && !(phase_ == Phase::kDisabled && clearing(now))) {
-      findings_.add(Finding::kEcuFault, index, now, fault_of(link));
+      findings_.add(Finding::kEcuFault, index, now, stopping_.fault_of(index));
       stop_for_unit(Finding::kEcuFault, index, now);
     }
     if (link.stop_latched() && !supervisor_.stop_latched() && now - cleared_ > kClearGrace) {
@@ -511,8 +459,8 @@ void RobotDriver::send(const ecu::Frame& frame) {
 
 std::uint8_t RobotDriver::request(Operation operation, int node, std::uint16_t configuration,
                                   std::uint8_t session) {
-  // 0 is what an ECU reports before any request. The number that it reported last, perhaps to a
-  // driver before this one, it would take for that request come again.
+  // An ECU treats a repeated sequence number as the same request, so skip 0 (what an ECU reports
+  // before any request) and all numbers last reported, which may be of a driver before this one.
   const auto is_used = [this](const EcuLink& link) { return link.report().sequence == sequence_; };
   do {
     ++sequence_;
@@ -537,7 +485,7 @@ void RobotDriver::cycle(double now) {
   for (EcuLink& link : links_) link.start_cycle(counter_, now);
   check_ecus(now);
   zeros_.update();
-  // While homing no command is taken: their age says nothing then.
+  // Commands are refused while homing, so their age must not trip the time-out.
   if (home_.running()) supervisor_.restart_watch(now);
   if (supervisor_.update(now)) {
     findings_.add(Finding::kCommandTimeout, -1, now);
@@ -580,8 +528,8 @@ void RobotDriver::send_cycle(double now) {
 
 void RobotDriver::send_parameters(double now) {
   const bool disabled = phase_ == Phase::kDisabled;
-  // Nearly all was asked before enable. What is left goes as gains do: REFERENCE frames have the
-  // right of way.
+  // Most is asked before enable. Questions about zeros that are left are sent at the rate of gain
+  // writes, since REFERENCE frames have priority.
   if (!disabled &&
       (home_.running() || gains_.changing() || cycles_ % EcuLink::kCyclesPerWrite != 0)) {
     return;

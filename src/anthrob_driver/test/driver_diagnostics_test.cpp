@@ -54,7 +54,8 @@ TEST(DriverDiagnostics, TellOfMotorsThatGetHot) {
   robot.muscles[4].thermal_time_constant = 2.0;
   Rig rig(robot);
   ASSERT_TRUE(rig.start());
-  for (int i = 0; i < 10000 && rig.driver().heat(4).heat() < 1.0; ++i) rig.step();
+  for (int i = 0; i < 10000 && rig.driver().winding(4).relative_temperature_rise() < 1.0; ++i)
+    rig.step();
   const DiagnosticStatus status = ecu_status(rig.driver(), 2, rig.now(), "/anthrob");
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
   EXPECT_EQ(status.message, "ENABLED; the motor of infraspinatus is hot, judging by its current");

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "anthrob_driver/bus/memory_bus.h"
+#include "anthrob_driver/emulation/memory_bus.h"
 #include "anthrob_driver/emulation/rack.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/robot_driver.h"

@@ -17,6 +17,7 @@
 #include "anthrob_driver/realtime.h"
 #include "anthrob_emulator/simulator_plant.h"
 #include "anthrob_ros/single_backend.h"
+#include "anthrob_sim/messages/conversions.h"
 #include "anthrob_sim/tool/tool.h"
 
 namespace anthrob {
@@ -38,41 +39,14 @@ class BallJoints {
   }
 
   void publish() {
-    anthrob_msgs::SphericalJointStates states;
-    states.header.stamp = ros::Time::now();
-    const auto& joints = simulation_.model().skeleton->joints;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (joints[j].type != JointType::kBall) continue;
-      const double* q = simulation_.read_positions() + joints[j].position_offset;
-      const Vec3 w = simulation_.read_ball_velocity(static_cast<int>(j));
-      geometry_msgs::Quaternion orientation;
-      orientation.w = q[0], orientation.x = q[1], orientation.y = q[2], orientation.z = q[3];
-      geometry_msgs::Vector3 velocity;
-      velocity.x = w.x(), velocity.y = w.y(), velocity.z = w.z();
-      states.name.push_back(joints[j].name);
-      states.orientation.push_back(orientation);
-      states.angular_velocity.push_back(velocity);
-      transforms_.sendTransform(transform(joints[j], states.header.stamp));
+    const ros::Time now = ros::Time::now();
+    for (const geometry_msgs::TransformStamped& turned : ball_joint_transforms(simulation_, now)) {
+      transforms_.sendTransform(turned);
     }
-    publisher_.publish(states);
+    publisher_.publish(spherical_joint_states(simulation_, now));
   }
 
  private:
-  geometry_msgs::TransformStamped transform(const JointModel& joint, const ros::Time& stamp) const {
-    const SkeletonModel& skeleton = *simulation_.model().skeleton;
-    const Pose X_PC = simulation_.link_pose(skeleton.find_frame(joint.parent_link)).inverse() *
-                      simulation_.link_pose(skeleton.find_frame(joint.child_link));
-    const Quat q = canonical(Quat(X_PC.R));
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = stamp;
-    transform.header.frame_id = joint.parent_link;
-    transform.child_frame_id = joint.child_link;
-    auto& t = transform.transform;
-    t.translation.x = X_PC.p.x(), t.translation.y = X_PC.p.y(), t.translation.z = X_PC.p.z();
-    t.rotation.w = q.w(), t.rotation.x = q.x(), t.rotation.y = q.y(), t.rotation.z = q.z();
-    return transform;
-  }
-
   const Simulation& simulation_;
   ros::Publisher publisher_;
   tf2_ros::TransformBroadcaster transforms_;

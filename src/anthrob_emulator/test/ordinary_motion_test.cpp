@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "anthrob_driver/bus/memory_bus.h"
+#include "anthrob_driver/emulation/memory_bus.h"
 #include "anthrob_driver/emulation/rack.h"
 #include "anthrob_driver/robot_driver.h"
 #include "anthrob_emulator/simulator_plant.h"

@@ -181,7 +181,7 @@ void Recorder::carry_out(Visit& visit, const Protocol::Target& target) {
 void Recorder::check_motors() {
   // In zero gravity this is the controller's task.
   if (protocol_.kind != Protocol::Kind::kZeroGravity && !sent_.isZero()) {
-    heed_.look(link_.state(), link_.now(), lock_step_);
+    reference_watch_.look(link_.state(), link_.now(), lock_step_);
   }
   const std::string off = link_.state().disabled_muscle();
   if (off.empty() || driven_.isZero()) driven_ = link_.now();

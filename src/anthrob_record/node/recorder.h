@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "anthrob_control/approach.h"
-#include "anthrob_control/ros/heed_watch.h"
+#include "anthrob_control/ros/reference_watch.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_record/recording_store.h"
 #include "anthrob_record/visit.h"
@@ -72,11 +72,11 @@ class Recorder {
   bool aimed_ = false;
   Visit::Aim aim_ = Visit::Aim::kRest;
   Visit::Order order_{Visit::Aim::kRest, 0};
-  bool obeyed_ = false;          ///< any order has been followed
+  bool obeyed_ = false;          ///< whether any order has been followed
   ros::WallTime refused_since_;  ///< zero: the last order is followed
   ros::WallTime asked_;
   ros::Time sent_, driven_;
-  HeedWatch heed_;
+  ReferenceWatch reference_watch_;
   int done_ = 0, recorded_ = 0;
   ros::WallTime start_ = ros::WallTime::now(), heard_ = start_;
 };

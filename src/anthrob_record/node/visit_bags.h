@@ -39,7 +39,7 @@ class VisitBags {
   void write(const std::string& topic, const Message& message) {
     if (belongs(message.header)) current().write(topic, message);
   }
-  /// Writes a message that is sent right now, even at the very instant when the recording begins.
+  /// Writes a message that is sent now, even if its stamp is the instant when the recording begins.
   template <class Message>
   void write_sent(const std::string& topic, const Message& message) {
     if (recording()) current().write(topic, message);

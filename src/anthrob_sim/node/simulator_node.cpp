@@ -9,8 +9,8 @@
 
 #include "anthrob_ecu/gains.h"
 #include "anthrob_ros/diagnostics.h"
+#include "anthrob_sim/messages/conversions.h"
 #include "anthrob_sim/placement.h"
-#include "conversions.h"
 
 namespace anthrob {
 

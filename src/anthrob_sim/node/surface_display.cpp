@@ -1,6 +1,6 @@
 #include "surface_display.h"
 
-#include "conversions.h"
+#include "anthrob_sim/messages/conversions.h"
 
 namespace anthrob {
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "anthrob_sim/core/errors.h"
-#include "conversions.h"
+#include "anthrob_sim/messages/conversions.h"
 
 namespace anthrob {
 

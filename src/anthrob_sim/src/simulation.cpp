@@ -135,15 +135,15 @@ void Simulation::impose_position(int muscle, double position, double velocity) {
 void Simulation::impose_reading(int muscle, double from, double to) {
   check_muscle(muscle);
   const auto m = static_cast<std::size_t>(muscle);
-  to = readings_.undone(m, to);
-  // What is undone now may be undone otherwise by another step; the actuator knows where it was.
+  to = readings_.true_position(m, to);
+  // The inverse of a reading effect can change between steps, so start from the actuator itself.
   const bool goes_on = !readings_.empty() && muscles_[m].drive() == Drive::kImposed;
-  from = goes_on ? muscles_[m].actuator().position : readings_.undone(m, from);
+  from = goes_on ? muscles_[m].actuator().position : readings_.true_position(m, from);
   impose_position(muscle, to, (to - from) / step_length());
 }
 
-double Simulation::position_lateness(int muscle) const {
-  return readings_.lateness(static_cast<std::size_t>(muscle));
+double Simulation::position_delay(int muscle) const {
+  return readings_.position_delay(static_cast<std::size_t>(muscle));
 }
 
 void Simulation::release(int muscle) {
@@ -208,11 +208,11 @@ void Simulation::impose_posture(const std::vector<double>& q) {
 
 void Simulation::impose_posture_reading(const std::vector<double>& q) {
   impose_posture(q);
-  readings_.undo_joints(posture_.data());
+  readings_.true_joint_positions(posture_.data());
 }
 
-double Simulation::posture_lateness() const {
-  return readings_.joint_lateness();
+double Simulation::posture_delay() const {
+  return readings_.joint_delay();
 }
 
 void Simulation::head_for_posture() {
@@ -318,7 +318,7 @@ void Simulation::move_skeleton() {
   if (!posture_.empty()) {
     tree_.place(posture_, heading_, arriving_);
     skeleton_.set_bodies(arriving_);
-    // Whole turns of a hinge are not seen in its bodies: they are counted from here.
+    // Body poses do not show whole turns of a hinge; continue counting from the imposed angle.
     q_ = posture_;
     return;
   }
@@ -448,7 +448,7 @@ void Simulation::check_finite() const {
     if (!is_sensible(muscle.actuator().position)) {
       throw NumericalFailure(time(), "muscle " + name, "its actuator's position is not finite");
     }
-    // A spring may take an expansion that is no number for none.
+    // A spring may treat NaN expansion as slack and hide it.
     if (!is_sensible(muscle.expansion())) {
       throw NumericalFailure(time(), "muscle " + name, "its length is not finite");
     }
@@ -544,7 +544,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   tree_.update(skeleton_.bodies(), q_);
   // Paths are scratch memory: the same posture and states give the same paths.
   for (Muscle& muscle : muscles_) muscle.refresh_path(skeleton_.bodies());
-  // Looking for them left its marks.
+  // refresh_path() writes to the state; restore it again.
   store_.assign(snapshot.state);
 }
 

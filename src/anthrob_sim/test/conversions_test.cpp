@@ -1,5 +1,5 @@
 // What the node draws: wrapping surfaces as RViz can show them, where the muscles meet them.
-#include "../node/conversions.h"
+#include "anthrob_sim/messages/conversions.h"
 
 #include <gtest/gtest.h>
 

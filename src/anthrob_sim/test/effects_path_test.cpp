@@ -47,7 +47,7 @@ TEST(EyeletFriction, BringsTheThesisLawWhereThereIsNone) {
   Memory nothing(4);
   EXPECT_NEAR(law->evaluate(1.0, nothing).mu, 0.2, 1e-12);
   EXPECT_NEAR(law->evaluate(-1.0, nothing).mu, -0.2, 1e-12);
-  EXPECT_NEAR(law->level(0.0), 0.25, 1e-12);
+  EXPECT_NEAR(law->sliding_coefficient(0.0), 0.25, 1e-12);
 }
 
 TEST(EyeletFriction, ExcessAtRestIsFreeAndTheSlopeIsTheCurves) {
@@ -57,8 +57,9 @@ TEST(EyeletFriction, ExcessAtRestIsFreeAndTheSlopeIsTheCurves) {
         kArm, {{"eyelet_friction", "biceps_brachii/1", {{"mu", mu}, {"rest_ratio", rest_ratio}}}});
     const auto& obstacles = robot->muscles[robot->find_muscle("biceps_brachii")].path->obstacles();
     const FrictionLaw &raised = *obstacles[1].friction, &own = *obstacles[2].friction;
-    EXPECT_NEAR(raised.level(1.0), model + mu, 1e-12);
-    EXPECT_NEAR(raised.level(0.0) / own.level(0.0), 1.0 + mu / model * rest_ratio, 1e-12);
+    EXPECT_NEAR(raised.sliding_coefficient(1.0), model + mu, 1e-12);
+    EXPECT_NEAR(raised.sliding_coefficient(0.0) / own.sliding_coefficient(0.0),
+                1.0 + mu / model * rest_ratio, 1e-12);
     Memory nothing(4);
     for (const double v : {-3e-3, -4e-4, 2e-4, 1e-3, 5e-3}) {
       const double h = 1e-9;
@@ -86,7 +87,8 @@ TEST(EyeletFriction, IsAddedBesideALawThatHasNoneInMotion) {
                                  both = more->evaluate(v, raised);
         EXPECT_NEAR(both.mu, a.mu + b.mu, 1e-15) << v;
         EXPECT_NEAR(both.slope, a.slope + b.slope, 1e-12 * std::abs(both.slope)) << v;
-        EXPECT_NEAR(more->level(std::abs(v)), law->level(std::abs(v)) + thesis.level(std::abs(v)),
+        EXPECT_NEAR(more->sliding_coefficient(std::abs(v)),
+                    law->sliding_coefficient(std::abs(v)) + thesis.sliding_coefficient(std::abs(v)),
                     1e-15);
         law->commit(v, plain), more->commit(v, raised);
       }

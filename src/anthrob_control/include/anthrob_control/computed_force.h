@@ -43,7 +43,7 @@ class ComputedForce {
  public:
   ComputedForce(std::shared_ptr<const RobotModel> model, const ControlSettings& settings);
 
-  /// Starts again: the next update holds the posture that it finds.
+  /// Starts again: the next update holds the posture that is measured then.
   void reset();
   /// From now on holds the posture that the arm is in.
   void zero_gravity();

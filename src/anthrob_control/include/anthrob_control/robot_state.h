@@ -40,8 +40,8 @@ class RobotState {
   /// The first muscle with a controller whose force is NaN (it has no sensor), or empty.
   std::string muscle_without_force() const;
   /// The first muscle that was measured as not enabled since the last call, or empty. This also
-  /// finds a motor that was stopped and enabled again between two calls: it is enabled now, but no
-  /// longer where its reference was.
+  /// finds a motor that was stopped and enabled again between two calls: such a motor is enabled,
+  /// but no longer at its reference.
   std::string take_disabled();
   /// Forgets all measurements, for example when time jumps back.
   void clear();

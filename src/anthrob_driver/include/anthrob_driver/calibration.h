@@ -14,7 +14,8 @@ struct LinearSensor {
   double gain = 1.0;    ///< [unit/count], not 0
   double offset = 0.0;  ///< [counts] at value 0
 
-  /// Beyond are a converter's end stops: of a torn cable, not of a value.
+  /// Counts outside are at a converter's end stops: they come from a broken cable, not from a
+  /// value.
   static bool measures(int count) {
     return count >= ecu::kLowestCount && count <= ecu::kHighestCount;
   }
@@ -31,8 +32,8 @@ struct ForceSensitiveResistor {
   double gain = 1.0;        ///< [N] force at half the supply voltage, > 0
   double threshold = 20.0;  ///< [counts] below this the pad is not touched
 
-  /// NaN at the converter's upper end stop: that is a short circuit. A cable that is cut reads as a
-  /// pad that nobody touches.
+  /// NaN at the converter's upper end stop, which means a short circuit. A cut cable cannot be
+  /// distinguished from a pad that is not touched.
   double force(double count) const {
     if (count < threshold) return 0.0;
     if (count > ecu::kHighestCount) return std::numeric_limits<double>::quiet_NaN();

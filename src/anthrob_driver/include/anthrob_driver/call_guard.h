@@ -14,7 +14,7 @@ class CallGuard {
   /// @param received RobotDriver::halts() when the call came in
   explicit CallGuard(std::uint64_t received) : received_(received) {}
 
-  /// To be called when its turn comes.
+  /// To be called when the call is about to be carried out.
   /// @return false if the motors were stopped since the call arrived; `outcome` then says so
   bool may_begin(const RobotDriver& driver, RobotDriver::Outcome& outcome) const {
     if (driver.halts() == received_) return true;

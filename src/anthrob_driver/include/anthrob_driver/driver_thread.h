@@ -42,8 +42,8 @@ class DriverThread {
   /// Runs `work` between two events of the loop and waits until it is done.
   void call(const std::function<void(RobotDriver&, double now)>& work);
 
-  /// RobotDriver::halts(), for any thread and without waiting. It includes everything that finished
-  /// calls of call() have done.
+  /// RobotDriver::halts(), readable by any thread without waiting. It includes the effects of all
+  /// calls of call() that have returned.
   std::uint64_t halts() const { return halts_; }
 
   /// Waits for measurements, at most `seconds`. @return all that came since the last call
@@ -53,13 +53,14 @@ class DriverThread {
   };
   Batch wait(double seconds);
 
-  /// What did not go as asked at the start, one line each.
+  /// Requests that the system refused at the start, one line each.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   double now() const { return options_.pace * monotonic_now(); }
   void loop();
-  /// @return false if somebody holds the mutex: try again at the next turn
+  /// @return false if another thread holds the mutex; then to be tried again in the next turn of
+  /// the loop
   bool serve_requests();
   void collect();
   void watch_socket();
@@ -75,7 +76,7 @@ class DriverThread {
   std::condition_variable arrived_;
   struct Work {
     const std::function<void(RobotDriver&, double)>* run;
-    std::shared_ptr<std::promise<void>> done;  ///< shared: whoever waits is gone at once
+    std::shared_ptr<std::promise<void>> done;  ///< shared: each thread destroys its own
   };
   std::deque<Work> work_, current_;  ///< current_: of the thread, taken from work_
   Batch batch_, fresh_;              ///< fresh_: of the thread, not handed over yet

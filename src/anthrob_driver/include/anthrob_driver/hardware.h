@@ -23,7 +23,7 @@ struct MuscleHardware {
   double home_position = 0.0;  ///< [rad] its position after home, in the pretensioned posture
   /// Of the model's motor: with its power stage [ohm], at the gear output [Vs/rad]; 0: not known
   double resistance = 0.0, back_emf = 0.0;
-  /// What MotorHeat wants to know [A, s]; 0: not known
+  /// What WindingTemperatureModel has to know [A, s]; 0: not known
   double nominal_current = 0.0, thermal_time_constant = 0.0;
 };
 
@@ -62,7 +62,7 @@ struct HomeRoutine {
 
 /// When the tendon of a muscle with force sensor counts as broken in motion, see TendonWatch.
 struct TendonLimits {
-  double loaded = 20.0;  ///< [N] a load whose sudden loss is an alarm; 0: no such alarm
+  double loaded = 20.0;  ///< [N] sudden loss of at least this load is an alarm; 0: no such alarm
   double slack = 2.5;    ///< [N] less than this is no force
   double travel = 12.0;  ///< [rad] most winding in without force though one is commanded; 0: any
 };

@@ -24,7 +24,8 @@ class Home {
   void start(double now);
   /// One cycle. @param readings one for each muscle
   void step(const std::vector<Reading>& readings, double now);
-  /// One cycle in which the zeros are written: positions jump then, so only forces are watched.
+  /// One cycle while the zeros are being written. Positions jump meanwhile, so only forces are
+  /// watched.
   void hold(const std::vector<Reading>& readings);
   void abort(const std::string& reason);
   /// All ECUs have confirmed the zero.
@@ -44,9 +45,9 @@ class Home {
  private:
   struct Tendon {
     double start = 0.0;    ///< [rad]
-    bool gripped = false;  ///< was seen at half the pretension
-    double grip = 0.0;     ///< [rad] where that was
-    bool held = false;     ///< was seen near the pretension
+    bool gripped = false;  ///< has reached half the pretension
+    double grip = 0.0;     ///< [rad] position at which it did
+    bool held = false;     ///< has exceeded four fifths of the pretension
     bool lost = false;     ///< see tendon_lost()
   };
   bool pulls(std::size_t muscle) const;

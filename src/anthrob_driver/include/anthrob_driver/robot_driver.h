@@ -1,16 +1,16 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "anthrob_driver/bus/bus.h"
 #include "anthrob_driver/ecu_link.h"
 #include "anthrob_driver/enabling.h"
+#include "anthrob_driver/first_step.h"
 #include "anthrob_driver/home.h"
 #include "anthrob_driver/live_gains.h"
 #include "anthrob_driver/sampler.h"
-#include "anthrob_driver/stop_log.h"
+#include "anthrob_driver/stopping.h"
 #include "anthrob_driver/watch/bus_watch.h"
 #include "anthrob_driver/watch/muscle_watch.h"
 #include "anthrob_driver/zeros.h"
@@ -78,7 +78,9 @@ class RobotDriver {
   const LiveGains& gains() const { return gains_; }
   const Hardware& hardware() const { return hardware_; }
   const ecu::Supervisor& supervisor() const { return supervisor_; }
-  const MotorHeat& heat(std::size_t muscle) const { return muscles_[muscle].heat(); }
+  const WindingTemperatureModel& winding(std::size_t muscle) const {
+    return muscles_[muscle].winding();
+  }
   const EcuLink& link(std::size_t ecu) const { return links_[ecu]; }
   const Findings& findings() const { return findings_; }
   const BusWatch& bus_watch() const { return watch_; }
@@ -87,7 +89,7 @@ class RobotDriver {
   /// enabled or not.
   std::uint64_t halts() const { return halts_; }
   /// Stops that no user of this driver had asked for, with their reasons.
-  const StopLog& stops() const { return stops_; }
+  const StopLog& stops() const { return stopping_.log(); }
 
   static constexpr double kSilence = 1.0;  ///< [s] before an unheard ECU is reported
 
@@ -108,12 +110,6 @@ class RobotDriver {
   void send_parameters(double now);
   bool all_complete() const;
   std::string why_not_enable() const;
-  /// Why first_step forbids a command; empty if it does not.
-  std::string too_far(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
-                      const std::vector<double>& references) const;
-  std::string reason(Finding finding, int ecu, const std::string& detail) const;
-  /// The name of an ECU and a colon; nothing for -1.
-  std::string prefix(int ecu) const;
 
   // Everything that stops motors ends in disable(). Besides disable() and emergency_stop() of the
   // user these are: a finding (stop), a STOP that somebody else sent (obey_stop), and a failed home
@@ -123,7 +119,7 @@ class RobotDriver {
   /// @param detail which fault, which tendon; may be empty
   void stop(Finding finding, int ecu, const std::string& detail = "");
   /// An ECU reports that it stopped some frames before it reports why. So the motors are stopped at
-  /// once, and the reason is recorded when it arrives (name_stop), or without it after kNamingTime.
+  /// once, and the stop is recorded when its reason has arrived or is overdue (name_stop).
   void stop_for_unit(Finding finding, int ecu, double now);
   /// @param now HUGE_VAL: record the stop now, with or without the reason
   void name_stop(double now);
@@ -133,8 +129,6 @@ class RobotDriver {
   void fail_home(double now);
   /// To be called when its tendon has moved on its spindle: the zero no longer holds.
   void revoke_zero(const MuscleHardware& muscle);
-  /// @param remedy null: the finding's
-  void note_stop(Finding finding, const std::string& what, const char* remedy = nullptr);
 
   Hardware hardware_;
   Options options_;
@@ -145,19 +139,13 @@ class RobotDriver {
   std::vector<EcuLink> links_;
   std::vector<int> link_of_node_;
   Sampler sampler_;
+  FirstStep first_step_;
   Enabling enabling_;
   Home home_;
   Zeros zeros_;
   LiveGains gains_;
   std::vector<MuscleWatch> muscles_;
-  StopLog stops_;
-  struct Unnamed {
-    Finding finding;
-    int ecu;
-    double until;      ///< [s]
-    std::string told;  ///< meanwhile
-  };
-  std::optional<Unnamed> unnamed_;  ///< a stop whose reason is not known yet
+  Stopping stopping_;
 
   Phase phase_ = Phase::kDisabled;
   Outcome last_outcome_{true, ""};

@@ -48,15 +48,16 @@ class Sampler {
   /// A SYNC goes out now, with these references of all muscles.
   void open(const std::vector<ecu::MuscleReference>& references, double now);
   bool is_open() const { return open_; }
-  /// The SYNC was on the wire [ns]: that is when the ECUs measured.
+  /// When the SYNC was on the wire [ns], which is when the ECUs measured.
   void on_wire(std::int64_t stamp_ns) { sync_stamp_ = stamp_ns; }
-  /// The first frame after it [ns]: the best estimate if there is no echo.
+  /// When a frame came [ns]. That of the first one after the SYNC is the best estimate of when the
+  /// SYNC was on the wire, if the bus returns no echo of it.
   void on_frame(std::int64_t stamp_ns) {
     if (sync_stamp_ == 0) sync_stamp_ = stamp_ns;
   }
   /// The analogue inputs of one ECU have arrived.
   void add_analog(const EcuLink& link, int ecu, double now, Findings& findings);
-  /// Later answers no longer count. If no ECU has answered, there is no new sample.
+  /// Ends the sample: later answers are ignored. If no ECU has answered, there is no new sample.
   /// @param links one for each ECU   @param supervisor its faults override the states that ECUs
   /// report
   void close(const std::vector<EcuLink>& links, const ecu::Supervisor& supervisor, double now);

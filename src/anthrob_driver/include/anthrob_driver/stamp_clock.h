@@ -26,7 +26,8 @@ class StampClock {
   }
 
  private:
-  static constexpr double kLatest = 0.1;  ///< [s]; no tick is that late
+  /// [s] Assumed upper bound of a tick's delay.
+  static constexpr double kLatest = 0.1;
 
   double apart_ = 0.0, heard_ = 0.0, last_ = 0.0;
   bool known_ = false, stands_ = false;

@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "anthrob_config/errors.h"
+#include "anthrob_driver/bus/error_frame.h"
 
 namespace anthrob {
 namespace driver {
@@ -48,22 +49,6 @@ int open_socket(unsigned index) {
 template <class T>
 void option(int fd, int level, int name, const T& value) {
   ::setsockopt(fd, level, name, &value, sizeof(value));
-}
-
-/// What an error frame says; the worst first.
-BusEvent::Kind kind_of_error(const can_frame& frame) {
-  using Kind = BusEvent::Kind;
-  if (frame.can_id & CAN_ERR_BUSOFF) return Kind::kBusOff;
-  if (frame.can_id & CAN_ERR_CRTL) {
-    const auto flags = frame.data[1];
-    if (flags & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) return Kind::kErrorPassive;
-    if (flags & CAN_ERR_CRTL_RX_OVERFLOW) return Kind::kReceiveOverrun;
-    if (flags & (CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) return Kind::kErrorWarning;
-    if (flags & CAN_ERR_CRTL_ACTIVE) return Kind::kErrorActive;
-  }
-  if (frame.can_id & CAN_ERR_ACK) return Kind::kNoAcknowledge;
-  if (frame.can_id & CAN_ERR_RESTARTED) return Kind::kErrorActive;
-  return Kind::kErrorWarning;
 }
 
 /// What the kernel tells beside a frame.
@@ -257,7 +242,7 @@ bool SocketCanBus::receive(BusEvent& event) {
   ++in_->next;
   event = {Kind::kFrame, {}, told.stamp_ns};
   if (raw.can_id & CAN_ERR_FLAG) {
-    event.kind = kind_of_error(raw);
+    event.kind = kind_of_error(raw.can_id, raw.data[1]);
   } else if (message.msg_len != sizeof(raw) || (raw.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) ||
              raw.can_dlc > 8) {
     event.kind = Kind::kForeign;

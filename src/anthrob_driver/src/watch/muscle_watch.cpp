@@ -12,11 +12,11 @@ MuscleWatch::MuscleWatch(const MuscleHardware& muscle, const TendonLimits& tendo
       pretension_(pretension),
       tendon_(tendons),
       encoder_(muscle.resistance, muscle.back_emf),
-      heat_(muscle.nominal_current, muscle.thermal_time_constant) {}
+      winding_(muscle.nominal_current, muscle.thermal_time_constant) {}
 
 std::optional<MuscleWatch::Alarm> MuscleWatch::step(const MuscleSample& sample, double time,
                                                     bool enabled, bool homing) {
-  if (sample.measured) heat_.step(sample.current, time);
+  if (sample.measured) winding_.step(sample.current, time);
   if (!enabled || homing) tendon_.restart();
   if (!enabled) {
     encoder_.restart();
@@ -28,11 +28,11 @@ std::optional<MuscleWatch::Alarm> MuscleWatch::step(const MuscleSample& sample, 
     const std::string dead = encoder_.step(sample.position, sample.voltage, sample.current, time);
     if (!dead.empty()) return Alarm{Finding::kEncoderDead, name_ + ": " + dead, true};
   }
-  if (heat_.heat() <= MotorHeat::kLimit) return std::nullopt;
+  if (winding_.relative_temperature_rise() <= WindingTemperatureModel::kLimit) return std::nullopt;
   char text[120];
   std::snprintf(text, sizeof(text),
                 ": the estimated heat of its motor is %.2f times that of the nominal current",
-                heat_.heat());
+                winding_.relative_temperature_rise());
   return Alarm{Finding::kMotorHot, name_ + text, false};
 }
 
@@ -43,7 +43,7 @@ std::string MuscleWatch::tendon(const MuscleSample& sample, double time) {
 }
 
 std::string MuscleWatch::why_not_enable() const {
-  const double wait = heat_.time_to_cool();
+  const double wait = winding_.time_to_cool();
   if (wait <= 0.0) return "";
   char text[120];
   std::snprintf(text, sizeof(text),

@@ -33,8 +33,6 @@ class FirFilter {
     return sum_ / static_cast<double>(count_);
   }
 
-  void reset() { count_ = next_ = 0, sum_ = 0.0; }
-
  private:
   std::array<double, kMaxOrder + 1> samples_{};
   std::size_t length_, count_ = 0, next_ = 0;

@@ -65,8 +65,8 @@ class Supervisor {
   Outcome emergency_stop();
   Outcome clear_faults();
   Outcome fault(const std::string& ecu);
-  /// This ECU restarted, or it is unknown whether it took a new zero. Where its muscles are is then
-  /// unknown, so none of them accepts POSITION commands until regain_zero().
+  /// This ECU restarted, or it is unknown whether it accepted a new zero. The positions of its
+  /// muscles are then unknown, so none of them accepts POSITION commands until regain_zero().
   void lose_zero(const std::string& ecu);
   void regain_zero(const std::string& ecu);
   bool zero_lost(int muscle) const { return zero_lost_[ecu_of_[muscle]]; }
@@ -77,7 +77,8 @@ class Supervisor {
     commanded_ = true;
     last_command_ = time;
   }
-  /// Simulated time jumped ahead by `seconds` in which nothing happened: commands do not age by it.
+  /// Simulated time jumped ahead by `seconds` in which nothing happened, so this time is not
+  /// counted in the age of commands.
   void skip(double seconds) { last_command_ += seconds; }
   /// To be called often: handles the command time-out.
   /// @return whether motors were stopped by it just now

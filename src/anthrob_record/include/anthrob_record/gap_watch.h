@@ -5,8 +5,8 @@
 
 namespace anthrob {
 
-/// How long measurements were missing during a recording. Watches every muscle and joint
-/// separately, because one that falls silent would not be noticed among the others.
+/// How long measurements were missing during a recording. Every muscle and joint is watched
+/// separately, because the messages of the others would hide one that is no longer measured.
 class GapWatch {
  public:
   /// From `time` [s] on, `what` is expected to be measured.

@@ -40,8 +40,7 @@ class Simulation {
 
   const RobotModel& model() const { return *model_; }
   double step_length() const { return model_->step; }
-  std::uint64_t step_index() const { return step_index_; }
-  /// [s] since the start, exactly step_index * step_length
+  /// [s] since the start, exactly the number of steps times step_length
   double time() const { return static_cast<double>(step_index_) * model_->step; }
 
   /// @throws BadInput for an index out of range, a reference that is not finite, a mode the muscle
@@ -62,10 +61,10 @@ class Simulation {
   void impose_position(int muscle, double position, double velocity);
   /// Imposes the motion for which the position sensor reads `to` [rad] at the end of the step,
   /// having read `from` one step before, as in a recording. If the sensor is late, take both values
-  /// from later in the recording, by position_lateness().
+  /// from later in the recording, by position_delay().
   void impose_reading(int muscle, double from, double to);
   /// Delay of a muscle's position sensor by effects of the model [s].
-  double position_lateness(int muscle) const;
+  double position_delay(int muscle) const;
   void release(int muscle);
   /// Applies an effort to a driven joint from now on [Nm, N].
   /// @throws BadInput if the joint is not driven, or the effort is not finite
@@ -79,10 +78,10 @@ class Simulation {
   /// @param q size position_count   @throws BadInput as place()
   void impose_posture(const std::vector<double>& q);
   /// Imposes the posture for which the sensors read `q`, as in a recording. If the sensors are
-  /// late, take `q` from later in the recording, by posture_lateness().
+  /// late, take `q` from later in the recording, by posture_delay().
   void impose_posture_reading(const std::vector<double>& q);
   /// Delay of the joint sensors by effects of the model [s].
-  double posture_lateness() const;
+  double posture_delay() const;
   void release_posture() { posture_.clear(); }
 
   /// Puts the robot at rest into a posture, with its actuators at given positions and relaxed
@@ -166,10 +165,10 @@ class Simulation {
   std::vector<SlidingTendon*> sliding_;
   std::vector<Sensor> joint_sensors_;
   std::vector<double> q_, effort_, load_;
-  std::vector<double> posture_;      ///< that is imposed; empty: none is
-  Eigen::VectorXd way_;              ///< scratch: velocities that lead there, in the child's axes
-  std::vector<double> heading_;      ///< scratch: and as the tree has them
-  std::vector<BodyState> arriving_;  ///< scratch: bodies there
+  std::vector<double> posture_;      ///< imposed posture; empty: none
+  Eigen::VectorXd way_;              ///< scratch: velocities that reach it in one step, child axes
+  std::vector<double> heading_;      ///< scratch: the same, ball joints in world axes
+  std::vector<BodyState> arriving_;  ///< scratch: body states at it
   std::size_t measured_offset_;      ///< measured joint positions
   std::vector<std::size_t> joint_sensor_offsets_;
   Eigen::VectorXd tau_;

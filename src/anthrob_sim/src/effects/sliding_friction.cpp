@@ -28,8 +28,8 @@ class Raised final : public FrictionLaw {
     const double falling = more * std::copysign(1.0, v) * value.mu / kStribeckVelocity;
     return {raised * value.mu, raised * value.slope - falling};
   }
-  double level(double speed) const override {
-    return (1.0 + factor_ + excess(speed)) * law_->level(speed);
+  double sliding_coefficient(double speed) const override {
+    return (1.0 + factor_ + excess(speed)) * law_->sliding_coefficient(speed);
   }
   void commit(double v, StateView state) const override { law_->commit(v, state); }
 
@@ -52,7 +52,9 @@ class Sum final : public FrictionLaw {
     const Value a = law_->evaluate(v, state), b = more_.evaluate(v, state);
     return {a.mu + b.mu, a.slope + b.slope};
   }
-  double level(double speed) const override { return law_->level(speed) + more_.level(speed); }
+  double sliding_coefficient(double speed) const override {
+    return law_->sliding_coefficient(speed) + more_.sliding_coefficient(speed);
+  }
   void commit(double v, StateView state) const override { law_->commit(v, state); }
 
  private:
@@ -64,8 +66,8 @@ class Sum final : public FrictionLaw {
 
 std::shared_ptr<const FrictionLaw> raise_friction(const std::shared_ptr<const FrictionLaw>& law,
                                                   double mu, double rest_ratio) {
-  const double kinetic = law ? law->level(kFast) : 0.0;
-  if (law && kinetic > kNoLevel * law->level(0.0)) {
+  const double kinetic = law ? law->sliding_coefficient(kFast) : 0.0;
+  if (law && kinetic > kNoLevel * law->sliding_coefficient(0.0)) {
     return std::make_shared<Raised>(law, mu / kinetic, rest_ratio);
   }
   const SmoothStribeck added(kStaticOverKinetic * rest_ratio * mu, mu, kStribeckVelocity,

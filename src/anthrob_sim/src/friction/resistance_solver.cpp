@@ -10,21 +10,22 @@ namespace anthrob {
 
 namespace {
 constexpr int kMaxIterations = 40;
-/// A step is solved when what the last sweep did not foresee changes no velocity by more [rad/s,
+/// A step is solved when the prediction error of the last sweep changes no velocity by more [rad/s,
 /// m/s].
 constexpr double kTolerance = 1e-5;
 /// A joint slower than this at the start of a step counts as at rest [rad/s, m/s].
 constexpr double kAtRest = 1e-9;
-/// Friction foreseen this well needs no care [1].
+/// If friction was predicted with this accuracy, the tangent is used [1].
 constexpr double kForeseen = 1e-6;
-/// How many times farther a sweep goes where speeds are unstable.
+/// Factor by which a sweep is extrapolated where speeds are unstable.
 constexpr double kLeap = 6.0;
 
-/// How steeply friction shall be thought to grow with speed. The tangent alone goes in circles:
-/// friction turns round within 0.1 mm/s of rest, and tangents from outside lead across it. The
-/// chord to rest always comes closer, but slowly. Between them decides how well the last sweep
-/// foresaw the friction it led to (the primal-dual method of Chan, Golub and Mulet, 1999): foreseen
-/// well, the tangent; not at all, the chord; the wrong way round, steeper than the chord.
+/// Slope of friction over speed used in the linearisation. The tangent alone makes the iteration
+/// cycle: friction changes sign within 0.1 mm/s of rest, and tangents from outside lead across it.
+/// The chord to rest always comes closer, but slowly. How well the last sweep predicted the
+/// friction that it led to chooses between them (the primal-dual method of Chan, Golub and Mulet,
+/// 1999): predicted well, the tangent; not at all, the chord; with the wrong sign, steeper than the
+/// chord.
 double trusted_slope(const SlidingTendon::Contact& contact, double speed,
                      const FrictionLaw::Value& friction, double foreseen) {
   if (std::abs(foreseen - friction.mu) < kForeseen) return friction.slope;
@@ -103,7 +104,7 @@ void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& t
     dry.direction.setZero();
     if (!dry.held) dry.direction.head(joint.dof()) = speed / norm;
     dry.level = dry_friction(joint.friction, norm) +
-                more_dry_friction(joint.friction, dry.direction.x(), dry.load);
+                extra_dry_friction(joint.friction, dry.direction.x(), dry.load);
   }
 }
 
@@ -204,7 +205,8 @@ void ResistanceSolver::add_tendon(const SlidingTendon& tendon) {
     const double speed = tendon.slide_speed[j];
     for (std::size_t a = 0; a < nd; ++a) {
       rhs_[tendon.dofs[a]] += step_ * after * piece[a] + steepness * speed * slide[a];
-      // What factors the system reads its lower triangle; only dry joints ask for whole rows.
+      // The Cholesky factorisation reads the lower triangle only; rows of dry joints must be
+      // complete.
       auto column = system_.col(tendon.dofs[a]);
       for (std::size_t b = dry_.empty() ? a : 0; b < nd; ++b) {
         column[tendon.dofs[b]] += steepness * slide[b] * slide[a];
@@ -213,7 +215,7 @@ void ResistanceSolver::add_tendon(const SlidingTendon& tendon) {
   }
 }
 
-/// Whether what remains unforeseen would change no velocity by more than the tolerance.
+/// Whether the remaining prediction error would change no velocity by more than the tolerance.
 bool ResistanceSolver::is_solved(const KinematicTree& tree) const {
   for (const Stop& stop : stops_) {
     if ((push_of(stop) > 0.0) != (stop.push > 0.0)) return false;
@@ -248,8 +250,9 @@ void ResistanceSolver::add_turning(const DryJoint& dry, const JointModel& joint)
   }
 }
 
-/// Friction falls with speed faster than inertia allows: what slides tears loose or comes to rest
-/// within this step. Without the fall a sweep leads the right way, but hardly moves.
+/// Friction falls with speed faster than inertia allows: the contact either breaks away or sticks
+/// within this step. A sweep without negative slopes leads in the right direction, but hardly
+/// moves.
 void ResistanceSolver::leave_unstable_speed(const KinematicTree& tree,
                                             const std::vector<SlidingTendon*>& tendons) {
   for (SlidingTendon* tendon : tendons) {
@@ -286,13 +289,13 @@ bool ResistanceSolver::revise_dry_friction() {
     const JointModel& joint = model_.joints[dry.joint];
     const int dof = joint.velocity_offset, count = joint.dof();
     if (dry.held) {
-      // Torque that holding takes.
+      // Torque that is needed to hold the joint.
       Vec3 hold = Vec3::Zero();
       for (int k = 0; k < count; ++k)
         hold[k] = (system_.row(dof + k).dot(u_) - rhs_[dof + k]) / step_;
       const double norm = hold.norm();
       const double limit = std::max(joint.friction.static_torque, joint.friction.kinetic_torque) +
-                           more_dry_friction(joint.friction, -hold.x(), dry.load);
+                           extra_dry_friction(joint.friction, -hold.x(), dry.load);
       if (norm <= limit) continue;
       dry.held = false;
       dry.direction = -hold / norm;
@@ -311,7 +314,7 @@ bool ResistanceSolver::revise_dry_friction() {
     const double norm = speed.norm();
     const Vec3 direction = speed / norm;
     const double level = dry_friction(joint.friction, norm) +
-                         more_dry_friction(joint.friction, direction.x(), dry.load);
+                         extra_dry_friction(joint.friction, direction.x(), dry.load);
     if ((direction - dry.direction).norm() > 1e-9 ||
         std::abs(level - dry.level) > 1e-9 * dry.level) {
       revised = true;

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "anthrob_config/names.h"
-#include "anthrob_ecu/gains.h"
+#include "anthrob_ecu/model_file.h"
 #include "anthrob_sim/actuator/geared_motor.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
@@ -219,40 +219,16 @@ class Builder {
       muscle.has_controller = true;
       read_controller(kind("controllers", node.at("controller")), muscle);
     }
-    if (node.has("gains")) read_gains(node.at("gains"), muscle);
+    if (muscle.has_controller) ecu::read_gains(node, muscle.controller);
+    ecu::check_muscle(node);
     return muscle;
   }
 
-  /// What this muscle has otherwise than its controller's kind.
-  static void read_gains(const ConfigNode& node, MuscleModel& muscle) {
-    if (!muscle.has_controller) node.fail("only a muscle with a controller has gains");
-    for (const auto& [name, value] : node.entries()) {
-      const ecu::ParameterInfo* gain = ecu::find_gain(name);
-      if (!gain) value.fail("unknown gain; expected a name such as position_proportional");
-      *ecu::gain_of(muscle.controller, gain->parameter) =
-          value.as_number(Bounds::between(gain->lowest, gain->highest), gain->unit);
-    }
-  }
-
   void read_controller(const ConfigNode& node, MuscleModel& muscle) {
+    const ecu::ControllerKind entry = ecu::read_controller(node);
+    muscle.limits = {entry.largest_position, entry.largest_current, entry.largest_force};
     ecu::ControllerSettings& c = muscle.controller;
-    c.period = node.number("period", Bounds::positive(), "s");
-    c.voltage_limit = node.number("voltage_limit", Bounds::positive(), "V");
-    const ConfigNode position = node.at("position"), current = node.at("current"),
-                     force = node.at("force");
-    c.position.proportional = position.number("proportional", Bounds::nonnegative(), "V/rad");
-    c.position.derivative = position.number("derivative", Bounds::nonnegative(), "Vs/rad");
-    c.position.force_feedforward = position.number("force_feedforward", Bounds::any(), "V/N");
-    c.current.proportional = current.number("proportional", Bounds::nonnegative(), "V/A");
-    c.current.integral = current.number("integral", Bounds::nonnegative(), "V/(As)");
-    c.force.proportional = force.number("proportional", Bounds::nonnegative(), "V/N");
-    c.force.integral = force.number("integral", Bounds::nonnegative(), "V/(Ns)");
-    c.force.derivative = force.number("derivative", Bounds::nonnegative(), "Vs/rad");
-    c.force.force_feedforward = force.number("force_feedforward", Bounds::any(), "V/N");
-    const ConfigNode limits = node.at("limits");
-    muscle.limits.position = limits.number("position", Bounds::positive(), "rad");
-    muscle.limits.current = limits.number("current", Bounds::positive(), "A");
-    muscle.limits.force = limits.number("force", Bounds::nonnegative(), "N");
+    c = entry.settings;
     if (options_.slow_controllers) c.period = std::max(c.period, options_.step);
     const double ratio = c.period / options_.step;
     muscle.steps_per_tick = static_cast<int>(std::lround(ratio));

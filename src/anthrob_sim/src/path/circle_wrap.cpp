@@ -33,7 +33,7 @@ void CircleWrap::initialise(double angle, double l1, double l2, State& state) co
     state.side = shorter;
   }
   if (start_ == WrapStart::kNotWrapping || state.side == 0.0) return;
-  // (4.26) with whole turns more: as few as bring alpha to Lambda half turns or beyond.
+  // (4.26) plus the fewest whole turns that bring alpha to Lambda half turns or beyond.
   const double alpha = state.side * state.theta - reach;
   const double turns = std::ceil((half_turns_ * kPi - alpha) / kTwoPi);
   state.theta += state.side * kTwoPi * std::max(0.0, turns);

@@ -103,7 +103,7 @@ double DistanceFieldBuilder::crossing(const Stretch& a, const Stretch& b) {
   return 0.5 * (a.x * a.x + a.y * a.y - b.x * b.x - b.y * b.y) / (a.x - b.x);
 }
 
-/// Gives to `with` what of its stretch nobody holds, or holds by a longer way.
+/// Assigns to `with` the parts of its interval that are free or reached by a longer way.
 /// @param lo, hi span of what it got
 bool DistanceFieldBuilder::claim(std::vector<Stretch>& held, const Stretch& with, double& lo,
                                  double& hi) {

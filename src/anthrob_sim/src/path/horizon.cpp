@@ -47,7 +47,7 @@ bool Horizon::trace(const ConvexHull& hull, const Vec3& p, int start) {
   };
   edges_.clear();
   if (sees(hull, p, ConvexHull::facet_of(start)) || !beyond_is_seen(start)) return false;
-  // The true horizon goes round whatever is inside.
+  // The true horizon encloses every interior point.
   Winding winding(p, hull.core_begin() - p);
   winding.pass(hull.from(start));
   int h = start;

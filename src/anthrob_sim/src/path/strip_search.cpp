@@ -20,7 +20,6 @@ void StripSearch::reserve(const ConvexHull& hull) {
 
 double StripSearch::run(const GeodesicQuery& query, const std::vector<int>& rim, double bound) {
   ++run_;
-  windows_ = 0;
   strip_.clear();
   stack_.clear();
   best_ = bound;
@@ -58,7 +57,6 @@ void StripSearch::enter(const GeodesicQuery& query, int h) {
 
 /// Cuts a window to the limit and keeps it if it may lead to a shorter way.
 void StripSearch::consider(const GeodesicQuery& query, Window& w) {
-  ++windows_;
   Beam& beam = w.beam;
   const bool low = w.clear0 < 0.0, high = w.clear1 < 0.0;
   double limit = -1.0;

@@ -7,6 +7,7 @@
 
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/quantities.h"
 
 namespace anthrob {
 
@@ -33,14 +34,14 @@ bool same(const Command& a, const Command& b) {
 }
 
 std::vector<Command> commands_of(const Dataset& recording, const std::string& muscle,
-                                 ecu::Mode unsaid) {
+                                 ecu::Mode default_mode) {
   const Series mode = recording.series(muscle + "/mode"),
                reference = recording.series(muscle + "/reference");
   std::vector<Command> commands;
   for (std::size_t i = 0; i < reference.t.size(); ++i) {
     const double t = reference.t[i];
-    commands.push_back(
-        {t, mode.empty() ? static_cast<double>(unsaid) : mode.held_at(t), reference.values[i]});
+    commands.push_back({t, mode.empty() ? static_cast<double>(default_mode) : mode.held_at(t),
+                        reference.values[i]});
   }
   return commands;
 }
@@ -152,12 +153,12 @@ CommandSeries series_of(const std::vector<Command>& commands) {
 }  // namespace
 
 CommandSeries followed_commands(const Dataset& recording, const std::string& muscle,
-                                ecu::Mode unsaid) {
+                                ecu::Mode default_mode) {
   const std::vector<State> states = states_of(recording, muscle);
   if (states.empty()) {
     return {recording.series(muscle + "/mode"), recording.series(muscle + "/reference")};
   }
-  std::vector<Command> commands = commands_of(recording, muscle, unsaid);
+  std::vector<Command> commands = commands_of(recording, muscle, default_mode);
   leave_out_refused(states, commands);
   const Command& first = states.front().in_force;
   if (states.front().enabled && (commands.empty() || commands.front().t > first.t)) {

@@ -22,7 +22,7 @@ void ReadingChain::reset(const Truth& truth) {
     const ReadingEffect& effect = *effects_[i];
     const StateView state = store_.at(offsets_[i]);
     effect.reset(readings, state);
-    // Those behind it begin with what it reads; its own time has not begun.
+    // Initialise later effects with this one's output, without advancing this one.
     const std::vector<double> begun(state.data(), state.data() + effect.state_size());
     effect.apply(readings, state);
     std::copy(begun.begin(), begun.end(), state.data());
@@ -59,27 +59,27 @@ Readings ReadingChain::true_readings(const Truth& truth) const {
   return readings;
 }
 
-double ReadingChain::lateness(std::size_t muscle) const {
-  double lateness = 0.0;
-  for (const auto& effect : effects_) lateness += effect->lateness(muscle);
-  return lateness;
+double ReadingChain::position_delay(std::size_t muscle) const {
+  double delay = 0.0;
+  for (const auto& effect : effects_) delay += effect->position_delay(muscle);
+  return delay;
 }
 
-double ReadingChain::undone(std::size_t muscle, double position) const {
+double ReadingChain::true_position(std::size_t muscle, double position) const {
   for (std::size_t i = effects_.size(); i-- > 0;) {
-    position = effects_[i]->undone(muscle, position, store_.at(offsets_[i]));
+    position = effects_[i]->true_position(muscle, position, store_.at(offsets_[i]));
   }
   return position;
 }
 
-double ReadingChain::joint_lateness() const {
-  double lateness = 0.0;
-  for (const auto& effect : effects_) lateness += effect->joint_lateness();
-  return lateness;
+double ReadingChain::joint_delay() const {
+  double delay = 0.0;
+  for (const auto& effect : effects_) delay += effect->joint_delay();
+  return delay;
 }
 
-void ReadingChain::undo_joints(double* positions) const {
-  for (std::size_t i = effects_.size(); i-- > 0;) effects_[i]->undo_joints(positions);
+void ReadingChain::true_joint_positions(double* positions) const {
+  for (std::size_t i = effects_.size(); i-- > 0;) effects_[i]->true_joint_positions(positions);
 }
 
 }  // namespace anthrob

@@ -17,7 +17,7 @@ struct BusEvent {
     kErrorWarning,    ///< 96 errors
     kErrorPassive,    ///< 128 errors: it may send only in a restricted way
     kBusOff,          ///< 256 errors: it has left the bus
-    kNoAcknowledge,   ///< no node acknowledged our frame
+    kNoAcknowledge,   ///< no node acknowledged our frame (in time)
     kReceiveOverrun,  ///< frames were lost on the host
     kDown,            ///< the interface is down or gone
     kUp,              ///< the interface is up again

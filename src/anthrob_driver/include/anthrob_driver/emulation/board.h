@@ -31,7 +31,6 @@ class Board {
   void freeze(bool frozen);
   /// Off: as if unplugged. On: boots with another session and without parameters and zero.
   void set_power(bool on);
-  bool powered() const { return powered_; }
 
   const ecu::Firmware& firmware() const { return firmware_; }
   /// What the board's peripherals read besides the plant; tests break things here.

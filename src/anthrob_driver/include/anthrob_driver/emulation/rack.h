@@ -27,14 +27,11 @@ class Rack {
 
   Board& board(std::size_t ecu) { return boards_[ecu]; }
   std::size_t size() const { return boards_.size(); }
-  /// Frames that the bus did not accept.
-  std::uint64_t dropped() const { return dropped_; }
 
  private:
   Plant& plant_;
   Bus& bus_;
   std::vector<Board> boards_;
-  std::uint64_t dropped_ = 0;
 };
 
 }  // namespace driver

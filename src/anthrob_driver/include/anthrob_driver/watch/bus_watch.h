@@ -8,18 +8,19 @@
 namespace anthrob {
 namespace driver {
 
-/// State of the host's end of the bus, judged by error frames, full queues and missing echoes of
-/// our own frames.
+/// State of the host's end of the bus, determined from error frames, full queues and missing echoes
+/// of our own frames.
 class BusWatch {
  public:
   enum class Condition { kGood, kPassive, kOff, kDown };
   static constexpr double kEchoTimeout = 0.02;  ///< [s] without an echo of anything we sent
   static constexpr int kFullCycles = 3;         ///< cycles in which the queue was full
-  static constexpr int kFlood = 150;            ///< frames in a cycle; 7 ECUs send 22 to 36
+  /// Frames in a cycle. Chosen: 7 ECUs send 22 to 36.
+  static constexpr int kFlood = 150;
 
   explicit BusWatch(Findings& findings, double rate) : findings_(findings), rate_(rate) {}
 
-  /// Everything that came in, frames too.
+  /// To be called with every event of the bus, including frames.
   void receive(const BusEvent& event, double now);
   void sent(SendResult result, double now);
   /// Once a cycle, before SYNC is sent.
@@ -43,7 +44,7 @@ class BusWatch {
   Finding stop_finding_ = Finding::kInterfaceDown;
   bool queue_full_ = false;
   int full_cycles_ = 0;
-  bool echoes_ = false;  ///< this bus gives echoes at all
+  bool echoes_ = false;  ///< whether this bus has ever returned an echo
   double last_echo_ = 0.0;
   bool unheard_ = false;
   std::uint64_t frames_ = 0;

@@ -7,13 +7,13 @@
 #include "anthrob_driver/hardware.h"
 #include "anthrob_driver/sampler.h"
 #include "anthrob_driver/watch/encoder_watch.h"
-#include "anthrob_driver/watch/motor_heat.h"
 #include "anthrob_driver/watch/tendon_watch.h"
+#include "anthrob_driver/watch/winding_temperature_model.h"
 
 namespace anthrob {
 namespace driver {
 
-/// Watches one muscle: its tendon, its encoder and its motor.
+/// Watches one muscle: its tendon, its encoder and its motor's winding.
 class MuscleWatch {
  public:
   /// Reason to stop all motors.
@@ -27,12 +27,12 @@ class MuscleWatch {
   MuscleWatch(const MuscleHardware& muscle, const TendonLimits& tendons, double pretension);
 
   /// Once a cycle.
-  /// @param sample may be the one of the cycle before   @param time [s] when it was taken
+  /// @param sample may be that of the previous cycle   @param time [s] when it was taken
   /// @param enabled alarms are raised only then; a motor that is off cools down
-  /// @param homing then `home` watches the tendon
+  /// @param homing whether `home` runs, which watches the tendon itself
   std::optional<Alarm> step(const MuscleSample& sample, double time, bool enabled, bool homing);
 
-  const MotorHeat& heat() const { return heat_; }
+  const WindingTemperatureModel& winding() const { return winding_; }
   /// Why this muscle prevents enabling; empty if it does not.
   std::string why_not_enable() const;
 
@@ -43,7 +43,7 @@ class MuscleWatch {
   double pretension_;
   TendonWatch tendon_;
   EncoderWatch encoder_;
-  MotorHeat heat_;
+  WindingTemperatureModel winding_;
 };
 
 }  // namespace driver

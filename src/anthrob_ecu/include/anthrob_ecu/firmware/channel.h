@@ -24,7 +24,7 @@ class Persistence {
     if (!condition) {
       count_ = 0;
     } else if (count_ < ticks) {
-      ++count_;  // no further: a condition that lasts for days must not wrap around to 0
+      ++count_;  // saturates, so that a condition that lasts for days does not wrap around to 0
     }
     return count_ >= ticks;
   }
@@ -47,7 +47,7 @@ class Channel {
   void release();
   /// @return false if this muscle has no such mode
   bool refer(Mode mode, double reference);
-  /// What is measured now becomes `position` [rad].
+  /// Sets the zero such that the present measurement is `position` [rad].
   void set_position(double position);
   /// Counts were missed, or the tendon has moved on its spindle: the zero is no longer known.
   void lose_zero() { zero_known_ = false; }

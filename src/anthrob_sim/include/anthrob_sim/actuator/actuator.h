@@ -4,15 +4,15 @@
 #include <memory>
 #include <string>
 
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/state.h"
-#include "anthrob_sim/model/config_node.h"
 
 namespace anthrob {
 
 /// Winds the tendon: turns an input into a tendon length (Figure 4.1). Built for one step length.
 class Actuator {
  public:
-  /// What an ECU can measure of it.
+  /// The quantities that an ECU can measure.
   struct Readout {
     double position;  ///< [rad] gear output, winding in positive
     double velocity;  ///< [rad/s]
@@ -41,7 +41,7 @@ class Actuator {
   virtual double winding_speed(StateView state) const = 0;
   /// The position that gives a tendon length, the inverse of tendon_length at rest.
   virtual double position_for(double tendon_length) const = 0;
-  /// The furthest it can wind in [rad]; infinite if nothing ends it.
+  /// Largest position [rad]; infinite if the actuator has no end.
   virtual double highest_position() const { return std::numeric_limits<double>::infinity(); }
   /// The input that keeps the actuator at rest at a position under a load [N].
   virtual double holding_input(double position, double load) const = 0;
@@ -49,7 +49,7 @@ class Actuator {
   /// Range of useful inputs: [-limit, limit] volts, or [0, limit].
   virtual double input_low() const = 0;
   virtual double input_high() const = 0;
-  /// Whether there is anything to choose; not for a ligament.
+  /// Whether the actuator has an input; false for a ligament.
   bool takes_input() const { return input_high() > input_low(); }
 };
 

@@ -8,16 +8,16 @@ namespace anthrob {
 /// change and pass on the rest. Their own state follows the state of the wrapped motor.
 class GearedMotor : public Actuator {
  public:
-  /// One step, with a torque from inside besides the load of the tendon.
+  /// One step, with an internal torque in addition to the load of the tendon.
   /// @param torque at the gear output, past the losses of the gear, winding in positive [Nm]
   virtual void advance_with(double input, double load, double torque, StateView state) const = 0;
   void advance(double input, double load, StateView state) const override {
     advance_with(input, load, 0.0, state);
   }
 
-  /// By how much the current follows a change of voltage within a step, the shaft held [A/V].
+  /// Change of the current per change of the voltage within one step, with the shaft held [A/V].
   virtual double conductance() const = 0;
-  /// Of rotor and gear, at the motor shaft [kg m^2].
+  /// Inertia of rotor and gear at the motor shaft [kg m^2].
   virtual double inertia() const = 0;
   /// N, and r_S at position 0 [m]
   virtual double ratio() const = 0;

@@ -18,7 +18,7 @@ class DelayLine {
 
   std::size_t state_size() const { return 1 + slots() * width_; }
 
-  /// As if the signals had always been these.
+  /// Fills the past with these signals.
   void fill(const double* now, StateView state) const {
     state[0] = 0.0;
     for (std::size_t i = 0; i < slots() * width_; ++i) state[1 + i] = now[i % width_];

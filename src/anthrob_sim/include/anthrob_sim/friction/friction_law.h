@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/state.h"
-#include "anthrob_sim/model/config_node.h"
 
 namespace anthrob {
 
@@ -25,11 +25,11 @@ class FrictionLaw {
   virtual std::size_t state_size() const = 0;
   /// @param v sliding speed at the end of the step [m/s]
   virtual Value evaluate(double v, StateView state) const = 0;
-  /// evaluate().mu, for those who do not ask for the slope.
+  /// evaluate().mu, for callers that need no slope.
   virtual double coefficient(double v, StateView state) const { return evaluate(v, state).mu; }
   /// Coefficient while sliding at a speed >= 0, without its sign: the Stribeck curve [1].
-  virtual double level(double speed) const = 0;
-  /// The step is taken with sliding speed v.
+  virtual double sliding_coefficient(double speed) const = 0;
+  /// Updates the state for a step with sliding speed v [m/s].
   virtual void commit(double v, StateView state) const = 0;
 };
 

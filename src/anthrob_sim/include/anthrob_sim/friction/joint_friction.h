@@ -13,10 +13,11 @@ inline double dry_friction(const JointFrictionModel& friction, double speed) {
                                        std::exp(-std::abs(speed) / friction.stribeck_velocity);
 }
 
-/// Dry friction on top of that: what depends on the direction of motion of a joint with one degree
-/// of freedom, and what grows with the load.
+/// Additional dry friction: direction-dependent part (single-dof joints) plus load-dependent part
+/// [Nm or N].
 /// @param direction of motion   @param load force that the joint carries [N]
-inline double more_dry_friction(const JointFrictionModel& friction, double direction, double load) {
+inline double extra_dry_friction(const JointFrictionModel& friction, double direction,
+                                 double load) {
   return (direction > 0.0 ? friction.forward : friction.backward) + friction.load_radius * load;
 }
 

@@ -25,15 +25,15 @@ class ResistanceSolver {
  public:
   ResistanceSolver(const SkeletonModel& model, double step);
 
-  /// @param tau generalised forces known beforehand, without bias forces [Nm, N]
+  /// @param tau generalised forces that do not depend on the solution, without bias forces [Nm, N]
   /// @param tendons get their tensions and sliding speeds filled in
   /// @param q joint positions
   /// @param loads forces that joints carry [N], for friction that grows with them; or null
   void solve(const KinematicTree& tree, const std::vector<double>& q, const Eigen::VectorXd& tau,
              const std::vector<SlidingTendon*>& tendons, const double* loads = nullptr);
 
-  /// The same where the velocity at the end of the step is given: tendons slide with it. Friction
-  /// of joints and stops could not change it, and is left out.
+  /// The same for a given velocity at the end of the step, with which the tendons slide. Joint
+  /// friction and stops could not change that velocity and are left out.
   void follow(const KinematicTree& tree, const std::vector<double>& velocity,
               const std::vector<SlidingTendon*>& tendons);
 
@@ -55,8 +55,8 @@ class ResistanceSolver {
     double speed;    ///< to which `direction` belongs; 0 when it comes from rest [rad/s, m/s]
   };
 
-  /// One side of a joint stop, as far as it is the same in all sweeps of a step. Its push along
-  /// `direction`, where positive, is inside + slope * speed.
+  /// One side of a joint stop; constant in all sweeps of a step except for `push`. The push along
+  /// `direction` is inside + slope * speed, where that is positive.
   struct Stop {
     int dof, count;
     Vec3 direction;        ///< in which the joint moves into it; x only for one degree of freedom
@@ -87,10 +87,10 @@ class ResistanceSolver {
   std::vector<Stop> stops_;
   std::vector<char> held_;  ///< by generalised velocity
   Eigen::VectorXd constant_, rhs_, u_, next_, joint_torque_;
-  Eigen::VectorXd surprise_;  ///< torque of tendons that the last sweep did not foresee [Nm, N]
+  Eigen::VectorXd surprise_;  ///< torque of tendons that the last sweep did not predict [Nm, N]
   Eigen::MatrixXd system_, factor_;  ///< above the diagonal complete only where joints are dry
   int iterations_ = 0;
-  bool falling_ = false;  ///< friction that falls with speed may be taken so
+  bool falling_ = false;  ///< allow negative friction slopes in the linearisation
 };
 
 }  // namespace anthrob

@@ -27,7 +27,7 @@ struct SlidingTendon {
   std::vector<double> tension_after;  ///< result: tension after contact j [N]
   std::vector<double> slide_speed;    ///< result: at the end of the step [m/s]
   std::vector<double> start_speed;    ///< at the start of the step [m/s]
-  // As the solver's last sweep took it.
+  // Values that the solver's last sweep used.
   std::vector<double> mu, slope;  ///< of friction [1, s/m]
   std::vector<double> steepness;  ///< fall of the tension after contact j with sliding speed [Ns/m]
 };

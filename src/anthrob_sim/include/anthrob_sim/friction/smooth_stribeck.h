@@ -19,7 +19,7 @@ class SmoothStribeck final : public FrictionLaw {
   std::size_t state_size() const override { return 0; }
   Value evaluate(double v, StateView state) const override;
   double coefficient(double v, StateView state) const override;
-  double level(double speed) const override {
+  double sliding_coefficient(double speed) const override {
     return kinetic_ + (static_ - kinetic_) * std::exp(-speed / velocity_);
   }
   void commit(double, StateView) const override {}

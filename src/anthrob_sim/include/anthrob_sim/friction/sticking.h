@@ -24,7 +24,7 @@ class Sticking final : public FrictionLaw {
 
   std::size_t state_size() const override { return 1; }
   Value evaluate(double v, StateView state) const override;
-  double level(double speed) const override {
+  double sliding_coefficient(double speed) const override {
     return kinetic_ + (static_ - kinetic_) * std::exp(-speed / velocity_);
   }
   void commit(double v, StateView state) const override;

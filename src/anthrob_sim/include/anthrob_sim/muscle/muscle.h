@@ -21,7 +21,7 @@ enum class Drive {
   kImposed,     ///< its actuator is moved from outside, as recorded
 };
 
-/// One muscle of a running simulation: Algorithm 4.1, cut at the seams
+/// One muscle of a running simulation: Algorithm 4.1, divided at its interfaces
 ///   controller -> actuator -> spring -> path -> skeleton.
 /// Holds scratch memory only; its state is in the simulation's StateStore.
 class Muscle {
@@ -58,7 +58,7 @@ class Muscle {
   void reset_sensors(const ecu::Measurement& seen);
   /// Samples the sensors. @param seen true values, or what effects make of them
   void sense(std::uint64_t step_index, const ecu::Measurement& seen);
-  /// The controller ticks if it is due.
+  /// Runs the controller if its tick is due.
   void control(std::uint64_t step_index);
   /// Adds the known forces of the muscle to `tau`, and prepares the part of the tendon beyond the
   /// spring, whose tension depends on how the joints will move.
@@ -127,7 +127,7 @@ class Muscle {
   /// Rate at which the path from the origin to an obstacle gets longer [m/s].
   double path_rate(std::size_t obstacle, const KinematicTree& tree) const;
   void relax();
-  /// What a stop forgets: the controller's memory and commands on their way.
+  /// Clears what a stop discards: the controller's memory and delayed commands.
   void forget();
   double sliding_power() const;
   /// The command that arrives at the controller in this step.

@@ -14,10 +14,10 @@ struct Beam {
   double sx = 0, sy = 0;  ///< the source, sy <= 0
   bool point = false;     ///< the source is the point a = b of the edge: all directions are open
 
-  /// What of it leaves the facet between the edge's start and the apex.
-  /// @return false if nothing does
+  /// The part of the beam that leaves the facet between the edge's start and the apex.
+  /// @return false if there is none
   bool left_of_apex(const ConvexHull& hull, Beam& out) const;
-  /// What of it leaves the facet between the apex and the edge's end.
+  /// The part of the beam that leaves the facet between the apex and the edge's end.
   bool right_of_apex(const ConvexHull& hull, Beam& out) const;
 
   /// Length of the shortest way from the source over the stretch to a point `up` >= 0 beyond the
@@ -26,7 +26,7 @@ struct Beam {
   /// The same over [lo, hi].
   double length_to(double x, double up, double lo, double hi) const {
     const double rise = up - sy, run = x - sx;
-    // Where the straight line crosses, times rise: the division waits until it is needed.
+    // Position at which the straight line crosses the edge, times `rise`: avoids a division.
     const double cross = sx * up - x * sy;
     if (cross >= lo * rise && cross <= hi * rise) return std::sqrt(run * run + rise * rise);
     const double at = cross < lo * rise ? lo : hi;

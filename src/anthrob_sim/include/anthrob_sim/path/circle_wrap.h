@@ -1,7 +1,7 @@
 #pragma once
 
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/state.h"
-#include "anthrob_sim/model/config_node.h"
 #include "anthrob_sim/path/wrapping_surface.h"
 
 namespace anthrob {
@@ -23,7 +23,8 @@ class CircleWrap {
     double side;   ///< +1, -1: sense of rotation about the normal while touching; 0: off the circle
   };
 
-  /// Where a point counts as lying: outside where it is, inside lifted along its own ray.
+  /// Effective position of a point: its own if it is outside the circle; if inside, lifted along
+  /// the ray from the centre.
   struct Lift {
     double distance;  ///< from the centre [m]
     double around;    ///< gain of motions round the centre, in [1, 2]; 1 outside
@@ -50,11 +51,12 @@ class CircleWrap {
 
   double radius() const { return radius_; }
 
-  /// A point inside, at share s of the radius, counts as lying at share s (2 - s): nearly on the
-  /// circle if it is a little inside, at the centre if it is there. The tendon follows the circle
-  /// through the nearer point then. So the length has one value and a bounded gradient everywhere.
-  /// It has a kink only where a point crosses the circle while the tendon does not touch, and where
-  /// both points are equally deep inside.
+  /// Effective position of a point. A point inside, at share s of the radius, is treated as lying
+  /// at share s (2 - s): nearly on the circle if it is a little inside, at the centre if it is
+  /// there. The tendon then follows the circle through the lifted point that is nearer to the
+  /// centre. So the length is unique and has a bounded gradient everywhere. It has a kink only
+  /// where a point crosses the circle while the tendon does not touch, and where both points are
+  /// equally deep inside.
   /// @param distance from the centre [m]
   Lift lift(double distance) const;
 
@@ -74,8 +76,9 @@ class CircleWrap {
   int half_turns_;
 };
 
-/// Completes the contact of a tendon with a point inside: pulls are the gradient of the length by
-/// the points themselves, and act there. Directions and turning are those of the lifted points.
+/// Completes the contact of a tendon that has a point inside: the pulls are the gradient of the
+/// length with respect to the original points, and act there. Directions and turning are those of
+/// the lifted points.
 /// @param ray1,ray2 unit, from axis or centre to the points   @param axis unit; zero for a sphere
 void pull_inside(const CircleWrap::Result& wrap, const Vec3& ray1, const Vec3& ray2,
                  const Vec3& axis, const Vec3& before, const Vec3& after, WrapContact& contact);

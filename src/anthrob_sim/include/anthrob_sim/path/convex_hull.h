@@ -49,7 +49,6 @@ class ConvexHull {
   const Vec3& normal(int facet) const { return normals_[facet]; }  ///< unit, outwards
   /// Of a point over the plane of a facet; negative below [m].
   double height(int facet, const Vec3& p) const { return normals_[facet].dot(p) - offsets_[facet]; }
-  double offset(int facet) const { return offsets_[facet]; }
 
   double size() const { return size_; }                ///< diagonal of the bounding box [m]
   const Vec3& core_begin() const { return core_[0]; }  ///< ends of a line well inside, see Locator

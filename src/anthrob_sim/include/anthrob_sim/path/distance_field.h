@@ -6,13 +6,14 @@
 
 namespace anthrob {
 
-/// Lengths of the shortest ways from one point to every point of a convex hull's edges: what is
-/// known before the motion if a path point is fixed to the bone.
+/// Lengths of the shortest ways from one point to every point of a convex hull's edges. If a path
+/// point is fixed to the bone, they can be computed before the motion.
 ///
-/// An edge falls into stretches that see the unfolded point through one strip of facets each. They
-/// are found by carrying beams over the hull, shortest first; where two reach the same stretch the
-/// shorter one keeps it. On a convex body no shortest way passes a corner, so all of them start at
-/// the point itself, and two of them are equally long at one place of the edge at most.
+/// Each edge divides into stretches, each of which sees the unfolded point through one strip of
+/// facets. To find them, beams are carried over the hull, shortest first; where two beams reach the
+/// same stretch, the shorter one keeps it. On a convex body no shortest way passes a corner, so all
+/// ways start at the point itself, and two of them are equally long at one place of an edge at
+/// most.
 class DistanceField {
  public:
   /// @param from outside the hull    @param facet one that it lies above
@@ -20,10 +21,9 @@ class DistanceField {
 
   const Vec3& from() const { return from_; }
 
-  /// Shortest way from a beam's source over its edge to the point, if nothing were in the way of
-  /// the beam.
+  /// Length of the shortest way from a beam's source over its edge to the point, if the beam met no
+  /// obstacle [m].
   double beyond(const Beam& beam) const;
-  std::size_t piece_count() const { return pieces_.size(); }
 
  private:
   /// Up to `end` the point, unfolded, is at (x, y >= 0) in the frame of the half-edge.

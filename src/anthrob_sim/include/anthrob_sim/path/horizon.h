@@ -13,8 +13,8 @@ class Horizon {
   void reserve(const ConvexHull& hull);
 
   /// Walks along the border from a half-edge on it: as many steps as the border has edges.
-  /// @return false if `start` is not on it, or if the walk went round something else: a point in
-  ///         the plane of several facets lies above some and below others by rounding
+  /// @return false if `start` is not on it, or if the walk followed another closed line: rounding
+  ///         can place a point in the plane of several facets above some and below others
   bool trace(const ConvexHull& hull, const Vec3& p, int start);
 
   /// Looks at all facets that p lies above, `facet` among them.

@@ -7,11 +7,12 @@
 
 namespace anthrob {
 
-/// Shortest way between two points round a convex hull, the segment between which cuts it.
+/// Shortest way round a convex hull between two points whose connecting segment cuts the hull.
 ///
-/// A strip of facets that was the shortest a moment ago is fitted to the new points, pulled taut,
-/// and StripSearch is asked for anything shorter. The answer does not depend on the guess; the time
-/// does. Scratch memory: one object a thread serves any number of hulls.
+/// The guess, such as the shortest strip of facets in the last posture, is fitted to the new points
+/// and pulled taut; StripSearch then looks for anything shorter. The result does not depend on the
+/// guess; the computing time does. Scratch memory: one object per thread serves any number of
+/// hulls.
 class HullGeodesic {
  public:
   enum class Outcome {
@@ -30,7 +31,6 @@ class HullGeodesic {
   /// Of the last solution [m].
   double length() const { return length_; }
   const std::vector<TautString::Crossing>& crossings() const { return string_.crossings(); }
-  int windows() const { return search_.windows(); }
 
  private:
   bool fit(const GeodesicQuery& query, std::vector<int>& strip);

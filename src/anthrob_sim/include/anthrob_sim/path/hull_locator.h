@@ -8,23 +8,24 @@ namespace anthrob {
 /// surface along the line from the hull's core.
 struct HullPoint {
   Vec3 p = Vec3::Zero();  ///< outside the hull [m]
-  int facet = 0;          ///< which p lies above; the one that the line from the core leaves by
+  int facet = 0;          ///< a facet that p lies above; the line from the core leaves through it
   double depth = 0.0;     ///< [m] inside; 0 outside
   bool moved = false;
 
   /// Gradient with respect to the original point, from that with respect to p.
   Vec3 pull_back(const Vec3& gradient) const;
 
-  Vec3 arm = Vec3::Zero();        ///< from the core to the original point; of a moved one
-  Vec3 core_axis = Vec3::Zero();  ///< unit along which the core's point follows; zero at its ends
-  double gain = 1.0;              ///< p - core over arm
+  Vec3 arm = Vec3::Zero();        ///< from the core to the original point, if moved
+  Vec3 core_axis = Vec3::Zero();  ///< unit, of motion of the core's point; zero at the core's ends
+  double gain = 1.0;              ///< of p - core, relative to `arm`
   Vec3 normal = Vec3::Zero();
 };
 
-/// Questions to a convex polyhedron that are answered by walking over it from a first guess.
+/// Queries on a convex polyhedron, answered by walking over its facets from a first guess.
 ///
-/// Seen from a point of the core, facets are vertices of the polar body, on which "which facet does
-/// this ray leave by" is a linear programme: climbing to better neighbours ends at the best.
+/// In the polar body about a point of the core, facets become vertices. There the facet through
+/// which a ray leaves is the solution of a linear programme: moving to better neighbours ends at
+/// it.
 class HullLocator {
  public:
   explicit HullLocator(const ConvexHull& hull) : hull_(hull) {}

@@ -11,18 +11,19 @@ namespace anthrob {
 
 class WrappingSurface;
 
-/// Surfaces that were prepared before, by the text that describes them. Preparing a bone takes a
-/// tenth of a second, and searches build the same robot thousands of times; surfaces are immutable,
-/// so that all may share one. Any number of threads.
+/// Prepared surfaces by the text that describes them. Preparing a bone takes a tenth of a second,
+/// and searches build the same robot thousands of times. Surfaces are immutable, so all robots can
+/// share one. Thread-safe.
 class MeshCache {
  public:
   using Surface = std::shared_ptr<const WrappingSurface>;
 
-  /// The surface of this description, prepared if it is new. What throws is not kept.
+  /// The surface of this description, prepared if it is new. If `prepare` throws, nothing is
+  /// cached.
   Surface get(const std::string& description, const std::function<Surface()>& prepare);
 
  private:
-  /// Searches that move meshes come with ever new descriptions; then it starts over.
+  /// The cache is emptied when it is full: searches that move meshes ask for ever new descriptions.
   static constexpr std::size_t kCapacity = 256;
 
   std::mutex mutex_;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/types.h"
-#include "anthrob_sim/model/config_node.h"
 
 namespace anthrob {
 
@@ -20,8 +20,8 @@ struct TriangleMesh {
 /// numbers that are not finite
 TriangleMesh read_mesh(const std::string& file);
 
-/// What is odd about a mesh but does not matter to its convex hull: holes, edges of more than two
-/// facets, facets that face inwards or have no area. One phrase each; empty if it is sound.
+/// Defects of a mesh that do not affect its convex hull: holes, edges of more than two facets,
+/// facets that face inwards or have no area. One phrase each; empty if there are none.
 std::vector<std::string> mesh_oddities(const TriangleMesh& mesh);
 
 struct MeshPoints {
@@ -31,8 +31,7 @@ struct MeshPoints {
 
 /// The points that a wrapping surface described by `{file: , scale: , offset: , part: }` is the
 /// hull of. `part` keeps what lies on one side of each of its planes.
-/// @throws BadInput where the mesh cannot be meant: unreadable, of a size that no bone has, cut
-/// away
+/// @throws BadInput if the mesh is unreadable, has a size that no bone has, or is cut away
 MeshPoints load_mesh_points(const ConfigNode& node);
 
 }  // namespace anthrob

@@ -39,12 +39,12 @@ class MeshSurface final : public WrappingSurface {
             WrapContact& contact) const override;
   void trace(const WrapContact& contact, std::vector<Vec3>& points) const override;
   std::vector<std::string> remarks() const override { return remarks_; }
-  /// With the distances from a fixed point the search has nothing left to find out but what the
-  /// other one sees.
+  /// With known distances from a fixed neighbour, the search only has to find out which facets the
+  /// other neighbour sees.
   std::shared_ptr<const WrappingSurface> prepared_for(const Vec3* before,
                                                       const Vec3* after) const override;
 
-  /// What the search for the way did since initialise().
+  /// Statistics of the path search since initialise().
   struct Counts {
     double solved, improved, cold;
   };
@@ -61,7 +61,8 @@ class MeshSurface final : public WrappingSurface {
  private:
   static std::shared_ptr<const WrappingSurface> prepare(const ConfigNode& node, const Pose& X_BL);
 
-  /// What is remembered: where the points were, and the strip of facets, from the point named.
+  /// Head of the state: the facets below the neighbours in the last posture, and the direction and
+  /// length of the strip that follows.
   struct Header {
     double facet_before, facet_after;
     double from_after;    ///< 1: the strip begins at the succeeding point
@@ -70,7 +71,7 @@ class MeshSurface final : public WrappingSurface {
   };
   static constexpr std::size_t kHeader = state_size_of<Header>();
 
-  /// One solved way, seen from the preceding point.
+  /// One solved way, from the preceding to the succeeding point.
   struct Way {
     HullPoint before, after;
     bool wraps = false, reversed = false;
@@ -82,14 +83,14 @@ class MeshSurface final : public WrappingSurface {
   void follow(const Vec3& before, const Vec3& after, const Way& way, WrapContact& contact) const;
   Vec3 crossing(int k) const;  ///< of the way in the workspace with its k-th edge
 
-  /// The distances that were asked for last: the same robot is built over and over.
+  /// Keeps the last computed distances, because searches build the same robot many times.
   struct FieldMemo {
     std::mutex mutex;
     std::shared_ptr<const DistanceField> last;
   };
   std::shared_ptr<const DistanceField> distances_from(const HullPoint& point) const;
 
-  /// Whether the fixed point that the distances belong to is here.
+  /// Whether this is the fixed point to which the distances belong.
   bool is_fixed(const HullPoint& point) const;
 
   std::shared_ptr<const ConvexHull> hull_;

@@ -13,13 +13,13 @@ namespace anthrob {
 /// Straight lines from the source, unfolded over the facets, reach each edge in windows: stretches
 /// of the edge that see the (unfolded) source through one and the same strip. Windows are carried
 /// on from edge to edge; at a corner they split. On a convex body no shortest way passes a corner,
-/// so this covers all ways but those that lean on the limit: for them each point in which an edge
+/// so this covers all ways except those along the limit: for them each point in which an edge
 /// crosses the limit becomes a source of its own.
 ///
-/// A window is dropped as soon as it cannot lead to a way shorter than the best one known. What is
-/// left of the way is bounded by the distances from the target if they are known: then no window
-/// lives but those on a shorter way. Else by the air line: with a good first guess few windows live
-/// as long as the way turns by less than a right angle.
+/// A window is dropped as soon as it cannot lead to a way shorter than the best one known. If the
+/// distances from the target are known, they bound the rest of the way: only windows on a shorter
+/// way survive. Otherwise the bound is the straight-line distance: with a good first guess few
+/// windows survive, as long as the way turns by less than a right angle.
 class StripSearch {
  public:
   /// Ways shorter by less than this share of the hull's size are the same.
@@ -33,7 +33,6 @@ class StripSearch {
   double run(const GeodesicQuery& query, const std::vector<int>& rim, double bound);
 
   const std::vector<int>& strip() const { return strip_; }  ///< of the way found, else empty
-  int windows() const { return windows_; }                  ///< looked at in the last run
 
  private:
   struct Window {
@@ -58,7 +57,6 @@ class StripSearch {
   std::vector<std::uint64_t> label_run_;
   std::uint64_t run_ = 0;
   double best_ = 0.0, worthwhile_ = 0.0;
-  int windows_ = 0;
 };
 
 }  // namespace anthrob

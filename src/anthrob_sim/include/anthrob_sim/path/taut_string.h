@@ -17,14 +17,15 @@ struct GeodesicQuery {
   Vec3 up = Vec3::UnitZ();               ///< unit, across the line from source to target
   const DistanceField* field = nullptr;  ///< distances from the target, if they are known
 
-  /// Over the limit [m]; positive where the way may run.
+  /// Distance above the limit [m]; positive where the way may run.
   double clearance(const Vec3& p) const { return limited ? up.dot(p - source) : 1.0; }
   bool sees_source(int facet) const { return hull.height(facet, source) > 0.0; }
   bool sees_target(int facet) const { return hull.height(facet, target) > 0.0; }
 };
 
-/// The shortest way through a strip of facets: the strip unfolded into the plane, a string pulled
-/// taut in it. Through the air from the source to the first edge and from the last to the target.
+/// The shortest way through a strip of facets: the strip is unfolded into the plane, and a string
+/// is pulled taut in it. From the source to the first edge, and from the last edge to the target,
+/// the way does not lie on the hull.
 class TautString {
  public:
   enum class Bend : char { kNone, kAtLimit, kAtCorner };
@@ -40,7 +41,7 @@ class TautString {
   /// @return its length [m]; infinite if the limit closes the strip
   double pull(const GeodesicQuery& query, const std::vector<int>& edges);
 
-  /// Of the last pull, one for each edge.
+  /// Crossings of the last pull, one for each edge.
   const std::vector<Crossing>& crossings() const { return crossings_; }
 
  private:

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/state.h"
 #include "anthrob_sim/core/types.h"
-#include "anthrob_sim/model/config_node.h"
 
 namespace anthrob {
 
-/// Path points no deeper inside a surface than this lie on it, but for rounding in a table [m].
+/// Penetration up to this depth counts as zero: table values are rounded to 0.1 mm [m].
 constexpr double kRoundingDepth = 0.0002;
 
 /// How a muscle runs over one surface, in the frame in which it was asked for.
@@ -28,8 +28,9 @@ struct WrapContact {
   double turning = 0.0;               ///< angle by which the surface turns the tendon [rad]
   double wrap_angle = 0.0;            ///< angle about the surface's axis or centre [rad]
   int half_turns = 0;  ///< multiples of pi in wrap_angle: the revolution counter of (4.26)
-  /// Depth of the deeper end point inside the surface, touching or not, >= 0 [m]. Such a point
-  /// counts as lying on the surface of a mesh, and nearer to that of a sphere or cylinder.
+  /// Depth of the deeper end point inside the surface, touching or not, >= 0 [m]. For the path,
+  /// such a point is moved to the surface of a mesh, or towards the surface of a sphere or
+  /// cylinder.
   double penetration = 0.0;
   /// Force on the preceding point, and on the surface from the succeeding one, per unit of tension:
   /// the directions, except where a point lies inside. There they are the gradient of the length,
@@ -48,7 +49,7 @@ class WrappingSurface {
   virtual std::string type() const = 0;
   virtual std::size_t state_size() const = 0;
 
-  /// Looks at a first posture: from the posture and the side given in the model file to `state`.
+  /// Initialises `state` from a first posture and the side given in the model file.
   /// All points are in the frame of the surface's body.
   virtual void initialise(const Vec3& before, const Vec3& after, StateView state) const = 0;
 
@@ -59,15 +60,15 @@ class WrappingSurface {
   /// Appends points of the path on the surface, from entry to exit, for drawing.
   virtual void trace(const WrapContact& contact, std::vector<Vec3>& points) const = 0;
 
-  /// The same surface, prepared for neighbours that never move in its frame; null where that gains
-  /// nothing. What it answers does not change, whatever the neighbours do.
+  /// The same surface, prepared for neighbours that never move in its frame; null where that saves
+  /// nothing. Its results are the same, even if the neighbours move.
   /// @param before, after the point next to it, or null if it moves
   virtual std::shared_ptr<const WrappingSurface> prepared_for(const Vec3* /*before*/,
                                                               const Vec3* /*after*/) const {
     return nullptr;
   }
 
-  /// What its user should know about the files it came from, one line each.
+  /// Remarks for the user on the files that the surface was read from, one line each.
   virtual std::vector<std::string> remarks() const { return {}; }
 };
 

@@ -38,7 +38,7 @@ class Replay {
   /// meta.yaml says. The recording's time 0 is the current time of the simulation.
   ///
   /// With dry friction and cogging, a motor can come to rest at many positions, and only the
-  /// measurement says at which the recorded one did. So motors under position control are led to
+  /// measurement says at which the recorded one did. So motors under position control are moved to
   /// their first measured position in the last second of the settling, or in its second half if it
   /// is shorter than 2 s. This is done if the motor would end farther from that position than one
   /// encoder count or the noise, but at most 1 rad away, and if the settling takes at least 0.5 s.
@@ -69,7 +69,7 @@ class Replay {
     int muscle;
     Series mode, reference;  ///< as its unit followed them
     Series voltage, position, ecu_state;
-    double blur;  ///< of the measured position: a count, or noise that is more [rad]
+    double position_uncertainty;  ///< one count, or the noise if that is larger [rad]
   };
   struct JointInput {
     int joint;
@@ -80,12 +80,12 @@ class Replay {
     OrientationSeries turns;
   };
 
-  /// The way of a motor that is led somewhere [rad].
-  struct Way {
+  /// Motion of a motor from one position to another [rad].
+  struct Ramp {
     int muscle;
     double from, to;
   };
-  static void lead(Simulation& sim, const std::vector<Way>& ways, long step, long steps);
+  static void ramp(Simulation& sim, const std::vector<Ramp>& ramps, long step, long steps);
   /// What holds a muscle while the robot settles.
   struct StartInput {
     bool imposed;    ///< the actuator's position; else a command
@@ -93,13 +93,13 @@ class Replay {
     double value;
   };
   StartInput start_input(const MuscleInput& input) const;
-  /// A motor that does not stand where it was measured, and where within what is known of that it
-  /// should [rad].
-  struct Lead {
+  /// Target for a motor that settled away from its measured position: the nearest position within
+  /// the measurement uncertainty [rad].
+  struct RampTarget {
     int muscle;
     double position;
   };
-  std::vector<Lead> leads_from(const Simulation& settled) const;
+  std::vector<RampTarget> ramp_targets(const Simulation& settled) const;
   long last_steps(const Simulation& sim) const;  ///< of the settling's last second
 
   /// First recorded positions: of joints, as in a configuration, and of muscles.
@@ -121,7 +121,8 @@ class Replay {
   /// How much of a column drives the simulation.
   enum class Use { kNone, kStart, kAll };
   Use use_of(const Dataset& recording, const Column& column) const;
-  ecu::Mode unsaid_mode(std::size_t muscle) const;
+  /// Mode of commands whose mode was not recorded.
+  ecu::Mode default_mode(std::size_t muscle) const;
 
   std::shared_ptr<const RobotModel> model_;
   ReplayMode mode_;

@@ -34,10 +34,10 @@ class ReadingChain {
   const double* velocities() const { return readings().velocities; }
 
   // The functions of ReadingEffect, for all effects together.
-  double lateness(std::size_t muscle) const;
-  double undone(std::size_t muscle, double position) const;
-  double joint_lateness() const;
-  void undo_joints(double* positions) const;
+  double position_delay(std::size_t muscle) const;
+  double true_position(std::size_t muscle, double position) const;
+  double joint_delay() const;
+  void true_joint_positions(double* positions) const;
 
  private:
   Readings readings() const;

@@ -30,17 +30,17 @@ class ReadingEffect {
   // Recordings contain readings. To impose recorded positions, the true ones must be known. So an
   // effect that changes how positions of muscles or joints are read also gives delay and inverse.
   /// Delay of a muscle's position reading [s].
-  virtual double lateness(std::size_t /*muscle*/) const { return 0.0; }
+  virtual double position_delay(std::size_t /*muscle*/) const { return 0.0; }
   /// Inverse: the true position of a muscle [rad] that the next apply() turns into `position`, not
   /// counting the delay.
-  virtual double undone(std::size_t /*muscle*/, double position, StateView) const {
+  virtual double true_position(std::size_t /*muscle*/, double position, StateView) const {
     return position;
   }
   /// Delay of the readings of joint positions [s].
-  virtual double joint_lateness() const { return 0.0; }
+  virtual double joint_delay() const { return 0.0; }
   /// Inverse: replaces joint positions (as in Simulation::configuration) by the true ones that the
   /// next apply() turns into them, not counting the delay.
-  virtual void undo_joints(double* /*positions*/) const {}
+  virtual void true_joint_positions(double* /*positions*/) const {}
 };
 
 }  // namespace anthrob

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/random.h"
 #include "anthrob_sim/core/state.h"
-#include "anthrob_sim/model/config_node.h"
 
 namespace anthrob {
 
@@ -32,7 +32,7 @@ class Sensor {
          int steps_per_tick);
 
   std::size_t state_size() const { return ideal_ ? 0 : 4 + delay_steps_ + model_.average; }
-  /// As if the quantity had always had this value.
+  /// Fills the sensor's past with this value.
   void reset(double value, StateView state) const;
   /// To be called once every step with the true value; `index` counts the steps. An average is
   /// updated when `index` is a multiple of `steps_per_tick`, and held in between.

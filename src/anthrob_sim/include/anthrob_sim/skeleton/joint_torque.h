@@ -6,7 +6,7 @@
 
 namespace anthrob {
 
-/// A torque that a posture brings about on joints, such as that of a spring.
+/// A posture-dependent joint torque, such as that of a spring.
 class JointTorque {
  public:
   virtual ~JointTorque() = default;

@@ -9,7 +9,7 @@ namespace anthrob {
 
 // Postures are joint positions as in a configuration: one number, or w, x, y, z of a ball joint.
 
-/// What turns `from` into `to`, a velocity held for one second: differences of scalar joints,
+/// The velocity that leads from `from` to `to` within one second: differences of scalar joints,
 /// rotation vectors of ball joints in the axes of the child at `from` [rad, m].
 void posture_difference(const SkeletonModel& skeleton, const std::vector<double>& from,
                         const std::vector<double>& to, Eigen::VectorXd& difference);

@@ -6,8 +6,11 @@ namespace anthrob {
 
 /// Body B slides along an axis of body A. Bullet's own sliders leave out the lever that grows as B
 /// slides away (their constraint forces have a net torque), so this one states its rows exactly:
-///   n_i . (b - a) = 0,  i = 1, 2   with n_i across the axis, fixed in A, b and a the frames'
-///   origins rotation vector of B against A = 0
+///
+///   n_i . (b - a) = 0,  i = 1, 2
+///   rotation vector of B relative to A = 0
+///
+/// The n_i are orthogonal to the axis and fixed in A; a and b are the origins of the joint frames.
 class PrismaticConstraint final : public btTypedConstraint {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();

@@ -19,7 +19,7 @@ class Skeleton {
 
   /// Motion of all bodies; 0 is the world.
   const std::vector<BodyState>& bodies() const { return bodies_; }
-  /// Puts the bodies somewhere; also the way to restore a snapshot, bit for bit.
+  /// Sets the motion of all bodies. Also restores a snapshot, bit for bit.
   void set_bodies(const std::vector<BodyState>& bodies);
 
   void clear_wrenches();

@@ -73,7 +73,8 @@ struct BodyModel {
   std::vector<CollisionModel> collisions;
 
   /// Sets the principal frame and moments that belong to centre of mass and inertia.
-  /// @return whether matter can have such moments: all > 0, none larger than the other two together
+  /// @return whether the moments are physically possible: all > 0, none larger than the sum of the
+  /// other two
   bool find_principal_axes();
 };
 
@@ -102,7 +103,7 @@ struct SkeletonModel {
 
 /// Reads the bodies of a URDF. Floating joints become ball joints; their centres, all frictions and
 /// stops come from the model file.
-/// @param collisions whether <collision> shapes are wanted; if not, they may be anything
+/// @param collisions whether <collision> shapes are wanted; if not, they are ignored
 /// @throws BadInput naming file, link or joint, and what was expected
 SkeletonModel load_urdf(const std::string& file, bool collisions = false);
 

@@ -9,11 +9,11 @@ namespace anthrob {
 /// Advances a tree of bodies under Bullet's joint constraints by one step, in place of Bullet's
 /// iterative solvers.
 ///
-/// Bodies are moved on trial as if there were no joints; impulses along the constraints' directions
-/// at the start of the step take out what the joints are apart there (SHAKE; Ryckaert et al. 1977).
-/// So positions, not only velocities, satisfy the joints, energy does not drift, and no error
-/// reduction parameter is needed. Gyroscopic torques follow the midpoint rule: Bullet's implicit
-/// rule damps fast spin, its explicit one feeds it.
+/// Bodies are first moved as if there were no joints. Impulses along the constraints' directions at
+/// the start of the step then remove the joints' position errors after that motion (SHAKE; Ryckaert
+/// et al. 1977). So positions, not only velocities, satisfy the joints, energy does not drift, and
+/// no error reduction parameter is needed. Gyroscopic torques follow the midpoint rule: Bullet's
+/// implicit rule damps fast spin, its explicit one amplifies it.
 ///
 /// The system (J M^-1 J^T + cfm) lambda = rhs couples two joints only if they share a body, so a
 /// block Cholesky factorisation that starts at the leaves has no fill-in and costs O(joints).
@@ -40,7 +40,7 @@ class TreeConstraintSolver {
     btVector3 response_a, response_b;  ///< inverse inertia times angular_a, angular_b
     btScalar error, cfm, low, high;
 
-    /// Once: a joint fills in the same elements in every step.
+    /// Called once: a joint fills in the same elements in every step.
     void clear();
   };
   using Block = double[kMaxRows][kMaxRows];
@@ -76,7 +76,7 @@ class TreeConstraintSolver {
   static void add_responses(Node& node);
   void assemble(Node& node);
   void factor();
-  /// Right-hand sides become impulses.
+  /// Turns right-hand sides into impulses.
   void substitute();
   void apply_impulses();
   /// Impulses of all rows of a joint on one of its bodies.

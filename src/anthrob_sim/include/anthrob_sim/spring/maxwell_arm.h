@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "anthrob_sim/model/config_node.h"
+#include "anthrob_config/config_node.h"
 
 namespace anthrob {
 

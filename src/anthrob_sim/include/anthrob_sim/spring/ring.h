@@ -1,6 +1,6 @@
 #pragma once
 
-#include "anthrob_sim/model/config_node.h"
+#include "anthrob_config/config_node.h"
 
 namespace anthrob {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/state.h"
-#include "anthrob_sim/model/config_node.h"
 
 namespace anthrob {
 
@@ -21,17 +21,17 @@ class SeriesElasticElement {
   /// l_0: length of the unstretched element [m]
   virtual double rest_length() const = 0;
 
-  /// Puts the element at `expansion` as if it had been there for ever.
+  /// Puts the element into the fully relaxed state at `expansion`.
   virtual void relax(double expansion, StateView state) const = 0;
 
   /// Stretches it from the last expansion to this one at constant speed within one step.
   /// @return tension at the end of the step [N], >= 0
   virtual double advance(double expansion, StateView state) const = 0;
 
-  /// Tension at rest for ever [N], >= 0.
+  /// Fully relaxed tension [N], >= 0.
   virtual double relaxed_tension(double expansion) const = 0;
-  /// The expansion that holds `tension` for ever [m], the inverse of relaxed_tension for tension >
-  /// 0.
+  /// The expansion whose fully relaxed tension is `tension` [m]: the inverse of relaxed_tension for
+  /// tension > 0.
   virtual double relaxed_expansion(double tension) const = 0;
 
   /// Elastic energy [J].

@@ -40,11 +40,11 @@ class ParallelForce : public SpringWrapper {
 
  protected:
   // Stretch is the expansion where it is positive, else 0 [m].
-  /// As if the stretch had been there for ever.
+  /// Puts the force into its fully relaxed state at `stretch`.
   virtual void settle(double stretch, StateView own) const = 0;
   /// Force after a move from one stretch to the next within a step [N].
   virtual double force(double from, double to, StateView own) const = 0;
-  /// Force at rest for ever [N].
+  /// Fully relaxed force [N].
   virtual double settled_force(double stretch) const = 0;
   virtual double energy(double stretch, StateView own) const = 0;
   /// Power that becomes heat, for a speed of stretch [m/s] in the last step [W].
@@ -63,13 +63,12 @@ class ParallelForce : public SpringWrapper {
   double step_;
 };
 
-/// Stretch that counts as ordinary work of an element [m]: a strain of 30 %, or 3 mm without rest
-/// length.
+/// Typical working stretch of an element [m]: a strain of 30 %, or 3 mm without rest length.
 double working_stretch(const SeriesElasticElement& element);
 /// Tension over stretch there [N/m]; exact where the element is linear.
 double working_stiffness(const SeriesElasticElement& element);
 
-/// The root of a function that does not fall, between two points round it.
+/// Root of a non-decreasing function, bracketed by two points.
 /// @return x with |f(x)| <= tolerance, or as near as rounding allows
 template <class Function>
 double rising_root(const Function& f, double low, double high, double tolerance) {
@@ -77,7 +76,7 @@ double rising_root(const Function& f, double low, double high, double tolerance)
   if (f_low >= 0.0) return low;
   if (f_high <= 0.0) return high;
   for (int i = 0; i < 100; ++i) {
-    // Regula falsi, Illinois: the end that stays counts half.
+    // Regula falsi, Illinois variant: the value at the end that stays is halved.
     const double x = high - f_high * (high - low) / (f_high - f_low);
     const double value = f(x);
     if (value <= tolerance && value >= -tolerance) return x;

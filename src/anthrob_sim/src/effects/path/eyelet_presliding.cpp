@@ -37,13 +37,15 @@ class Dahl final : public FrictionLaw {
 
   std::size_t state_size() const override { return 1; }
   Value evaluate(double v, StateView state) const override {
-    const double level = law_->level(std::abs(v));
+    const double level = law_->sliding_coefficient(std::abs(v));
     const double side = v < 0.0 ? -1.0 : 1.0;
     const double left = std::exp(-std::abs(v) * step_ / distance_);
     return {level * bristle(v, state[0]),
             level * (1.0 - side * state[0]) * left * step_ / distance_};
   }
-  double level(double speed) const override { return law_->level(speed); }
+  double sliding_coefficient(double speed) const override {
+    return law_->sliding_coefficient(speed);
+  }
   void commit(double v, StateView state) const override { state[0] = bristle(v, state[0]); }
 
   const std::shared_ptr<const FrictionLaw>& law() const { return law_; }

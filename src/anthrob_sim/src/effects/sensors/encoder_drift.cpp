@@ -45,7 +45,7 @@ class Drift final : public ReadingEffect {
     position += rate_ * s.steps - missed_ * s.travelled;
     s.steps += 1.0;
   }
-  double undone(std::size_t muscle, double position, StateView state) const override {
+  double true_position(std::size_t muscle, double position, StateView state) const override {
     if (muscle != muscle_) return position;
     const Own& s = state.as<Own>();
     const double moved = position - rate_ * s.steps + missed_ * s.travelled - s.last;

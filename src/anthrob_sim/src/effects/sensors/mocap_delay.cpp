@@ -45,7 +45,7 @@ class JointDelay final : public ReadingEffect {
     for (const int ball : balls_) blend_turn(readings.positions + ball, ball, state);
   }
 
-  double joint_lateness() const override { return delay_; }
+  double joint_delay() const override { return delay_; }
 
  private:
   /// Between two orientations; where their signs differ, the nearer one will do.

@@ -37,7 +37,7 @@ class TurnedReadings final : public ReadingEffect {
   void apply(Readings& readings, StateView) const override {
     for (const Ball& ball : balls_) turn(ball.turn, readings.positions + ball.offset);
   }
-  void undo_joints(double* positions) const override {
+  void true_joint_positions(double* positions) const override {
     for (const Ball& ball : balls_) turn(ball.turn.conjugate(), positions + ball.offset);
   }
 

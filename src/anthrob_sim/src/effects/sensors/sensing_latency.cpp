@@ -37,7 +37,9 @@ class Latency final : public ReadingEffect {
       signals(readings)[i] = line_.blended(i, state);
     }
   }
-  double lateness(std::size_t muscle) const override { return muscle == muscle_ ? delay_ : 0.0; }
+  double position_delay(std::size_t muscle) const override {
+    return muscle == muscle_ ? delay_ : 0.0;
+  }
 
  private:
   double* signals(const Readings& readings) const { return &readings.muscles[muscle_].position; }

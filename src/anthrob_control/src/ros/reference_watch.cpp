@@ -1,4 +1,4 @@
-#include "anthrob_control/ros/heed_watch.h"
+#include "anthrob_control/ros/reference_watch.h"
 
 #include <stdexcept>
 
@@ -10,7 +10,7 @@ constexpr double kPatience = 1.0;  // [s]
 
 }  // namespace
 
-void HeedWatch::look(const RobotState& state, const ros::Time& now, bool sure) {
+void ReferenceWatch::look(const RobotState& state, const ros::Time& now, bool sure) {
   const std::string deaf = state.muscle_not_in(ecu::Mode::kPosition);
   const ros::WallTime wall = ros::WallTime::now();
   if (deaf.empty()) {

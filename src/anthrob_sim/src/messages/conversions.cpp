@@ -1,4 +1,4 @@
-#include "conversions.h"
+#include "anthrob_sim/messages/conversions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model) {
     ecu::MuscleChannel channel;
     channel.name = muscle.name;
     channel.ecu = muscle.ecu;
-    channel.takes_commands = muscle.actuator->input_high() > muscle.actuator->input_low();
+    channel.takes_commands = muscle.actuator->takes_input();
     const CommandLimits& limits = muscle.limits;
     if (muscle.has_controller) {
       const double volts = muscle.controller.voltage_limit;

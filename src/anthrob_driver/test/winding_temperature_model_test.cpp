@@ -1,5 +1,5 @@
 // Motors that are too hot by what they drew: the estimate against its closed form, and the driver.
-#include "anthrob_driver/watch/motor_heat.h"
+#include "anthrob_driver/watch/winding_temperature_model.h"
 
 #include <gtest/gtest.h>
 
@@ -21,52 +21,55 @@ constexpr double kNominal = 1.5;    // [A]
 constexpr double kConstant = 12.0;  // [s]
 
 /// [s] that a current takes to make it too hot; -1: it does not within 200 s.
-double time_to_limit(MotorHeat& motor, double current) {
+double time_to_limit(WindingTemperatureModel& motor, double current) {
   for (int i = 0; i < 40000; ++i) {
     motor.step(current, kPeriod * i);
-    if (motor.heat() > MotorHeat::kLimit) return kPeriod * i;
+    if (motor.relative_temperature_rise() > WindingTemperatureModel::kLimit) return kPeriod * i;
   }
   return -1.0;
 }
 
-TEST(MotorHeat, FollowsThePowerWithItsTimeConstant) {
+TEST(WindingTemperatureModel, FollowsThePowerWithItsTimeConstant) {
   for (const double current : {3.0, -3.0, 15.0}) {
-    MotorHeat motor(kNominal, kConstant);
+    WindingTemperatureModel motor(kNominal, kConstant);
     const double end = std::pow(current / kNominal, 2);
-    EXPECT_NEAR(time_to_limit(motor, current), -kConstant * std::log(1.0 - MotorHeat::kLimit / end),
-                2.0 * kPeriod)
+    EXPECT_NEAR(time_to_limit(motor, current),
+                -kConstant * std::log(1.0 - WindingTemperatureModel::kLimit / end), 2.0 * kPeriod)
         << current;
   }
 }
 
-TEST(MotorHeat, TheNominalCurrentIsForEver) {
-  MotorHeat motor(kNominal, kConstant);
+TEST(WindingTemperatureModel, TheNominalCurrentIsForEver) {
+  WindingTemperatureModel motor(kNominal, kConstant);
   EXPECT_EQ(time_to_limit(motor, kNominal), -1.0);
-  EXPECT_NEAR(motor.heat(), 1.0, 1e-6);
+  EXPECT_NEAR(motor.relative_temperature_rise(), 1.0, 1e-6);
 }
 
-TEST(MotorHeat, CoolsDownInTheTimeThatItSays) {
-  MotorHeat motor(kNominal, kConstant);
+TEST(WindingTemperatureModel, CoolsDownInTheTimeThatItSays) {
+  WindingTemperatureModel motor(kNominal, kConstant);
   double now = time_to_limit(motor, 6.0);
   const double wait = motor.time_to_cool();
-  EXPECT_NEAR(wait, kConstant * std::log(motor.heat() / MotorHeat::kCool), 1e-9);
+  EXPECT_NEAR(
+      wait,
+      kConstant * std::log(motor.relative_temperature_rise() / WindingTemperatureModel::kCool),
+      1e-9);
   for (double passed = 0.0; passed < wait; passed += kPeriod) motor.step(0.0, now += kPeriod);
-  EXPECT_NEAR(motor.heat(), MotorHeat::kCool, 1e-3);
+  EXPECT_NEAR(motor.relative_temperature_rise(), WindingTemperatureModel::kCool, 1e-3);
   motor.step(0.0, now += kPeriod);
   EXPECT_EQ(motor.time_to_cool(), 0.0);
 }
 
-TEST(MotorHeat, WhatWasNotMeasuredDrewNothing) {
-  MotorHeat motor(kNominal, kConstant);
-  const double hot = time_to_limit(motor, 6.0), before = motor.heat();
+TEST(WindingTemperatureModel, WhatWasNotMeasuredDrewNothing) {
+  WindingTemperatureModel motor(kNominal, kConstant);
+  const double hot = time_to_limit(motor, 6.0), before = motor.relative_temperature_rise();
   motor.step(6.0, hot + 5.0);
-  EXPECT_NEAR(motor.heat(), before * std::exp(-5.0 / kConstant), 1e-9);
+  EXPECT_NEAR(motor.relative_temperature_rise(), before * std::exp(-5.0 / kConstant), 1e-9);
   motor.step(6.0, hot + 4.0);  // time that goes back changes nothing
-  EXPECT_NEAR(motor.heat(), before * std::exp(-5.0 / kConstant), 1e-9);
+  EXPECT_NEAR(motor.relative_temperature_rise(), before * std::exp(-5.0 / kConstant), 1e-9);
 }
 
-TEST(MotorHeat, AMotorThatIsNotKnownIsNeverHot) {
-  MotorHeat motor(0.0, 0.0);
+TEST(WindingTemperatureModel, AMotorThatIsNotKnownIsNeverHot) {
+  WindingTemperatureModel motor(0.0, 0.0);
   EXPECT_EQ(time_to_limit(motor, 100.0), -1.0);
   EXPECT_EQ(motor.time_to_cool(), 0.0);
 }
@@ -91,7 +94,7 @@ TEST(HotMotors, StopAllAndWaitUntilTheyAreCool) {
   for (const Sample& sample : rig.samples) {
     if (!sample.muscles[4].measured) continue;
     heat += 0.005 / 2.0 * (std::pow(sample.muscles[4].current / 0.1, 2) - heat);
-    if (heat > MotorHeat::kLimit && trip < 0.0) trip = sample.time;
+    if (heat > WindingTemperatureModel::kLimit && trip < 0.0) trip = sample.time;
   }
   EXPECT_NEAR(trip, rig.now(), 0.03);
   rig.commander_runs = false;
@@ -115,7 +118,7 @@ TEST(HotMotors, StopAllAndWaitUntilTheyAreCool) {
   for (; waited < 60 && !rig.driver().start_enable(rig.now()).accepted; ++waited) rig.run(1000);
   EXPECT_GT(waited, 0);
   EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
-  EXPECT_LE(rig.driver().heat(4).heat(), MotorHeat::kCool);
+  EXPECT_LE(rig.driver().winding(4).relative_temperature_rise(), WindingTemperatureModel::kCool);
 }
 
 TEST(HotMotors, AreNoneWhereNobodyKnowsWhatTheyStand) {
@@ -138,7 +141,7 @@ TEST(HotMotors, AreToldOfByBothNumbersOfTheirDataSheet) {
       const std::size_t at = changed.find(name);
       changed.insert(at, folder);
     }
-    const std::string file = "/tmp/anthrob_motor_heat_test.yaml";
+    const std::string file = "/tmp/anthrob_winding_temperature_model_test.yaml";
     std::ofstream(file) << changed;
     struct Remove {
       const char* file;

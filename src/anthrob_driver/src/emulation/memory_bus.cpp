@@ -1,4 +1,4 @@
-#include "anthrob_driver/bus/memory_bus.h"
+#include "anthrob_driver/emulation/memory_bus.h"
 
 #include <algorithm>
 

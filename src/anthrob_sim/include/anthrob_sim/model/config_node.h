@@ -1,3 +1,0 @@
-#pragma once
-
-#include "anthrob_config/config_node.h"
