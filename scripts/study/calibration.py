@@ -42,9 +42,11 @@ AFTER = {
 ENOUGH = {"statics": 5.0, "dynamics": 7.0}  # [deg]
 RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
+ROBOT = "config/anthrob"
 CONFIG = "config/anthrob/calibration"
 DOCUMENT = "docs/studies/calibration.md"
 PUBLISHED = "docs/studies/calibration.json"
+OPTIMISERS = ["least_squares", "evolution_strategy", "cmaes", "sade", "bee_colony"]
 JACOBIANS = {"statics": 8, "dynamics": 4}  # at most, of least squares; dynamics start from the result of statics
 
 
@@ -67,9 +69,15 @@ def generations(stage, model, share):
     sys.exit(f"study: {CONFIG}/{stage}_{model}.yaml: key generations is missing; --share needs it")
 
 
-def search_words(options):
-    whole = options.share >= 1 or options.optimiser == "least_squares"
-    return [] if whole else [f"({options.share} of the thesis's generations)"]
+def share_of(options):
+    """Share of the thesis's generations that a search may take; None if it is not counted in generations."""
+    return None if options.optimiser == "least_squares" else options.share
+
+
+def search_words(facts):
+    """Optimiser of a step, with its share of the thesis's generations if that is not all of them."""
+    share = facts.get("share")
+    return facts["optimiser"] + ("" if share is None or share >= 1 else f" ({share} of the thesis's generations)")
 
 
 def searches(options):
@@ -89,13 +97,19 @@ class Robot:
         os.makedirs(self.folder, exist_ok=True)
 
     def record(self):
-        if os.path.exists(f"{self.data}/complete"):
-            return
+        made_of = fingerprint([], *recorder_files())
+        complete = f"{self.data}/complete"
+        if os.path.exists(complete):
+            with open(complete) as text:
+                if text.read().strip() == made_of:
+                    return
+            say(f"robot {self.seed}: its recordings are of another virtual robot, recording again")
+            shutil.rmtree(self.data)
         say(f"robot {self.seed}: recording")
         for tier in "12":
             must([RECORDER, "--seed", str(self.seed), "--tier", tier, "--model",
-                  "config/anthrob/model_II.yaml", "--out", f"{self.data}/tier{tier}"], self.log)
-        write(f"{self.data}/complete", commit() + "\n")
+                  f"{ROBOT}/model_II.yaml", "--out", f"{self.data}/tier{tier}"], self.log)
+        write(complete, made_of + "\n")
 
     def step(self, stage, model, name, start, more):
         """Runs anthrob_calibrate once, unless the same run is already done."""
@@ -124,7 +138,8 @@ class Robot:
         begin = time.time()
 
         def note(done):
-            facts = {"key": key, "commit": commit(), "done": done,
+            facts = {"key": key, "commit": commit(), "machine": machine(), "optimiser": self.options.optimiser,
+                     "share": share_of(self.options), "done": done,
                      "seconds": round(spent + time.time() - begin, 1)}
             write(f"{out}/step.json", json.dumps(facts, indent=2) + "\n")
 
@@ -153,6 +168,8 @@ class Robot:
                 more = ["--seed", str(k)] + search(stage, model, self.options)
                 runs.append(self.step(stage, model, f"{self.options.optimiser}_{k}", start, more))
             start = min(runs, key=lambda r: load(f"{r}/result.json")["fitness"]["after"])
+            facts = {**load(f"{start}/step.json"), "searches": len(runs)}
+            write(f"{start}/step.json", json.dumps(facts, indent=2) + "\n")
             with open(f"{self.folder}/{model}/{stage}/best", "w") as text:
                 text.write(os.path.basename(start) + "\n")
             summarise(self.options)
@@ -164,28 +181,39 @@ class Robot:
             return self.adopted(stage, model)
         best = f"{folder}/{open(f'{folder}/best').read().strip()}"
         result = load(f"{best}/result.json")
-        before = load(f"{folder}/uncalibrated/result.json")["calibration"]
-        if not (before and result["calibration"] and result["validation"]):
+        before = mean_after(load(f"{folder}/uncalibrated/result.json")["calibration"])
+        after, held_out = mean_after(result["calibration"]), mean_after(result["validation"])
+        if not (before and after and held_out):
             say(f"robot {self.seed}: model {model}, {stage}: left out, some recording cannot be simulated to its end")
             return None
-        out = {
-            "before": errors(before["mean"]["after"]),
-            "after": errors(result["calibration"]["mean"]["after"]),
+        # A step of an earlier version of this program tells less of itself.
+        facts = {"machine": machine(), "optimiser": os.path.basename(best).rsplit("_", 1)[0], "searches": 1,
+                 **load(f"{best}/step.json")}
+        return {
+            "before": errors(before),
+            "after": errors(after),
             "fitness": [result["fitness"]["before"], result["fitness"]["after"]],
             "evaluations": result["optimiser"]["evaluations"],
-            "seconds": load(f"{best}/step.json")["seconds"],
-            "commit": load(f"{best}/step.json")["commit"],
-            "machine": machine(),
-            "optimiser": " ".join([self.options.optimiser] + search_words(self.options)),
-            "searches": searches(self.options),
+            "seconds": facts["seconds"],
+            "commit": facts["commit"],
+            "machine": facts["machine"],
+            "optimiser": search_words(facts),
+            "searches": facts["searches"],
+            "validation": errors(held_out),
         }
-        out["validation"] = errors(result["validation"]["mean"]["after"])
-        return out
 
 
 def robot_files():
     """Files of which the calibrated models are made."""
-    return sorted(glob.glob("config/anthrob/model_*.yaml") + glob.glob("config/anthrob/*.urdf"))
+    return sorted(glob.glob(f"{ROBOT}/model_*.yaml") + glob.glob(f"{ROBOT}/*.urdf"))
+
+
+def recorder_files():
+    """Files of which the recordings of virtual robots are made: programs, their settings, the model."""
+    programs = glob.glob(RECORDER) + sorted(glob.glob("devel/lib/libanthrob_virtual_robot*.so")
+                                            + glob.glob("devel/lib/libanthrob_reference*.so"))
+    settings = sorted(glob.glob(f"{ROBOT}/virtual_robot*.yaml") + glob.glob(f"{ROBOT}/equilibria_*.yaml"))
+    return programs + settings + robot_files()
 
 
 def fingerprint(more, *files):
@@ -196,6 +224,11 @@ def fingerprint(more, *files):
             with open(file, "rb") as content:
                 digest.update(content.read())
     return digest.hexdigest()[:16]
+
+
+def mean_after(errors_of_runs):
+    """Mean errors with the numbers that were found; None if the recordings could not be simulated."""
+    return errors_of_runs and errors_of_runs["mean"]["after"]
 
 
 def errors(mean):
@@ -212,12 +245,20 @@ def text(values):
     return " / ".join(f"{v:.1f}" for v in values if v is not None)
 
 
+def seeds_of(options):
+    """Robots with results: of this command, of earlier ones in the same folder, adopted ones."""
+    folders = map(os.path.basename, glob.glob(f"{options.out}/calibration/robot_*"))
+    earlier = {int(name[len("robot_"):]) for name in folders if name[len("robot_"):].isdigit()}
+    return sorted({*options.robots, *map(int, options.adopted), *earlier})
+
+
 def collect(options):
     table = []
+    seeds = seeds_of(options)
     for model in MODELS:
         for index, stage in enumerate(STAGES):
             done = {}
-            for seed in sorted({*options.robots, *map(int, options.adopted)}):
+            for seed in seeds:
                 result = Robot(seed, options).result(stage, model)
                 if result:
                     done[seed] = result
@@ -315,6 +356,8 @@ def summarise(options):
         "machine": several(result["machine"] for result in done),
         "notes": several(result["note"] for result in done if "note" in result) or "none",
     }
+    if not any(result["optimiser"] == "least_squares" for result in done):
+        del facts["Jacobians a search, at most"]
     write(f"{options.out}/calibration.json", json.dumps({"facts": facts, "table": table}, indent=2))
     title = "Study of calibration with virtual robots"
     write(f"{options.out}/calibration.html", html_page(title, page(table, facts)))
@@ -333,17 +376,39 @@ def published(table):
     return robots
 
 
+def whole(least):
+    """Type of an option: a whole number of at least so much."""
+
+    def read(word):
+        if not word.isdecimal() or int(word) < least:
+            raise argparse.ArgumentTypeError(f"{word}: expected a whole number of at least {least}")
+        return int(word)
+
+    return read
+
+
+def fraction(word):
+    """Type of an option: a number above 0, at most 1."""
+    try:
+        number = float(word)
+    except ValueError:
+        number = 0.0
+    if not 0 < number <= 1:
+        raise argparse.ArgumentTypeError(f"{word}: expected a number above 0, at most 1")
+    return number
+
+
 def main():
     parser = OneLineParser(prog="catkin_ws.sh study calibration", description=__doc__,
                            formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--robots", type=int, nargs="+", default=[1, 2, 3], help="seeds of the virtual robots")
+    parser.add_argument("--robots", type=whole(0), nargs="+", default=[1, 2, 3], help="seeds of the virtual robots")
     parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS, help="models to calibrate")
-    parser.add_argument("--optimiser", default="least_squares", help="least_squares, evolution_strategy, cmaes, ...")
-    parser.add_argument("--runs", type=int, default=2, help="searches per stage with different"
+    parser.add_argument("--optimiser", default="least_squares", choices=OPTIMISERS, help="search method")
+    parser.add_argument("--runs", type=whole(1), default=2, help="searches per stage with different"
                         " random numbers, if not least_squares; the best one counts")
-    parser.add_argument("--share", type=float, default=1.0,
+    parser.add_argument("--share", type=fraction, default=1.0,
                         help="share of the thesis's generations, if not least_squares")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads")
+    parser.add_argument("--jobs", type=whole(1), default=os.cpu_count(), help="threads")
     parser.add_argument("--thorough", action="store_true", help="reports also hold the errors of the parameters")
     parser.add_argument("--adopt", action="store_true", help=f"take the results in {PUBLISHED} as done")
     parser.add_argument("--out", default=OUT, help=f"folder of the results; if not {OUT}, {DOCUMENT} stays as it is")

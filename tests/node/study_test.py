@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """The studies with stand-ins for their programs: what they run, in which order, how they continue, what they write."""
+import contextlib
+import io
 import json
 import os
 import re
@@ -133,6 +135,57 @@ class CalibrationStudy(Study):
         with self.assertRaises(SystemExit) as ended:
             self.study('--adopt')
         self.assertEqual(ended.exception.code, 2)
+
+    def results(self):
+        with open('docs/studies/calibration.json') as file:
+            return json.load(file)
+
+    def test_every_result_tells_of_its_own_search(self):
+        with mock.patch.object(calibration, 'machine', lambda: 'slow one'):
+            self.study('--robots', '1', '2', '--models', 'I', 'II')
+        self.assertIn('- Jacobians per search, at most: 8', self.told())
+        with mock.patch.object(calibration, 'machine', lambda: 'fast one'):
+            self.study('--robots', '1', '--models', 'I', '--optimiser', 'cmaes', '--runs', '2', '--share', '0.5')
+        robots = self.results()
+        by_cmaes, others = robots['1']['I'], [robots['1']['II'], robots['2']['I'], robots['2']['II']]
+        for stage in calibration.STAGES:
+            told = [by_cmaes[stage][key] for key in ('optimiser', 'searches', 'machine')]
+            self.assertEqual(told, ["cmaes (0.5 of the thesis's generations)", 2, 'fast one'])
+            for other in others:
+                told = [other[stage][key] for key in ('optimiser', 'searches', 'machine')]
+                self.assertEqual(told, ['least_squares', 1, 'slow one'])
+        self.assertIn("- optimiser: cmaes (0.5 of the thesis's generations), least_squares", self.told())
+        with open('out/calibration.json') as file:
+            self.assertEqual(list(json.load(file)['table'][0]['robots']), ['1', '2'])
+
+    def test_jacobians_are_those_of_least_squares(self):
+        self.study('--robots', '1', '--models', 'I', '--optimiser', 'cmaes', '--runs', '1')
+        self.assertNotIn('Jacobians', self.told())
+
+    def test_another_virtual_robot_is_recorded_again(self):
+        self.study('--robots', '1', '--models', 'I')
+        with open('out/calibration/robot_1/data/old', 'w'):
+            pass
+        self.program('recorder', RECORDER + '# another one\n')
+        self.study('--robots', '1', '--models', 'I')
+        self.assertFalse(os.path.exists('out/calibration/robot_1/data/old'))
+        self.assertEqual(self.calls(), 2 * (2 + 2 * 4))
+
+    def test_what_cannot_be_simulated_to_its_end_is_left_out(self):
+        null = 'errors=\'{"mean": {"before": null, "after": null}}\'\n'
+        self.program('calibrate', re.sub('errors=.*\n', lambda _: null, CALIBRATE))
+        self.study('--robots', '1', '--models', 'I')
+        self.assertEqual(self.results(), {})
+
+    def test_bad_input(self):
+        for arguments in (['--runs', '0'], ['--optimiser', 'foo'], ['--share', '-1'], ['--share', 'nan'],
+                          ['--share', '2'], ['--robots', '-1'], ['--robots', 'x'], ['--jobs', '0'], ['--models', 'IV']):
+            errors = io.StringIO()
+            with self.assertRaises(SystemExit) as ended, contextlib.redirect_stderr(errors):
+                self.study(*arguments)
+            self.assertEqual(ended.exception.code, 2, arguments)
+            self.assertEqual(errors.getvalue().count('\n'), 1, errors.getvalue())
+        self.assertFalse(os.path.exists('calls'))
 
 
 class DiscoveryStudy(Study):

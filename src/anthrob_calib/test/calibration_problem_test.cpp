@@ -2,19 +2,28 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numeric>
+#include <random>
 
+#include "anthrob_calib/calibration/calibrate.h"
+#include "anthrob_calib/calibration/difference_stack.h"
 #include "anthrob_calib/calibration/extended_model.h"
 #include "anthrob_calib/calibration/identifiability.h"
 #include "anthrob_calib/calibration/problem.h"
+#include "anthrob_calib/optimiser/journal.h"
 #include "anthrob_calib/optimiser/optimiser.h"
 #include "anthrob_calib/optimiser/problem_evaluator.h"
 #include "anthrob_calib/report/calibration_report.h"
 #include "anthrob_ecu/state_machine.h"
+#include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/unanswered.h"
 #include "two_muscle_rig.h"
 
@@ -42,10 +51,18 @@ std::vector<MeasuredRun> runs_of(const std::shared_ptr<const RobotModel>& truth,
   return runs;
 }
 
-Problem problem_of(std::vector<MeasuredRun> runs, const std::string& parameters = kParameters) {
+Problem problem_of(std::vector<MeasuredRun> runs, const std::string& parameters = kParameters,
+                   const Weights& weights = {}, const SimulationOptions& options = {}) {
   const ConfigNode model = ConfigNode::load(kModelFile);
   ParameterSpace space(ConfigNode::parse(parameters, "c.yaml"), model);
-  return {model, space, std::move(runs), {}, {}};
+  return {model, space, std::move(runs), weights, options};
+}
+
+/// Rest and motion as long as the robot's: differences are noise only.
+SimulationOptions as_recorded() {
+  SimulationOptions options;
+  options.settle = options.motion = 5.0;
+  return options;
 }
 
 TEST(RunDifferences, AreMeansOfSquares) {
@@ -110,6 +127,62 @@ TEST(Chains, APairBeginsWithTheRunThatComesFirst) {
   ASSERT_EQ(chains.size(), 1u);
   EXPECT_EQ(chains[0].runs, (std::vector<int>{0, 1}));
   EXPECT_TRUE(chains[0].from_home);
+}
+
+TEST(Chains, DoNotDependOnTheOrderOfTheRuns) {
+  const auto run = [](double from, double to) {
+    MeasuredRun result;
+    result.start = {from}, result.commands = {{0.0, {to}}};
+    return result;
+  };
+  using Ways = std::vector<std::pair<double, double>>;
+  std::vector<MeasuredRun> runs = {run(0, 1), run(1, 2), run(2, 3), run(0, 4),
+                                   run(4, 0), run(0, 5), run(7, 8), run(8, 9)};
+  const std::vector<Ways> expected = {
+      {{0, 1}, {1, 2}, {2, 3}}, {{0, 4}, {4, 0}}, {{0, 5}}, {{7, 8}, {8, 9}}};
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<Ways> found;
+    for (const Chain& chain : chains_of(runs)) {
+      found.emplace_back();
+      for (const int r : chain.runs) {
+        found.back().emplace_back(runs[r].start[0], runs[r].commands.back().reference[0]);
+      }
+      EXPECT_EQ(chain.from_home, found.back().front().first == 0.0);
+    }
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found, expected) << trial;
+    std::shuffle(runs.begin(), runs.end(), random);
+  }
+}
+
+TEST(Chains, OnesThatGoInCirclesBeginSomewhere) {
+  MeasuredRun home, out, back;
+  home.start = {0.0}, home.commands = {{0.0, {5.0}}};
+  out.start = {1.0}, out.commands = {{0.0, {2.0}}};
+  back.start = {2.0}, back.commands = {{0.0, {1.0}}};
+  const auto chains = chains_of({home, out, back});
+  ASSERT_EQ(chains.size(), 2u);
+  EXPECT_EQ(chains[1].runs, (std::vector<int>{1, 2}));
+  EXPECT_FALSE(chains[1].from_home);
+}
+
+TEST(SimulateRuns, StopWhereTheyAreAsked) {
+  const std::vector<MeasuredRun> runs = runs_of(rig(), "trajectory");
+  SimulationOptions options;
+  options.settle = options.motion = 5.0;
+  std::atomic<int> asked{0};
+  simulate_runs(rig(), runs, options, [&] {
+    ++asked;
+    return false;
+  });
+  const int all = asked;
+  EXPECT_GT(all, static_cast<int>(runs.size()));  // at rest and in each run
+  for (const int last : {1, all}) {
+    asked = 0;
+    EXPECT_THROW(simulate_runs(rig(), runs, options, [&] { return ++asked >= last; }), Interrupted);
+    EXPECT_LE(asked, all);
+  }
 }
 
 TEST(SimulateRuns, EachRestsAsLongAsItsRobotDid) {
@@ -180,6 +253,48 @@ shares: [{path: joints.hinge.friction.kinetic, of: joints.hinge.friction.static,
   const auto overrides = space.overrides({0.04, 0.5});
   EXPECT_DOUBLE_EQ(overrides.at("joints.hinge.friction.static"), 0.04);
   EXPECT_DOUBLE_EQ(overrides.at("joints.hinge.friction.kinetic"), 0.02);
+}
+
+TEST(ParameterSpace, NothingIsAShareOfAShare) {
+  const auto error_of = [](const std::string& shares) -> std::string {
+    const std::string text = R"(
+parameters: [{path: joints.hinge.friction.viscous, unit: Nms, low: 0.0, high: 0.2, step: 0.01}]
+shares:
+)" + shares;
+    try {
+      ParameterSpace(ConfigNode::parse(text, "c.yaml"), ConfigNode::load(kModelFile));
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string numbers = ", low: 0.0, high: 100.0, step: 0.1}\n";
+  const std::string kinetic =
+      "  - {path: joints.hinge.friction.kinetic, of: joints.hinge.friction.viscous" + numbers;
+  const std::string of_kinetic =
+      "  - {path: joints.hinge.friction.static, of: joints.hinge.friction.kinetic" + numbers;
+  const std::string of_itself =
+      "  - {path: joints.hinge.friction.static, of: joints.hinge.friction.static" + numbers;
+  EXPECT_EQ(error_of(kinetic), "");
+  EXPECT_EQ(error_of(of_kinetic + kinetic),
+            "c.yaml:4: shares.0.of: joints.hinge.friction.kinetic: expected the path of a number "
+            "that is not a share itself");
+  EXPECT_NE(error_of(kinetic + of_kinetic).find("shares.1.of: "), std::string::npos);
+  EXPECT_NE(error_of(of_itself).find("shares.0.of: "), std::string::npos);
+}
+
+TEST(ParameterSpace, AnEntryThatNoListHasIsSaid) {
+  const ConfigNode model = ConfigNode::load(kModelFile);
+  for (const char* entry : {"99", "99999999999999999999999", "-1", "x", "1x"}) {
+    try {
+      number_at(model, std::string("muscles.flexor.path.") + entry + ".point.0");
+      ADD_FAILURE() << entry;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("has no entry ") + entry),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(ParameterSpace, SharesHaveNoOtherKeys) {
@@ -256,6 +371,114 @@ TEST(Calibration, LeastSquaresFindsForgottenParameters) {
   }
 }
 
+TEST(DifferenceStack, ListsWhatTheFitMinimises) {
+  Weights uneven;
+  uneven.before = 2.0, uneven.path = 0.5, uneven.after = 0.0;
+  for (const Weights& weights : {Weights{}, uneven}) {
+    for (const char* kind : {"equilibrium", "trajectory"}) {
+      const Problem problem = problem_of(runs_of(rig(), kind, 1.0), kParameters, weights);
+      Point point = problem.space().initial();
+      point[0] += 0.001;
+      DifferenceStack stack(problem, [] {});
+      const std::vector<double> list = stack.describe(point);
+      EXPECT_EQ(list, problem.residuals(point)) << kind;
+      EXPECT_EQ(stack.residuals({point}).front(), list) << kind;
+      EXPECT_NEAR(std::inner_product(list.begin(), list.end(), list.begin(), 0.0),
+                  problem.fitness(point), 1e-12);
+      ASSERT_EQ(stack.rows.size(), list.size());
+      for (const DifferenceStack::Row& row : stack.rows) {
+        EXPECT_GE(row.instant, 0);
+        EXPECT_LT(row.instant, stack.instants);
+      }
+    }
+  }
+}
+
+/// Rows of the means, those before the runs and those after.
+std::vector<DifferenceStack::Row> means_of(const Problem& problem, const Point& point) {
+  DifferenceStack stack(problem, [] {});
+  stack.describe(point);
+  std::vector<DifferenceStack::Row> means;
+  for (const DifferenceStack::Row& row : stack.rows) {
+    if (!row.is_typical) means.push_back(row);
+  }
+  return means;
+}
+
+TEST(DifferenceStack, MeansHaveLessOfTheNoiseThatChanges) {
+  const Problem problem =
+      problem_of(runs_of(rig(), "trajectory", 1.0), kParameters, {}, as_recorded());
+  const auto means = means_of(problem, problem.space().initial());
+  ASSERT_EQ(means.size(), 5u * 2u * 3u);  // before and after: one joint, two muscles
+  for (const DifferenceStack::Row& row : means) {
+    // Of 21 measurements, without a memory.
+    EXPECT_GT(row.deviation, 0.9 / std::sqrt(21.0));
+    EXPECT_LT(row.deviation, 0.5);
+    EXPECT_EQ(row.repetition, 1.0);
+    EXPECT_FALSE(row.related.empty());
+    for (const auto& [other, covariance] : row.related) {
+      EXPECT_GT(covariance, 0.0);
+      EXPECT_LE(covariance, 1.0);
+    }
+  }
+}
+
+TEST(DifferenceStack, NoiseDoesNotHideHowLongErrorsLast) {
+  const Problem problem =
+      problem_of(runs_of(rig(), "trajectory", 1.0), kParameters, {}, as_recorded());
+  const auto repetition_at = [&](double shift) {
+    Point point = problem.space().initial();
+    point[0] += shift;
+    DifferenceStack stack(problem, [] {});
+    stack.describe(point);
+    return stack.repetition;
+  };
+  for (const double noise_only : repetition_at(0.0)) EXPECT_LT(noise_only, 2.0);
+  // An error of the angle about as large as its noise, which stays for all of the path.
+  EXPECT_GT(repetition_at(0.0005)[DifferenceStack::kPosture], 20.0);
+}
+
+TEST(DifferenceStack, MeansKeepErrorsThatStay) {
+  const Problem problem = problem_of(runs_of(rig(), "trajectory"));
+  Point point = problem.space().initial();
+  point[0] += 0.003;
+  for (const DifferenceStack::Row& row : means_of(problem, point)) {
+    EXPECT_GT(row.deviation, 0.7);
+    EXPECT_GT(row.related.size(), 20u);
+  }
+}
+
+TEST(DifferenceStack, MeansAreTheNoiseWhereNoPathIsFitted) {
+  Weights ends;
+  ends.path = 0.0;
+  const Problem problem = problem_of(runs_of(rig(), "trajectory", 1.0), kParameters, ends);
+  DifferenceStack stack(problem, [] {});
+  stack.describe(problem.space().initial());
+  int typical = 0;
+  for (const DifferenceStack::Row& row : stack.rows) {
+    EXPECT_EQ(row.is_typical, row.weight > 0.0);
+    EXPECT_EQ(row.deviation, 1.0);
+    typical += row.is_typical ? 1 : 0;
+  }
+  EXPECT_EQ(typical, 5 * 2 * 3);
+}
+
+TEST(Identifiability, OnePostureDoesNotTellFourParameters) {
+  // All trajectories begin at the same place, and only that is fitted.
+  Weights weights;
+  weights.path = weights.after = 0.0;
+  const Problem problem = problem_of(runs_of(rig(), "trajectory", 1.0), kParameters, weights);
+  const Identifiability known = examine(problem, problem.space().initial(), 0);
+  EXPECT_FALSE(known.parameters[2].identifiable);
+  EXPECT_FALSE(known.parameters[3].identifiable);
+  for (const ParameterKnowledge& p : known.parameters) EXPECT_LE(p.sigma, 1.1 * p.prior_sigma);
+  // The paths tell them all.
+  const Problem whole = problem_of(runs_of(rig(), "trajectory", 1.0));
+  for (const ParameterKnowledge& p : examine(whole, whole.space().initial(), 0).parameters) {
+    EXPECT_TRUE(p.identifiable);
+  }
+}
+
 TEST(Identifiability, TellsWhatEquilibriaCannot) {
   // The inductance of a motor moves no equilibrium.
   const Problem problem =
@@ -318,6 +541,89 @@ parameters:
   EXPECT_LT(profile.fitness.back(), 1.2 * problem.fitness(point));  // longer: as good
 }
 
+/// What follows a search, with a stop that fails as a simulation does.
+class Conclusion : public testing::Test {
+ protected:
+  Conclusion()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("conclusion_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+    LoadOptions truth;
+    truth.overrides = {{"muscles.flexor.rest_tendon_length", kTruth}};
+    record_simulation(load_robot_model(kModelFile, truth), plan(2.0, 0.0, "trajectory"))
+        .save((folder_ / "data/T1").string());
+    std::ofstream((folder_ / "c.yaml").string())
+        << "model: " << kModelFile << "\nrecordings: trajectories\n"
+        << "simulate: {settle: 0.5, motion: 0.5}\n"
+        << "optimiser: {method: evolution_strategy, parents: 2, offspring: 8, generations: 5, "
+           "seed: 3}\n"
+        << "parameters:\n  - {path: muscles.flexor.rest_tendon_length, unit: m, range: 0.006, "
+           "step: 0.001}\n";
+  }
+  ~Conclusion() override { std::filesystem::remove_all(folder_); }
+
+  /// @param found whether the search has found the truth
+  CalibrationOutcome conclude_after(bool found, const Stop& stop) const {
+    const auto input =
+        CalibrationInput::read(CalibrationConfig::load((folder_ / "c.yaml").string()),
+                               (folder_ / "data").string(), "", {});
+    const Problem problem = input.problem();
+    ProblemEvaluator evaluator(problem);
+    Journal journal(evaluator, Journal::Options());
+    if (found) journal.fitness(std::vector<Point>{Point{kTruth}});
+    return conclude(input, problem, journal, "", false, stop);
+  }
+
+  static constexpr double kTruth = 0.3625;
+  std::filesystem::path folder_;
+};
+
+TEST_F(Conclusion, OneModelThatCannotBeSimulatedTakesNothingFromTheOther) {
+  int asked = 0;
+  const CalibrationOutcome outcome = conclude_after(true, [&] {
+    if (++asked == 1) throw NumericalFailure(1.0, "body x", "not finite");
+    return false;
+  });
+  EXPECT_LT(outcome.fitness, outcome.fitness_before);
+  EXPECT_TRUE(outcome.calibration.before.empty());
+  ASSERT_EQ(outcome.calibration.runs.size(), 1u);
+  ASSERT_EQ(outcome.calibration.after.size(), 1u);
+  EXPECT_LT(outcome.calibration.after[0].path.posture.norm(), 0.1);
+  EXPECT_NE(outcome.doubt.find("body x"), std::string::npos) << outcome.doubt;
+}
+
+TEST_F(Conclusion, WhatFailsTwiceIsSaidOnce) {
+  const CalibrationOutcome outcome =
+      conclude_after(true, []() -> bool { throw NumericalFailure(1.0, "body x", "not finite"); });
+  EXPECT_TRUE(outcome.calibration.runs.empty());
+  const std::size_t first = outcome.doubt.find("body x");
+  ASSERT_NE(first, std::string::npos) << outcome.doubt;
+  EXPECT_EQ(outcome.doubt.find("body x", first + 1), std::string::npos) << outcome.doubt;
+}
+
+TEST_F(Conclusion, TheSameModelIsSimulatedOnce) {
+  int once = 0, twice = 0;
+  const CalibrationOutcome same = conclude_after(false, [&] { return ++once < 0; });
+  const CalibrationOutcome other = conclude_after(true, [&] { return ++twice < 0; });
+  EXPECT_GT(once, 0);
+  EXPECT_EQ(twice, 2 * once);
+  ASSERT_EQ(same.calibration.after.size(), 1u);
+  EXPECT_EQ(same.calibration.after[0].path.posture, same.calibration.before[0].path.posture);
+  EXPECT_FALSE(other.interrupted);
+}
+
+TEST_F(Conclusion, KeepsWhatItHasWhenItIsInterrupted) {
+  int asked = 0, all = 0;
+  conclude_after(true, [&] { return ++all < 0; });
+  const CalibrationOutcome outcome = conclude_after(true, [&] { return ++asked >= all; });
+  EXPECT_TRUE(outcome.interrupted);
+  EXPECT_EQ(outcome.calibration.before.size(), 1u);
+  EXPECT_TRUE(outcome.calibration.after.empty());
+  EXPECT_NE(outcome.doubt.find("interrupted before the errors on all recordings"),
+            std::string::npos)
+      << outcome.doubt;
+}
+
 TEST(CalibrationReport, TellsRecordingsThatCannotBeSimulatedFromNone) {
   CalibrationOutcome outcome;
   EXPECT_NE(report_html(outcome).find("None were given (--validation)"), std::string::npos);
@@ -328,6 +634,41 @@ TEST(CalibrationReport, TellsRecordingsThatCannotBeSimulatedFromNone) {
   EXPECT_NE(page.find("could not be simulated"), std::string::npos);
 }
 
+TEST(CalibrationReport, HasTheErrorsOfParametersWhereNoRecordingCouldBeReplayed) {
+  CalibrationOutcome outcome;
+  outcome.parameters.resize(1);
+  outcome.parameters[0].path = "joints.elbow.friction.viscous";
+  outcome.parameters[0].upper = 1.0;
+  outcome.best = {0.5};
+  outcome.identifiability.parameters = {{0.01, 0.3, 10.0, true}};
+  outcome.identifiability.singular_values = Eigen::VectorXd::Ones(1);
+  outcome.identifiability.flattest = {1.0};
+  EXPECT_NE(report_html(outcome).find("1 of 1 parameters are identifiable"), std::string::npos);
+}
+
+TEST(CalibrationReport, HasWhatOneOfTheModelsDoes) {
+  CalibrationOutcome outcome;
+  outcome.model = rig();
+  outcome.held_out = true;
+  outcome.validation.runs = runs_of(rig(), "trajectory");
+  outcome.validation.after = simulate_runs(rig(), outcome.validation.runs, {});
+  outcome.calibration.runs = outcome.validation.runs;
+  outcome.calibration.before = outcome.validation.after;
+  const std::string page = report_html(outcome);
+  EXPECT_NE(page.find("On held-out recordings"), std::string::npos);
+  EXPECT_NE(page.find("(before: not simulated)"), std::string::npos);
+  EXPECT_NE(summary(outcome).find("force not simulated -> "), std::string::npos);
+  EXPECT_NE(summary(outcome).find("-> not simulated N"), std::string::npos);
+  const auto json = nlohmann::json::parse(result_json(outcome));
+  for (const auto& [part, missing, present] : {std::array{"validation", "before", "after"},
+                                               std::array{"calibration", "after", "before"}}) {
+    EXPECT_TRUE(json[part]["mean"][missing].is_null()) << part;
+    EXPECT_TRUE(json[part]["mean"][present]["force_N"].is_number()) << part;
+    EXPECT_TRUE(json[part]["runs"][0][missing].is_null()) << part;
+    EXPECT_TRUE(json[part]["runs"][0][present].is_object()) << part;
+  }
+}
+
 TEST(CalibrationReport, NamesWhatChangesNothingAlsoInBrief) {
   CalibrationOutcome outcome;
   outcome.parameters.resize(2);
@@ -335,10 +676,10 @@ TEST(CalibrationReport, NamesWhatChangesNothingAlsoInBrief) {
   outcome.parameters[1].path = "joints.elbow.friction.coulomb";
   outcome.best = {0.5, 0.5};
   for (ModelParameter& p : outcome.parameters) p.upper = 1.0;
-  EXPECT_TRUE(untold(outcome).empty());  // by a search without derivatives
+  EXPECT_TRUE(insensitive_parameters(outcome).empty());  // by a search without derivatives
   EXPECT_EQ(report_html(outcome).find("<b>no</b>"), std::string::npos);
   outcome.sensitivity = {3.0, 1e-9};
-  EXPECT_EQ(untold(outcome), std::vector<std::string>{"elbow.friction.coulomb"});
+  EXPECT_EQ(insensitive_parameters(outcome), std::vector<std::string>{"elbow.friction.coulomb"});
   const std::string page = report_html(outcome);
   const std::size_t name = page.find("elbow.friction.coulomb"), no = page.find("<b>no</b>");
   ASSERT_NE(name, std::string::npos);

@@ -59,16 +59,16 @@ struct TwoNamed {
   explicit TwoNamed(const OffsetForces::Offsets& truth)
       : problem({}, std::make_shared<OffsetForces>(truth, 1),
                 std::make_shared<OffsetForces>(truth, 2), {kLaw}),
-        with(problem.bench.tested(problem.train.start({}, {}))),
+        with(problem.context.tested(problem.train.start({}, {}))),
         whole(all_of(problem)),
         screening(problem.train, with.fit, problem.candidates, whole, whole),
-        common(problem.bench, screening) {
+        common(problem.context, screening) {
     for (std::size_t e = 0; e < 2; ++e) {
       Score score;
       score.candidate = problem.index(kMuscles[e], kLaw);
       score.gain = 1.0;
       score.amount = {1.0, 0.0};
-      with = problem.naming.weigh(with, {score}).named.at(0);
+      with = problem.comparison.weigh(with, {score}).entries.at(0);
       parts.push_back({e, score.candidate});
     }
   }

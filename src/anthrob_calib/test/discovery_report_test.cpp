@@ -13,7 +13,10 @@
 
 #include "anthrob_calib/discovery/evaluator.h"
 #include "anthrob_calib/discovery/examples.h"
+#include "anthrob_calib/discovery/model_text.h"
+#include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/discovery/progress.h"
+#include "anthrob_calib/report/discovery_summary.h"
 #include "anthrob_sim/model/robot_model.h"
 
 namespace anthrob {

@@ -111,6 +111,12 @@ TEST(CapstanFit, OneLoadCannotTellTheOffset) {
   EXPECT_NEAR(one_way.both.value, kPulling, 1e-9);
 }
 
+TEST(CapstanFit, RefusesFrictionThatPullsAlong) {
+  auto points = exact_points({20.0, 40.0, 60.0}, 0.0);
+  for (SlidingPoint& point : points) point.pulling = !point.pulling;
+  EXPECT_THROW(fit_capstan(points, 0.0), BadInput);
+}
+
 TEST(CapstanFit, ErrorOfTheAngleWidensTheInterval) {
   const CapstanFit fit = fit_capstan(exact_points({20.0, 40.0, 60.0}, 0.0), 0.03);
   EXPECT_NEAR(fit.pulling->sigma, kPulling * 0.03 / 1.5, 1e-6);
@@ -166,6 +172,22 @@ TEST(SeriesResistanceFit, ExactPointsGiveTheExactResistance) {
   const SeriesResistanceFit single = fit_series_resistance({recordings[0]});
   EXPECT_FALSE(single.gain);
   EXPECT_NEAR(single.resistance.value, 0.12 - 0.02 * 0.3, 1e-9);
+}
+
+TEST(SeriesResistanceFit, RefusesAResistanceThatIsNotPositive) {
+  LoadRecording recording;
+  recording.name = "rec";
+  recording.load_resistance = 0.3;
+  for (double v = -6.0; v <= 6.0; v += 3.0) {
+    recording.points.push_back({v, v + 0.1 * v / 0.42, v / 0.42});  // more than it was asked for
+  }
+  try {
+    fit_series_resistance({recording});
+    ADD_FAILURE() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(std::string(error.what()).find("rec: oscilloscope/current: R_ECU would be -0.1"), 0u)
+        << error.what();
+  }
 }
 
 }  // namespace

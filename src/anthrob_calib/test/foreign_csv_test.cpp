@@ -200,6 +200,20 @@ TEST_F(ForeignCsv, WhatIsWrongIsSaidInOneLine) {
   EXPECT_NE(error("robot: r\nrate: 1\ncolumns: [{from: u, to: axis/warmth}]\n", "u\n1\n2\n")
                 .find("axis/warmth: expected"),
             std::string::npos);
+  for (const char* table : {"../evil", "sub/x", "muscles.csv", "' '", "a b"}) {
+    const std::string map = std::string(", table: ") + table + "}]\n";
+    const std::string expected = "expected a name of letters, digits, _ and -";
+    EXPECT_NE(error("robot: r\nrate: 1\ncolumns: [{from: u, to: axis/position" + map, "u\n1\n2\n")
+                  .find(expected),
+              std::string::npos)
+        << table;
+    EXPECT_NE(
+        error("robot: r\nrate: 1\ncolumns: [{to: hip, rotation_vector: {from: [u, u, u]}" + map,
+              "u\n1\n2\n")
+            .find(expected),
+        std::string::npos)
+        << table;
+  }
   EXPECT_NE(error("robot: r\nrate: 1\ncolums: []\n", "u\n1\n").find("columns"), std::string::npos);
 }
 

@@ -22,12 +22,12 @@ const std::vector<Candidate>& candidates() {
 /// Dry friction, with what says more and others as rivals.
 FoundEffect friction() {
   ShortList list;
-  list.named.resize(4);
+  list.entries.resize(4);
   const double probabilities[] = {0.6, 0.2, 0.1, 0.01};
   for (std::size_t i = 0; i < 4; ++i) {
-    list.named[i].candidate = i;
-    list.named[i].probability = probabilities[i];
-    list.named[i].evidence = 100.0 - static_cast<double>(i);
+    list.entries[i].candidate = i;
+    list.entries[i].probability = probabilities[i];
+    list.entries[i].evidence = 100.0 - static_cast<double>(i);
   }
   return found_effect(list, candidates());
 }

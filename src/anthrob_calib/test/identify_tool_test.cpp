@@ -78,8 +78,9 @@ class IdentifyTool : public testing::Test {
 
   /// A copy of a recording with one of its files changed.
   static std::string altered(const std::string& from, const std::string& file,
-                             const std::function<std::string(std::string)>& change) {
-    const std::string to = path("altered");
+                             const std::function<std::string(std::string)>& change,
+                             const std::string& name = "altered") {
+    const std::string to = path(name);
     fs::remove_all(to);
     fs::copy(path(from), to, fs::copy_options::recursive);
     const std::string changed = change(content(fs::path(to) / file));
@@ -126,6 +127,33 @@ std::string with_cell(const std::string& text, int row, int column, const std::s
       line.replace(begin, std::min(line.find(',', begin), line.size()) - begin, value);
     }
     out += line + "\n";
+  }
+  return out;
+}
+
+/// All values of a column with the other sign.
+std::string reversed(const std::string& text, const std::string& name) {
+  std::istringstream in(text);
+  std::string out, line;
+  std::ptrdiff_t column = -1;
+  while (std::getline(in, line)) {
+    std::vector<std::string> cells(1);
+    for (const char c : line) {
+      if (c == ',') {
+        cells.emplace_back();
+      } else {
+        cells.back() += c;
+      }
+    }
+    if (column < 0) {
+      column = std::find(cells.begin(), cells.end(), name) - cells.begin();
+      EXPECT_LT(column, static_cast<std::ptrdiff_t>(cells.size())) << name;
+    } else {
+      std::string& cell = cells.at(static_cast<std::size_t>(column));
+      cell = cell.rfind('-', 0) == 0 ? cell.substr(1) : "-" + cell;
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) out += (i > 0 ? "," : "") + cells[i];
+    out += "\n";
   }
   return out;
 }
@@ -205,6 +233,28 @@ TEST_F(IdentifyTool, RefusesNumbersThatAreNone) {
   expect_refused("eyelet", altered("eyelet_00", "rig.csv", bad(5, "inf")), "tendon/force: inf");
   expect_refused("eyelet", altered("eyelet_00", "rig.csv", bad(6, "99")), "weight/load: from");
   expect_refused("ecu", altered("ecu_1", "rig.csv", bad(3, "x")), "oscilloscope/voltage");
+}
+
+TEST_F(IdentifyTool, RefusesColumnsWithTheWrongSign) {
+  const auto reverse = [](const char* column) {
+    return [=](const std::string& text) { return reversed(text, column); };
+  };
+  const std::string hint = "reverse the sign of the column";
+  expect_refused("see", altered("ring_1", "muscles.csv", reverse("ring/force")), "ring/force: -");
+  expect_refused("see", altered("ring_1", "muscles.csv", reverse("ring/force")), hint);
+  expect_refused("eyelet", altered("eyelet_00", "rig.csv", reverse("tendon/force")),
+                 "tendon/force: mean of -");
+  std::string turned;  // pulled where it is relaxed
+  for (const char* name : {"eyelet_00", "eyelet_01", "eyelet_10", "eyelet_11"}) {
+    turned +=
+        " " + altered(name, "rig.csv", reverse("tendon/position"), std::string("turned_") + name);
+  }
+  expect_refused("eyelet", turned, "tendon/position: mu_k is -");
+  expect_refused("eyelet", turned, hint);
+  for (const char* column : {"oscilloscope/current", "oscilloscope/voltage"}) {
+    expect_refused("ecu", altered("ecu_1", "rig.csv", reverse(column)),
+                   std::string(column) + ": has the opposite sign of resistor/reference");
+  }
 }
 
 TEST_F(IdentifyTool, RefusesWrongOrder) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_calib/discovery/workbench.h"
+#include "anthrob_calib/discovery/search_context.h"
 #include "made_experiment.h"
 
 namespace anthrob {
@@ -26,9 +26,9 @@ struct MadeProblem {
         train_judge(train.experiments(), train.whitening(), {}),
         test_judge(test.experiments(), test.whitening(), {}),
         candidates(list_candidates(evaluator, effects)),
-        naming(train, test, train_judge, test_judge, candidates, 1),
-        settling(evaluator, train, train_judge),
-        bench{evaluator, train, test, candidates, naming, settling} {}
+        comparison(train, test, train_judge, test_judge, candidates, 1),
+        convergence(evaluator, train, train_judge),
+        context{evaluator, train, test, candidates, comparison, convergence} {}
 
   std::size_t index(const std::string& place, const std::string& id) const {
     for (std::size_t c = 0; c < candidates.size(); ++c) {
@@ -41,9 +41,9 @@ struct MadeProblem {
   ModelFit train, test;
   Judge train_judge, test_judge;
   std::vector<Candidate> candidates;
-  Naming naming;
-  Settling settling;
-  Workbench bench;
+  CandidateComparison comparison;
+  Convergence convergence;
+  SearchContext context;
 
  private:
   static Eigen::VectorXf ones(const Experiment& experiment) {

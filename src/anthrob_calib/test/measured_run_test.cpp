@@ -75,6 +75,7 @@ TEST(MeasuredRun, RefusesBadRecordingsWithOneLine) {
   });
   expect("no such quantity",
          [](Dataset& d) { d.tables[0].column("flexor/force").name = "biceps/force"; });
+  expect("meta.yaml: start.settle_s: ", [](Dataset& d) { d.meta.settle_s = 1e9; });
   expect("expected equilibrium or trajectory", [](Dataset& d) { d.meta.kind = "rig"; });
   expect("after its first command", [](Dataset& d) {
     Table& table = d.tables[0];
@@ -243,6 +244,22 @@ TEST(MeasuredRun, AnOrientationAndItsNegativeAreTheSame) {
   EXPECT_GT((a.path.q.row(0) - a.path.q.row(a.path.count() - 1)).norm(), 0.05);
   EXPECT_EQ(b.path.q, a.path.q);
   EXPECT_EQ(b.after.q, a.after.q);
+}
+
+TEST(MeasuredRun, KnowsOfHowManyMeasurementsItsMeansAre) {
+  Dataset data = record_simulation(rig(), plan(3.0, 0.0, "trajectory"));
+  const MeasuredRun run = read_run(data, rig());
+  for (const Samples* mean : {&run.before, &run.after}) {
+    EXPECT_NEAR(mean->posture_measurements, 21.0, 1.0);  // 0.1 s at 200 Hz
+    EXPECT_NEAR(mean->force_measurements, 21.0, 1.0);
+  }
+  EXPECT_EQ(run.path.force_measurements, 1.0);
+  // A camera of 40 Hz.
+  auto& present = data.tables[0].column("hinge/position").present;
+  for (std::size_t i = 0; i < present.size(); ++i) present[i] = i % 5 == 0 ? 1 : 0;
+  const MeasuredRun slow = read_run(data, rig());
+  EXPECT_NEAR(slow.after.posture_measurements, 4.0, 1.0);
+  EXPECT_NEAR(slow.after.force_measurements, 21.0, 1.0);
 }
 
 TEST(MeasuredRun, IsCalledAsItsFile) {

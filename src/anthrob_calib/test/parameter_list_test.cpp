@@ -65,6 +65,10 @@ TEST(ParameterList, RefusesWhatCannotBeMeant) {
           .find("calibration.yaml:1: 0.path: muscles.*.nothing: expected the path of a number"),
       std::string::npos)
       << error_of("- {path: muscles.*.nothing, unit: m, range: 1, step: 1}");
+  EXPECT_NE(error_of("- {path: muscles.flexor.path.-99999999999999999999999.point.0, unit: m, "
+                     "range: 1, step: 1}")
+                .find("expected the path of a number"),
+            std::string::npos);
   EXPECT_NE(error_of("- {path: joints.elbow.friction.viscous, unit: x, low: 1, high: 2, step: 1}")
                 .find("outside [low, high]"),
             std::string::npos);

@@ -182,9 +182,9 @@ TEST(Repeats, OfAnAxisAreLaidOverItsMotion) {
   // Bins are of whole steps: here of 0.03 s, not of 0.025.
   Question question = axis;
   question.repeats = {begun_earlier(again, 400000000)};
-  const Laboratory laboratory = prepare(Evaluator(axis.model_file, {}, 0.01, 1), question);
-  ASSERT_NEAR(laboratory.train[0]->bin(), 0.03, 1e-12);
-  EXPECT_NEAR(static_cast<double>(laboratory.lags.at(0)), 0.4 / 0.03, 1.5);
+  const PreparedRecordings recordings = prepare(Evaluator(axis.model_file, {}, 0.01, 1), question);
+  ASSERT_NEAR(recordings.train[0]->bin(), 0.03, 1e-12);
+  EXPECT_NEAR(static_cast<double>(recordings.lags.at(0)), 0.4 / 0.03, 1.5);
 }
 
 TEST(Repeats, MayLackAMessageAndNotBePlayedAtAnotherSpeed) {

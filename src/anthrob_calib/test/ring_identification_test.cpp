@@ -152,6 +152,28 @@ TEST(RingIdentification, ValidatesOnTheSecondSpecimen) {
   EXPECT_THROW(identify_rings(recordings), BadInput);
 }
 
+TEST(RingReport, NothingCanBePastedWhereNoModelFits) {
+  RingResult ring;
+  ring.ring = "10x5";
+  RingRecording recording = ideal_steps(RingTruth::load(kRig, "10x5", 2));
+  ring.recordings = {recording};
+  ring.models.resize(2);
+  ring.models[1].arms = 2;
+  for (RingModelResult& model : ring.models) model.failure = "does not converge";
+  EXPECT_FALSE(ring.has_fit());
+  const OutputFiles none = report_rings({ring});
+  EXPECT_EQ(none.count("springs.yaml"), 0u);
+  EXPECT_EQ(none.count("report.json"), 1u);
+  // Beside one that has a fit it is left out.
+  RingResult other = ring;
+  other.ring = "12x5";
+  other.models[0].fit = fit_viscoelastic(recording, 1);
+  EXPECT_TRUE(other.has_fit());
+  const std::string springs = report_rings({ring, other}).at("springs.yaml");
+  EXPECT_NE(springs.find("ring_12x5:"), std::string::npos) << springs;
+  EXPECT_EQ(springs.find("10x5:"), std::string::npos) << springs;
+}
+
 }  // namespace
 }  // namespace identification
 }  // namespace anthrob

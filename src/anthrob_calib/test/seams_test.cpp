@@ -52,9 +52,9 @@ SeamGap gap_of(const EffectInstance& effect, const std::string& muscle) {
   Question question;
   question.train = {arm.record({effect}, 1, 1)};
   question.test = {arm.record({effect}, 2, 2)};
-  const Laboratory laboratory = prepare(evaluator, question);
-  const Scales scales = measure_scales(evaluator, laboratory.train, {});
-  for (const SeamGap& gap : seam_gaps(evaluator, question, laboratory, scales, {})) {
+  const PreparedRecordings recordings = prepare(evaluator, question);
+  const Scales scales = measure_scales(evaluator, recordings.train, {});
+  for (const SeamGap& gap : seam_gaps(evaluator, question, recordings, scales, {})) {
     if (gap.place == muscle && gap.channel == "force") return gap;
   }
   return {};

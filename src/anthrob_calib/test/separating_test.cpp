@@ -6,8 +6,9 @@
 #include <set>
 
 #include "anthrob_calib/discovery/closed_loop.h"
+#include "anthrob_calib/discovery/separating_files.h"
 #include "anthrob_calib/discovery/simulated_recording.h"
-#include "anthrob_calib/report/discovery_report.h"
+#include "anthrob_calib/report/discovery_summary.h"
 #include "made_recording.h"
 
 namespace anthrob {

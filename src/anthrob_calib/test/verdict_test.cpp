@@ -29,9 +29,9 @@ Dependence dependence(const std::string& channel, const std::string& word, doubl
 
 TEST(Verdict, WithoutANameItIsTheGapThatDecides) {
   Answer clean, gap;
-  pronounce({{"elbow/position", 1.3}}, false, clean);
+  fill_in_verdict({{"elbow/position", 1.3}}, false, clean);
   EXPECT_EQ(clean.verdict, "no_missing_effect");
-  pronounce({{"elbow/position", 2.3}}, true, gap);
+  fill_in_verdict({{"elbow/position", 2.3}}, true, gap);
   EXPECT_EQ(gap.verdict, "unexplained");
 }
 
@@ -44,7 +44,7 @@ TEST(Verdict, ALawThatLeavesMuchOfWhatItWasToExplainIsLessLikely) {
   }
   answer.alternatives.emplace_back().probability = 0.5;  // against the two
   answer.alternatives[0].instead_of[0] = 1;
-  pronounce({{"elbow/position", 1.2}}, false, answer);
+  fill_in_verdict({{"elbow/position", 1.2}}, false, answer);
   EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9);
   EXPECT_DOUBLE_EQ(answer.effects[0].rivals[0].probability, 0.2);
   EXPECT_DOUBLE_EQ(answer.effects[1].probability, 0.45);
@@ -52,7 +52,7 @@ TEST(Verdict, ALawThatLeavesMuchOfWhatItWasToExplainIsLessLikely) {
   EXPECT_DOUBLE_EQ(answer.alternatives[0].probability, 0.5);
   Answer nothing = named(0.9, 0.0);
   nothing.effects[0].left = 1.0;
-  pronounce({{"elbow/position", 1.2}}, false, nothing);
+  fill_in_verdict({{"elbow/position", 1.2}}, false, nothing);
   EXPECT_LT(nothing.effects[0].probability, 0.05);
 }
 
@@ -60,7 +60,7 @@ TEST(Verdict, ALawThatEndsAtTheLimitOfItsShapeIsUnlikely) {
   Answer answer = named(0.9, 0.0);
   answer.effects[0].at_limit = "offset_u";
   answer.effects[0].left = 0.05;
-  pronounce({{"elbow/position", 1.2}}, false, answer);
+  fill_in_verdict({{"elbow/position", 1.2}}, false, answer);
   EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 * 0.05);
 }
 
@@ -69,7 +69,7 @@ TEST(Verdict, ALawThatSpoilsAChannelIsUnlikely) {
   answer.effects[0].spoils = "brachialis/position";
   answer.effects[0].left = 0.05;
   EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], false), 1.0 / 13.0);
-  pronounce({{"elbow/position", 1.2}}, false, answer);
+  fill_in_verdict({{"elbow/position", 1.2}}, false, answer);
   EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 / 13.0);
 }
 
@@ -99,7 +99,7 @@ TEST(LimitOf, IsAFittedShapeThatCouldHaveGoneEitherWay) {
 TEST(Verdict, NamesThatLeaveMostOfTheGapAreNoAnswer) {
   for (const double share : {0.44, 0.46}) {
     Answer answer = named(0.9, share);
-    pronounce({{"elbow/position", 2.0}}, true, answer);
+    fill_in_verdict({{"elbow/position", 2.0}}, true, answer);
     EXPECT_EQ(answer.verdict, share < 0.45 ? "effects_found" : "unexplained");
     // It may be right, and something else missing elsewhere.
     EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9);
@@ -108,7 +108,7 @@ TEST(Verdict, NamesThatLeaveMostOfTheGapAreNoAnswer) {
 
 TEST(Verdict, WhatChanceMayLeaveSpeaksAgainstNoName) {
   Answer answer = named(0.9, 0.75);
-  pronounce({{"elbow/position", 1.2}}, false, answer);
+  fill_in_verdict({{"elbow/position", 1.2}}, false, answer);
   EXPECT_EQ(answer.verdict, "effects_found");
   EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9);
   EXPECT_EQ(answer.remaining_description, "no certain gap");
@@ -118,11 +118,11 @@ TEST(Verdict, NamesWhatMostOfTheRestDependsOn) {
   Answer answer;
   answer.remaining = {dependence("elbow/position", "load", 0.9),
                       dependence("biceps_brachii/force", "sign of velocity", 0.5)};
-  pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
+  fill_in_verdict({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
   EXPECT_EQ(answer.remaining_description,
             "biceps_brachii/force depends on sign of velocity of elbow/position");
   answer.remaining = {dependence("biceps_brachii/force", "load", 0.04)};
-  pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
+  fill_in_verdict({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
   EXPECT_EQ(answer.remaining_description, "a gap that depends on none of the measured quantities");
 }
 
@@ -130,7 +130,7 @@ TEST(Verdict, AnOffsetDependsOnNothing) {
   Answer answer;
   answer.remaining = {dependence("elbow/position", "time", 0.06)};
   answer.remaining[0].constant = 0.7;
-  pronounce({{"elbow/position", 3.0}}, true, answer);
+  fill_in_verdict({{"elbow/position", 3.0}}, true, answer);
   EXPECT_EQ(answer.remaining_description, "elbow/position is off by a constant");
 }
 
@@ -139,11 +139,11 @@ TEST(Verdict, NothingIsToldOfChannelsThatAreNoHigherThanNoise) {
                                          dependence("biceps_brachii/force", "load", 0.5)};
   Answer answer;
   answer.remaining = found;
-  pronounce({{"elbow/position", 0.7}, {"biceps_brachii/force", 4.0}}, true, answer);
+  fill_in_verdict({{"elbow/position", 0.7}, {"biceps_brachii/force", 4.0}}, true, answer);
   ASSERT_EQ(answer.remaining.size(), 1u);
   EXPECT_EQ(answer.remaining[0].channel, "biceps_brachii/force");
   answer.remaining = found;
-  pronounce({{"elbow/position", 1.5}, {"biceps_brachii/force", 1.5}}, false, answer);
+  fill_in_verdict({{"elbow/position", 1.5}, {"biceps_brachii/force", 1.5}}, false, answer);
   EXPECT_TRUE(answer.remaining.empty());
 }
 

@@ -139,6 +139,25 @@ void say_remarks(const CLI::App& app, const CalibrationInput& input) {
   }
 }
 
+Journal::Options journal_options(const Arguments& arguments, const CalibrationInput& input) {
+  Journal::Options options;
+  if (!arguments.evaluate) options.file = (fs::path(arguments.out) / "journal.txt").string();
+  options.fingerprint = input.fingerprint();
+  options.resume = arguments.resume;
+  options.batch = input.config.optimiser.offspring;
+  options.stop = tool::interrupted;
+  options.program = program_of(arguments);
+  return options;
+}
+
+/// Parameters that the recordings do not determine, and errors that could not be computed.
+void say_doubts(const CalibrationOutcome& outcome) {
+  for (const std::string& name : insensitive_parameters(outcome)) {
+    std::cerr << "anthrob_calibrate: " << name << ": not identifiable from these recordings\n";
+  }
+  if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
+}
+
 int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession& session) {
   const CalibrationInput input = read_together(arguments, session);
   say_remarks(app, input);
@@ -153,13 +172,7 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   tool::Progress progress("calibrating");
   const double expected = settings.evaluations(problem.space().size());
 
-  Journal::Options options;
-  if (!arguments.evaluate) options.file = (fs::path(arguments.out) / "journal.txt").string();
-  options.fingerprint = input.fingerprint();
-  options.resume = arguments.resume;
-  options.batch = settings.offspring;
-  options.stop = tool::interrupted;
-  options.program = program_of(arguments);
+  Journal::Options options = journal_options(arguments, input);
   options.progress = [&](int done) { progress.update(std::min(1.0, done / expected)); };
   fs::create_directories(arguments.out);
   Journal journal(everywhere, options);
@@ -187,15 +200,13 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
     keep_model(arguments, input, problem, journal.best());
   }
   const bool thorough = complete && !arguments.evaluate && !arguments.brief;
-  CalibrationOutcome outcome =
-      conclude(input, problem, journal, reason, thorough, tool::interrupted);
+  // The errors of what an interrupted search has found are computed all the same.
+  const Stop stop = complete ? Stop(tool::interrupted) : Stop([] { return false; });
+  CalibrationOutcome outcome = conclude(input, problem, journal, reason, thorough, stop);
   outcome.sensitivity = found.sensitivity;
   write(arguments, input, outcome);
   std::cout << summary(outcome);
-  for (const std::string& name : untold(outcome)) {
-    std::cerr << "anthrob_calibrate: " << name << ": not identifiable from these recordings\n";
-  }
-  if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
+  say_doubts(outcome);
   if (complete && !arguments.evaluate && !std::isfinite(outcome.fitness)) {
     std::cerr << "anthrob_calibrate: " << input.config.model_file
               << ": no set of parameters could be simulated over the recordings; replay them with "
@@ -206,8 +217,13 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
     journal.forget_residuals();
     return tool::kDone;
   }
-  std::cerr << "anthrob_calibrate: interrupted; the best result so far is in " << arguments.out
-            << "; --resume continues the search\n";
+  if (arguments.evaluate) {
+    std::cerr << "anthrob_calibrate: interrupted; the errors that were computed are in "
+              << arguments.out << "\n";
+  } else {
+    std::cerr << "anthrob_calibrate: interrupted; the best result so far is in " << arguments.out
+              << "; --resume continues the search\n";
+  }
   return tool::kInterrupted;
 }
 

@@ -5,9 +5,12 @@
 #include <thread>
 
 #include "anthrob_calib/discovery/closed_loop.h"
+#include "anthrob_calib/discovery/model_text.h"
 #include "anthrob_calib/discovery/progress.h"
+#include "anthrob_calib/discovery/separating_files.h"
 #include "anthrob_calib/identification/output_files.h"
 #include "anthrob_calib/report/discovery_report.h"
+#include "anthrob_calib/report/discovery_summary.h"
 #include "anthrob_config/extended_files.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/unanswered.h"
@@ -38,26 +41,26 @@ std::vector<std::string> save_from(std::size_t first, const std::vector<Dataset>
   return names;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Finds the physical effects that a model of a recorded robot is missing.",
-               "anthrob_discover");
+struct Arguments {
   discovery::Question question;
-  std::vector<std::string> train, test, repeats;
+  std::vector<std::string> train, test, repeats;  ///< names of recordings
   std::string out, calibration, robot_file;
+};
+
+void add_options(CLI::App& app, Arguments& a) {
+  discovery::Question& question = a.question;
   question.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   app.add_option("--model", question.model_file, "model file to examine")->required();
-  app.add_option("--train", train, "recordings that are fitted: bags or dataset folders")
+  app.add_option("--train", a.train, "recordings that are fitted: bags or dataset folders")
       ->required();
-  app.add_option("--test", test,
+  app.add_option("--test", a.test,
                  "held-out recordings: they only judge and are never fitted; use other motions")
       ->required();
   app.add_option(
-      "--repeat", repeats,
+      "--repeat", a.repeats,
       "further runs of the commands of the first --train recording, to measure the noise "
       "(default: none; the noise is estimated as if it were white)");
-  app.add_option("--out", out, "folder for report.html, report.json and model.yaml")->required();
+  app.add_option("--out", a.out, "folder for report.html, report.json and model.yaml")->required();
   app.add_option(
          "--effects", question.effects,
          "search only for these effects: ID,ID (default: all; anthrob_effects lists the ids)")
@@ -72,95 +75,129 @@ int main(int argc, char** argv) {
                  "seed of the resampling, on which probabilities and intervals depend")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--calibration", calibration,
+  app.add_option("--calibration", a.calibration,
                  "file that lists the ordinary parameters, which are fitted all the time (default: "
                  "calibration.yaml beside the model or beside the one that it extends)");
   app.add_option("--dt", question.step, "step of the simulations [s]")->capture_default_str();
   app.add_option(
-         "--close-the-loop", robot_file,
+         "--close-the-loop", a.robot_file,
          "if the robot is itself a simulation: MODEL is the model file of that simulated robot; "
          "it is recorded to tell rivals apart, and the search is repeated")
       ->type_name("MODEL");
-  return tool::run(app, argc, argv, [&]() -> int {
-    const auto start = std::chrono::steady_clock::now();
-    std::vector<std::string> read = extended_files(question.model_file);
-    std::vector<std::string> written = {"model.yaml"};
-    if (!robot_file.empty()) {
-      for (const std::string& file : extended_files(robot_file)) read.push_back(file);
-      for (const auto* group : {&train, &test, &repeats}) {
-        for (const std::string& name : *group) {
-          read.push_back(std::filesystem::weakly_canonical(name + "/.").parent_path().string());
-        }
-      }
-      for (const std::string& name : discovery::loop_recordings()) written.push_back(name);
-    }
-    identification::require_kept(out, written, read);
-    identification::require_writable(out);
-    std::vector<std::string> remarks;
-    question.nuisances = ordinary_parameters(question.model_file, calibration, &remarks);
-    tool::say(app, remarks);
-    if (question.nuisances.empty()) {
-      std::cerr << question.model_file
-                << ": no ordinary parameters are fitted, because there is neither a "
-                   "calibration.yaml beside it nor --calibration; a wrong length or radius may be "
-                   "reported as an effect\n";
-    }
-    question.train = load_all(app, train);
-    question.test = load_all(app, test);
-    question.repeats = load_all(app, repeats);
-    tool::interrupted();
+}
 
-    std::unique_ptr<tool::Progress> bar;
-    discovery::Evaluator evaluator(question.model_file, question.nuisances, question.step,
-                                   question.jobs);
-    discovery::Journal& journal = evaluator.keep_journal(out + "/journal.bin");
-    if (journal.inherited() > 0) {
-      std::cerr << "continuing with " << journal.inherited()
-                << " simulations of an interrupted run\n";
-    } else if (journal.begun_anew()) {
-      std::cerr << out
-                << "/journal.bin: belongs to another model, --dt, --calibration or build of the "
-                << "program; it is discarded and everything is simulated again\n";
-    }
-    std::size_t simulated = 0;  // before this stage
-    evaluator.on_progress([&](const discovery::Batch& batch) {
-      const std::size_t now = evaluator.simulated() - simulated;
-      if (bar) bar->show(discovery::progress_text(bar->elapsed(), now, batch));
-      return !tool::interrupted();
-    });
-    question.progress = [&](const std::string& what) {
-      bar.reset();
-      std::cerr << what << "\n";
-      simulated = evaluator.simulated();
-      bar = std::make_unique<tool::Progress>("  running");
-      return !tool::interrupted();
-    };
-    question.comment = [](const std::string& line) { std::cerr << line << "\n"; };
-    try {
-      const discovery::Answer answer =
-          robot_file.empty()
-              ? discover(evaluator, question)
-              : discover_in_a_loop(evaluator, question, load_robot_model(robot_file));
-      bar.reset();
-      const std::chrono::duration<double> runtime = std::chrono::steady_clock::now() - start;
-      identification::OutputFiles files = separating_files(answer, *evaluator.model());
-      files["report.json"] = report_json(answer, question, runtime.count());
-      files["report.html"] = report_html(answer, question, runtime.count());
-      files["model.yaml"] = model_text(answer, evaluator, question, out);
-      identification::write_files(out, files);
-      discovery::remove_other_protocols(out, files);
-      std::vector<std::string> made = save_from(train.size(), question.train, out);
-      for (const std::string& name : save_from(test.size(), question.test, out)) {
-        made.push_back(name);
+/// Refuses an output folder in which what is written would overwrite what is read.
+void keep_inputs(const Arguments& a) {
+  std::vector<std::string> read = extended_files(a.question.model_file);
+  std::vector<std::string> written = {"model.yaml"};
+  if (!a.robot_file.empty()) {
+    for (const std::string& file : extended_files(a.robot_file)) read.push_back(file);
+    for (const auto* group : {&a.train, &a.test, &a.repeats}) {
+      for (const std::string& name : *group) {
+        read.push_back(std::filesystem::weakly_canonical(name + "/.").parent_path().string());
       }
-      if (!robot_file.empty()) discovery::remove_other_recordings(out, made);
-      journal.remove();
-      std::cout << summary(answer);
-      return tool::kDone;
-    } catch (const discovery::Interrupted&) {
-      bar.reset();
-      std::cerr << "anthrob_discover: interrupted; run the same command again to continue\n";
-      return tool::kInterrupted;
     }
+    for (const std::string& name : discovery::loop_recordings()) written.push_back(name);
+  }
+  identification::require_kept(a.out, written, read);
+  identification::require_writable(a.out);
+}
+
+void load_question(const CLI::App& app, Arguments& a) {
+  discovery::Question& question = a.question;
+  std::vector<std::string> remarks;
+  question.nuisances = ordinary_parameters(question.model_file, a.calibration, &remarks);
+  tool::say(app, remarks);
+  if (question.nuisances.empty()) {
+    std::cerr << question.model_file
+              << ": no ordinary parameters are fitted, because there is neither a "
+                 "calibration.yaml beside it nor --calibration; a wrong length or radius may be "
+                 "reported as an effect\n";
+  }
+  question.train = load_all(app, a.train);
+  question.test = load_all(app, a.test);
+  question.repeats = load_all(app, a.repeats);
+}
+
+void say_what_is_continued(const discovery::Journal& journal, const std::string& out) {
+  if (journal.inherited() > 0) {
+    std::cerr << "continuing with " << journal.inherited()
+              << " simulations of an interrupted run\n";
+  } else if (journal.begun_anew()) {
+    std::cerr << out
+              << "/journal.bin: belongs to another model, --dt, --calibration or build of the "
+              << "program; it is discarded and everything is simulated again\n";
+  }
+}
+
+/// The recordings of the question are saved, too, as far as the loop made them.
+/// @param runtime [s]
+void write_answer(const discovery::Answer& answer, const discovery::Evaluator& evaluator,
+                  const Arguments& a, double runtime) {
+  const discovery::Question& question = a.question;
+  identification::OutputFiles files = separating_files(answer, *evaluator.model());
+  files["report.json"] = report_json(answer, question, runtime);
+  files["report.html"] = report_html(answer, question, runtime);
+  files["model.yaml"] = model_text(answer, evaluator, question, a.out);
+  identification::write_files(a.out, files);
+  discovery::remove_other_protocols(a.out, files);
+  std::vector<std::string> made = save_from(a.train.size(), question.train, a.out);
+  for (const std::string& name : save_from(a.test.size(), question.test, a.out)) {
+    made.push_back(name);
+  }
+  if (!a.robot_file.empty()) discovery::remove_other_recordings(a.out, made);
+}
+
+int run(const CLI::App& app, Arguments& a) {
+  const auto start = std::chrono::steady_clock::now();
+  discovery::Question& question = a.question;
+  keep_inputs(a);
+  load_question(app, a);
+  tool::interrupted();
+
+  std::unique_ptr<tool::Progress> bar;
+  discovery::Evaluator evaluator(question.model_file, question.nuisances, question.step,
+                                 question.jobs);
+  discovery::Journal& journal = evaluator.keep_journal(a.out + "/journal.bin");
+  say_what_is_continued(journal, a.out);
+  std::size_t simulated = 0;  // before this stage
+  evaluator.on_progress([&](const discovery::Batch& batch) {
+    const std::size_t now = evaluator.simulated() - simulated;
+    if (bar) bar->show(discovery::progress_text(bar->elapsed(), now, batch));
+    return !tool::interrupted();
   });
+  question.progress = [&](const std::string& what) {
+    bar.reset();
+    std::cerr << what << "\n";
+    simulated = evaluator.simulated();
+    bar = std::make_unique<tool::Progress>("  running");
+    return !tool::interrupted();
+  };
+  question.comment = [](const std::string& line) { std::cerr << line << "\n"; };
+  try {
+    const discovery::Answer answer =
+        a.robot_file.empty()
+            ? discover(evaluator, question)
+            : discover_in_a_loop(evaluator, question, load_robot_model(a.robot_file));
+    bar.reset();
+    const std::chrono::duration<double> runtime = std::chrono::steady_clock::now() - start;
+    write_answer(answer, evaluator, a, runtime.count());
+    journal.remove();
+    std::cout << summary(answer);
+    return tool::kDone;
+  } catch (const discovery::Interrupted&) {
+    bar.reset();
+    std::cerr << "anthrob_discover: interrupted; run the same command again to continue\n";
+    return tool::kInterrupted;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Finds the physical effects that a model of a recorded robot is missing.",
+               "anthrob_discover");
+  Arguments arguments;
+  add_options(app, arguments);
+  return tool::run(app, argc, argv, [&] { return run(app, arguments); });
 }

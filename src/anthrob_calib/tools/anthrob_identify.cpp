@@ -36,6 +36,23 @@ std::vector<Recording> read_all(const std::vector<std::string>& paths) {
   return list;
 }
 
+/// Says which rings no model fits.
+int judge(const std::vector<RingResult>& rings) {
+  int status = tool::kDone;
+  for (const RingResult& ring : rings) {
+    if (ring.has_fit()) continue;
+    std::cerr << "anthrob_identify: " << ring.ring << ": no model fits; report.json says why\n";
+    status = tool::kFailed;
+  }
+  return status;
+}
+
+/// The others refuse what they cannot fit.
+template <class Result>
+int judge(const Result&) {
+  return tool::kDone;
+}
+
 /// Reads all input, and checks that the output can be written, before it computes anything.
 template <class Recording, class Identify, class Report, class Summary>
 int identify(const Arguments& arguments, Identify fit, Report report, Summary summary) {
@@ -44,7 +61,7 @@ int identify(const Arguments& arguments, Identify fit, Report report, Summary su
   const auto result = fit(std::move(recordings));
   write_files(arguments.out, report(result));
   std::cout << summary(result);
-  return tool::kDone;
+  return judge(result);
 }
 
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
@@ -17,7 +19,7 @@ namespace calibration {
 namespace {
 
 /// Version of the comparison, part of the fingerprint of a journal. Increase it with every change.
-constexpr int kComparison = 5;
+constexpr int kComparison = 6;
 
 void add(const std::vector<double>& values, resume::Fingerprint& fingerprint) {
   fingerprint.add(values.data(), values.size() * sizeof(double));
@@ -80,7 +82,9 @@ void require_same_place(const nlohmann::json& given, const std::string& path, do
 void take_over(const std::string& file, const ConfigNode& own, ConfigNode& model,
                std::map<std::string, double>& numbers) {
   std::ifstream in(file);
-  if (!in) throw BadInput(file + ": cannot be read; expected the result.json of a calibration");
+  if (!in || !std::filesystem::is_regular_file(file)) {
+    throw BadInput(file + ": cannot be read; expected the result.json of a calibration");
+  }
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (json.is_discarded() || !json.contains("overrides") || !json["overrides"].is_object()) {
     throw BadInput(file + ": not the result of a calibration; expected a map 'overrides'");
@@ -110,11 +114,11 @@ SimulationOptions as_recorded() {
 }
 
 DriveErrors errors_with(Drive drive, const char* name, const Problem& problem, const Point& best,
-                        const std::vector<MeasuredRun>& runs) {
+                        const std::vector<MeasuredRun>& runs, const Stop& stop) {
   SimulationOptions options = as_recorded();
   options.drive = drive;
   DriveErrors errors{name};
-  const auto all = simulate_runs(problem.build(best), runs, options);
+  const auto all = simulate_runs(problem.build(best), runs, options, stop);
   for (const RunDifferences& run : all) {
     errors.posture += run.shown().posture_square() / static_cast<double>(all.size());
     errors.force += run.shown().force_square() / static_cast<double>(all.size());
@@ -128,26 +132,19 @@ DriveErrors errors_with(Drive drive, const char* name, const Problem& problem, c
 }
 
 std::vector<DriveErrors> compare_drives(const Problem& problem, const Point& best,
-                                        const std::vector<MeasuredRun>& runs) {
+                                        const std::vector<MeasuredRun>& runs, const Stop& stop) {
   std::vector<DriveErrors> errors;
-  errors.push_back(errors_with(Drive::kReferences, "commanded references", problem, best, runs));
+  const auto add_drive = [&](Drive drive, const char* name) {
+    errors.push_back(errors_with(drive, name, problem, best, runs, stop));
+  };
+  add_drive(Drive::kReferences, "commanded references");
   const bool measured = std::all_of(runs.begin(), runs.end(), [](const MeasuredRun& run) {
     return run.is_trajectory && run.after.position.cols() > 0;
   });
   if (!measured) return errors;
-  errors.push_back(errors_with(Drive::kFinalPositions, "final actuator positions as references",
-                               problem, best, runs));
-  errors.push_back(errors_with(Drive::kSampledPositions, "every sampled actuator position", problem,
-                               best, runs));
+  add_drive(Drive::kFinalPositions, "final actuator positions as references");
+  add_drive(Drive::kSampledPositions, "every sampled actuator position");
   return errors;
-}
-
-BeforeAfter simulate_both(const Problem& problem, const Point& best,
-                          const std::vector<MeasuredRun>& runs) {
-  if (runs.empty()) return {};
-  const SimulationOptions options = as_recorded();
-  return {runs, simulate_runs(problem.build(problem.space().initial()), runs, options),
-          simulate_runs(problem.build(best), runs, options)};
 }
 
 }  // namespace
@@ -194,7 +191,7 @@ std::string CalibrationInput::fingerprint() const {
 
 CalibrationOutcome conclude(const CalibrationInput& input, const Problem& problem,
                             const Journal& journal, const std::string& reason, bool thorough,
-                            const std::function<bool()>& stop) {
+                            const Stop& stop) {
   CalibrationOutcome outcome;
   outcome.config_file = input.config.file;
   outcome.model_file = input.config.model_file;
@@ -225,27 +222,48 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   constexpr int kProfiles = 3;
   // A simulation may fail with the start values, over the full length, on other runs, or with other
   // inputs. That does not affect the result of the search.
+  std::set<std::string> failures;
+  const auto doubt = [&](const std::string& what) {
+    outcome.doubt += (outcome.doubt.empty() ? "" : "; ") + what;
+  };
   const auto attempt = [&](const auto& work) {
     try {
       work();
     } catch (const NumericalFailure& error) {
-      outcome.doubt += (outcome.doubt.empty() ? "some results could not be computed: " : "; ");
-      outcome.doubt += error.what();
+      const bool first = failures.empty();
+      if (!failures.insert(error.what()).second) return;
+      doubt((first ? "some results could not be computed: " : "") + std::string(error.what()));
+    }
+  };
+  const auto replay = [&](const std::vector<MeasuredRun>& runs, BeforeAfter& both) {
+    if (runs.empty()) return;
+    const auto simulate = [&](const Point& point, std::vector<RunDifferences>& differences) {
+      attempt([&] {
+        differences = simulate_runs(problem.build(point), runs, as_recorded(), stop);
+        both.runs = runs;
+      });
+    };
+    simulate(initial, both.before);
+    if (outcome.best == initial) {
+      both.after = both.before;
+    } else {
+      simulate(outcome.best, both.after);
     }
   };
   try {
-    attempt([&] { outcome.calibration = simulate_both(problem, outcome.best, problem.runs()); });
-    attempt([&] { outcome.validation = simulate_both(problem, outcome.best, input.validation); });
+    replay(problem.runs(), outcome.calibration);
+    replay(input.validation, outcome.validation);
     if (!thorough) return outcome;
     attempt([&] {
       outcome.identifiability = examine(problem, outcome.best, kProfiles, [&] {
         if (stop()) throw Interrupted();
       });
     });
-    attempt([&] { outcome.drives = compare_drives(problem, outcome.best, problem.runs()); });
+    attempt([&] { outcome.drives = compare_drives(problem, outcome.best, problem.runs(), stop); });
   } catch (const Interrupted&) {
     outcome.interrupted = true;
-    outcome.doubt = "interrupted before the errors of the parameters were computed";
+    doubt(thorough ? "interrupted before the errors of the parameters were computed"
+                   : "interrupted before the errors on all recordings were computed");
   }
   return outcome;
 }

@@ -2,10 +2,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
-#include "anthrob_calib/calibration/caution.h"
+#include "anthrob_calib/calibration/derivative_limits.h"
 #include "anthrob_calib/optimiser/least_squares_optimiser.h"
 #include "anthrob_calib/optimiser/problem_evaluator.h"
 
@@ -16,15 +17,16 @@ namespace {
 
 using Kind = DifferenceStack::Kind;
 
-constexpr int kPasses = 2;        ///< over all parameters: what one opens opens others
-constexpr double kOpened = 1.02;  ///< times the error before: worth a look in another pass
+constexpr int kPasses = 2;        ///< over all parameters: a larger error of one may enlarge others
+constexpr double kOpened = 1.02;  ///< times the error before: worth checking in another pass
 
 /// A variance made of two that are estimates themselves, each from its rows (Welch-Satterthwaite).
-double effective_freedom(const double (&of_kind)[2], const ResidualNoise& noise, double repetition,
-                         double variance) {
+/// @param of_kind parts of the variance   @param repetition rows that count as one
+double effective_freedom(const double (&of_kind)[2], const ResidualNoise& noise,
+                         const std::array<double, 2>& repetition, double variance) {
   double doubt = 0.0;
   for (const Kind kind : {DifferenceStack::kPosture, DifferenceStack::kForce}) {
-    doubt += std::pow(repetition * of_kind[kind], 2) * repetition / std::max(1.0, noise.free[kind]);
+    doubt += std::pow(of_kind[kind], 2) * repetition[kind] / std::max(1.0, noise.free[kind]);
   }
   return doubt > 0.0 ? std::max(1.0, variance * variance / doubt) : HUGE_VAL;
 }
@@ -41,105 +43,183 @@ Profile draw_profile(DifferenceStack& stack, const std::vector<SearchVariable>& 
     alone[index] = together[index];
     if (!profile.value.empty() && alone[index] == profile.value.back()) continue;  // at a bound
     profile.value.push_back(alone[index]);
-    // Derivatives may promise that others can help where they only spoil it.
+    // By their derivatives, the others may seem to compensate where in fact they make it worse.
     const std::vector<double> both = stack.fitness({alone, together});
     profile.fitness.push_back(std::min(both[0], both[1]));
   }
   return profile;
 }
 
+/// The fit of all parameters, linearised at the best point, and what its noise makes of them.
+class LinearFit {
+ public:
+  LinearFit(const Problem& problem, const Point& best, const std::function<void()>& before_each)
+      : variables_(search_variables(problem.space())),
+        best_(best),
+        stack_(problem, before_each),
+        left_(stack_.describe(best)),
+        n_(static_cast<Eigen::Index>(best.size())),
+        rows_(static_cast<Eigen::Index>(left_.size())) {
+    double squares = 0.0;
+    Eigen::Index typical = 0;
+    list_variance_.resize(rows_);
+    for (Eigen::Index k = 0; k < rows_; ++k) {
+      const DifferenceStack::Row& row = stack_.rows[static_cast<std::size_t>(k)];
+      list_variance_(k) = row.list_variance;
+      if (!row.is_typical) continue;
+      squares += std::pow(left_[static_cast<std::size_t>(k)], 2);
+      ++typical;
+    }
+    scatter_ =
+        std::max(1e-30, squares / static_cast<double>(std::max<Eigen::Index>(1, typical - n_)));
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const double prior = (variables_[i].upper - variables_[i].lower) / std::sqrt(12.0);
+      known_.push_back({0.0, prior, HUGE_VAL, false});
+    }
+    auto columns =
+        derivatives(variables_, best_, left_, LeastSquaresOptimiser::kDifference, stack_);
+    take(columns);
+    noise_ = ResidualNoise(stack_, left_, gain_.cwiseProduct(jacobian_).rowwise().sum());
+    limit_derivatives(variables_, best_, left_, noise_, stack_, columns);
+    take(columns);
+  }
+
+  /// Standard errors of all parameters. What seems to be identifiable is checked along the line in
+  /// which the other parameters compensate for it.
+  void find_errors() {
+    for (Eigen::Index i = 0; i < n_; ++i) find_error(i);
+    Eigen::VectorXd tried =
+        Eigen::VectorXd::Zero(n_);  // the error with which a line was last tried
+    for (int pass = 0; pass < kPasses; ++pass) {
+      for (Eigen::Index i = 0; i < n_; ++i) {
+        const ParameterKnowledge& p = known_[i];
+        if (!p.identifiable || p.sigma < kOpened * tried[i]) continue;
+        tried[i] = p.sigma;
+        const bool less =
+            limit_derivatives_along(variables_, best_, left_, noise_, stack_,
+                                    p.sigma / variables_[i].step, line_of(i), jacobian_);
+        if (less) solve();
+      }
+      for (Eigen::Index i = 0; i < n_; ++i) find_error(i);
+    }
+  }
+
+  /// Of the least identifiable parameters. @param most number of profiles
+  std::vector<Profile> profiles(int most) {
+    std::vector<std::size_t> order(best_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto doubt = [&](std::size_t i) { return known_[i].sigma / known_[i].prior_sigma; };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return doubt(a) > doubt(b); });
+    std::vector<Profile> profiles;
+    for (const std::size_t i : order) {
+      if (static_cast<int>(profiles.size()) >= most || known_[i].identifiable) break;
+      profiles.push_back(draw_profile(stack_, variables_, best_, information_, i, known_[i].sigma));
+    }
+    return profiles;
+  }
+
+  /// Stores singular values and the least identifiable direction.
+  void find_directions(Identifiability& result) const {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobian_.transpose() * jacobian_ /
+                                                               scatter_);
+    result.singular_values = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
+    const Eigen::VectorXd flattest = eigen.eigenvectors().col(0);
+    result.flattest.assign(flattest.data(), flattest.data() + n_);
+  }
+
+  const std::vector<ParameterKnowledge>& known() const { return known_; }
+  const ResidualNoise& noise() const { return noise_; }
+
+ private:
+  void take(const std::vector<std::vector<double>>& columns) {
+    jacobian_.resize(rows_, n_);
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      jacobian_.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), rows_);
+    }
+    solve();
+  }
+
+  void solve() {
+    information_ = jacobian_.transpose() * jacobian_;
+    // The range of a parameter is knowledge too; without it some would have no error at all. It
+    // weighs against the noise of the rows that the parameter changes.
+    list_noise_.resize(n_);
+    range_information_.resize(n_);
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const double told = jacobian_.col(i).squaredNorm();
+      const double variance =
+          told > 0.0 ? jacobian_.col(i).cwiseAbs2().dot(list_variance_) / told : 1.0;
+      list_noise_(i) = scatter_ * variance;
+      range_information_(i) =
+          list_noise_(i) * std::pow(variables_[i].step / known_[i].prior_sigma, 2);
+    }
+    information_.diagonal() += range_information_;
+    inverse_ = information_.ldlt().solve(Eigen::MatrixXd::Identity(n_, n_));
+    gain_ = jacobian_ * inverse_;
+  }
+
+  Eigen::VectorXd line_of(Eigen::Index i) const {
+    return following(information_, static_cast<std::size_t>(i));
+  }
+
+  /// The fit uses the configured weights, not inverse variances of the noise: so the noise is
+  /// propagated through the gain of the fit.
+  void find_error(Eigen::Index i) {
+    double variance = 0.0;
+    for (Eigen::Index j = 0; j < n_; ++j) {
+      variance += std::pow(inverse_(i, j), 2) * list_noise_(j) * range_information_(j);
+    }
+    // What an error of a row's difference, as large as a typical one, makes of the parameter.
+    const auto gain = [&](Eigen::Index k) {
+      return gain_(k, i) * stack_.rows[static_cast<std::size_t>(k)].weight;
+    };
+    double of_kind[2] = {0.0, 0.0};
+    for (Eigen::Index k = 0; k < rows_; ++k) {
+      const DifferenceStack::Row& row = stack_.rows[static_cast<std::size_t>(k)];
+      const double own = row.deviation * gain(k);
+      of_kind[row.kind] += row.repetition * own * own;
+      for (const auto& [other, covariance] : row.related) {
+        of_kind[row.kind] += 2.0 * covariance * gain(k) * gain(other);
+      }
+    }
+    for (const Kind kind : {DifferenceStack::kPosture, DifferenceStack::kForce}) {
+      of_kind[kind] = std::max(0.0, of_kind[kind]) * std::pow(noise_.of(kind), 2);
+      variance += of_kind[kind];
+    }
+    ParameterKnowledge& p = known_[i];
+    p.sigma = std::sqrt(variance) * variables_[i].step;
+    p.identifiable = p.sigma < kIdentifiableShare * p.prior_sigma;
+    p.freedom = effective_freedom(of_kind, noise_, stack_.repetition, variance);
+  }
+
+  const std::vector<SearchVariable> variables_;
+  const Point& best_;
+  DifferenceStack stack_;
+  const std::vector<double> left_;  ///< the stack's list at the best point
+  const Eigen::Index n_, rows_;
+  double scatter_ = 0.0;               ///< mean square of the list's typical rows
+  Eigen::VectorXd list_variance_;      ///< of each row, in `scatter_`
+  Eigen::VectorXd list_noise_;         ///< variance of the list where each parameter changes it
+  Eigen::VectorXd range_information_;  ///< what the ranges say, in the units of `information_`
+  /// Of the weighted list, by steps of the search.
+  Eigen::MatrixXd jacobian_, information_, inverse_, gain_;
+  ResidualNoise noise_;
+  std::vector<ParameterKnowledge> known_;
+};
+
 }  // namespace
 
 Identifiability examine(const Problem& problem, const std::vector<double>& best, int profiles,
                         const std::function<void()>& before_each) {
+  LinearFit fit(problem, best, before_each);
+  fit.find_errors();
   Identifiability result;
-  const std::vector<SearchVariable> variables = search_variables(problem.space());
-  DifferenceStack stack(problem, before_each);
-  const std::vector<double> left = stack.describe(best);
-  auto columns = derivatives(variables, best, left, LeastSquaresOptimiser::kDifference, stack);
-  const auto n = static_cast<Eigen::Index>(best.size());
-  const auto rows = static_cast<Eigen::Index>(left.size());
-  const double scatter =
-      std::max(1e-30, Eigen::Map<const Eigen::VectorXd>(left.data(), rows).squaredNorm() /
-                          static_cast<double>(std::max<Eigen::Index>(1, rows - n)));
-  // The range of a parameter is knowledge too; without it some would have no error at all.
-  Eigen::VectorXd range_information(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double prior = (variables[i].upper - variables[i].lower) / std::sqrt(12.0);
-    result.parameters.push_back({0.0, prior, HUGE_VAL, false});
-    range_information(i) = scatter * stack.repetition * std::pow(variables[i].step / prior, 2);
-  }
-  Eigen::MatrixXd jacobian(rows, n), information, inverse, gain;  // of the weighted list, by steps
-  const auto linearise = [&] {
-    information = jacobian.transpose() * jacobian;
-    information.diagonal() += range_information;
-    inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-    gain = jacobian * inverse;
-  };
-  const auto fill = [&] {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      jacobian.col(i) = Eigen::Map<const Eigen::VectorXd>(columns[i].data(), rows);
-    }
-    linearise();
-  };
-  fill();
-  const ResidualNoise noise(stack, left, gain.cwiseProduct(jacobian).rowwise().sum());
-  result.posture_noise = noise.posture;
-  result.force_noise = noise.force;
-  be_cautious(variables, best, left, noise, stack, columns);
-  fill();
-
-  // The fit weighs as it is told to, not as noise would have it: errors go through its gain.
-  const auto work_out = [&](Eigen::Index i) {
-    const double prior =
-        scatter * stack.repetition * inverse.row(i).cwiseAbs2().dot(range_information.transpose());
-    double of_kind[2] = {0.0, 0.0};
-    for (Eigen::Index k = 0; k < rows; ++k) {
-      const Kind kind = stack.kind[k];
-      of_kind[kind] += std::pow(gain(k, i) * stack.weight[k] * noise.of(kind), 2);
-    }
-    ParameterKnowledge& p = result.parameters[i];
-    const double variance =
-        stack.repetition * (of_kind[DifferenceStack::kPosture] + of_kind[DifferenceStack::kForce]) +
-        prior;
-    p.sigma = std::sqrt(std::max(0.0, variance)) * variables[i].step;
-    p.identifiable = p.sigma < kIdentifiableShare * p.prior_sigma;
-    p.freedom = effective_freedom(of_kind, noise, stack.repetition, variance);
-  };
-  for (Eigen::Index i = 0; i < n; ++i) work_out(i);
-  Eigen::VectorXd tried = Eigen::VectorXd::Zero(n);  // the error with which a line was last tried
-  for (int pass = 0; pass < kPasses; ++pass) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const ParameterKnowledge& p = result.parameters[i];
-      if (!p.identifiable || p.sigma < kOpened * tried[i]) continue;
-      tried[i] = p.sigma;
-      const bool less =
-          be_cautious_along(variables, best, left, noise, stack, p.sigma / variables[i].step,
-                            following(information, static_cast<std::size_t>(i)), jacobian);
-      if (less) linearise();
-    }
-    for (Eigen::Index i = 0; i < n; ++i) work_out(i);
-  }
-
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobian.transpose() * jacobian /
-                                                             scatter);
-  result.singular_values = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
-  const Eigen::VectorXd flattest = eigen.eigenvectors().col(0);
-  result.flattest.assign(flattest.data(), flattest.data() + n);
-
-  std::vector<std::size_t> order(best.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto doubt = [&](std::size_t i) {
-    return result.parameters[i].sigma / result.parameters[i].prior_sigma;
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return doubt(a) > doubt(b); });
-  for (const std::size_t i : order) {
-    if (static_cast<int>(result.profiles.size()) >= profiles) break;
-    if (result.parameters[i].identifiable) break;
-    result.profiles.push_back(
-        draw_profile(stack, variables, best, information, i, result.parameters[i].sigma));
-  }
+  result.parameters = fit.known();
+  result.posture_noise = fit.noise().posture;
+  result.force_noise = fit.noise().force;
+  fit.find_directions(result);
+  result.profiles = fit.profiles(profiles);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "anthrob_sim/recording/followed_commands.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/orientation_series.h"
+#include "anthrob_sim/recording/quantities.h"
 #include "anthrob_sim/recording/replay.h"
 #include "anthrob_sim/recording/unanswered.h"
 
@@ -24,6 +25,8 @@ namespace {
 
 /// What the recorder lets a measurement be late.
 constexpr double kUnderWay = 0.05;  // [s]
+/// Longer than any robot is left alone before a recording; more is a slip of the pen. [s]
+constexpr double kLongestRest = 3600.0;
 
 /// As its file or folder is called, a bag's without ".bag".
 std::string name_of(const std::string& path) {
@@ -57,6 +60,10 @@ class RunReader {
                                           : std::max(origin_, end_ - options_.average);
     for (const auto& [name, series] : measured_) check_gaps(name, series, from);
     run.settle = recording_.meta.settle_s;
+    if (run.settle > kLongestRest) {
+      fail("meta.yaml: start.settle_s: " + exact_text(run.settle) + " s: expected at most " +
+           exact_text(kLongestRest) + " s, for the rest is simulated, too");
+    }
     run.lead = std::max(0.0, origin_);
     run.duration = end_ - origin_;
     if (run.duration < options_.shortest) {
@@ -266,6 +273,17 @@ class RunReader {
     mean.q = all.q.colwise().mean();
     mean.force = all.force.colwise().mean();
     mean.position = all.position.colwise().mean();
+    const auto measurements = [&](const std::vector<Series>& columns) {
+      double least = kPoints;
+      for (const Series& column : columns) {
+        const auto begin = std::lower_bound(column.t.begin(), column.t.end(), from - 1e-9),
+                   end = std::upper_bound(column.t.begin(), column.t.end(), to + 1e-9);
+        least = std::min(least, static_cast<double>(end - begin));
+      }
+      return std::max(1.0, least);
+    };
+    mean.posture_measurements = measurements(q_);
+    mean.force_measurements = measurements(forces_);
     return mean;
   }
 
@@ -317,6 +335,11 @@ std::vector<MeasuredRun> read_runs(const std::string& folder,
   } else {
     if (!fs::is_directory(folder)) throw BadInput(folder + ": no such folder of recordings");
     for (const auto& entry : fs::directory_iterator(folder)) {
+      std::error_code error;  // of a link that leads in circles
+      if (!fs::exists(entry.status(error))) {
+        throw BadInput(entry.path().string() +
+                       ": a link to something that is not there; mend or remove it");
+      }
       if (entry.is_directory() || entry.path().extension() == ".bag") {
         paths.push_back(entry.path().string());
       }

@@ -1,6 +1,7 @@
 #include "anthrob_calib/calibration/parameter_space.h"
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 #include <sstream>
 
@@ -16,10 +17,13 @@ double number_at(const ConfigNode& model, const std::string& path) {
       continue;
     }
     const auto items = node.items();
-    const bool is_index =
-        !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
-    if (!is_index || std::stoul(word) >= items.size()) node.fail("has no entry " + word);
-    node = items[std::stoul(word)];
+    std::size_t index = 0;
+    const char* const end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, index);
+    if (read.ec != std::errc() || read.ptr != end || index >= items.size()) {
+      node.fail("has no entry " + word);
+    }
+    node = items[index];
   }
   return node.as_number(Bounds::any(), "1");
 }
@@ -27,7 +31,15 @@ double number_at(const ConfigNode& model, const std::string& path) {
 ParameterSpace::ParameterSpace(const ConfigNode& config, const ConfigNode& model)
     : parameters_(read_parameters(config.at("parameters"), model)) {
   if (config.has("shares")) {
-    for (const ConfigNode& entry : config.at("shares").items()) read_share(entry, model);
+    const std::vector<ConfigNode> entries = config.at("shares").items();
+    for (const ConfigNode& entry : entries) read_share(entry, model);
+    // What it is a share of would depend on the order of the list.
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      for (const Share& share : shares_) {
+        if (shares_[k].of != parameters_[share.parameter].path) continue;
+        entries[k].at("of").fail_expected("the path of a number that is not a share itself");
+      }
+    }
   }
   if (parameters_.empty()) config.at("parameters").fail("empty; expected at least one parameter");
 }

@@ -21,20 +21,6 @@ void append(const Eigen::MatrixXd& m, double factor, std::vector<double>& out) {
   }
 }
 
-struct Part {
-  const Differences& differences;
-  double weight;
-};
-
-/// The parts of a run with weights that add up to 1.
-std::vector<Part> parts_of(const RunDifferences& run, const Weights& weights) {
-  if (run.path.count() == 0) return {{run.after, 1.0}};
-  const double sum = weights.before + weights.path + weights.after;
-  return {{run.before, weights.before / sum},
-          {run.path, weights.path / sum},
-          {run.after, weights.after / sum}};
-}
-
 }  // namespace
 
 double Differences::posture_square() const {
@@ -57,22 +43,32 @@ std::vector<double> Differences::joint_error(const JointModel& joint) const {
   return error;
 }
 
+double RunPart::posture_factor(const Weights& weights, double scale) const {
+  return std::sqrt(scale * share / differences.count() * weights.posture / differences.joints);
+}
+
+double RunPart::force_factor(const Weights& weights, double scale) const {
+  return std::sqrt(scale * share / differences.count() * weights.force /
+                   static_cast<double>(differences.force.cols()));
+}
+
+std::vector<RunPart> RunDifferences::parts(const Weights& weights) const {
+  if (path.count() == 0) return {{after, 1.0}};
+  const double sum = weights.before + weights.path + weights.after;
+  return {{before, weights.before / sum}, {path, weights.path / sum}, {after, weights.after / sum}};
+}
+
 double RunDifferences::fitness(const Weights& weights) const {
   double sum = 0.0;
-  for (const Part& part : parts_of(*this, weights)) {
-    sum += part.weight * part.differences.fitness(weights);
-  }
+  for (const RunPart& part : parts(weights)) sum += part.share * part.differences.fitness(weights);
   return sum;
 }
 
 void RunDifferences::append_residuals(const Weights& weights, double share,
                                       std::vector<double>& residuals) const {
-  for (const Part& part : parts_of(*this, weights)) {
-    const Differences& d = part.differences;
-    const double weight = share * part.weight / d.count();
-    append(d.posture, std::sqrt(weight * weights.posture / d.joints), residuals);
-    append(d.force, std::sqrt(weight * weights.force / static_cast<double>(d.force.cols())),
-           residuals);
+  for (const RunPart& part : parts(weights)) {
+    append(part.differences.posture, part.posture_factor(weights, share), residuals);
+    append(part.differences.force, part.force_factor(weights, share), residuals);
   }
 }
 

@@ -7,10 +7,26 @@
 #include <exception>
 #include <map>
 
+#include "anthrob_calib/optimiser/journal.h"
+
 namespace anthrob {
 namespace calibration {
 
 namespace {
+
+/// Steps of a simulation between two questions whether to stop: far less than a second of work.
+constexpr int kAsked = 1000;
+
+void ask(const Stop& stop) {
+  if (stop && stop()) throw Interrupted();
+}
+
+void advance(Simulation& sim, int steps, const Stop& stop) {
+  for (int left = steps; left > 0; left -= kAsked) {
+    ask(stop);
+    sim.step(std::min(left, kAsked));
+  }
+}
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -109,7 +125,7 @@ class Driver {
     };
     for (Eigen::Index m = 0; m < path.position.cols(); ++m) {
       const auto muscle = static_cast<int>(m);
-      const double due = time + sim.position_lateness(muscle);
+      const double due = time + sim.position_delay(muscle);
       sim.impose_reading(muscle, at(m, due - sim.step_length()), at(m, due));
     }
   }
@@ -130,23 +146,37 @@ std::vector<Chain> chains_of(const std::vector<MeasuredRun>& runs) {
                        return starts.at(a.start) < starts.at(b.start);
                      })->start;
   std::vector<Chain> chains;
-  std::vector<int> returns;
+  std::vector<std::size_t> others;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (runs[r].start == home) {
       chains.push_back({{static_cast<int>(r)}, true});
     } else {
-      returns.push_back(static_cast<int>(r));
+      others.push_back(r);
     }
   }
-  for (const int r : returns) {
+  const auto leads_to = [&](std::size_t before, std::size_t after) {
+    return runs[before].commands.back().reference == runs[after].start;
+  };
+  // A run may follow one that is attached later than itself.
+  const auto attach = [&](std::size_t r) {
     const auto before = std::find_if(chains.begin(), chains.end(), [&](const Chain& chain) {
-      return runs[chain.runs.back()].commands.back().reference == runs[r].start;
+      return leads_to(static_cast<std::size_t>(chain.runs.back()), r);
     });
-    if (before != chains.end()) {
-      before->runs.push_back(r);
-    } else {
-      chains.push_back({{r}, false});
-    }
+    if (before != chains.end()) before->runs.push_back(static_cast<int>(r));
+    return before != chains.end();
+  };
+  while (!others.empty()) {
+    const std::size_t left = others.size();
+    others.erase(std::remove_if(others.begin(), others.end(), attach), others.end());
+    if (others.size() < left) continue;
+    // One that none of the others leads to begins a chain; the first one where they go in circles.
+    auto begin = std::find_if(others.begin(), others.end(), [&](std::size_t r) {
+      return std::none_of(others.begin(), others.end(),
+                          [&](std::size_t before) { return before != r && leads_to(before, r); });
+    });
+    if (begin == others.end()) begin = others.begin();
+    chains.push_back({{static_cast<int>(*begin)}, false});
+    others.erase(begin);
   }
   return chains;
 }
@@ -163,12 +193,14 @@ int steps_of_rest(const Simulation& sim, const MeasuredRun& run, const Simulatio
   return static_cast<int>(std::lround(rest / sim.step_length()));
 }
 
-void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
+void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options,
+                      const Stop& stop) {
   const double rest = std::min(options.settle, run.lead);
-  sim.step(static_cast<int>(std::lround(rest / sim.step_length())));
+  advance(sim, static_cast<int>(std::lround(rest / sim.step_length())), stop);
 }
 
-RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options) {
+RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options,
+                      const Stop& stop) {
   RunDifferences result;
   result.before = compare_once(sim, run.before);
   const double h = sim.step_length();
@@ -190,6 +222,7 @@ RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationO
     for (; row < rows && due(row) <= step; ++row) path.add(sim, row);
     if (step > last - count && step <= last) after.add(sim, 0, 1.0 / count);
     if (step == steps) break;
+    if (step % kAsked == 0) ask(stop);
     driver.apply(sim, step * h);
     sim.step();
   }
@@ -209,7 +242,7 @@ namespace {
 std::map<int, Snapshot> settle_at_home(const std::shared_ptr<const RobotModel>& model,
                                        const std::vector<MeasuredRun>& runs,
                                        const std::vector<Chain>& chains,
-                                       const SimulationOptions& options) {
+                                       const SimulationOptions& options, const Stop& stop) {
   std::map<int, Snapshot> homes;
   Simulation sim(model);
   for (const Chain& chain : chains) {
@@ -220,7 +253,7 @@ std::map<int, Snapshot> settle_at_home(const std::shared_ptr<const RobotModel>& 
   }
   int done = 0;
   for (auto& [steps, home] : homes) {
-    sim.step(steps - done);
+    advance(sim, steps - done, stop);
     done = steps;
     home = sim.snapshot();
   }
@@ -231,9 +264,9 @@ std::map<int, Snapshot> settle_at_home(const std::shared_ptr<const RobotModel>& 
 
 std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& model,
                                           const std::vector<MeasuredRun>& runs,
-                                          const SimulationOptions& options) {
+                                          const SimulationOptions& options, const Stop& stop) {
   const std::vector<Chain> chains = chains_of(runs);
-  const std::map<int, Snapshot> homes = settle_at_home(model, runs, chains, options);
+  const std::map<int, Snapshot> homes = settle_at_home(model, runs, chains, options, stop);
   std::vector<RunDifferences> results(runs.size());
   std::vector<std::exception_ptr> failures(chains.size());
   tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t c) {
@@ -244,11 +277,11 @@ std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel
         sim.restore(homes.at(steps_of_rest(sim, first, options)));
       } else {
         stand_at_start(sim, first, options);
-        sim.step(steps_of_rest(sim, first, options));
+        advance(sim, steps_of_rest(sim, first, options), stop);
       }
       for (const int r : chains[c].runs) {
-        if (r != chains[c].runs.front()) wait_for_command(sim, runs[r], options);
-        results[r] = follow(sim, runs[r], options);
+        if (r != chains[c].runs.front()) wait_for_command(sim, runs[r], options, stop);
+        results[r] = follow(sim, runs[r], options, stop);
       }
     } catch (...) {
       failures[c] = std::current_exception();

@@ -2,8 +2,9 @@
 #include <set>
 
 #include "anthrob_calib/convert/foreign_csv.h"
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/model/config_node.h"
+#include "anthrob_sim/recording/quantities.h"
 
 namespace anthrob {
 namespace {
@@ -23,6 +24,18 @@ std::string table_of(const std::string& quantity, bool muscle) {
   return quantity == "effort" || quantity == "load" ? "joints" : "spherical_joints";
 }
 
+/// The name of a table, which becomes that of a file in the folder of the recording.
+std::string load_table(const ConfigNode& node, const std::string& otherwise) {
+  if (!node.has("table")) return otherwise;
+  const std::string table = node.text("table");
+  constexpr const char* kAllowed =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  if (table.empty() || table.find_first_not_of(kAllowed) != std::string::npos) {
+    node.at("table").fail_expected("a name of letters, digits, _ and -");
+  }
+  return table;
+}
+
 ForeignColumns::Entry load_entry(const ConfigNode& node) {
   ForeignColumns::Entry entry;
   entry.from = node.text("from");
@@ -34,7 +47,7 @@ ForeignColumns::Entry load_entry(const ConfigNode& node) {
   }
   entry.scale = node.number_or("scale", 1.0, Bounds::any(), "unit of to per unit of from");
   entry.offset = node.number_or("offset", 0.0, Bounds::any(), "unit of to");
-  entry.table = node.text_or("table", "");
+  entry.table = load_table(node, "");
   return entry;
 }
 
@@ -63,7 +76,7 @@ ForeignColumns::Orientation load_orientation(const ConfigNode& node) {
   const std::string unit = angles.text_or("unit", "rad");
   if (unit != "rad" && unit != "deg") angles.at("unit").fail_expected("rad or deg");
   orientation.unit = unit == "deg" ? M_PI / 180.0 : 1.0;
-  orientation.table = node.text_or("table", "spherical_joints");
+  orientation.table = load_table(node, "spherical_joints");
   return orientation;
 }
 

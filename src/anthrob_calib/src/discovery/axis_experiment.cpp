@@ -12,7 +12,7 @@ namespace discovery {
 
 namespace {
 
-constexpr double kMostPeriods = 3.5;  ///< usual ones, that samples may be apart
+constexpr double kMostPeriods = 3.5;  ///< [sampling periods] longest distance of two samples
 
 /// Position and velocity at `time` by a parabola through the samples around it.
 std::pair<double, double> motion_at(const Series& series, double time, double half_width) {
@@ -72,45 +72,7 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
   bin_ = static_cast<double>(steps_per_bin_) * step_;
   const auto& joints = model.skeleton->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const std::string& name = joints[j].name;
-    const Series position = recording.series(name + "/position");
-    if (!joints[j].driven) continue;
-    if (position.empty()) {
-      throw BadInput(recording.folder + ": column '" + name +
-                     "/position' is missing: expected the measured motion of a driven joint");
-    }
-    if (duration_ == 0.0) {
-      duration_ = std::min(options.seconds, seconds(recording.end() - recording.begin()));
-      bins_ = static_cast<std::size_t>(std::floor(duration_ / bin_ + 1e-9));
-    }
-    Axis axis{static_cast<int>(j),
-              {},
-              {},
-              {},
-              recording.series(name + "/effort"),
-              recording.series(name + "/load")};
-    if (axis.effort.empty()) {
-      throw BadInput(recording.folder + ": column '" + name +
-                     "/effort' is missing: expected the measured effort of a driven joint");
-    }
-    for (std::size_t edge = 0; edge <= bins_; ++edge) {
-      const auto [q, u] = motion_at(position, static_cast<double>(edge) * bin_, kSmoothing);
-      axis.position.push_back(q);
-      axis.velocity.push_back(u);
-    }
-    const bool hinge = joints[j].type == JointType::kHinge;
-    channels_.push_back({name, "effort", hinge ? "Nm" : "N", 0, present_.size(), bins_});
-    present_.insert(present_.end(), bins_, 1);
-    // A bin needs the motion at its begin and at its end, each from the samples around it.
-    for (const auto& [from, to] :
-         holes_of(position, seconds(recording.end() - recording.begin()))) {
-      for (std::size_t b = 0; b < bins_; ++b) {
-        const double begin = static_cast<double>(b) * bin_ - kSmoothing;
-        const bool outside = begin >= to || begin + bin_ + 2.0 * kSmoothing <= from;
-        if (!outside) present_[channels_.back().offset + b] = 0;
-      }
-    }
-    axes_.push_back(std::move(axis));
+    if (joints[j].driven) add_axis(static_cast<int>(j), joints[j], recording, options.seconds);
   }
   fingerprint_ =
       resume::Fingerprint().add(recording).add(bin_).add(static_cast<std::uint64_t>(bins_)).value();
@@ -118,13 +80,59 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
     throw BadInput(recording.folder + ": too short: expected at least ten bins of " +
                    std::to_string(bin_) + " s");
   }
+  measure_inertia(model);
+}
+
+void AxisExperiment::add_axis(int index, const JointModel& joint, const Dataset& recording,
+                              double longest) {
+  const Series position = recording.series(joint.name + "/position");
+  if (position.empty()) {
+    throw BadInput(recording.folder + ": column '" + joint.name +
+                   "/position' is missing: expected the measured motion of a driven joint");
+  }
+  const double length = seconds(recording.end() - recording.begin());
+  if (duration_ == 0.0) {
+    duration_ = std::min(longest, length);
+    bins_ = static_cast<std::size_t>(std::floor(duration_ / bin_ + 1e-9));
+  }
+  Axis axis{index,
+            {},
+            {},
+            {},
+            recording.series(joint.name + "/effort"),
+            recording.series(joint.name + "/load")};
+  if (axis.effort.empty()) {
+    throw BadInput(recording.folder + ": column '" + joint.name +
+                   "/effort' is missing: expected the measured effort of a driven joint");
+  }
+  for (std::size_t edge = 0; edge <= bins_; ++edge) {
+    const auto [q, u] = motion_at(position, static_cast<double>(edge) * bin_, kSmoothing);
+    axis.position.push_back(q);
+    axis.velocity.push_back(u);
+  }
+  const bool hinge = joint.type == JointType::kHinge;
+  channels_.push_back({joint.name, "effort", hinge ? "Nm" : "N", 0, present_.size(), bins_});
+  present_.insert(present_.end(), bins_, 1);
+  // A bin needs the motion at its begin and at its end, each from the samples around it.
+  for (const auto& [from, to] : holes_of(position, length)) {
+    for (std::size_t b = 0; b < bins_; ++b) {
+      const double begin = static_cast<double>(b) * bin_ - kSmoothing;
+      const bool outside = begin >= to || begin + bin_ + 2.0 * kSmoothing <= from;
+      if (!outside) present_[channels_.back().offset + b] = 0;
+    }
+  }
+  axes_.push_back(std::move(axis));
+}
+
+void AxisExperiment::measure_inertia(const RobotModel& model) {
   Simulation sim(std::make_shared<RobotModel>(model));
   for (std::size_t b = 0; b < bins_; ++b) {
     place(sim, b);
     sim.step();
     for (Axis& axis : axes_) {
-      const int dof = joints[static_cast<std::size_t>(axis.joint)].velocity_offset;
-      axis.inertia.push_back(sim.tree().mass_matrix()(dof, dof));
+      const JointModel& joint = model.skeleton->joints[static_cast<std::size_t>(axis.joint)];
+      axis.inertia.push_back(
+          sim.tree().mass_matrix()(joint.velocity_offset, joint.velocity_offset));
     }
   }
 }

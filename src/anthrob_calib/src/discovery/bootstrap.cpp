@@ -13,10 +13,10 @@ namespace discovery {
 
 namespace {
 
-/// What the true law may do otherwise than the catalogue's of the same name, as a share of what it
-/// does: one standard deviation.
+/// Standard deviation of the difference between the true law and the catalogue's of the same name,
+/// as a share of what the law does.
 constexpr double kOtherLaw = 0.05;
-constexpr std::size_t kFewBlocks = 5;  ///< of time: hardly tell how much noise is in them
+constexpr std::size_t kFewBlocks = 5;  ///< of time, too few to estimate the noise
 
 /// Normal equations of some rows.
 struct Block {
@@ -119,7 +119,7 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
     }
   }
   std::vector<double> reach;
-  // Resampling blocks underrates the spread of few blocks by the usual factor.
+  // Resampling n blocks underestimates their spread by sqrt((n - 1) / n).
   const auto count = static_cast<double>(blocks.size());
   const double widen = std::sqrt(count / std::max(1.0, count - 1.0));
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -12,17 +12,17 @@ namespace discovery {
 
 namespace {
 
-constexpr double kWorse = 1.02;  ///< less is no matter
-constexpr double kFloor = 1.0;   ///< below it a gap is noise that was thought larger
-constexpr double kGrowth = 2.0;  ///< of the weight of a channel that pays
+constexpr double kWorse = 1.02;  ///< smaller growth of a gap does not matter
+constexpr double kFloor = 1.0;   ///< a smaller gap is noise whose floor was overestimated
+constexpr double kGrowth = 2.0;  ///< of the weight of a channel that got worse
 constexpr int kRounds = 6;
 constexpr int kIterations = 3;
 constexpr double kEnough = 1e-4;  ///< relative gain that is not worth another iteration
-constexpr double kPrice = 0.05;   ///< most of the gain that is given
+constexpr double kPrice = 0.05;   ///< largest share of the gain that may be given up
 
 using Gaps = std::map<std::string, double>;
 
-/// By how much each squared gap is too large, of channels that pay.
+/// By how much the squared gap of each channel that got worse is too large.
 Gaps paid(const Gaps& before, const Gaps& after) {
   Gaps too_large;
   for (const auto& [name, gap] : after) {

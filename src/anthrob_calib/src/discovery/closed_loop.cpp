@@ -4,8 +4,8 @@
 #include <exception>
 #include <filesystem>
 
+#include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/discovery/simulated_recording.h"
-#include "anthrob_calib/report/discovery_report.h"
 
 namespace anthrob {
 namespace discovery {
@@ -67,7 +67,7 @@ Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
     } catch (const Interrupted&) {
       throw;
     } catch (const std::exception& e) {
-      // What is known without that recording stays known.
+      // The answer without that recording stays.
       asked.back() += "; it failed: " + std::string(e.what());
       if (question.comment) question.comment(asked.back());
       break;
@@ -94,7 +94,7 @@ void remove_other_recordings(const std::string& folder, const std::vector<std::s
     if (!is_old || !fs::exists(recording / "meta.yaml")) continue;
     for (const fs::directory_entry& entry : fs::directory_iterator(recording)) {
       const fs::path& file = entry.path();
-      // Nobody else's.
+      // Only files of a dataset.
       if (file.filename() == "meta.yaml" || file.extension() == ".csv") fs::remove(file);
     }
     if (fs::is_empty(recording)) fs::remove(recording);

@@ -10,7 +10,7 @@ namespace anthrob {
 namespace discovery {
 
 namespace {
-constexpr double kNeeded = 3.0;  // [nat], held out: nothing was searched
+constexpr double kNeeded = 3.0;  // [nat], held out; no penalty, since only one law is tried
 constexpr double kClearly = 0.9;
 }  // namespace
 
@@ -23,22 +23,23 @@ bool CommonLaw::Instead::is_clearly_better() const {
 }
 
 bool CommonLaw::may_be(std::size_t law, std::size_t one, std::size_t other) const {
-  const Candidate& whole = bench_.candidates[law];
-  return says_less(bench_.candidates[one], whole) && says_less(bench_.candidates[other], whole);
+  const Candidate& whole = context_.candidates[law];
+  return is_nested_in(context_.candidates[one], whole) &&
+         is_nested_in(context_.candidates[other], whole);
 }
 
 std::optional<std::size_t> CommonLaw::everywhere(const std::vector<Part>& parts) const {
   if (parts.size() < 2) return std::nullopt;
   const auto same_law = [&](std::size_t a, std::size_t b) {
-    return bench_.candidates[a].effect == bench_.candidates[b].effect;
+    return context_.candidates[a].effect == context_.candidates[b].effect;
   };
   for (const Part& part : parts) {
     const bool is_part = same_law(part.candidate, parts.front().candidate) &&
-                         !bench_.candidates[part.candidate].is_everywhere();
+                         !context_.candidates[part.candidate].is_everywhere();
     if (!is_part) return std::nullopt;
   }
-  for (std::size_t law = 0; law < bench_.candidates.size(); ++law) {
-    if (bench_.candidates[law].is_everywhere() && same_law(law, parts.front().candidate)) {
+  for (std::size_t law = 0; law < context_.candidates.size(); ++law) {
+    if (context_.candidates[law].is_everywhere() && same_law(law, parts.front().candidate)) {
       return law;
     }
   }
@@ -49,10 +50,10 @@ std::optional<CommonLaw::Instead> CommonLaw::instead(std::size_t law, const Test
                                                      const std::vector<Part>& parts) const {
   std::optional<Fitted> none = with.fit;
   for (auto part = parts.rbegin(); none && part != parts.rend(); ++part) {
-    none = bench_.without(part->effect, part->candidate, *none);
+    none = context_.without(part->effect, part->candidate, *none);
   }
   if (!none) return std::nullopt;
-  const Tested base = bench_.tested(*none);
+  const Tested base = context_.tested(*none);
   if (base.test.size() == 0) return std::nullopt;
   Score asked;
   asked.candidate = law;
@@ -61,15 +62,16 @@ std::optional<CommonLaw::Instead> CommonLaw::instead(std::size_t law, const Test
   const auto score = std::find_if(scores.begin(), scores.end(),
                                   [&](const Score& s) { return s.candidate == law; });
   if (score == scores.end()) return std::nullopt;
-  const ShortList list = bench_.naming.weigh(base, {*score});
-  if (list.named.empty()) return std::nullopt;
-  const Fitted& rough = list.named.front().fit;
+  const ShortList list = context_.comparison.weigh(base, {*score});
+  if (list.entries.empty()) return std::nullopt;
+  const Fitted& rough = list.entries.front().fit;
   const double gained = base.fit.cost - with.fit.cost;
   if (rough.cost - with.fit.cost > kOutOfReach * gained) return std::nullopt;
-  Tested alone = bench_.tested(bench_.settling.to_the_end(rough));
+  Tested alone = context_.tested(context_.convergence.to_the_end(rough));
   if (alone.test.size() == 0) return std::nullopt;
-  Naming::Odds odds = bench_.naming.odds(alone.test, with.test);
-  odds.probability = allowing_for_scatter(odds.probability, bench_.settling, base, alone, with);
+  CandidateComparison::Odds odds = context_.comparison.odds(alone.test, with.test);
+  odds.probability =
+      allowing_for_scatter(odds.probability, context_.convergence, base, alone, with);
   const double gain = base.fit.cost - alone.fit.cost;
   return Instead{std::move(alone), odds, gain, base.test};
 }

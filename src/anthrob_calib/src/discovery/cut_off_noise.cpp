@@ -10,11 +10,13 @@ namespace discovery {
 
 namespace {
 
-constexpr double kWindow = 0.2;              // [s]
-constexpr std::size_t kSamples = 20;         // in a window, at least
-constexpr std::size_t kWindows = 5;          // that make an estimate
-constexpr double kLeast = 0.3, kMost = 0.7;  // share of zeros where both kinds tell something
-constexpr int kChanges = 4;  // between zeros and others; a force that comes or goes makes one
+constexpr double kWindow = 0.2;       // [s]
+constexpr std::size_t kSamples = 20;  // in a window, at least
+constexpr std::size_t kWindows = 5;   // that make an estimate
+constexpr double kLeast = 0.3,
+                 kMost = 0.7;  // share of zero readings for which an estimate is possible
+/// Fewest changes between zeros and others: a force that starts or ends makes only one.
+constexpr int kChanges = 4;
 
 constexpr int kRounds = 20;   // towards a fixed point
 constexpr double kFar = 6.0;  // [standard deviations] beyond which nothing is cut off

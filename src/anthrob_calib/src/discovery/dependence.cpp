@@ -13,8 +13,8 @@ namespace discovery {
 namespace {
 
 constexpr std::size_t kSteps = 9;  ///< of a curve
-constexpr double kFew = 2.0;       ///< samples that are no mean yet
-constexpr double kStill = 0.02;    ///< of the largest speed: below it a sign means nothing
+constexpr double kFew = 2.0;       ///< fewest samples of a mean
+constexpr double kStill = 0.02;    ///< [largest speed] below it, the sign of a speed means nothing
 
 /// One sample: a bin of the channel.
 struct Sample {
@@ -141,7 +141,7 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
       best.channel += std::string("/") + static_cast<char>('x' + channel.component);
     }
     for (const MeasuredVariable& variable : variables) {
-      // What others do explains a muscle by accident too easily; joints move all of them.
+      // Quantities of other muscles explain a muscle too easily by chance; joints move all muscles.
       const bool own = variable.owner() == channel.place || variable.name == "time";
       const bool muscle =
           variable.word == "load" || variable.word == "current" || variable.word == "wrap angle";

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMost = 3;
 
-/// Most change first; where nothing changed, the largest gap.
+/// Largest change first; among unchanged channels, the largest gap.
 std::vector<std::string> by_change(const std::map<std::string, Gap>& gaps) {
   std::vector<std::pair<double, std::string>> order;
   for (const auto& [name, gap] : gaps) {
@@ -22,7 +22,7 @@ std::vector<std::string> by_change(const std::map<std::string, Gap>& gaps) {
   return names;
 }
 
-/// Of the channels of that name, an orientation's three components, the one that changes most.
+/// The component of a channel that changes most: an orientation has three.
 const Channel* most_changed(const Experiment& experiment, const std::string& name,
                             const Eigen::VectorXf& recalibrated, const Eigen::VectorXf& after) {
   const Channel* found = nullptr;

@@ -7,7 +7,7 @@ namespace discovery {
 
 namespace {
 
-/// Of a recording; less is not worth its settling.
+/// Shortest part of a recording: settling takes longer than simulating a shorter one.
 constexpr double kShortest = 2.0;  // [s]
 
 }  // namespace

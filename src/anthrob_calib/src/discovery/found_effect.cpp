@@ -23,7 +23,7 @@ double take_out(const Candidate& law, FoundEffect& effect) {
 }  // namespace
 
 FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& candidates) {
-  const Named& best = list.named.front();
+  const FittedCandidate& best = list.entries.front();
   const EffectInfo& info = candidates[best.candidate].effect->info();
   FoundEffect effect;
   effect.id = info.id;
@@ -31,8 +31,8 @@ FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& ca
   effect.place = candidates[best.candidate].place;
   effect.probability = best.probability;
   effect.evidence = best.evidence;
-  for (std::size_t i = 1; i < list.named.size(); ++i) {
-    const Named& other = list.named[i];
+  for (std::size_t i = 1; i < list.entries.size(); ++i) {
+    const FittedCandidate& other = list.entries[i];
     if (other.probability < kMentioned) continue;
     const Candidate& rival = candidates[other.candidate];
     effect.rivals.push_back(
@@ -41,7 +41,8 @@ FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& ca
   return effect;
 }
 
-bool name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect) {
+bool name_instead(const Candidate& fuller, const CandidateComparison::Odds& odds,
+                  FoundEffect& effect) {
   const double both = effect.probability + take_out(fuller, effect);
   const Rival simpler = {effect.id, effect.place, (1.0 - odds.probability) * both, effect.evidence};
   auto& rivals = effect.rivals;
@@ -54,14 +55,15 @@ bool name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect
   effect.place = fuller.place;
   effect.probability = odds.probability * both;
   effect.evidence += odds.evidence;
-  // What was planned tells others apart.
+  // The planned recording separates other laws.
   effect.separating_experiment =
       rivals.empty() ? "" : separating_experiment(effect.id, rivals.front().id);
   effect.separating_recording = {};
   return is_first;
 }
 
-void leave_open(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect) {
+void leave_open(const Candidate& fuller, const CandidateComparison::Odds& odds,
+                FoundEffect& effect) {
   effect.probability = 0.5 * (effect.probability + take_out(fuller, effect));
   effect.rivals.insert(effect.rivals.begin(),
                        {fuller.effect->info().id, fuller.place, effect.probability,

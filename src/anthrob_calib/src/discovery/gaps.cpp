@@ -27,7 +27,7 @@ double Gaps::excess_of(const Eigen::VectorXf& held_out, double least) const {
 }
 
 Merit Gaps::merit_of(const ShortList& list, const Tested& base) const {
-  const Named& best = list.named.front();
+  const FittedCandidate& best = list.entries.front();
   const double before = excess_of(base.test, kFaintGap), first = first_excess(kFaintGap);
   const double gained = before - excess_of(best.test, kFaintGap);
   Merit merit;

@@ -10,7 +10,7 @@ namespace discovery {
 
 namespace {
 
-constexpr double kTelling = 1.0;  ///< gain of a block that says something [nat]
+constexpr double kTelling = 1.0;  ///< a smaller gain of a block says nothing [nat]
 
 /// 0 if there are fewer than three.
 double mean_over_its_error(const std::vector<double>& values) {
@@ -75,7 +75,7 @@ Eigen::MatrixXd Judge::block_scores(const std::vector<Eigen::VectorXf>& residual
   for (const Run& run : runs_) {
     const auto& sums = left[run.name];
     if (!(sums[1] > 0.0)) continue;
-    // The whitener has the floor's correlation in it: its variance is less by as much.
+    // The whitener includes the floor's correlation, so the variance is smaller by that factor.
     const double variance = std::max(1.0 / run.inflation, sums[0] / sums[1]);
     const double weight = 0.5 / (variance * std::max(1.0, sums[2] / sums[1]));
     for (std::size_t r = 0; r < residuals.size(); ++r) {

@@ -8,8 +8,8 @@ namespace discovery {
 
 namespace {
 
-constexpr int kIterations = 5;     ///< by the slopes of the fit without the effect
-constexpr double kTelling = 10.0;  ///< [nat] an iteration that brings less decides nothing
+constexpr int kIterations = 5;     ///< with the sensitivities of the fit without the effect
+constexpr double kTelling = 10.0;  ///< [nat] a smaller gain of an iteration decides nothing
 constexpr double kSides[] = {-1.0, 1.0};
 
 void fit_on(const ModelFit& fit, Fitted& fitted) {
@@ -27,7 +27,7 @@ LikelihoodProfile::LikelihoodProfile(const ModelFit& fit, Fitted base)
   if (fit_.coarse_step() > 0.0) {
     Variant coarse = base_.variant;
     coarse.step = fit_.coarse_step();
-    fit_.move(base_, coarse);  // stays at the usual step where it cannot be simulated so
+    fit_.move(base_, coarse);  // unless the coarse step cannot simulate it
   }
   fit_on(fit_, base_);
 }

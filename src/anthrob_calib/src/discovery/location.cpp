@@ -10,7 +10,7 @@ namespace discovery {
 
 namespace {
 
-/// What the residual of a place depends on most; empty: on nothing much.
+/// What the residual of a place depends on most; empty: on nothing.
 std::string dependence_of(const std::string& channel, const std::vector<Dependence>& dependences) {
   std::string regime;
   double best = Dependence::kTelling;

@@ -17,8 +17,8 @@ std::vector<double> at_bins(const Experiment& experiment, const Series& series) 
   return values;
 }
 
-/// A column of a recording. Of an orientation, of which its negative is the same, the one that
-/// begins with w >= 0, without sudden changes of sign.
+/// A column of a recording. A quaternion and its negative are the same orientation: taken is the
+/// one that begins with w >= 0, without sudden changes of sign.
 Series series_of(const Dataset& recording, const Column& column) {
   const std::string quantity = column.quantity();
   const std::size_t k = std::string("wxyz").find(quantity);

@@ -11,7 +11,7 @@ constexpr double kSignificance = 3.0;       ///< standard errors over blocks
 constexpr double kFaintSignificance = 6.0;  ///< where no gap is above kRealGap
 constexpr double kShareOfPresent = 0.1;
 constexpr double kShareOfFirst = 0.03;
-/// What is smaller beside the first gap may be what the shape of the first law leaves.
+/// A smaller share of the first gap may be what the shape of the first law leaves.
 constexpr double kSmallSignificance = 8.0;
 
 template <typename... Values>

@@ -13,19 +13,19 @@ namespace {
 constexpr double kPolished = 5e-4;  ///< relative gain that is not worth another iteration
 constexpr double kFinished = 1e-4;  ///< the same where slopes are exact
 constexpr double kAtBound = 1e-3;   ///< [scales]
-constexpr double kKept = 0.5;       ///< share of the promised gain: as linear as can be hoped for
+constexpr double kKept = 0.5;  ///< share of the predicted gain at which a step is linear enough
 /// How to step: damping, as a share of the information, and the share of that step that is taken.
 struct Way {
   double damping, length;
   bool last_resort;
 };
-/// The first goes to the ground of valleys that are flat along what unknowns do together.
+/// The first reaches the minimum of valleys that are flat along combined changes of unknowns.
 constexpr Way kWays[] = {{1e-7, 1.0, false}, {1e-4, 1.0, false}, {1.0, 1.0, false},
                          {1e-4, 0.5, true},  {1e-4, 0.25, true}, {10.0, 1.0, true},
                          {100.0, 1.0, true}};
-// Steps that tell a sensitivity [scales]. Those to both sides average over where friction sticks a
-// little earlier or later, but no farther than the valley is straight: in three cases whole scales
-// took one and a half to three times as many rounds to a ground within 0.02 % of theirs, or higher.
+// Steps of difference quotients [scales]. Those to both sides average over friction that sticks a
+// little earlier or later, but stay where the valley is straight: in three cases whole scales
+// took 1.5 to 3 times as many rounds to a minimum within 0.02 % of the same cost, or a higher one.
 constexpr double kOneSide = 0.5;
 constexpr double kBothSides = 0.35;
 constexpr double kBothSidesOfEffect = 1.0;  ///< polishing has made its scale small
@@ -33,9 +33,9 @@ constexpr double kBothSidesOfEffect = 1.0;  ///< polishing has made its scale sm
 /// Steps along single unknowns.
 struct Steps {
   std::vector<Variant> to;
-  std::vector<float> length;  ///< [scales], as far as bounds let it be
+  std::vector<float> length;  ///< [scales], shorter at bounds
 
-  /// To the other side where there is no room for a single step.
+  /// Adds a step; to the other side if there is no room on this one.
   void add(const Fitted& fitted, std::size_t unknown, double step) {
     const Unknown& u = fitted.unknowns[unknown];
     const double value = u.read(fitted.variant);
@@ -47,7 +47,7 @@ struct Steps {
     to.push_back(std::move(variant));
   }
 
-  /// Whether a step led somewhere where the model can be simulated.
+  /// Whether the model can be simulated after a step.
   bool leads_on(std::size_t k, const std::vector<Eigen::VectorXf>& changes) const {
     return length[k] != 0.0f && changes[k].size() > 0;
   }
@@ -177,7 +177,7 @@ Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd&
       }
     }
     if (changed) continue;
-    // Let go the one that pushes inwards most.
+    // Frees the one whose gradient points inwards most.
     const Eigen::VectorXd gradient = A * x + g;
     Eigen::Index best = -1;
     double strongest = 1e-9 * (1.0 + g.cwiseAbs().maxCoeff());
@@ -226,7 +226,7 @@ std::vector<Eigen::VectorXf> ModelFit::changes(const Variant& from, const Eigen:
       if (result.size() > 0) result -= base;
     }
   }
-  std::vector<std::size_t> left;  // what the coarse step cannot tell
+  std::vector<std::size_t> left;  // variants that the coarse step cannot simulate
   std::vector<Variant> again;
   for (std::size_t i = 0; i < to.size(); ++i) {
     if (results[i].size() > 0) continue;
@@ -337,7 +337,7 @@ bool ModelFit::move(Fitted& fitted, const Variant& variant) const {
 
 void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes) const {
   for (Unknown& u : fitted.unknowns) {
-    // Close to the end small changes tell more than large ones.
+    // Close to the minimum, small changes are more exact than large ones.
     if (u.effect < 0) continue;
     const double size = u.read(fitted.variant) - u.neutral.value_or(0.0);
     u.scale = std::max({0.1 * u.scale, 0.05 * std::abs(size), u.finest});
@@ -386,8 +386,8 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
         (fitted.sensitivity.transpose() * fitted.residual).cast<double>() +
         precision.cwiseProduct(x - fitted.expected());
     const Eigen::VectorXd lower = fitted.lower_room(), upper = fitted.upper_room();
-    // Boldly first; carefully, too, if that did not bring what it promised; and where neither
-    // brings anything, less far or more carefully still.
+    // Full steps first, with more damping if the gain falls short of the prediction; shorter or
+    // heavily damped ones only if none of these gains anything.
     Trial best;
     best.cost = fitted.cost;
     for (const auto& [damping, length, last_resort] : kWays) {
@@ -406,7 +406,7 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
     }
     if (best.step.size() == 0) break;
     const bool done = fitted.cost - best.cost < enough * best.cost;
-    // Broyden's update: what the step really did.
+    // Broyden's update, from what the step really changed.
     const Eigen::VectorXf step = best.step.cast<float>();
     const float length = step.squaredNorm();
     if (length > 0.0f) {

@@ -1,5 +1,7 @@
+#include "anthrob_calib/discovery/model_text.h"
+
 #include "anthrob_calib/calibration/extended_model.h"
-#include "anthrob_calib/report/discovery_report.h"
+#include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_sim/effects/catalogue.h"
 
 namespace anthrob {

@@ -41,7 +41,7 @@ Eigen::VectorXf measured(const Experiment& experiment, const Channel& channel,
   return Eigen::Map<Eigen::VectorXf>(found.data(), static_cast<Eigen::Index>(found.size()));
 }
 
-/// Sensors whose counts controllers see; Variant has them.
+/// Whether a channel is of a sensor whose resolution the controllers see (Variant).
 bool is_counted(const RobotModel& robot, const Channel& channel) {
   return robot.find_muscle(channel.place) >= 0 &&
          (channel.quantity == "position" || channel.quantity == "force");

@@ -15,9 +15,9 @@ namespace discovery {
 
 namespace {
 
-constexpr std::size_t kReach = 3;      ///< rows of a parabola before and after its own
-constexpr std::size_t kFewest = 5;     ///< rows that a parabola is laid through
-constexpr double kLongestGap = 2.0;    ///< usual times between rows, that a parabola bridges
+constexpr std::size_t kReach = 3;    ///< rows of a parabola before and after its own
+constexpr std::size_t kFewest = 5;   ///< fewest rows of a parabola
+constexpr double kLongestGap = 2.0;  ///< [usual row intervals] longest gap that a parabola bridges
 constexpr std::uint64_t kStream = 91;  ///< of random numbers
 
 using Change = std::function<std::vector<double>(const Series&)>;

@@ -110,7 +110,7 @@ double refuse_shortness(const std::vector<Dataset>& recordings, const std::strin
   return length;
 }
 
-/// What was learned from cannot judge, and a copy of a recording scatters nowhere.
+/// Training recordings cannot judge, and a copy of a recording shows no noise.
 void refuse_copies(const Question& question) {
   std::map<std::uint64_t, std::string> folders;
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
@@ -124,7 +124,7 @@ void refuse_copies(const Question& question) {
   }
 }
 
-/// Who judges by the commands that were learned from, judges less than it seems.
+/// Held-out recordings with the commands of the training recordings test less than they seem to.
 std::vector<std::string> remarks_on(const RobotModel& robot, const Question& question) {
   std::vector<std::string> remarks;
   for (const Dataset& test : question.test) {
@@ -139,7 +139,7 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
 
 }  // namespace
 
-Laboratory prepare(const Evaluator& evaluator, const Question& question) {
+PreparedRecordings prepare(const Evaluator& evaluator, const Question& question) {
   const RobotModel& robot = *evaluator.model();
   if (question.train.empty()) throw BadInput("--train: expected at least one recording");
   if (question.test.empty()) {
@@ -162,24 +162,24 @@ Laboratory prepare(const Evaluator& evaluator, const Question& question) {
   options.bin = robot.muscles.empty() ? kAxisBin : kFinestBin;
   const double channels = 4.0 * static_cast<double>(robot.muscles.size()) + 4.0;
   options.bin *= std::max(1.0, std::ceil(length / options.bin * channels / kMostDifferences));
-  Laboratory laboratory;
-  laboratory.remarks = remarks_on(robot, question);
+  PreparedRecordings prepared;
+  prepared.remarks = remarks_on(robot, question);
   const auto make = [&](const std::vector<Dataset>& recordings, Experiments& experiments) {
     for (const Dataset& recording : recordings) {
       experiments.push_back(make_experiment(robot, recording, options));
     }
   };
-  make(question.train, laboratory.train);
-  make(question.test, laboratory.test);
-  make(question.repeats, laboratory.repeats);
+  make(question.train, prepared.train);
+  make(question.test, prepared.test);
+  make(question.repeats, prepared.repeats);
   // Whole steps of the simulation make a bin a little longer or shorter than was asked for.
-  const double bin = laboratory.train.front()->bin();
-  for (const double seconds : late) laboratory.lags.push_back(std::lround(seconds / bin));
-  // A driven axis is simulated in no time.
-  laboratory.quick = excerpt(robot, question.train, laboratory.train,
-                             robot.muscles.empty() ? kSlowLook : kQuickLook);
-  laboratory.slow = excerpt(robot, question.train, laboratory.train, kSlowLook);
-  return laboratory;
+  const double bin = prepared.train.front()->bin();
+  for (const double seconds : late) prepared.lags.push_back(std::lround(seconds / bin));
+  // A driven axis is simulated fast enough for the longer look.
+  prepared.quick = excerpt(robot, question.train, prepared.train,
+                           robot.muscles.empty() ? kSlowLook : kQuickLook);
+  prepared.slow = excerpt(robot, question.train, prepared.train, kSlowLook);
+  return prepared;
 }
 
 double coarse_step(const Evaluator& evaluator, const Experiments& train, const Scales& scales) {

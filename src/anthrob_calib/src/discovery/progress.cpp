@@ -7,7 +7,7 @@ namespace discovery {
 
 namespace {
 
-constexpr std::size_t kLongBatch = 10;  ///< shorter ones come and go, some side by side
+constexpr std::size_t kLongBatch = 10;  ///< shorter ones are not shown: some run side by side
 
 }  // namespace
 

@@ -30,7 +30,7 @@ std::optional<Fitted> without_effect(const Evaluator& evaluator, const ModelFit&
     u = ordinary[static_cast<std::size_t>(u.nuisance)];
     for (const EffectParameter* size : candidate.sizes()) {
       u.write(u.expected + gone.parameters.at(size->name) - size->neutral, variant);
-      // Of what is held no slope is known; that of the size is the same.
+      // Held parameters have no sensitivity; that of the same quantity's size is used.
       for (std::size_t k = 0; k < fitted.unknowns.size(); ++k) {
         const Unknown& of_size = fitted.unknowns[k];
         if (of_size.effect != index || of_size.parameter != size->name) continue;

@@ -7,6 +7,7 @@
 #include "anthrob_calib/discovery/chain_experiment.h"
 #include "anthrob_ecu/control_law.h"
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/recording/quantities.h"
 
 namespace anthrob {
 namespace discovery {
@@ -14,20 +15,20 @@ namespace discovery {
 namespace {
 
 constexpr double kSameCommand = 0.01;    // of the range of commands
-constexpr double kOtherCommands = 0.05;  // of the time: more is more than lost messages
+constexpr double kOtherCommands = 0.05;  // of the time; lost messages cause less
 constexpr double kGrid = 0.01;           // [s]
 constexpr double kSameMotion = 0.15;     // of its range
 constexpr double kNoiseRange = 10.0;     // standard deviations; what ranges less is noise
 constexpr double kMotionBegins = 0.1;    // of its range
-constexpr double kBetterAligned = 0.25;  // of the squares that are left as the recordings start
+constexpr double kBetterAligned = 0.25;  // largest share of the difference that a shift may leave
 constexpr double kNever = HUGE_VAL;
 
-/// A recording, another one, and how much later the other one does what the first one does [s].
+/// Two recordings, and by how much the second one is behind the first one [s].
 struct Pair {
   const Dataset &first, &other;
   double late = 0.0;
 
-  /// What both have, in the time of the first one [s].
+  /// The time that both cover, in the time of the first one [s].
   double begin() const { return std::max(0.0, -late); }
   double end() const { return std::min(length(first), length(other) - late); }
 
@@ -44,7 +45,7 @@ double tolerance_of(const Series& commands) {
   return kSameCommand * range + 1e-6;
 }
 
-/// When a series is first further from where it began; never if it is not.
+/// When a series first leaves its initial value by more than a distance; infinite if it does not.
 double first_change(const Series& series, double tolerance) {
   for (std::size_t i = 0; i < series.t.size(); ++i) {
     if (std::abs(series.values[i] - series.values.front()) > tolerance) return series.t[i];
@@ -79,7 +80,7 @@ std::optional<double> differ(const Series& asked, const Series& again, const Pai
   return begins;
 }
 
-/// The mode that a muscle's references are in; what nobody said is what a replay takes it for.
+/// The mode of a muscle's references; if none was recorded, the one that a replay assumes.
 Series mode_series(const MuscleModel& muscle, const Dataset& recording) {
   Series mode = recording.series(muscle.name + "/mode");
   if (!mode.empty()) return mode;
@@ -145,7 +146,7 @@ double command_lateness(const RobotModel& robot, const Dataset& first, const Dat
   return two - one;
 }
 
-/// What moves a robot that is not told references.
+/// The quantity that drives a robot without references.
 struct Motion {
   std::string column;
   Series asked, again;
@@ -165,7 +166,7 @@ Motion motion_of(const std::string& column, const Dataset& first, const Dataset&
   return motion;
 }
 
-/// Mean square of what lies between a motion and its repeat.
+/// Mean square difference between a motion and its repeat.
 double apart(const Motion& motion, double late) {
   const double begin = std::max(0.0, -late);
   const double end = std::min(motion.asked.t.back(), motion.again.t.back() - late);
@@ -179,8 +180,8 @@ double apart(const Motion& motion, double late) {
   return squares;
 }
 
-/// By when the motion begins, if the two then lie clearly better over each other: no two motions
-/// begin quite alike.
+/// By when the motion begins, if that clearly aligns the two better: repeats do not begin exactly
+/// alike.
 double motion_lateness(const std::vector<Motion>& motions) {
   double one = kNever, two = kNever;
   for (const Motion& motion : motions) {
@@ -199,7 +200,7 @@ double motion_lateness(const std::vector<Motion>& motions) {
   return aligned < kBetterAligned * as_they_are ? late : 0.0;
 }
 
-/// The same, but for noise and what a controller or hand does a little otherwise.
+/// Whether two motions are the same, apart from noise and small differences of control.
 void refuse_another_motion(const Motion& motion, double late, const Dataset& first,
                            const Dataset& repeat) {
   const double rms = std::sqrt(apart(motion, late));
@@ -209,7 +210,7 @@ void refuse_another_motion(const Motion& motion, double late, const Dataset& fir
                  std::to_string(motion.range) + "; expected a repeat of its motion");
 }
 
-/// @param driving quantity that moves the muscles, with its slash; empty: they are told references
+/// @param driving quantity that drives the muscles, with its slash; empty: references do
 std::vector<Motion> motions_of(const RobotModel& robot, const std::string& driving,
                                const Dataset& first, const Dataset& repeat) {
   std::vector<Motion> motions;

@@ -13,7 +13,7 @@ namespace discovery {
 
 namespace {
 
-constexpr double kFaint = 9.0;     ///< squared change by a dose that is lost in the noise
+constexpr double kFaint = 9.0;  ///< squared change by a dose, below which it is lost in the noise
 constexpr double kVisible = 1e-4;  ///< share of that square that ordinary parameters leave
 constexpr double kAlike = 0.95;    ///< correlation
 constexpr double kImitated = 0.1;  ///< share of that square below which doses have two sides
@@ -45,7 +45,7 @@ Screening::Screening(const ModelFit& fit, const Fitted& base,
   }
   if (!many.empty()) {
     add_look(fit, base, quick, std::move(many));
-    // What was not used in these seconds may be later.
+    // An effect without influence in these seconds may act later.
     if (slow.rows.size() > quick.rows.size()) {
       const std::vector<std::size_t> faint = take_faint(looks_.back());
       few.insert(few.end(), faint.begin(), faint.end());
@@ -201,7 +201,7 @@ Screening::Projection Screening::project_whole(const Look& look, const Fitted& b
 }
 
 double Screening::Projection::left(Eigen::Index response, double whole) const {
-  // JS'a = a'J'J a + a'P a: what it costs to move the parameters shows in no recording.
+  // JS'a = a'J'J a + a'P a; the prior term a'P a shows in no recording.
   return whole - JS.col(response).dot(absorbed.col(response)) -
          absorbed.col(response).cwiseAbs2().dot(precision);
 }
@@ -230,7 +230,7 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
     Eigen::VectorXd lower(count), upper(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const Column& column = look.columns[static_cast<std::size_t>(from + i)];
-      // No more than a hundredth of the change is left: the ordinary parameters do the same.
+      // At most a hundredth of the change is left: ordinary parameters can do the same.
       const bool visible = column.simulated && h(i, i) > kVisible * whole[i] && h(i, i) > 1e-6;
       lower[i] = visible ? std::max(column.lower, -100.0) : 0.0;
       upper[i] = visible ? std::min(column.upper, 100.0) : 0.0;
@@ -270,7 +270,7 @@ std::vector<double> Screening::doses_to_a_gap(const Fitted& base, const std::vec
       whole(look.excerpt.rows) =
           left.col(static_cast<Eigen::Index>(look.first_column[k] + scores[s].size));
       for (const auto& [name, change] : judge.channel_gaps(whole)) {
-        // What stands there now may be the effect itself.
+        // The gap that is there now may be due to the effect itself.
         const double floor = std::min(1.0, now.at(name));
         const auto level = levels.find(name);
         if (level == levels.end() || change <= 0.0) continue;
@@ -294,7 +294,7 @@ std::vector<std::vector<std::size_t>> Screening::alike(const Fitted& base) const
     for (std::size_t k = 0; k < look.candidates.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(look.first_column[k]);
       const bool alone = look.first_column[k + 1] - look.first_column[k] == 1;
-      // Several sizes make more than one shape.
+      // An effect of several sizes has more than one shape of response.
       if (look.candidates[k] == kMoved || !alone || !(gram(i, i) > kFaint) ||
           gram(i, i) < kVisible * whole[i]) {
         continue;

@@ -15,7 +15,7 @@ namespace {
 using ChannelGaps =
     std::map<std::string, double>;  ///< by channel; empty: there is nothing to be fed
 
-/// What one model leaves of recordings that are fed at one seam.
+/// Gaps of one model to recordings that are fed at one seam.
 class Fed {
  public:
   Fed(const Evaluator& evaluator, const Scales& scales, const Variant& variant, double bin)
@@ -33,7 +33,7 @@ class Fed {
     }
   }
 
-  /// With measured postures imposed, less what their noise does.
+  /// With measured postures imposed, without the part that their noise causes.
   ChannelGaps gaps_of_postures(const std::vector<Dataset>& recordings, std::uint64_t seed) const {
     const RobotModel& robot = *evaluator_.model();
     try {
@@ -84,7 +84,7 @@ class Fed {
   double bin_;
 };
 
-/// What of a gap no noise is.
+/// The part of a gap that is not noise.
 double beyond_noise(double gap) {
   return std::sqrt(std::max(0.0, gap * gap - 1.0));
 }
@@ -98,10 +98,10 @@ bool goes(double from, double to) {
 }  // namespace
 
 std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Question& question,
-                               const Laboratory& laboratory, const Scales& scales,
+                               const PreparedRecordings& recordings, const Scales& scales,
                                const Variant& variant) {
   if (evaluator.model()->muscles.empty()) return {};
-  const Fed fed(evaluator, scales, variant, laboratory.train.front()->bin());
+  const Fed fed(evaluator, scales, variant, recordings.train.front()->bin());
   const ChannelGaps commands = fed.gaps(question.train, ReplayMode::kReference),
                     voltages = fed.gaps(question.train, ReplayMode::kVoltage),
                     positions = fed.gaps(question.train, ReplayMode::kPosition),
@@ -136,7 +136,7 @@ std::string subsystem_of(const SeamGap& gap) {
   }
   if (gap.channel != "force") return "path, skeleton, joints or their sensors";
   if (gap.postures < 0.0) return "spindle, tendon, spring, path or force sensor";
-  // Motors or arm may have run away further than the whole chain does.
+  // Fed with voltages, motors or arm may drift away further than in the whole chain.
   return goes(whole >= 0.0 ? std::min(whole, gap.positions) : gap.positions, gap.postures)
              ? "friction along the path, skeleton, joints or their sensors"
              : "spindle, tendon, spring, length of the path or force sensor";

@@ -1,9 +1,9 @@
+#include "anthrob_calib/discovery/separating_files.h"
+
 #include <cmath>
 #include <filesystem>
 #include <regex>
 #include <sstream>
-
-#include "anthrob_calib/report/discovery_report.h"
 
 namespace anthrob {
 namespace discovery {

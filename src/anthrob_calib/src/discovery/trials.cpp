@@ -18,10 +18,11 @@ using Amount = std::vector<double>;  // of each size, in doses
 constexpr double kSuggested[] = {0.5, 1.0};    ///< shares of what the screening suggests
 constexpr double kDoses[] = {1.0, 3.0, 10.0};  ///< whatever it suggests
 constexpr double kBetween[] = {0.25, 0.5, 0.75};
-constexpr double kBegun = 0.3;    ///< share of what a size would do in proportion to the dose
+/// A law that does less than this share of what it would do in proportion to the dose begins later.
+constexpr double kBegun = 0.3;
 constexpr double kUnasked = 5.0;  ///< [doses] where the screening suggests nothing
 
-/// Where among a candidate's sizes these are.
+/// Indices of these amounts among those that are tried.
 constexpr std::size_t kAsSuggested = 1, kTheDose = 2;
 
 double largest(const Amount& amount) {
@@ -73,8 +74,8 @@ std::vector<Score> Trials::most_promising(const std::vector<Score>& scores,
   return tried;
 }
 
-/// Where evidence is strongest, every law is tried: one whose dose seems to change nothing, or
-/// points the wrong way, may do it when it is larger.
+/// At the place with the strongest evidence every law is tried: one whose dose seems to change
+/// nothing, or to make it worse, may help at a larger size.
 void Trials::add_place_of_first(const std::vector<Score>& scores,
                                 const std::vector<Candidate>& candidates,
                                 std::vector<Score>& tried) {
@@ -131,7 +132,7 @@ std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& sc
   }
   trials = simulate(base, tried, std::move(trials));
 
-  // What does nothing up to a size begins somewhere between it and the dose; and where two sizes
+  // A law that does nothing up to a size begins somewhere between it and the dose. Where two sizes
   // make up an amplitude and a phase, a small dose may suggest the wrong phase for a large one.
   std::vector<Trial> more;
   const std::size_t sizes = tried.empty() ? 1 : trials.size() / tried.size();
@@ -148,7 +149,7 @@ std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& sc
     }
   }
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    // Half of what is suggested tells nothing more of the phase.
+    // Half of the suggested amount says nothing more about the phase.
     const Candidate& candidate = candidates_[tried[trials[i].owner].candidate];
     if (i % sizes < kAsSuggested || !has_phase(candidate)) continue;
     for (Amount& amount : other_phases(candidate, trials[i].amount)) {

@@ -9,17 +9,17 @@ namespace discovery {
 
 namespace {
 
-constexpr double kMostRemains = 0.45;  ///< of the squared gap: the names are not the answer
+constexpr double kMostRemains = 0.45;  ///< largest share of the squared gap left by an answer
 
-/// Whether a channel that a dependence is of stands above what noise may look like.
+/// Whether the channel of a dependence has a gap larger than a wrong noise estimate may cause.
 bool is_real(const Dependence& dependence, const std::map<std::string, double>& left) {
   return std::any_of(left.begin(), left.end(), [&](const auto& channel) {
     return dependence.channel.rfind(channel.first, 0) == 0 && channel.second > kRealGap;
   });
 }
 
-/// The dependence that explains most of all that is left; null: none does. What depends on nothing
-/// is noise that was thought smaller, not something missing.
+/// The dependence that explains most of what is left; null: there is none. A gap that depends on
+/// nothing is underestimated noise, not a missing effect.
 const Dependence* strongest(const std::map<std::string, double>& left,
                             const std::vector<Dependence>& dependences) {
   double whole = 0.0;
@@ -50,13 +50,13 @@ double trust_in(const FoundEffect& effect, bool left_counts) {
   return of_shape * of_channels * of_left;
 }
 
-void pronounce(const std::map<std::string, double>& left, bool certain, Answer& answer) {
+void fill_in_verdict(const std::map<std::string, double>& left, bool certain, Answer& answer) {
   if (answer.effects.empty()) {
     answer.verdict = certain ? "unexplained" : "no_missing_effect";
   } else {
     const bool most_remains = certain && answer.remaining_share > kMostRemains;
     answer.verdict = most_remains ? "unexplained" : "effects_found";
-    // What is left shows that the law may be another one.
+    // What is left suggests that the true law is another one.
     for (FoundEffect& effect : answer.effects) {
       const double trust = trust_in(effect);
       effect.probability *= trust;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anthrob_calib/identification/least_squares.h"
+#include "anthrob_calib/identification/number_text.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -36,6 +37,22 @@ struct Layout {
 /// An error of the angle goes straight into the coefficient.
 Estimate with_angle_error(const Estimate& mu, double relative) {
   return widened(mu, mu.value * relative);
+}
+
+/// Refuses friction that pulls along: the directions are those of the encoder.
+void require_friction(const CapstanFit& result, const Fit& fit,
+                      const std::vector<SlidingPoint>& points) {
+  const std::string& name = points.front().recording;
+  if (fit.at_bound >= 0) {
+    throw BadInput(name + ": tendon/force: " + rounded(points.front().force.value, 3) + " N at " +
+                   rounded(points.front().load, 3) +
+                   " N of weight/load: the fit of the friction ends at its bound; expected forces "
+                   "near the load. Check unit and sign of both columns");
+  }
+  if (result.both.value > 0.0) return;
+  throw BadInput(name + ": tendon/position: mu_k is " + rounded(result.both.value, 3) +
+                 " by its direction: expected a positive number; reverse the sign of the column, "
+                 "which grows while the line is pulled");
 }
 
 }  // namespace
@@ -100,6 +117,7 @@ CapstanFit fit_capstan(const std::vector<SlidingPoint>& points, double turning_s
   } else {
     result.both = result.pulling ? *result.pulling : *result.relaxing;
   }
+  require_friction(result, fit, points);
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "anthrob_calib/identification/capstan_fit.h"
+#include "anthrob_calib/identification/number_text.h"
 #include "anthrob_calib/identification/rig_recording.h"
 #include "anthrob_sim/core/errors.h"
 
@@ -104,8 +105,13 @@ EyeletRecording EyeletRecording::read(const Dataset& recording) {
           result.force.begin() + static_cast<std::ptrdiff_t>(stretch.begin),
           result.force.begin() + static_cast<std::ptrdiff_t>(stretch.end));
       const auto block = static_cast<std::size_t>(static_cast<double>(piece.size()) / kBlocks);
-      result.points.push_back({result.name, load, turning, direction > 0.0,
-                               mean_of_series(piece, std::max<std::size_t>(1, block))});
+      const Estimate force = mean_of_series(piece, std::max<std::size_t>(1, block));
+      if (!(force.value > 0.0)) {
+        throw BadInput(result.name + ": tendon/force: mean of " + rounded(force.value, 3) +
+                       " N while the line moves: expected a positive number; reverse the sign of "
+                       "the column");
+      }
+      result.points.push_back({result.name, load, turning, direction > 0.0, force});
     }
   }
   if (result.points.empty()) {

@@ -65,6 +65,20 @@ void minimise(const LeastSquares& problem, std::vector<double>& scaled) {
   }
 }
 
+/// Index of the first parameter at one of its bounds, or -1.
+int first_at_bound(const LeastSquares& problem, const std::vector<double>& scaled) {
+  constexpr double kNear = 1e-9;  // of the bound
+  for (std::size_t i = 0; i < scaled.size(); ++i) {
+    const LeastSquares::Parameter& p = problem.parameters[i];
+    for (const double bound : {p.lower / p.scale, p.upper / p.scale}) {
+      if (std::isfinite(bound) && std::abs(scaled[i] - bound) <= kNear * std::abs(bound)) {
+        return static_cast<int>(i);
+      }
+    }
+  }
+  return -1;
+}
+
 /// Sum of squares of the blocks' gradients, each as if the fit had not seen that block (the
 /// jackknife, in its closed form for linear models). Without that, blocks that decide a parameter,
 /// as the first second of a relaxation does, hide their own errors.
@@ -130,6 +144,7 @@ Fit solve(const LeastSquares& problem) {
   ScaledCost(problem).Evaluate(&at, residuals.data(), &derivatives);
   fit.deviation = std::sqrt(residuals.squaredNorm() / static_cast<double>(rows));
 
+  fit.at_bound = first_at_bound(problem, scaled);
   fit.covariance = covariance_of(problem, residuals, jacobian, pieces, fit.freedom);
   for (std::size_t i = 0; i < n; ++i) {
     const double scale = problem.parameters[i].scale;

@@ -68,6 +68,11 @@ std::optional<double> RingModelResult::mean_validation_error() const {
   return mean_used(validation_error);
 }
 
+bool RingResult::has_fit() const {
+  return std::any_of(models.begin(), models.end(),
+                     [](const RingModelResult& model) { return model.fit.has_value(); });
+}
+
 std::vector<RingResult> identify_rings(std::vector<RingRecording> recordings) {
   std::sort(recordings.begin(), recordings.end(),
             [](const auto& a, const auto& b) { return order(a) < order(b); });

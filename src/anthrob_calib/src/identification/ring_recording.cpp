@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "anthrob_calib/identification/number_text.h"
 #include "anthrob_calib/identification/rig_recording.h"
 #include "anthrob_sim/core/errors.h"
 
@@ -154,6 +155,14 @@ class Reader {
     for (test.hold = start; test.expansion[test.hold] < kReached * held;) ++test.hold;
     test.strain = held / l0;
     test.used = test.strain > kEllipseStrain;
+    const double force = std::accumulate(test.force.begin() + static_cast<std::ptrdiff_t>(half),
+                                         test.force.end(), 0.0) /
+                         static_cast<double>(size - half);
+    if (test.used && !(force > 0.0)) {  // else noise may hide it
+      fail(stretch.begin, "ring/force: " + rounded(force, 3) +
+                              " N more while stretched than released: expected a positive "
+                              "number; reverse the sign of the column");
+    }
     result_.tests.push_back(std::move(test));
   }
 

@@ -1,5 +1,6 @@
 #include "anthrob_calib/identification/ring_report.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "anthrob_calib/identification/number_text.h"
@@ -46,6 +47,7 @@ std::string spring_yaml(const RingResult& ring, const RingModelResult& model) {
 std::string springs_yaml(const std::vector<RingResult>& rings) {
   std::string out = "# Identified by anthrob_identify see. Paste it into a model file.\nsprings:\n";
   for (const RingResult& ring : rings) {
+    if (!ring.has_fit()) continue;
     out += "  # from " + ring.recordings[ring.fitted].name + "\n";
     for (const RingModelResult& model : ring.models) {
       if (model.fit) out += spring_yaml(ring, model);
@@ -121,7 +123,10 @@ OutputFiles report_rings(const std::vector<RingResult>& rings) {
     }
   }
   if (rings.size() > 1) files["errors.svg"] = error_figure(rings);
-  files["springs.yaml"] = springs_yaml(rings);
+  // Without a ring the key would be empty, which removes the springs of a model.
+  const bool any = std::any_of(rings.begin(), rings.end(),
+                               [](const RingResult& ring) { return ring.has_fit(); });
+  if (any) files["springs.yaml"] = springs_yaml(rings);
   files["report.json"] = json.dump(2) + "\n";
   return files;
 }

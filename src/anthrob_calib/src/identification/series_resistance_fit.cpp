@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "anthrob_calib/identification/least_squares.h"
+#include "anthrob_calib/identification/number_text.h"
 #include "anthrob_calib/identification/rig_recording.h"
 #include "anthrob_sim/core/errors.h"
 
@@ -19,6 +21,22 @@ double mean(const std::vector<double>& list, std::size_t begin, std::size_t end)
   double sum = 0.0;
   for (std::size_t i = begin; i < end; ++i) sum += list[i];
   return sum / static_cast<double>(end - begin);
+}
+
+/// A load has the voltage and the current that the reference asks for.
+void require_signs(const LoadRecording& recording) {
+  double by_voltage = 0.0, by_current = 0.0;
+  for (const LoadPoint& point : recording.points) {
+    by_voltage += point.reference * point.voltage;
+    by_current += point.reference * point.current;
+  }
+  for (const auto& [column, product] :
+       {std::pair{"voltage", by_voltage}, std::pair{"current", by_current}}) {
+    if (product >= 0.0) continue;
+    throw BadInput(recording.name + ": oscilloscope/" + column +
+                   ": has the opposite sign of resistor/reference: expected the same; reverse the "
+                   "sign of the column");
+  }
 }
 
 }  // namespace
@@ -48,6 +66,7 @@ LoadRecording LoadRecording::read(const Dataset& recording) {
     result.points.push_back({reference[begin], mean(columns.values[1], end - window, end),
                              mean(columns.values[2], end - window, end)});
   }
+  require_signs(result);
   return result;
 }
 
@@ -91,6 +110,12 @@ SeriesResistanceFit fit_series_resistance(const std::vector<LoadRecording>& reco
   result.resistance = widened(fit.estimate(0), gain_sigma * fit.values[0]);
   result.offset = fit.estimate(1);
   if (fit_gain) result.gain = fit.estimate(2);
+  if (fit.at_bound >= 0 || !(fit.values[0] > 0.0)) {
+    throw BadInput(recordings.front().name + ": oscilloscope/current: R_ECU would be " +
+                   rounded(fit.values[0], 3) +
+                   " ohm: expected a positive number within the bounds of the fit; check the signs "
+                   "and units of oscilloscope/current and oscilloscope/voltage");
+  }
   return result;
 }
 

@@ -29,7 +29,8 @@ std::vector<double> times_of(const Samples& samples, int rows) {
 }
 
 /// Measured and simulated number of a hinge; ball joints are shown by their errors.
-void add_joint_panels(SvgFigure& figure, const MeasuredRun& run, const RunDifferences& before,
+/// @param before null if that model could not be simulated
+void add_joint_panels(SvgFigure& figure, const MeasuredRun& run, const RunDifferences* before,
                       const RunDifferences& after, const JointModel& joint) {
   const int rows = after.path.count();
   const std::vector<double> t = times_of(run.path, rows);
@@ -54,8 +55,10 @@ void add_joint_panels(SvgFigure& figure, const MeasuredRun& run, const RunDiffer
     }
   }
   auto& panel = figure.add_panel("time [s]", joint.name + " absolute error" + bracket);
-  panel.lines.push_back({"before", times_of(run.path, before.path.count()),
-                         scaled(before.path.joint_error(joint), scale), true});
+  if (before) {
+    panel.lines.push_back({"before", times_of(run.path, before->path.count()),
+                           scaled(before->path.joint_error(joint), scale), true});
+  }
   panel.lines.push_back({"after", t, scaled(after.path.joint_error(joint), scale)});
 }
 
@@ -85,8 +88,10 @@ std::string run_error_figure(const BeforeAfter& both, const RobotModel& model,
   const auto add = [&](const std::string& label, auto value_of) {
     auto& panel = figure.add_panel("run", label);
     for (const bool after : {false, true}) {
+      const std::vector<RunDifferences>& runs = after ? both.after : both.before;
+      if (runs.empty()) continue;
       std::vector<double> y;
-      for (const RunDifferences& run : after ? both.after : both.before) {
+      for (const RunDifferences& run : runs) {
         y.push_back(value_of(run_errors(run, model)));
       }
       SvgFigure::Line line{after ? "after" : "before", x, y};
@@ -108,7 +113,8 @@ std::string trajectory_figure(const BeforeAfter& both, std::size_t r, const Robo
   const MeasuredRun& run = both.runs[r];
   SvgFigure figure(run.name);
   for (const JointModel& joint : model.skeleton->joints) {
-    add_joint_panels(figure, run, both.before[r], both.after[r], joint);
+    const RunDifferences* before = both.before.empty() ? nullptr : &both.before[r];
+    add_joint_panels(figure, run, before, both.after[r], joint);
   }
   const Differences& after = both.after[r].path;
   const std::vector<double> t = times_of(run.path, after.count());

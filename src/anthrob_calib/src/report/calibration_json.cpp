@@ -30,16 +30,22 @@ ordered_json errors_json(const MeanErrors& errors, const RobotModel& model) {
   return out;
 }
 
+/// A model that could not be simulated has null.
 ordered_json runs_json(const BeforeAfter& both, const RobotModel& model) {
   if (both.runs.empty()) return nullptr;
+  const auto mean = [&](const std::vector<RunDifferences>& list) {
+    return list.empty() ? ordered_json(nullptr) : errors_json(mean_errors(list, model), model);
+  };
+  const auto of_run = [&](const std::vector<RunDifferences>& list, std::size_t r) {
+    return list.empty() ? ordered_json(nullptr) : errors_json(run_errors(list[r], model), model);
+  };
   ordered_json out;
-  out["mean"] = {{"before", errors_json(mean_errors(both.before, model), model)},
-                 {"after", errors_json(mean_errors(both.after, model), model)}};
+  out["mean"] = {{"before", mean(both.before)}, {"after", mean(both.after)}};
   out["runs"] = ordered_json::array();
   for (std::size_t r = 0; r < both.runs.size(); ++r) {
     out["runs"].push_back({{"name", both.runs[r].name},
-                           {"before", errors_json(run_errors(both.before[r], model), model)},
-                           {"after", errors_json(run_errors(both.after[r], model), model)}});
+                           {"before", of_run(both.before, r)},
+                           {"after", of_run(both.after, r)}});
   }
   return out;
 }

@@ -6,7 +6,7 @@
 namespace anthrob {
 namespace calibration {
 
-std::vector<std::string> untold(const CalibrationOutcome& outcome) {
+std::vector<std::string> insensitive_parameters(const CalibrationOutcome& outcome) {
   constexpr double kNothing = 1e-6;  // of what the parameter that tells most does
   std::vector<std::string> names;
   const std::vector<double>& sensitivity = outcome.sensitivity;

@@ -38,8 +38,14 @@ std::string error_table(const BeforeAfter& both, const RobotModel& model) {
   head.push_back("force [N]");
   std::string out = "<table>" + row(head, "th");
   for (const bool after : {false, true}) {
-    const MeanErrors errors = mean_errors(after ? both.after : both.before, model);
+    const std::vector<RunDifferences>& runs = after ? both.after : both.before;
     std::vector<std::string> cells = {after ? "after" : "before"};
+    if (runs.empty()) {
+      cells.resize(head.size(), "not simulated");
+      out += row(cells);
+      continue;
+    }
+    const MeanErrors errors = mean_errors(runs, model);
     for (std::size_t j = 0; j < errors.joints.size(); ++j) {
       cells.push_back(text(unit_of(model.skeleton->joints[j]).scale * errors.joints[j], "%.2f"));
     }
@@ -62,7 +68,7 @@ std::string errors_section(const BeforeAfter& both, const RobotModel& model,
   const auto longest = std::max_element(
       both.runs.begin(), both.runs.end(),
       [](const MeasuredRun& a, const MeasuredRun& b) { return a.path.count() < b.path.count(); });
-  if (longest->is_trajectory) {
+  if (longest->is_trajectory && !both.after.empty()) {
     out += trajectory_figure(both, static_cast<std::size_t>(longest - both.runs.begin()), model);
   }
   return out;
@@ -72,7 +78,7 @@ std::string parameter_table(const CalibrationOutcome& o) {
   std::string out = "<table>" + row({"parameter", "unit", "range", "before", "after", "sigma",
                                      "identifiable", "at a bound"},
                                     "th");
-  const std::vector<std::string> nothing = untold(o);
+  const std::vector<std::string> nothing = insensitive_parameters(o);
   for (std::size_t i = 0; i < o.parameters.size(); ++i) {
     const ModelParameter& p = o.parameters[i];
     const bool known = !o.identifiability.parameters.empty();
@@ -103,7 +109,7 @@ std::string identifiability_section(const CalibrationOutcome& o) {
       " % of the standard deviation that their range allows. This is computed from the derivatives "
       "of all differences at the best point; the remaining differences are taken as noise (" +
       text(kDegrees * id.posture_noise) + " deg, " + text(id.force_noise) + " N). ";
-  if (!o.calibration.runs.front().is_trajectory) {
+  if (!o.calibration.runs.empty() && !o.calibration.runs.front().is_trajectory) {
     out += "Equilibria needed by (5.13): " +
            std::to_string(equilibria_needed(static_cast<int>(o.parameters.size()),
                                             static_cast<int>(o.model->muscles.size()))) +
@@ -139,24 +145,34 @@ std::string drives_section(const CalibrationOutcome& o) {
   return out + "</table>\n";
 }
 
+/// "12.3", or "not simulated" if the model could not be simulated.
+std::string error_text(const std::vector<RunDifferences>& runs, double error) {
+  return runs.empty() ? "not simulated" : text(error, "%.2f");
+}
+
+MeanErrors errors_of(const std::vector<RunDifferences>& runs, const RobotModel& model) {
+  return runs.empty() ? MeanErrors{std::vector<double>(model.skeleton->joints.size()), 0.0}
+                      : mean_errors(runs, model);
+}
+
 /// The mean errors in one sentence: on the held-out recordings, if there are any.
 std::string headline(const CalibrationOutcome& o) {
-  const bool held_out = !o.validation.runs.empty();
+  const bool held_out = !o.validation.after.empty();
   const BeforeAfter& both = held_out ? o.validation : o.calibration;
-  if (both.runs.empty()) return "";  // they could not be simulated; the doubt says why
-  const MeanErrors before = mean_errors(both.before, *o.model);
-  const MeanErrors after = mean_errors(both.after, *o.model);
+  if (both.after.empty()) return "";  // they could not be simulated; the doubt says why
+  const MeanErrors before = errors_of(both.before, *o.model);
+  const MeanErrors after = errors_of(both.after, *o.model);
   std::string out = held_out ? "On held-out recordings" : "On the recordings that were fitted";
   out += ", the mean errors are ";
   for (std::size_t j = 0; j < after.joints.size(); ++j) {
     const JointModel& joint = o.model->skeleton->joints[j];
     const auto [scale, unit] = unit_of(joint);
     out += "<b>" + text(scale * after.joints[j], "%.2f") + " " + unit +
-           "</b> (before: " + text(scale * before.joints[j], "%.2f") + ") at " +
+           "</b> (before: " + error_text(both.before, scale * before.joints[j]) + ") at " +
            escaped(joint.name) + ", ";
   }
   return "<p class=\"headline\">" + out + "and <b>" + text(after.force, "%.2f") +
-         " N</b> (before: " + text(before.force, "%.2f") + ") of muscle forces.</p>\n";
+         " N</b> (before: " + error_text(both.before, before.force) + ") of muscle forces.</p>\n";
 }
 
 std::string name_of(const std::string& file) {
@@ -202,16 +218,17 @@ std::string summary(const CalibrationOutcome& o) {
                     o.reason + ", " + std::to_string(o.evaluations) + " evaluations)\n";
   const auto line = [&](const char* what, const BeforeAfter& both) {
     if (both.runs.empty()) return;
-    const MeanErrors before = mean_errors(both.before, *o.model);
-    const MeanErrors after = mean_errors(both.after, *o.model);
+    const MeanErrors before = errors_of(both.before, *o.model);
+    const MeanErrors after = errors_of(both.after, *o.model);
     out += std::string(what) + ":";
     for (std::size_t j = 0; j < before.joints.size(); ++j) {
       const JointModel& joint = o.model->skeleton->joints[j];
       const auto [scale, unit] = unit_of(joint);
-      out += " " + joint.name + " " + text(scale * before.joints[j], "%.2f") + " -> " +
-             text(scale * after.joints[j], "%.2f") + " " + unit + ",";
+      out += " " + joint.name + " " + error_text(both.before, scale * before.joints[j]) + " -> " +
+             error_text(both.after, scale * after.joints[j]) + " " + unit + ",";
     }
-    out += " force " + text(before.force, "%.2f") + " -> " + text(after.force, "%.2f") + " N\n";
+    out += " force " + error_text(both.before, before.force) + " -> " +
+           error_text(both.after, after.force) + " N\n";
   };
   line("held out", o.validation);
   line("calibration", o.calibration);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "anthrob_calib/report/discovery_report.h"
+#include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/report/html.h"
 #include "anthrob_sim/report/svg_figure.h"
 

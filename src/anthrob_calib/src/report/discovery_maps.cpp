@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "anthrob_calib/discovery/criteria.h"
-#include "anthrob_calib/report/discovery_report.h"
+#include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/report/discovery_sentences.h"
 #include "anthrob_calib/report/html.h"
 #include "anthrob_sim/report/svg_figure.h"

@@ -1,8 +1,10 @@
+#include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/report/discovery_channels.h"
 #include "anthrob_calib/report/discovery_findings.h"
 #include "anthrob_calib/report/discovery_maps.h"
 #include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_calib/report/discovery_sentences.h"
+#include "anthrob_calib/report/discovery_summary.h"
 #include "anthrob_calib/report/html.h"
 
 namespace anthrob {

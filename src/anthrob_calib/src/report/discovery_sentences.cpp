@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/discovery/number_text.h"
+#include "anthrob_calib/discovery/separating_files.h"
 #include "anthrob_calib/discovery/verdict.h"
-#include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_calib/report/html.h"
 
 namespace anthrob {
@@ -104,12 +105,6 @@ std::string alternatives(const Answer& answer) {
 
 std::string with_unit(double value, const std::string& unit) {
   return short_number(value) + (unit == "1" ? "" : "\u00a0" + unit);
-}
-
-std::string range_text(const FoundParameter& p) {
-  if (p.known) return "taken as known";
-  if (p.undetermined) return "not determined by these recordings";
-  return short_number(p.low) + " to " + short_number(p.high);
 }
 
 std::string doubt_clause(const std::string& at_limit, const std::string& spoils) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "anthrob_calib/calibration/calibration_config.h"
 #include "anthrob_calib/report/calibration_outcome.h"
 
@@ -31,10 +29,11 @@ struct CalibrationInput {
 /// Computes the results after the search: simulates all runs in full length with the model before
 /// and after, examines identifiability, and simulates with other inputs (DriveErrors).
 /// @param thorough false: leaves out identifiability and other inputs
-/// @param stop whether to stop; called before each simulation for identifiability
+/// @param stop whether to stop; also called while runs are simulated, from several threads at once.
+/// What is computed until then is in the outcome, which is `interrupted`.
 CalibrationOutcome conclude(const CalibrationInput& input, const Problem& problem,
                             const Journal& journal, const std::string& reason, bool thorough,
-                            const std::function<bool()>& stop);
+                            const Stop& stop);
 
 }  // namespace calibration
 }  // namespace anthrob

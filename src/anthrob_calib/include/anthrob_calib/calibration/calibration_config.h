@@ -6,7 +6,7 @@
 #include "anthrob_calib/calibration/run_differences.h"
 #include "anthrob_calib/calibration/run_simulation.h"
 #include "anthrob_calib/optimiser/optimiser.h"
-#include "anthrob_sim/model/config_node.h"
+#include "anthrob_config/config_node.h"
 
 namespace anthrob {
 namespace calibration {

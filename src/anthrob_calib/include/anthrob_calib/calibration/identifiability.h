@@ -27,7 +27,7 @@ struct Profile {
 };
 
 /// Which parameters the data determine. Computed from the derivatives of all differences at the
-/// best point, reduced by be_cautious() to what holds for steps as large as the noise allows.
+/// best point, reduced by limit_derivatives() to what holds for steps as large as the noise allows.
 struct Identifiability {
   std::vector<ParameterKnowledge> parameters;
   Eigen::VectorXd singular_values;  ///< of the derivatives in steps, divided by the noise

@@ -18,6 +18,8 @@ struct Samples {
   Eigen::MatrixXd q;         ///< joint positions as in Simulation::configuration()
   Eigen::MatrixXd force;     ///< by muscle [N]
   Eigen::MatrixXd position;  ///< of actuators, by muscle [rad]; no columns: not measured
+  /// Of so many measurements each row is a mean: of the slowest sensor's.
+  double posture_measurements = 1.0, force_measurements = 1.0;
 
   int count() const { return static_cast<int>(t.size()); }
 };

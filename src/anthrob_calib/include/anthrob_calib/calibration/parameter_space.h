@@ -16,7 +16,7 @@ class ParameterSpace {
   /// Reads `parameters` (see read_parameters()) and, if present, `shares`:
   ///   - {path: joints.shoulder.friction.kinetic, of: joints.shoulder.friction.static, low: 0.0,
   ///      high: 1.0, step: 0.1}
-  /// @throws BadInput
+  /// @throws BadInput, also if a number is a share of a share
   ParameterSpace(const ConfigNode& config, const ConfigNode& model);
 
   const std::vector<ModelParameter>& parameters() const { return parameters_; }

@@ -37,9 +37,24 @@ struct Differences {
   std::vector<double> joint_error(const JointModel& joint) const;
 };
 
+/// A part of a run, as the fitness counts it.
+struct RunPart {
+  const Differences& differences;
+  double share;  ///< of the run's fitness; the shares of a run add up to 1
+
+  /// Factors that turn differences into residuals, whose squares add up to `scale` times the part's
+  /// share of the fitness.
+  double posture_factor(const Weights& weights, double scale) const;
+  double force_factor(const Weights& weights, double scale) const;
+};
+
 /// One run, simulated and compared.
 struct RunDifferences {
   Differences before, path, after;  ///< empty where the run has none
+
+  /// The parts that the fitness consists of: `after` of an equilibrium, all three of a trajectory.
+  /// They refer to this.
+  std::vector<RunPart> parts(const Weights& weights) const;
 
   /// F_S of an equilibrium, F'_T (5.20) of a trajectory.
   double fitness(const Weights& weights) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -23,8 +24,13 @@ struct SimulationOptions {
   Drive drive = Drive::kReferences;
 };
 
+/// Whether to end a simulation before its time, which then throws Interrupted. Asked about every
+/// 1000 steps, from several threads at once; may be empty.
+using Stop = std::function<bool()>;
+
 /// Runs that follow one another: the first of a chain starts where the robot settles from its rest
-/// posture, each further one where the run before it ended.
+/// posture, each further one where the run before it ended. Which runs follow one another does not
+/// depend on the order of the list, unless several may follow the same one: then the first does.
 struct Chain {
   std::vector<int> runs;
   bool from_home = true;  ///< starts at the references of most runs; if tied, of the first run
@@ -38,18 +44,20 @@ int steps_of_rest(const Simulation& sim, const MeasuredRun& run, const Simulatio
 
 /// Waits for the first command of a run that follows another one in a chain, as long as the robot
 /// did.
-void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
+void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options,
+                      const Stop& stop = {});
 
 /// Simulates one run from the present state of the simulation, and compares it. If the simulated
 /// part is shorter than the run, its end is compared with the end of the recorded run.
 /// @throws NumericalFailure
-RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options);
+RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options,
+                      const Stop& stop = {});
 
 /// Simulates all runs with one model. Chains run in parallel on all threads.
 /// @throws NumericalFailure
 std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& model,
                                           const std::vector<MeasuredRun>& runs,
-                                          const SimulationOptions& options);
+                                          const SimulationOptions& options, const Stop& stop = {});
 
 }  // namespace calibration
 }  // namespace anthrob

@@ -33,6 +33,11 @@ class AxisExperiment final : public Experiment {
     Series effort, load;
   };
 
+  /// @param index of the joint   @param longest part of the recording to take [s]
+  void add_axis(int index, const JointModel& joint, const Dataset& recording, double longest);
+  /// Of the given model, at every bin.
+  void measure_inertia(const RobotModel& model);
+  /// Gives the simulation the measured motion at the edge of a bin.
   void place(Simulation& sim, std::size_t edge) const;
 
   double step_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "anthrob_calib/discovery/screening.h"
-#include "anthrob_calib/discovery/workbench.h"
+#include "anthrob_calib/discovery/search_context.h"
 
 namespace anthrob {
 namespace discovery {
@@ -19,7 +19,8 @@ class CommonLaw {
     std::size_t effect, candidate;
   };
 
-  CommonLaw(const Workbench& bench, Screening& screening) : bench_(bench), screening_(screening) {}
+  CommonLaw(const SearchContext& context, Screening& screening)
+      : context_(context), screening_(screening) {}
 
   /// Whether a candidate may replace two others.
   bool may_be(std::size_t law, std::size_t one, std::size_t other) const;
@@ -29,7 +30,7 @@ class CommonLaw {
   /// the cost of the model without any of them.
   struct Instead {
     Tested tested;
-    Naming::Odds odds;
+    CandidateComparison::Odds odds;
     double gained;
     Eigen::VectorXf without;  ///< held-out residual of the model without any of them
 
@@ -46,7 +47,7 @@ class CommonLaw {
                                  const std::vector<Part>& parts) const;
 
  private:
-  const Workbench& bench_;
+  const SearchContext& context_;
   Screening& screening_;
 };
 

@@ -34,7 +34,7 @@ struct Question {
 struct FoundParameter {
   std::string name, unit;
   double value = 0.0, low = 0.0, high = 0.0;  ///< 95 % interval
-  bool known = false;  ///< not fitted: the catalogue's number, without an interval
+  bool known = false;         ///< not fitted: the catalogue's number, without an interval
   bool undetermined = false;  ///< the recordings exclude no value of its range
 
   bool has_interval() const { return !known && !undetermined; }

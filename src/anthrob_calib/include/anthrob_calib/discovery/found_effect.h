@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "anthrob_calib/discovery/candidate.h"
+#include "anthrob_calib/discovery/candidate_comparison.h"
 #include "anthrob_calib/discovery/discovery.h"
-#include "anthrob_calib/discovery/naming.h"
 
 namespace anthrob {
 namespace discovery {
@@ -20,11 +20,13 @@ FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& ca
 /// @param odds against the other
 /// @return whether the replaced law is the first rival, so that a separating experiment is to be
 /// planned
-bool name_instead(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect);
+bool name_instead(const Candidate& fuller, const CandidateComparison::Odds& odds,
+                  FoundEffect& effect);
 
 /// The law that says more is not clearly better: the simpler law stays named, and the other one
 /// becomes its first rival, with the same probability.
-void leave_open(const Candidate& fuller, const Naming::Odds& odds, FoundEffect& effect);
+void leave_open(const Candidate& fuller, const CandidateComparison::Odds& odds,
+                FoundEffect& effect);
 
 }  // namespace discovery
 }  // namespace anthrob

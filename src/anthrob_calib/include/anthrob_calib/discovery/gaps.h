@@ -1,8 +1,8 @@
 #pragma once
 
+#include "anthrob_calib/discovery/candidate_comparison.h"
 #include "anthrob_calib/discovery/judge.h"
 #include "anthrob_calib/discovery/merit.h"
-#include "anthrob_calib/discovery/naming.h"
 
 namespace anthrob {
 namespace discovery {

@@ -7,7 +7,7 @@ namespace anthrob {
 namespace discovery {
 
 /// Recordings as experiments, with the same bins.
-struct Laboratory {
+struct PreparedRecordings {
   Experiments train, test, repeats;
   std::vector<long> lags;  ///< by how much each repeat is behind the first of `train` [bins]
   std::vector<std::string> remarks;  ///< what is odd about the recordings
@@ -18,7 +18,7 @@ struct Laboratory {
 /// Chooses the bins, makes experiments of the recordings, and refuses recordings that cannot
 /// answer.
 /// @throws BadInput with one line that says what is wrong with which recording
-Laboratory prepare(const Evaluator& evaluator, const Question& question);
+PreparedRecordings prepare(const Evaluator& evaluator, const Question& question);
 
 /// A longer step of the simulation with which changes of the residual are exact enough [s]; 0:
 /// none.

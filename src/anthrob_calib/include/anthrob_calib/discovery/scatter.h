@@ -1,7 +1,7 @@
 #pragma once
 
-#include "anthrob_calib/discovery/naming.h"
-#include "anthrob_calib/discovery/settling.h"
+#include "anthrob_calib/discovery/candidate_comparison.h"
+#include "anthrob_calib/discovery/convergence.h"
 
 namespace anthrob {
 namespace discovery {
@@ -13,7 +13,7 @@ namespace discovery {
 /// @param base fitted without them
 /// @param one, other fitted to the end
 /// @return the same, but no nearer to 0 or 1 than Phi(lead / scatter); this moves it at most to 0.5
-double allowing_for_scatter(double by_blocks, const Settling& settling, const Tested& base,
+double allowing_for_scatter(double by_blocks, const Convergence& convergence, const Tested& base,
                             const Tested& one, const Tested& other);
 
 }  // namespace discovery

@@ -20,7 +20,7 @@ double trust_in(const FoundEffect& effect, bool left_counts = true);
 /// named effects and their rivals by trust_in().
 /// @param left gap of each channel in the training recordings, with the named effects [floors]
 /// @param certain whether some gap that is left is certain (certain_gap())
-void pronounce(const std::map<std::string, double>& left, bool certain, Answer& answer);
+void fill_in_verdict(const std::map<std::string, double>& left, bool certain, Answer& answer);
 
 }  // namespace discovery
 }  // namespace anthrob

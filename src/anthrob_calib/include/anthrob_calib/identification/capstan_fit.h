@@ -46,7 +46,7 @@ struct CapstanFit {
 /// mu_k of one point by itself, as in Figure 7.9d.
 double capstan_coefficient(const SlidingPoint& point, double offset);
 
-/// @throws BadInput if there are too few points
+/// @throws BadInput if there are too few points, or if the friction would not be positive
 CapstanFit fit_capstan(const std::vector<SlidingPoint>& points, double turning_sigma);
 
 /// Root mean square of predicted minus measured mean forces [N].

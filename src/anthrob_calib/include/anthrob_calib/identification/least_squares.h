@@ -37,6 +37,7 @@ struct Fit {
   Eigen::MatrixXd covariance;
   int freedom = 0;         ///< blocks (or residuals, without) minus parameters
   double deviation = 0.0;  ///< root mean square of the residuals
+  int at_bound = -1;       ///< index of the first parameter that ends at a bound; -1: none does
 
   /// With its 95 % interval.
   Estimate estimate(std::size_t i) const;

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "anthrob_sim/model/config_node.h"
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/recording/dataset.h"
 
 namespace anthrob {

@@ -29,6 +29,8 @@ struct RingResult {
   std::vector<RingRecording> recordings;  ///< by specimen and run
   std::size_t fitted = 0;                 ///< of `recordings`: the first specimen's last run
   std::vector<RingModelResult> models;    ///< Zener, Wiechert
+
+  bool has_fit() const;  ///< of any model
 };
 
 /// Sorts recordings by ring, specimen and run, as section 7.2.3 uses them: fits the first

@@ -43,7 +43,7 @@ struct SeriesResistanceFit {
   double predicted_voltage(const LoadPoint& point) const;
 };
 
-/// @throws BadInput if there are too few points
+/// @throws BadInput if there are too few points, or if the resistance would not be positive
 SeriesResistanceFit fit_series_resistance(const std::vector<LoadRecording>& recordings);
 
 /// Root mean square of predicted minus measured load voltages [V].

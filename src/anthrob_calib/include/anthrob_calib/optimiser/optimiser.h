@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "anthrob_calib/optimiser/evaluator.h"
-#include "anthrob_sim/model/config_node.h"
+#include "anthrob_config/config_node.h"
 
 namespace anthrob {
 namespace calibration {

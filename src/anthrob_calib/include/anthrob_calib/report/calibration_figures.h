@@ -15,7 +15,7 @@ std::string fitness_figure(const std::vector<Generation>& history);
 std::string run_error_figure(const BeforeAfter& both, const RobotModel& model,
                              const std::string& title);
 /// One trajectory over time: joint positions measured and simulated, errors before and after
-/// (Figures 8.5, 8.15, 8.16).
+/// (Figures 8.5, 8.15, 8.16). Needs `after`.
 std::string trajectory_figure(const BeforeAfter& both, std::size_t run, const RobotModel& model);
 /// Fitness along the least identifiable parameters.
 std::string profile_figure(const Identifiability& identifiability,

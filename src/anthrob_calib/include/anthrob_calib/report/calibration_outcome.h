@@ -15,8 +15,8 @@ namespace calibration {
 
 /// Runs simulated in full length, with the given and with the calibrated model.
 struct BeforeAfter {
-  std::vector<MeasuredRun> runs;
-  std::vector<RunDifferences> before, after;
+  std::vector<MeasuredRun> runs;              ///< none if neither model could be simulated
+  std::vector<RunDifferences> before, after;  ///< empty if that model could not be simulated
 };
 
 /// Errors of the calibrated model with other inputs of the actuators (section 8.3).
@@ -43,17 +43,17 @@ struct CalibrationOutcome {
   std::vector<double> sensitivity;  ///< see SearchResult
   int evaluations = 0;
   std::vector<Generation> history;
-  BeforeAfter calibration, validation;  ///< without runs if the simulation failed
-  bool held_out = false;                ///< whether held-out recordings were given
+  BeforeAfter calibration, validation;
+  bool held_out = false;  ///< whether held-out recordings were given
   Identifiability identifiability;
   std::vector<DriveErrors> drives;
-  bool interrupted = false;  ///< before the errors of the parameters were computed
+  bool interrupted = false;  ///< before everything was computed
   std::string doubt;         ///< what could not be computed, and why; or empty
 };
 
 /// Names of the parameters that have no influence on the compared quantities, by the derivatives of
 /// the search. Empty if the method has no derivatives.
-std::vector<std::string> untold(const CalibrationOutcome& outcome);
+std::vector<std::string> insensitive_parameters(const CalibrationOutcome& outcome);
 
 /// Errors of runs as Tables C.12 and D.1 have them: means over runs of each run's mean.
 struct MeanErrors {

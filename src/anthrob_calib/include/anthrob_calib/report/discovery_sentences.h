@@ -23,8 +23,5 @@ std::string doubt_clause(const std::string& at_limit, const std::string& spoils)
 /// "0.05 Nm", not to be broken between lines; without unit where there is none.
 std::string with_unit(double value, const std::string& unit);
 
-/// "0.04 to 0.06", the interval, or why there is none.
-std::string range_text(const FoundParameter& parameter);
-
 }  // namespace discovery
 }  // namespace anthrob

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/recording/dataset.h"
 
 namespace anthrob {

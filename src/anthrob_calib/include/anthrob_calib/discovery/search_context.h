@@ -4,20 +4,20 @@
 #include <utility>
 #include <vector>
 
-#include "anthrob_calib/discovery/naming.h"
+#include "anthrob_calib/discovery/candidate_comparison.h"
+#include "anthrob_calib/discovery/convergence.h"
 #include "anthrob_calib/discovery/reduction.h"
-#include "anthrob_calib/discovery/settling.h"
 
 namespace anthrob {
 namespace discovery {
 
 /// The objects that every decision of the search needs.
-struct Workbench {
+struct SearchContext {
   const Evaluator& evaluator;
   const ModelFit &train, &test;
   const std::vector<Candidate>& candidates;
-  const Naming& naming;
-  const Settling& settling;
+  const CandidateComparison& comparison;
+  const Convergence& convergence;
 
   /// A fit and its residual on held-out recordings.
   Tested tested(Fitted fit) const {

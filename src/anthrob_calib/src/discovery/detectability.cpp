@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/preflight.h"
+#include "anthrob_calib/discovery/detectability.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +17,9 @@ namespace {
 constexpr double kMostly = 1.645;   ///< standard deviations: nineteen times out of twenty
 constexpr int kRounds = 3;          ///< in which a size is made larger
 constexpr double kEnough = 0.9;     ///< of what is needed
-constexpr double kMostDoses = 5.0;  ///< more than that of a typical size is none that one meets
+constexpr double kMostDoses = 5.0;  ///< [typical sizes] larger ones are unrealistic
 
-/// How high each channel must stand so that it mostly is above a faint gap [floors].
+/// Gap at which each channel is above kFaintGap nineteen times out of twenty [floors].
 std::map<std::string, double> mostly_looked_at(const Judge& train, const Judge& test) {
   const auto learned = train.chance_of_gaps();
   std::map<std::string, double> levels;
@@ -32,7 +32,7 @@ std::map<std::string, double> mostly_looked_at(const Judge& train, const Judge& 
 }
 
 /// Evidence E scatters by sqrt(2 E).
-/// @return what must be expected so that there mostly is enough [nat]
+/// @return expected evidence that is enough nineteen times out of twenty [nat]
 double mostly_enough(double evidence) {
   const double root = kMostly / std::sqrt(2.0) + std::sqrt(0.5 * kMostly * kMostly + evidence);
   return root * root;
@@ -40,8 +40,9 @@ double mostly_enough(double evidence) {
 
 }  // namespace
 
-PreFlight::PreFlight(const std::vector<Candidate>& candidates, const ModelFit& fit,
-                     const Fitted& base, const Judge& train, const Judge& test, double held_out)
+Detectability::Detectability(const std::vector<Candidate>& candidates, const ModelFit& fit,
+                             const Fitted& base, const Judge& train, const Judge& test,
+                             double held_out)
     : candidates_(candidates),
       fit_(fit),
       base_(base),
@@ -49,7 +50,8 @@ PreFlight::PreFlight(const std::vector<Candidate>& candidates, const ModelFit& f
       test_(test),
       held_out_(held_out) {}
 
-void PreFlight::fly(const Screening& screening, std::vector<Score> scores, Answer& answer) const {
+void Detectability::run(const Screening& screening, std::vector<Score> scores,
+                        Answer& answer) const {
   std::sort(scores.begin(), scores.end(),
             [](const Score& a, const Score& b) { return a.candidate < b.candidate; });
   std::vector<double> doses =
@@ -69,12 +71,13 @@ void PreFlight::fly(const Screening& screening, std::vector<Score> scores, Answe
   }
 }
 
-double PreFlight::doses_for_evidence(const Score& score) const {
+double Detectability::doses_for_evidence(const Score& score) const {
   const double evidence = mostly_enough(needed_evidence(candidates_.size()));
   return score.uncertainty * std::sqrt(2.0 * evidence * score.seconds / held_out_);
 }
 
-void PreFlight::check_turns(const std::vector<Score>& scores, std::vector<double>& doses) const {
+void Detectability::check_turns(const std::vector<Score>& scores,
+                                std::vector<double>& doses) const {
   std::vector<std::size_t> turns;
   for (std::size_t s = 0; s < scores.size(); ++s) {
     const Effect* effect = candidates_[scores[s].candidate].effect;
@@ -88,8 +91,8 @@ void PreFlight::check_turns(const std::vector<Score>& scores, std::vector<double
   });
 }
 
-double PreFlight::checked(const LikelihoodProfile& profile, const Score& score,
-                          double doses) const {
+double Detectability::checked(const LikelihoodProfile& profile, const Score& score,
+                              double doses) const {
   const double deviations = doses / score.uncertainty;
   const double needed =
       0.5 * deviations * deviations * total_duration(fit_.experiments()) / score.seconds;
@@ -102,22 +105,22 @@ double PreFlight::checked(const LikelihoodProfile& profile, const Score& score,
   return doses;
 }
 
-Visibility PreFlight::visibility_of(const Score& score, double doses) const {
+Visibility Detectability::visibility_of(const Score& score, double doses) const {
   const Candidate& candidate = candidates_[score.candidate];
   const EffectParameter& size = *candidate.sizes()[score.size];
   return {candidate.effect->info().id, candidate.place, size.unit,
           doses * std::abs(size.typical - size.neutral) + taken_for_ordinary(candidate)};
 }
 
-bool PreFlight::is_met(const Score& score, double doses) const {
+bool Detectability::is_met(const Score& score, double doses) const {
   const Candidate& candidate = candidates_[score.candidate];
   const EffectParameter& size = *candidate.sizes()[score.size];
   const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
   return doses <= kMostDoses && visibility_of(score, doses).smallest_visible <= largest;
 }
 
-/// How much of an effect an ordinary parameter that is the same quantity may be.
-double PreFlight::taken_for_ordinary(const Candidate& candidate) const {
+/// How much of an effect may be taken for an ordinary parameter that is the same quantity.
+double Detectability::taken_for_ordinary(const Candidate& candidate) const {
   const EffectParameter& size = *candidate.sizes().front();
   const bool either = size.bounds.lo < size.neutral;
   double room = 0.0;

@@ -3,16 +3,17 @@
 #include <optional>
 
 #include "anthrob_calib/discovery/gaps.h"
-#include "anthrob_calib/discovery/workbench.h"
+#include "anthrob_calib/discovery/search_context.h"
 
 namespace anthrob {
 namespace discovery {
 
 /// Checks whether an effect is still needed beside others that were named later, for which it may
 /// have stood in.
-class SecondThoughts {
+class BackwardElimination {
  public:
-  SecondThoughts(const Workbench& bench, const Gaps& gaps) : bench_(bench), gaps_(gaps) {}
+  BackwardElimination(const SearchContext& context, const Gaps& gaps)
+      : context_(context), gaps_(gaps) {}
 
   /// Fits the model without the effect. @return the fit to the end without it if the effect does
   /// not meet the criteria any more; nothing if it is still needed
@@ -23,7 +24,7 @@ class SecondThoughts {
                                 const Tested& with) const;
 
  private:
-  const Workbench& bench_;
+  const SearchContext& context_;
   const Gaps& gaps_;
 };
 

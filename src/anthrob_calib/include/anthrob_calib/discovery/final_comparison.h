@@ -1,7 +1,7 @@
 #pragma once
 
 #include "anthrob_calib/discovery/gaps.h"
-#include "anthrob_calib/discovery/workbench.h"
+#include "anthrob_calib/discovery/search_context.h"
 
 namespace anthrob {
 namespace discovery {
@@ -11,9 +11,10 @@ namespace discovery {
 /// the first of the list is fitted to the end. If another effect brings at least half as much, it
 /// is fitted to the end as well, unless it is left far behind, and the two are judged against each
 /// other.
-class RunOff {
+class FinalComparison {
  public:
-  RunOff(const Workbench& bench, const Gaps& gaps) : bench_(bench), gaps_(gaps) {}
+  FinalComparison(const SearchContext& context, const Gaps& gaps)
+      : context_(context), gaps_(gaps) {}
 
   /// Afterwards the first of the list is fitted to the end and has the evidence of that fit.
   /// - The other one becomes first if it is then more likely and meets the criteria. If it is more
@@ -30,10 +31,10 @@ class RunOff {
   std::size_t challenger(const Tested& base, const ShortList& list) const;
   /// Fits to the end; unchanged if that cannot be simulated.
   /// @return whether it comes near a level of cost; otherwise it is not fitted to the end
-  bool finish(Named& named, double level) const;
+  bool finish(FittedCandidate& named, double level) const;
   double share_of_better(const Tested& base, const ShortList& end) const;
 
-  const Workbench& bench_;
+  const SearchContext& context_;
   const Gaps& gaps_;
 };
 

@@ -10,14 +10,14 @@ namespace discovery {
 
 /// Decides how far fits are taken. Friction makes the cost rugged, and no model should lose because
 /// its fit was stopped too early.
-class Settling {
+class Convergence {
  public:
   /// @param judge of what is fitted
-  Settling(const Evaluator& evaluator, const ModelFit& fit, const Judge& judge)
+  Convergence(const Evaluator& evaluator, const ModelFit& fit, const Judge& judge)
       : evaluator_(evaluator), fit_(fit), judge_(judge) {}
 
   /// Fits from a variant, with rough steps first. @throws NotSimulated
-  Fitted settled(const Variant& variant, std::vector<Unknown> unknowns) const;
+  Fitted converged(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// Fits to the end, also once more from the given parameters: what was missing has led the
   /// ordinary parameters astray, and friction does not let them all find back. @return the better
   /// fit
@@ -27,13 +27,13 @@ class Settling {
   std::optional<Fitted> to_the_end_within_reach(const Fitted& fitted, double level) const;
   /// Continues a fit from where it is, but only roughly unless that brings the cost below a level.
   /// @return whether it came below the level
-  bool settle_within_reach(Fitted& fitted, double level) const;
+  bool converge_within_reach(Fitted& fitted, double level) const;
 
   /// By how much another round might still reduce the cost of a fit to the end [nat].
   double left_open(const Fitted& fitted) const;
 
  private:
-  void settle(Fitted& fitted) const;
+  void converge(Fitted& fitted) const;
   bool clearly_misses(const Fitted& fitted) const;
   Fitted rough(const Variant& variant, std::vector<Unknown> unknowns) const;
   std::optional<Fitted> roughly_from_given(const Fitted& fitted) const;

@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/naming.h"
+#include "anthrob_calib/discovery/candidate_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <optional>
 #include <stdexcept>
 
+#include "anthrob_calib/discovery/backward_elimination.h"
 #include "anthrob_calib/discovery/bootstrap.h"
-#include "anthrob_calib/discovery/run_off.h"
+#include "anthrob_calib/discovery/final_comparison.h"
 #include "anthrob_calib/discovery/scatter.h"
 #include "anthrob_calib/discovery/screening.h"
-#include "anthrob_calib/discovery/second_thoughts.h"
 #include "anthrob_calib/discovery/trials.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "made_problem.h"
@@ -72,7 +72,7 @@ struct Problem : MadeProblem {
   Fitted fitted(double damping) const {
     return train.start(Variant{{damping}}, nuisance_unknowns(evaluator));
   }
-  Tested base(double damping) const { return bench.tested(fitted(damping)); }
+  Tested base(double damping) const { return context.tested(fitted(damping)); }
   /// With one more effect, its damping free.
   Fitted with(const Fitted& fitted, std::size_t candidate, double damping) const {
     Variant variant = fitted.variant;
@@ -94,7 +94,7 @@ struct Problem : MadeProblem {
     score.candidate = index(joint);
     score.gain = 1.0;
     score.amount = {amount};
-    return naming.weigh(base, {score});
+    return comparison.weigh(base, {score});
   }
 
   static constexpr Eigen::Index kBins = 500;
@@ -102,7 +102,7 @@ struct Problem : MadeProblem {
 
 constexpr double kElbow = 0.02, kDose = 0.05;  // damping in the model, of the catalogue [Nms/rad]
 
-TEST(Naming, WhatDoesNothingAtFirstIsTriedWhereItBegins) {
+TEST(CandidateComparison, WhatDoesNothingAtFirstIsTriedWhereItBegins) {
   // Up to seven tenths of a dose nothing happens, and the data ask for a third of what a whole dose
   // does. In proportion that would be a third of a dose, where the slope is zero.
   const Problem problem([](double elbow, double, double) {
@@ -110,26 +110,26 @@ TEST(Naming, WhatDoesNothingAtFirstIsTriedWhereItBegins) {
     return 10.0 * (std::max(0.0, amount - 0.7) / 0.3 - 0.34);
   });
   const ShortList list = problem.weigh(problem.base(0.15), "elbow", 0.34);
-  ASSERT_EQ(list.named.size(), 1u);
-  EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"),
+  ASSERT_EQ(list.entries.size(), 1u);
+  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"),
               (0.7 + 0.34 * 0.3) * kDose, 0.02 * kDose);
-  EXPECT_GT(list.named[0].probability, 0.99);
+  EXPECT_GT(list.entries[0].probability, 0.99);
 }
 
-TEST(Naming, WhatIsManyDosesIsNotTakenForAWeakOne) {
+TEST(CandidateComparison, WhatIsManyDosesIsNotTakenForAWeakOne) {
   // Half a dose is a little better than none, a few are worse; ten are what there is.
   const Problem problem([](double elbow, double, double) {
     const double amount = (elbow - kElbow) / kDose;
     return amount < 3.0 ? 5.0 + std::pow(amount - 0.5, 2) : 11.25 * (10.0 - amount) / 7.0;
   });
   const ShortList list = problem.weigh(problem.base(0.15), "elbow", 0.5);
-  ASSERT_EQ(list.named.size(), 1u);
-  EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"), 10.0 * kDose,
+  ASSERT_EQ(list.entries.size(), 1u);
+  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 10.0 * kDose,
               0.1 * kDose);
-  EXPECT_GT(list.named[0].probability, 0.99);
+  EXPECT_GT(list.entries[0].probability, 0.99);
 }
 
-TEST(Naming, WhatPointsTheWrongWayAtFirstIsTriedWhereEvidenceIs) {
+TEST(CandidateComparison, WhatPointsTheWrongWayAtFirstIsTriedWhereEvidenceIs) {
   // A dose of damping makes it worse, three are what is missing. Dry friction says a little.
   const Problem problem(
       [](double elbow, double, double dry) {
@@ -143,25 +143,25 @@ TEST(Naming, WhatPointsTheWrongWayAtFirstIsTriedWhereEvidenceIs) {
   scores[0].amount = {0.5};
   scores[1].candidate = problem.index("elbow");
   scores[1].amount = {0.0};
-  const ShortList list = problem.naming.weigh(problem.base(0.15), scores);
-  ASSERT_EQ(list.named.size(), 2u);
-  EXPECT_EQ(list.named[0].candidate, scores[1].candidate);
-  EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"), 3.0 * kDose,
+  const ShortList list = problem.comparison.weigh(problem.base(0.15), scores);
+  ASSERT_EQ(list.entries.size(), 2u);
+  EXPECT_EQ(list.entries[0].candidate, scores[1].candidate);
+  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 3.0 * kDose,
               0.1 * kDose);
 }
 
-TEST(Naming, WithoutOrdinaryParameters) {
+TEST(CandidateComparison, WithoutOrdinaryParameters) {
   const Problem problem(
       [](double elbow, double, double) { return 5.0 - 10.0 * (elbow - kElbow) / kDose; }, "");
-  const Tested base = problem.bench.tested(problem.train.start(Variant{}, {}));
+  const Tested base = problem.context.tested(problem.train.start(Variant{}, {}));
   EXPECT_TRUE(bootstrap_intervals(base.fit, problem.train.experiments(), {}, 1).empty());
   const ShortList list = problem.weigh(base, "elbow", 1.0);
-  ASSERT_EQ(list.named.size(), 1u);
-  EXPECT_NEAR(list.named[0].fit.variant.effects[0].parameters.at("damping"), 0.5 * kDose,
+  ASSERT_EQ(list.entries.size(), 1u);
+  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 0.5 * kDose,
               0.02 * kDose);
 }
 
-TEST(Naming, FitsFollowABaseThatFoundABetterValley) {
+TEST(CandidateComparison, FitsFollowABaseThatFoundABetterValley) {
   // The shoulder's damping has a valley where the search begins and a deeper one.
   const Problem problem([](double elbow, double shoulder, double) {
     const double valley = shoulder < 0.5 ? 4.0 + 50.0 * std::abs(shoulder - 0.15)
@@ -169,32 +169,32 @@ TEST(Naming, FitsFollowABaseThatFoundABetterValley) {
     return valley - 1.0 * (elbow - kElbow) / kDose;
   });
   ShortList list = problem.weigh(problem.base(0.15), "elbow", 1.0);
-  ASSERT_EQ(list.named.size(), 1u);
+  ASSERT_EQ(list.entries.size(), 1u);
   // Stuck half way, as rugged ground may have it.
-  Named& stuck = list.named[0];
+  FittedCandidate& stuck = list.entries[0];
   Variant half = stuck.fit.variant;
   half.effects[0].parameters["damping"] = 2.0 * kDose;
   ASSERT_TRUE(problem.train.move(stuck.fit, half));
   stuck.test = problem.test.residual(half);
   const Tested better = problem.base(0.8);
   ASSERT_LT(better.fit.cost, stuck.fit.cost);
-  problem.naming.judge(better, list);
-  EXPECT_LT(list.named[0].probability, 0.01);
-  problem.naming.follow(better, list);
-  EXPECT_LT(list.named[0].fit.cost, better.fit.cost - 100.0);
-  EXPECT_GT(list.named[0].probability, 0.99);
+  problem.comparison.judge(better, list);
+  EXPECT_LT(list.entries[0].probability, 0.01);
+  problem.comparison.follow(better, list);
+  EXPECT_LT(list.entries[0].fit.cost, better.fit.cost - 100.0);
+  EXPECT_GT(list.entries[0].probability, 0.99);
 }
 
-TEST(Naming, OddsAreOfWhatWasNotLearnedFrom) {
+TEST(CandidateComparison, OddsAreOfWhatWasNotLearnedFrom) {
   const Problem problem([](double, double shoulder, double) { return 20.0 * (shoulder - 0.15); });
   const Eigen::VectorXf good = problem.base(0.15).test, bad = problem.base(0.25).test;
-  EXPECT_NEAR(problem.naming.odds(good, good).probability, 0.5, 1e-9);
-  EXPECT_EQ(problem.naming.odds(good, good).evidence, 0.0);
-  EXPECT_GT(problem.naming.odds(good, bad).probability, 0.99);
-  EXPECT_LT(problem.naming.odds(bad, good).probability, 0.01);
+  EXPECT_NEAR(problem.comparison.odds(good, good).probability, 0.5, 1e-9);
+  EXPECT_EQ(problem.comparison.odds(good, good).evidence, 0.0);
+  EXPECT_GT(problem.comparison.odds(good, bad).probability, 0.99);
+  EXPECT_LT(problem.comparison.odds(bad, good).probability, 0.01);
   // 2 more than none in each of 500 bins that have a noise of 1.
-  EXPECT_NEAR(problem.naming.odds(good, bad).evidence, 0.5 * 500 * 4.0, 250.0);
-  EXPECT_NEAR(problem.naming.odds(bad, good).evidence, -0.5 * 500 * 4.0, 250.0);
+  EXPECT_NEAR(problem.comparison.odds(good, bad).evidence, 0.5 * 500 * 4.0, 250.0);
+  EXPECT_NEAR(problem.comparison.odds(bad, good).evidence, -0.5 * 500 * 4.0, 250.0);
 }
 
 TEST(WithoutEffect, OthersStayAsTheyAre) {
@@ -202,7 +202,7 @@ TEST(WithoutEffect, OthersStayAsTheyAre) {
       [](double elbow, double shoulder, double) { return elbow + 10.0 * shoulder; });
   const std::size_t elbow = problem.index("elbow"), shoulder = problem.index("shoulder");
   const Fitted fitted = problem.with(problem.with(problem.fitted(0.15), elbow, 0.3), shoulder, 0.4);
-  const auto reduced = problem.bench.without(0, elbow, fitted);
+  const auto reduced = problem.context.without(0, elbow, fitted);
   ASSERT_TRUE(reduced);
   ASSERT_EQ(reduced->variant.effects.size(), 1u);
   EXPECT_EQ(reduced->variant.effects[0].place, "shoulder");
@@ -232,18 +232,18 @@ TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
   const Problem problem([](double elbow, double, double) { return 30.0 * elbow; }, "elbow");
   const std::size_t elbow = problem.index("elbow");
   ASSERT_EQ(problem.candidates[elbow].same_as.size(), 1u);
-  Fitted fitted = problem.weigh(problem.base(0.15), "elbow", 1.0).named.at(0).fit;
+  Fitted fitted = problem.weigh(problem.base(0.15), "elbow", 1.0).entries.at(0).fit;
   EXPECT_EQ(fitted.unknowns[0].lower, fitted.unknowns[0].upper);  // held
   problem.train.polish(fitted, 0);
   EXPECT_EQ(fitted.sensitivity.col(0).norm(), 0.0f);
-  const auto reduced = problem.bench.without(0, elbow, fitted);
+  const auto reduced = problem.context.without(0, elbow, fitted);
   ASSERT_TRUE(reduced);
   EXPECT_EQ(reduced->residual, fitted.residual);
   EXPECT_LT(reduced->unknowns[0].lower, reduced->unknowns[0].upper);
   EXPECT_NEAR(reduced->sensitivity(0, 0), 30.0 * reduced->unknowns[0].scale, 1e-3);
 }
 
-TEST(Settling, WhatStaysOutOfReachIsNotSettled) {
+TEST(Convergence, WhatStaysOutOfReachIsNotSettled) {
   const Problem problem(
       [](double, double shoulder, double) { return 5.0 + 50.0 * (shoulder - 0.8); });
   const Fitted begin = problem.fitted(0.15);
@@ -251,7 +251,7 @@ TEST(Settling, WhatStaysOutOfReachIsNotSettled) {
   const auto simulated = [&](double level, bool within) {
     Fitted fitted = begin;
     const std::size_t before = problem.evaluator.simulated();
-    EXPECT_EQ(problem.settling.settle_within_reach(fitted, level), within);
+    EXPECT_EQ(problem.convergence.converge_within_reach(fitted, level), within);
     EXPECT_LT(fitted.cost, Problem::kBins);  // the noise alone: half of that
     return problem.evaluator.simulated() - before;
   };
@@ -269,7 +269,7 @@ std::size_t finish_from_far(double given, double far, double level, bool within)
   });
   const Fitted begin = problem.fitted(0.7);
   const std::size_t before = problem.evaluator.simulated();
-  const auto end = problem.settling.to_the_end_within_reach(begin, level * Problem::kBins);
+  const auto end = problem.convergence.to_the_end_within_reach(begin, level * Problem::kBins);
   EXPECT_EQ(end.has_value(), within);
   if (end) {
     EXPECT_LT(end->cost, 1.2 * Problem::kBins);  // half of its square, and as much of the noise
@@ -277,7 +277,7 @@ std::size_t finish_from_far(double given, double far, double level, bool within)
   return problem.evaluator.simulated() - before;
 }
 
-TEST(Settling, WhatLagsBehindIsNotFinished) {
+TEST(Convergence, WhatLagsBehindIsNotFinished) {
   const std::size_t lost = finish_from_far(1.0, 3.0, 0.5, false);
   EXPECT_GT(finish_from_far(1.0, 3.0, 2.0, true), lost);  // near from the given parameters
   EXPECT_GT(finish_from_far(3.0, 1.0, 2.0, true), lost);  // near where it stood
@@ -306,18 +306,18 @@ struct TwoLaws {
       score.candidate = problem.index("elbow", id);
       score.gain = score.uncertainty = 1.0;
       score.amount = {1.0};
-      const ShortList one = problem.naming.weigh(base, {score});
-      list.named.push_back(one.named.at(0));
+      const ShortList one = problem.comparison.weigh(base, {score});
+      list.entries.push_back(one.entries.at(0));
     }
-    problem.naming.judge(base, list);
+    problem.comparison.judge(base, list);
   }
   void decide() {
     Gaps gaps(problem.train_judge, problem.test_judge, problem.candidates.size());
     gaps.begin(base.test);
-    RunOff(problem.bench, gaps).decide(base, list);
+    FinalComparison(problem.context, gaps).decide(base, list);
   }
   std::string id(std::size_t place) const {
-    return problem.candidates[list.named.at(place).candidate].effect->info().id;
+    return problem.candidates[list.entries.at(place).candidate].effect->info().id;
   }
 
   Problem problem;
@@ -325,22 +325,23 @@ struct TwoLaws {
   ShortList list;
 };
 
-TEST(RunOff, WhatIsBetterInTheEndIsFirst) {
+TEST(FinalComparison, WhatIsBetterInTheEndIsFirst) {
   // Damping leaves 2 there and dry friction 3, but from the given 0.15 it leaves nothing.
   TwoLaws laws(hides_dry_friction(3.0, 4.0), 0.7);
   ASSERT_EQ(laws.id(0), "joint_viscous");
-  const double rough = laws.list.named[0].probability, rough_evidence = laws.list.named[1].evidence;
+  const double rough = laws.list.entries[0].probability,
+               rough_evidence = laws.list.entries[1].evidence;
   ASSERT_GT(rough, 0.99);
   laws.decide();
   EXPECT_EQ(laws.id(0), "joint_coulomb");
-  EXPECT_NEAR(laws.list.named[0].probability, rough, 0.01);
-  EXPECT_LT(laws.list.named[1].probability, 0.01);
-  EXPECT_LT(laws.list.named[0].fit.cost, Problem::kBins);
+  EXPECT_NEAR(laws.list.entries[0].probability, rough, 0.01);
+  EXPECT_LT(laws.list.entries[1].probability, 0.01);
+  EXPECT_LT(laws.list.entries[0].fit.cost, Problem::kBins);
   // 3 more than none are left by the rough fit, nothing in the end.
-  EXPECT_GT(laws.list.named[0].evidence, rough_evidence + 0.4 * Problem::kBins);
+  EXPECT_GT(laws.list.entries[0].evidence, rough_evidence + 0.4 * Problem::kBins);
 }
 
-TEST(RunOff, WhatIsNoBetterThanFitsScatterStaysOpen) {
+TEST(FinalComparison, WhatIsNoBetterThanFitsScatterStaysOpen) {
   // Of a gap of 6 damping leaves 0.35: 0.3 % of what it gains, of which every block is sure.
   TwoLaws laws(
       [](double elbow, double shoulder, double dry) {
@@ -350,11 +351,11 @@ TEST(RunOff, WhatIsNoBetterThanFitsScatterStaysOpen) {
       },
       0.15);
   ASSERT_EQ(laws.id(0), "joint_coulomb");
-  ASSERT_GT(laws.list.named[0].probability, 0.99);
+  ASSERT_GT(laws.list.entries[0].probability, 0.99);
   laws.decide();
   EXPECT_EQ(laws.id(0), "joint_coulomb");
-  EXPECT_NEAR(laws.list.named[0].probability, 0.63, 0.05);
-  EXPECT_NEAR(laws.list.named[1].probability, 0.37, 0.05);
+  EXPECT_NEAR(laws.list.entries[0].probability, 0.63, 0.05);
+  EXPECT_NEAR(laws.list.entries[1].probability, 0.37, 0.05);
 }
 
 TEST(Scatter, OnlyLeadsBeyondItDecide) {
@@ -367,11 +368,11 @@ TEST(Scatter, OnlyLeadsBeyondItDecide) {
   };
   const Tested far = with_cost(base.fit.cost + 1e5), end = base;
   const auto sure = [&](double by_blocks, double lead) {
-    return allowing_for_scatter(by_blocks, problem.settling, far, end,
+    return allowing_for_scatter(by_blocks, problem.convergence, far, end,
                                 with_cost(end.fit.cost + lead));
   };
   const auto sure_of_other = [&](double by_blocks, double lead) {
-    return allowing_for_scatter(by_blocks, problem.settling, far, with_cost(end.fit.cost + lead),
+    return allowing_for_scatter(by_blocks, problem.convergence, far, with_cost(end.fit.cost + lead),
                                 end);
   };
   // 1 % of the gain: 1000 nat.
@@ -387,27 +388,27 @@ TEST(Scatter, OnlyLeadsBeyondItDecide) {
   EXPECT_EQ(sure(0.1, 1000.0), 0.5);
 }
 
-TEST(RunOff, WhatIsLeftFarBehindIsLost) {
+TEST(FinalComparison, WhatIsLeftFarBehindIsLost) {
   // Dry friction leaves 4 there and damping 4.5: half of the square and more. In the end it is 0.
   TwoLaws laws(hides_dry_friction(2.0, 1.5), 0.7);
   ASSERT_EQ(laws.id(0), "joint_coulomb");
-  laws.list.named[0].probability = 0.6;
-  laws.list.named[1].probability = 0.3;
-  const double rough = laws.list.named[1].fit.cost;
+  laws.list.entries[0].probability = 0.6;
+  laws.list.entries[1].probability = 0.3;
+  const double rough = laws.list.entries[1].fit.cost;
   laws.decide();
   EXPECT_EQ(laws.id(0), "joint_coulomb");
-  EXPECT_NEAR(laws.list.named[0].probability, 0.9, 1e-9);
-  EXPECT_EQ(laws.list.named[1].probability, 0.0);
-  EXPECT_EQ(laws.list.named[1].fit.cost, rough) << "not fitted to the end";
+  EXPECT_NEAR(laws.list.entries[0].probability, 0.9, 1e-9);
+  EXPECT_EQ(laws.list.entries[1].probability, 0.0);
+  EXPECT_EQ(laws.list.entries[1].fit.cost, rough) << "not fitted to the end";
 }
 
-TEST(RunOff, WhatDidNotTakePartKeepsItsProbability) {
+TEST(FinalComparison, WhatDidNotTakePartKeepsItsProbability) {
   // Fits of the two, told to be of a law of one size and of one of two sizes at another muscle. At
   // the first one's muscle that law does not challenge; it is no less likely for losing elsewhere.
   for (const double elsewhere : {0.25, 0.1}) {
     TwoLaws laws(hides_dry_friction(5.0, 4.0), 0.7);
     ASSERT_EQ(laws.id(0), "joint_coulomb");
-    std::vector<Named>& named = laws.list.named;
+    std::vector<FittedCandidate>& named = laws.list.entries;
     named[0].candidate = laws.problem.index("biceps_brachii", "force_sensor_gain");
     named[0].probability = 0.6;
     named[1].probability = elsewhere;
@@ -454,11 +455,12 @@ std::optional<Tested> without_elbow(const Problem& problem, double elbow) {
   gaps.begin(none.test);
   const std::size_t first = problem.index("elbow"), second = problem.index("shoulder");
   const Tested both =
-      problem.bench.tested(problem.with(problem.with(none.fit, first, elbow), second, 0.3));
-  return SecondThoughts(problem.bench, gaps).without(0, first, none.fit.cost - both.fit.cost, both);
+      problem.context.tested(problem.with(problem.with(none.fit, first, elbow), second, 0.3));
+  return BackwardElimination(problem.context, gaps)
+      .without(0, first, none.fit.cost - both.fit.cost, both);
 }
 
-TEST(SecondThoughts, WhatWasNamedInAnothersSteadGoes) {
+TEST(BackwardElimination, WhatWasNamedInAnothersSteadGoes) {
   // The shoulder's damping is all that matters. The elbow once was taken for it.
   const Problem problem([](double, double shoulder, double) { return 20.0 * (shoulder - 0.45); });
   const auto without = without_elbow(problem, 0.2);
@@ -468,7 +470,7 @@ TEST(SecondThoughts, WhatWasNamedInAnothersSteadGoes) {
   EXPECT_EQ(without->test.size(), Problem::kBins);
 }
 
-TEST(SecondThoughts, WhatIsNeededStays) {
+TEST(BackwardElimination, WhatIsNeededStays) {
   // Each has a part of its own: what one lacks the other cannot say.
   const Problem problem([](double elbow, double shoulder, double) {
     return std::abs(20.0 * (shoulder - 0.45)) + std::abs(20.0 * (elbow - kElbow - 0.2));

@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/preflight.h"
+#include "anthrob_calib/discovery/detectability.h"
 
 #include <gtest/gtest.h>
 
@@ -77,8 +77,8 @@ struct TiltProblem {
   std::pair<double, bool> smallest_visible() const {
     const Screening screening(fit, base, candidates, half, half);
     Answer answer;
-    PreFlight(candidates, fit, base, judge, judge, 0.02 * kBins)
-        .fly(screening, screening.scores(base), answer);
+    Detectability(candidates, fit, base, judge, judge, 0.02 * kBins)
+        .run(screening, screening.scores(base), answer);
     const bool shows = answer.visible.size() == 1;
     const auto& list = shows ? answer.visible : answer.not_visible;
     return {list.at(0).smallest_visible, shows};
@@ -108,7 +108,7 @@ TEST(LikelihoodProfile, ComparesWithTheCoarseStepWhereThereIsOne) {
   EXPECT_NEAR(TiltProblem(0.5, 0.0, 0.0, 2.0 * kStep).rise(1.0), usual, 0.01 * usual);
 }
 
-TEST(PreFlight, WhatIsImitatedNotLinearlyMustBeLarger) {
+TEST(Detectability, WhatIsImitatedNotLinearlyMustBeLarger) {
   const double linear = TiltProblem(0.0).smallest_visible().first;
   const double needed = TiltProblem(0.0).rise(linear / kDose);
   ASSERT_GT(needed, 10.0);
@@ -120,7 +120,7 @@ TEST(PreFlight, WhatIsImitatedNotLinearlyMustBeLarger) {
   }
 }
 
-TEST(PreFlight, WhatNothingIsLeftOfIsNotVisible) {
+TEST(Detectability, WhatNothingIsLeftOfIsNotVisible) {
   const double linear = TiltProblem(0.0).smallest_visible().first;
   EXPECT_TRUE(TiltProblem(0.0).smallest_visible().second);
   EXPECT_FALSE(TiltProblem(std::pow(kDose / linear, 2)).smallest_visible().second);

@@ -15,7 +15,7 @@ struct Tested {
 };
 
 /// A candidate, fitted in the full simulation together with the ordinary parameters.
-struct Named : Tested {
+struct FittedCandidate : Tested {
   std::size_t candidate = 0;
   double evidence = 0.0;      ///< gain in held-out log score [nat]
   double significance = 0.0;  ///< of the gain over blocks of all recordings
@@ -26,13 +26,13 @@ struct Named : Tested {
 /// (share_of_simpler()) stands behind the simpler one, which then has the probability of both; its
 /// own is 0.
 struct ShortList {
-  std::vector<Named> named;
+  std::vector<FittedCandidate> entries;
   double none = 0.0;  ///< probability that none of them is right
 };
 
 /// Whether `part` is a law of fewer sizes than `whole` at the same place and in the same part of
 /// the chain.
-bool says_less(const Candidate& part, const Candidate& whole);
+bool is_nested_in(const Candidate& part, const Candidate& whole);
 
 /// The share of the gain of `whole` that `part` must bring alone to be named first because it is
 /// simpler: a law of fewer sizes at the same place (a later round decides whether more is needed),
@@ -42,13 +42,14 @@ double share_of_simpler(const Candidate& part, const Candidate& whole);
 /// Makes the short list: simulates the best candidates of the screening at several sizes, fits the
 /// best of those, and judges them on training and held-out recordings (steps 5 and 6 of
 /// docs/discovery_method.md).
-class Naming {
+class CandidateComparison {
  public:
   static constexpr std::size_t kJudged =
       5;  ///< of those that are fitted roughly, how many are fitted further and judged
 
-  Naming(const ModelFit& train, const ModelFit& test, const Judge& train_judge,
-         const Judge& test_judge, const std::vector<Candidate>& candidates, std::uint64_t seed)
+  CandidateComparison(const ModelFit& train, const ModelFit& test, const Judge& train_judge,
+                      const Judge& test_judge, const std::vector<Candidate>& candidates,
+                      std::uint64_t seed)
       : train_(train),
         test_(test),
         train_judge_(train_judge),
@@ -72,9 +73,9 @@ class Naming {
   Odds odds(const Eigen::VectorXf& one_test, const Eigen::VectorXf& other_test) const;
 
  private:
-  Named fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
+  FittedCandidate fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;
-  void turn_to_better_phase(const Fitted& base, Named& named) const;
+  void turn_to_better_phase(const Fitted& base, FittedCandidate& named) const;
 
   const ModelFit &train_, &test_;
   const Judge &train_judge_, &test_judge_;

@@ -15,9 +15,9 @@ namespace calibration {
 /// none as soon as it is slack.
 /// @param left the stack's list at `best`
 /// @param columns derivatives of the list with respect to each parameter, in steps; changed
-void be_cautious(const std::vector<SearchVariable>& variables, const Point& best,
-                 const std::vector<double>& left, const ResidualNoise& noise,
-                 DifferenceStack& stack, std::vector<std::vector<double>>& columns);
+void limit_derivatives(const std::vector<SearchVariable>& variables, const Point& best,
+                       const std::vector<double>& left, const ResidualNoise& noise,
+                       DifferenceStack& stack, std::vector<std::vector<double>>& columns);
 
 /// The same for steps along a direction in which one parameter changes and the others compensate
 /// for it as well as they can. Example: a tendon's length and its spindle radius can change
@@ -25,10 +25,10 @@ void be_cautious(const std::vector<SearchVariable>& variables, const Point& best
 /// @param sigma standard error of the parameter [steps]   @param direction in steps
 /// @param jacobian derivatives in steps; changed
 /// @return whether any derivative was reduced
-bool be_cautious_along(const std::vector<SearchVariable>& variables, const Point& best,
-                       const std::vector<double>& left, const ResidualNoise& noise,
-                       DifferenceStack& stack, double sigma, const Eigen::VectorXd& direction,
-                       Eigen::MatrixXd& jacobian);
+bool limit_derivatives_along(const std::vector<SearchVariable>& variables, const Point& best,
+                             const std::vector<double>& left, const ResidualNoise& noise,
+                             DifferenceStack& stack, double sigma, const Eigen::VectorXd& direction,
+                             Eigen::MatrixXd& jacobian);
 
 }  // namespace calibration
 }  // namespace anthrob

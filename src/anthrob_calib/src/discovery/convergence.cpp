@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/settling.h"
+#include "anthrob_calib/discovery/convergence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kRough = 8;           ///< iterations by the first slopes
 constexpr int kPolish = 8;          ///< iterations by the same slopes
-constexpr int kSettling = 4;        ///< times that slopes are simulated anew
+constexpr int kSurveys = 4;         ///< how often sensitivities are simulated again
 constexpr double kSettled = 5e-4;   ///< share of the cost
 constexpr double kAtTheEnd = 5e-4;  ///< share of the cost
 constexpr int kFinishing = 5;       ///< rounds of exact slopes
@@ -19,18 +19,18 @@ constexpr double kRoughlySettled = 0.01;
 
 }  // namespace
 
-bool Settling::clearly_misses(const Fitted& fitted) const {
+bool Convergence::clearly_misses(const Fitted& fitted) const {
   return judge_.gap(fitted.residual) > kClearGap;
 }
 
-double Settling::left_open(const Fitted& fitted) const {
+double Convergence::left_open(const Fitted& fitted) const {
   return (clearly_misses(fitted) ? kRoughlySettled : kAtTheEnd) * fitted.cost;
 }
 
-/// Polishes as long as that brings something. Where something is clearly missing, the last steps to
-/// a model without it are not worth their time.
-void Settling::settle(Fitted& fitted) const {
-  for (int k = 0; k < kSettling; ++k) {
+/// Polishes as long as that reduces the cost. If an effect is clearly missing, the last steps of
+/// the model without it are not worth their time.
+void Convergence::converge(Fitted& fitted) const {
+  for (int k = 0; k < kSurveys; ++k) {
     const bool clear = clearly_misses(fitted);
     const double before = fitted.cost;
     fit_.polish(fitted, kPolish, clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides);
@@ -38,45 +38,46 @@ void Settling::settle(Fitted& fitted) const {
   }
 }
 
-Fitted Settling::rough(const Variant& variant, std::vector<Unknown> unknowns) const {
+Fitted Convergence::rough(const Variant& variant, std::vector<Unknown> unknowns) const {
   Fitted fitted = fit_.start(variant, std::move(unknowns));
   fit_.improve(fitted, kRough);
   return fitted;
 }
 
-Fitted Settling::settled(const Variant& variant, std::vector<Unknown> unknowns) const {
+Fitted Convergence::converged(const Variant& variant, std::vector<Unknown> unknowns) const {
   Fitted fitted = rough(variant, std::move(unknowns));
-  settle(fitted);
+  converge(fitted);
   return fitted;
 }
 
-bool Settling::settle_within_reach(Fitted& fitted, double level) const {
+bool Convergence::converge_within_reach(Fitted& fitted, double level) const {
   fit_.improve(fitted, kRough);
   fit_.polish(fitted, kPolish, ModelFit::Slopes::kOneSide);
-  // So far off that no better derivative brings it there.
+  // Too far above the level for better sensitivities to help.
   if (fitted.cost > level) return false;
-  settle(fitted);
+  converge(fitted);
   return true;
 }
 
-Fitted Settling::to_the_end(const Fitted& fitted) const {
+Fitted Convergence::to_the_end(const Fitted& fitted) const {
   return *to_the_end_within_reach(fitted, HUGE_VAL);
 }
 
-std::optional<Fitted> Settling::to_the_end_within_reach(const Fitted& fitted, double level) const {
+std::optional<Fitted> Convergence::to_the_end_within_reach(const Fitted& fitted,
+                                                           double level) const {
   std::optional<Fitted> best = roughly_from_given(fitted);
   if (std::min(fitted.cost, best ? best->cost : HUGE_VAL) > level) return std::nullopt;
-  if (best) settle(*best);
+  if (best) converge(*best);
   if (!best || best->cost >= fitted.cost) {
     best = fitted;
-    settle(*best);
+    converge(*best);
   }
   finish(*best);
   return best;
 }
 
 /// Nothing if the effects cannot be simulated with the given parameters.
-std::optional<Fitted> Settling::roughly_from_given(const Fitted& fitted) const {
+std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) const {
   Variant given = fitted.variant;
   given.nuisances = evaluator_.initial_nuisances();
   try {
@@ -86,9 +87,9 @@ std::optional<Fitted> Settling::roughly_from_given(const Fitted& fitted) const {
   }
 }
 
-/// The last of it: where a fit has settled, the coarse step's slopes lead nowhere, but the
-/// simulation's own do.
-void Settling::finish(Fitted& fitted) const {
+/// Last iterations: near the minimum, sensitivities of the coarse step no longer reduce the cost,
+/// those of the usual step do.
+void Convergence::finish(Fitted& fitted) const {
   for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
     const double before = fitted.cost;
     fit_.polish(fitted, kPolish, ModelFit::Slopes::kExact);

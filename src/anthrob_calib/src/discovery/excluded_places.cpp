@@ -1,11 +1,11 @@
-#include "anthrob_calib/discovery/leftovers.h"
+#include "anthrob_calib/discovery/excluded_places.h"
 
 #include <algorithm>
 
 namespace anthrob {
 namespace discovery {
 
-bool Leftovers::refused(std::size_t first, const std::vector<std::size_t>& accepted) {
+bool ExcludedPlaces::exclude(std::size_t first, const std::vector<std::size_t>& accepted) {
   const std::string place = candidates_[first].owner();
   const bool is_left = std::any_of(accepted.begin(), accepted.end(), [&](std::size_t candidate) {
     return candidates_[candidate].owner() == place;
@@ -13,7 +13,7 @@ bool Leftovers::refused(std::size_t first, const std::vector<std::size_t>& accep
   return is_left && places_.insert(place).second;
 }
 
-std::vector<Score> Leftovers::besides(std::vector<Score> scores) const {
+std::vector<Score> ExcludedPlaces::filter(std::vector<Score> scores) const {
   scores.erase(std::remove_if(scores.begin(), scores.end(),
                               [&](const Score& score) {
                                 return places_.count(candidates_[score.candidate].owner()) > 0;

@@ -18,16 +18,16 @@ namespace discovery {
 ///
 /// To be named, an effect must gain enough on held-out recordings, and some channel must show a gap
 /// without it ("What is visible" in docs/discovery_method.md).
-class PreFlight {
+class Detectability {
  public:
   /// @param fit to the training recordings   @param base the fit of the ordinary parameters
   /// @param train, test judges of training and held-out recordings
   /// @param held_out length of the held-out recordings [s]
-  PreFlight(const std::vector<Candidate>& candidates, const ModelFit& fit, const Fitted& base,
-            const Judge& train, const Judge& test, double held_out);
+  Detectability(const std::vector<Candidate>& candidates, const ModelFit& fit, const Fitted& base,
+                const Judge& train, const Judge& test, double held_out);
 
   /// Fills in `visible`, `not_visible` and `alike`.
-  void fly(const Screening& screening, std::vector<Score> scores, Answer& answer) const;
+  void run(const Screening& screening, std::vector<Score> scores, Answer& answer) const;
 
  private:
   double doses_for_evidence(const Score& score) const;

@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/naming.h"
+#include "anthrob_calib/discovery/candidate_comparison.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@ namespace discovery {
 
 namespace {
 
-/// Nothing larger is believed: bounds may be infinite.
+/// Largest size that is tried: bounds may be infinite.
 constexpr double kLargest = 100.0;   // [doses]
 constexpr double kMostOfIt = 0.75;   ///< of a gain
-constexpr double kAllOfIt = 0.98;    ///< of a gain, but for what the shape of a law makes
+constexpr double kAllOfIt = 0.98;    ///< of a gain, apart from what the shape of a law makes
 constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
 constexpr int kIterations = 6;
-constexpr double kTelling = 2.0;  ///< [nat] an iteration that brings less decides nothing
+constexpr double kTelling = 2.0;  ///< [nat] a smaller gain of an iteration decides nothing
 
 /// The least relative gain of an iteration that may matter, however long the recordings are.
 double telling(const Fitted& fitted) {
@@ -45,7 +45,7 @@ std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstanc
       u.scale = std::max(0.2 * std::abs(value - p.neutral), 0.03 * dose);
       u.finest = 0.003 * dose;
     } else {
-      // Where the sign is open, so is what to expect.
+      // With an unknown sign, nothing can be expected.
       const bool either = p.bounds.lo < 0.0 && p.bounds.hi > 0.0;
       u.scale = 0.3 * dose;
       u.finest = 0.03 * dose;
@@ -65,19 +65,20 @@ bool contains(const std::string& wide, const std::string& narrow) {
 
 }  // namespace
 
-bool says_less(const Candidate& part, const Candidate& whole) {
+bool is_nested_in(const Candidate& part, const Candidate& whole) {
   return part.place == whole.place && part.effect->info().seam == whole.effect->info().seam &&
          part.sizes().size() < whole.sizes().size();
 }
 
 double share_of_simpler(const Candidate& part, const Candidate& whole) {
-  if (says_less(part, whole)) return kMostOfIt;
+  if (is_nested_in(part, whole)) return kMostOfIt;
   const EffectInfo &a = part.effect->info(), &b = whole.effect->info();
   const bool everywhere = dynamic_cast<const PathEffect*>(part.effect) != nullptr;
   return everywhere && a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
 }
 
-Named Naming::fit(const Fitted& base, std::size_t index, const EffectInstance& start) const {
+FittedCandidate CandidateComparison::fit(const Fitted& base, std::size_t index,
+                                         const EffectInstance& start) const {
   const Candidate& candidate = candidates_[index];
   Variant variant = base.variant;
   variant.effects.push_back(start);
@@ -89,7 +90,7 @@ Named Naming::fit(const Fitted& base, std::size_t index, const EffectInstance& s
       u.write(u.expected, variant);
     }
   }
-  Named named;
+  FittedCandidate named;
   named.candidate = index;
   named.fit = train_.extend(
       from, variant, unknowns_of(candidate, start, static_cast<int>(variant.effects.size()) - 1));
@@ -97,17 +98,17 @@ Named Naming::fit(const Fitted& base, std::size_t index, const EffectInstance& s
   return named;
 }
 
-Naming::Odds Naming::odds(const Eigen::VectorXf& one_test,
-                          const Eigen::VectorXf& other_test) const {
+CandidateComparison::Odds CandidateComparison::odds(const Eigen::VectorXf& one_test,
+                                                    const Eigen::VectorXf& other_test) const {
   const bool other_is_better = other_test.squaredNorm() < one_test.squaredNorm();
   const Eigen::MatrixXd scores =
       test_judge_.block_scores({one_test, other_test}, other_is_better ? 1 : 0);
   return {model_probabilities(scores, {0.0, 0.0}, seed_)[0], (scores.row(0) - scores.row(1)).sum()};
 }
 
-void Naming::judge(const Tested& base, ShortList& list) const {
+void CandidateComparison::judge(const Tested& base, ShortList& list) const {
   std::vector<Eigen::VectorXf> train = {base.fit.residual}, test = {base.test};
-  for (const Named& named : list.named) {
+  for (const FittedCandidate& named : list.entries) {
     train.push_back(named.fit.residual);
     test.push_back(named.test);
   }
@@ -128,29 +129,31 @@ void Naming::judge(const Tested& base, ShortList& list) const {
   // Each unknown costs half a log of the number of blocks; having looked at many candidates costs
   // the logarithm of their number.
   std::vector<double> handicap = {0.0};
-  for (const Named& named : list.named) {
+  for (const FittedCandidate& named : list.entries) {
     const auto more = static_cast<double>(named.fit.unknowns.size() - base.fit.unknowns.size());
     handicap.push_back(0.5 * more * std::log(static_cast<double>(all.cols())) +
                        std::log(static_cast<double>(candidates_.size())));
   }
   const std::vector<double> probability = model_probabilities(all, handicap, seed_);
   list.none = probability[0];
-  for (std::size_t i = 0; i < list.named.size(); ++i) {
-    Named& named = list.named[i];
+  for (std::size_t i = 0; i < list.entries.size(); ++i) {
+    FittedCandidate& named = list.entries[i];
     const auto row = static_cast<Eigen::Index>(i + 1);
     named.evidence = (on_test.row(row) - on_test.row(0)).sum();
     named.significance = block_significance((all.row(row) - all.row(0)).transpose());
     named.probability = probability[i + 1];
   }
-  std::stable_sort(list.named.begin(), list.named.end(),
-                   [](const Named& a, const Named& b) { return a.probability > b.probability; });
+  std::stable_sort(list.entries.begin(), list.entries.end(),
+                   [](const FittedCandidate& a, const FittedCandidate& b) {
+                     return a.probability > b.probability;
+                   });
 }
 
-void Naming::follow(const Tested& base, ShortList& list) const {
-  train_.side_by_side(list.named.size(), [&](std::size_t i) {
-    Named& named = list.named[i];
+void CandidateComparison::follow(const Tested& base, ShortList& list) const {
+  train_.side_by_side(list.entries.size(), [&](std::size_t i) {
+    FittedCandidate& named = list.entries[i];
     try {
-      Named other = fit(base.fit, named.candidate, named.fit.variant.effects.back());
+      FittedCandidate other = fit(base.fit, named.candidate, named.fit.variant.effects.back());
       train_.improve(other.fit, kIterations, telling(other.fit));
       if (other.fit.cost >= named.fit.cost) return;
       other.test = test_.residual(other.fit.variant);
@@ -163,12 +166,12 @@ void Naming::follow(const Tested& base, ShortList& list) const {
   prefer_simpler(base.fit, list);
 }
 
-void Naming::turn_to_better_phase(const Fitted& base, Named& named) const {
+void CandidateComparison::turn_to_better_phase(const Fitted& base, FittedCandidate& named) const {
   if (!has_phase(candidates_[named.candidate])) return;
   const auto turned = better_phase(train_, candidates_[named.candidate], named.fit);
   if (!turned) return;
   try {
-    Named other = fit(base, named.candidate, *turned);
+    FittedCandidate other = fit(base, named.candidate, *turned);
     train_.improve(other.fit, kIterations, telling(other.fit));
     if (other.fit.cost < named.fit.cost) named = std::move(other);
   } catch (const NotSimulated&) {
@@ -176,29 +179,29 @@ void Naming::turn_to_better_phase(const Fitted& base, Named& named) const {
   }
 }
 
-void Naming::prefer_simpler(const Fitted& base, ShortList& list) const {
-  if (list.named.empty()) return;
-  const Named& best = list.named.front();
+void CandidateComparison::prefer_simpler(const Fitted& base, ShortList& list) const {
+  if (list.entries.empty()) return;
+  const FittedCandidate& best = list.entries.front();
   const Candidate& whole = candidates_[best.candidate];
-  for (std::size_t i = 1; i < list.named.size(); ++i) {
-    const Named& other = list.named[i];
+  for (std::size_t i = 1; i < list.entries.size(); ++i) {
+    const FittedCandidate& other = list.entries[i];
     const double share = share_of_simpler(candidates_[other.candidate], whole);
     const double gain = base.cost - other.fit.cost;
     if (share == 1.0 || gain < share * (base.cost - best.fit.cost) || other.evidence <= 0.0) {
       continue;
     }
-    Named simple = std::move(list.named[i]);
+    FittedCandidate simple = std::move(list.entries[i]);
     simple.probability += best.probability;
-    list.named.front().probability = 0.0;
-    list.named.erase(list.named.begin() + static_cast<std::ptrdiff_t>(i));
-    list.named.insert(list.named.begin(), std::move(simple));
+    list.entries.front().probability = 0.0;
+    list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(i));
+    list.entries.insert(list.entries.begin(), std::move(simple));
     return;
   }
 }
 
-ShortList Naming::weigh(const Tested& base, const std::vector<Score>& scores) const {
+ShortList CandidateComparison::weigh(const Tested& base, const std::vector<Score>& scores) const {
   const std::vector<Score> tried = Trials(train_, candidates_).best(base.fit, scores);
-  std::vector<std::optional<Named>> fitted(tried.size());
+  std::vector<std::optional<FittedCandidate>> fitted(tried.size());
   train_.side_by_side(tried.size(), [&](std::size_t i) {
     try {
       const std::size_t candidate = tried[i].candidate;
@@ -208,20 +211,22 @@ ShortList Naming::weigh(const Tested& base, const std::vector<Score>& scores) co
     }
   });
   ShortList list;
-  for (std::optional<Named>& named : fitted) {
-    if (named) list.named.push_back(std::move(*named));
+  for (std::optional<FittedCandidate>& named : fitted) {
+    if (named) list.entries.push_back(std::move(*named));
   }
-  std::stable_sort(list.named.begin(), list.named.end(),
-                   [](const Named& a, const Named& b) { return a.fit.cost < b.fit.cost; });
-  if (list.named.size() > kJudged) list.named.resize(kJudged);
-  train_.side_by_side(list.named.size(), [&](std::size_t i) {
-    train_.improve(list.named[i].fit, kIterations, telling(list.named[i].fit));
-    turn_to_better_phase(base.fit, list.named[i]);
-    list.named[i].test = test_.residual(list.named[i].fit.variant);
+  std::stable_sort(
+      list.entries.begin(), list.entries.end(),
+      [](const FittedCandidate& a, const FittedCandidate& b) { return a.fit.cost < b.fit.cost; });
+  if (list.entries.size() > kJudged) list.entries.resize(kJudged);
+  train_.side_by_side(list.entries.size(), [&](std::size_t i) {
+    train_.improve(list.entries[i].fit, kIterations, telling(list.entries[i].fit));
+    turn_to_better_phase(base.fit, list.entries[i]);
+    list.entries[i].test = test_.residual(list.entries[i].fit.variant);
   });
-  list.named.erase(std::remove_if(list.named.begin(), list.named.end(),
-                                  [](const Named& named) { return named.test.size() == 0; }),
-                   list.named.end());
+  list.entries.erase(
+      std::remove_if(list.entries.begin(), list.entries.end(),
+                     [](const FittedCandidate& named) { return named.test.size() == 0; }),
+      list.entries.end());
   judge(base, list);
   prefer_simpler(base.fit, list);
   return list;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "anthrob_calib/discovery/discovery.h"
+#include "anthrob_calib/discovery/evaluator.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// model.yaml: extends the examined model by what was found; its comment names verdict and
+/// recordings.
+/// @param folder the folder in which it will be saved
+std::string model_text(const Answer& answer, const Evaluator& evaluator, const Question& question,
+                       const std::string& folder);
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "anthrob_calib/discovery/discovery.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// "0.0421", three significant digits, or all before the point if there are more: "26123".
+std::string short_number(double value);
+
+/// "probability 0.93", or that it is above 0.999 or below 0.001: none is certain.
+std::string probability_text(double probability);
+
+/// "0.04 to 0.06", the interval, or why there is none.
+std::string range_text(const FoundParameter& parameter);
+
+/// "0.0421 [0.038, 0.047] Nm"; without unit where there is none.
+std::string interval_text(const FoundParameter& parameter);
+
+}  // namespace discovery
+}  // namespace anthrob

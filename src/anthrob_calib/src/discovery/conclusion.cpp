@@ -1,0 +1,134 @@
+#include "anthrob_calib/discovery/conclusion.h"
+
+#include <utility>
+
+#include "anthrob_calib/discovery/bootstrap.h"
+#include "anthrob_calib/discovery/common_law.h"
+#include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/discovery/examples.h"
+#include "anthrob_calib/discovery/found_effect.h"
+#include "anthrob_calib/discovery/location.h"
+#include "anthrob_calib/discovery/seams.h"
+#include "anthrob_calib/discovery/separating_experiment.h"
+#include "anthrob_calib/discovery/verdict.h"
+#include "anthrob_calib/discovery/wrap_angle.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// Values and intervals of all effects in the model as it is at the end: later ones have moved
+/// earlier ones.
+void measure_effects(const SearchSetup& setup, WorkingModel& model) {
+  if (model.named.empty()) return;
+  model.note_limits();
+  model.charge_for_spoilt_channels(model.base);
+  const Fitted& fit = model.base.fit;
+  const auto ranges =
+      bootstrap_intervals(fit, setup.train.experiments(), setup.variables, setup.question.seed);
+  for (std::size_t e = 0; e < model.named.size(); ++e) {
+    for (const EffectParameter& p : setup.candidates[model.named[e].candidate].parameters) {
+      const double value = fit.variant.effects[e].parameters.at(p.name);
+      FoundParameter found{p.name, p.unit, value, value, value, true, false};
+      for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const Unknown& u = fit.unknowns[i];
+        if (u.effect != static_cast<int>(e) || u.parameter != p.name) continue;
+        found.known = false;
+        found.low = ranges[i].first;
+        found.high = ranges[i].second;
+        found.undetermined = found.low <= u.lower && found.high >= u.upper;
+      }
+      model.named[e].found.parameters.push_back(std::move(found));
+    }
+  }
+}
+
+Gap gap_of(const Judge& judge, const Eigen::VectorXf& given, const Eigen::VectorXf& recalibrated,
+           const Eigen::VectorXf& after) {
+  return {judge.gap(given), judge.gap(recalibrated), judge.gap(after), 1.0};
+}
+
+void compare_gaps(const SearchSetup& setup, const WorkingModel& model, Answer& answer) {
+  answer.train = gap_of(setup.train_judge, model.given_train, model.recalibrated.fit.residual,
+                        model.base.fit.residual);
+  answer.test =
+      gap_of(setup.test_judge, model.given_test, model.recalibrated.test, model.base.test);
+  const auto given = setup.test_judge.channel_gaps(model.given_test),
+             recalibrated = setup.test_judge.channel_gaps(model.recalibrated.test),
+             after = setup.test_judge.channel_gaps(model.base.test);
+  for (const auto& [name, value] : given) {
+    answer.per_channel[name] = {value, recalibrated.at(name), after.at(name), 1.0};
+  }
+}
+
+/// Gaps smaller than this are not located or counted [floors]; a gap that was worth naming an
+/// effect for counts.
+double least_gap(const Answer& answer) {
+  return answer.effects.empty() ? kRealGap : kFaintGap;
+}
+
+void locate_gap(const SearchSetup& setup, const WorkingModel& model, Answer& answer) {
+  setup.stage("locating the gap");
+  const Experiments& train = setup.recordings.train;
+  const Eigen::VectorXf &whitening = setup.train.whitening(),
+                        &recalibrated = model.recalibrated.fit.residual;
+  std::vector<MeasuredVariable> variables = setup.variables;
+  for (MeasuredVariable& angle :
+       wrap_angles(setup.evaluator, setup.question.train, train, answer.recalibrated)) {
+    variables.push_back(std::move(angle));
+  }
+  answer.regimes = regime_gaps(train, variables, recalibrated, whitening, setup.scales);
+  answer.dependences = find_dependences(train, variables, recalibrated, whitening);
+  answer.remaining = find_dependences(train, variables, model.base.fit.residual, whitening);
+  answer.seams = seam_gaps(setup.evaluator, setup.question, setup.recordings, setup.scales,
+                           answer.recalibrated);
+  answer.where = locate(setup.train_judge, recalibrated, least_gap(answer), setup.scales,
+                        answer.seams, answer.dependences);
+}
+
+}  // namespace
+
+void find_alternatives(const SearchSetup& setup, const WorkingModel& model, Screening& screening,
+                       Answer& answer) {
+  const auto& named = model.named;
+  const auto& candidates = setup.candidates;
+  const CommonLaw common(setup.context, screening);
+  for (std::size_t later = 1; later < named.size(); ++later) {
+    for (std::size_t earlier = 0; earlier < later; ++earlier) {
+      const CommonLaw::Part a{earlier, named[earlier].candidate}, b{later, named[later].candidate};
+      for (std::size_t law = 0; law < candidates.size(); ++law) {
+        if (model.is_named(law) || !common.may_be(law, a.candidate, b.candidate)) continue;
+        const Candidate& alone = candidates[law];
+        setup.stage("checking whether " + alone.name() + " alone can replace " +
+                    candidates[a.candidate].name() + " and " + candidates[b.candidate].name());
+        const auto instead = common.instead(law, model.base, {a, b});
+        if (!instead || instead->odds.probability < kMentioned) continue;
+        const std::string& id = alone.effect->info().id;
+        answer.alternatives.push_back({id,
+                                       alone.place,
+                                       {earlier, later},
+                                       instead->odds.probability,
+                                       instead->odds.evidence,
+                                       separating_experiment(named[earlier].found.id, id)});
+      }
+    }
+  }
+}
+
+void conclude(const SearchSetup& setup, WorkingModel& model, Answer& answer) {
+  answer.extended = model.base.fit.variant;
+  measure_effects(setup, model);
+  for (const NamedEffect& effect : model.named) answer.effects.push_back(effect.found);
+  compare_gaps(setup, model, answer);
+  const double least = least_gap(answer), first = model.gaps.first_excess(least);
+  answer.remaining_share = first > 0.0 ? model.gaps.excess_of(model.base.test, least) / first : 0.0;
+  locate_gap(setup, model, answer);
+  answer.examples = examples_of(*setup.recordings.test.front(), setup.test.whitening(),
+                                model.recalibrated.test, model.base.test, answer.per_channel);
+  fill_in_verdict(setup.train_judge.channel_gaps(model.base.fit.residual),
+                  model.gaps.certain(model.base), answer);
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,38 @@
+#include "anthrob_calib/discovery/number_text.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace anthrob {
+namespace discovery {
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return "unlimited";
+  const double size = std::abs(value);
+  const bool is_whole = size >= 999.5 && size < 1e7;  // rather than 1.04e+03
+  char text[32];
+  std::snprintf(text, sizeof(text), is_whole ? "%.0f" : "%.3g", value);
+  return text;
+}
+
+std::string probability_text(double probability) {
+  if (probability > 0.999) return "probability above 0.999";
+  if (probability < 0.001) return "probability below 0.001";
+  return "probability " + short_number(probability);
+}
+
+std::string range_text(const FoundParameter& p) {
+  if (p.known) return "taken as known";
+  if (p.undetermined) return "not determined by these recordings";
+  return short_number(p.low) + " to " + short_number(p.high);
+}
+
+std::string interval_text(const FoundParameter& p) {
+  const std::string unit = p.unit == "1" ? "" : " " + p.unit;
+  if (!p.has_interval()) return short_number(p.value) + unit + ", " + range_text(p);
+  return short_number(p.value) + " [" + short_number(p.low) + ", " + short_number(p.high) + "]" +
+         unit;
+}
+
+}  // namespace discovery
+}  // namespace anthrob
