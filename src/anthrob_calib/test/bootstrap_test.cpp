@@ -1,14 +1,14 @@
 // What an interval has to know: noise in time, and that a law may have another shape.
-#include "anthrob_calib/discovery/bootstrap.h"
+#include "anthrob_calib/discovery/fit/bootstrap.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "anthrob_calib/discovery/dependence.h"
-#include "anthrob_calib/discovery/judge.h"
-#include "anthrob_calib/discovery/regimes.h"
+#include "anthrob_calib/discovery/experiment/regimes.h"
+#include "anthrob_calib/discovery/judgement/judge.h"
+#include "anthrob_calib/discovery/location/dependence.h"
 #include "anthrob_sim/core/random.h"
 
 namespace anthrob {

@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/candidate_comparison.h"
+#include "anthrob_calib/discovery/search/candidate_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "anthrob_calib/discovery/backward_elimination.h"
-#include "anthrob_calib/discovery/bootstrap.h"
-#include "anthrob_calib/discovery/final_comparison.h"
-#include "anthrob_calib/discovery/scatter.h"
-#include "anthrob_calib/discovery/screening.h"
-#include "anthrob_calib/discovery/trials.h"
+#include "anthrob_calib/discovery/fit/bootstrap.h"
+#include "anthrob_calib/discovery/search/backward_elimination.h"
+#include "anthrob_calib/discovery/search/final_comparison.h"
+#include "anthrob_calib/discovery/search/scatter.h"
+#include "anthrob_calib/discovery/search/screening.h"
+#include "anthrob_calib/discovery/search/trials.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "made_problem.h"
 

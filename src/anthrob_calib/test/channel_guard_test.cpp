@@ -1,10 +1,10 @@
-#include "anthrob_calib/discovery/channel_guard.h"
+#include "anthrob_calib/discovery/fit/channel_guard.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "anthrob_calib/discovery/experiment.h"
+#include "anthrob_calib/discovery/experiment/experiment.h"
 #include "anthrob_sim/model/robot_model.h"
 
 namespace anthrob {

@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/common_law.h"
+#include "anthrob_calib/discovery/search/common_law.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a unit that lets no force fall below zero makes of noise.
-#include "anthrob_calib/discovery/cut_off_noise.h"
+#include "anthrob_calib/discovery/experiment/cut_off_noise.h"
 
 #include <gtest/gtest.h>
 

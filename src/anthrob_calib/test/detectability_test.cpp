@@ -1,11 +1,11 @@
-#include "anthrob_calib/discovery/detectability.h"
+#include "anthrob_calib/discovery/search/detectability.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
-#include "anthrob_calib/discovery/likelihood_profile.h"
+#include "anthrob_calib/discovery/fit/likelihood_profile.h"
 
 namespace anthrob {
 namespace discovery {

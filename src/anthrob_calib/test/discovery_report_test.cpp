@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "anthrob_calib/discovery/evaluator.h"
-#include "anthrob_calib/discovery/examples.h"
+#include "anthrob_calib/discovery/experiment/evaluator.h"
+#include "anthrob_calib/discovery/location/examples.h"
 #include "anthrob_calib/discovery/model_text.h"
 #include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/discovery/progress.h"

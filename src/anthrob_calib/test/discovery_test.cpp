@@ -11,15 +11,15 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "anthrob_calib/discovery/axis_experiment.h"
-#include "anthrob_calib/discovery/candidate.h"
-#include "anthrob_calib/discovery/chain_experiment.h"
-#include "anthrob_calib/discovery/excerpt.h"
-#include "anthrob_calib/discovery/judge.h"
-#include "anthrob_calib/discovery/model_fit.h"
+#include "anthrob_calib/discovery/experiment/axis_experiment.h"
+#include "anthrob_calib/discovery/experiment/chain_experiment.h"
+#include "anthrob_calib/discovery/experiment/excerpt.h"
+#include "anthrob_calib/discovery/fit/candidate.h"
+#include "anthrob_calib/discovery/fit/model_fit.h"
+#include "anthrob_calib/discovery/judgement/judge.h"
 #include "anthrob_calib/discovery/model_text.h"
 #include "anthrob_calib/discovery/number_text.h"
-#include "anthrob_calib/discovery/preparation.h"
+#include "anthrob_calib/discovery/search/preparation.h"
 #include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_calib/report/discovery_summary.h"
 #include "anthrob_sim/core/errors.h"

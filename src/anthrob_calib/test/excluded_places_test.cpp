@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/excluded_places.h"
+#include "anthrob_calib/discovery/search/excluded_places.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "anthrob_calib/discovery/found_effect.h"
+#include "anthrob_calib/discovery/search/found_effect.h"
 
 #include <gtest/gtest.h>
 
-#include "anthrob_calib/discovery/separating_experiment.h"
+#include "anthrob_calib/discovery/separation/separating_experiment.h"
 #include "anthrob_sim/effects/catalogue.h"
 
 namespace anthrob {

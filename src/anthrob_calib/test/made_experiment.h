@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_calib/discovery/experiment.h"
+#include "anthrob_calib/discovery/experiment/experiment.h"
 #include "anthrob_sim/core/random.h"
 
 namespace anthrob {

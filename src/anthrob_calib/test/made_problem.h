@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_calib/discovery/search_context.h"
+#include "anthrob_calib/discovery/search/search_context.h"
 #include "made_experiment.h"
 
 namespace anthrob {

@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/merit.h"
+#include "anthrob_calib/discovery/judgement/merit.h"
 
 #include <gtest/gtest.h>
 

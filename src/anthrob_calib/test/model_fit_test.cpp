@@ -1,5 +1,5 @@
 // Least squares of residuals that are made, so that slopes and ends are known.
-#include "anthrob_calib/discovery/model_fit.h"
+#include "anthrob_calib/discovery/fit/model_fit.h"
 
 #include <gtest/gtest.h>
 

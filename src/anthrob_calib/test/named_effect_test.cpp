@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/named_effect.h"
+#include "anthrob_calib/discovery/search/named_effect.h"
 
 #include <gtest/gtest.h>
 

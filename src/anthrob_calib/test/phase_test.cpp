@@ -1,4 +1,4 @@
-#include "anthrob_calib/discovery/phase.h"
+#include "anthrob_calib/discovery/fit/phase.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "anthrob_calib/discovery/chain_experiment.h"
-#include "anthrob_calib/discovery/trials.h"
+#include "anthrob_calib/discovery/experiment/chain_experiment.h"
+#include "anthrob_calib/discovery/search/trials.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "arm.h"
 

@@ -1,12 +1,12 @@
 // Recordings that cannot answer, and what the noise in them is.
-#include "anthrob_calib/discovery/preparation.h"
+#include "anthrob_calib/discovery/search/preparation.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/discovery/repeats.h"
+#include "anthrob_calib/discovery/search/repeats.h"
 #include "anthrob_sim/core/errors.h"
 #include "arm.h"
 #include "axis_recording.h"

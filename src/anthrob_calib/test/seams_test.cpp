@@ -1,13 +1,13 @@
 // Where an error arises: replays fed at seams, measured postures and their noise.
-#include "anthrob_calib/discovery/seams.h"
+#include "anthrob_calib/discovery/location/seams.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "anthrob_calib/discovery/posture_noise.h"
-#include "anthrob_calib/discovery/regimes.h"
-#include "anthrob_calib/discovery/wrap_angle.h"
+#include "anthrob_calib/discovery/experiment/posture_noise.h"
+#include "anthrob_calib/discovery/experiment/regimes.h"
+#include "anthrob_calib/discovery/location/wrap_angle.h"
 #include "anthrob_sim/core/random.h"
 #include "anthrob_sim/recording/orientation_series.h"
 #include "arm.h"

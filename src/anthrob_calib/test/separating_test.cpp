@@ -5,9 +5,9 @@
 #include <fstream>
 #include <set>
 
-#include "anthrob_calib/discovery/closed_loop.h"
-#include "anthrob_calib/discovery/separating_files.h"
-#include "anthrob_calib/discovery/simulated_recording.h"
+#include "anthrob_calib/discovery/experiment/simulated_recording.h"
+#include "anthrob_calib/discovery/separation/closed_loop.h"
+#include "anthrob_calib/discovery/separation/separating_files.h"
 #include "anthrob_calib/report/discovery_summary.h"
 #include "made_recording.h"
 

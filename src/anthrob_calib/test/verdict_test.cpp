@@ -1,8 +1,8 @@
-#include "anthrob_calib/discovery/verdict.h"
+#include "anthrob_calib/discovery/judgement/verdict.h"
 
 #include <gtest/gtest.h>
 
-#include "anthrob_calib/discovery/named_effect.h"
+#include "anthrob_calib/discovery/search/named_effect.h"
 #include "anthrob_sim/effects/catalogue.h"
 
 namespace anthrob {

@@ -4,10 +4,10 @@
 #include <iostream>
 #include <thread>
 
-#include "anthrob_calib/discovery/closed_loop.h"
 #include "anthrob_calib/discovery/model_text.h"
 #include "anthrob_calib/discovery/progress.h"
-#include "anthrob_calib/discovery/separating_files.h"
+#include "anthrob_calib/discovery/separation/closed_loop.h"
+#include "anthrob_calib/discovery/separation/separating_files.h"
 #include "anthrob_calib/identification/output_files.h"
 #include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_calib/report/discovery_summary.h"

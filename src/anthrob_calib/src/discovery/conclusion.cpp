@@ -2,16 +2,16 @@
 
 #include <utility>
 
-#include "anthrob_calib/discovery/bootstrap.h"
-#include "anthrob_calib/discovery/common_law.h"
-#include "anthrob_calib/discovery/criteria.h"
-#include "anthrob_calib/discovery/examples.h"
-#include "anthrob_calib/discovery/found_effect.h"
-#include "anthrob_calib/discovery/location.h"
-#include "anthrob_calib/discovery/seams.h"
-#include "anthrob_calib/discovery/separating_experiment.h"
-#include "anthrob_calib/discovery/verdict.h"
-#include "anthrob_calib/discovery/wrap_angle.h"
+#include "anthrob_calib/discovery/fit/bootstrap.h"
+#include "anthrob_calib/discovery/judgement/criteria.h"
+#include "anthrob_calib/discovery/judgement/verdict.h"
+#include "anthrob_calib/discovery/location/examples.h"
+#include "anthrob_calib/discovery/location/location.h"
+#include "anthrob_calib/discovery/location/seams.h"
+#include "anthrob_calib/discovery/location/wrap_angle.h"
+#include "anthrob_calib/discovery/search/common_law.h"
+#include "anthrob_calib/discovery/search/found_effect.h"
+#include "anthrob_calib/discovery/separation/separating_experiment.h"
 
 namespace anthrob {
 namespace discovery {

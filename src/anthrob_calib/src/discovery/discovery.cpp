@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "anthrob_calib/discovery/conclusion.h"
-#include "anthrob_calib/discovery/detectability.h"
-#include "anthrob_calib/discovery/pruning.h"
-#include "anthrob_calib/discovery/screening.h"
-#include "anthrob_calib/discovery/search.h"
-#include "anthrob_calib/discovery/search_setup.h"
-#include "anthrob_calib/discovery/working_model.h"
+#include "anthrob_calib/discovery/search/detectability.h"
+#include "anthrob_calib/discovery/search/pruning.h"
+#include "anthrob_calib/discovery/search/screening.h"
+#include "anthrob_calib/discovery/search/search.h"
+#include "anthrob_calib/discovery/search/search_setup.h"
+#include "anthrob_calib/discovery/search/working_model.h"
 
 namespace anthrob {
 namespace discovery {

@@ -1,8 +1,8 @@
 #include "anthrob_calib/report/discovery_findings.h"
 
-#include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/discovery/judgement/criteria.h"
 #include "anthrob_calib/discovery/number_text.h"
-#include "anthrob_calib/discovery/separating_files.h"
+#include "anthrob_calib/discovery/separation/separating_files.h"
 #include "anthrob_calib/report/discovery_sentences.h"
 #include "anthrob_calib/report/discovery_summary.h"
 #include "anthrob_calib/report/html.h"

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "anthrob_calib/discovery/separating_files.h"
+#include "anthrob_calib/discovery/separation/separating_files.h"
 #include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_calib/report/discovery_summary.h"
 

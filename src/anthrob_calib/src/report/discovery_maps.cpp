@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/discovery/judgement/criteria.h"
 #include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/report/discovery_sentences.h"
 #include "anthrob_calib/report/html.h"

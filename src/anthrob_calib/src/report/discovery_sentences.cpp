@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "anthrob_calib/discovery/criteria.h"
+#include "anthrob_calib/discovery/judgement/criteria.h"
+#include "anthrob_calib/discovery/judgement/verdict.h"
 #include "anthrob_calib/discovery/number_text.h"
-#include "anthrob_calib/discovery/separating_files.h"
-#include "anthrob_calib/discovery/verdict.h"
+#include "anthrob_calib/discovery/separation/separating_files.h"
 #include "anthrob_calib/report/html.h"
 
 namespace anthrob {

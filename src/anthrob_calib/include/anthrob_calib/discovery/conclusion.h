@@ -1,7 +1,7 @@
 #pragma once
 
-#include "anthrob_calib/discovery/screening.h"
-#include "anthrob_calib/discovery/working_model.h"
+#include "anthrob_calib/discovery/search/screening.h"
+#include "anthrob_calib/discovery/search/working_model.h"
 
 namespace anthrob {
 namespace discovery {

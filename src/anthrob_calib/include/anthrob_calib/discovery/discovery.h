@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_calib/discovery/dependence.h"
-#include "anthrob_calib/discovery/evaluator.h"
-#include "anthrob_calib/discovery/noise_floor.h"
-#include "anthrob_calib/discovery/regimes.h"
-#include "anthrob_calib/discovery/separating_recording.h"
+#include "anthrob_calib/discovery/experiment/evaluator.h"
+#include "anthrob_calib/discovery/experiment/noise_floor.h"
+#include "anthrob_calib/discovery/experiment/regimes.h"
+#include "anthrob_calib/discovery/location/dependence.h"
+#include "anthrob_calib/discovery/separation/separating_recording.h"
 
 namespace anthrob {
 namespace discovery {

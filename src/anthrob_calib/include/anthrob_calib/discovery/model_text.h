@@ -3,7 +3,7 @@
 #include <string>
 
 #include "anthrob_calib/discovery/discovery.h"
-#include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/experiment/evaluator.h"
 
 namespace anthrob {
 namespace discovery {

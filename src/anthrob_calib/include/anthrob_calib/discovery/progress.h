@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "anthrob_calib/discovery/evaluator.h"
+#include "anthrob_calib/discovery/experiment/evaluator.h"
 
 namespace anthrob {
 namespace discovery {

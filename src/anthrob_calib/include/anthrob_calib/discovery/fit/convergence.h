@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "anthrob_calib/discovery/fit/model_fit.h"
+#include "anthrob_calib/discovery/judgement/judge.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// Decides how far fits are taken. Friction makes the cost rugged, and no model should lose because
+/// its fit was stopped too early.
+class Convergence {
+ public:
+  /// @param judge of what is fitted
+  Convergence(const Evaluator& evaluator, const ModelFit& fit, const Judge& judge)
+      : evaluator_(evaluator), fit_(fit), judge_(judge) {}
+
+  /// Fits from a variant, with rough steps first. @throws NotSimulated
+  Fitted converged(const Variant& variant, std::vector<Unknown> unknowns) const;
+  /// Fits to the end, also once more from the given parameters: what was missing has led the
+  /// ordinary parameters astray, and friction does not let them all find back. @return the better
+  /// fit
+  Fitted to_the_end(const Fitted& fitted) const;
+  /// The same; nothing if the cost is above a level both where the fit is and after rough steps
+  /// from the given parameters.
+  std::optional<Fitted> to_the_end_within_reach(const Fitted& fitted, double level) const;
+  /// Continues a fit from where it is, but only roughly unless that brings the cost below a level.
+  /// @return whether it came below the level
+  bool converge_within_reach(Fitted& fitted, double level) const;
+
+  /// By how much another round might still reduce the cost of a fit to the end [nat].
+  double left_open(const Fitted& fitted) const;
+
+ private:
+  void converge(Fitted& fitted) const;
+  bool clearly_misses(const Fitted& fitted) const;
+  Fitted rough(const Variant& variant, std::vector<Unknown> unknowns) const;
+  std::optional<Fitted> roughly_from_given(const Fitted& fitted) const;
+  void finish(Fitted& fitted) const;
+
+  const Evaluator& evaluator_;
+  const ModelFit& fit_;
+  const Judge& judge_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "anthrob_calib/discovery/fit/candidate.h"
+#include "anthrob_calib/discovery/fit/model_fit.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// How much worse the recordings are predicted if an effect of a given size is put into the model
+/// and the ordinary parameters are fitted again: what they cannot imitate, also where that is not
+/// linear.
+class LikelihoodProfile {
+ public:
+  /// @param base fitted without the effect, with sensitivities. It is fitted a little further, like
+  /// the fits that are compared with it; all use the coarse step of the fit, so that its error
+  /// cancels
+  LikelihoodProfile(const ModelFit& fit, Fitted base);
+
+  /// Returns the mean for the size to either side of neutral, because an effect that is really
+  /// there makes one side worse and the other better.
+  /// @param size index among the candidate's   @param doses how far from neutral
+  /// @return the rise of half the sum of squares [nat], without the cost of moving ordinary
+  /// parameters from where they are expected; nothing if one side cannot be simulated
+  std::optional<double> rise(const Candidate& candidate, std::size_t size, double doses) const;
+
+ private:
+  const ModelFit& fit_;
+  Fitted base_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "anthrob_calib/discovery/search/gaps.h"
+#include "anthrob_calib/discovery/search/search_context.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// The final decision between two effects. The short list was fitted roughly, starting from a model
+/// without them whose parameters had gone astray, where a false effect may look better. Therefore
+/// the first of the list is fitted to the end. If another effect brings at least half as much, it
+/// is fitted to the end as well, unless it is left far behind, and the two are judged against each
+/// other.
+class FinalComparison {
+ public:
+  FinalComparison(const SearchContext& context, const Gaps& gaps)
+      : context_(context), gaps_(gaps) {}
+
+  /// Afterwards the first of the list is fitted to the end and has the evidence of that fit.
+  /// - The other one becomes first if it is then more likely and meets the criteria. If it is more
+  /// likely, but does not meet them, order and probabilities stay.
+  /// - The two share their probability by how likely they are in the end; one that was left far
+  /// behind keeps none. Other places of the beaten effect give theirs up to the two, except one
+  /// that was more likely, or one that only says more at the winner's place.
+  /// - A third law may now be more probable than the first one; it was not fitted to the end.
+  /// @param base fitted without them
+  void decide(const Tested& base, ShortList& list) const;
+
+ private:
+  /// @return index of the effect to compare with the first; 0: none
+  std::size_t challenger(const Tested& base, const ShortList& list) const;
+  /// Fits to the end; unchanged if that cannot be simulated.
+  /// @return whether it comes near a level of cost; otherwise it is not fitted to the end
+  bool finish(FittedCandidate& named, double level) const;
+  double share_of_better(const Tested& base, const ShortList& end) const;
+
+  const SearchContext& context_;
+  const Gaps& gaps_;
+};
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "anthrob_calib/discovery/search/pruning.h"
+#include "anthrob_calib/discovery/search/screening.h"
+#include "anthrob_calib/discovery/search/working_model.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// Adds effects to a model, one in each round, until no further one earns its place (steps 4 to 7
+/// of docs/discovery_method.md).
+class Search {
+ public:
+  /// All must outlive the object.
+  Search(const SearchSetup& setup, WorkingModel& model, Screening& screening, Pruning& pruning,
+         Answer& answer)
+      : setup_(setup), model_(model), screening_(screening), pruning_(pruning), answer_(answer) {}
+
+  /// Effect after effect, until none earns its place.
+  /// @param scores of the model as it is; empty: to be found
+  void run(std::vector<Score> scores);
+  /// Replaces a named law by one that says more at its place, if that one did better in the round
+  /// in which the simple one was named, and clearly does now.
+  /// @return whether a law was replaced, so that the search should go on
+  bool fill_out();
+
+ private:
+  std::vector<Score> new_scores();
+  void comment_on(const ShortList& list) const;
+  bool base_moves_on(const ShortList& list);
+  bool earns_its_place(const ShortList& list);
+  /// The first of a list did not earn its place. @return whether another list is worthwhile
+  bool goes_on_elsewhere(const ShortList& list);
+  void accept(ShortList& list);
+  void unite();
+  void separate_first(const ShortList& list, FoundEffect& effect) const;
+  void separate(const Variant& with, const Variant& with_rival, FoundEffect& effect) const;
+  /// What held-out recordings say of the candidates of a list [nat].
+  using Evidence = std::map<std::size_t, double>;
+  static Evidence evidence_of(const ShortList& list);
+  std::optional<std::size_t> fuller_than(std::size_t simple, const Evidence& evidence) const;
+
+  const SearchSetup& setup_;
+  WorkingModel& model_;
+  Screening& screening_;
+  Pruning& pruning_;
+  Answer& answer_;
+  int rounds_ = 0;
+};
+
+}  // namespace discovery
+}  // namespace anthrob

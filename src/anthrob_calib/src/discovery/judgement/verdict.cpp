@@ -1,0 +1,86 @@
+#include "anthrob_calib/discovery/judgement/verdict.h"
+
+#include <algorithm>
+
+#include "anthrob_calib/discovery/judgement/criteria.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kMostRemains = 0.45;  ///< largest share of the squared gap left by an answer
+
+/// Whether the channel of a dependence has a gap larger than a wrong noise estimate may cause.
+bool is_real(const Dependence& dependence, const std::map<std::string, double>& left) {
+  return std::any_of(left.begin(), left.end(), [&](const auto& channel) {
+    return dependence.channel.rfind(channel.first, 0) == 0 && channel.second > kRealGap;
+  });
+}
+
+/// The dependence that explains most of what is left; null: there is none. A gap that depends on
+/// nothing is underestimated noise, not a missing effect.
+const Dependence* strongest(const std::map<std::string, double>& left,
+                            const std::vector<Dependence>& dependences) {
+  double whole = 0.0;
+  for (const auto& [name, gap] : left) whole += excess(gap, kRealGap);
+  if (!(whole > 0.0)) return nullptr;
+  double most = 0.0;
+  const Dependence* strongest = nullptr;
+  for (const Dependence& d : dependences) {
+    for (const auto& [name, gap] : left) {
+      const double share = std::max(d.share, d.constant);
+      if (d.channel.rfind(name, 0) != 0 || share < Dependence::kTelling) continue;
+      const double part = excess(gap, kRealGap) / whole * share;
+      if (part > most) {
+        most = part;
+        strongest = &d;
+      }
+    }
+  }
+  return strongest;
+}
+
+}  // namespace
+
+double trust_in(const FoundEffect& effect, bool left_counts) {
+  const double of_shape = effect.at_limit.empty() ? 1.0 : kAtLimit;
+  const double of_channels = effect.spoils.empty() ? 1.0 : kSpoils;
+  const double of_left = left_counts ? kEvenOdds / (kEvenOdds + effect.left) : 1.0;
+  return of_shape * of_channels * of_left;
+}
+
+void fill_in_verdict(const std::map<std::string, double>& left, bool certain, Answer& answer) {
+  if (answer.effects.empty()) {
+    answer.verdict = certain ? "unexplained" : "no_missing_effect";
+  } else {
+    const bool most_remains = certain && answer.remaining_share > kMostRemains;
+    answer.verdict = most_remains ? "unexplained" : "effects_found";
+    // What is left suggests that the true law is another one.
+    for (FoundEffect& effect : answer.effects) {
+      const double trust = trust_in(effect);
+      effect.probability *= trust;
+      for (Rival& rival : effect.rivals) rival.probability *= trust;
+    }
+  }
+  auto& remaining = answer.remaining;
+  remaining.erase(
+      std::remove_if(remaining.begin(), remaining.end(),
+                     [&](const Dependence& d) { return !certain || !is_real(d, left); }),
+      remaining.end());
+  const Dependence* cause = strongest(left, answer.remaining);
+  if (!certain) {
+    answer.remaining_description = kNoCertainGap;
+  } else if (cause && cause->constant > cause->share) {
+    answer.remaining_description = cause->channel + " is off by a constant";
+  } else if (cause) {
+    answer.remaining_description = cause->channel + " depends on " +
+                                   (cause->word == "time" ? "" : cause->word + " of ") +
+                                   cause->variable;
+  } else {
+    answer.remaining_description = "a gap that depends on none of the measured quantities";
+  }
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,96 @@
+#include "anthrob_calib/discovery/search/final_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_calib/discovery/judgement/merit.h"
+#include "anthrob_calib/discovery/search/scatter.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kComesNear = 0.5;   ///< share of the first one's gain
+constexpr double kLagsBehind = 0.4;  ///< a fit that lacks this share after rough steps is out
+
+}  // namespace
+
+std::size_t FinalComparison::challenger(const Tested& base, const ShortList& list) const {
+  const FittedCandidate& first = list.entries.front();
+  const Candidate& its = context_.candidates[first.candidate];
+  std::size_t best = 0;
+  double least = base.fit.cost - kComesNear * (base.fit.cost - first.fit.cost);
+  for (std::size_t i = 1; i < list.entries.size(); ++i) {
+    const Candidate& other = context_.candidates[list.entries[i].candidate];
+    // A law that says more at the same place is for the next round.
+    if (other.effect == its.effect || is_nested_in(its, other)) continue;
+    if (list.entries[i].fit.cost >= least) continue;
+    least = list.entries[i].fit.cost;
+    best = i;
+  }
+  return best;
+}
+
+bool FinalComparison::finish(FittedCandidate& named, double level) const {
+  std::optional<Fitted> end = context_.convergence.to_the_end_within_reach(named.fit, level);
+  if (!end) return false;
+  Tested tested = context_.tested(std::move(*end));
+  if (tested.test.size() > 0) static_cast<Tested&>(named) = std::move(tested);
+  return true;
+}
+
+/// The better law's share of the probability of both.
+double FinalComparison::share_of_better(const Tested& base, const ShortList& end) const {
+  if (end.entries.size() == 1) return 1.0;
+  const FittedCandidate &better = end.entries[0], &other = end.entries[1];
+  const double by_blocks = better.probability / (better.probability + other.probability);
+  return allowing_for_scatter(by_blocks, context_.convergence, base, better, other);
+}
+
+void FinalComparison::decide(const Tested& base, ShortList& list) const {
+  const std::size_t index = challenger(base, list);
+  ShortList end;
+  end.entries = {list.entries.front()};
+  finish(end.entries[0], HUGE_VAL);
+  if (index > 0) {
+    const double least = end.entries[0].fit.cost;
+    FittedCandidate other = list.entries[index];
+    if (finish(other, least + kLagsBehind * (base.fit.cost - least))) {
+      end.entries.push_back(std::move(other));
+    }
+  }
+  context_.comparison.judge(base, end);
+  const bool kept = end.entries[0].candidate == list.entries.front().candidate;
+  if (index == 0 || (!kept && !lack(gaps_.merit_of(end, base)).empty())) {
+    FittedCandidate& first = kept ? end.entries[0] : end.entries[1];
+    first.probability = list.entries.front().probability;
+    list.entries.front() = std::move(first);
+    return;
+  }
+  const std::size_t better = kept ? 0 : index, worse = kept ? index : 0;
+  const Candidate& winner = context_.candidates[list.entries[better].candidate];
+  const Effect* beaten = context_.candidates[list.entries[worse].candidate].effect;
+  double both = list.entries[better].probability;
+  for (std::size_t i = worse; i < list.entries.size(); ++i) {
+    const Candidate& place = context_.candidates[list.entries[i].candidate];
+    if (place.effect != beaten || (i != worse && is_nested_in(winner, place))) continue;
+    both += list.entries[i].probability;
+    list.entries[i].probability = 0.0;
+  }
+  const double share = share_of_better(base, end);
+  if (end.entries.size() > 1) {
+    end.entries[1].probability = (1.0 - share) * both;
+    list.entries[worse] = std::move(end.entries[1]);
+  }
+  end.entries[0].probability = share * both;
+  list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(better));
+  list.entries.insert(list.entries.begin(), std::move(end.entries[0]));
+  std::stable_sort(list.entries.begin() + 1, list.entries.end(),
+                   [](const FittedCandidate& a, const FittedCandidate& b) {
+                     return a.probability > b.probability;
+                   });
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,74 @@
+#include "anthrob_calib/discovery/search/found_effect.h"
+
+#include <algorithm>
+
+#include "anthrob_calib/discovery/separation/separating_experiment.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// @return the probability that a law had as a rival
+double take_out(const Candidate& law, FoundEffect& effect) {
+  const auto& info = law.effect->info();
+  const auto is_it = [&](const Rival& r) { return r.id == info.id && r.place == law.place; };
+  const auto its = std::find_if(effect.rivals.begin(), effect.rivals.end(), is_it);
+  if (its == effect.rivals.end()) return 0.0;
+  const double probability = its->probability;
+  effect.rivals.erase(its);
+  return probability;
+}
+
+}  // namespace
+
+FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& candidates) {
+  const FittedCandidate& best = list.entries.front();
+  const EffectInfo& info = candidates[best.candidate].effect->info();
+  FoundEffect effect;
+  effect.id = info.id;
+  effect.name = info.name;
+  effect.place = candidates[best.candidate].place;
+  effect.probability = best.probability;
+  effect.evidence = best.evidence;
+  for (std::size_t i = 1; i < list.entries.size(); ++i) {
+    const FittedCandidate& other = list.entries[i];
+    if (other.probability < kMentioned) continue;
+    const Candidate& rival = candidates[other.candidate];
+    effect.rivals.push_back(
+        {rival.effect->info().id, rival.place, other.probability, other.evidence});
+  }
+  return effect;
+}
+
+bool name_instead(const Candidate& fuller, const CandidateComparison::Odds& odds,
+                  FoundEffect& effect) {
+  const double both = effect.probability + take_out(fuller, effect);
+  const Rival simpler = {effect.id, effect.place, (1.0 - odds.probability) * both, effect.evidence};
+  auto& rivals = effect.rivals;
+  const auto less = [&](const Rival& r) { return r.probability <= simpler.probability; };
+  const auto at = std::find_if(rivals.begin(), rivals.end(), less);
+  const bool is_first = simpler.probability >= kMentioned && at == rivals.begin();
+  if (simpler.probability >= kMentioned) rivals.insert(at, simpler);
+  effect.id = fuller.effect->info().id;
+  effect.name = fuller.effect->info().name;
+  effect.place = fuller.place;
+  effect.probability = odds.probability * both;
+  effect.evidence += odds.evidence;
+  // The planned recording separates other laws.
+  effect.separating_experiment =
+      rivals.empty() ? "" : separating_experiment(effect.id, rivals.front().id);
+  effect.separating_recording = {};
+  return is_first;
+}
+
+void leave_open(const Candidate& fuller, const CandidateComparison::Odds& odds,
+                FoundEffect& effect) {
+  effect.probability = 0.5 * (effect.probability + take_out(fuller, effect));
+  effect.rivals.insert(effect.rivals.begin(),
+                       {fuller.effect->info().id, fuller.place, effect.probability,
+                        effect.evidence + odds.evidence});
+}
+
+}  // namespace discovery
+}  // namespace anthrob

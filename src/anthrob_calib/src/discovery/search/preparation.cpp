@@ -1,0 +1,200 @@
+#include "anthrob_calib/discovery/search/preparation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "anthrob_calib/discovery/experiment/chain_experiment.h"
+#include "anthrob_calib/discovery/judgement/judge.h"
+#include "anthrob_calib/discovery/search/repeats.h"
+#include "anthrob_calib/resume/fingerprint.h"
+#include "anthrob_sim/core/errors.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kShortest = 2.0;         // [s] of all training recordings together
+constexpr double kFinestBin = 0.02;       // [s]
+constexpr double kAxisBin = 0.025;        // [s]
+constexpr double kMostDifferences = 4e5;  // of the training recordings
+constexpr double kQuickLook = 20.0;       // [s]
+constexpr double kSlowLook = 120.0;       // [s]
+constexpr double kCoarse = 2.0;           // steps
+constexpr double kMostCoarseError = 3.0;  // rms of a channel, in its standard deviations
+
+/// "1.25"
+std::string decimal(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+/// Largest less smallest value of a column; 0 if it is not there.
+double span(const Dataset& recording, const std::string& column) {
+  const Series series = recording.series(column);
+  if (series.empty()) return 0.0;
+  const auto [lo, hi] = std::minmax_element(series.values.begin(), series.values.end());
+  return *hi - *lo;
+}
+
+void refuse_nonsense(const Dataset& recording) {
+  for (const Table& table : recording.tables) {
+    for (std::size_t i = 1; i < table.t.size(); ++i) {
+      if (table.t[i] < table.t[i - 1]) {
+        throw BadInput(recording.folder + "/" + table.name + ".csv: row " + std::to_string(i + 1) +
+                       ": time runs backwards: expected rows in order of time");
+      }
+    }
+    for (const Column& column : table.columns) {
+      for (std::size_t i = 0; i < column.values.size(); ++i) {
+        if (column.present[i] && !std::isfinite(column.values[i])) {
+          throw BadInput(recording.folder + "/" + table.name + ".csv: row " +
+                         std::to_string(i + 1) + ": " + column.name + ": expected a finite number");
+        }
+      }
+    }
+  }
+  // Files of one recording share a clock.
+  for (const Table& table : recording.tables) {
+    if (table.t.empty()) continue;
+    const double late = seconds(table.t.front() - recording.begin());
+    const double length = seconds(recording.end() - recording.begin());
+    const double covered = seconds(table.t.back() - table.t.front());
+    if (length > 0.0 && table.t.size() > 2 && (late > 0.5 * length || covered < 0.3 * length) &&
+        table.name != "commands") {
+      throw BadInput(recording.folder + "/" + table.name +
+                     ".csv: not synchronised with the other files: it covers " + decimal(covered) +
+                     " s, from " + decimal(late) + " s on, of a recording of " + decimal(length) +
+                     " s; expected all files to use one clock");
+    }
+  }
+}
+
+/// Whether anything moves; without motion there is nothing to learn.
+void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recordings) {
+  bool moves = false;
+  for (const Dataset& recording : recordings) {
+    for (const MuscleModel& muscle : robot.muscles) {
+      moves = moves || span(recording, muscle.name + "/position") > 0.02 ||
+              span(recording, muscle.name + "/reference") > 0.02 ||
+              span(recording, muscle.name + "/force") > 0.5;
+    }
+    for (const JointModel& joint : robot.skeleton->joints) {
+      moves = moves || (joint.driven && span(recording, joint.name + "/position") > 1e-5);
+    }
+  }
+  if (moves) return;
+  const std::string name = recordings.front().folder;
+  throw BadInput(name +
+                 (robot.muscles.empty()
+                      ? ": the axis does not move, so friction and inertia are not identifiable; "
+                        "expected motion over the range of interest"
+                      : ": no muscle moves, so friction, springs and motors are not "
+                        "identifiable; expected motion over the range of interest"));
+}
+
+/// @param option that named them   @return seconds of all of them
+double refuse_shortness(const std::vector<Dataset>& recordings, const std::string& option) {
+  double length = 0.0;
+  for (const Dataset& recording : recordings) {
+    length += seconds(recording.end() - recording.begin());
+  }
+  if (length < kShortest) {
+    throw BadInput(recordings.front().folder + ": too short: the " + option + " recordings are " +
+                   decimal(length) + " s long in all; expected at least " + decimal(kShortest) +
+                   " s");
+  }
+  return length;
+}
+
+/// Training recordings cannot judge, and a copy of a recording shows no noise.
+void refuse_copies(const Question& question) {
+  std::map<std::uint64_t, std::string> folders;
+  for (const auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (const Dataset& recording : *group) {
+      const auto [other, is_new] =
+          folders.emplace(resume::content_fingerprint(recording), recording.folder);
+      if (is_new) continue;
+      throw BadInput(recording.folder + ": the same recording as " + other->second +
+                     ": expected every recording once among --train, --test and --repeat");
+    }
+  }
+}
+
+/// Held-out recordings with the commands of the training recordings test less than they seem to.
+std::vector<std::string> remarks_on(const RobotModel& robot, const Question& question) {
+  std::vector<std::string> remarks;
+  for (const Dataset& test : question.test) {
+    for (const Dataset& train : question.train) {
+      if (!have_same_commands(robot, train, test)) continue;
+      remarks.push_back(test.folder + ": has the same commands as " + train.folder +
+                        ", which is fitted; another motion would judge better");
+    }
+  }
+  return remarks;
+}
+
+}  // namespace
+
+PreparedRecordings prepare(const Evaluator& evaluator, const Question& question) {
+  const RobotModel& robot = *evaluator.model();
+  if (question.train.empty()) throw BadInput("--train: expected at least one recording");
+  if (question.test.empty()) {
+    throw BadInput("--test: expected at least one recording to judge by, which is not fitted");
+  }
+  for (const auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (const Dataset& recording : *group) refuse_nonsense(recording);
+  }
+  refuse_copies(question);
+  const double length = refuse_shortness(question.train, "--train");
+  refuse_shortness(question.test, "--test");
+  refuse_stillness(robot, question.train);
+  refuse_stillness(robot, question.test);
+  std::vector<double> late;  // [s]
+  for (const Dataset& repeat : question.repeats) {
+    late.push_back(lateness_of_repeat(robot, question.train.front(), repeat));
+  }
+
+  ExperimentOptions options;
+  options.bin = robot.muscles.empty() ? kAxisBin : kFinestBin;
+  const double channels = 4.0 * static_cast<double>(robot.muscles.size()) + 4.0;
+  options.bin *= std::max(1.0, std::ceil(length / options.bin * channels / kMostDifferences));
+  PreparedRecordings prepared;
+  prepared.remarks = remarks_on(robot, question);
+  const auto make = [&](const std::vector<Dataset>& recordings, Experiments& experiments) {
+    for (const Dataset& recording : recordings) {
+      experiments.push_back(make_experiment(robot, recording, options));
+    }
+  };
+  make(question.train, prepared.train);
+  make(question.test, prepared.test);
+  make(question.repeats, prepared.repeats);
+  // Whole steps of the simulation make a bin a little longer or shorter than was asked for.
+  const double bin = prepared.train.front()->bin();
+  for (const double seconds : late) prepared.lags.push_back(std::lround(seconds / bin));
+  // A driven axis is simulated fast enough for the longer look.
+  prepared.quick = excerpt(robot, question.train, prepared.train,
+                           robot.muscles.empty() ? kSlowLook : kQuickLook);
+  prepared.slow = excerpt(robot, question.train, prepared.train, kSlowLook);
+  return prepared;
+}
+
+double coarse_step(const Evaluator& evaluator, const Experiments& train, const Scales& scales) {
+  if (evaluator.model()->muscles.empty()) return 0.0;
+  Variant coarse{};
+  coarse.step = kCoarse * evaluator.model()->step;
+  const auto both = evaluator.compare({Variant{}, coarse}, train);
+  if (both[0].size() == 0 || both[1].size() == 0) return 0.0;
+  const Eigen::VectorXf factors = whitener(train, scales, false);
+  const Eigen::VectorXf error = (both[1] - both[0]).cwiseProduct(factors);
+  for (const auto& [name, gap] : Judge(train, factors, {}).channel_gaps(error)) {
+    if (gap > kMostCoarseError) return 0.0;
+  }
+  return coarse.step;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,31 @@
+#include "anthrob_calib/discovery/search/search_setup.h"
+
+namespace anthrob {
+namespace discovery {
+
+SearchSetup::SearchSetup(const Evaluator& the_evaluator, const Question& the_question)
+    : evaluator(the_evaluator),
+      question(the_question),
+      candidates(list_candidates(evaluator, question.effects)),  // a wrong one is told at once
+      recordings(prepare(evaluator, question)),
+      variables(measured_variables(recordings.train, question.train)),
+      scales(measure_scales(evaluator, recordings.train, recordings.repeats, recordings.lags)),
+      train(evaluator, recordings.train, whitener(recordings.train, scales, true),
+            coarse_step(evaluator, recordings.train, scales)),
+      test(evaluator, recordings.test, whitener(recordings.test, scales, true)),
+      train_judge(recordings.train, train.whitening(), scales),
+      test_judge(recordings.test, test.whitening(), scales),
+      convergence(evaluator, train, train_judge),
+      comparison(train, test, train_judge, test_judge, candidates, question.seed),
+      context{evaluator, train, test, candidates, comparison, convergence} {}
+
+void SearchSetup::stage(const std::string& what) const {
+  if (question.progress && !question.progress(what)) throw Interrupted();
+}
+
+void SearchSetup::comment(const std::string& line) const {
+  if (question.comment) question.comment(line);
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,105 @@
+#include "anthrob_calib/discovery/separation/closed_loop.h"
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+
+#include "anthrob_calib/discovery/experiment/simulated_recording.h"
+#include "anthrob_calib/discovery/number_text.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr int kMostRecordings = 2;
+/// A rival less probable than this is settled.
+constexpr double kRival = 0.05;
+/// A recording that is expected to tell less is not worth making [nat].
+constexpr double kTells = 3.0;
+
+/// The first effect whose rival a recording can decide; null: none.
+const FoundEffect* undecided(const Answer& answer) {
+  const auto it =
+      std::find_if(answer.effects.begin(), answer.effects.end(), [](const FoundEffect& effect) {
+        return !effect.rivals.empty() && effect.rivals.front().probability > kRival &&
+               effect.separating_recording.distance() > kTells;
+      });
+  return it == answer.effects.end() ? nullptr : &*it;
+}
+
+std::string name_of(int number, const std::string& group) {
+  return "separating_" + std::to_string(number) + "_" + group;
+}
+
+std::string sentence(const FoundEffect& effect, int number) {
+  const Rival& rival = effect.rivals.front();
+  return effect.id + " @ " + effect.place + " (" + short_number(effect.probability) + ") or " +
+         rival.id + " @ " + rival.place + " (" + short_number(rival.probability) +
+         "): separating recording " + std::to_string(number) + " of the robot, expected to bring " +
+         short_number(effect.separating_recording.distance()) + " nat of evidence";
+}
+
+}  // namespace
+
+Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
+                          const std::shared_ptr<const RobotModel>& robot) {
+  Answer answer = discover(evaluator, question);
+  std::vector<std::string> asked;
+  for (int number = 1; number <= kMostRecordings; ++number) {
+    const FoundEffect* effect = undecided(answer);
+    if (effect == nullptr) break;
+    asked.push_back(sentence(*effect, number));
+    if (question.comment) question.comment(asked.back());
+    const auto record = [&](std::size_t first, const std::string& name) {
+      const Dataset commands =
+          separating_commands(*evaluator.model(), effect->separating_recording, first, 2);
+      Dataset recording = simulated_recording(
+          robot, commands, question.seed + 2 * static_cast<std::uint64_t>(number) + first);
+      recording.folder = name_of(number, name);
+      return recording;
+    };
+    Question more = question;
+    try {
+      more.train.push_back(record(0, "train"));
+      more.test.push_back(record(1, "test"));
+      answer = discover(evaluator, more);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const std::exception& e) {
+      // The answer without that recording stays.
+      asked.back() += "; it failed: " + std::string(e.what());
+      if (question.comment) question.comment(asked.back());
+      break;
+    }
+    question = std::move(more);
+  }
+  answer.asked = std::move(asked);
+  return answer;
+}
+
+std::vector<std::string> loop_recordings() {
+  std::vector<std::string> names;
+  for (int number = 1; number <= kMostRecordings; ++number) {
+    for (const char* group : {"train", "test"}) names.push_back(name_of(number, group));
+  }
+  return names;
+}
+
+void remove_other_recordings(const std::string& folder, const std::vector<std::string>& made) {
+  namespace fs = std::filesystem;
+  for (const std::string& name : loop_recordings()) {
+    const fs::path recording = fs::path(folder) / name;
+    const bool is_old = std::find(made.begin(), made.end(), name) == made.end();
+    if (!is_old || !fs::exists(recording / "meta.yaml")) continue;
+    for (const fs::directory_entry& entry : fs::directory_iterator(recording)) {
+      const fs::path& file = entry.path();
+      // Only files of a dataset.
+      if (file.filename() == "meta.yaml" || file.extension() == ".csv") fs::remove(file);
+    }
+    if (fs::is_empty(recording)) fs::remove(recording);
+  }
+}
+
+}  // namespace discovery
+}  // namespace anthrob
