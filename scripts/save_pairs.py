@@ -86,12 +86,12 @@ def of_message(image, topic):
 
 def matched(messages, topics, tolerance, leave_out):
     """Yields pairs (left, right) whose stamps are within the tolerance; images without a partner are left out.
-    leave_out is called with the reason for each image whose stamp cannot be used."""
+    leave_out is called with topic and reason for each image whose stamp cannot be used."""
     waiting, intervals, last = {topic: [] for topic in topics}, [], {}
     for topic, image, _ in messages:
         # Of stamps that stand still nobody knows which belong together.
         if image.header.stamp.is_zero() or image.header.stamp == last.get(topic):
-            leave_out('%s: image stamped %.6f s: expected the time of the exposure, after the previous stamp'
+            leave_out(topic, '%s: image stamped %.6f s: expected the time of the exposure, after the previous stamp'
                       % (topic, image.header.stamp.to_sec()))
             continue
         others = waiting[topics[1 - topics.index(topic)]]
@@ -122,6 +122,12 @@ def save_bag(arguments):
         raise ValueError('%s: cannot be read as a bag (%s)' % (arguments.bag, error))
 
 
+def any_stamped(unstamped, bag, topics):
+    """Whether both topics have images whose stamps can be used."""
+    count = bag.get_type_and_topic_info().topics
+    return all(count[topic].message_count > unstamped.get(topic, 0) for topic in topics)
+
+
 def save_images(arguments, bag):
     images = [name for name, what in bag.get_type_and_topic_info().topics.items()
               if what.msg_type == 'sensor_msgs/Image']
@@ -129,16 +135,22 @@ def save_images(arguments, bag):
         if topic not in images:
             raise ValueError('%s: no images on topic %s; image topics of this bag: %s' %
                              (arguments.bag, topic, ', '.join(sorted(images)) or 'none'))
-    bad = []
+    bad, unstamped, pairs = [], {}, 0
 
     def leave_out(why):
         bad.append(why)
         print('left out: %s' % why, file=sys.stderr)
+
+    def leave_out_for_stamp(topic, why):
+        unstamped[topic] = unstamped.get(topic, 0) + 1
+        if unstamped[topic] == 1:
+            leave_out(why)
     with Pairs(arguments.out) as folder:
         messages = bag.read_messages(topics=arguments.topics)
-        for i, (left, right) in enumerate(matched(messages, arguments.topics, arguments.tolerance, leave_out)):
+        for i, (left, right) in enumerate(matched(messages, arguments.topics, arguments.tolerance, leave_out_for_stamp)):
             if stop_asked:
                 break
+            pairs += 1
             if i % arguments.every:
                 continue
             stamp = '%d.%09d' % (left.header.stamp.secs, left.header.stamp.nsecs)
@@ -146,9 +158,12 @@ def save_images(arguments, bag):
                 folder.add(stamp, of_message(left, arguments.topics[0]), of_message(right, arguments.topics[1]))
             except BadImage as error:
                 leave_out(error)
+    for topic, count in unstamped.items():
+        if count > 1:
+            print('left out: %s: %d more images for their stamps' % (topic, count - 1), file=sys.stderr)
     if stop_asked:
         return
-    if bad and not folder.times:
+    if bad and not folder.times and (pairs or not any_stamped(unstamped, bag, arguments.topics)):
         raise ValueError('%s: no pair of two usable images' % arguments.bag)
     if not folder.times:
         raise ValueError('%s: no pair with stamps within %g s of each other: try a larger --tolerance'

@@ -98,6 +98,21 @@ class SavePairs(unittest.TestCase):
         self.assertEqual(pixels(self.path('out/left/000002.png')), [bytes([20, 21, 22])] * 2)
         self.assertEqual(pixels(self.path('out/right/000003.png')), [bytes([40, 41, 42])] * 2)
 
+    def test_a_bad_stamp_does_not_hide_that_the_tolerance_is_too_small(self):
+        self.record([(0, image(0.0, 1)), (0, image(1.0, 1)), (1, image(1.003, 1))])
+        done = self.save()
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn('try a larger --tolerance', done.stdout)
+
+    def test_many_images_without_stamps_make_few_lines(self):
+        self.record_at_their_place([(i % 2, image(0.0, i)) for i in range(20)])
+        done = self.save()
+        self.assertEqual(done.returncode, 2, done.stdout)
+        for topic in TOPICS:
+            self.assertIn('left out: %s: 9 more images for their stamps' % topic, done.stdout)
+        self.assertEqual(done.stdout.count('left out: '), 4, done.stdout)
+        self.assertIn('no pair of two usable images', done.stdout)
+
     def test_bad_images_are_left_out_and_named(self):
         self.record([(0, image(1.0, 1, 'rgb8')), (1, image(1.0, 1)), (0, image(2.0, 1)), (1, image(2.0, 1))])
         done = self.save()

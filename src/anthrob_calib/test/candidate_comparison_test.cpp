@@ -295,7 +295,7 @@ Problem::Law hides_dry_friction(double dry_astray, double damping_astray) {
 }
 
 /// The short list of more damping of the elbow and dry friction there, a dose of each, and what the
-/// run-off makes of it.
+/// final comparison makes of it.
 struct TwoLaws {
   TwoLaws(const Problem::Law& law, double shoulder)
       : problem(law, "shoulder",

@@ -59,7 +59,12 @@ int identify(const Arguments& arguments, Identify fit, Report report, Summary su
   auto recordings = read_all<Recording>(arguments.recordings);
   require_writable(arguments.out);
   const auto result = fit(std::move(recordings));
-  write_files(arguments.out, report(result));
+  const OutputFiles files = report(result);
+  write_files(arguments.out, files);
+  // One of an earlier run does not belong to this report.
+  if (!files.count("springs.yaml")) {
+    std::filesystem::remove(std::filesystem::path(arguments.out) / "springs.yaml");
+  }
   std::cout << summary(result);
   return judge(result);
 }

@@ -305,6 +305,32 @@ TEST(Health, FindsNothingInSpecksAndSaysSo) {
   EXPECT_EQ(health.advice(), health.crowd());  // above all not that the images are swapped
 }
 
+TEST(Health, PicturesThatWereCutDoNotHideSwappedOnes) {
+  const StereoRig rig = make_rig();
+  Health health = health_of(rig, rig, true, 0.0);
+  StereoFrame full;
+  full.cut = true;
+  full.matches.resize(400);
+  for (int i = 0; i < 5; ++i) health.add(full);
+  EXPECT_NE(health.contradiction().find("swapped"), std::string::npos);
+}
+
+TEST(Health, CountsPixelsOfTheCamerasNotOfRectifiedImages) {
+  const StereoRig rig = make_rig();
+  CameraModel cameras[2] = {rig.camera(kLeft), rig.camera(kRight)};
+  for (CameraModel& camera : cameras) camera.P.topRows(2) *= 2.0;
+  const StereoRig enlarged(cameras[0], cameras[1]);
+  ASSERT_NEAR(enlarged.zoom(), 2.0 * rig.zoom(), 1e-9);
+  StereoFrame frame;
+  frame.targets.resize(1);
+  frame.targets[0].valid = true;
+  frame.targets[0].pixel_rms = 0.3 * rig.zoom();
+  Health plain(rig, {}), larger(enlarged, {});
+  for (int i = 0; i < 5; ++i) plain.add(frame), larger.add(frame);
+  EXPECT_NE(plain.bend(), "");
+  EXPECT_EQ(larger.bend(), "");
+}
+
 TEST(Health, KnowsJointsWhosePicturesAreTooRare) {
   Health health(make_rig(), MatchingOptions());
   JointEstimator estimator(make_targets().joints[0]);

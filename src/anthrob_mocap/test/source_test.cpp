@@ -91,6 +91,18 @@ TEST_F(Folders, OfNamesWithoutNumbersAreInTheirOrder) {
   test::expect_bad_input([&] { open(); }, "expected a number in the name");
 }
 
+TEST_F(Folders, OfStampsWithDecimalsAreInTheirOrder) {
+  const char* const stamps[] = {"1700000000.900000", "1700000001.100000", "1700000002.500000",
+                                "1700000003.900000"};
+  for (int i = 0; i < 4; ++i) write(std::string(stamps[i]) + ".png", i);
+  const auto frames = read();
+  ASSERT_EQ(frames.size(), 4u);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(frames[static_cast<std::size_t>(i)].first, i);
+    EXPECT_DOUBLE_EQ(frames[static_cast<std::size_t>(i)].second, i / 60.0);
+  }
+}
+
 TEST_F(Folders, WithOneNumberTwiceAreRefused) {
   write("cam1_7.png", 1), write("cam2_07.png", 2);
   test::expect_bad_input([&] { open(); },

@@ -262,8 +262,10 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
     attempt([&] { outcome.drives = compare_drives(problem, outcome.best, problem.runs(), stop); });
   } catch (const Interrupted&) {
     outcome.interrupted = true;
-    doubt(thorough ? "interrupted before the errors of the parameters were computed"
-                   : "interrupted before the errors on all recordings were computed");
+    const bool has_errors = !outcome.identifiability.parameters.empty();
+    doubt(has_errors ? "interrupted before the replays of actuator positions"
+          : thorough ? "interrupted before the errors of the parameters were computed"
+                     : "interrupted before the errors on all recordings were computed");
   }
   return outcome;
 }

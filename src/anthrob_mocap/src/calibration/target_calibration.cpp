@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "anthrob_config/errors.h"
 #include "anthrob_mocap/labelling/clique_search.h"
@@ -21,6 +22,12 @@ constexpr double kLargestMove = 0.02;
 /// taken for mirrored. With guesses that are off by up to 10 mm along each axis, the smallest ratio
 /// in 3000 draws was 0.46 (four markers, one of them 20 mm out of the plane of the others).
 constexpr double kMirrored = 0.5;
+
+std::string in_mm(double metres, int decimals) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, 1e3 * metres);
+  return text;
+}
 
 /// One round: means of all frames, each brought onto the target as known.
 class Mean {
@@ -102,9 +109,8 @@ void anchor(const MarkerTarget& guess, MarkerTarget& target) {
     const double move = (target.markers[i] - guess.markers[i]).norm();
     if (move <= kLargestMove) continue;
     throw BadInput("target " + guess.name + ": marker " + std::to_string(i) + " comes out " +
-                   std::to_string(1e3 * move) +
-                   " mm from where it was measured: expected at most " +
-                   std::to_string(1e3 * kLargestMove) +
+                   in_mm(move, 1) + " mm from where it was measured: expected at most " +
+                   in_mm(kLargestMove, 0) +
                    " mm; measure it again, and check that no image is flipped");
   }
 }

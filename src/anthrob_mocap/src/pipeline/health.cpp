@@ -11,6 +11,7 @@ namespace mocap {
 namespace {
 
 constexpr int kRare = 3;  // sightings in a row without a velocity before a joint is reported
+// Limits in pixels of the cameras; those of rectified images are larger by StereoRig::zoom().
 constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not moved stays below
 // [pixel] root mean square. Centroids that scatter by 0.1 pixels, three times what PoseOptions
 // believes, give 0.09. A right camera turned by 3 mrad gives 0.4 to 0.5, a target that turns at
@@ -41,7 +42,6 @@ void Health::add(const StereoFrame& frame) {
   ++sums_.frames;
   sums_.cluttered += frame.cluttered[kLeft] || frame.cluttered[kRight] ? 1 : 0;
   sums_.cut += frame.cut ? 1 : 0;
-  sums_.matches += static_cast<long>(frame.matches.size());
   for (const Side side : {kLeft, kRight}) {
     sums_.blobs[side] += static_cast<long>(frame.blobs[side].size());
   }
@@ -86,6 +86,8 @@ void Health::try_swapped(const StereoFrame& frame) {
   }
   std::vector<Match> matches;
   matcher_.match(blobs, points, matches);
+  ++sums_.tried_swapped;
+  sums_.matches += static_cast<long>(frame.matches.size());
   sums_.matches_if_swapped += static_cast<long>(matches.size());
 }
 
@@ -117,12 +119,12 @@ double Health::worst(double Squares::*sum) const {
 }
 
 std::string Health::uneven_rows() const {
-  if (std::abs(row_error()) > kLargestRowError) {
+  if (std::abs(row_error()) > kLargestRowError * rig_.zoom()) {
     return format("rows of left and right differ by %.3f pixels: recalibrate the cameras",
                   row_error());
   }
   const double rms = worst(&Squares::row_error);
-  if (rms <= kLargestRms) return "";
+  if (rms <= kLargestRms * rig_.zoom()) return "";
   return format(
       "rows of left and right differ by %.3f pixels rms: the rig has been bent, or the pair is not "
       "synchronised",
@@ -133,7 +135,7 @@ std::string Health::bend() const {
   const std::string rows = uneven_rows();
   if (!rows.empty()) return rows;
   const double rms = worst(&Squares::pixel_rms);
-  if (rms <= kLargestRms) return "";
+  if (rms <= kLargestRms * rig_.zoom()) return "";
   return format(
       "markers are %.3f pixels rms off their target: the rig has been bent, the pair is not "
       "synchronised, or the target is not calibrated",
@@ -154,7 +156,8 @@ std::string Health::contradiction() const {
     return "the images are full of bright specks: the scene is too bright, or the threshold too "
            "low";
   }
-  if (sums_.matches_if_swapped >= 3 * frames && sums_.matches_if_swapped > 2 * sums_.matches) {
+  if (sums_.tried_swapped > 0 && sums_.matches_if_swapped >= 3L * sums_.tried_swapped &&
+      sums_.matches_if_swapped > 2 * sums_.matches) {
     return "left and right images are swapped";
   }
   if (fewest >= 4 * frames && 4 * sums_.on_common_rows < fewest) {

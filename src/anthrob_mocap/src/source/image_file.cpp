@@ -144,7 +144,10 @@ std::string image_number(const std::string& file) {
   if (end == std::string::npos) return "";
   const auto before = stem.find_last_not_of("0123456789", end);
   const auto begin = before == std::string::npos ? 0 : before + 1;
-  return stem.substr(begin, end + 1 - begin);
+  // Decimals, as in a stamp "1700000000.25", do not count images.
+  const bool is_decimals = begin >= 2 && stem[begin - 1] == '.' &&
+                           std::isdigit(static_cast<unsigned char>(stem[begin - 2]));
+  return is_decimals ? "" : stem.substr(begin, end + 1 - begin);
 }
 
 std::vector<std::string> list_images(const std::string& folder) {

@@ -30,7 +30,8 @@ using Stop = std::function<bool()>;
 
 /// Runs that follow one another: the first of a chain starts where the robot settles from its rest
 /// posture, each further one where the run before it ended. Which runs follow one another does not
-/// depend on the order of the list, unless several may follow the same one: then the first does.
+/// depend on the order of the list, unless several may follow the same one, or one may follow
+/// several: then the first of these counts.
 struct Chain {
   std::vector<int> runs;
   bool from_home = true;  ///< starts at the references of most runs; if tied, of the first run

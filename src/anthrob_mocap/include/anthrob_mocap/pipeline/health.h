@@ -52,7 +52,9 @@ class Health {
   };
   struct Sums {
     int frames = 0, poses = 0, cluttered = 0, cut = 0, given_up = 0;
-    long matches = 0, matches_if_swapped = 0, on_common_rows = 0, blobs[2] = {0, 0};
+    int tried_swapped = 0;                     ///< frames that were matched with sides swapped, too
+    long matches = 0, matches_if_swapped = 0;  ///< in these frames
+    long on_common_rows = 0, blobs[2] = {0, 0};
     double row_error = 0.0, pixel_rms = 0.0;
     std::vector<Squares> targets;
   };
