@@ -341,6 +341,49 @@ TEST(FinalComparison, WhatIsBetterInTheEndIsFirst) {
   EXPECT_GT(laws.list.entries[0].evidence, rough_evidence + 0.4 * Problem::kBins);
 }
 
+/// Dry friction of the shoulder is what is missing. Where the shoulder's damping has gone astray,
+/// dry friction of the elbow says more.
+double hides_friction_of_the_shoulder(const RobotModel& model) {
+  const JointFrictionModel shoulder = MadeExperiment::friction_of(model, "shoulder"),
+                           elbow = MadeExperiment::friction_of(model, "elbow");
+  const double there = std::min(1.0, shoulder.kinetic_torque / 0.1),
+               elsewhere = std::min(1.0, elbow.kinetic_torque / 0.1);
+  if (shoulder.viscous < 0.4) return 50.0 * std::abs(shoulder.viscous - 0.15) + 6.0 - 6.0 * there;
+  return 50.0 * std::abs(shoulder.viscous - 0.7) + 6.0 - 3.0 * there - 4.0 * elsewhere;
+}
+
+TEST(FinalComparison, TheSameLawElsewhereIsFirstIfItIsBetterInTheEnd) {
+  const auto made = [](std::uint64_t seed) {
+    return std::make_shared<MadeExperiment>(MadeExperiment::OfModel(hides_friction_of_the_shoulder),
+                                            MadeExperiment::OfModel(hides_friction_of_the_shoulder),
+                                            Problem::kBins, seed);
+  };
+  const MadeProblem problem(
+      {{"joints.shoulder.friction.viscous", "Nms/rad", 0.15, 0.0, 1.0, 0.01}}, made(1), made(2),
+      {"joint_coulomb", "force_sensor_gain", "force_sensor_offset"}, MadeExperiment::kCoarse);
+  const Tested base = problem.context.tested(
+      problem.train.start(Variant{{0.7}}, nuisance_unknowns(problem.evaluator)));
+  ShortList list;
+  for (const char* place : {"elbow", "shoulder"}) {
+    Score score;
+    score.candidate = problem.index(place, "joint_coulomb");
+    score.gain = score.uncertainty = 1.0;
+    score.amount = {1.0};
+    list.entries.push_back(problem.comparison.weigh(base, {score}).entries.at(0));
+  }
+  problem.comparison.judge(base, list);
+  const auto first = [&] { return problem.candidates[list.entries[0].candidate].place; };
+  ASSERT_EQ(first(), "elbow");
+  ASSERT_GT(list.entries[0].probability, 0.99);
+  Gaps gaps(problem.train_judge, problem.test_judge, problem.candidates.size());
+  gaps.begin(base.test);
+  FinalComparison(problem.context, gaps).decide(base, list);
+  EXPECT_EQ(first(), "shoulder");
+  EXPECT_GT(list.entries[0].probability, 0.98);
+  EXPECT_LT(list.entries[1].probability, 0.01);
+  EXPECT_LT(list.entries[0].fit.cost, Problem::kBins);
+}
+
 TEST(FinalComparison, WhatIsNoBetterThanFitsScatterStaysOpen) {
   // Of a gap of 6 damping leaves 0.35: 0.3 % of what it gains, of which every block is sure.
   TwoLaws laws(

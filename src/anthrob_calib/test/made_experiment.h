@@ -17,9 +17,14 @@ namespace discovery {
 class MadeExperiment final : public Experiment {
  public:
   using Law = std::function<double(double elbow, double shoulder, double dry)>;
+  using OfModel = std::function<double(const RobotModel&)>;
   static constexpr double kStep = 0.001, kCoarse = 0.002;  // [s]
 
-  MadeExperiment(Law difference, Law coarse, std::size_t bins = 1, std::uint64_t seed = 0)
+  MadeExperiment(const Law& difference, const Law& coarse, std::size_t bins = 1,
+                 std::uint64_t seed = 0)
+      : MadeExperiment(of_model(difference), of_model(coarse), bins, seed) {}
+  /// The same, made from whatever is in the model.
+  MadeExperiment(OfModel difference, OfModel coarse, std::size_t bins, std::uint64_t seed)
       : difference_(std::move(difference)), coarse_(std::move(coarse)) {
     channels_ = {{"elbow", "position", "rad", 0, 0, bins, 0.0}};
     present_.assign(bins, 1);
@@ -30,22 +35,26 @@ class MadeExperiment final : public Experiment {
   }
 
   void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
-    const Law& law = model->step == kCoarse ? coarse_ : difference_;
-    const JointFrictionModel elbow = friction_of(*model, "elbow");
-    const double difference =
-        law(elbow.viscous, friction_of(*model, "shoulder").viscous, elbow.kinetic_torque);
+    const double difference = (model->step == kCoarse ? coarse_ : difference_)(*model);
     for (std::size_t b = 0; b < noise_.size(); ++b) {
       out[b] = static_cast<float>(difference + noise_[b]);
     }
   }
 
- private:
   static JointFrictionModel friction_of(const RobotModel& model, const std::string& joint) {
     const auto index = static_cast<std::size_t>(model.skeleton->find_joint(joint));
     return model.skeleton->joints[index].friction;
   }
 
-  Law difference_, coarse_;
+ private:
+  static OfModel of_model(const Law& law) {
+    return [law](const RobotModel& model) {
+      const JointFrictionModel elbow = friction_of(model, "elbow");
+      return law(elbow.viscous, friction_of(model, "shoulder").viscous, elbow.kinetic_torque);
+    };
+  }
+
+  OfModel difference_, coarse_;
   std::vector<double> noise_;
 };
 

@@ -16,15 +16,27 @@ constexpr double kLagsBehind = 0.4;  ///< a fit that lacks this share after roug
 
 }  // namespace
 
-std::size_t FinalComparison::challenger(const Tested& base, const ShortList& list) const {
+bool FinalComparison::may_challenge(const Candidate& other, const Candidate& first,
+                                    Challenger kind) const {
+  // A law that says more at the same place is for the next round.
+  if (kind == Challenger::kOtherLaw) {
+    return other.effect != first.effect && !is_nested_in(first, other);
+  }
+  // One law for all places is for unite() (CommonLaw).
+  return other.effect == first.effect && other.owner() != first.owner() && !other.is_everywhere() &&
+         !first.is_everywhere();
+}
+
+std::size_t FinalComparison::challenger(Challenger kind, double level,
+                                        const ShortList& list) const {
   const FittedCandidate& first = list.entries.front();
-  const Candidate& its = context_.candidates[first.candidate];
   std::size_t best = 0;
-  double least = base.fit.cost - kComesNear * (base.fit.cost - first.fit.cost);
+  double least = level;
   for (std::size_t i = 1; i < list.entries.size(); ++i) {
-    const Candidate& other = context_.candidates[list.entries[i].candidate];
-    // A law that says more at the same place is for the next round.
-    if (other.effect == its.effect || is_nested_in(its, other)) continue;
+    if (!may_challenge(context_.candidates[list.entries[i].candidate],
+                       context_.candidates[first.candidate], kind)) {
+      continue;
+    }
     if (list.entries[i].fit.cost >= least) continue;
     least = list.entries[i].fit.cost;
     best = i;
@@ -49,14 +61,27 @@ double FinalComparison::share_of_better(const Tested& base, const ShortList& end
 }
 
 void FinalComparison::decide(const Tested& base, ShortList& list) const {
-  const std::size_t index = challenger(base, list);
+  FittedCandidate& first = list.entries.front();
+  const double level = base.fit.cost - kComesNear * (base.fit.cost - first.fit.cost);
+  finish(first, HUGE_VAL);
+  compare(base, Challenger::kOtherLaw, level, list);
+  compare(base, Challenger::kOtherPlace, level, list);
+}
+
+void FinalComparison::compare(const Tested& base, Challenger kind, double level,
+                              ShortList& list) const {
+  const std::size_t index = challenger(kind, level, list);
+  if (kind == Challenger::kOtherPlace && index == 0) return;
   ShortList end;
   end.entries = {list.entries.front()};
-  finish(end.entries[0], HUGE_VAL);
   if (index > 0) {
     const double least = end.entries[0].fit.cost;
     FittedCandidate other = list.entries[index];
-    if (finish(other, least + kLagsBehind * (base.fit.cost - least))) {
+    // At another place, a law may need more than rough steps to find its parameters; such a
+    // challenger is rare enough to be finished in any case.
+    const double reach =
+        kind == Challenger::kOtherLaw ? least + kLagsBehind * (base.fit.cost - least) : HUGE_VAL;
+    if (finish(other, reach)) {
       end.entries.push_back(std::move(other));
     }
   }
@@ -74,7 +99,9 @@ void FinalComparison::decide(const Tested& base, ShortList& list) const {
   double both = list.entries[better].probability;
   for (std::size_t i = worse; i < list.entries.size(); ++i) {
     const Candidate& place = context_.candidates[list.entries[i].candidate];
-    if (place.effect != beaten || (i != worse && is_nested_in(winner, place))) continue;
+    const bool other_place =
+        kind == Challenger::kOtherLaw && place.effect == beaten && !is_nested_in(winner, place);
+    if (i != worse && !other_place) continue;
     both += list.entries[i].probability;
     list.entries[i].probability = 0.0;
   }
