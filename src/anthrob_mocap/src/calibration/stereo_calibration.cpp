@@ -187,8 +187,7 @@ StereoCalibration calibrate_stereo(const std::vector<BoardView>& all, const Boar
         "calibration: the right camera comes out " + text(-1e3 * x, 1) +
         " mm to the left of the left one: the folders are swapped or the images mirrored; swap the "
         "folders only if they are, and never flip pictures (flips that keep left and right, such "
-        "as "
-        "upside down, are not noticed here)");
+        "as upside down, are not noticed here)");
   }
   StereoCalibration result{
       rectify_pair(camera_of(problem, kLeft), camera_of(problem, kRight), X_RL)};
