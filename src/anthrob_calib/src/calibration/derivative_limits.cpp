@@ -11,7 +11,7 @@ namespace calibration {
 namespace {
 
 // These numbers were chosen; none of them comes from a source. They only have to be of the right
-// order: the examples in calibration_problem_test.cpp (a tendon that is just taut) and the coverage
+// order: the examples in identifiability_test.cpp (a tendon that is just taut) and the coverage
 // in recovery_test.cpp are what they have to satisfy.
 
 /// What a first trial should change by its derivatives, in standard deviations of the noise: so
