@@ -36,7 +36,7 @@ double speed_at(std::size_t bin) {
 }
 
 MeasuredVariable speed() {
-  MeasuredVariable variable{"hinge/position", "speed", {{}}, false};
+  MeasuredVariable variable{"hinge/position", "speed", {{}}, false, "rad/s"};
   for (std::size_t b = 0; b < kBins; ++b) variable.values[0].push_back(speed_at(b));
   return variable;
 }
@@ -69,7 +69,7 @@ double width(const Fitted& fitted) {
 
 TEST(Dependence, IsBeyondWhatAConstantDoes) {
   const Experiments experiments = {std::make_shared<Swing>()};
-  MeasuredVariable time{"time", "time", {{}}, false};
+  MeasuredVariable time{"time", "time", {{}}, false, "s"};
   for (std::size_t b = 0; b < kBins; ++b) time.values[0].push_back(0.02 * static_cast<double>(b));
   const CounterRandom random(3);
   const Eigen::VectorXf whitener = Eigen::VectorXf::Ones(kBins);

@@ -127,6 +127,9 @@ TEST(Report, NumbersAreShortAndHaveNoExponentOfUsualSize) {
   EXPECT_EQ(short_number(-26123.4), "-26123");
   EXPECT_EQ(short_number(2.5e8), "2.5e+08");
   EXPECT_EQ(short_number(HUGE_VAL), "unlimited");
+  EXPECT_EQ(duration_text(61.4), "61.4 s");
+  EXPECT_EQ(duration_text(1040.0), "17 min");
+  EXPECT_EQ(duration_text(11520.0), "3.2 h");
 }
 
 TEST(Report, CallsNothingCertain) {
@@ -151,11 +154,11 @@ TEST(Report, SaysEitherWhereTwoLawsDoAsWell) {
   answer.verdict = "effects_found";
   answer.effects = {cogging()};
   answer.effects[0].probability = 0.43;
-  answer.effects[0].rivals = {{"torque_ripple", "brachialis", 0.43}};
+  answer.effects[0].rivals = {{"torque_ripple", "Torque ripple", "brachialis", 0.43}};
   const char* const kEither =
       "one of two effects, which these data cannot tell apart: <b>Cogging</b>";
   EXPECT_TRUE(holds(report_html(answer, {}, 1.0), kEither));
-  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "Or <b>torque_ripple</b> at <b>brachialis</b>"));
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "Or <b>Torque ripple</b> at <b>brachialis</b>"));
   answer.effects[0].rivals[0].probability = 0.1;
   EXPECT_FALSE(holds(report_html(answer, {}, 1.0), kEither));
   answer.effects[0].rivals[0].probability = 0.43;
@@ -405,6 +408,40 @@ TEST(Report, ShowsDependencesOfWhatDisagrees) {
   place.channel = "position";
   answer.where = {place};
   EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "depends on sign of velocity"));
+}
+
+Dependence dependence(const std::string& channel, double share) {
+  Dependence d;
+  d.channel = channel;
+  d.unit = "N";
+  d.variable = "elbow/position";
+  d.variable_unit = "rad";
+  d.word = "posture";
+  d.share = share;
+  d.at = {-1.0, 1.0};
+  d.curve = d.error = {0.1, 0.2};
+  return d;
+}
+
+TEST(Report, ShowsFirstWhatExplainsMostOfTheGap) {
+  Answer answer;
+  answer.verdict = "no_missing_effect";
+  // The second predicts more of its own channel, which has little of the gap.
+  answer.dependences = {dependence("biceps_brachii/force", 0.9),
+                        dependence("brachialis/force", 0.6)};
+  Place much, little;
+  much.place = "brachialis", little.place = "biceps_brachii";
+  much.channel = little.channel = "force";
+  much.share = 0.8, little.share = 0.2;
+  answer.where = {much, little};
+  const std::string page = report_html(answer, {}, 1.0);
+  const std::size_t first = page.find("brachialis/force depends on posture"),
+                    second = page.find("biceps_brachii/force depends on posture");
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_LT(first, second);
+  EXPECT_TRUE(holds(page, "elbow/position [rad] (posture)"));
+  EXPECT_TRUE(holds(page, "simulated minus measured [N]"));
 }
 
 TEST(Report, TellsWhatWasAsked) {

@@ -48,7 +48,8 @@ TEST(NamedEffect, LeavesAShareOfWhatStoodAboveTheNoiseWhereItShows) {
 TEST(NamedEffect, IsNotImprobableForRivalsThatDoAsWell) {
   std::vector<NamedEffect> effects(3);
   effects[0].found.probability = 0.15;
-  for (int i = 0; i < 5; ++i) effects[0].found.rivals.push_back({"payload", "forearm", 0.15, 0.0});
+  for (int i = 0; i < 5; ++i)
+    effects[0].found.rivals.push_back({"payload", "Payload", "forearm", 0.15, 0.0});
   effects[1].found.probability = 0.8;
   effects[1].gained = 200.0;
   effects[1].found.left = 0.3;

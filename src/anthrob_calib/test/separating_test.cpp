@@ -179,7 +179,7 @@ TEST(SeparatingFiles, AreWrittenForTheRecorder) {
   FoundEffect effect;
   effect.id = "joint_coulomb";
   effect.place = "elbow";
-  effect.rivals = {{"joint_viscous", "elbow", 0.3, 10.0}};
+  effect.rivals = {{"joint_viscous", "Viscous joint friction", "elbow", 0.3, 10.0}};
   answer.effects = {effect, effect};
   const std::vector<double> references(model->muscles.size(), 0.25);
   answer.effects[1].separating_recording = {references, {{"P1_tight", references, 12.4}}};

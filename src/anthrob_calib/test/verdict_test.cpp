@@ -40,7 +40,7 @@ TEST(Verdict, ALawThatLeavesMuchOfWhatItWasToExplainIsLessLikely) {
   answer.effects.push_back(answer.effects[0]);
   answer.effects[1].left = 0.05;  // the first leaves nothing
   for (FoundEffect& effect : answer.effects) {
-    effect.rivals.push_back({"gear_efficiency", "biceps_brachii", 0.2});
+    effect.rivals.push_back({"gear_efficiency", "Gear efficiency", "biceps_brachii", 0.2});
   }
   answer.alternatives.emplace_back().probability = 0.5;  // against the two
   answer.alternatives[0].instead_of[0] = 1;
@@ -121,6 +121,7 @@ TEST(Verdict, NamesWhatMostOfTheRestDependsOn) {
   fill_in_verdict({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
   EXPECT_EQ(answer.remaining_description,
             "biceps_brachii/force depends on sign of velocity of elbow/position");
+  EXPECT_EQ(answer.remaining[0].channel, "biceps_brachii/force");  // the first to be shown
   answer.remaining = {dependence("biceps_brachii/force", "load", 0.04)};
   fill_in_verdict({{"elbow/position", 1.5}, {"biceps_brachii/force", 4.0}}, true, answer);
   EXPECT_EQ(answer.remaining_description, "a gap that depends on none of the measured quantities");

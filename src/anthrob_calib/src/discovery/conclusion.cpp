@@ -106,6 +106,7 @@ void find_alternatives(const SearchSetup& setup, const WorkingModel& model, Scre
         if (!instead || instead->odds.probability < kMentioned) continue;
         const std::string& id = alone.effect->info().id;
         answer.alternatives.push_back({id,
+                                       alone.effect->info().name,
                                        alone.place,
                                        {earlier, later},
                                        instead->odds.probability,

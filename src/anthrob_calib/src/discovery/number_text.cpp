@@ -15,6 +15,12 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string duration_text(double seconds) {
+  if (seconds < 120.0) return short_number(seconds) + " s";
+  if (seconds < 7200.0) return short_number(std::round(seconds / 60.0)) + " min";
+  return short_number(seconds / 3600.0) + " h";
+}
+
 std::string probability_text(double probability) {
   if (probability > 0.999) return "probability above 0.999";
   if (probability < 0.001) return "probability below 0.001";

@@ -39,8 +39,8 @@ std::string rivals_of(const FoundEffect& effect, std::size_t number, const Answe
                          ? "<p>Others come as near:</p><ul>\n"
                          : "<p>These data do not exclude:</p><ul>\n";
   for (const Rival& rival : effect.rivals) {
-    html += "<li>" + escaped(rival.id) + " @ " + escaped(rival.place) + ", " +
-            probability_text(rival.probability) + "</li>\n";
+    html += "<li>" + escaped(rival.name) + ": " + escaped(rival.id) + " @ " + escaped(rival.place) +
+            ", " + probability_text(rival.probability) + "</li>\n";
   }
   html += "</ul><p>To tell them apart: " + escaped(effect.separating_experiment) + ".</p>\n";
   if (effect.separating_recording.targets.empty()) return html;

@@ -40,6 +40,7 @@ Json effect_json(const FoundEffect& effect) {
   Json rivals = Json::array();
   for (const Rival& rival : effect.rivals) {
     rivals.push_back({{"id", rival.id},
+                      {"name", rival.name},
                       {"place", rival.place},
                       {"probability", number(rival.probability)},
                       {"evidence", number(rival.evidence)}});
@@ -67,6 +68,7 @@ Json alternatives_json(const Answer& answer) {
       instead_of.push_back({{"id", answer.effects[e].id}, {"place", answer.effects[e].place}});
     }
     list.push_back({{"id", one.id},
+                    {"name", one.name},
                     {"place", one.place},
                     {"instead_of", instead_of},
                     {"probability", number(one.probability)},

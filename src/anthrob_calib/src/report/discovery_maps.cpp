@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "anthrob_calib/discovery/judgement/criteria.h"
 #include "anthrob_calib/discovery/number_text.h"
@@ -60,31 +61,38 @@ std::string seam_cells(const SeamGap& seam) {
   return html;
 }
 
-/// Of the places that disagree; elsewhere a curve through noise says nothing.
+/// Of the places that disagree, first what explains most of the gap; elsewhere a curve through
+/// noise says nothing.
 std::vector<Dependence> dependences_where(const Answer& answer) {
-  std::vector<Dependence> found;
+  std::vector<std::pair<double, Dependence>> found;
   for (const Dependence& d : answer.dependences) {
-    const bool disagrees =
-        std::any_of(answer.where.begin(), answer.where.end(), [&](const Place& place) {
-          return d.channel.rfind(place.place + "/" + place.channel, 0) == 0;
-        });
-    if (disagrees) found.push_back(d);
+    for (const Place& place : answer.where) {
+      if (d.channel.rfind(place.place + "/" + place.channel, 0) != 0) continue;
+      found.emplace_back(place.share * d.share, d);
+      break;
+    }
   }
-  return found;
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Dependence> ordered;
+  for (auto& [explained, dependence] : found) ordered.push_back(std::move(dependence));
+  return ordered;
 }
 
+std::string in_unit(const std::string& unit) {
+  return unit.empty() ? "" : " [" + unit + "]";
+}
+
+/// Of the first three curves that tell something.
 std::string dependence_figures(const std::vector<Dependence>& dependences) {
-  std::vector<const Dependence*> strongest;
-  for (const Dependence& d : dependences) {
-    if (d.share > Dependence::kTelling) strongest.push_back(&d);
-  }
-  std::sort(strongest.begin(), strongest.end(),
-            [](const Dependence* a, const Dependence* b) { return a->share > b->share; });
   std::string html;
-  for (std::size_t i = 0; i < strongest.size() && i < 3; ++i) {
-    const Dependence& d = *strongest[i];
+  int shown = 0;
+  for (const Dependence& d : dependences) {
+    if (d.share <= Dependence::kTelling) continue;
+    if (++shown > 3) break;
     SvgFigure figure(d.channel + " depends on " + d.word);
-    auto& panel = figure.add_panel(d.variable + " (" + d.word + ")", "simulated minus measured");
+    auto& panel = figure.add_panel(d.variable + in_unit(d.variable_unit) + " (" + d.word + ")",
+                                   "simulated minus measured" + in_unit(d.unit));
     SvgFigure::Line line{"", d.at, d.curve};
     line.marks = SvgFigure::Line::kFilled;
     line.error = d.error;
@@ -103,7 +111,9 @@ std::string dependence_figures(const std::vector<Dependence>& dependences) {
 std::string where_table(const Answer& answer) {
   if (answer.where.empty()) return "<p>Nowhere beyond the noise.</p>\n";
   std::string html =
-      "<table><tr><th>place</th><th>channel</th><th>rmse</th><th>floor</th><th>share</th><th>"
+      "<table "
+      "class=\"where\"><tr><th>place</th><th>channel</th><th>rmse</th><th>floor</th><th>share</"
+      "th><th>"
       "significance</th><th>subsystem</th><th>depends on</th></tr>\n";
   for (std::size_t i = 0; i < answer.where.size() && i < 12; ++i) {
     const Place& place = answer.where[i];

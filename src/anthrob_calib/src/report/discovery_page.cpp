@@ -20,6 +20,7 @@ td,th{border:1px solid #ccc;padding:.25em .6em;text-align:left}th{background:#f2
 .answer{font-size:1.25em;border-left:.4em solid #1f77b4;padding:.3em 1em;background:#f5f9fd}
 .small{color:#555;font-size:.9em}svg{max-width:100%;height:auto}
 summary{cursor:pointer;margin:.6em 0}
+.where{font-size:.9em}.where td:nth-child(7){min-width:17em}.where td:nth-child(8){min-width:12em}
 </style></head><body>
 )";
 
@@ -68,7 +69,7 @@ std::string report_html(const Answer& answer, const Question& question, double r
   return kHead +
          ("<h1>Discovery: " + verdict_text(answer) + "</h1>\n<p class=\"small\">Model " +
           escaped(question.model_file) + ", seed " + std::to_string(question.seed) + ", " +
-          short_number(runtime) + " s of computing</p>\n<p class=\"answer\">" +
+          duration_text(runtime) + " of computing</p>\n<p class=\"answer\">" +
           answer_sentences(answer, question) + "</p>\n") +
          next_steps(answer) + gap_table(answer) + example_figures(answer) +
          "<h2>What was found</h2>\n" + findings(answer) +

@@ -78,7 +78,7 @@ std::string found(const Answer& answer) {
     } else if (has_equal(effect)) {
       const Rival& rival = effect.rivals.front();
       either += "The model misses one of two effects, which these data cannot tell apart: " +
-                named(effect) + "Or " + place_text(rival.id, rival.place) + ", " +
+                named(effect) + "Or " + place_text(rival.name, rival.place) + ", " +
                 probability_text(rival.probability) + ". ";
     } else {
       alike += named(effect);
@@ -95,7 +95,7 @@ std::string alternatives(const Answer& answer) {
     const FoundEffect &one = answer.effects[other.instead_of[0]],
                       &two = answer.effects[other.instead_of[1]];
     text += "Or, instead of " + escaped(one.name) + " and " + escaped(two.name) + ", " +
-            place_text(other.id, other.place) + " alone, " + probability_text(other.probability) +
+            place_text(other.name, other.place) + " alone, " + probability_text(other.probability) +
             " against those two. ";
   }
   return text;

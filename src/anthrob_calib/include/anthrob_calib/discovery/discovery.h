@@ -41,7 +41,7 @@ struct FoundParameter {
 };
 
 struct Rival {
-  std::string id, place;
+  std::string id, name, place;
   double probability = 0.0;
   double evidence = 0.0;  ///< gain in held-out log score [nat]
 };
@@ -62,7 +62,7 @@ struct FoundEffect {
 
 /// One law that can replace two named effects.
 struct Alternative {
-  std::string id, place;
+  std::string id, name, place;
   std::size_t instead_of[2] = {0, 0};  ///< indices of the effects
   double probability = 0.0;            ///< given that either this law or those two are right
   double evidence = 0.0;               ///< held-out log score minus that of the two [nat]
@@ -134,7 +134,8 @@ struct Answer {
   std::vector<SeamGap> seams;
   std::vector<RegimeGap> regimes;       ///< of what the recalibrated model leaves
   std::vector<Dependence> dependences;  ///< of what the recalibrated model leaves
-  std::vector<Dependence> remaining;    ///< of what the extended model leaves
+  /// Of what the extended model leaves; first what explains most of it.
+  std::vector<Dependence> remaining;
   std::vector<Example> examples;
   std::vector<FoundEffect> effects;
   std::vector<Alternative> alternatives;

@@ -32,6 +32,14 @@ Series series_of(const Dataset& recording, const Column& column) {
   return turns.number[k];
 }
 
+/// That of the channel of the same name: what is no channel has none here.
+std::string unit_of(const std::string& column, const Experiments& experiments) {
+  for (const Channel& channel : channels_of(experiments)) {
+    if (channel.name() == column) return channel.unit;
+  }
+  return "";
+}
+
 std::vector<double> rate_of(const std::vector<double>& values, double bin) {
   std::vector<double> rate(values.size(), 0.0);
   constexpr std::size_t kReach = 2;
@@ -48,7 +56,7 @@ std::vector<double> rate_of(const std::vector<double>& values, double bin) {
 std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
                                                  const std::vector<Dataset>& recordings) {
   std::vector<MeasuredVariable> variables;
-  MeasuredVariable time{"time", "time", {}, false};
+  MeasuredVariable time{"time", "time", {}, false, "s"};
   for (const auto& experiment : experiments) {
     std::vector<double> t;
     for (std::size_t b = 0; b < experiment->channels().front().count; ++b) {
@@ -64,7 +72,8 @@ std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
     for (const Column& column : table.columns) {
       const auto word = words.find(column.quantity());
       if (word == words.end()) continue;
-      MeasuredVariable variable{column.name, word->second, {}, false};
+      const std::string unit = unit_of(column.name, experiments);
+      MeasuredVariable variable{column.name, word->second, {}, false, unit};
       for (std::size_t e = 0; e < experiments.size(); ++e) {
         const Series series = series_of(recordings[e], column);
         if (series.empty()) break;
@@ -72,8 +81,9 @@ std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
       }
       if (variable.values.size() < experiments.size()) continue;
       if (column.quantity() == "position" || word->second == "posture") {
-        MeasuredVariable speed{column.name, "speed", {}, false},
-            sign{column.name, "sign of velocity", {}, true};
+        const std::string rate_unit = unit.empty() ? "" : unit + "/s";
+        MeasuredVariable speed{column.name, "speed", {}, false, rate_unit},
+            sign{column.name, "sign of velocity", {}, true, rate_unit};
         for (std::size_t e = 0; e < experiments.size(); ++e) {
           speed.values.push_back(rate_of(variable.values[e], experiments[e]->bin()));
         }

@@ -18,27 +18,16 @@ bool is_real(const Dependence& dependence, const std::map<std::string, double>& 
   });
 }
 
-/// The dependence that explains most of what is left; null: there is none. A gap that depends on
-/// nothing is underestimated noise, not a missing effect.
-const Dependence* strongest(const std::map<std::string, double>& left,
-                            const std::vector<Dependence>& dependences) {
-  double whole = 0.0;
-  for (const auto& [name, gap] : left) whole += excess(gap, kRealGap);
-  if (!(whole > 0.0)) return nullptr;
+/// How much of the squared gap a dependence explains. A gap that depends on nothing is
+/// underestimated noise, not a missing effect.
+double explained(const Dependence& dependence, const std::map<std::string, double>& left) {
+  const double share = std::max(dependence.share, dependence.constant);
   double most = 0.0;
-  const Dependence* strongest = nullptr;
-  for (const Dependence& d : dependences) {
-    for (const auto& [name, gap] : left) {
-      const double share = std::max(d.share, d.constant);
-      if (d.channel.rfind(name, 0) != 0 || share < Dependence::kTelling) continue;
-      const double part = excess(gap, kRealGap) / whole * share;
-      if (part > most) {
-        most = part;
-        strongest = &d;
-      }
-    }
+  for (const auto& [name, gap] : left) {
+    if (dependence.channel.rfind(name, 0) != 0 || share < Dependence::kTelling) continue;
+    most = std::max(most, share * excess(gap, kRealGap));
   }
-  return strongest;
+  return most;
 }
 
 }  // namespace
@@ -68,7 +57,12 @@ void fill_in_verdict(const std::map<std::string, double>& left, bool certain, An
       std::remove_if(remaining.begin(), remaining.end(),
                      [&](const Dependence& d) { return !certain || !is_real(d, left); }),
       remaining.end());
-  const Dependence* cause = strongest(left, answer.remaining);
+  std::stable_sort(remaining.begin(), remaining.end(),
+                   [&](const Dependence& a, const Dependence& b) {
+                     return explained(a, left) > explained(b, left);
+                   });
+  const bool any = !remaining.empty() && explained(remaining.front(), left) > 0.0;
+  const Dependence* cause = any ? &remaining.front() : nullptr;
   if (!certain) {
     answer.remaining_description = kNoCertainGap;
   } else if (cause && cause->constant > cause->share) {

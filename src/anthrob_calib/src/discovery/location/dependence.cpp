@@ -137,6 +137,7 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
   for (const Channel& channel : channels_of(experiments)) {
     Dependence best;
     best.channel = channel.name();
+    best.unit = channel.unit;
     if (channel.quantity == "orientation") {
       best.channel += std::string("/") + static_cast<char>('x' + channel.component);
     }
@@ -160,6 +161,7 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
       if (share > best.share + 0.02) {
         best.share = share;
         best.variable = variable.name;
+        best.variable_unit = variable.unit;
         best.word = variable.word;
         best.at = steps.filled(steps.centre);
         best.curve = steps.filled(steps.mean);

@@ -56,7 +56,7 @@ std::vector<MeasuredVariable> wrap_angles(const Evaluator& evaluator,
                                           const Experiments& experiments, const Variant& variant) {
   std::vector<MeasuredVariable> variables;
   for (const MuscleModel& muscle : evaluator.model()->muscles) {
-    variables.push_back({muscle.name + "/wrap_angle", "wrap angle", {}, false});
+    variables.push_back({muscle.name + "/wrap_angle", "wrap angle", {}, false, "rad"});
   }
   if (variables.empty()) return {};
   try {

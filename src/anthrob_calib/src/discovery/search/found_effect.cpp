@@ -35,8 +35,8 @@ FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& ca
     const FittedCandidate& other = list.entries[i];
     if (other.probability < kMentioned) continue;
     const Candidate& rival = candidates[other.candidate];
-    effect.rivals.push_back(
-        {rival.effect->info().id, rival.place, other.probability, other.evidence});
+    const EffectInfo& its = rival.effect->info();
+    effect.rivals.push_back({its.id, its.name, rival.place, other.probability, other.evidence});
   }
   return effect;
 }
@@ -44,7 +44,8 @@ FoundEffect found_effect(const ShortList& list, const std::vector<Candidate>& ca
 bool name_instead(const Candidate& fuller, const CandidateComparison::Odds& odds,
                   FoundEffect& effect) {
   const double both = effect.probability + take_out(fuller, effect);
-  const Rival simpler = {effect.id, effect.place, (1.0 - odds.probability) * both, effect.evidence};
+  const Rival simpler = {effect.id, effect.name, effect.place, (1.0 - odds.probability) * both,
+                         effect.evidence};
   auto& rivals = effect.rivals;
   const auto less = [&](const Rival& r) { return r.probability <= simpler.probability; };
   const auto at = std::find_if(rivals.begin(), rivals.end(), less);
@@ -66,8 +67,8 @@ void leave_open(const Candidate& fuller, const CandidateComparison::Odds& odds,
                 FoundEffect& effect) {
   effect.probability = 0.5 * (effect.probability + take_out(fuller, effect));
   effect.rivals.insert(effect.rivals.begin(),
-                       {fuller.effect->info().id, fuller.place, effect.probability,
-                        effect.evidence + odds.evidence});
+                       {fuller.effect->info().id, fuller.effect->info().name, fuller.place,
+                        effect.probability, effect.evidence + odds.evidence});
 }
 
 }  // namespace discovery

@@ -14,6 +14,7 @@ struct MeasuredVariable {
   std::string word;                         ///< "load", "posture", "speed", "wrap angle", ...
   std::vector<std::vector<double>> values;  ///< by experiment and bin [unit of the column]
   bool sign = false;                        ///< only its sign counts
+  std::string unit;                         ///< of the values; empty: not known
 
   std::string owner() const { return name.substr(0, name.find('/')); }
 };

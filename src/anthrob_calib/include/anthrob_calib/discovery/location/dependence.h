@@ -16,7 +16,8 @@ struct Dependence {
 
   std::string channel;   ///< "<place>/<quantity>", components of an orientation named x, y, z
   std::string variable;  ///< "biceps_brachii/force"; empty if nothing predicts it
-  std::string word;      ///< "sign of velocity", "load", "posture", "time", ...
+  std::string unit, variable_unit;  ///< of both; empty: not known
+  std::string word;                 ///< "sign of velocity", "load", "posture", "time", ...
   /// Share of the squared residual that the curve predicts in blocks to which it was not fitted, in
   /// addition to what a constant predicts.
   double share = 0.0;
