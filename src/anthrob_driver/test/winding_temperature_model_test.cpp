@@ -2,6 +2,7 @@
 #include "anthrob_driver/watch/winding_temperature_model.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -141,7 +142,8 @@ TEST(HotMotors, AreToldOfByBothNumbersOfTheirDataSheet) {
       const std::size_t at = changed.find(name);
       changed.insert(at, folder);
     }
-    const std::string file = "/tmp/anthrob_winding_temperature_model_test.yaml";
+    const std::string file =
+        "/tmp/anthrob_winding_temperature_model_test_" + std::to_string(getpid()) + ".yaml";
     std::ofstream(file) << changed;
     struct Remove {
       const char* file;
