@@ -1,8 +1,10 @@
 #include "anthrob_calib/discovery/conclusion.h"
 
+#include <tuple>
 #include <utility>
 
 #include "anthrob_calib/discovery/fit/bootstrap.h"
+#include "anthrob_calib/discovery/fit/flat_range.h"
 #include "anthrob_calib/discovery/judgement/criteria.h"
 #include "anthrob_calib/discovery/judgement/verdict.h"
 #include "anthrob_calib/discovery/location/examples.h"
@@ -35,8 +37,8 @@ void measure_effects(const SearchSetup& setup, WorkingModel& model) {
         const Unknown& u = fit.unknowns[i];
         if (u.effect != static_cast<int>(e) || u.parameter != p.name) continue;
         found.known = false;
-        found.low = ranges[i].first;
-        found.high = ranges[i].second;
+        const bool flat = is_flat(fit, i);
+        std::tie(found.low, found.high) = flat ? flat_range(setup.train, fit, i) : ranges[i];
         found.undetermined = found.low <= u.lower && found.high >= u.upper;
       }
       model.named[e].found.parameters.push_back(std::move(found));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace anthrob {
 namespace discovery {
@@ -16,6 +18,21 @@ constexpr double kAtTheEnd = 5e-4;  ///< share of the cost
 constexpr int kFinishing = 5;       ///< rounds of exact slopes
 constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
+/// Multiples of the sizes of effects from which a fit that clearly misses is begun anew.
+constexpr double kOtherSizes[] = {0.6, 0.8, 1.0, 1.25, 1.6};
+
+/// A fit's variant with other sizes of its effects, and shapes as they were expected or of the
+/// simplest form.
+Variant resized(const Fitted& fitted, double factor, bool plain) {
+  Variant other = fitted.variant;
+  for (const Unknown& u : fitted.unknowns) {
+    if (u.effect < 0) continue;
+    const double shape = plain ? u.plain.value_or(u.expected) : u.expected;
+    const double size = u.read(fitted.variant) - u.neutral.value_or(0.0);
+    u.write(u.neutral ? *u.neutral + factor * size : shape, other);
+  }
+  return other;
+}
 
 }  // namespace
 
@@ -72,8 +89,31 @@ std::optional<Fitted> Convergence::to_the_end_within_reach(const Fitted& fitted,
     best = fitted;
     converge(*best);
   }
+  begin_anew(*best);
   finish(*best);
   return best;
+}
+
+/// A large effect makes valleys beside the right one: a joint that sticks too often can be had by
+/// more friction or by a higher ratio of static friction. Where a fit clearly misses and one of a
+/// few other sizes does better at once, fits from there. @throws NotSimulated
+void Convergence::begin_anew(Fitted& fitted) const {
+  if (fitted.variant.effects.empty() || !clearly_misses(fitted)) return;
+  std::vector<Variant> others;
+  for (const bool plain : {true, false}) {
+    for (const double factor : kOtherSizes) others.push_back(resized(fitted, factor, plain));
+  }
+  const std::vector<Eigen::VectorXf> residuals = fit_.residuals(others);
+  double least = fitted.residual.squaredNorm();
+  const Variant* best = nullptr;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (residuals[i].size() == 0 || !(residuals[i].squaredNorm() < least)) continue;
+    least = residuals[i].squaredNorm();
+    best = &others[i];
+  }
+  if (!best) return;
+  Fitted anew = converged(*best, fitted.unknowns);
+  if (anew.cost < fitted.cost) fitted = std::move(anew);
 }
 
 /// Nothing if the effects cannot be simulated with the given parameters.

@@ -50,6 +50,7 @@ std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstanc
       u.scale = 0.3 * dose;
       u.finest = 0.03 * dose;
       u.expected = either ? p.neutral : p.typical;
+      u.plain = p.neutral;
       u.spread = (either ? 3.0 : 1.5) * dose;
     }
     unknowns.push_back(u);

@@ -19,8 +19,8 @@ class Convergence {
   /// Fits from a variant, with rough steps first. @throws NotSimulated
   Fitted converged(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// Fits to the end, also once more from the given parameters: what was missing has led the
-  /// ordinary parameters astray, and friction does not let them all find back. @return the better
-  /// fit
+  /// ordinary parameters astray, and friction does not let them all find back; and from another
+  /// size of the effects, if that clearly misses and another size does better. @return the best fit
   Fitted to_the_end(const Fitted& fitted) const;
   /// The same; nothing if the cost is above a level both where the fit is and after rough steps
   /// from the given parameters.
@@ -37,6 +37,7 @@ class Convergence {
   bool clearly_misses(const Fitted& fitted) const;
   Fitted rough(const Variant& variant, std::vector<Unknown> unknowns) const;
   std::optional<Fitted> roughly_from_given(const Fitted& fitted) const;
+  void begin_anew(Fitted& fitted) const;
   void finish(Fitted& fitted) const;
 
   const Evaluator& evaluator_;

@@ -25,6 +25,7 @@ struct Unknown {
   double expected = 0.0;  ///< before any data were seen
   double spread = 0.0;    ///< standard deviation of that expectation; 0: none
   std::optional<double> neutral;  ///< of a size of an effect: the value at which it does nothing
+  std::optional<double> plain;    ///< of a shape of an effect: the value of its simplest form
 
   double read(const Variant& variant) const;
   void write(double value, Variant& variant) const;
