@@ -57,6 +57,7 @@ struct EffectInfo {
   std::string where;  ///< kinds of places, "MUSCLE | all"
   Seam seam = Seam::kJoints;
   Stage stage = Stage::kComponents;
+  /// Whether a robot with the effect loses more energy over a cycle than the plain model.
   bool dissipates = false;
   bool slow = false;                  ///< builds up over minutes
   bool once_a_muscle = false;         ///< refused twice on a muscle: two would not add up

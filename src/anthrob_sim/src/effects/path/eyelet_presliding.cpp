@@ -19,7 +19,6 @@ EffectInfo describe() {
   i.where = "MUSCLE/k | MUSCLE | all";
   i.seam = Seam::kPath;
   i.stage = Stage::kComponents;
-  i.dissipates = true;
   i.channels = {"force", "joint", "current"};
   i.parameters = {{"distance",
                    "m",
