@@ -14,7 +14,7 @@ constexpr double kTelling = 1.0;  ///< a smaller gain of a block says nothing [n
 
 /// 0 if there are fewer than three.
 double mean_over_its_error(const std::vector<double>& values) {
-  if (values.size() < 3) return 0.0;
+  if (values.size() < Judge::kFewestBlocks) return 0.0;
   const auto n = static_cast<double>(values.size());
   const Eigen::Map<const Eigen::ArrayXd> value(values.data(),
                                                static_cast<Eigen::Index>(values.size()));
@@ -25,13 +25,15 @@ double mean_over_its_error(const std::vector<double>& values) {
 
 }  // namespace
 
+std::size_t Judge::blocks_of(double duration) {
+  return static_cast<std::size_t>(std::max(1L, std::lround(duration / kBlock)));
+}
+
 Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales)
     : whitener_(whitener) {
   std::size_t offset = 0;
   for (const auto& experiment : experiments) {
-    // A shorter rest belongs to the last block.
-    const auto own =
-        static_cast<std::size_t>(std::max(1L, std::lround(experiment->duration() / kBlock)));
+    const std::size_t own = blocks_of(experiment->duration());
     for (const Channel& channel : experiment->channels()) {
       const auto scale = scales.find(channel.name());
       Run run{channel.name(),
@@ -158,7 +160,7 @@ std::map<std::string, double> Judge::excess_significance(const Eigen::VectorXf& 
         excesses.push_back(sum.first[block] / sum.second[block] - gap * gap);
       }
     }
-    if (excesses.size() < 3) continue;
+    if (excesses.size() < kFewestBlocks) continue;
     const Eigen::Map<const Eigen::ArrayXd> excess(excesses.data(),
                                                   static_cast<Eigen::Index>(excesses.size()));
     const auto n = static_cast<double>(excesses.size());

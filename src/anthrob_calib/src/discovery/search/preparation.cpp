@@ -7,7 +7,11 @@
 
 #include "anthrob_calib/discovery/experiment/chain_experiment.h"
 #include "anthrob_calib/discovery/judgement/judge.h"
+#include "anthrob_calib/discovery/search/frozen_columns.h"
+#include "anthrob_calib/discovery/search/movement.h"
 #include "anthrob_calib/discovery/search/repeats.h"
+#include "anthrob_calib/discovery/search/shared_channels.h"
+#include "anthrob_calib/discovery/search/synchronisation.h"
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
@@ -16,7 +20,7 @@ namespace discovery {
 
 namespace {
 
-constexpr double kShortest = 2.0;         // [s] of all training recordings together
+constexpr double kShortest = 2.0;         // [s] of all training or all held-out recordings
 constexpr double kFinestBin = 0.02;       // [s]
 constexpr double kAxisBin = 0.025;        // [s]
 constexpr double kMostDifferences = 4e5;  // of the training recordings
@@ -30,14 +34,6 @@ std::string decimal(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.6g", value);
   return text;
-}
-
-/// Largest less smallest value of a column; 0 if it is not there.
-double span(const Dataset& recording, const std::string& column) {
-  const Series series = recording.series(column);
-  if (series.empty()) return 0.0;
-  const auto [lo, hi] = std::minmax_element(series.values.begin(), series.values.end());
-  return *hi - *lo;
 }
 
 void refuse_nonsense(const Dataset& recording) {
@@ -73,41 +69,47 @@ void refuse_nonsense(const Dataset& recording) {
   }
 }
 
-/// Whether anything moves; without motion there is nothing to learn.
-void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recordings) {
-  bool moves = false;
-  for (const Dataset& recording : recordings) {
-    for (const MuscleModel& muscle : robot.muscles) {
-      moves = moves || span(recording, muscle.name + "/position") > 0.02 ||
-              span(recording, muscle.name + "/reference") > 0.02 ||
-              span(recording, muscle.name + "/force") > 0.5;
-    }
-    for (const JointModel& joint : robot.skeleton->joints) {
-      moves = moves || (joint.driven && span(recording, joint.name + "/position") > 1e-5);
-    }
-  }
-  if (moves) return;
-  const std::string name = recordings.front().folder;
-  throw BadInput(name +
-                 (robot.muscles.empty()
-                      ? ": the axis does not move, so friction and inertia are not identifiable; "
-                        "expected motion over the range of interest"
-                      : ": no muscle moves, so friction, springs and motors are not "
-                        "identifiable; expected motion over the range of interest"));
-}
+/// Recordings of one option, by their lengths.
+struct Length {
+  double seconds = 0.0;
+  std::size_t blocks = 0;  ///< of the judge
+};
 
-/// @param option that named them   @return seconds of all of them
-double refuse_shortness(const std::vector<Dataset>& recordings, const std::string& option) {
-  double length = 0.0;
+/// @param option that named them
+Length refuse_shortness(const std::vector<Dataset>& recordings, const std::string& option) {
+  Length length;
   for (const Dataset& recording : recordings) {
-    length += seconds(recording.end() - recording.begin());
+    const double own = seconds(recording.end() - recording.begin());
+    length.seconds += own;
+    length.blocks += Judge::blocks_of(own);
   }
-  if (length < kShortest) {
+  if (length.seconds < kShortest) {
     throw BadInput(recordings.front().folder + ": too short: the " + option + " recordings are " +
-                   decimal(length) + " s long in all; expected at least " + decimal(kShortest) +
-                   " s");
+                   decimal(length.seconds) + " s long in all; expected at least " +
+                   decimal(kShortest) + " s");
   }
   return length;
+}
+
+/// What is named must gain over blocks of training and held-out recordings together.
+void refuse_too_few_blocks(const Question& question, const Length& train, const Length& test) {
+  if (train.blocks + test.blocks >= Judge::kFewestBlocks) return;
+  throw BadInput(question.test.front().folder + ": too short: the --train recordings are " +
+                 decimal(train.seconds) + " s and the --test recordings " + decimal(test.seconds) +
+                 " s long, together " + std::to_string(train.blocks + test.blocks) + " blocks of " +
+                 decimal(Judge::kBlock) + " s; expected at least " +
+                 std::to_string(Judge::kFewestBlocks) + " blocks (" +
+                 decimal(Judge::kFewestBlocks * Judge::kBlock) +
+                 " s), because nothing can be named by fewer");
+}
+
+/// Of one side alone, the other one may make up for it.
+void remark_on_few_blocks(const Length& length, const std::string& option,
+                          std::vector<std::string>& remarks) {
+  if (length.blocks >= Judge::kFewestBlocks) return;
+  remarks.push_back("the " + option + " recordings are only " + decimal(length.seconds) +
+                    " s long in all, which is too short to say how certain a gap is there; " +
+                    decimal(Judge::kFewestBlocks * Judge::kBlock) + " s or more would do");
 }
 
 /// Training recordings cannot judge, and a copy of a recording shows no noise.
@@ -122,6 +124,10 @@ void refuse_copies(const Question& question) {
                      ": expected every recording once among --train, --test and --repeat");
     }
   }
+}
+
+void append(const std::vector<std::string>& more, std::vector<std::string>& remarks) {
+  remarks.insert(remarks.end(), more.begin(), more.end());
 }
 
 /// Held-out recordings with the commands of the training recordings test less than they seem to.
@@ -139,31 +145,44 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
 
 }  // namespace
 
-PreparedRecordings prepare(const Evaluator& evaluator, const Question& question) {
+PreparedRecordings prepare(const Evaluator& evaluator, const Question& asked) {
   const RobotModel& robot = *evaluator.model();
-  if (question.train.empty()) throw BadInput("--train: expected at least one recording");
-  if (question.test.empty()) {
+  if (asked.train.empty()) throw BadInput("--train: expected at least one recording");
+  if (asked.test.empty()) {
     throw BadInput("--test: expected at least one recording to judge by, which is not fitted");
   }
-  for (const auto* group : {&question.train, &question.test, &question.repeats}) {
+  for (const auto* group : {&asked.train, &asked.test, &asked.repeats}) {
     for (const Dataset& recording : *group) refuse_nonsense(recording);
   }
-  refuse_copies(question);
-  const double length = refuse_shortness(question.train, "--train");
-  refuse_shortness(question.test, "--test");
-  refuse_stillness(robot, question.train);
-  refuse_stillness(robot, question.test);
+  refuse_copies(asked);
+  const Length length = refuse_shortness(asked.train, "--train");
+  const Length held_out = refuse_shortness(asked.test, "--test");
+  refuse_too_few_blocks(asked, length, held_out);
+  refuse_stillness(robot, asked.train);
+  refuse_stillness(robot, asked.test);
+
+  PreparedRecordings prepared;
+  prepared.question = asked;
+  prepared.remarks = remarks_on(robot, asked);
+  remark_on_few_blocks(length, "--train", prepared.remarks);
+  remark_on_few_blocks(held_out, "--test", prepared.remarks);
+  append(leave_out_frozen(robot, prepared.question), prepared.remarks);
+  const Question& question = prepared.question;
   std::vector<double> late;  // [s]
   for (const Dataset& repeat : question.repeats) {
     late.push_back(lateness_of_repeat(robot, question.train.front(), repeat));
+  }
+  for (const auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (const Dataset& recording : *group) {
+      append(remarks_on_clocks(robot, recording), prepared.remarks);
+    }
   }
 
   ExperimentOptions options;
   options.bin = robot.muscles.empty() ? kAxisBin : kFinestBin;
   const double channels = 4.0 * static_cast<double>(robot.muscles.size()) + 4.0;
-  options.bin *= std::max(1.0, std::ceil(length / options.bin * channels / kMostDifferences));
-  PreparedRecordings prepared;
-  prepared.remarks = remarks_on(robot, question);
+  options.bin *=
+      std::max(1.0, std::ceil(length.seconds / options.bin * channels / kMostDifferences));
   const auto make = [&](const std::vector<Dataset>& recordings, Experiments& experiments) {
     for (const Dataset& recording : recordings) {
       experiments.push_back(make_experiment(robot, recording, options));
@@ -172,6 +191,7 @@ PreparedRecordings prepare(const Evaluator& evaluator, const Question& question)
   make(question.train, prepared.train);
   make(question.test, prepared.test);
   make(question.repeats, prepared.repeats);
+  append(remarks_on_channels(prepared.train, prepared.test), prepared.remarks);
   // Whole steps of the simulation make a bin a little longer or shorter than was asked for.
   const double bin = prepared.train.front()->bin();
   for (const double seconds : late) prepared.lags.push_back(std::lround(seconds / bin));

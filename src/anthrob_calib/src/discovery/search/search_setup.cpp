@@ -5,9 +5,10 @@ namespace discovery {
 
 SearchSetup::SearchSetup(const Evaluator& the_evaluator, const Question& the_question)
     : evaluator(the_evaluator),
-      question(the_question),
-      candidates(list_candidates(evaluator, question.effects)),  // a wrong one is told at once
-      recordings(prepare(evaluator, question)),
+      // A wrong effect is told at once.
+      candidates(list_candidates(evaluator, the_question.effects)),
+      recordings(prepare(evaluator, the_question)),
+      question(recordings.question),
       variables(measured_variables(recordings.train, question.train)),
       scales(measure_scales(evaluator, recordings.train, recordings.repeats, recordings.lags)),
       train(evaluator, recordings.train, whitener(recordings.train, scales, true),

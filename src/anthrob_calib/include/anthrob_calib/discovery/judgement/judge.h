@@ -17,6 +17,11 @@ namespace discovery {
 class Judge {
  public:
   static constexpr double kBlock = 2.0;  ///< [s] longer than residuals are correlated
+  /// The fewest whose scatter says how certain a gain or a gap is.
+  static constexpr std::size_t kFewestBlocks = 3;
+  /// Blocks of a recording; a rest shorter than half a block belongs to the last one.
+  /// @param duration [s]
+  static std::size_t blocks_of(double duration);
 
   /// @param whitener with which the residuals were whitened
   /// @param scales scales of the channels if the whitener includes their inflation; else empty

@@ -8,6 +8,7 @@ namespace discovery {
 
 /// Recordings as experiments, with the same bins.
 struct PreparedRecordings {
+  Question question;  ///< as it was asked, without the columns that are left out
   Experiments train, test, repeats;
   std::vector<long> lags;  ///< by how much each repeat is behind the first of `train` [bins]
   std::vector<std::string> remarks;  ///< what is odd about the recordings

@@ -20,7 +20,7 @@ namespace discovery {
 /// What a search works with and does not change: the question, its recordings and their noise, the
 /// candidates, and how fits are made and judged. The members refer to each other.
 struct SearchSetup {
-  /// @param evaluator, question must outlive the setup
+  /// @param evaluator must outlive the setup
   /// @throws BadInput for recordings that cannot answer, or for effects that cannot be asked for
   SearchSetup(const Evaluator& evaluator, const Question& question);
   SearchSetup(const SearchSetup&) = delete;
@@ -32,9 +32,9 @@ struct SearchSetup {
   void comment(const std::string& line) const;
 
   const Evaluator& evaluator;
-  const Question& question;
   const std::vector<Candidate> candidates;
   const PreparedRecordings recordings;
+  const Question& question;  ///< without the columns that are left out
   const std::vector<MeasuredVariable> variables;
   const Scales scales;
   const ModelFit train, test;
