@@ -17,6 +17,7 @@
 #include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/discovery/progress.h"
 #include "anthrob_calib/report/discovery_summary.h"
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/model/robot_model.h"
 
 namespace anthrob {
@@ -455,6 +456,71 @@ TEST(Report, TellsWhatWasAsked) {
   EXPECT_EQ(json["question"]["model"], "model_I.yaml");
   EXPECT_EQ(json["question"]["train"][0], "run_1");
   EXPECT_EQ(json["question"]["repeat"][0], "run_1_again");
+  EXPECT_TRUE(json["question"]["calibration"].is_null());
+  EXPECT_TRUE(json["question"]["close_the_loop"].is_null());
+  EXPECT_TRUE(json["question"]["fingerprints"]["model"].is_null());
+}
+
+Dataset ramp(double slope) {
+  Dataset recording;
+  recording.folder = "run_1";
+  Table& table = recording.table("muscles");
+  Column& column = table.column("brachialis/position");
+  for (int i = 0; i < 5; ++i) {
+    table.t.push_back(1000000 * i);
+    column.values.push_back(slope * i);
+    column.present.push_back(1);
+  }
+  return recording;
+}
+
+Question full_question() {
+  Question question;
+  question.train = {ramp(1.0)};
+  question.test = {ramp(2.0)};
+  question.calibration_file = "arm/calibration.yaml";
+  question.simulated_robot_file = "arm/robot.yaml";
+  question.model_fingerprint = 0xabc;
+  return question;
+}
+
+TEST(Report, TellsWithWhatItCanBeAskedAgain) {
+  Question question = full_question();
+  question.nuisances.resize(3);
+  const auto asked = [&] {
+    return nlohmann::json::parse(report_json({}, question, 1.0))["question"];
+  };
+  const auto json = asked();
+  EXPECT_EQ(json["calibration"], "arm/calibration.yaml");
+  EXPECT_EQ(json["close_the_loop"], "arm/robot.yaml");
+  EXPECT_EQ(json["ordinary_parameters"], 3);
+  const auto& fingerprints = json["fingerprints"];
+  EXPECT_EQ(fingerprints["model"], "0000000000000abc");
+  ASSERT_EQ(fingerprints["train"].size(), 1u);
+  ASSERT_EQ(fingerprints["test"].size(), 1u);
+  EXPECT_TRUE(fingerprints["repeat"].empty());
+  EXPECT_EQ(fingerprints["train"][0],
+            resume::fingerprint_text(resume::content_fingerprint(ramp(1.0))));
+  EXPECT_NE(fingerprints["train"][0], fingerprints["test"][0]);
+  // They are of the samples, whatever the recording is called.
+  question.train[0].folder = "a_copy";
+  EXPECT_EQ(asked()["fingerprints"], fingerprints);
+  question.train[0].table("muscles").columns[0].values[2] += 1e-9;
+  EXPECT_NE(asked()["fingerprints"]["train"], fingerprints["train"]);
+}
+
+TEST(ModelText, TellsWhatWasAsked) {
+  Question question = full_question();
+  question.model_file = ANTHROB_CONFIG_DIR "/driven_axis/model_I.yaml";
+  const Evaluator evaluator(question.model_file, {}, 0.001, 1);
+  const std::string text = model_text({}, evaluator, question, ".");
+  EXPECT_TRUE(holds(
+      text, "# Training recordings: run_1 (fingerprint " +
+                resume::fingerprint_text(resume::content_fingerprint(question.train[0])) + ")\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "# Fingerprint of the examined model: 0000000000000abc.\n")) << text;
+  EXPECT_TRUE(holds(text, "# Ordinary parameters: 0, listed by arm/calibration.yaml.\n")) << text;
+  EXPECT_TRUE(holds(text, " --close-the-loop arm/robot.yaml.\n")) << text;
 }
 
 TEST(ModelText, CanBeLoadedWhereTheModelHasEffectsThatMayBeCorrected) {

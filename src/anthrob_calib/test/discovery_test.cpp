@@ -22,6 +22,7 @@
 #include "anthrob_calib/discovery/search/preparation.h"
 #include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_calib/report/discovery_summary.h"
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "arm.h"
@@ -361,6 +362,12 @@ TEST_F(InterruptedRun, ToolSaysHowToGoOn) {
   };
   ASSERT_EQ(run("", "whole"), 0) << content(path("errors"));
   EXPECT_FALSE(fs::exists(path("whole/journal.bin")));
+  const auto question = report("whole")["question"];
+  EXPECT_EQ(question["calibration"], kConfig + "/driven_axis/calibration.yaml");
+  EXPECT_EQ(question["fingerprints"]["model"],
+            resume::fingerprint_text(resume::model_fingerprint(
+                ConfigNode::load(kConfig + "/driven_axis/model_I.yaml"))));
+  EXPECT_NE(question["fingerprints"]["train"], question["fingerprints"]["test"]);
   const std::string script = path("interrupt.sh");
   const int status = run(interrupted_when(path("stopped/journal.bin"), script), "stopped");
   ASSERT_TRUE(interrupt_was_sent(script)) << "finished too early: make the work longer";

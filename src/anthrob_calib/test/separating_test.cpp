@@ -125,6 +125,38 @@ TEST(ClosedLoop, AsksTheRobotNothingWhereNothingIsUndecided) {
   EXPECT_EQ(question.train.size(), 1u);
 }
 
+TEST(ClosedLoop, RefusesAnotherRobotBeforeItSearches) {
+  const std::string config = ANTHROB_CONFIG_DIR;
+  const std::string rig = config + "/two_muscle_rig/model_I.yaml";
+  const std::string axis = config + "/driven_axis/model_I.yaml";
+  const struct {
+    std::string examined, robot, lacking;
+  } cases[] = {
+      {rig, kModel, "has no muscle 'flexor'"},
+      {axis, kModel, "has no joint 'axis'"},
+      {rig, config + "/two_muscle_rig/model_hill.yaml", "has no controller for muscle 'flexor'"},
+  };
+  for (const auto& test : cases) {
+    const Evaluator evaluator(test.examined, {}, 0.001, 1);
+    Question question;
+    question.model_file = test.examined;
+    int stages = 0;
+    question.progress = [&stages](const std::string&) { return ++stages > 0; };
+    try {
+      discover_in_a_loop(evaluator, question, load_robot_model(test.robot));
+      ADD_FAILURE() << "not refused: " << test.robot;
+    } catch (const BadInput& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.find("--close-the-loop "), 0u) << what;
+      EXPECT_NE(what.find(test.lacking + "; expected the muscles and joints of "),
+                std::string::npos)
+          << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    }
+    EXPECT_EQ(stages, 0);
+  }
+}
+
 /// A force sensor that reads too much by a gain, recorded where its muscle's tension hardly
 /// changes: an offset explains that as well.
 struct OneTension {

@@ -11,6 +11,7 @@
 #include "anthrob_calib/identification/output_files.h"
 #include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_calib/report/discovery_summary.h"
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_config/extended_files.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/unanswered.h"
@@ -106,7 +107,10 @@ void keep_inputs(const Arguments& a) {
 void load_question(const CLI::App& app, Arguments& a) {
   discovery::Question& question = a.question;
   std::vector<std::string> remarks;
+  question.calibration_file = calibration_file_of(question.model_file, a.calibration);
   question.nuisances = ordinary_parameters(question.model_file, a.calibration, &remarks);
+  question.simulated_robot_file = a.robot_file;
+  question.model_fingerprint = resume::model_fingerprint(ConfigNode::load(question.model_file));
   tool::say(app, remarks);
   if (question.nuisances.empty()) {
     std::cerr << question.model_file

@@ -158,21 +158,27 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
   return parameters;
 }
 
-std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
-                                                std::string calibration_file,
-                                                std::vector<std::string>* remarks) {
+std::string calibration_file_of(const std::string& model_file, const std::string& given) {
   const ConfigNode model = ConfigNode::load(model_file);
   // The robot is named where the folder of its files is.
-  for (const std::string& file : {model_file, model.at("robot").file()}) {
+  const std::string robot_file = model.at("robot").file();
+  if (!given.empty()) return given;
+  for (const std::string& file : {model_file, robot_file}) {
     const auto beside = std::filesystem::path(file).parent_path() / "calibration.yaml";
-    if (calibration_file.empty() && std::filesystem::exists(beside)) {
-      calibration_file = beside.string();
-    }
+    if (std::filesystem::exists(beside)) return beside.string();
   }
-  if (calibration_file.empty()) return {};
-  const ConfigNode calibration = ConfigNode::load(calibration_file);
+  return "";
+}
+
+std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
+                                                const std::string& calibration_file,
+                                                std::vector<std::string>* remarks) {
+  const std::string file = calibration_file_of(model_file, calibration_file);
+  if (file.empty()) return {};
+  const ConfigNode calibration = ConfigNode::load(file);
   check_file(calibration, remarks);
-  return read_parameters(calibration.at("parameters"), model, Outside::kWiden);
+  return read_parameters(calibration.at("parameters"), ConfigNode::load(model_file),
+                         Outside::kWiden);
 }
 
 std::map<std::string, double> overrides_of(const std::vector<ModelParameter>& parameters,

@@ -2,6 +2,7 @@
 
 #include "anthrob_calib/calibration/extended_model.h"
 #include "anthrob_calib/discovery/number_text.h"
+#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/effects/catalogue.h"
 
 namespace anthrob {
@@ -30,6 +31,38 @@ std::vector<EffectInstance> corrected_effects(const RobotModel& robot, const Con
   return effects;
 }
 
+/// " FOLDER (fingerprint 0123456789abcdef)" of each.
+std::string names_of(const std::vector<Dataset>& recordings) {
+  std::string text;
+  for (const Dataset& recording : recordings) {
+    text += " " + recording.folder + " (fingerprint " +
+            resume::fingerprint_text(resume::content_fingerprint(recording)) + ")";
+  }
+  return text;
+}
+
+/// What was asked: recordings, ordinary parameters and options.
+std::string question_text(const Question& question) {
+  std::string text = "Training recordings:" + names_of(question.train);
+  text += "\nHeld-out recordings:" + names_of(question.test);
+  if (!question.repeats.empty()) {
+    text += "\nRepeats, for the noise floor:" + names_of(question.repeats);
+  }
+  if (question.model_fingerprint != 0) {
+    text += "\nFingerprint of the examined model: " +
+            resume::fingerprint_text(question.model_fingerprint) + ".";
+  }
+  text += "\nOrdinary parameters: " + std::to_string(question.nuisances.size());
+  if (!question.calibration_file.empty()) text += ", listed by " + question.calibration_file;
+  text += ".\nOptions: --dt " + short_number(question.step) + " --max-effects " +
+          std::to_string(question.max_effects);
+  for (const std::string& id : question.effects) text += " --effects " + id;
+  if (!question.simulated_robot_file.empty()) {
+    text += " --close-the-loop " + question.simulated_robot_file;
+  }
+  return text + ".";
+}
+
 }  // namespace
 
 std::string model_text(const Answer& answer, const Evaluator& evaluator, const Question& question,
@@ -48,16 +81,7 @@ std::string model_text(const Answer& answer, const Evaluator& evaluator, const Q
   comment += "Gap to the held-out recordings in units of the noise floor: " +
              short_number(answer.test.before) + " as given, " +
              short_number(answer.test.recalibrated) + " recalibrated, " +
-             short_number(answer.test.after) + " with what was found.\nTraining recordings:";
-  for (const Dataset& recording : question.train) comment += " " + recording.folder;
-  comment += "\nHeld-out recordings:";
-  for (const Dataset& recording : question.test) comment += " " + recording.folder;
-  if (!question.repeats.empty()) comment += "\nRepeats, for the noise floor:";
-  for (const Dataset& recording : question.repeats) comment += " " + recording.folder;
-  comment += "\nOptions: --dt " + short_number(question.step) + " --max-effects " +
-             std::to_string(question.max_effects);
-  for (const std::string& id : question.effects) comment += " --effects " + id;
-  comment += ".";
+             short_number(answer.test.after) + " with what was found.\n" + question_text(question);
 
   std::map<std::string, double> numbers =
       overrides_of(evaluator.nuisances(), answer.extended.nuisances);

@@ -5,6 +5,7 @@
 #include "anthrob_calib/discovery/separation/separating_files.h"
 #include "anthrob_calib/report/discovery_report.h"
 #include "anthrob_calib/report/discovery_summary.h"
+#include "anthrob_calib/resume/fingerprint.h"
 
 namespace anthrob {
 namespace discovery {
@@ -126,6 +127,28 @@ Json dependences_json(const Answer& answer) {
   return list;
 }
 
+/// null if empty.
+Json file_json(const std::string& file) {
+  return file.empty() ? Json(nullptr) : Json(file);
+}
+
+/// Tell whether files of the same names are still what was examined.
+Json fingerprints_json(const Question& question) {
+  const auto contents = [](const std::vector<Dataset>& recordings) {
+    Json texts = Json::array();
+    for (const Dataset& recording : recordings) {
+      texts.push_back(resume::fingerprint_text(resume::content_fingerprint(recording)));
+    }
+    return texts;
+  };
+  const bool known = question.model_fingerprint != 0;
+  return {
+      {"model", known ? Json(resume::fingerprint_text(question.model_fingerprint)) : Json(nullptr)},
+      {"train", contents(question.train)},
+      {"test", contents(question.test)},
+      {"repeat", contents(question.repeats)}};
+}
+
 /// What was asked, so that it can be asked again.
 Json question_json(const Question& question) {
   const auto folders = [](const std::vector<Dataset>& recordings) {
@@ -133,10 +156,17 @@ Json question_json(const Question& question) {
     for (const Dataset& recording : recordings) names.push_back(recording.folder);
     return names;
   };
-  return {{"model", question.model_file},   {"train", folders(question.train)},
-          {"test", folders(question.test)}, {"repeat", folders(question.repeats)},
-          {"effects", question.effects},    {"max_effects", question.max_effects},
-          {"dt", number(question.step)},    {"ordinary_parameters", question.nuisances.size()}};
+  return {{"model", question.model_file},
+          {"calibration", file_json(question.calibration_file)},
+          {"train", folders(question.train)},
+          {"test", folders(question.test)},
+          {"repeat", folders(question.repeats)},
+          {"effects", question.effects},
+          {"max_effects", question.max_effects},
+          {"dt", number(question.step)},
+          {"close_the_loop", file_json(question.simulated_robot_file)},
+          {"ordinary_parameters", question.nuisances.size()},
+          {"fingerprints", fingerprints_json(question)}};
 }
 
 Json improbable_json(const Answer& answer) {

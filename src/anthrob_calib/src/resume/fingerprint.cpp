@@ -7,7 +7,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
+#include <sstream>
 
 namespace anthrob {
 namespace resume {
@@ -81,6 +83,12 @@ Fingerprint& Fingerprint::add(const Dataset& recording) {
     }
   }
   return *this;
+}
+
+std::string fingerprint_text(std::uint64_t fingerprint) {
+  std::ostringstream text;
+  text << std::hex << std::setw(16) << std::setfill('0') << fingerprint;
+  return text.str();
 }
 
 std::uint64_t content_fingerprint(const Dataset& recording) {

@@ -39,14 +39,17 @@ enum class Outside { kRefuse, kWiden };
 std::vector<ModelParameter> read_parameters(const ConfigNode& list, const ConfigNode& model,
                                             Outside outside = Outside::kRefuse);
 
+/// The file that lists the ordinary parameters of a model: the given one, or calibration.yaml
+/// beside the model or beside the model that it extends; empty if there is none.
+std::string calibration_file_of(const std::string& model_file, const std::string& given = "");
+
 /// The ordinary parameters of a model, which a calibration may correct: the list `parameters` of
-/// the given file, or of calibration.yaml beside the model or beside the model that it extends;
-/// empty if there is none. Ranges are widened to include the model's own values, because the model
-/// may have been calibrated with wider ranges.
+/// its calibration_file_of(); empty if there is none. Ranges are widened to include the model's own
+/// values, because the model may have been calibrated with wider ranges.
 /// @param remarks gets a line about keys that only anthrob_calibrate uses
 /// @throws BadInput, also for unknown keys
 std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
-                                                std::string calibration_file = "",
+                                                const std::string& calibration_file = "",
                                                 std::vector<std::string>* remarks = nullptr);
 
 /// Values by path, for LoadOptions::overrides.

@@ -26,6 +26,10 @@ struct Question {
   int jobs = 1;
   std::uint64_t seed = 1;
   double step = 0.001;  ///< of the simulation [s]
+  // For the report only:
+  std::string calibration_file;         ///< that lists the nuisances; empty: none
+  std::string simulated_robot_file;     ///< of --close-the-loop; empty: the loop stays open
+  std::uint64_t model_fingerprint = 0;  ///< resume::model_fingerprint(); 0: unknown
   /// Called with the name of each stage as it begins; returns false to stop.
   std::function<bool(const std::string&)> progress;
   std::function<void(const std::string&)> comment;  ///< a line on what was found so far

@@ -8,8 +8,8 @@
 namespace anthrob {
 namespace discovery {
 
-/// model.yaml: extends the examined model by what was found; its comment names verdict and
-/// recordings.
+/// model.yaml: extends the examined model by what was found; its comment names the verdict
+/// and what was asked.
 /// @param folder the folder in which it will be saved
 std::string model_text(const Answer& answer, const Evaluator& evaluator, const Question& question,
                        const std::string& folder);

@@ -26,6 +26,8 @@ class Fingerprint {
   std::uint64_t hash_ = 14695981039346656037ULL;
 };
 
+/// Sixteen hexadecimal digits.
+std::string fingerprint_text(std::uint64_t fingerprint);
 /// Fingerprint of the samples of a recording, with times counted from its beginning. It is the same
 /// for a bag, the folder that it was converted to, and a copy with another meta.yaml.
 std::uint64_t content_fingerprint(const Dataset& recording);

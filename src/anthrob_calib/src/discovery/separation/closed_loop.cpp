@@ -6,6 +6,7 @@
 
 #include "anthrob_calib/discovery/experiment/simulated_recording.h"
 #include "anthrob_calib/discovery/number_text.h"
+#include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
 namespace discovery {
@@ -40,10 +41,35 @@ std::string sentence(const FoundEffect& effect, int number) {
          short_number(effect.separating_recording.distance()) + " nat of evidence";
 }
 
+/// Commands and measurements go by the names of muscles and joints: another robot would fail, or
+/// stand still, only at the end of a long search.
+void require_same_robot(const RobotModel& examined, const RobotModel& robot) {
+  const auto refuse = [&](const std::string& what) {
+    throw BadInput("--close-the-loop " + robot.file + ": has no " + what +
+                   "; expected the muscles and joints of " + examined.file);
+  };
+  for (const MuscleModel& muscle : examined.muscles) {
+    const int same = robot.find_muscle(muscle.name);
+    if (same < 0) refuse("muscle '" + muscle.name + "'");
+    if (muscle.has_controller && !robot.muscles[static_cast<std::size_t>(same)].has_controller) {
+      refuse("controller for muscle '" + muscle.name + "'");
+    }
+  }
+  for (const JointModel& joint : examined.skeleton->joints) {
+    const int same = robot.skeleton->find_joint(joint.name);
+    if (same < 0) refuse("joint '" + joint.name + "'");
+    const bool ball = joint.type == JointType::kBall;
+    if (ball != (robot.skeleton->joints[static_cast<std::size_t>(same)].type == JointType::kBall)) {
+      refuse((ball ? "ball joint '" : "hinge or slide '") + joint.name + "'");
+    }
+  }
+}
+
 }  // namespace
 
 Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
                           const std::shared_ptr<const RobotModel>& robot) {
+  require_same_robot(*evaluator.model(), *robot);
   Answer answer = discover(evaluator, question);
   std::vector<std::string> asked;
   for (int number = 1; number <= kMostRecordings; ++number) {

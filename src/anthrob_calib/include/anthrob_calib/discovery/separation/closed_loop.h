@@ -8,7 +8,8 @@ namespace discovery {
 /// Discovery with access to a simulated robot. While an effect that was found has rivals and a
 /// separating recording is known, the robot is recorded with it, and discovery runs again with that
 /// recording added; at most twice.
-/// @param robot model of the simulated robot; only used to record it
+/// @param robot model of the simulated robot; only used to record it. It must have the muscles and
+/// joints of the examined model.
 /// @param question gets the new recordings: every other target in `train`, the rest in `test`
 /// @throws BadInput, Interrupted
 Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
