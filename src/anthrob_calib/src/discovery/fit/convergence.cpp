@@ -96,7 +96,7 @@ std::optional<Fitted> Convergence::to_the_end_within_reach(const Fitted& fitted,
 
 /// A large effect makes valleys beside the right one: a joint that sticks too often can be had by
 /// more friction or by a higher ratio of static friction. Where a fit clearly misses and one of a
-/// few other sizes does better at once, fits from there. @throws NotSimulated
+/// few other sizes does better at once, fits from there.
 void Convergence::begin_anew(Fitted& fitted) const {
   if (fitted.variant.effects.empty() || !clearly_misses(fitted)) return;
   std::vector<Variant> others;
