@@ -8,38 +8,14 @@
 
 #include "anthrob_calib/discovery/experiment/regimes.h"
 #include "anthrob_calib/discovery/judgement/judge.h"
-#include "anthrob_calib/discovery/location/dependence.h"
 #include "anthrob_sim/core/random.h"
+#include "swing.h"
 
 namespace anthrob {
 namespace discovery {
 namespace {
 
-constexpr std::size_t kBins = 2000;
-
-/// One channel of a joint that swings to and fro, 40 s; after one of a muscle, if that was
-/// measured.
-class Swing final : public Experiment {
- public:
-  explicit Swing(bool with_muscle = false) {
-    bin_ = 0.02;
-    duration_ = 0.02 * kBins;
-    if (with_muscle) channels_ = {{"flexor", "force", "N", 0, 0, kBins, 0.0}};
-    channels_.push_back({"hinge", "position", "rad", 0, with_muscle ? kBins : 0, kBins, 0.0});
-    present_.assign(kBins * channels_.size(), 1);
-  }
-  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
-};
-
-double speed_at(std::size_t bin) {
-  return std::sin(0.9 * static_cast<double>(bin));
-}
-
-MeasuredVariable speed() {
-  MeasuredVariable variable{"hinge/position", "speed", {{}}, false, "rad/s"};
-  for (std::size_t b = 0; b < kBins; ++b) variable.values[0].push_back(speed_at(b));
-  return variable;
-}
+using namespace testing_support;
 
 /// A size to which all rows are equally sensitive, fitted: residuals add up to nothing.
 Fitted fit_with(const std::function<double(std::size_t)>& residual) {
@@ -65,30 +41,6 @@ double width(const Fitted& fitted) {
   EXPECT_LE(intervals[0].first, 1.0);
   EXPECT_GE(intervals[0].second, 1.0);
   return intervals[0].second - intervals[0].first;
-}
-
-TEST(Dependence, IsBeyondWhatAConstantDoes) {
-  const Experiments experiments = {std::make_shared<Swing>()};
-  MeasuredVariable time{"time", "time", {{}}, false, "s"};
-  for (std::size_t b = 0; b < kBins; ++b) time.values[0].push_back(0.02 * static_cast<double>(b));
-  const CounterRandom random(3);
-  const Eigen::VectorXf whitener = Eigen::VectorXf::Ones(kBins);
-  const auto of = [&](double offset, double slope) {
-    Eigen::VectorXf residual(kBins);
-    for (std::size_t b = 0; b < kBins; ++b) {
-      residual[static_cast<Eigen::Index>(b)] =
-          static_cast<float>(offset + slope * speed_at(b) + random.normal(b));
-    }
-    return find_dependences(experiments, {time, speed()}, residual, whitener).at(0);
-  };
-  const Dependence flat = of(2.0, 0.0), sloped = of(2.0, 2.0), noise = of(0.0, 0.0);
-  EXPECT_NEAR(flat.constant, 0.8, 0.03);  // 4 of 4 + 1
-  EXPECT_LT(flat.share, Dependence::kTelling);
-  EXPECT_EQ(sloped.word, "speed");
-  EXPECT_NEAR(sloped.constant, 4.0 / 7.0, 0.03);
-  EXPECT_NEAR(sloped.share, 2.0 / 7.0, 0.03);
-  EXPECT_LT(noise.constant, Dependence::kTelling);
-  EXPECT_LT(noise.share, Dependence::kTelling);
 }
 
 TEST(Bootstrap, IntervalsOfNoiseCoverTheTruth) {

@@ -400,8 +400,7 @@ TEST(Report, ShowsDependencesOfWhatDisagrees) {
   dependence.variable = "elbow/velocity";
   dependence.word = "sign of velocity";
   dependence.share = 0.5;
-  dependence.at = {-1.0, 1.0};
-  dependence.curve = dependence.error = {0.1, 0.2};
+  dependence.curve = {{-1.0, 1.0}, {0.1, 0.2}, {0.1, 0.2}};
   answer.dependences = {dependence};
   EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "depends on sign of velocity"));
   Place place;
@@ -419,8 +418,7 @@ Dependence dependence(const std::string& channel, double share) {
   d.variable_unit = "rad";
   d.word = "posture";
   d.share = share;
-  d.at = {-1.0, 1.0};
-  d.curve = d.error = {0.1, 0.2};
+  d.curve = {{-1.0, 1.0}, {0.1, 0.2}, {0.1, 0.2}};
   return d;
 }
 
@@ -447,6 +445,33 @@ TEST(Report, ShowsFirstWhatExplainsMostOfTheGap) {
 
 TEST(Report, TellsWhatWasAsked) {
   Question question;
+TEST(Report, ShowsACurveForEachRangeOfASecondQuantity) {
+  Dependence d = dependence("brachialis/force", 0.4);
+  Dependence::Branch low, high;
+  low.at = high.at = {-1.0, 1.0};
+  low.mean = low.error = {0.1, 0.2};
+  high.mean = high.error = {0.3, 0.6};
+  low.second = 12.5, high.second = 37.5;
+  d.second = Dependence::Second{"brachialis/force", "N", "load", 0.7, {low, high}};
+  Answer answer;
+  answer.verdict = "unexplained";
+  answer.remaining = {d};
+  const std::string page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, "brachialis/force depends on posture and load"));
+  EXPECT_TRUE(holds(page, "load 12.5\u00a0N"));
+  EXPECT_TRUE(holds(page, "load 37.5\u00a0N"));
+  EXPECT_TRUE(holds(page, "70 % of the squared gap"));
+  EXPECT_TRUE(holds(page, "one for all would predict 40 %"));
+  const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
+  const auto& second = json["remaining"]["dependences"][0]["second"];
+  EXPECT_EQ(second["variable"], "brachialis/force");
+  EXPECT_EQ(second["how"], "load");
+  EXPECT_EQ(second["share"], 0.7);
+  ASSERT_EQ(second["curves"].size(), 2u);
+  EXPECT_EQ(second["curves"][1]["second"], 37.5);
+  EXPECT_EQ(second["curves"][1]["curve"], (std::vector<double>{0.3, 0.6}));
+}
+
   question.model_file = "model_I.yaml";
   question.train.resize(1);
   question.train[0].folder = "run_1";

@@ -137,6 +137,16 @@ TEST(Verdict, AnOffsetDependsOnNothing) {
 
 TEST(Verdict, NothingIsToldOfChannelsThatAreNoHigherThanNoise) {
   const std::vector<Dependence> found = {dependence("elbow/position", "load", 0.9),
+TEST(Verdict, TellsWhatTheRestDependsOn) {
+  Answer answer;
+  answer.remaining = {dependence("elbow/position", "load", 0.3),
+                      dependence("wrist/position", "sign of velocity", 0.2)};
+  answer.remaining[1].second = Dependence::Second{"wrist/load", "N", "load", 0.6, {}};
+  fill_in_verdict({{"elbow/position", 3.0}, {"wrist/position", 3.0}}, true, answer);
+  EXPECT_EQ(answer.remaining_description,
+            "wrist/position depends on sign of velocity of elbow/position and load of wrist/load");
+}
+
                                          dependence("biceps_brachii/force", "load", 0.5)};
   Answer answer;
   answer.remaining = found;

@@ -115,14 +115,26 @@ Json visibilities_json(const std::vector<Visibility>& effects) {
 Json dependences_json(const Answer& answer) {
   Json list = Json::array();
   for (const Dependence& d : answer.remaining) {
+Json second_json(const Dependence::Second& second) {
+  Json curves = Json::array();
+  for (const Dependence::Branch& branch : second.branches) {
+    curves.push_back({{"second", branch.second}, {"at", branch.at}, {"curve", branch.mean}});
+  }
+  return {{"variable", second.variable},
+          {"how", second.word},
+          {"share", number(second.share)},
+          {"curves", curves}};
+}
+
     if (d.variable.empty() || d.share <= Dependence::kTelling) continue;
     list.push_back({{"channel", d.channel},
                     {"variable", d.variable},
                     {"how", d.word},
                     {"share", number(d.share)},
                     {"constant", number(d.constant)},
-                    {"at", d.at},
-                    {"curve", d.curve}});
+                    {"at", d.curve.at},
+                    {"curve", d.curve.mean}});
+    if (d.second) list.back()["second"] = second_json(*d.second);
   }
   return list;
 }

@@ -68,7 +68,7 @@ std::vector<Dependence> dependences_where(const Answer& answer) {
   for (const Dependence& d : answer.dependences) {
     for (const Place& place : answer.where) {
       if (d.channel.rfind(place.place + "/" + place.channel, 0) != 0) continue;
-      found.emplace_back(place.share * d.share, d);
+      found.emplace_back(place.share * d.predicted(), d);
       break;
     }
   }
@@ -83,6 +83,35 @@ std::string in_unit(const std::string& unit) {
   return unit.empty() ? "" : " [" + unit + "]";
 }
 
+SvgFigure::Line line_of(const std::string& label, const Dependence::Curve& curve) {
+  SvgFigure::Line line{label, curve.at, curve.mean};
+  line.marks = SvgFigure::Line::kFilled;
+  line.error = curve.error;
+  return line;
+}
+
+std::vector<SvgFigure::Line> lines_of(const Dependence& d) {
+  if (!d.second) return {line_of("", d.curve)};
+  std::vector<SvgFigure::Line> lines;
+  for (const Dependence::Branch& branch : d.second->branches) {
+    const std::string value = with_unit(branch.second, d.second->unit);
+    lines.push_back(line_of(d.second->word + " " + value, branch));
+  }
+  return lines;
+}
+
+std::string about_prediction(const Dependence& d) {
+  std::string text = "In blocks of time that they were not fitted to, these means predict " +
+                     short_number(100.0 * d.predicted()) +
+                     " % of the squared gap, in addition to a constant.";
+  if (d.second) {
+    text += " There is a curve for each range of " + escaped(d.second->variable) + " (" +
+            escaped(d.second->word) + "); one for all would predict " +
+            short_number(100.0 * d.share) + " %.";
+  }
+  return text;
+}
+
 /// Of the first three curves that tell something.
 std::string dependence_figures(const std::vector<Dependence>& dependences) {
   std::string html;
@@ -90,18 +119,12 @@ std::string dependence_figures(const std::vector<Dependence>& dependences) {
   for (const Dependence& d : dependences) {
     if (d.share <= Dependence::kTelling) continue;
     if (++shown > 3) break;
-    SvgFigure figure(d.channel + " depends on " + d.word);
+    SvgFigure figure(d.channel + " depends on " + d.word +
+                     (d.second ? " and " + d.second->word : std::string()));
     auto& panel = figure.add_panel(d.variable + in_unit(d.variable_unit) + " (" + d.word + ")",
                                    "simulated minus measured" + in_unit(d.unit));
-    SvgFigure::Line line{"", d.at, d.curve};
-    line.marks = SvgFigure::Line::kFilled;
-    line.error = d.error;
-    panel.lines.push_back(line);
-    html += figure.render() +
-            "<p class=\"small\">In blocks of time that it was not "
-            "fitted to, the curve predicts " +
-            short_number(100.0 * d.share) +
-            " % of the squared gap, in addition to a constant.</p>\n";
+    panel.lines = lines_of(d);
+    html += figure.render() + "<p class=\"small\">" + about_prediction(d) + "</p>\n";
   }
   return html;
 }

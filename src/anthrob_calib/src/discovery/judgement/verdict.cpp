@@ -21,7 +21,7 @@ bool is_real(const Dependence& dependence, const std::map<std::string, double>& 
 /// How much of the squared gap a dependence explains. A gap that depends on nothing is
 /// underestimated noise, not a missing effect.
 double explained(const Dependence& dependence, const std::map<std::string, double>& left) {
-  const double share = std::max(dependence.share, dependence.constant);
+  const double share = std::max(dependence.predicted(), dependence.constant);
   double most = 0.0;
   for (const auto& [name, gap] : left) {
     if (dependence.channel.rfind(name, 0) != 0 || share < Dependence::kTelling) continue;
@@ -65,12 +65,10 @@ void fill_in_verdict(const std::map<std::string, double>& left, bool certain, An
   const Dependence* cause = any ? &remaining.front() : nullptr;
   if (!certain) {
     answer.remaining_description = kNoCertainGap;
-  } else if (cause && cause->constant > cause->share) {
+  } else if (cause && cause->constant > cause->predicted()) {
     answer.remaining_description = cause->channel + " is off by a constant";
   } else if (cause) {
-    answer.remaining_description = cause->channel + " depends on " +
-                                   (cause->word == "time" ? "" : cause->word + " of ") +
-                                   cause->variable;
+    answer.remaining_description = cause->channel + " depends on " + cause->on_what();
   } else {
     answer.remaining_description = "a gap that depends on none of the measured quantities";
   }

@@ -2,132 +2,162 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
-#include "anthrob_calib/discovery/experiment/measured_variable.h"
 #include "anthrob_calib/discovery/judgement/judge.h"
+#include "anthrob_calib/discovery/location/step_means.h"
 
 namespace anthrob {
 namespace discovery {
 
 namespace {
 
-constexpr std::size_t kSteps = 9;  ///< of a curve
-constexpr double kFew = 2.0;       ///< fewest samples of a mean
-constexpr double kStill = 0.02;    ///< [largest speed] below it, the sign of a speed means nothing
+constexpr std::size_t kSteps = 9;   ///< of a curve
+constexpr std::size_t kLevels = 3;  ///< of a second quantity
+constexpr double kStill = 0.02;     ///< [largest speed] below it, the sign of a speed means nothing
+constexpr double kBetter = 0.02;    ///< share by which a quantity must predict more than another
+constexpr bool kShown = true;       ///< the half of the blocks whose curves are shown
 
-/// One sample: a bin of the channel.
-struct Sample {
-  double x, y;
-  bool odd;  ///< block of time
-};
+/// A bin of a channel: experiment, and number of its bin.
+using Bin = std::pair<std::size_t, std::size_t>;
 
-/// Means of y over steps of x with equal numbers of samples.
-struct Steps {
-  std::vector<double> edges;                       ///< upper ones, but the last
-  std::vector<double> count, mean, error, centre;  ///< where there are a few samples at least
-
-  std::size_t of(double x) const {
-    return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) -
-                                    edges.begin());
-  }
-
-  /// Of values of the steps, those of steps with enough samples.
-  std::vector<double> filled(const std::vector<double>& values) const {
-    std::vector<double> some;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if (count[k] >= kFew) some.push_back(values[k]);
+/// One channel, and what it might depend on.
+class ChannelBins {
+ public:
+  ChannelBins(const Experiments& experiments, const Channel& channel,
+              const Eigen::VectorXf& residual, const Eigen::VectorXf& whitener) {
+    std::size_t offset = 0;
+    for (std::size_t e = 0; e < experiments.size(); ++e) {
+      const Experiment& experiment = *experiments[e];
+      const Channel* c = find_channel(experiment, channel);
+      for (std::size_t b = 0; c && b < c->count; ++b) {
+        const auto i = static_cast<Eigen::Index>(offset + c->offset + b);
+        if (!(whitener[i] > 0.0f)) continue;
+        bins_.emplace_back(e, b);
+        residual_.y.push_back(static_cast<double>(residual[i] / whitener[i]));
+        const auto block = static_cast<std::size_t>(experiment.bin_time(b) / Judge::kBlock);
+        residual_.odd.push_back((block + e) % 2 == 1);
+      }
+      offset += experiment.size();
     }
-    return some;
   }
-};
 
-Steps steps_of(const std::vector<Sample>& samples, bool sign, double largest) {
-  Steps steps;
-  if (sign) {
-    steps.edges = {-kStill * largest, kStill * largest};
-  } else {
+  bool are_enough() const { return bins_.size() >= 10 * kSteps; }
+  const ChannelResidual& residual() const { return residual_; }
+
+  std::vector<double> values_of(const MeasuredVariable& variable) const {
     std::vector<double> x;
-    for (const Sample& s : samples) x.push_back(s.x);
-    std::sort(x.begin(), x.end());
-    for (std::size_t k = 1; k < kSteps; ++k) {
-      const double edge = x[k * x.size() / kSteps];
-      if (steps.edges.empty() || edge > steps.edges.back()) steps.edges.push_back(edge);
+    for (const auto& [e, b] : bins_) x.push_back(variable.values[e][b]);
+    return x;
+  }
+
+  Steps steps_of(const MeasuredVariable& variable, std::size_t most) const {
+    const std::vector<double> x = values_of(variable);
+    if (!variable.sign) return equal_steps(x, most);
+    double largest = 0.0;
+    for (const double value : x) largest = std::max(largest, std::abs(value));
+    return sign_steps(x, kStill * largest);
+  }
+
+  /// Over a variable, in some of the cells.
+  Dependence::Curve curve(const MeasuredVariable& variable, const Steps& cells, std::size_t first,
+                          std::size_t last, std::size_t stride = 1) const {
+    const StepMeans means = means_of(residual_, cells, kShown);
+    const auto centres = centres_of(values_of(variable), residual_, cells, kShown);
+    Dependence::Curve curve;
+    for (std::size_t k = first; k < last; k += stride) {
+      if (!means.has(k)) continue;
+      curve.at.push_back(centres[k]);
+      curve.mean.push_back(means.mean[k]);
+      curve.error.push_back(means.error[k]);
     }
+    return curve;
   }
-  return steps;
-}
 
-void fill(Steps& steps, const std::vector<Sample>& samples, bool odd) {
-  const std::size_t n = steps.edges.size() + 1;
-  std::vector<double> sum(n, 0.0), square(n, 0.0), x(n, 0.0);
-  std::vector<double>& count = steps.count;
-  count.assign(n, 0.0);
-  for (const Sample& s : samples) {
-    if (s.odd != odd) continue;
-    const std::size_t k = steps.of(s.x);
-    sum[k] += s.y;
-    square[k] += s.y * s.y;
-    x[k] += s.x;
-    count[k] += 1.0;
-  }
-  steps.mean.assign(n, 0.0);
-  steps.error.assign(n, 0.0);
-  steps.centre.assign(n, 0.0);
-  for (std::size_t k = 0; k < n; ++k) {
-    if (count[k] < kFew) continue;
-    steps.mean[k] = sum[k] / count[k];
-    steps.centre[k] = x[k] / count[k];
-    steps.error[k] =
-        std::sqrt(std::max(0.0, square[k] / count[k] - steps.mean[k] * steps.mean[k]) / count[k]);
-  }
-}
-
-/// Shares of the squares of one half that are predicted by the other.
-struct Shares {
-  double constant = 0.0;  ///< by its mean
-  double curve = 0.0;     ///< by the curve, beyond that
+ private:
+  std::vector<Bin> bins_;
+  ChannelResidual residual_;
 };
 
-Shares predicted(const Steps& steps, const std::vector<Sample>& samples, bool odd) {
-  double sum = 0.0, count = 0.0;
-  for (const Sample& s : samples) {
-    if (s.odd != odd) sum += s.y, count += 1.0;
+/// Quantities of other muscles explain a muscle too easily by chance; joints move all muscles.
+std::vector<const MeasuredVariable*> that_may_explain(
+    const Channel& channel, const std::vector<MeasuredVariable>& variables) {
+  std::vector<const MeasuredVariable*> some;
+  for (const MeasuredVariable& variable : variables) {
+    const bool own = variable.owner() == channel.place || variable.name == "time";
+    const bool muscle =
+        variable.word == "load" || variable.word == "current" || variable.word == "wrap angle";
+    if (own || !muscle) some.push_back(&variable);
   }
-  const double mean = count > 0.0 ? sum / count : 0.0;
-  double by_mean = 0.0, by_curve = 0.0, whole = 0.0;
-  for (const Sample& s : samples) {
-    if (s.odd != odd) continue;
-    const double m = s.y - mean, e = s.y - steps.mean[steps.of(s.x)];
-    by_mean += m * m;
-    by_curve += e * e;
-    whole += s.y * s.y;
-  }
-  if (!(whole > 0.0)) return {};
-  return {1.0 - by_mean / whole, (by_mean - by_curve) / whole};
+  return some;
 }
 
-std::vector<Sample> samples_of(const Experiments& experiments, const Channel& channel,
-                               const MeasuredVariable& variable, const Eigen::VectorXf& residual,
-                               const Eigen::VectorXf& whitener) {
-  std::vector<Sample> samples;
-  std::size_t offset = 0;
-  for (std::size_t e = 0; e < experiments.size(); ++e) {
-    const Experiment& experiment = *experiments[e];
-    const Channel* c = find_channel(experiment, channel);
-    for (std::size_t b = 0; c && b < c->count; ++b) {
-      const auto i = static_cast<Eigen::Index>(offset + c->offset + b);
-      if (!(whitener[i] > 0.0f)) continue;
-      const bool odd =
-          (static_cast<std::size_t>(experiment.bin_time(b) / Judge::kBlock) + e) % 2 == 1;
-      samples.push_back({variable.values[e][b], double(residual[i] / whitener[i]), odd});
+/// The second quantity with which the curve over a first one predicts most, if clearly more than
+/// without it.
+std::optional<Dependence::Second> second_of(const ChannelBins& bins, const MeasuredVariable& first,
+                                            double share,
+                                            const std::vector<const MeasuredVariable*>& others) {
+  const Steps steps = bins.steps_of(first, kSteps);
+  std::optional<Dependence::Second> best;
+  double least = share + Dependence::kTelling;
+  for (const MeasuredVariable* other : others) {
+    if (other == &first) continue;
+    const Steps levels = bins.steps_of(*other, kLevels);
+    const Steps cells = crossed(steps, levels);
+    const double both = predicted(bins.residual(), cells, &steps).steps;
+    if (both <= least) continue;
+    least = both + kBetter;
+    best = Dependence::Second{other->name, other->unit, other->word, both, {}};
+    const auto centres = centres_of(bins.values_of(*other), bins.residual(), levels, kShown);
+    for (std::size_t level = 0; level < levels.count; ++level) {
+      Dependence::Branch branch;
+      static_cast<Dependence::Curve&>(branch) =
+          bins.curve(first, cells, level, cells.count, levels.count);
+      branch.second = centres[level];
+      if (!branch.at.empty()) best->branches.push_back(std::move(branch));
     }
-    offset += experiment.size();
   }
-  return samples;
+  return best;
+}
+
+std::string quantity(const std::string& word, const std::string& variable) {
+  return word == "time" ? word : word + " of " + variable;
+}
+
+Dependence dependence_of(const Channel& channel, const ChannelBins& bins,
+                         const std::vector<const MeasuredVariable*>& variables) {
+  Dependence best;
+  best.channel = channel.name();
+  best.unit = channel.unit;
+  if (channel.quantity == "orientation") {
+    best.channel += std::string("/") + static_cast<char>('x' + channel.component);
+  }
+  if (!bins.are_enough()) return best;
+  const MeasuredVariable* first = nullptr;
+  for (const MeasuredVariable* variable : variables) {
+    const Steps steps = bins.steps_of(*variable, kSteps);
+    const Predicted shares = predicted(bins.residual(), steps);
+    best.constant = shares.constant;
+    if (shares.steps <= best.share + kBetter) continue;
+    first = variable;
+    best.share = shares.steps;
+    best.variable = variable->name;
+    best.variable_unit = variable->unit;
+    best.word = variable->word;
+    best.curve = bins.curve(*variable, steps, 0, steps.count);
+  }
+  if (best.share > Dependence::kTelling) {
+    best.second = second_of(bins, *first, best.share, variables);
+  }
+  return best;
 }
 
 }  // namespace
+
+std::string Dependence::on_what() const {
+  const std::string one = quantity(word, variable);
+  return second ? one + " and " + quantity(second->word, second->variable) : one;
+}
 
 std::vector<Dependence> find_dependences(const Experiments& experiments,
                                          const std::vector<MeasuredVariable>& variables,
@@ -135,40 +165,8 @@ std::vector<Dependence> find_dependences(const Experiments& experiments,
                                          const Eigen::VectorXf& whitener) {
   std::vector<Dependence> found;
   for (const Channel& channel : channels_of(experiments)) {
-    Dependence best;
-    best.channel = channel.name();
-    best.unit = channel.unit;
-    if (channel.quantity == "orientation") {
-      best.channel += std::string("/") + static_cast<char>('x' + channel.component);
-    }
-    for (const MeasuredVariable& variable : variables) {
-      // Quantities of other muscles explain a muscle too easily by chance; joints move all muscles.
-      const bool own = variable.owner() == channel.place || variable.name == "time";
-      const bool muscle =
-          variable.word == "load" || variable.word == "current" || variable.word == "wrap angle";
-      if (!own && muscle) continue;
-      const auto samples = samples_of(experiments, channel, variable, residual, whitener);
-      if (samples.size() < 10 * kSteps) continue;
-      double largest = 0.0;
-      for (const Sample& s : samples) largest = std::max(largest, std::abs(s.x));
-      Steps steps = steps_of(samples, variable.sign, largest);
-      fill(steps, samples, false);
-      const Shares odd = predicted(steps, samples, true);
-      fill(steps, samples, true);
-      const Shares even = predicted(steps, samples, false);
-      if (variable.name == "time") best.constant = 0.5 * (odd.constant + even.constant);
-      const double share = 0.5 * (odd.curve + even.curve);
-      if (share > best.share + 0.02) {
-        best.share = share;
-        best.variable = variable.name;
-        best.variable_unit = variable.unit;
-        best.word = variable.word;
-        best.at = steps.filled(steps.centre);
-        best.curve = steps.filled(steps.mean);
-        best.error = steps.filled(steps.error);
-      }
-    }
-    found.push_back(std::move(best));
+    found.push_back(dependence_of(channel, ChannelBins(experiments, channel, residual, whitener),
+                                  that_may_explain(channel, variables)));
   }
   return found;
 }

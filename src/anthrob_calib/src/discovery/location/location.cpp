@@ -16,9 +16,9 @@ std::string dependence_of(const std::string& channel, const std::vector<Dependen
   double best = Dependence::kTelling;
   for (const Dependence& d : dependences) {
     if (d.channel.rfind(channel, 0) != 0) continue;
-    if (d.share > best) {
-      best = d.share;
-      regime = d.word + (d.word == "time" ? "" : " (" + d.variable + ")");
+    if (d.predicted() > best) {
+      best = d.predicted();
+      regime = d.on_what();
     }
     if (d.constant > best) {
       best = d.constant;

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace anthrob {
+namespace discovery {
+
+/// Which step of a variable, or which cell of two, every bin of a channel is in.
+struct Steps {
+  std::vector<std::size_t> of;  ///< by bin
+  std::size_t count = 0;
+};
+
+/// Steps with equal numbers of bins, fewer where values repeat.
+/// @param x values of the variable, by bin
+Steps equal_steps(const std::vector<double>& x, std::size_t most);
+/// Negative, still, positive. @param still a smaller size than this counts as still
+Steps sign_steps(const std::vector<double>& x, double still);
+/// Every step of one variable with every step of another.
+Steps crossed(const Steps& one, const Steps& other);
+
+/// The residual of one channel at its bins.
+struct ChannelResidual {
+  std::vector<double> y;  ///< [unit of the channel]
+  std::vector<char> odd;  ///< whether in a block of time with an odd number
+};
+
+/// Means of one half of the blocks, by step.
+struct StepMeans {
+  std::vector<double> count, mean, error;  ///< bins; residual and its standard error [its unit]
+
+  /// Whether there are enough bins for a mean.
+  bool has(std::size_t step) const;
+};
+
+/// @param odd which half
+StepMeans means_of(const ChannelResidual& residual, const Steps& steps, bool odd);
+/// Means of a variable, by step, over the same bins.
+std::vector<double> centres_of(const std::vector<double>& x, const ChannelResidual& residual,
+                               const Steps& steps, bool odd);
+
+/// Shares of the squares of one half of the blocks that means of the other half predict, averaged
+/// over both halves.
+struct Predicted {
+  double constant = 0.0;  ///< by one mean
+  double steps = 0.0;     ///< by those of the steps, beyond that
+};
+
+/// @param wider steps whose means predict where a step has too few bins; nullptr: nothing does
+Predicted predicted(const ChannelResidual& residual, const Steps& steps,
+                    const Steps* wider = nullptr);
+
+}  // namespace discovery
+}  // namespace anthrob
