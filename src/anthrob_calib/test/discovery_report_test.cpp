@@ -272,6 +272,7 @@ TEST(Report, TellsOfAChannelThatALawSpoils) {
   EXPECT_FALSE(
       nlohmann::json::parse(report_json(answer, {}, 1.0))["effects"][0].contains("spoils"));
   answer.effects[0].spoils = "brachialis/position";
+  answer.effects[0].spoilt = 0.01;
   answer.improbable.resize(1);
   answer.improbable[0].at_limit = "offset_v";
   answer.improbable[0].spoils = "triceps_brachii/position";
@@ -280,6 +281,7 @@ TEST(Report, TellsOfAChannelThatALawSpoils) {
   EXPECT_TRUE(holds(page, "with offset_v at the end of its range and triceps_brachii/position "));
   const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
   EXPECT_EQ(json["effects"][0]["spoils"], "brachialis/position");
+  EXPECT_EQ(json["effects"][0]["spoilt"], 0.01);
   EXPECT_EQ(json["improbable"][0]["spoils"], "triceps_brachii/position");
 }
 
@@ -443,8 +445,6 @@ TEST(Report, ShowsFirstWhatExplainsMostOfTheGap) {
   EXPECT_TRUE(holds(page, "simulated minus measured [N]"));
 }
 
-TEST(Report, TellsWhatWasAsked) {
-  Question question;
 TEST(Report, ShowsACurveForEachRangeOfASecondQuantity) {
   Dependence d = dependence("brachialis/force", 0.4);
   Dependence::Branch low, high;
@@ -472,6 +472,8 @@ TEST(Report, ShowsACurveForEachRangeOfASecondQuantity) {
   EXPECT_EQ(second["curves"][1]["curve"], (std::vector<double>{0.3, 0.6}));
 }
 
+TEST(Report, TellsWhatWasAsked) {
+  Question question;
   question.model_file = "model_I.yaml";
   question.train.resize(1);
   question.train[0].folder = "run_1";

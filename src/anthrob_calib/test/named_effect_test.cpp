@@ -33,6 +33,7 @@ TEST(NamedEffect, LeavesAShareOfWhatStoodAboveTheNoiseWhereItShows) {
   EXPECT_EQ(effects[0].found.shows_in, "elbow/position");
   const auto above = [](double gap) { return gap * gap - 1.15 * 1.15; };
   EXPECT_NEAR(effects[0].before, above(4.0), 1e-5);
+  EXPECT_NEAR(effects[0].lowered, 12.0, 1e-5);
   measure_what_is_left(held.judge, held.gap(5.0), held.gap(1.5), effects);
   EXPECT_NEAR(effects[0].found.left, above(1.5) / above(5.0), 1e-6);  // of all that was there first
   EXPECT_EQ(effects[1].found.left, 1.0);                              // shows nowhere
@@ -43,6 +44,7 @@ TEST(NamedEffect, LeavesAShareOfWhatStoodAboveTheNoiseWhereItShows) {
   EXPECT_EQ(effects[0].found.left, 1.0);  // there was nothing for it to explain
   note_what_it_changes(held.judge, held.gap(1.0), held.gap(2.0), effects[1]);
   EXPECT_TRUE(effects[1].found.shows_in.empty());  // it takes nothing away
+  EXPECT_EQ(effects[1].lowered, 0.0);
 }
 
 TEST(NamedEffect, IsNotImprobableForRivalsThatDoAsWell) {
@@ -62,7 +64,7 @@ TEST(NamedEffect, IsNotImprobableForRivalsThatDoAsWell) {
   EXPECT_EQ(least_of_improbable(effects, true), &effects[2]);  // it does less
   EXPECT_EQ(least_of_improbable({}, true), nullptr);
   EXPECT_EQ(least_of_improbable(effects, false), nullptr);
-  effects[1].found.spoils = "elbow/position";
+  effects[1].found.spoilt = 0.2;  // of what it explains: the odds are 1 to 10
   EXPECT_EQ(least_of_improbable(effects, false), &effects[1]);
 }
 
@@ -86,6 +88,12 @@ TEST(NamedEffect, IsChargedWithTheChannelThatItSpoils) {
   EXPECT_EQ(charged(1.5, 1.7), std::vector<std::string>(3));  // less than a fifth worse
   EXPECT_EQ(charged(0.3, 1.1), std::vector<std::string>(3));  // noise still
   EXPECT_EQ(charged(0.3, 1.3), (std::vector<std::string>{"", "", "elbow/position"}));
+  // Little is spoilt for a law that explains much.
+  effects[2].lowered = 100.0;
+  charged(0.3, 1.3);
+  EXPECT_NEAR(effects[2].found.spoilt, 0.0069, 1e-6);
+  charged(1.5, 1.7);
+  EXPECT_EQ(effects[2].found.spoilt, 0.0);
   effects.resize(1);  // what it never raised is not its work
   EXPECT_FALSE(charge_spoilt_channels(held.judge, held.gap(1.5), held.gap(1.9), effects));
   EXPECT_TRUE(effects[0].found.spoils.empty());

@@ -64,13 +64,15 @@ TEST(Verdict, ALawThatEndsAtTheLimitOfItsShapeIsUnlikely) {
   EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 * 0.05);
 }
 
-TEST(Verdict, ALawThatSpoilsAChannelIsUnlikely) {
+TEST(Verdict, ALawThatSpoilsChannelsIsUnlikelyAsFarAsItExplainsLittle) {
   Answer answer = named(0.9, 0.0);
-  answer.effects[0].spoils = "brachialis/position";
+  answer.effects[0].spoilt = 0.02;
+  EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], false), 0.5);
+  answer.effects[0].spoilt = 0.18;
+  EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], false), 0.1);
   answer.effects[0].left = 0.05;
-  EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], false), 1.0 / 13.0);
   fill_in_verdict({{"elbow/position", 1.2}}, false, answer);
-  EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 / 13.0);
+  EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 * 0.1);
 }
 
 TEST(LimitOf, IsAFittedShapeThatCouldHaveGoneEitherWay) {
@@ -135,8 +137,6 @@ TEST(Verdict, AnOffsetDependsOnNothing) {
   EXPECT_EQ(answer.remaining_description, "elbow/position is off by a constant");
 }
 
-TEST(Verdict, NothingIsToldOfChannelsThatAreNoHigherThanNoise) {
-  const std::vector<Dependence> found = {dependence("elbow/position", "load", 0.9),
 TEST(Verdict, TellsWhatTheRestDependsOn) {
   Answer answer;
   answer.remaining = {dependence("elbow/position", "load", 0.3),
@@ -147,6 +147,8 @@ TEST(Verdict, TellsWhatTheRestDependsOn) {
             "wrist/position depends on sign of velocity of elbow/position and load of wrist/load");
 }
 
+TEST(Verdict, NothingIsToldOfChannelsThatAreNoHigherThanNoise) {
+  const std::vector<Dependence> found = {dependence("elbow/position", "load", 0.9),
                                          dependence("biceps_brachii/force", "load", 0.5)};
   Answer answer;
   answer.remaining = found;

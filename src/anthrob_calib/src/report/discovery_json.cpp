@@ -57,7 +57,10 @@ Json effect_json(const FoundEffect& effect) {
             {"rivals", rivals},
             {"separating_experiment", effect.separating_experiment}};
   if (!effect.at_limit.empty()) json["at_limit"] = effect.at_limit;
-  if (!effect.spoils.empty()) json["spoils"] = effect.spoils;
+  if (!effect.spoils.empty()) {
+    json["spoils"] = effect.spoils;
+    json["spoilt"] = number(effect.spoilt);
+  }
   return json;
 }
 
@@ -112,9 +115,6 @@ Json visibilities_json(const std::vector<Visibility>& effects) {
   return list;
 }
 
-Json dependences_json(const Answer& answer) {
-  Json list = Json::array();
-  for (const Dependence& d : answer.remaining) {
 Json second_json(const Dependence::Second& second) {
   Json curves = Json::array();
   for (const Dependence::Branch& branch : second.branches) {
@@ -126,6 +126,9 @@ Json second_json(const Dependence::Second& second) {
           {"curves", curves}};
 }
 
+Json dependences_json(const Answer& answer) {
+  Json list = Json::array();
+  for (const Dependence& d : answer.remaining) {
     if (d.variable.empty() || d.share <= Dependence::kTelling) continue;
     list.push_back({{"channel", d.channel},
                     {"variable", d.variable},
@@ -191,7 +194,10 @@ Json improbable_json(const Answer& answer) {
                     {"shows_in", law.shows_in},
                     {"left", number(law.left)}});
     if (!law.at_limit.empty()) list.back()["at_limit"] = law.at_limit;
-    if (!law.spoils.empty()) list.back()["spoils"] = law.spoils;
+    if (!law.spoils.empty()) {
+      list.back()["spoils"] = law.spoils;
+      list.back()["spoilt"] = number(law.spoilt);
+    }
   }
   return list;
 }

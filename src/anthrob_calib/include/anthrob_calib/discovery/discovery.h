@@ -58,7 +58,9 @@ struct FoundEffect {
   double left = 0.0;     ///< share of the squared gap in that channel that is left
   std::vector<FoundParameter> parameters;
   std::string at_limit;  ///< a shape parameter at the end of its range; empty: none
-  std::string spoils;    ///< a held-out channel that it makes clearly worse; empty: none
+  std::string spoils;    ///< the held-out channel that it makes worst, clearly; empty: none
+  double spoilt = 0.0;   ///< what it adds to squared gaps of such channels, as a share of what it
+                         ///< takes from those of others
   std::vector<Rival> rivals;
   std::string separating_experiment;         ///< how to tell it from the first rival, in words
   SeparatingRecording separating_recording;  ///< for the recorder; empty where it cannot do it
@@ -86,9 +88,10 @@ struct Refused {
 struct Improbable {
   std::string id, name, place;
   double probability = 0.0, evidence = 0.0;
-  std::string shows_in;  ///< this and the next three: as in FoundEffect
+  std::string shows_in;  ///< this and the next four: as in FoundEffect
   double left = 0.0;
   std::string at_limit, spoils;
+  double spoilt = 0.0;
 };
 
 /// Root mean squares in standard deviations of the floor.

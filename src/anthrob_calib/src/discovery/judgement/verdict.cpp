@@ -34,7 +34,7 @@ double explained(const Dependence& dependence, const std::map<std::string, doubl
 
 double trust_in(const FoundEffect& effect, bool left_counts) {
   const double of_shape = effect.at_limit.empty() ? 1.0 : kAtLimit;
-  const double of_channels = effect.spoils.empty() ? 1.0 : kSpoils;
+  const double of_channels = kEvenOddsSpoilt / (kEvenOddsSpoilt + effect.spoilt);
   const double of_left = left_counts ? kEvenOdds / (kEvenOdds + effect.left) : 1.0;
   return of_shape * of_channels * of_left;
 }

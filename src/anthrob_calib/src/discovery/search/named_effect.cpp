@@ -13,10 +13,12 @@ void note_what_it_changes(const Judge& judge, const Eigen::VectorXf& without,
                           const Eigen::VectorXf& with, NamedEffect& effect) {
   const auto after = judge.channel_gaps(with);
   effect.raised.clear();
+  effect.lowered = 0.0;
   double most = 0.0;
   for (const auto& [name, gap] : judge.channel_gaps(without)) {
     const double more = excess(after.at(name), gap);
     if (more > 0.0) effect.raised[name] = more;
+    effect.lowered += excess(gap, after.at(name));
     const double before = excess(gap, kFaintGap);
     const double taken = before - excess(after.at(name), kFaintGap);
     if (taken <= most) continue;
@@ -53,9 +55,13 @@ bool charge_spoilt_channels(const Judge& judge, const Eigen::VectorXf& first,
                             const Eigen::VectorXf& left, std::vector<NamedEffect>& effects) {
   const auto at_first = judge.channel_gaps(first);
   std::vector<double> worst(effects.size(), 0.0);
-  for (NamedEffect& effect : effects) effect.found.spoils.clear();
+  for (NamedEffect& effect : effects) {
+    effect.found.spoils.clear();
+    effect.found.spoilt = 0.0;
+  }
   for (const auto& [name, gap] : judge.channel_gaps(left)) {
-    const double spoilt = gap / (kSpoilt * std::max(1.0, at_first.at(name)));
+    const double allowed = std::max(1.0, at_first.at(name));
+    const double spoilt = gap / (kSpoilt * allowed);
     if (spoilt <= 1.0) continue;
     std::size_t charged = effects.size();
     double most = 0.0;
@@ -65,9 +71,12 @@ bool charge_spoilt_channels(const Judge& judge, const Eigen::VectorXf& first,
       most = raised->second;
       charged = e;
     }
-    if (charged == effects.size() || spoilt <= worst[charged]) continue;
+    if (charged == effects.size()) continue;
+    FoundEffect& found = effects[charged].found;
+    found.spoilt += excess(gap, allowed) / effects[charged].lowered;
+    if (spoilt <= worst[charged]) continue;
     worst[charged] = spoilt;
-    effects[charged].found.spoils = name;
+    found.spoils = name;
   }
   return std::any_of(worst.begin(), worst.end(), [](double w) { return w > 0.0; });
 }

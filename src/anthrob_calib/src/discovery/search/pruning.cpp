@@ -58,9 +58,9 @@ void Pruning::drop_improbable() {
     if (base.test.size() == 0) return;
     setup_.comment("  too improbable to be added: " + candidate.name());
     const FoundEffect& found = improbable->found;
-    answer_.improbable.push_back({found.id, found.name, found.place,
-                                  found.probability * trust_in(found), found.evidence,
-                                  found.shows_in, found.left, found.at_limit, found.spoils});
+    answer_.improbable.push_back(
+        {found.id, found.name, found.place, found.probability * trust_in(found), found.evidence,
+         found.shows_in, found.left, found.at_limit, found.spoils, found.spoilt});
     model_.forget_refusals(candidate, answer_);
     answer_.dropped.clear();  // they were not needed beside this one only
     model_.remove(e, std::move(base));

@@ -23,9 +23,11 @@ struct NamedEffect {
   double before = 0.0;                ///< excess() of its channel when it was named; 0: not counted
   std::map<std::string, double> raised;  ///< by how much it raised the squared gaps of held-out
                                          ///< channels when it was named, where it did [floors^2]
+  double lowered = 0.0;  ///< by how much it lowered those of the others, together [floors^2]
 };
 
-/// Stores the held-out channel whose squared gap an effect reduces most, and those that it raises.
+/// Stores the held-out channel whose squared gap an effect reduces most, what it takes from all of
+/// them, and those that it raises.
 /// @param judge of the residuals   @param without, with it
 void note_what_it_changes(const Judge& judge, const Eigen::VectorXf& without,
                           const Eigen::VectorXf& with, NamedEffect& effect);
@@ -40,9 +42,9 @@ void measure_what_is_left(const Judge& judge, const Eigen::VectorXf& first,
 /// (kNearLimit); empty: none.
 std::string limit_of(const Candidate& candidate, const EffectInstance& instance);
 
-/// Charges every spoilt channel (kSpoilt) to the effect that raised it most when it was named, and
-/// stores for each effect the worst channel that it is charged with. What none raised is charged to
-/// none.
+/// Charges every spoilt channel (kSpoilt) to the effect that raised it most when it was named.
+/// Stores for each effect the worst channel that it is charged with, and by how much all of these
+/// are worse, as a share of what the effect explains. What none raised is charged to none.
 /// @param first, left held-out residuals without any of the effects and with all of them
 /// @return whether any effect is charged
 bool charge_spoilt_channels(const Judge& judge, const Eigen::VectorXf& first,
