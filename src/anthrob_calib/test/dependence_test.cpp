@@ -93,6 +93,19 @@ TEST(Dependence, OnTwoQuantitiesTogether) {
   }
 }
 
+TEST(Dependence, OfASignItTellsWhichOne) {
+  const Dependence friction = dependence_of({time(), load(), direction()}, [](std::size_t b) {
+    return load_at(b) + std::copysign(1.0, speed_at(b));
+  });
+  EXPECT_EQ(friction.word, "load");
+  ASSERT_TRUE(friction.second);
+  EXPECT_EQ(friction.second->word, "sign of velocity");
+  ASSERT_EQ(friction.second->branches.size(), 3u);
+  for (int sign = -1; sign <= 1; ++sign) {
+    EXPECT_EQ(friction.second->branches[static_cast<std::size_t>(sign + 1)].second, sign);
+  }
+}
+
 TEST(Dependence, ASecondQuantityMustSayMoreThanTheFirst) {
   const OfBin law = [](std::size_t b) { return 2.0 * speed_at(b); };
   const MeasuredVariable same = variable("hinge/position", "posture", speed_at);

@@ -113,7 +113,7 @@ std::optional<Dependence::Second> second_of(const ChannelBins& bins, const Measu
       Dependence::Branch branch;
       static_cast<Dependence::Curve&>(branch) =
           bins.curve(first, cells, level, cells.count, levels.count);
-      branch.second = centres[level];
+      branch.second = other->sign ? static_cast<double>(level) - 1.0 : centres[level];
       if (!branch.at.empty()) best->branches.push_back(std::move(branch));
     }
   }

@@ -23,7 +23,7 @@ struct Dependence {
 
   /// The curve at one value of the second quantity.
   struct Branch : Curve {
-    double second = 0.0;  ///< mean of the second quantity [its unit]
+    double second = 0.0;  ///< mean of the second quantity [its unit]; of a sign -1, 0 (still) or 1
   };
 
   struct Second {
