@@ -17,8 +17,8 @@ struct Dependence {
 
   /// Residual over a variable.
   struct Curve {
-    std::vector<double> at, mean,
-        error;  ///< variable; residual and its standard error [their units]
+    std::vector<double> at;           ///< [unit of the variable]
+    std::vector<double> mean, error;  ///< residual and its standard error [unit of the channel]
   };
 
   /// The curve at one value of the second quantity.
