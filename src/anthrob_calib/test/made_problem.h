@@ -26,7 +26,7 @@ struct MadeProblem {
         train_judge(train.experiments(), train.whitening(), {}),
         test_judge(test.experiments(), test.whitening(), {}),
         candidates(list_candidates(evaluator, effects)),
-        comparison(train, test, train_judge, test_judge, candidates, 1),
+        comparison(train, test, train, train_judge, test_judge, candidates, 1),
         convergence(evaluator, train, train_judge),
         context{evaluator, train, test, candidates, comparison, convergence} {}
 

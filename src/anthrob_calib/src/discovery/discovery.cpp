@@ -46,11 +46,11 @@ Answer discover(const Evaluator& evaluator, const Question& question) {
   recalibrate(setup, model, answer);
 
   setup.stage("screening " + std::to_string(setup.candidates.size()) + " candidates");
-  Screening screening(setup.train, model.base.fit, setup.candidates, setup.recordings.quick,
+  Screening screening(setup.scan, model.base.fit, setup.candidates, setup.recordings.quick,
                       setup.recordings.slow);
   std::vector<Score> scores = screening.scores(model.base.fit);
   setup.stage("checking which effects these recordings can show");
-  Detectability(setup.candidates, setup.train, model.base.fit, setup.train_judge, setup.test_judge,
+  Detectability(setup.candidates, setup.scan, model.base.fit, setup.train_judge, setup.test_judge,
                 total_duration(setup.recordings.test))
       .run(screening, scores, answer);
 

@@ -201,7 +201,7 @@ void CandidateComparison::prefer_simpler(const Fitted& base, ShortList& list) co
 }
 
 ShortList CandidateComparison::weigh(const Tested& base, const std::vector<Score>& scores) const {
-  const std::vector<Score> tried = Trials(train_, candidates_).best(base.fit, scores);
+  const std::vector<Score> tried = Trials(scan_, candidates_).best(base.fit, scores);
   std::vector<std::optional<FittedCandidate>> fitted(tried.size());
   train_.side_by_side(tried.size(), [&](std::size_t i) {
     try {

@@ -26,8 +26,6 @@ constexpr double kAxisBin = 0.025;        // [s]
 constexpr double kMostDifferences = 4e5;  // of the training recordings
 constexpr double kQuickLook = 20.0;       // [s]
 constexpr double kSlowLook = 120.0;       // [s]
-constexpr double kCoarse = 2.0;           // steps
-constexpr double kMostCoarseError = 3.0;  // rms of a channel, in its standard deviations
 
 /// "1.25"
 std::string decimal(double value) {
@@ -202,16 +200,17 @@ PreparedRecordings prepare(const Evaluator& evaluator, const Question& asked) {
   return prepared;
 }
 
-double coarse_step(const Evaluator& evaluator, const Experiments& train, const Scales& scales) {
+double coarse_step(const Evaluator& evaluator, const Experiments& train, const Scales& scales,
+                   const LongerStep& longer) {
   if (evaluator.model()->muscles.empty()) return 0.0;
   Variant coarse{};
-  coarse.step = kCoarse * evaluator.model()->step;
+  coarse.step = longer.times * evaluator.model()->step;
   const auto both = evaluator.compare({Variant{}, coarse}, train);
   if (both[0].size() == 0 || both[1].size() == 0) return 0.0;
   const Eigen::VectorXf factors = whitener(train, scales, false);
   const Eigen::VectorXf error = (both[1] - both[0]).cwiseProduct(factors);
   for (const auto& [name, gap] : Judge(train, factors, {}).channel_gaps(error)) {
-    if (gap > kMostCoarseError) return 0.0;
+    if (gap > longer.most_error) return 0.0;
   }
   return coarse.step;
 }

@@ -47,11 +47,13 @@ class CandidateComparison {
   static constexpr std::size_t kJudged =
       5;  ///< of those that are fitted roughly, how many are fitted further and judged
 
-  CandidateComparison(const ModelFit& train, const ModelFit& test, const Judge& train_judge,
-                      const Judge& test_judge, const std::vector<Candidate>& candidates,
-                      std::uint64_t seed)
+  /// @param scan as `train`, for trials of many sizes
+  CandidateComparison(const ModelFit& train, const ModelFit& test, const ModelFit& scan,
+                      const Judge& train_judge, const Judge& test_judge,
+                      const std::vector<Candidate>& candidates, std::uint64_t seed)
       : train_(train),
         test_(test),
+        scan_(scan),
         train_judge_(train_judge),
         test_judge_(test_judge),
         candidates_(candidates),
@@ -77,7 +79,7 @@ class CandidateComparison {
   void prefer_simpler(const Fitted& base, ShortList& list) const;
   void turn_to_better_phase(const Fitted& base, FittedCandidate& named) const;
 
-  const ModelFit &train_, &test_;
+  const ModelFit &train_, &test_, &scan_;
   const Judge &train_judge_, &test_judge_;
   const std::vector<Candidate>& candidates_;
   std::uint64_t seed_;

@@ -21,9 +21,15 @@ struct PreparedRecordings {
 /// @throws BadInput with one line that says what is wrong with which recording
 PreparedRecordings prepare(const Evaluator& evaluator, const Question& question);
 
-/// A longer step of the simulation with which changes of the residual are exact enough [s]; 0:
-/// none.
-double coarse_step(const Evaluator& evaluator, const Experiments& train, const Scales& scales);
+/// A longer step for simulations of which only differences are used.
+struct LongerStep {
+  double times;       ///< the usual one
+  double most_error;  ///< what it alone may change, rms of a channel [standard deviations]
+};
+
+/// @return the longer step [s]; 0 if its error is larger, or if it cannot simulate the model
+double coarse_step(const Evaluator& evaluator, const Experiments& train, const Scales& scales,
+                   const LongerStep& longer);
 
 }  // namespace discovery
 }  // namespace anthrob

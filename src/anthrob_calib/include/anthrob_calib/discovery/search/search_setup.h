@@ -38,6 +38,8 @@ struct SearchSetup {
   const std::vector<MeasuredVariable> variables;
   const Scales scales;
   const ModelFit train, test;
+  /// As `train`, with differences by a still longer step: where many candidates are tried.
+  const ModelFit scan;
   const Judge train_judge, test_judge;
   const Convergence convergence;
   const CandidateComparison comparison;
