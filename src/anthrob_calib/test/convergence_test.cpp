@@ -35,6 +35,23 @@ TEST(Convergence, OtherSizesAreNotTriedWhereNothingClearIsMissed) {
   EXPECT_NEAR(DryElbow::torque(robot.convergence.to_the_end(robot.with(1.9))), 2.0, 0.1);
 }
 
+TEST(Convergence, RoundsEndWhereTheyCannotReachARival) {
+  const DryElbow robot = two_valleys(1.0);
+  const Fitted fitted = robot.with(1.5);
+  const auto simulations = [&](double rival, Fitted& end) {
+    const auto before = robot.evaluator.simulated();
+    end = *robot.convergence.to_the_end_within_reach(fitted, HUGE_VAL, rival);
+    return robot.evaluator.simulated() - before;
+  };
+  Fitted alone, near, far;
+  const auto usual = simulations(HUGE_VAL, alone);
+  EXPECT_EQ(simulations(alone.cost, near), usual);
+  EXPECT_EQ(near.cost, alone.cost);
+  EXPECT_EQ(DryElbow::torque(near), DryElbow::torque(alone));
+  EXPECT_LT(simulations(0.5 * alone.cost, far), usual);
+  EXPECT_LT(far.cost, fitted.cost);
+}
+
 }  // namespace
 }  // namespace discovery
 }  // namespace anthrob

@@ -21,6 +21,12 @@ constexpr double kRoughlySettled = 0.01;
 /// Multiples of the sizes of effects from which a fit that clearly misses is begun anew.
 constexpr double kOtherSizes[] = {0.6, 0.8, 1.0, 1.25, 1.6};
 
+/// Whether a fit might come down to a rival's cost if each of the rounds there are gained as much
+/// as the last one.
+bool might_reach(double rival, const Fitted& fitted, double gain) {
+  return fitted.cost - (kSurveys + kFinishing) * gain <= rival;
+}
+
 /// A fit's variant with other sizes of its effects, and shapes as they were expected or of the
 /// simplest form.
 Variant resized(const Fitted& fitted, double factor, bool plain) {
@@ -46,13 +52,16 @@ double Convergence::left_open(const Fitted& fitted) const {
 
 /// Polishes as long as that reduces the cost. If an effect is clearly missing, the last steps of
 /// the model without it are not worth their time.
-void Convergence::converge(Fitted& fitted) const {
+bool Convergence::converge(Fitted& fitted, double rival) const {
   for (int k = 0; k < kSurveys; ++k) {
     const bool clear = clearly_misses(fitted);
     const double before = fitted.cost;
     fit_.polish(fitted, kPolish, clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides);
-    if (before - fitted.cost < (clear ? kRoughlySettled : kSettled) * before) break;
+    const double gain = before - fitted.cost;
+    if (!might_reach(rival, fitted, gain)) return false;
+    if (gain < (clear ? kRoughlySettled : kSettled) * before) break;
   }
+  return true;
 }
 
 Fitted Convergence::rough(const Variant& variant, std::vector<Unknown> unknowns) const {
@@ -80,25 +89,25 @@ Fitted Convergence::to_the_end(const Fitted& fitted) const {
   return *to_the_end_within_reach(fitted, HUGE_VAL);
 }
 
-std::optional<Fitted> Convergence::to_the_end_within_reach(const Fitted& fitted,
-                                                           double level) const {
+std::optional<Fitted> Convergence::to_the_end_within_reach(const Fitted& fitted, double level,
+                                                           double rival) const {
   std::optional<Fitted> best = roughly_from_given(fitted);
   if (std::min(fitted.cost, best ? best->cost : HUGE_VAL) > level) return std::nullopt;
-  if (best) converge(*best);
+  bool near = best && converge(*best, rival);
   if (!best || best->cost >= fitted.cost) {
     best = fitted;
-    converge(*best);
+    near = converge(*best, rival);
   }
-  begin_anew(*best);
-  finish(*best);
+  if (begin_anew(*best)) near = true;
+  if (near) finish(*best, rival);
   return best;
 }
 
 /// A large effect makes valleys beside the right one: a joint that sticks too often can be had by
 /// more friction or by a higher ratio of static friction. Where a fit clearly misses and one of a
 /// few other sizes does better at once, fits from there.
-void Convergence::begin_anew(Fitted& fitted) const {
-  if (fitted.variant.effects.empty() || !clearly_misses(fitted)) return;
+bool Convergence::begin_anew(Fitted& fitted) const {
+  if (fitted.variant.effects.empty() || !clearly_misses(fitted)) return false;
   std::vector<Variant> others;
   for (const bool plain : {true, false}) {
     for (const double factor : kOtherSizes) others.push_back(resized(fitted, factor, plain));
@@ -111,9 +120,11 @@ void Convergence::begin_anew(Fitted& fitted) const {
     least = residuals[i].squaredNorm();
     best = &others[i];
   }
-  if (!best) return;
+  if (!best) return false;
   Fitted anew = converged(*best, fitted.unknowns);
-  if (anew.cost < fitted.cost) fitted = std::move(anew);
+  if (anew.cost >= fitted.cost) return false;
+  fitted = std::move(anew);
+  return true;
 }
 
 /// Nothing if the effects cannot be simulated with the given parameters.
@@ -129,11 +140,12 @@ std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) cons
 
 /// Last iterations: near the minimum, sensitivities of the coarse step no longer reduce the cost,
 /// those of the usual step do.
-void Convergence::finish(Fitted& fitted) const {
+void Convergence::finish(Fitted& fitted, double rival) const {
   for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
     const double before = fitted.cost;
     fit_.polish(fitted, kPolish, ModelFit::Slopes::kExact);
-    if (before - fitted.cost < kAtTheEnd * before) break;
+    const double gain = before - fitted.cost;
+    if (gain < kAtTheEnd * before || !might_reach(rival, fitted, gain)) break;
   }
 }
 

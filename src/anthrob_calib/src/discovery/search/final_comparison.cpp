@@ -44,8 +44,8 @@ std::size_t FinalComparison::challenger(Challenger kind, double level,
   return best;
 }
 
-bool FinalComparison::finish(FittedCandidate& named, double level) const {
-  std::optional<Fitted> end = context_.convergence.to_the_end_within_reach(named.fit, level);
+bool FinalComparison::finish(FittedCandidate& named, double level, double rival) const {
+  std::optional<Fitted> end = context_.convergence.to_the_end_within_reach(named.fit, level, rival);
   if (!end) return false;
   Tested tested = context_.tested(std::move(*end));
   if (tested.test.size() > 0) static_cast<Tested&>(named) = std::move(tested);
@@ -63,7 +63,7 @@ double FinalComparison::share_of_better(const Tested& base, const ShortList& end
 void FinalComparison::decide(const Tested& base, ShortList& list) const {
   FittedCandidate& first = list.entries.front();
   const double level = base.fit.cost - kComesNear * (base.fit.cost - first.fit.cost);
-  finish(first, HUGE_VAL);
+  finish(first, HUGE_VAL, HUGE_VAL);
   compare(base, Challenger::kOtherLaw, level, list);
   compare(base, Challenger::kOtherPlace, level, list);
 }
@@ -77,11 +77,10 @@ void FinalComparison::compare(const Tested& base, Challenger kind, double level,
   if (index > 0) {
     const double least = end.entries[0].fit.cost;
     FittedCandidate other = list.entries[index];
-    // At another place, a law may need more than rough steps to find its parameters; such a
-    // challenger is rare enough to be finished in any case.
+    // At another place, a law may need more than rough steps to find its parameters.
     const double reach =
         kind == Challenger::kOtherLaw ? least + kLagsBehind * (base.fit.cost - least) : HUGE_VAL;
-    if (finish(other, reach)) {
+    if (finish(other, reach, least)) {
       end.entries.push_back(std::move(other));
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "anthrob_calib/discovery/fit/model_fit.h"
@@ -22,9 +23,13 @@ class Convergence {
   /// ordinary parameters astray, and friction does not let them all find back; and from another
   /// size of the effects, if that clearly misses and another size does better. @return the best fit
   Fitted to_the_end(const Fitted& fitted) const;
-  /// The same; nothing if the cost is above a level both where the fit is and after rough steps
-  /// from the given parameters.
-  std::optional<Fitted> to_the_end_within_reach(const Fitted& fitted, double level) const;
+  /// The same for a fit that is compared with another one. Rounds end early when they gain so
+  /// little that all the rounds there are would not bring it to the other's cost.
+  /// @param rival the other's cost
+  /// @return nothing if the cost is above `level` both where the fit is and after rough steps from
+  /// the given parameters
+  std::optional<Fitted> to_the_end_within_reach(const Fitted& fitted, double level,
+                                                double rival = HUGE_VAL) const;
   /// Continues a fit from where it is, but only roughly unless that brings the cost below a level.
   /// @return whether it came below the level
   bool converge_within_reach(Fitted& fitted, double level) const;
@@ -33,12 +38,14 @@ class Convergence {
   double left_open(const Fitted& fitted) const;
 
  private:
-  void converge(Fitted& fitted) const;
+  /// @return whether further rounds might bring the cost to the rival's
+  bool converge(Fitted& fitted, double rival = HUGE_VAL) const;
   bool clearly_misses(const Fitted& fitted) const;
   Fitted rough(const Variant& variant, std::vector<Unknown> unknowns) const;
   std::optional<Fitted> roughly_from_given(const Fitted& fitted) const;
-  void begin_anew(Fitted& fitted) const;
-  void finish(Fitted& fitted) const;
+  /// @return whether that was better
+  bool begin_anew(Fitted& fitted) const;
+  void finish(Fitted& fitted, double rival) const;
 
   const Evaluator& evaluator_;
   const ModelFit& fit_;

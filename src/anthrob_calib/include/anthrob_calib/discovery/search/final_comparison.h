@@ -10,8 +10,8 @@ namespace discovery {
 /// roughly, starting from a model without them whose parameters had gone astray, where a false
 /// effect may look better. Therefore the first of the list is fitted to the end. So is the best
 /// other law that brings at least half as much, unless it is left far behind, and the two are
-/// judged against each other; then the law that was better and the same law at another place, which
-/// is fitted to the end in any case.
+/// judged against each other; then the law that was better and the same law at another place. A
+/// challenger that can no longer reach the cost of the first is judged as it is.
 class FinalComparison {
  public:
   FinalComparison(const SearchContext& context, const Gaps& gaps)
@@ -35,9 +35,10 @@ class FinalComparison {
   bool may_challenge(const Candidate& other, const Candidate& first, Challenger kind) const;
   /// @return index of the effect to compare with the first; 0: none
   std::size_t challenger(Challenger kind, double level, const ShortList& list) const;
-  /// Fits to the end; unchanged if that cannot be simulated.
+  /// Fits to the end, or until a rival's cost is out of reach; unchanged if that cannot be
+  /// simulated.
   /// @return whether it comes near a level of cost; otherwise it is not fitted to the end
-  bool finish(FittedCandidate& named, double level) const;
+  bool finish(FittedCandidate& named, double level, double rival) const;
   double share_of_better(const Tested& base, const ShortList& end) const;
 
   const SearchContext& context_;
