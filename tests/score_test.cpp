@@ -319,17 +319,24 @@ TEST_F(Score, OfChannelsThatGetWorseAndOfNamesTooMany) {
   const List verbose = {good, named("payload", "forearm", 0.1, 0.0, 1.0)};
   for (const char* name : {"better", "worse", "worse_in_the_noise"}) truth(name, "effect", rubbing);
   report("better", "effects_found", {good}, {}, {}, force(2.0, 1.1));
-  report("worse", "effects_found", verbose, {}, {}, force(1.1, 1.3));
+  Json certainly = force(1.1, 1.3), maybe = force(1.1, 1.3);
+  certainly["per_channel"]["brachialis/force"]["growth"] = 4.0;
+  maybe["per_channel"]["brachialis/force"]["growth"] = 1.0;
+  report("worse", "effects_found", verbose, {}, {}, certainly);
   report("worse_in_the_noise", "effects_found", {good}, {}, {}, force(0.6, 0.9));
   truth("quiet", "null", {});
-  report("quiet", "effects_found", {good}, {}, {}, force(1.1, 1.3));
+  report("quiet", "effects_found", {good}, {}, {}, maybe);
+  truth("of_an_older_program", "null", {});
+  report("of_an_older_program", "effects_found", {good}, {}, {}, force(1.1, 1.3));
   truth("unnamed", "effect", rubbing);
   report("unnamed", "unexplained", {}, {}, {}, force(1.1, 1.1));
   const Json result = score();
   // Also of what is named where nothing is hidden.
-  EXPECT_EQ(rate(result, "a channel worse", "hits"), 3.0);
-  EXPECT_EQ(rate(result, "a channel worse", "count"), 4.0);
-  EXPECT_EQ(rate(result, "and above its floor", "hits"), 2.0);
+  EXPECT_EQ(rate(result, "a channel worse", "hits"), 4.0);
+  EXPECT_EQ(rate(result, "a channel worse", "count"), 5.0);
+  EXPECT_EQ(rate(result, "and above its floor", "hits"), 3.0);
+  EXPECT_EQ(rate(result, "and not by chance", "hits"), 1.0);
+  EXPECT_EQ(rate(result, "and not by chance", "count"), 4.0);  // the others tell
   EXPECT_EQ(rate(result, "more named than hidden", "hits"), 1.0);
   EXPECT_EQ(rate(result, "more named than hidden", "count"), 4.0);
   EXPECT_EQ(rate(result, "a false one certainly", "hits"), 1.0);

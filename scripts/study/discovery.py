@@ -306,6 +306,7 @@ RATES = {  # of anthrob_score, by its label: section (None: that of the row befo
     "no gap to begin with": ("Held-out gap", "no gap left for effects: ordinary parameters close it"),
     "a channel worse": ("Held-out gap", "a channel more than 5 % worse than without the named effects"),
     "and above its floor": ("Held-out gap", "a channel more than 5 % worse, and above its floor"),
+    "and not by chance": ("Held-out gap", "a channel more than 5 % worse, above its floor, and by three standard errors"),
     "more named than hidden": ("Wrong names", "more effects named than hidden"),
     "a false one certainly": ("Wrong names", "a wrong effect or place named with a probability of 0.9 or more"),
 }

@@ -193,6 +193,26 @@ TEST(Judge, AGapInEveryBlockIsSignificantOneInASingleBlockIsNot) {
   EXPECT_LT(judge.excess_significance(residual, 1.4).at("hinge/position"), 1.0);
 }
 
+TEST(Judge, GrowthInEveryBlockIsSignificantGrowthInASingleBlockIsNot) {
+  const Experiments experiments = {std::make_shared<LongSwing>()};
+  const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
+  const Judge judge(experiments, factors, {});
+  Eigen::VectorXf before(334);
+  for (Eigen::Index b = 0; b < 334; ++b) before[b] = 1.0f + 0.5f * std::sin(0.1f * b);
+  const auto growth = [&](const Eigen::VectorXf& after) {
+    return judge.growth_significance(before, after).at("hinge/position");
+  };
+  EXPECT_EQ(growth(before), 0.0);
+  EXPECT_GT(growth(1.1f * before), 3.0);
+  EXPECT_LT(growth(0.9f * before), -3.0);
+  Eigen::VectorXf once = before;
+  once.head(30) *= 2.0f;
+  EXPECT_GT(judge.channel_gaps(once).at("hinge/position"),
+            1.1 * judge.channel_gaps(before).at("hinge/position"));
+  EXPECT_GT(growth(once), 0.0);
+  EXPECT_LT(growth(once), 2.0);
+}
+
 TEST(Judge, CorrelatedNoiseIsDividedOutOnce) {
   const Experiments experiments = {std::make_shared<LongSwing>()};
   const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);

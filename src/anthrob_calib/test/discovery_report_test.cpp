@@ -298,6 +298,13 @@ TEST(Report, TellsWhatTheNamedLawLeavesAndWhatItMakesWorse) {
       holds(page, "shows most in biceps_brachii/current and leaves 2 % of the squared gap"));
   EXPECT_FALSE(holds(page, "another law may be at work"));
   EXPECT_TRUE(holds(page, "worse and above the floor: elbow/position (1.3 to 1.4).")) << page;
+  answer.growth["elbow/position"] = 2.0;
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "position (1.3 to 1.4, maybe by chance)."));
+  answer.growth["elbow/position"] = 4.0;
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "position (1.3 to 1.4, not by chance)."));
+  EXPECT_EQ(nlohmann::json::parse(
+                report_json(answer, {}, 1.0))["gap"]["per_channel"]["elbow/position"]["growth"],
+            4.0);
   answer.effects[0].left = 0.2;
   answer.per_channel["elbow/position"].after = 1.2;
   page = report_html(answer, {}, 1.0);

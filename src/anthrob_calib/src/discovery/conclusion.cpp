@@ -62,6 +62,7 @@ void compare_gaps(const SearchSetup& setup, const WorkingModel& model, Answer& a
   for (const auto& [name, value] : given) {
     answer.per_channel[name] = {value, recalibrated.at(name), after.at(name), 1.0};
   }
+  answer.growth = setup.test_judge.growth_significance(model.recalibrated.test, model.base.test);
 }
 
 /// Gaps smaller than this are not located or counted [floors]; a gap that was worth naming an

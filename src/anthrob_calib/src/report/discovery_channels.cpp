@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "anthrob_calib/discovery/judgement/criteria.h"
 #include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/report/html.h"
 #include "anthrob_sim/report/svg_figure.h"
@@ -40,14 +41,20 @@ std::string example_figures(const Answer& answer) {
   return html;
 }
 
-/// Channels that the corrected model has worse than the recalibrated one, above their floors.
+/// Channels that the corrected model has worse than the recalibrated one, above their floors, and
+/// how certain that is.
 std::string worse_channels(const Answer& answer) {
   constexpr double kWorse = 1.05;
   std::string text;
   for (const auto& [name, gap] : answer.per_channel) {
     if (gap.after < kWorse * gap.recalibrated || gap.after < 1.0) continue;
     text += (text.empty() ? "" : ", ") + escaped(name) + " (" + short_number(gap.recalibrated) +
-            " to " + short_number(gap.after) + ")";
+            " to " + short_number(gap.after);
+    const auto growth = answer.growth.find(name);
+    if (growth != answer.growth.end()) {
+      text += growth->second < kSure ? ", maybe by chance" : ", not by chance";
+    }
+    text += ")";
   }
   if (text.empty()) return "";
   return "<p>With what was found, these channels are more than 5 % worse and above the floor: " +

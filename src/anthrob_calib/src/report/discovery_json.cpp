@@ -232,7 +232,11 @@ std::string report_json(const Answer& answer, const Question& question, double r
                          {"description", answer.remaining_description},
                          {"dependences", dependences_json(answer)}};
   Json channels = Json::object();
-  for (const auto& [name, gap] : answer.per_channel) channels[name] = gap_json(gap);
+  for (const auto& [name, gap] : answer.per_channel) {
+    channels[name] = gap_json(gap);
+    const auto growth = answer.growth.find(name);
+    if (growth != answer.growth.end()) channels[name]["growth"] = number(growth->second);
+  }
   report["gap"] = {{"train", gap_json(answer.train)},
                    {"test", gap_json(answer.test)},
                    {"per_channel", channels}};

@@ -153,6 +153,9 @@ struct Answer {
   std::string remaining_description;
   Gap train, test;
   std::map<std::string, Gap> per_channel;  ///< held out, by "<place>/<channel>"
+  /// By how many standard errors what was found makes the squared gap of a held-out channel larger;
+  /// of channels that are measured in three blocks or more.
+  std::map<std::string, double> growth;
   std::vector<Visibility> visible, not_visible;
   std::vector<std::vector<Visibility>> alike;  ///< groups that these data cannot tell apart
   Scales scales;

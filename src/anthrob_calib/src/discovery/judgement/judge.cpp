@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_calib/discovery/judgement/criteria.h"
 #include "anthrob_sim/core/random.h"
 
 namespace anthrob {
@@ -137,8 +138,8 @@ std::map<std::string, double> Judge::chance_of_gaps() const {
   return chance;
 }
 
-std::map<std::string, double> Judge::excess_significance(const Eigen::VectorXf& residual,
-                                                         double gap) const {
+std::map<std::string, std::vector<double>> Judge::mean_squares(
+    const Eigen::VectorXf& residual) const {
   const auto count = static_cast<Eigen::Index>(blocks_);
   std::map<std::string, std::pair<Eigen::ArrayXd, Eigen::ArrayXd>> sums;  // squares, bins
   for (const Run& run : runs_) {
@@ -152,27 +153,43 @@ std::map<std::string, double> Judge::excess_significance(const Eigen::VectorXf& 
       bins[block] += 1.0;
     }
   }
-  std::map<std::string, double> significance;
+  std::map<std::string, std::vector<double>> means;
   for (const auto& [name, sum] : sums) {
-    std::vector<double> excesses;
+    std::vector<double> of_blocks;
     for (Eigen::Index block = 0; block < count; ++block) {
-      if (sum.second[block] > 0.0) {
-        excesses.push_back(sum.first[block] / sum.second[block] - gap * gap);
-      }
+      if (sum.second[block] > 0.0) of_blocks.push_back(sum.first[block] / sum.second[block]);
     }
-    if (excesses.size() < kFewestBlocks) continue;
-    const Eigen::Map<const Eigen::ArrayXd> excess(excesses.data(),
-                                                  static_cast<Eigen::Index>(excesses.size()));
-    const auto n = static_cast<double>(excesses.size());
-    const double error = std::sqrt((excess - excess.mean()).square().sum() / (n - 1.0) / n);
-    if (error > 0.0) significance[name] = excess.mean() / error;
+    if (of_blocks.size() >= kFewestBlocks) means[name] = std::move(of_blocks);
+  }
+  return means;
+}
+
+std::map<std::string, double> Judge::excess_significance(const Eigen::VectorXf& residual,
+                                                         double gap) const {
+  std::map<std::string, double> significance;
+  for (const auto& [name, squares] : mean_squares(residual)) {
+    std::vector<double> excesses = squares;
+    for (double& excess : excesses) excess -= gap * gap;
+    significance[name] = mean_over_its_error(excesses);
+  }
+  return significance;
+}
+
+std::map<std::string, double> Judge::growth_significance(const Eigen::VectorXf& before,
+                                                         const Eigen::VectorXf& after) const {
+  std::map<std::string, double> significance;
+  const auto earlier = mean_squares(before);
+  for (const auto& [name, squares] : mean_squares(after)) {
+    std::vector<double> growths = squares;
+    for (std::size_t i = 0; i < growths.size(); ++i) growths[i] -= earlier.at(name)[i];
+    significance[name] = mean_over_its_error(growths);
   }
   return significance;
 }
 
 bool certain_gap(const Judge& train, const Eigen::VectorXf& learned, const Judge& test,
                  const Eigen::VectorXf& held_out, double gap) {
-  constexpr double kCertain = 2.0, kSure = 3.0;
+  constexpr double kCertain = 2.0;
   const auto in = [](const std::map<std::string, double>& channels, const std::string& name) {
     const auto found = channels.find(name);
     return found == channels.end() ? 0.0 : found->second;

@@ -30,6 +30,9 @@ constexpr double kAtLimit = 0.05;
 /// A parameter is at its limit if it is nearer to it than this share of its range.
 constexpr double kNearLimit = 0.03;
 
+/// What is so many standard errors over blocks is not due to chance.
+constexpr double kSure = 3.0;
+
 /// A held-out channel is spoilt if its gap ends at more than this times both the floor and what the
 /// recalibrated model leaves.
 constexpr double kSpoilt = 1.2;

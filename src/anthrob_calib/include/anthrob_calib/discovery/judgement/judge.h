@@ -47,6 +47,10 @@ class Judge {
   /// `gap`; only of channels that are measured in three blocks or more.
   std::map<std::string, double> excess_significance(const Eigen::VectorXf& residual,
                                                     double gap) const;
+  /// By how many standard errors over blocks each channel's mean square is larger with one residual
+  /// than with another; of the same channels.
+  std::map<std::string, double> growth_significance(const Eigen::VectorXf& before,
+                                                    const Eigen::VectorXf& after) const;
 
  private:
   struct Run {
@@ -58,6 +62,9 @@ class Judge {
 
   /// The residual of a run, without the bins in which nothing was measured.
   Eigen::VectorXf measured(const Eigen::VectorXf& residual, const Run& run) const;
+  /// Mean square of each channel in each block in which it is measured [standard deviations^2]; of
+  /// channels that are measured in three blocks or more.
+  std::map<std::string, std::vector<double>> mean_squares(const Eigen::VectorXf& residual) const;
 
   const Eigen::VectorXf& whitener_;
   std::vector<Run> runs_;
