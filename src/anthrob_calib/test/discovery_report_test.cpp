@@ -399,6 +399,9 @@ TEST(Report, SaysThatTheSearchEndedAtItsCap) {
   const auto json = nlohmann::json::parse(report_json(answer, question, 1.0));
   ASSERT_EQ(json["remarks"].size(), 1u);
   EXPECT_TRUE(holds(json["remarks"][0], said)) << json["remarks"];
+  question.max_effects = 3;
+  answer.ended_early = true;
+  EXPECT_TRUE(holds(report_html(answer, question, 1.0), "the rounds that --max-effects 3 allows"));
 }
 
 TEST(Report, ShowsDependencesOfWhatDisagrees) {
@@ -477,6 +480,8 @@ TEST(Report, ShowsACurveForEachRangeOfASecondQuantity) {
   ASSERT_EQ(second["curves"].size(), 2u);
   EXPECT_EQ(second["curves"][1]["second"], 37.5);
   EXPECT_EQ(second["curves"][1]["curve"], (std::vector<double>{0.3, 0.6}));
+  answer.remaining[0].second->word = "posture";
+  EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "posture and posture"));
 }
 
 TEST(Report, TellsWhatWasAsked) {

@@ -119,8 +119,9 @@ std::string dependence_figures(const std::vector<Dependence>& dependences) {
   for (const Dependence& d : dependences) {
     if (d.share <= Dependence::kTelling) continue;
     if (++shown > 3) break;
+    const bool other = d.second && d.second->word != d.word;  // axis and text say which quantities
     SvgFigure figure(d.channel + " depends on " + d.word +
-                     (d.second ? " and " + d.second->word : std::string()));
+                     (other ? " and " + d.second->word : std::string()));
     auto& panel = figure.add_panel(d.variable + in_unit(d.variable_unit) + " (" + d.word + ")",
                                    "simulated minus measured" + in_unit(d.unit));
     panel.lines = lines_of(d);

@@ -6,7 +6,12 @@ namespace anthrob {
 namespace discovery {
 
 std::string cap_remark(const Answer& answer, const Question& question) {
-  if (answer.effects.size() < static_cast<std::size_t>(question.max_effects)) return "";
+  if (answer.effects.size() < static_cast<std::size_t>(question.max_effects)) {
+    return answer.ended_early ? "the search ended with the rounds that --max-effects " +
+                                    std::to_string(question.max_effects) +
+                                    " allows; with a larger number it would go on"
+                              : "";
+  }
   return "the search ended with the " + std::to_string(question.max_effects) +
          (question.max_effects == 1 ? " effect" : " effects") +
          " that --max-effects allows; no further one was looked for";

@@ -149,6 +149,7 @@ struct Answer {
   std::vector<Improbable> improbable;
   std::vector<std::string> dropped;  ///< named first, but no longer needed beside the others
   Refused refused;
+  bool ended_early = false;  ///< the search had as many rounds as `max_effects` allows
   double remaining_share = 0.0;
   std::string remaining_description;
   Gap train, test;

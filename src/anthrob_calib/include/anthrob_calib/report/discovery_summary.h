@@ -10,7 +10,8 @@ namespace discovery {
 /// A few lines for the terminal.
 std::string summary(const Answer& answer);
 
-/// Says that `max_effects` ended the search; empty if it did not.
+/// Says that `max_effects`, or the number of rounds that it allows, ended the search; empty if it
+/// did not.
 std::string cap_remark(const Answer& answer, const Question& question);
 
 /// "payload @ hand instead of both ... and ..., probability 0.5".

@@ -25,10 +25,11 @@ constexpr int kMostRounds = 2;        ///< for each effect that may be named
 
 void Search::run(std::vector<Score> scores) {
   std::size_t looked_again = SIZE_MAX;  // with so many effects accepted
+  answer_.ended_early = false;
   // Dropped effects make room for others, but rounds are limited.
-  for (; rounds_ < kMostRounds * setup_.question.max_effects && model_.has_room() &&
-         model_.gaps.any(model_.base, kFaintGap);
-       ++rounds_) {
+  for (; model_.has_room() && model_.gaps.any(model_.base, kFaintGap); ++rounds_) {
+    answer_.ended_early = rounds_ >= kMostRounds * setup_.question.max_effects;
+    if (answer_.ended_early) break;
     const std::string title = "effect " + std::to_string(model_.named.size() + 1) + ": ";
     if (scores.empty()) {
       setup_.stage(title + "screening");
