@@ -112,6 +112,17 @@ TEST(CommonLaw, WhatIsAtTwoPlacesOnlyIsNotEverywhere) {
   EXPECT_FALSE(instead && instead->is_better());
 }
 
+TEST(CommonLaw, IsNotFittedToTheEndWhereItCannotReachWhatIsNamed) {
+  const auto simulations = [](double third) {
+    TwoNamed two({{"brachialis", 4.0}, {"biceps_brachii", 4.0}, {"triceps_brachii", third}});
+    const auto before = two.problem.evaluator.simulated();
+    EXPECT_TRUE(two.common.instead(two.problem.index("all", kLaw), two.with, two.parts));
+    return two.problem.evaluator.simulated() - before;
+  };
+  // To the end, both would take more than three quarters of the latter.
+  EXPECT_LT(simulations(1.0), 0.75 * static_cast<double>(simulations(4.0)));
+}
+
 TEST(CommonLaw, WhatDiffersFromPlaceToPlaceIsNotOneLaw) {
   TwoNamed two({{"brachialis", 6.0}, {"biceps_brachii", 2.0}, {"triceps_brachii", 0.0}});
   const auto instead = two.common.instead(two.problem.index("all", kLaw), two.with, two.parts);

@@ -1,6 +1,7 @@
 #include "anthrob_calib/discovery/search/common_law.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "anthrob_calib/discovery/judgement/criteria.h"
@@ -67,7 +68,8 @@ std::optional<CommonLaw::Instead> CommonLaw::instead(std::size_t law, const Test
   const Fitted& rough = list.entries.front().fit;
   const double gained = base.fit.cost - with.fit.cost;
   if (rough.cost - with.fit.cost > kOutOfReach * gained) return std::nullopt;
-  Tested alone = context_.tested(context_.convergence.to_the_end(rough));
+  Tested alone = context_.tested(
+      *context_.convergence.to_the_end_within_reach(rough, HUGE_VAL, with.fit.cost));
   if (alone.test.size() == 0) return std::nullopt;
   CandidateComparison::Odds odds = context_.comparison.odds(alone.test, with.test);
   odds.probability =
