@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <functional>
+#include <optional>
 
+#include "dry_elbow.h"
 #include "made_experiment.h"
 
 namespace anthrob {
@@ -100,6 +103,63 @@ TEST(ModelFit, ExactSlopesLeadOnWhereThoseOfTheCoarseStepMislead) {
   EXPECT_EQ(fitted.cost, cost);
   problem.fit.polish(fitted, 4, ModelFit::Slopes::kExact);
   EXPECT_NEAR(fitted.variant.nuisances[0], 20.0, 0.1);
+}
+
+TEST(ModelFit, SensitivitiesToWhatHardlyMovedAreKeptFromRoundToRound) {
+  const Problem problem([](double x) { return x * x / 100.0; });
+  Fitted fitted = problem.start(10.0);
+  std::optional<ModelFit::Surveyed> surveyed;
+  const auto slope_at = [&](double x, ModelFit::Slopes slopes) {
+    fitted.unknowns[0].write(x, fitted.variant);
+    problem.fit.polish(fitted, 0, slopes, &surveyed);
+    return fitted.sensitivity(0, 0);
+  };
+  EXPECT_NEAR(slope_at(10.0, ModelFit::Slopes::kBothSides), 0.2, 1e-4);
+  const auto simulated = problem.evaluator.simulated();
+  EXPECT_NEAR(slope_at(10.08, ModelFit::Slopes::kBothSides), 0.2, 1e-4);
+  EXPECT_EQ(problem.evaluator.simulated(), simulated);
+  EXPECT_NEAR(slope_at(10.16, ModelFit::Slopes::kBothSides), 0.2032, 1e-4);  // in two small steps
+  EXPECT_NEAR(slope_at(10.24, ModelFit::Slopes::kExact), 0.2048, 1e-4);      // others are needed
+}
+
+TEST(ModelFit, SensitivitiesToEffectsAreSimulatedInEveryRound) {
+  const DryElbow robot([](double dry) { return dry; });
+  Fitted fitted = robot.with(2.0);
+  std::optional<ModelFit::Surveyed> surveyed;
+  for (int round = 0; round < 2; ++round) {
+    fitted.sensitivity.setZero();
+    robot.train.polish(fitted, 0, ModelFit::Slopes::kBothSides, &surveyed);
+    EXPECT_GT(fitted.sensitivity(0, 0), 0.0f) << round;
+  }
+}
+
+TEST(BoundedMinimum, IsTheFreeOneInsideAndSatisfiesOptimalityAtBounds) {
+  const CounterRandom random(3, 1);
+  std::uint64_t n = 0;
+  for (int round = 0; round < 50; ++round) {
+    Eigen::MatrixXd root(6, 6);
+    Eigen::VectorXd g(6);
+    for (int i = 0; i < 6; ++i) {
+      g[i] = random.normal(n++);
+      for (int j = 0; j < 6; ++j) root(i, j) = random.normal(n++);
+    }
+    const Eigen::MatrixXd A = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(6, 6);
+    const Eigen::VectorXd wide = Eigen::VectorXd::Constant(6, 1e6);
+    EXPECT_LT((bounded_minimum(A, g, -wide, wide) + A.ldlt().solve(g)).norm(), 1e-8);
+    const Eigen::VectorXd lower = Eigen::VectorXd::Constant(6, -0.2), upper = -0.5 * lower;
+    const Eigen::VectorXd x = bounded_minimum(A, g, lower, upper), gradient = A * x + g;
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_GE(x[i], lower[i]);
+      EXPECT_LE(x[i], upper[i]);
+      if (x[i] == lower[i]) {
+        EXPECT_GE(gradient[i], -1e-7);
+      } else if (x[i] == upper[i]) {
+        EXPECT_LE(gradient[i], 1e-7);
+      } else {
+        EXPECT_NEAR(gradient[i], 0.0, 1e-7);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -53,10 +53,12 @@ double Convergence::left_open(const Fitted& fitted) const {
 /// Polishes as long as that reduces the cost. If an effect is clearly missing, the last steps of
 /// the model without it are not worth their time.
 bool Convergence::converge(Fitted& fitted, double rival) const {
+  std::optional<ModelFit::Surveyed> surveyed;
   for (int k = 0; k < kSurveys; ++k) {
     const bool clear = clearly_misses(fitted);
     const double before = fitted.cost;
-    fit_.polish(fitted, kPolish, clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides);
+    fit_.polish(fitted, kPolish, clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides,
+                &surveyed);
     const double gain = before - fitted.cost;
     if (!might_reach(rival, fitted, gain)) return false;
     if (gain < (clear ? kRoughlySettled : kSettled) * before) break;
@@ -141,9 +143,10 @@ std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) cons
 /// Last iterations: near the minimum, sensitivities of the coarse step no longer reduce the cost,
 /// those of the usual step do.
 void Convergence::finish(Fitted& fitted, double rival) const {
+  std::optional<ModelFit::Surveyed> surveyed;
   for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
     const double before = fitted.cost;
-    fit_.polish(fitted, kPolish, ModelFit::Slopes::kExact);
+    fit_.polish(fitted, kPolish, ModelFit::Slopes::kExact, &surveyed);
     const double gain = before - fitted.cost;
     if (gain < kAtTheEnd * before || !might_reach(rival, fitted, gain)) break;
   }

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace anthrob {
@@ -29,6 +30,26 @@ constexpr Way kWays[] = {{1e-7, 1.0, false}, {1e-4, 1.0, false}, {1.0, 1.0, fals
 constexpr double kOneSide = 0.5;
 constexpr double kBothSides = 0.35;
 constexpr double kBothSidesOfEffect = 1.0;  ///< polishing has made its scale small
+
+constexpr double kHardlyMoved = 0.1;  ///< [scales]
+
+std::vector<std::size_t> all_of(const Fitted& fitted) {
+  std::vector<std::size_t> all(fitted.unknowns.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// Effects, whose scales change, and the ordinary parameters that have moved.
+/// @param from where the unknowns were
+std::vector<std::size_t> moved_since(const std::vector<double>& from, const Fitted& fitted) {
+  std::vector<std::size_t> moved;
+  for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
+    const Unknown& u = fitted.unknowns[i];
+    const double way = std::abs(u.read(fitted.variant) - from[i]);
+    if (u.effect >= 0 || way > kHardlyMoved * u.scale) moved.push_back(i);
+  }
+  return moved;
+}
 
 /// Steps along single unknowns.
 struct Steps {
@@ -273,23 +294,26 @@ void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
   }
 }
 
-void ModelFit::survey(Fitted& fitted, Slopes slopes) const {
-  const std::size_t n = fitted.unknowns.size();
+void ModelFit::survey(Fitted& fitted, Slopes slopes, const std::vector<std::size_t>& which) const {
+  if (which.empty()) return;
+  const std::size_t n = which.size();
   const bool both = slopes != Slopes::kOneSide;
   Steps steps;
   const auto to_both = [&](std::size_t i) {
     return fitted.unknowns[i].effect < 0 ? kBothSides : kBothSidesOfEffect;
   };
-  for (std::size_t i = 0; i < n; ++i) steps.add(fitted, i, both ? to_both(i) : kOneSide);
-  for (std::size_t i = 0; i < n && both; ++i) steps.add(fitted, i, -to_both(i));
+  for (const std::size_t i : which) steps.add(fitted, i, both ? to_both(i) : kOneSide);
+  if (both) {
+    for (const std::size_t i : which) steps.add(fitted, i, -to_both(i));
+  }
   const auto changes = slopes == Slopes::kExact
                            ? exact_changes(fitted.residual, steps.to)
                            : this->changes(fitted.variant, fitted.residual, steps.to);
-  fitted.sensitivity.setZero(fitted.residual.size(), static_cast<Eigen::Index>(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(i));
+  for (std::size_t w = 0; w < n; ++w) {
+    auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(which[w]));
+    column.setZero();
     float length = 0.0f;
-    for (std::size_t k = i; k < changes.size(); k += n) {
+    for (std::size_t k = w; k < changes.size(); k += n) {
       if (!steps.leads_on(k, changes)) continue;
       const float sign = steps.length[k] > 0.0f ? 1.0f : -1.0f;
       column += sign * changes[k];
@@ -307,7 +331,9 @@ Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) co
   if (fitted.residual.size() == 0) {
     throw NotSimulated("the model cannot be simulated with the inputs of the recordings");
   }
-  survey(fitted, Slopes::kOneSide);
+  fitted.sensitivity.resize(fitted.residual.size(),
+                            static_cast<Eigen::Index>(fitted.unknowns.size()));
+  survey(fitted, Slopes::kOneSide, all_of(fitted));
   fitted.cost = cost_of(fitted, variant, fitted.residual);
   return fitted;
 }
@@ -335,14 +361,22 @@ bool ModelFit::move(Fitted& fitted, const Variant& variant) const {
   return true;
 }
 
-void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes) const {
+void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes,
+                      std::optional<Surveyed>* before) const {
   for (Unknown& u : fitted.unknowns) {
     // Close to the minimum, small changes are more exact than large ones.
     if (u.effect < 0) continue;
     const double size = u.read(fitted.variant) - u.neutral.value_or(0.0);
     u.scale = std::max({0.1 * u.scale, 0.05 * std::abs(size), u.finest});
   }
-  survey(fitted, slopes);
+  const bool again = before && *before && (*before)->slopes == slopes;
+  const std::vector<std::size_t> which =
+      again ? moved_since((*before)->at, fitted) : all_of(fitted);
+  survey(fitted, slopes, which);
+  if (before) {
+    if (!again) *before = Surveyed{slopes, std::vector<double>(fitted.unknowns.size())};
+    for (const std::size_t i : which) (*before)->at[i] = fitted.unknowns[i].read(fitted.variant);
+  }
   const Eigen::VectorXd start = fitted.scaled();
   improve(fitted, iterations, slopes == Slopes::kExact ? kFinished : kPolished);
   stride(fitted, fitted.scaled() - start);

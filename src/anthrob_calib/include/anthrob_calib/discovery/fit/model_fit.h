@@ -85,8 +85,16 @@ class ModelFit {
   /// rugged; or by changes to both sides with the usual step, which avoids the error of the coarse
   /// step.
   enum class Slopes { kOneSide, kBothSides, kExact };
-  /// Simulates all sensitivities again, then makes a few more iterations.
-  void polish(Fitted& fitted, int iterations, Slopes slopes = Slopes::kBothSides) const;
+  /// What earlier rounds of polish() have simulated.
+  struct Surveyed {
+    Slopes slopes;
+    std::vector<double> at;  ///< where each unknown was then
+  };
+  /// Simulates sensitivities again, then makes a few more iterations.
+  /// @param before of the rounds before this one, if nothing else has happened in between: then
+  /// sensitivities to ordinary parameters that have hardly moved since are good enough. Is updated
+  void polish(Fitted& fitted, int iterations, Slopes slopes = Slopes::kBothSides,
+              std::optional<Surveyed>* before = nullptr) const;
   /// The same fit with more unknowns, whose sensitivities are simulated.
   /// @throws NotSimulated
   Fitted extend(const Fitted& fitted, const Variant& variant,
@@ -130,8 +138,8 @@ class ModelFit {
                                              const std::vector<Variant>& to) const;
   /// Of the unknowns from that one on, by the usual step of the simulation.
   void simulate_sensitivity(Fitted& fitted, std::size_t from) const;
-  /// Of all unknowns.
-  void survey(Fitted& fitted, Slopes slopes) const;
+  /// Of these unknowns.
+  void survey(Fitted& fitted, Slopes slopes, const std::vector<std::size_t>& which) const;
   double cost_of(const Fitted& fitted, const Variant& variant,
                  const Eigen::VectorXf& residual) const;
 
