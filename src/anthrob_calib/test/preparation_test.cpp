@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_calib/discovery/fit/model_fit.h"
 #include "anthrob_calib/discovery/search/repeats.h"
 #include "anthrob_sim/core/errors.h"
 #include "arm.h"
@@ -386,6 +387,52 @@ TEST(MeasureScales, CountsOfAnEncoderReachTheVoltagesOfItsController) {
   // Nor does the voltage's own sensor take anything off them.
   const Dataset both = round_motors(coarse, "voltage", expected);
   EXPECT_NEAR(scales_of(both).at(voltage).counts, scale.counts, 1e-3 * scale.counts);
+}
+
+TEST(CoarseStep, TellsTheSameChanges) {
+  const Arm arm;
+  const std::vector<Dataset> recordings = {arm.record({}, 1, 1)};
+  const Experiments train = {make_experiment(*arm.plain, recordings.front())};
+  const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
+  const Scales scales = measure_scales(evaluator, train, {});
+  const Eigen::VectorXf factors = whitener(train, scales, false);
+  const ModelFit fine(evaluator, train, factors);
+  const Variant base{};
+  const Eigen::VectorXf residual = fine.residual(base);
+  const struct {
+    LongerStep longer;
+    float scaled, otherwise;  // shares of the change by which it may be off
+  } steps[] = {{{2.0, 3.0}, 0.03f, 0.2f}, {{4.0, 20.0}, 0.2f, 0.6f}};
+  for (const auto& [longer, scaled, otherwise] : steps) {
+    const double step = coarse_step(evaluator, train, scales, longer);
+    EXPECT_EQ(step, 0.001 * longer.times);
+    const ModelFit coarse(evaluator, train, factors, step);
+    for (const EffectInstance& effect :
+         {EffectInstance{"joint_viscous", "elbow", {{"damping", 0.02}}},
+          EffectInstance{"force_sensor_offset", "brachialis", {{"offset", 1.0}}},
+          EffectInstance{"series_resistance", "teres_major", {{"resistance", 1.0}}}}) {
+      Variant moved = base;
+      moved.effects = {effect};
+      const Eigen::VectorXf exact = fine.changes(base, residual, {moved}).front();
+      const Eigen::VectorXf quick = coarse.changes(base, residual, {moved}).front();
+      ASSERT_GT(exact.norm(), 0.0f) << effect.id;
+      // Alike in size; edges of voltages and currents come a few milliseconds later.
+      EXPECT_NEAR(quick.dot(exact), exact.squaredNorm(), scaled * exact.squaredNorm())
+          << effect.id << " " << step;
+      EXPECT_LT((quick - exact).norm(), otherwise * exact.norm()) << effect.id << " " << step;
+      EXPECT_EQ(exact, fine.residual(moved) - residual) << effect.id;
+    }
+  }
+}
+
+TEST(CoarseStep, IsNotUsedWhereItsErrorIsLarger) {
+  const Arm arm;
+  const std::vector<Dataset> recordings = {arm.record({}, 1, 1)};
+  const Experiments train = {make_experiment(*arm.plain, recordings.front())};
+  const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
+  const Scales scales = measure_scales(evaluator, train, {});
+  EXPECT_EQ(coarse_step(evaluator, train, scales, {4.0, 1e3}), 0.004);
+  EXPECT_EQ(coarse_step(evaluator, train, scales, {4.0, 1e-3}), 0.0);
 }
 
 }  // namespace
