@@ -21,7 +21,7 @@ struct Recording {
 };
 
 struct RecordingSettings {
-  double settle = 8.0;     ///< at the first command [s]
+  double settle = 5.0;     ///< at the first command [s]
   int muscle_divider = 5;  ///< a row every so many ECU periods
   int mocap_divider = 20;
 };
@@ -37,7 +37,7 @@ Recording follow(Robot* robot, const std::vector<Command>& commands, double seco
 /// What meta.yaml says of a dataset folder.
 struct Meta {
   std::string kind = "trajectory";
-  double settle = 8.0;
+  double settle = 5.0;
   std::string sensors;  ///< YAML, indented by two
   bool has_elbow = true;
 };
