@@ -259,6 +259,19 @@ TEST(Convergence, WhatStaysOutOfReachIsNotSettled) {
   EXPECT_GT(simulated(1e6, true), rough);
 }
 
+TEST(Convergence, WhatMissesByFarIsNotPolished) {
+  const Problem problem(
+      [](double, double shoulder, double) { return 20.0 + 50.0 * std::abs(shoulder - 0.8); });
+  const auto simulated = [&](double level) {
+    Fitted fitted = problem.fitted(0.75);
+    const std::size_t before = problem.evaluator.simulated();
+    EXPECT_FALSE(problem.convergence.converge_within_reach(fitted, level * Problem::kBins));
+    return problem.evaluator.simulated() - before;
+  };
+  // 20 floors everywhere: 200 for every bin.
+  EXPECT_LT(simulated(100.0), simulated(190.0));
+}
+
 /// Fits to the end from the far one of two valleys.
 /// @param given, far what differs on their grounds; parameters are given in the first
 /// @return simulations that it took
@@ -339,6 +352,25 @@ TEST(FinalComparison, WhatIsBetterInTheEndIsFirst) {
   EXPECT_LT(laws.list.entries[0].fit.cost, Problem::kBins);
   // 3 more than none are left by the rough fit, nothing in the end.
   EXPECT_GT(laws.list.entries[0].evidence, rough_evidence + 0.4 * Problem::kBins);
+}
+
+TEST(FinalComparison, WhatLeavesMuchMoreIsNotFinished) {
+  // Dry friction leaves 1 of a gap of 6.
+  const auto simulated = [](double damping_leaves) {
+    TwoLaws laws(
+        [=](double elbow, double shoulder, double dry) {
+          const double damped = std::min(1.0, (elbow - kElbow) / kDose);
+          return 6.0 + 50.0 * std::abs(shoulder - 0.15) -
+                 std::max(5.0 * std::min(1.0, dry / 0.1), (6.0 - damping_leaves) * damped);
+        },
+        0.15);
+    EXPECT_EQ(laws.id(0), "joint_coulomb");
+    const auto before = laws.problem.evaluator.simulated();
+    laws.decide();
+    EXPECT_EQ(laws.id(0), "joint_coulomb");
+    return laws.problem.evaluator.simulated() - before;
+  };
+  EXPECT_LT(simulated(2.5), simulated(1.2));
 }
 
 /// Dry friction of the shoulder is what is missing. Where the shoulder's damping has gone astray,

@@ -20,6 +20,7 @@ constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
 /// Multiples of the sizes of effects from which a fit that clearly misses is begun anew.
 constexpr double kOtherSizes[] = {0.6, 0.8, 1.0, 1.25, 1.6};
+constexpr double kHopeless = 4.0 / 3.0;  ///< times what rough steps should reach
 
 /// Whether a fit might come down to a rival's cost if each of the rounds there are gained as much
 /// as the last one.
@@ -83,6 +84,7 @@ bool Convergence::converge_within_reach(Fitted& fitted, double level) const {
   fit_.polish(fitted, kPolish, ModelFit::Slopes::kOneSide);
   // Too far above the level for better sensitivities to help.
   if (fitted.cost > level) return false;
+  if (fitted.cost > kHopeless * level) return false;
   converge(fitted);
   return true;
 }

@@ -26,6 +26,7 @@ constexpr Way kWays[] = {{1e-7, 1.0, false}, {1e-4, 1.0, false}, {1.0, 1.0, fals
                          {100.0, 1.0, true}};
 // Steps of difference quotients [scales]. Those to both sides average over friction that sticks a
 // little earlier or later, but stay where the valley is straight: in three cases whole scales
+constexpr std::size_t kLastFullWay = 2;
 // took 1.5 to 3 times as many rounds to a minimum within 0.02 % of the same cost, or a higher one.
 constexpr double kOneSide = 0.5;
 constexpr double kBothSides = 0.35;
@@ -333,6 +334,7 @@ Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) co
   }
   fitted.sensitivity.resize(fitted.residual.size(),
                             static_cast<Eigen::Index>(fitted.unknowns.size()));
+  std::size_t lightest = 0;  // of the ways that may lead on
   survey(fitted, Slopes::kOneSide, all_of(fitted));
   fitted.cost = cost_of(fitted, variant, fitted.residual);
   return fitted;
@@ -405,7 +407,7 @@ ModelFit::Trial ModelFit::try_step(const Fitted& fitted, const Eigen::VectorXd& 
   return trial;
 }
 
-void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
+void ModelFit::improve(Fitted& fitted, int iterations, double enough, double rival) const {
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   if (n == 0) return;
   std::size_t first_effect = 0;
@@ -424,7 +426,9 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
     // heavily damped ones only if none of these gains anything.
     Trial best;
     best.cost = fitted.cost;
-    for (const auto& [damping, length, last_resort] : kWays) {
+    std::size_t taken = 0;
+    for (std::size_t w = lightest; w < std::size(kWays); ++w) {
+      const auto& [damping, length, last_resort] = kWays[w];
       if (last_resort && best.step.size() > 0) break;
       Eigen::MatrixXd system = information;
       system.diagonal() += precision;
@@ -435,11 +439,19 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough) const {
       const double promised =
           -(gradient.dot(step) + 0.5 * step.dot(information * step + precision.cwiseProduct(step)));
       const bool kept = fitted.cost - trial.cost > kKept * promised;
-      if (trial.cost < best.cost) best = std::move(trial);
+      if (trial.cost < best.cost) {
+        best = std::move(trial);
+        taken = w;
+      }
       if (kept) break;
     }
     if (best.step.size() == 0) break;
-    const bool done = fitted.cost - best.cost < enough * best.cost;
+    // Where a light way led nowhere, so it does from the next point; but one is tried again.
+    lightest = std::clamp<std::size_t>(taken, 1, kLastFullWay) - 1;
+    const double gain = fitted.cost - best.cost;
+    // New slopes after the first iteration may bring more than it did.
+    const bool hopeless = iteration > 0 && best.cost - (iterations - iteration - 1) * gain > rival;
+    const bool done = hopeless || gain < enough * best.cost;
     // Broyden's update, from what the step really changed.
     const Eigen::VectorXf step = best.step.cast<float>();
     const float length = step.squaredNorm();

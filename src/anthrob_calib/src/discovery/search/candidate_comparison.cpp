@@ -219,11 +219,17 @@ ShortList CandidateComparison::weigh(const Tested& base, const std::vector<Score
       list.entries.begin(), list.entries.end(),
       [](const FittedCandidate& a, const FittedCandidate& b) { return a.fit.cost < b.fit.cost; });
   if (list.entries.size() > kJudged) list.entries.resize(kJudged);
-  train_.side_by_side(list.entries.size(), [&](std::size_t i) {
-    train_.improve(list.entries[i].fit, kIterations, telling(list.entries[i].fit));
-    turn_to_better_phase(base.fit, list.entries[i]);
-    list.entries[i].test = test_.residual(list.entries[i].fit.variant);
-  });
+  const auto fit_on = [&](FittedCandidate& named, double rival) {
+    train_.improve(named.fit, kIterations, telling(named.fit), rival);
+    turn_to_better_phase(base.fit, named);
+    named.test = test_.residual(named.fit.variant);
+  };
+  if (!list.entries.empty()) {
+    fit_on(list.entries.front(), HUGE_VAL);
+    const double first = list.entries.front().fit.cost;
+    train_.side_by_side(list.entries.size() - 1,
+                        [&](std::size_t i) { fit_on(list.entries[i + 1], first); });
+  }
   list.entries.erase(
       std::remove_if(list.entries.begin(), list.entries.end(),
                      [](const FittedCandidate& named) { return named.test.size() == 0; }),

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kComesNear = 0.5;   ///< share of the first one's gain
 constexpr double kLagsBehind = 0.4;  ///< a fit that lacks this share after rough steps is out
+/// So is one that lacks a smaller share, and has so much of the first one's cost in addition.
+constexpr double kBehind = 0.1, kFarAbove = 0.5;
 
 }  // namespace
 
@@ -78,8 +80,11 @@ void FinalComparison::compare(const Tested& base, Challenger kind, double level,
     const double least = end.entries[0].fit.cost;
     FittedCandidate other = list.entries[index];
     // At another place, a law may need more than rough steps to find its parameters.
+    const double gain = base.fit.cost - least;
     const double reach =
-        kind == Challenger::kOtherLaw ? least + kLagsBehind * (base.fit.cost - least) : HUGE_VAL;
+        kind == Challenger::kOtherLaw
+            ? least + std::min(kLagsBehind * gain, std::max(kFarAbove * least, kBehind * gain))
+            : HUGE_VAL;
     if (finish(other, reach, least)) {
       end.entries.push_back(std::move(other));
     }

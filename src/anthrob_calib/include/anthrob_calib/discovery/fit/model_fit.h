@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -76,7 +77,9 @@ class ModelFit {
   Fitted start(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// Iterates until nothing is gained any more.
   /// @param enough stops at a smaller relative reduction of the cost
-  void improve(Fitted& fitted, int iterations, double enough = 3e-3) const;
+  /// @param rival the cost of another fit: stops when the iterations left would not reach it, if
+  /// each of them gained as much as the last one
+  void improve(Fitted& fitted, int iterations, double enough = 3e-3, double rival = HUGE_VAL) const;
   /// Moves to another variant with the same unknowns; sensitivities stay. @return whether it could
   /// be simulated
   bool move(Fitted& fitted, const Variant& variant) const;
