@@ -26,6 +26,16 @@ TEST(FlatRange, FrictionThatHoldsAJointInAnyCaseIsKnownFromBelow) {
   EXPECT_LT(rise(low + 0.01), 1.92);
 }
 
+TEST(FlatRange, ExpectationsDetermineNothing) {
+  const DryElbow robot([](double) { return 0.0; });
+  Fitted held = robot.with(1.0);
+  held.unknowns[0].expected = 1.0;
+  held.unknowns[0].spread = 0.1;
+  const auto [low, high] = flat_range(robot.train, held, 0);
+  EXPECT_EQ(low, 0.0);
+  EXPECT_EQ(high, 10.0);
+}
+
 TEST(FlatRange, WhatChangesSomethingIsNotFlat) {
   const DryElbow robot([](double dry) { return 10.0 * (dry - 0.5); });
   EXPECT_FALSE(is_flat(robot.with(0.5), 0));

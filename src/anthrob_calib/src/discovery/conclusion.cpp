@@ -26,6 +26,8 @@ void measure_effects(const SearchSetup& setup, WorkingModel& model) {
   if (model.named.empty()) return;
   model.note_limits();
   model.charge_for_spoilt_channels(model.base);
+  // The last steps have blurred them: what depends on nothing must not seem to.
+  setup.train.renew_effects(model.base.fit);
   const Fitted& fit = model.base.fit;
   const auto ranges =
       bootstrap_intervals(fit, setup.train.experiments(), setup.variables, setup.question.seed);

@@ -275,6 +275,14 @@ Eigen::VectorXf ModelFit::residual(const Variant& variant) const {
 
 double ModelFit::cost_of(const Fitted& fitted, const Variant& variant,
                          const Eigen::VectorXf& residual) const {
+void ModelFit::renew_effects(Fitted& fitted) const {
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
+    if (fitted.unknowns[i].effect >= 0) which.push_back(i);
+  }
+  survey(fitted, Slopes::kExact, which);
+}
+
   Fitted other;
   other.variant = variant;
   other.unknowns = fitted.unknowns;

@@ -13,8 +13,8 @@ namespace discovery {
 /// friction that holds a joint in any case could be larger, but not much smaller.
 bool is_flat(const Fitted& fitted, std::size_t unknown);
 
-/// 95 % interval of one unknown, the others held where they are, by simulation: as far as the cost
-/// rises by 1.92 nat, half the quantile of a chi-square of one degree of freedom. Found by
+/// 95 % interval of one unknown, the others held where they are, by simulation: as far as the
+/// misfit rises by 1.92 nat, half the quantile of a chi-square of one degree of freedom. Found by
 /// bisection to 1/1000 of its range, on either side the boundary that is nearest to the fit by
 /// halving.
 std::pair<double, double> flat_range(const ModelFit& fit, const Fitted& fitted,

@@ -106,6 +106,8 @@ class ModelFit {
   /// The same on a part of the recordings.
   ModelFit part(const Excerpt& excerpt) const;
   /// The same with every residual multiplied by a factor.
+  /// Simulates the sensitivities to effects again, by exact slopes.
+  void renew_effects(Fitted& fitted) const;
   ModelFit weighted(const Eigen::VectorXf& factor) const;
 
   Eigen::VectorXf residual(const Variant& variant) const;  ///< empty if it cannot be simulated
