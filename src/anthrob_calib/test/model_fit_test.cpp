@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -45,10 +44,10 @@ TEST(ModelFit, StepsToBothSidesTellTheSlopeOfACurve) {
   const Problem problem([](double x) { return x * x / 100.0; });
   Fitted fitted = problem.start(10.0);
   EXPECT_NEAR(fitted.sensitivity(0, 0), 0.205, 1e-4);  // by half a step
-  problem.fit.polish(fitted, 0);
-  EXPECT_NEAR(fitted.sensitivity(0, 0), 0.2, 1e-4);
   problem.fit.polish(fitted, 0, ModelFit::Slopes::kOneSide);
   EXPECT_NEAR(fitted.sensitivity(0, 0), 0.205, 1e-4);
+  problem.fit.polish(fitted, 0);
+  EXPECT_NEAR(fitted.sensitivity(0, 0), 0.2, 1e-4);
 }
 
 TEST(ModelFit, AtABoundOneSideHasToDo) {
@@ -72,6 +71,49 @@ TEST(ModelFit, SeesThroughRuggedGround) {
   problem.fit.polish(fitted, 1);
   EXPECT_NEAR(fitted.sensitivity(0, 0), 0.2, 0.05);
   EXPECT_NEAR(fitted.variant.nuisances[0], 20.0, 6.0);
+}
+
+TEST(ModelFit, OneSideIsEnoughWhereTheBendIsSmooth) {
+  const Problem problem([](double x) { return x * x / 100.0; });
+  Fitted fitted = problem.start(10.0);
+  const auto simulated = [&](ModelFit::Slopes slopes) {
+    const auto before = problem.evaluator.simulated();
+    problem.fit.polish(fitted, 0, slopes);
+    return problem.evaluator.simulated() - before;
+  };
+  const auto both_sides = simulated(ModelFit::Slopes::kBothSides);
+  problem.fit.move(fitted, Variant{{20.0}});
+  EXPECT_EQ(simulated(ModelFit::Slopes::kBothSides), both_sides - 1);
+  EXPECT_NEAR(fitted.sensitivity(0, 0), 0.4, 1e-4);
+  const Fitted anew = problem.fit.start(fitted.variant, fitted.unknowns, fitted.bends);
+  EXPECT_NEAR(anew.sensitivity(0, 0), 0.4, 1e-4);
+  fitted.unknowns[0].upper = 20.0;  // the other side does it as well
+  EXPECT_EQ(simulated(ModelFit::Slopes::kBothSides), both_sides - 1);
+  EXPECT_NEAR(fitted.sensitivity(0, 0), 0.4, 1e-4);
+  EXPECT_EQ(simulated(ModelFit::Slopes::kExactToBothSides),
+            simulated(ModelFit::Slopes::kExact) + 1);
+}
+
+TEST(ModelFit, RuggedGroundIsAskedToBothSidesEveryTime) {
+  const Problem problem([](double x) { return 0.2 * x + 3.0 * std::abs(x - std::round(x)); });
+  Fitted fitted = problem.start(10.0);
+  const auto begin = problem.evaluator.simulated();
+  problem.fit.polish(fitted, 0);
+  const auto first = problem.evaluator.simulated();
+  problem.fit.polish(fitted, 0);
+  EXPECT_EQ(problem.evaluator.simulated() - first, first - begin);
+}
+
+TEST(ModelFit, EndsWhereTheIterationsLeftWouldNotReachARival) {
+  const Problem problem([](double x) { return 5.0 + 5.0 / (1.0 + x); });
+  const auto ends_at = [&](double rival) {
+    Fitted fitted = problem.start(0.0);
+    problem.fit.improve(fitted, 8, 0.0, rival);
+    return fitted.cost;
+  };
+  const double end = ends_at(HUGE_VAL);
+  EXPECT_EQ(ends_at(end), end);
+  EXPECT_GT(ends_at(0.0), 1.005 * end);
 }
 
 TEST(ModelFit, AStepThatLeadsTooFarIsTakenShorter) {
@@ -110,14 +152,14 @@ TEST(ModelFit, SensitivitiesToWhatHardlyMovedAreKeptFromRoundToRound) {
   Fitted fitted = problem.start(10.0);
   std::optional<ModelFit::Surveyed> surveyed;
   const auto slope_at = [&](double x, ModelFit::Slopes slopes) {
-    fitted.unknowns[0].write(x, fitted.variant);
+    problem.fit.move(fitted, Variant{{x}});
     problem.fit.polish(fitted, 0, slopes, &surveyed);
     return fitted.sensitivity(0, 0);
   };
   EXPECT_NEAR(slope_at(10.0, ModelFit::Slopes::kBothSides), 0.2, 1e-4);
   const auto simulated = problem.evaluator.simulated();
   EXPECT_NEAR(slope_at(10.08, ModelFit::Slopes::kBothSides), 0.2, 1e-4);
-  EXPECT_EQ(problem.evaluator.simulated(), simulated);
+  EXPECT_EQ(problem.evaluator.simulated(), simulated + 1);                   // the move alone
   EXPECT_NEAR(slope_at(10.16, ModelFit::Slopes::kBothSides), 0.2032, 1e-4);  // in two small steps
   EXPECT_NEAR(slope_at(10.24, ModelFit::Slopes::kExact), 0.2048, 1e-4);      // others are needed
 }
@@ -133,33 +175,12 @@ TEST(ModelFit, SensitivitiesToEffectsAreSimulatedInEveryRound) {
   }
 }
 
-TEST(BoundedMinimum, IsTheFreeOneInsideAndSatisfiesOptimalityAtBounds) {
-  const CounterRandom random(3, 1);
-  std::uint64_t n = 0;
-  for (int round = 0; round < 50; ++round) {
-    Eigen::MatrixXd root(6, 6);
-    Eigen::VectorXd g(6);
-    for (int i = 0; i < 6; ++i) {
-      g[i] = random.normal(n++);
-      for (int j = 0; j < 6; ++j) root(i, j) = random.normal(n++);
-    }
-    const Eigen::MatrixXd A = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(6, 6);
-    const Eigen::VectorXd wide = Eigen::VectorXd::Constant(6, 1e6);
-    EXPECT_LT((bounded_minimum(A, g, -wide, wide) + A.ldlt().solve(g)).norm(), 1e-8);
-    const Eigen::VectorXd lower = Eigen::VectorXd::Constant(6, -0.2), upper = -0.5 * lower;
-    const Eigen::VectorXd x = bounded_minimum(A, g, lower, upper), gradient = A * x + g;
-    for (int i = 0; i < 6; ++i) {
-      EXPECT_GE(x[i], lower[i]);
-      EXPECT_LE(x[i], upper[i]);
-      if (x[i] == lower[i]) {
-        EXPECT_GE(gradient[i], -1e-7);
-      } else if (x[i] == upper[i]) {
-        EXPECT_LE(gradient[i], 1e-7);
-      } else {
-        EXPECT_NEAR(gradient[i], 0.0, 1e-7);
-      }
-    }
-  }
+TEST(ModelFit, SensitivitiesToEffectsAreRenewed) {
+  const DryElbow robot([](double dry) { return 3.0 * dry; });
+  Fitted fitted = robot.with(2.0);
+  fitted.sensitivity.setConstant(7.0f);
+  robot.train.renew_effects(fitted);
+  EXPECT_NEAR(fitted.sensitivity(0, 0), 3.0 * fitted.unknowns[0].scale, 1e-4);
 }
 
 }  // namespace

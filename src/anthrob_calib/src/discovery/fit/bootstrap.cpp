@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "anthrob_calib/discovery/experiment/regimes.h"
+#include "anthrob_calib/discovery/fit/bounded_minimum.h"
 #include "anthrob_calib/discovery/judgement/judge.h"
 #include "anthrob_sim/core/random.h"
 

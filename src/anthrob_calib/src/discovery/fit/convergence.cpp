@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "anthrob_calib/discovery/judgement/criteria.h"
+
 namespace anthrob {
 namespace discovery {
 
@@ -18,9 +20,9 @@ constexpr double kAtTheEnd = 5e-4;  ///< share of the cost
 constexpr int kFinishing = 5;       ///< rounds of exact slopes
 constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
+constexpr double kHopeless = 4.0 / 3.0;  ///< times what rough steps should reach
 /// Multiples of the sizes of effects from which a fit that clearly misses is begun anew.
 constexpr double kOtherSizes[] = {0.6, 0.8, 1.0, 1.25, 1.6};
-constexpr double kHopeless = 4.0 / 3.0;  ///< times what rough steps should reach
 
 /// Whether a fit might come down to a rival's cost if each of the rounds there are gained as much
 /// as the last one.
@@ -67,8 +69,9 @@ bool Convergence::converge(Fitted& fitted, double rival) const {
   return true;
 }
 
-Fitted Convergence::rough(const Variant& variant, std::vector<Unknown> unknowns) const {
-  Fitted fitted = fit_.start(variant, std::move(unknowns));
+Fitted Convergence::rough(const Variant& variant, std::vector<Unknown> unknowns,
+                          Bends bends) const {
+  Fitted fitted = fit_.start(variant, std::move(unknowns), std::move(bends));
   fit_.improve(fitted, kRough);
   return fitted;
 }
@@ -81,10 +84,10 @@ Fitted Convergence::converged(const Variant& variant, std::vector<Unknown> unkno
 
 bool Convergence::converge_within_reach(Fitted& fitted, double level) const {
   fit_.improve(fitted, kRough);
+  if (fitted.cost > kHopeless * level) return false;
   fit_.polish(fitted, kPolish, ModelFit::Slopes::kOneSide);
   // Too far above the level for better sensitivities to help.
   if (fitted.cost > level) return false;
-  if (fitted.cost > kHopeless * level) return false;
   converge(fitted);
   return true;
 }
@@ -136,19 +139,22 @@ std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) cons
   Variant given = fitted.variant;
   given.nuisances = evaluator_.initial_nuisances();
   try {
-    return rough(given, fitted.unknowns);
+    return rough(given, fitted.unknowns, fitted.bends);
   } catch (const NotSimulated&) {
     return std::nullopt;
   }
 }
 
 /// Last iterations: near the minimum, sensitivities of the coarse step no longer reduce the cost,
-/// those of the usual step do.
+/// those of the usual step do. Where something is left, their errors do not cancel out over the
+/// residual.
 void Convergence::finish(Fitted& fitted, double rival) const {
   std::optional<ModelFit::Surveyed> surveyed;
   for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
+    const bool left = judge_.gap(fitted.residual) > kFaintGap;
+    const auto slopes = left ? ModelFit::Slopes::kExactToBothSides : ModelFit::Slopes::kExact;
     const double before = fitted.cost;
-    fit_.polish(fitted, kPolish, ModelFit::Slopes::kExact, &surveyed);
+    fit_.polish(fitted, kPolish, slopes, &surveyed);
     const double gain = before - fitted.cost;
     if (gain < kAtTheEnd * before || !might_reach(rival, fitted, gain)) break;
   }

@@ -1,10 +1,12 @@
 #include "anthrob_calib/discovery/fit/model_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+
+#include "anthrob_calib/discovery/fit/bounded_minimum.h"
+#include "slope_steps.h"
 
 namespace anthrob {
 namespace discovery {
@@ -24,15 +26,19 @@ struct Way {
 constexpr Way kWays[] = {{1e-7, 1.0, false}, {1e-4, 1.0, false}, {1.0, 1.0, false},
                          {1e-4, 0.5, true},  {1e-4, 0.25, true}, {10.0, 1.0, true},
                          {100.0, 1.0, true}};
+constexpr std::size_t kLastFullWay = 2;
 // Steps of difference quotients [scales]. Those to both sides average over friction that sticks a
 // little earlier or later, but stay where the valley is straight: in three cases whole scales
-constexpr std::size_t kLastFullWay = 2;
 // took 1.5 to 3 times as many rounds to a minimum within 0.02 % of the same cost, or a higher one.
 constexpr double kOneSide = 0.5;
 constexpr double kBothSides = 0.35;
 constexpr double kBothSidesOfEffect = 1.0;  ///< polishing has made its scale small
 
 constexpr double kHardlyMoved = 0.1;  ///< [scales]
+
+bool is_exact(ModelFit::Slopes slopes) {
+  return slopes == ModelFit::Slopes::kExact || slopes == ModelFit::Slopes::kExactToBothSides;
+}
 
 std::vector<std::size_t> all_of(const Fitted& fitted) {
   std::vector<std::size_t> all(fitted.unknowns.size());
@@ -51,29 +57,6 @@ std::vector<std::size_t> moved_since(const std::vector<double>& from, const Fitt
   }
   return moved;
 }
-
-/// Steps along single unknowns.
-struct Steps {
-  std::vector<Variant> to;
-  std::vector<float> length;  ///< [scales], shorter at bounds
-
-  /// Adds a step; to the other side if there is no room on this one.
-  void add(const Fitted& fitted, std::size_t unknown, double step) {
-    const Unknown& u = fitted.unknowns[unknown];
-    const double value = u.read(fitted.variant);
-    double change = step * u.scale;
-    if (step == kOneSide && value + change > u.upper) change = -change;
-    Variant variant = fitted.variant;
-    u.write(value + change, variant);
-    length.push_back(static_cast<float>((u.read(variant) - value) / u.scale));
-    to.push_back(std::move(variant));
-  }
-
-  /// Whether the model can be simulated after a step.
-  bool leads_on(std::size_t k, const std::vector<Eigen::VectorXf>& changes) const {
-    return length[k] != 0.0f && changes[k].size() > 0;
-  }
-};
 
 }  // namespace
 
@@ -159,64 +142,6 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator) {
   return unknowns;
 }
 
-void regularise(Eigen::MatrixXd& system) {
-  if (system.rows() == 0) return;
-  system.diagonal().array() += 1e-9 * (1.0 + system.diagonal().maxCoeff());
-}
-
-Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd& g,
-                                const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-  const Eigen::Index n = g.size();
-  if (n == 0) return g;
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(n).cwiseMax(lower).cwiseMin(upper);
-  std::vector<char> held(static_cast<std::size_t>(n), 0);
-  for (int sweep = 0; sweep < 50; ++sweep) {
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
-    }
-    const auto m = static_cast<Eigen::Index>(free.size());
-    Eigen::MatrixXd system(m, m);
-    Eigen::VectorXd rhs(m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const Eigen::Index r = free[static_cast<std::size_t>(i)];
-      rhs[i] = -g[r];
-      for (Eigen::Index j = 0; j < n; ++j) {
-        if (held[static_cast<std::size_t>(j)]) rhs[i] -= A(r, j) * x[j];
-      }
-      for (Eigen::Index j = 0; j < m; ++j) {
-        system(i, j) = A(r, free[static_cast<std::size_t>(j)]);
-      }
-    }
-    const Eigen::VectorXd solution = m > 0 ? system.ldlt().solve(rhs).eval() : Eigen::VectorXd();
-    bool changed = false;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const Eigen::Index r = free[static_cast<std::size_t>(i)];
-      x[r] = std::clamp(solution[i], lower[r], upper[r]);
-      if (x[r] != solution[i]) {
-        held[static_cast<std::size_t>(r)] = 1;
-        changed = true;
-      }
-    }
-    if (changed) continue;
-    // Frees the one whose gradient points inwards most.
-    const Eigen::VectorXd gradient = A * x + g;
-    Eigen::Index best = -1;
-    double strongest = 1e-9 * (1.0 + g.cwiseAbs().maxCoeff());
-    for (Eigen::Index i = 0; i < n; ++i) {
-      if (!held[static_cast<std::size_t>(i)] || lower[i] == upper[i]) continue;
-      const double inwards = x[i] <= lower[i] ? -gradient[i] : gradient[i];
-      if (inwards > strongest) {
-        strongest = inwards;
-        best = i;
-      }
-    }
-    if (best < 0) break;
-    held[static_cast<std::size_t>(best)] = 0;
-  }
-  return x;
-}
-
 ModelFit ModelFit::part(const Excerpt& excerpt) const {
   return ModelFit(evaluator_, excerpt.experiments, excerpt.of(whitener_), coarse_);
 }
@@ -275,14 +200,6 @@ Eigen::VectorXf ModelFit::residual(const Variant& variant) const {
 
 double ModelFit::cost_of(const Fitted& fitted, const Variant& variant,
                          const Eigen::VectorXf& residual) const {
-void ModelFit::renew_effects(Fitted& fitted) const {
-  std::vector<std::size_t> which;
-  for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
-    if (fitted.unknowns[i].effect >= 0) which.push_back(i);
-  }
-  survey(fitted, Slopes::kExact, which);
-}
-
   Fitted other;
   other.variant = variant;
   other.unknowns = fitted.unknowns;
@@ -291,49 +208,37 @@ void ModelFit::renew_effects(Fitted& fitted) const {
 }
 
 void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
-  Steps steps;
-  for (std::size_t i = from; i < fitted.unknowns.size(); ++i) steps.add(fitted, i, kOneSide);
-  const auto changes = exact_changes(fitted.residual, steps.to);
+  SlopeSteps steps(fitted);
+  for (std::size_t i = from; i < fitted.unknowns.size(); ++i) steps.add_one_side(i, kOneSide);
+  const auto changes = exact_changes(fitted.residual, steps.variants());
   fitted.sensitivity.conservativeResize(fitted.residual.size(),
                                         static_cast<Eigen::Index>(fitted.unknowns.size()));
-  for (std::size_t k = 0; k < changes.size(); ++k) {
-    auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(from + k));
-    column.setZero();
-    if (steps.leads_on(k, changes)) column = changes[k] / steps.length[k];
-  }
+  steps.take_slopes(changes, fitted);
 }
 
 void ModelFit::survey(Fitted& fitted, Slopes slopes, const std::vector<std::size_t>& which) const {
   if (which.empty()) return;
-  const std::size_t n = which.size();
-  const bool both = slopes != Slopes::kOneSide;
-  Steps steps;
-  const auto to_both = [&](std::size_t i) {
-    return fitted.unknowns[i].effect < 0 ? kBothSides : kBothSidesOfEffect;
-  };
-  for (const std::size_t i : which) steps.add(fitted, i, both ? to_both(i) : kOneSide);
-  if (both) {
-    for (const std::size_t i : which) steps.add(fitted, i, -to_both(i));
-  }
-  const auto changes = slopes == Slopes::kExact
-                           ? exact_changes(fitted.residual, steps.to)
-                           : this->changes(fitted.variant, fitted.residual, steps.to);
-  for (std::size_t w = 0; w < n; ++w) {
-    auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(which[w]));
-    column.setZero();
-    float length = 0.0f;
-    for (std::size_t k = w; k < changes.size(); k += n) {
-      if (!steps.leads_on(k, changes)) continue;
-      const float sign = steps.length[k] > 0.0f ? 1.0f : -1.0f;
-      column += sign * changes[k];
-      length += std::abs(steps.length[k]);
+  fitted.bends.resize(fitted.unknowns.size());
+  SlopeSteps steps(fitted);
+  for (const std::size_t i : which) {
+    const double step = fitted.unknowns[i].effect < 0 ? kBothSides : kBothSidesOfEffect;
+    if (slopes == Slopes::kOneSide) {
+      steps.add_one_side(i, kOneSide);
+    } else if (fitted.bends[i] && slopes != Slopes::kExactToBothSides) {
+      steps.add_one_side(i, step);
+    } else {
+      steps.add_both_sides(i, step);
     }
-    if (length > 0.0f) column /= length;
   }
+  const auto changes = is_exact(slopes)
+                           ? exact_changes(fitted.residual, steps.variants())
+                           : this->changes(fitted.variant, fitted.residual, steps.variants());
+  steps.take_slopes(changes, fitted);
 }
 
-Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) const {
+Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns, Bends bends) const {
   Fitted fitted;
+  fitted.bends = std::move(bends);
   fitted.variant = variant;
   fitted.unknowns = std::move(unknowns);
   fitted.residual = residual(variant);
@@ -342,7 +247,6 @@ Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) co
   }
   fitted.sensitivity.resize(fitted.residual.size(),
                             static_cast<Eigen::Index>(fitted.unknowns.size()));
-  std::size_t lightest = 0;  // of the ways that may lead on
   survey(fitted, Slopes::kOneSide, all_of(fitted));
   fitted.cost = cost_of(fitted, variant, fitted.residual);
   return fitted;
@@ -371,6 +275,14 @@ bool ModelFit::move(Fitted& fitted, const Variant& variant) const {
   return true;
 }
 
+void ModelFit::renew_effects(Fitted& fitted) const {
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
+    if (fitted.unknowns[i].effect >= 0) which.push_back(i);
+  }
+  survey(fitted, Slopes::kExact, which);
+}
+
 void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes,
                       std::optional<Surveyed>* before) const {
   for (Unknown& u : fitted.unknowns) {
@@ -388,7 +300,7 @@ void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes,
     for (const std::size_t i : which) (*before)->at[i] = fitted.unknowns[i].read(fitted.variant);
   }
   const Eigen::VectorXd start = fitted.scaled();
-  improve(fitted, iterations, slopes == Slopes::kExact ? kFinished : kPolished);
+  improve(fitted, iterations, is_exact(slopes) ? kFinished : kPolished);
   stride(fitted, fitted.scaled() - start);
 }
 
@@ -422,6 +334,7 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough, double riv
   while (first_effect < fitted.unknowns.size() && fitted.unknowns[first_effect].nuisance >= 0) {
     ++first_effect;
   }
+  std::size_t lightest = 0;  // of the ways that may lead on
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const Eigen::MatrixXd information =
         (fitted.sensitivity.transpose() * fitted.sensitivity).cast<double>();

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <string>
 
+#include "anthrob_calib/discovery/fit/bounded_minimum.h"
+
 namespace anthrob {
 namespace discovery {
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "anthrob_calib/discovery/fit/bounded_minimum.h"
 #include "anthrob_calib/discovery/fit/phase.h"
 
 namespace anthrob {

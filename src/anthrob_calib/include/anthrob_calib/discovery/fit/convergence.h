@@ -41,7 +41,7 @@ class Convergence {
   /// @return whether further rounds might bring the cost to the rival's
   bool converge(Fitted& fitted, double rival = HUGE_VAL) const;
   bool clearly_misses(const Fitted& fitted) const;
-  Fitted rough(const Variant& variant, std::vector<Unknown> unknowns) const;
+  Fitted rough(const Variant& variant, std::vector<Unknown> unknowns, Bends bends = {}) const;
   std::optional<Fitted> roughly_from_given(const Fitted& fitted) const;
   /// @return whether that was better
   bool begin_anew(Fitted& fitted) const;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -38,6 +39,10 @@ class NotSimulated : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Of each ordinary parameter along which the residual bends smoothly: half its second derivative,
+/// in units of the scale. Null or missing if not known.
+using Bends = std::vector<std::shared_ptr<const Eigen::VectorXf>>;
+
 /// A variant of the model, its free numbers, and how well it fits.
 struct Fitted {
   Variant variant;
@@ -46,6 +51,7 @@ struct Fitted {
   Eigen::MatrixXf sensitivity;  ///< of the residual to the unknowns, each in units of its scale:
                                 ///< size of residual x unknowns
   double cost = 0.0;            ///< half the sum of squares, expectations included
+  Bends bends;                  ///< of the residual, found on the way
 
   Eigen::VectorXd scaled() const;      ///< the unknowns' values in units of their scales
   Eigen::VectorXd expected() const;    ///< their expected values, in the same units
@@ -73,8 +79,9 @@ class ModelFit {
         coarse_(coarse) {}
 
   /// Starts from a variant and its unknowns, and simulates all sensitivities.
+  /// @param bends as other fits of these ordinary parameters have found them
   /// @throws NotSimulated
-  Fitted start(const Variant& variant, std::vector<Unknown> unknowns) const;
+  Fitted start(const Variant& variant, std::vector<Unknown> unknowns, Bends bends = {}) const;
   /// Iterates until nothing is gained any more.
   /// @param enough stops at a smaller relative reduction of the cost
   /// @param rival the cost of another fit: stops when the iterations left would not reach it, if
@@ -85,9 +92,10 @@ class ModelFit {
   bool move(Fitted& fitted, const Variant& variant) const;
   /// How sensitivities are simulated: by a change to one side, good enough for the first steps; by
   /// changes to both sides, because friction that sticks a little earlier or later makes the cost
-  /// rugged; or by changes to both sides with the usual step, which avoids the error of the coarse
-  /// step.
-  enum class Slopes { kOneSide, kBothSides, kExact };
+  /// rugged; or so with the usual step, which avoids the error of the coarse step. Where changes to
+  /// both sides have shown a smooth bend, it is taken off, and one side is enough from then on,
+  /// unless what is left is so large that all slopes matter to the last.
+  enum class Slopes { kOneSide, kBothSides, kExact, kExactToBothSides };
   /// What earlier rounds of polish() have simulated.
   struct Surveyed {
     Slopes slopes;
@@ -98,6 +106,8 @@ class ModelFit {
   /// sensitivities to ordinary parameters that have hardly moved since are good enough. Is updated
   void polish(Fitted& fitted, int iterations, Slopes slopes = Slopes::kBothSides,
               std::optional<Surveyed>* before = nullptr) const;
+  /// Simulates the sensitivities to effects again, by exact slopes.
+  void renew_effects(Fitted& fitted) const;
   /// The same fit with more unknowns, whose sensitivities are simulated.
   /// @throws NotSimulated
   Fitted extend(const Fitted& fitted, const Variant& variant,
@@ -106,8 +116,6 @@ class ModelFit {
   /// The same on a part of the recordings.
   ModelFit part(const Excerpt& excerpt) const;
   /// The same with every residual multiplied by a factor.
-  /// Simulates the sensitivities to effects again, by exact slopes.
-  void renew_effects(Fitted& fitted) const;
   ModelFit weighted(const Eigen::VectorXf& factor) const;
 
   Eigen::VectorXf residual(const Variant& variant) const;  ///< empty if it cannot be simulated
@@ -153,14 +161,6 @@ class ModelFit {
   Eigen::VectorXf whitener_;
   double coarse_;
 };
-
-/// Adds a small part of the largest diagonal element to the diagonal, so that unknowns on which
-/// nothing depends have a solution.
-void regularise(Eigen::MatrixXd& system);
-
-/// Minimises 1/2 x' A x + g' x within bounds (projected active set).
-Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd& g,
-                                const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
 }  // namespace discovery
 }  // namespace anthrob
