@@ -11,18 +11,14 @@ constexpr double kRise = 1.92;    ///< [nat]
 constexpr double kExact = 1e-3;   ///< [range]
 constexpr double kNothing = 1.0;  ///< [standard deviations] over the whole range
 
-/// Without expectations, which no recording shows.
-double misfit(const Fitted& fitted) {
-  return 0.5 * fitted.residual.cast<double>().squaredNorm();
-}
-
-/// Where the misfit has risen between the fit and a bound; the bound if it does not.
+/// Where the misfit has risen between the fit and a bound; the bound if it does not. Expectations,
+/// which no recording shows, do not count.
 double edge(const ModelFit& fit, const Fitted& fitted, const Unknown& unknown, double bound) {
   const auto stays = [&](double value) {
     Fitted moved = fitted;
     Variant variant = fitted.variant;
     unknown.write(value, variant);
-    return fit.move(moved, variant) && misfit(moved) - misfit(fitted) < kRise;
+    return fit.move(moved, variant) && moved.misfit() - fitted.misfit() < kRise;
   };
   if (stays(bound)) return bound;
   double inside = unknown.read(fitted.variant), outside = bound;

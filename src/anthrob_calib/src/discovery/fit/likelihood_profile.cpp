@@ -16,10 +16,6 @@ void fit_on(const ModelFit& fit, Fitted& fitted) {
   fit.improve(fitted, kIterations, kTelling / (kTelling + fitted.cost));
 }
 
-double misfit(const Fitted& fitted) {
-  return 0.5 * fitted.residual.cast<double>().squaredNorm();
-}
-
 }  // namespace
 
 LikelihoodProfile::LikelihoodProfile(const ModelFit& fit, Fitted base)
@@ -43,7 +39,7 @@ std::optional<double> LikelihoodProfile::rise(const Candidate& candidate, std::s
     variant.effects.push_back(candidate.sized(amount));
     if (!fit_.move(fitted, variant)) return std::nullopt;
     fit_on(fit_, fitted);
-    mean += 0.5 * (misfit(fitted) - misfit(base_));
+    mean += 0.5 * (fitted.misfit() - base_.misfit());
   }
   return mean;
 }

@@ -74,6 +74,10 @@ void Unknown::write(double value, Variant& variant) const {
   }
 }
 
+double Fitted::misfit() const {
+  return 0.5 * residual.cast<double>().squaredNorm();
+}
+
 Eigen::VectorXd Fitted::scaled() const {
   Eigen::VectorXd x(static_cast<Eigen::Index>(unknowns.size()));
   for (std::size_t i = 0; i < unknowns.size(); ++i) {

@@ -53,6 +53,7 @@ struct Fitted {
   double cost = 0.0;            ///< half the sum of squares, expectations included
   Bends bends;                  ///< of the residual, found on the way
 
+  double misfit() const;               ///< half the sum of squares, without expectations
   Eigen::VectorXd scaled() const;      ///< the unknowns' values in units of their scales
   Eigen::VectorXd expected() const;    ///< their expected values, in the same units
   Eigen::VectorXd lower_room() const;  ///< distances to their lower bounds, <= 0, in the same units
