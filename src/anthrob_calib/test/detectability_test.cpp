@@ -70,8 +70,9 @@ struct TiltProblem {
     }
   }
 
-  double rise(double doses) const {
-    return LikelihoodProfile(fit, base).rise(candidates.at(0), 0, doses).value_or(HUGE_VAL);
+  double rise(double doses, double needed = 1.0) const {
+    const LikelihoodProfile profile(fit, base);
+    return profile.rise(candidates.at(0), 0, doses, needed).value_or(HUGE_VAL);
   }
   /// Of a tilt about x [rad], and in which list it is.
   std::pair<double, bool> smallest_visible() const {
@@ -106,6 +107,20 @@ TEST(LikelihoodProfile, IsWhatOrdinaryParametersCannotTakeUp) {
 TEST(LikelihoodProfile, ComparesWithTheCoarseStepWhereThereIsOne) {
   const double usual = TiltProblem(0.5).rise(1.0);
   EXPECT_NEAR(TiltProblem(0.5, 0.0, 0.0, 2.0 * kStep).rise(1.0), usual, 0.01 * usual);
+}
+
+TEST(LikelihoodProfile, EndsWhereIterationsDecideNothing) {
+  const TiltProblem problem(10.0, 0.0, 300.0);
+  const auto simulated = [&](double needed, double& rise) {
+    const auto before = problem.evaluator.simulated();
+    rise = problem.rise(1.0, needed);
+    return problem.evaluator.simulated() - before;
+  };
+  double exact = 0.0, rough = 0.0;
+  const auto all = simulated(1.0, exact);
+  EXPECT_LT(simulated(exact, rough), all);
+  EXPECT_GE(rough, exact);
+  EXPECT_NEAR(rough, exact, 0.05 * exact);
 }
 
 TEST(Detectability, WhatIsImitatedNotLinearlyMustBeLarger) {

@@ -1,5 +1,6 @@
 #include "anthrob_calib/discovery/fit/likelihood_profile.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -8,13 +9,11 @@ namespace discovery {
 
 namespace {
 
-constexpr int kIterations = 5;     ///< with the sensitivities of the fit without the effect
-constexpr double kTelling = 10.0;  ///< [nat] a smaller gain of an iteration decides nothing
+constexpr int kIterations = 5;  ///< with the sensitivities of the fit without the effect
+/// The smallest gain of an iteration that may matter.
+constexpr double kLeast = 10.0;    // [nat]
+constexpr double kOfARise = 0.05;  // of the rise that is asked for
 constexpr double kSides[] = {-1.0, 1.0};
-
-void fit_on(const ModelFit& fit, Fitted& fitted) {
-  fit.improve(fitted, kIterations, kTelling / (kTelling + fitted.cost));
-}
 
 }  // namespace
 
@@ -25,11 +24,13 @@ LikelihoodProfile::LikelihoodProfile(const ModelFit& fit, Fitted base)
     coarse.step = fit_.coarse_step();
     fit_.move(base_, coarse);  // unless the coarse step cannot simulate it
   }
-  fit_on(fit_, base_);
+  fit_.improve(base_, kIterations, kLeast / (kLeast + base_.cost));
 }
 
 std::optional<double> LikelihoodProfile::rise(const Candidate& candidate, std::size_t size,
-                                              double doses) const {
+                                              double doses, double needed) const {
+  const double telling = std::max(kLeast, kOfARise * needed);
+  const double enough = telling / (telling + base_.cost + needed);
   double mean = 0.0;
   for (const double side : kSides) {
     std::vector<double> amount(candidate.sizes().size(), 0.0);
@@ -38,7 +39,7 @@ std::optional<double> LikelihoodProfile::rise(const Candidate& candidate, std::s
     Variant variant = base_.variant;
     variant.effects.push_back(candidate.sized(amount));
     if (!fit_.move(fitted, variant)) return std::nullopt;
-    fit_on(fit_, fitted);
+    fit_.improve(fitted, kIterations, enough);
     mean += 0.5 * (fitted.misfit() - base_.misfit());
   }
   return mean;

@@ -97,7 +97,7 @@ double Detectability::checked(const LikelihoodProfile& profile, const Score& sco
   const double needed =
       0.5 * deviations * deviations * total_duration(fit_.experiments()) / score.seconds;
   for (int round = 0; round < kRounds && is_met(score, doses); ++round) {
-    const auto rise = profile.rise(candidates_[score.candidate], score.size, doses);
+    const auto rise = profile.rise(candidates_[score.candidate], score.size, doses, needed);
     if (!rise || *rise <= 0.0) return HUGE_VAL;
     if (*rise > kEnough * needed) return doses;
     doses *= std::sqrt(needed / *rise);

@@ -21,9 +21,12 @@ class LikelihoodProfile {
   /// Returns the mean for the size to either side of neutral, because an effect that is really
   /// there makes one side worse and the other better.
   /// @param size index among the candidate's   @param doses how far from neutral
+  /// @param needed rise that is asked for [nat]; iterations end where they change less than a
+  /// twentieth of it
   /// @return the rise of half the sum of squares [nat], without the cost of moving ordinary
   /// parameters from where they are expected; nothing if one side cannot be simulated
-  std::optional<double> rise(const Candidate& candidate, std::size_t size, double doses) const;
+  std::optional<double> rise(const Candidate& candidate, std::size_t size, double doses,
+                             double needed) const;
 
  private:
   const ModelFit& fit_;
