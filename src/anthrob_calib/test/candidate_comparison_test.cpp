@@ -296,6 +296,21 @@ TEST(Convergence, WhatLagsBehindIsNotFinished) {
   EXPECT_GT(finish_from_far(3.0, 1.0, 2.0, true), lost);  // near where it stood
 }
 
+TEST(Convergence, AFitFromTheGivenParametersEndsWhereItFallsBehind) {
+  // The valley where parameters are given has a curved ground, so that it takes several rounds.
+  const auto simulated = [](double left) {
+    const Problem problem([left](double, double shoulder, double) {
+      if (shoulder < 0.5) return left + 100.0 * (shoulder - 0.35) * (shoulder - 0.35);
+      return 1.0 + 50.0 * std::abs(shoulder - 0.7);
+    });
+    const Fitted begin = problem.fitted(0.7);
+    const std::size_t before = problem.evaluator.simulated();
+    EXPECT_LE(problem.convergence.to_the_end(begin).cost, begin.cost);
+    return problem.evaluator.simulated() - before;
+  };
+  EXPECT_LT(simulated(1.04), simulated(1.02));
+}
+
 /// Dry friction of the elbow is what is missing, and where the shoulder's damping is right it says
 /// all 6. In another valley, where that has gone astray, it says less, and more damping of the
 /// elbow says something.

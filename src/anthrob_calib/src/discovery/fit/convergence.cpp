@@ -21,6 +21,8 @@ constexpr int kFinishing = 5;       ///< rounds of exact slopes
 constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
 constexpr double kRoughlySettled = 0.01;
 constexpr double kHopeless = 4.0 / 3.0;  ///< times what rough steps should reach
+/// Times the cost of a fit from elsewhere: one begun anew that is still above it does not pass it.
+constexpr double kFallsBehind = 1.02;
 /// Multiples of the sizes of effects from which a fit that clearly misses is begun anew.
 constexpr double kOtherSizes[] = {0.6, 0.8, 1.0, 1.25, 1.6};
 
@@ -55,7 +57,7 @@ double Convergence::left_open(const Fitted& fitted) const {
 
 /// Polishes as long as that reduces the cost. If an effect is clearly missing, the last steps of
 /// the model without it are not worth their time.
-bool Convergence::converge(Fitted& fitted, double rival) const {
+bool Convergence::converge(Fitted& fitted, double rival, double level) const {
   std::optional<ModelFit::Surveyed> surveyed;
   for (int k = 0; k < kSurveys; ++k) {
     const bool clear = clearly_misses(fitted);
@@ -63,7 +65,7 @@ bool Convergence::converge(Fitted& fitted, double rival) const {
     fit_.polish(fitted, kPolish, clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides,
                 &surveyed);
     const double gain = before - fitted.cost;
-    if (!might_reach(rival, fitted, gain)) return false;
+    if (fitted.cost > level || !might_reach(rival, fitted, gain)) return false;
     if (gain < (clear ? kRoughlySettled : kSettled) * before) break;
   }
   return true;
@@ -100,7 +102,7 @@ std::optional<Fitted> Convergence::to_the_end_within_reach(const Fitted& fitted,
                                                            double rival) const {
   std::optional<Fitted> best = roughly_from_given(fitted);
   if (std::min(fitted.cost, best ? best->cost : HUGE_VAL) > level) return std::nullopt;
-  bool near = best && converge(*best, rival);
+  bool near = best && converge(*best, rival, kFallsBehind * fitted.cost);
   if (!best || best->cost >= fitted.cost) {
     best = fitted;
     near = converge(*best, rival);

@@ -21,7 +21,9 @@ class Convergence {
   Fitted converged(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// Fits to the end, also once more from the given parameters: what was missing has led the
   /// ordinary parameters astray, and friction does not let them all find back; and from another
-  /// size of the effects, if that clearly misses and another size does better. @return the best fit
+  /// size of the effects, if that clearly misses and another size does better. A fit from the given
+  /// parameters ends early where its first round with better sensitivities leaves it behind.
+  /// @return the best fit
   Fitted to_the_end(const Fitted& fitted) const;
   /// The same for a fit that is compared with another one. Rounds end early when they gain so
   /// little that all the rounds there are would not bring it to the other's cost.
@@ -38,8 +40,8 @@ class Convergence {
   double left_open(const Fitted& fitted) const;
 
  private:
-  /// @return whether further rounds might bring the cost to the rival's
-  bool converge(Fitted& fitted, double rival = HUGE_VAL) const;
+  /// @return whether the cost came below a level, and further rounds might bring it to the rival's
+  bool converge(Fitted& fitted, double rival = HUGE_VAL, double level = HUGE_VAL) const;
   bool clearly_misses(const Fitted& fitted) const;
   Fitted rough(const Variant& variant, std::vector<Unknown> unknowns, Bends bends = {}) const;
   std::optional<Fitted> roughly_from_given(const Fitted& fitted) const;
