@@ -117,6 +117,37 @@ TEST_F(OneTarget, NeedsThreeMarkersOffOneLine) {
   EXPECT_FALSE(line.estimate(0, see(X, {0, 1, 2}, 0.03), points_).valid);
 }
 
+TEST_F(OneTarget, MarkersExactlyOnALineMakeNoPose) {
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 along(normal(random_), normal(random_), normal(random_));
+    for (const int k : {0, 1, 2})
+      target_.markers[static_cast<std::size_t>(k)] = 0.03 * (k + 1) * along;
+    target_.markers[2] += 0.03 * along;
+    const PoseEstimator line(rig_, {target_}, options_);
+    const Labelling seen = see(test::rest_poses()[0], {0, 1, 2}, i % 2 == 0 ? 0.0 : 0.03);
+    EXPECT_FALSE(line.estimate(0, seen, points_).valid) << i;
+  }
+}
+
+TEST_F(OneTarget, IsAsSureOfTheTurnAboutAnyAxisAsItMustBe) {
+  // All but on a line, whose direction differs; the turn about it is the one that is not known.
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 along = Vec3(normal(random_), normal(random_), normal(random_)).normalized();
+    const Vec3 across = along.unitOrthogonal();
+    target_.markers[0] = Vec3::Zero();
+    target_.markers[1] = 0.04 * along + 0.001 * across;
+    target_.markers[2] = 0.10 * along;
+    const TargetPose pose = PoseEstimator(rig_, {target_}, options_)
+                                .estimate(0, see(test::rest_poses()[0], {0, 1, 2}, 0.03), points_);
+    const Mat3 turn = pose.covariance.bottomRightCorner<3, 3>();
+    const Vec3 axis = pose.X.R * along;
+    const double sigma = std::sqrt(axis.dot(turn * axis));
+    EXPECT_EQ(pose.valid, sigma <= options_.max_turn_sigma * 1.01) << sigma;
+  }
+}
+
 TargetPose valid_pose(const Mat3& R) {
   TargetPose pose;
   pose.valid = true;

@@ -1,6 +1,7 @@
 #include "anthrob_mocap/pose/pose_estimator.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace anthrob {
@@ -14,6 +15,9 @@ using Row6 = Eigen::Matrix<double, 2, 6>;
 constexpr double kPriorFreedom = 6.0;  // weight of the assumed pixel noise, in residuals
 constexpr int kSteps = 2;              // the closed form starts within a tenth of a millimetre
 constexpr double kSuspicious = 2.0;    // times the believed noise: look for a marker that is off
+/// Smallest share of the largest eigenvalue of the normal equations. That of three markers on a
+/// line is zero but for rounding; the covariance would be, too.
+constexpr double kSingular = 1e-12;
 
 /// Change of a rectified pixel with (p, turn) of the target, q = turn x R m + p in a camera.
 Row6 jacobian(double focal, const Vec3& q, const Vec3& Rm) {
@@ -25,6 +29,12 @@ Row6 jacobian(double focal, const Vec3& q, const Vec3& Rm) {
   Row6 J;
   J << projection, projection * minus_cross;
   return J;
+}
+
+bool is_singular(const Mat6& H) {
+  const Eigen::SelfAdjointEigenSolver<Mat6> solver(H, Eigen::EigenvaluesOnly);
+  const Vec6 values = solver.eigenvalues();  // in increasing order
+  return solver.info() != Eigen::Success || !(values[0] > kSingular * values[5]);
 }
 
 }  // namespace
@@ -108,10 +118,11 @@ void PoseEstimator::describe(const Observations& markers, const Normal& normal,
   const double believed = std::pow(options_.pixel_noise * rig_.zoom(), 2);
   const double freedom = 4.0 * pose.markers - 6.0;
   const double variance = (kPriorFreedom * believed + normal.squares) / (kPriorFreedom + freedom);
+  if (!pose.X.p.allFinite() || !pose.X.R.allFinite() || is_singular(normal.H)) return;
   pose.covariance = variance * normal.H.ldlt().solve(Mat6::Identity());
-  const double turn_variance = pose.covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-  pose.valid = pose.X.p.allFinite() && pose.X.R.allFinite() &&
-               turn_variance <= options_.max_turn_sigma * options_.max_turn_sigma;
+  const Eigen::SelfAdjointEigenSolver<Mat3> turn(pose.covariance.bottomRightCorner<3, 3>(),
+                                                 Eigen::EigenvaluesOnly);
+  pose.valid = turn.eigenvalues().maxCoeff() <= std::pow(options_.max_turn_sigma, 2);
 }
 
 }  // namespace mocap

@@ -10,7 +10,7 @@ namespace mocap {
 
 struct PoseOptions {
   double pixel_noise = 0.03;     ///< [pixel] of a centroid, believed before residuals are seen
-  double max_turn_sigma = 0.02;  ///< [rad] a pose less sure of its rotation is withheld
+  double max_turn_sigma = 0.02;  ///< [rad] about any axis; poses less sure are withheld
 };
 
 /// Pose of a target in the rectified left frame.
