@@ -315,20 +315,42 @@ TEST(Health, PicturesThatWereCutDoNotHideSwappedOnes) {
   EXPECT_NE(health.contradiction().find("swapped"), std::string::npos);
 }
 
-TEST(Health, CountsPixelsOfTheCamerasNotOfRectifiedImages) {
+/// @param zoom times that of the plain rig   @param tilt of the right camera [rad]
+std::string judged(double zoom, double tilt) {
   const StereoRig rig = make_rig();
   CameraModel cameras[2] = {rig.camera(kLeft), rig.camera(kRight)};
-  for (CameraModel& camera : cameras) camera.P.topRows(2) *= 2.0;
-  const StereoRig enlarged(cameras[0], cameras[1]);
-  ASSERT_NEAR(enlarged.zoom(), 2.0 * rig.zoom(), 1e-9);
+  for (CameraModel& camera : cameras) camera.P.topRows(2) *= zoom;
+  const StereoRig believed(cameras[0], cameras[1]);
+  EXPECT_NEAR(believed.zoom(), zoom * rig.zoom(), 1e-9);
+  const Pose X = test::rest_poses()[0];
+  const MarkerTarget target = make_targets().targets[0];
+  std::vector<MarkerPoint> points;
+  PointPairs pairs;
+  Labelling seen;
+  for (const Vec3& marker : target.markers) {
+    const Vec3 p = X * marker, tilted = exp_rotation({tilt, 0.0, 0.0}) * p;
+    MarkerPoint point;
+    point.image[kLeft] = believed.rectify(kLeft, rig.project(kLeft, p));
+    point.image[kRight] = believed.rectify(kRight, rig.project(kRight, tilted));
+    point.p = believed.triangulate(point.image[kLeft], point.image[kRight]);
+    seen.point.push_back(static_cast<int>(points.size()));
+    pairs.add(marker, point.p);
+    points.push_back(point);
+  }
+  seen.count = static_cast<int>(points.size());
+  seen.fit = fit_rigid(pairs);
   StereoFrame frame;
-  frame.targets.resize(1);
-  frame.targets[0].valid = true;
-  frame.targets[0].pixel_rms = 0.3 * rig.zoom();
-  Health plain(rig, {}), larger(enlarged, {});
-  for (int i = 0; i < 5; ++i) plain.add(frame), larger.add(frame);
-  EXPECT_NE(plain.bend(), "");
-  EXPECT_EQ(larger.bend(), "");
+  frame.targets = {PoseEstimator(believed, {target}, {}).estimate(0, seen, points)};
+  Health health(believed, {});
+  for (int i = 0; i < 5; ++i) health.add(frame);
+  return health.bend();
+}
+
+TEST(Health, JudgesABentRigAlikeAtAnyZoom) {
+  for (const double zoom : {0.5, 1.0, 2.0}) {
+    EXPECT_EQ(judged(zoom, 1e-4), "") << zoom;
+    EXPECT_NE(judged(zoom, 3e-4), "") << zoom;
+  }
 }
 
 TEST(Health, KnowsJointsWhosePicturesAreTooRare) {

@@ -11,7 +11,7 @@ namespace mocap {
 namespace {
 
 constexpr int kRare = 3;  // sightings in a row without a velocity before a joint is reported
-// Limits in pixels of the cameras; those of rectified images are larger by StereoRig::zoom().
+// Limits in pixels of the cameras, as TargetPose has them.
 constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not moved stays below
 // [pixel] root mean square. Centroids that scatter by 0.1 pixels, three times what PoseOptions
 // believes, give 0.09. A right camera turned by 3 mrad gives 0.4 to 0.5, a target that turns at
@@ -119,12 +119,12 @@ double Health::worst(double Squares::*sum) const {
 }
 
 std::string Health::uneven_rows() const {
-  if (std::abs(row_error()) > kLargestRowError * rig_.zoom()) {
+  if (std::abs(row_error()) > kLargestRowError) {
     return format("rows of left and right differ by %.3f pixels: recalibrate the cameras",
                   row_error());
   }
   const double rms = worst(&Squares::row_error);
-  if (rms <= kLargestRms * rig_.zoom()) return "";
+  if (rms <= kLargestRms) return "";
   return format(
       "rows of left and right differ by %.3f pixels rms: the rig has been bent, or the pair is not "
       "synchronised",
@@ -135,7 +135,7 @@ std::string Health::bend() const {
   const std::string rows = uneven_rows();
   if (!rows.empty()) return rows;
   const double rms = worst(&Squares::pixel_rms);
-  if (rms <= kLargestRms * rig_.zoom()) return "";
+  if (rms <= kLargestRms) return "";
   return format(
       "markers are %.3f pixels rms off their target: the rig has been bent, the pair is not "
       "synchronised, or the target is not calibrated",
