@@ -21,9 +21,12 @@ using test::make_rig;
 const Board kBoard{9, 6, 0.025};
 
 /// A board held all over the view of a rig, corners with noise.
-std::vector<BoardView> simulate(const StereoRig& rig, int count, double noise) {
+/// @param most_turn about each axis [rad]
+std::vector<BoardView> simulate(const StereoRig& rig, int count, double noise,
+                                double most_turn = 0.5) {
   std::mt19937_64 random(9);
-  std::uniform_real_distribution<double> x(-0.12, 0.4), y(-0.2, 0.2), z(0.7, 1.3), turn(-0.5, 0.5);
+  std::uniform_real_distribution<double> x(-0.12, 0.4), y(-0.2, 0.2), z(0.7, 1.3),
+      turn(-most_turn, most_turn);
   std::normal_distribution<double> pixel(0.0, noise);
   std::vector<BoardView> views;
   while (static_cast<int>(views.size()) < count) {
@@ -102,6 +105,15 @@ TEST(StereoCalibration, RefusesWhatCannotBeTrusted) {
   CalibrationLimits limits;
   limits.least_coverage = 0.999;
   expect_bad_input([&] { calibrate_stereo(good, kBoard, 648, 488, limits); }, "covers");
+}
+
+TEST(StereoCalibration, RefusesBoardsThatAreParallelToThePicture) {
+  // Their residuals are as good as any, but the focal length is anything.
+  expect_bad_input([] { calibrate(simulate(make_rig(), 16, 0.1, 0.02)); },
+                   "degrees rms: expected at least 10; tilt it by 20 to 40 degrees");
+  const StereoCalibration tilted = calibrate(simulate(make_rig(), 16, 0.1, 0.35));
+  EXPECT_NEAR(tilted.tilt, 0.28, 0.05);
+  EXPECT_NEAR(tilted.rig.camera(kLeft).fx, 1071.0, 5.0);
 }
 
 TEST(Board, IsChecked) {

@@ -15,6 +15,7 @@ namespace mocap {
 namespace {
 
 constexpr int kGridColumns = 8, kGridRows = 6;
+constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kOutlier = 3.0;  // times the median error of views
 
 using Points2 = std::vector<std::vector<cv::Point2f>>;
@@ -26,6 +27,8 @@ struct Problem {
   Points3 board;
   Points2 corners[2];
   cv::Mat K[2], D[2], R, t, view_errors;
+  double camera_rms[2] = {0, 0};  ///< [pixel]
+  double tilt[2] = {0, 0};        ///< [rad] root mean square over the views
 };
 
 Problem make_problem(const std::vector<BoardView>& views, const Board& board, int width,
@@ -49,12 +52,24 @@ Problem make_problem(const std::vector<BoardView>& views, const Board& board, in
   return problem;
 }
 
+/// @param turns of the board in the camera   @return root mean square of its tilt [rad]
+double tilt_of(const std::vector<cv::Mat>& turns) {
+  double squares = 0.0;
+  for (const cv::Mat& turn : turns) {
+    cv::Mat R;
+    cv::Rodrigues(turn, R);
+    squares += std::pow(std::acos(std::min(1.0, std::abs(R.at<double>(2, 2)))), 2);
+  }
+  return std::sqrt(squares / static_cast<double>(turns.size()));
+}
+
 /// @return stereo reprojection error [pixel]
-double solve(Problem& p, double camera_rms[2]) {
+double solve(Problem& p) {
   for (const Side side : {kLeft, kRight}) {
     std::vector<cv::Mat> rvecs, tvecs;
-    camera_rms[side] = cv::calibrateCamera(p.board, p.corners[side], p.size, p.K[side], p.D[side],
-                                           rvecs, tvecs, cv::CALIB_FIX_K3);
+    p.camera_rms[side] = cv::calibrateCamera(p.board, p.corners[side], p.size, p.K[side], p.D[side],
+                                             rvecs, tvecs, cv::CALIB_FIX_K3);
+    p.tilt[side] = tilt_of(rvecs);
   }
   cv::Mat E, F;
   return cv::stereoCalibrate(p.board, p.corners[kLeft], p.corners[kRight], p.K[kLeft], p.D[kLeft],
@@ -139,6 +154,13 @@ std::string text(double value, int digits) {
 }
 
 void check_limits(const StereoCalibration& result, const CalibrationLimits& limits) {
+  // Of boards parallel to the picture, a longer lens and a larger distance look the same: all
+  // residuals are small then, and depths wrong.
+  if (!(result.tilt >= limits.least_tilt)) {
+    throw BadInput("calibration: the board is tilted by " + text(result.tilt * kDegrees, 1) +
+                   " degrees rms: expected at least " + text(limits.least_tilt * kDegrees, 0) +
+                   "; tilt it by 20 to 40 degrees in different directions, and vary its distance");
+  }
   if (!(result.stereo_rms <= limits.stereo_rms)) {
     throw BadInput(
         "calibration: reprojection error " + text(result.stereo_rms, 2) +
@@ -165,7 +187,7 @@ StereoCalibration calibrate_stereo(const std::vector<BoardView>& all, const Boar
   std::vector<BoardView> views = all;
   std::vector<std::string> dropped;
   Problem problem;
-  double camera_rms[2] = {0, 0}, stereo_rms = 0.0;
+  double stereo_rms = 0.0;
   do {
     if (static_cast<int>(views.size()) < limits.least_views) {
       throw BadInput("calibration: " + std::to_string(views.size()) + " usable views" +
@@ -175,7 +197,7 @@ StereoCalibration calibrate_stereo(const std::vector<BoardView>& all, const Boar
                      ": expected at least " + std::to_string(limits.least_views));
     }
     problem = make_problem(views, board, width, height);
-    stereo_rms = solve(problem, camera_rms);
+    stereo_rms = solve(problem);
   } while (drop_outliers(problem, views, dropped));
 
   Pose X_RL;
@@ -194,8 +216,9 @@ StereoCalibration calibrate_stereo(const std::vector<BoardView>& all, const Boar
   result.views = static_cast<int>(views.size());
   result.dropped = dropped;
   result.stereo_rms = stereo_rms;
+  result.tilt = std::min(problem.tilt[kLeft], problem.tilt[kRight]);
   for (const Side side : {kLeft, kRight}) {
-    result.camera_rms[side] = camera_rms[side];
+    result.camera_rms[side] = problem.camera_rms[side];
     result.coverage[side] = coverage(views, side, problem.size);
   }
   check_geometry(views, board, result);
@@ -214,6 +237,7 @@ std::string StereoCalibration::report() const {
            text(camera_rms[kLeft], 3) + ", right alone " + text(camera_rms[kRight], 3) + ")\n";
   lines += "epipolar error     " + text(epipolar_rms, 3) + " pixel rms\n";
   lines += "edges of squares   " + text(1e3 * square_rms, 3) + " mm rms error\n";
+  lines += "tilt of the board  " + text(tilt * kDegrees, 0) + " degrees rms\n";
   lines += "coverage           left " + text(100.0 * coverage[kLeft], 0) + " %, right " +
            text(100.0 * coverage[kRight], 0) + " %\n";
   lines += "baseline           " + text(1e3 * rig.baseline(), 2) + " mm\n";
