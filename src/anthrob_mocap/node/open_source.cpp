@@ -40,12 +40,14 @@ std::unique_ptr<FrameSource> open_source(
     const std::function<void(const std::string& why)>& refuse) {
   if (kind == "folder") {
     FolderSource::Options options;
-    take(settings, "rate", number_of, options.rate);
+    take(settings, "rate", positive_number_of, options.rate);
     const double tolerance = sync_tolerance(settings);
     if (tolerance > 0.0) options.sync_tolerance = tolerance;
-    return std::make_unique<FolderSource>(required(settings, "left", "a folder of images"),
-                                          required(settings, "right", "a folder of images"),
-                                          options);
+    auto folder =
+        std::make_unique<FolderSource>(required(settings, "left", "a folder of images"),
+                                       required(settings, "right", "a folder of images"), options);
+    if (!folder->assumption().empty()) ROS_WARN_STREAM("mocap: " << folder->assumption());
+    return folder;
   }
   if (kind == "bag") {
     return std::make_unique<BagSource>(

@@ -44,6 +44,13 @@ class Offline : public ::testing::Test {
     std::snprintf(text, sizeof(text), "/%06d.png", i);
     return folder_.path(side) + text;
   }
+  static std::string times_of_pairs() {
+    std::string times = "index,t\n";
+    for (int i = 0; i < kFrames; ++i) {
+      times += std::to_string(i) + "," + std::to_string(100.0 + 0.01 * i) + "\n";
+    }
+    return times;
+  }
   int run(const std::string& more = "", const std::string& left = "left",
           const std::string& right = "right") {
     const std::string command = std::string(ANTHROB_MOCAP_OFFLINE) + " --left " +
@@ -121,9 +128,7 @@ TEST_F(Offline, GivesTheSameFileThreaded) {
 }
 
 TEST_F(Offline, TakesTimesFromAFile) {
-  std::string times = "index,t\n";
-  for (int i = 0; i < kFrames; ++i)
-    times += std::to_string(i) + "," + std::to_string(100.0 + 0.01 * i) + "\n";
+  const std::string times = times_of_pairs();
   folder_.write("left/times.csv", times);
   ASSERT_EQ(run(), 0) << folder_.read("err");
   EXPECT_DOUBLE_EQ(std::stod(table()[3][0]), 100.02);
@@ -138,6 +143,21 @@ TEST_F(Offline, TakesTimesFromAFile) {
   std::filesystem::remove(folder_.path("right/times.csv"));
   folder_.write("left/times.csv", "index,t\n0,1\n");
   refuse("no time for 000001.png");
+}
+
+TEST_F(Offline, TakesTheTimesBesideEitherFolder) {
+  const std::string times = times_of_pairs();
+  ASSERT_EQ(run(), 0);
+  EXPECT_NE(folder_.read("err").find("no times.csv: taken to be 60 pairs a second"),
+            std::string::npos);
+  folder_.folder("other");
+  std::filesystem::rename(folder_.path("right"), folder_.path("other/right"));
+  folder_.write("other/times.csv", times);
+  ASSERT_EQ(run("", "left", "other/right"), 0) << folder_.read("err");
+  EXPECT_EQ(folder_.read("err"), "");
+  EXPECT_DOUBLE_EQ(std::stod(table()[3][0]), 100.02);
+  folder_.write("times.csv", test::replaced(times, "100.030000", "100.045000"));
+  refuse("other/times.csv: index 3: unsynchronised pair", "left", "other/right");
 }
 
 TEST_F(Offline, RefusesTimesThatAreNone) {
@@ -213,6 +233,7 @@ TEST_F(Offline, RefusesWhatDoesNotBelongTogether) {
 }
 
 TEST_F(Offline, WarnsOfARigThatWasBentALittle) {
+  folder_.write("times.csv", times_of_pairs());
   ASSERT_EQ(run(), 0);
   EXPECT_EQ(folder_.read("err"), "");
   const std::string out = folder_.read("out");

@@ -80,6 +80,7 @@ int track(const Arguments& arguments) {
   }
   out.move_into_place();
   report.print(health);
+  if (!source.assumption().empty()) std::cerr << "note: " << source.assumption() << "\n";
   if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
   if (health.given_up() > 0) {
     std::cerr << "warning: " << health.given_up()

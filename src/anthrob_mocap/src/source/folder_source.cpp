@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "anthrob_config/errors.h"
 #include "anthrob_mocap/source/image_file.h"
@@ -18,6 +19,14 @@ namespace {
 /// Whether a stamp of ROS, which counts seconds from 0 in 32 bits, can represent the time.
 bool expressible(double t) {
   return t >= 0.0 && t < 4294967296.0;
+}
+
+/// @return times.csv of a folder of images, in it or beside it; empty if there is none
+std::string times_file(const std::string& folder) {
+  const fs::path in = fs::absolute(folder).lexically_normal();
+  const fs::path parent = (in.has_filename() ? in : in.parent_path()).parent_path();
+  if (fs::exists(in / "times.csv")) return folder + "/times.csv";
+  return fs::exists(parent / "times.csv") ? (parent / "times.csv").string() : "";
 }
 
 }  // namespace
@@ -87,17 +96,19 @@ FolderSource::Times FolderSource::read_times(const std::string& file) {
 
 void FolderSource::load_times(const Options& options) {
   Times times, right;
-  std::string file = folder_[kLeft] + "/times.csv";
-  if (fs::exists(file)) times = read_times(file);
-  if (fs::exists(folder_[kRight] + "/times.csv"))
-    right = read_times(folder_[kRight] + "/times.csv");
-  if (!times.empty() && !right.empty()) check_times(times, right, options.sync_tolerance);
-  if (times.empty()) times.swap(right), file = folder_[kRight] + "/times.csv";
-  const fs::path beside = fs::absolute(folder_[kLeft]).lexically_normal();
-  const fs::path parent = (beside.has_filename() ? beside : beside.parent_path()).parent_path();
-  if (times.empty() && fs::exists(parent / "times.csv")) {
-    file = (parent / "times.csv").string();
-    times = read_times(file);
+  std::string file = times_file(folder_[kLeft]);
+  const std::string right_file = times_file(folder_[kRight]);
+  if (!file.empty()) times = read_times(file);
+  if (!right_file.empty() && right_file != file) right = read_times(right_file);
+  if (!times.empty() && !right.empty()) {
+    check_times(times, right, right_file, options.sync_tolerance);
+  }
+  if (times.empty()) times.swap(right), file = right_file;
+  if (times.empty()) {
+    std::ostringstream text;
+    text << folder_[kLeft] << ", " << folder_[kRight] << ": no times.csv: taken to be "
+         << options.rate << " pairs a second";
+    assumption_ = text.str();
   }
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const long index = indices_[i];
@@ -106,8 +117,7 @@ void FolderSource::load_times(const Options& options) {
       throw BadInput(file + ": no time for " + names_[i]);
     }
     if (!right.empty() && right.count(index) == 0) {
-      throw BadInput(folder_[kRight] + "/times.csv: no time for " + names_[i] +
-                     ", which the other times.csv has");
+      throw BadInput(right_file + ": no time for " + names_[i] + ", which the other times.csv has");
     }
     times_.push_back(times.empty() ? static_cast<double>(index) / options.rate : t->second);
     if (i > 0 && !(times_[i] > times_[i - 1])) {
@@ -122,11 +132,12 @@ void FolderSource::load_times(const Options& options) {
   }
 }
 
-void FolderSource::check_times(const Times& left, const Times& right, double tolerance) const {
+void FolderSource::check_times(const Times& left, const Times& right, const std::string& file,
+                               double tolerance) {
   for (const auto& [index, t] : left) {
     const auto other = right.find(index);
     if (other != right.end() && std::abs(other->second - t) > tolerance) {
-      throw BadInput(folder_[kRight] + "/times.csv: index " + std::to_string(index) +
+      throw BadInput(file + ": index " + std::to_string(index) +
                      ": unsynchronised pair: left and right are " +
                      std::to_string(1e3 * std::abs(other->second - t)) +
                      " ms apart, expected at most " + std::to_string(1e3 * tolerance));

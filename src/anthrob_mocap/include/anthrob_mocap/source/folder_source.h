@@ -11,7 +11,7 @@ namespace mocap {
 
 /// Pairs of images 000000.png, ... of two folders, in the order of the last number in their names,
 /// which is their index (names without any number: in the order of the names). Times are in
-/// times.csv ("index,t") in one of the folders, in both (then for all images), or beside them;
+/// times.csv ("index,t") in a folder or beside it, of one side or of both (then for all images);
 /// without it, the index divided by the rate.
 class FolderSource final : public FrameSource {
  public:
@@ -23,6 +23,9 @@ class FolderSource final : public FrameSource {
   /// @throws BadInput if folders, names or times of left and right do not belong together
   FolderSource(const std::string& left, const std::string& right, const Options& options);
 
+  /// What is assumed about the times where there is no times.csv; else empty.
+  const std::string& assumption() const { return assumption_; }
+
   /// @throws BadInput if an image is missing, truncated, or not 8-bit grey
   Grab next(StereoFrame& frame, double timeout) override;
 
@@ -31,12 +34,15 @@ class FolderSource final : public FrameSource {
   static Times read_times(const std::string& file);
   void sort_names();
   void load_times(const Options& options);
-  void check_times(const Times& left, const Times& right, double tolerance) const;
+  /// @param file of the right ones
+  static void check_times(const Times& left, const Times& right, const std::string& file,
+                          double tolerance);
 
   std::string folder_[2];
   std::vector<std::string> names_;
   std::vector<long> indices_;  ///< by name
   std::vector<double> times_;
+  std::string assumption_;
   std::size_t position_ = 0;
 };
 
