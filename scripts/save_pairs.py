@@ -35,7 +35,7 @@ class BadImage(Exception):
     pass
 
 
-stop_asked = []  # Ctrl-C: after the pair that is being written
+stop_asked = []  # number of the signal (Ctrl-C, a closed terminal, ...): after the pair that is being written
 
 
 class Pairs:
@@ -58,21 +58,17 @@ class Pairs:
             for file in files:
                 file.unlink(missing_ok=True)  # no half of a pair
             raise
+        # As they come, so that no picture is without its time, whatever ends the script.
+        with open(self.out / 'times.csv', 'a' if self.times else 'w', encoding='ascii') as times:
+            times.write('%s%d,%s\n' % ('' if self.times else 'index,t\n', len(self.times), stamp))
         self.times.append(stamp)
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        """What was saved until something went wrong has its times, too."""
-        self.close()
-
-    def close(self):
-        if not self.times:
-            return
-        lines = ['index,t'] + ['%d,%s' % row for row in enumerate(self.times)]
-        (self.out / 'times.csv').write_text('\n'.join(lines) + '\n')
-        print('%d pairs in %s' % (len(self.times), self.out))
+        if self.times:
+            print('%d pairs in %s' % (len(self.times), self.out))
 
 
 def of_message(image, topic):
@@ -256,7 +252,8 @@ def main():
             parser.error('--%s: expected a number above 0' % name)
     if not arguments.tolerance >= 0:
         parser.error('--tolerance: expected a number of 0 or more')
-    signal.signal(signal.SIGINT, lambda *_: stop_asked.append(True))
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda number, _: stop_asked.append(number))
     try:
         (save_bag if arguments.bag else save_cameras)(arguments)
     except (ImportError, OSError, ValueError) as error:
@@ -264,7 +261,7 @@ def main():
         # Devices and disks that fail are no bad input; files that are not there are.
         sys.exit(1 if isinstance(error, OSError) and not isinstance(error, FileNotFoundError) else 2)
     if stop_asked:
-        sys.exit(130)
+        sys.exit(128 + stop_asked[0])
 
 
 if __name__ == '__main__':

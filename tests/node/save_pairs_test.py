@@ -2,9 +2,11 @@
 """What scripts/save_pairs.py makes of a recording of two cameras."""
 import os
 import shutil
+import signal
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -53,9 +55,11 @@ class SavePairs(unittest.TestCase):
             for side, message in images:
                 bag.write(TOPICS[side], message, t=message.header.stamp)
 
+    def command(self, *more):
+        return [SCRIPT, self.path('out'), '--bag', self.path('run.bag'), '--topics', *TOPICS, *more]
+
     def save(self, *more):
-        return subprocess.run([SCRIPT, self.path('out'), '--bag', self.path('run.bag'), '--topics', *TOPICS, *more],
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        return subprocess.run(self.command(*more), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
 
     def test_pairs_have_one_number_and_their_time(self):
         self.record([(0, image(1.0, 10)), (1, image(1.0, 20)), (0, image(2.0, 30)),     # no partner
@@ -69,6 +73,21 @@ class SavePairs(unittest.TestCase):
         with open(self.path('out/times.csv')) as times:
             self.assertEqual(times.read(), 'index,t\n0,1.000000000\n1,3.000000000\n')
         self.assertIn('expected an empty folder', self.save().stdout)
+
+    def test_pictures_have_their_times_however_it_ends(self):
+        self.record([(side, image(1.0 + i / 60, i % 200)) for i in range(3000) for side in (0, 1)])
+        for ending, status in ((signal.SIGTERM, 128 + signal.SIGTERM), (signal.SIGKILL, -signal.SIGKILL)):
+            shutil.rmtree(self.path('out'), ignore_errors=True)
+            process = subprocess.Popen(self.command(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            self.addCleanup(process.stdout.close)
+            while process.poll() is None and not os.path.exists(self.path('out/left/000020.png')):
+                time.sleep(0.01)
+            process.send_signal(ending)
+            self.assertEqual(process.wait(30), status)
+            pictures = len(os.listdir(self.path('out/left')))
+            self.assertLess(pictures, 3000)
+            with open(self.path('out/times.csv')) as times:
+                self.assertGreaterEqual(len(times.readlines()) - 1, pictures - 1)
 
     def record_at_their_place(self, images):
         """In this order, whatever their stamps are."""
