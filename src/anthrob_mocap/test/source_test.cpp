@@ -273,6 +273,10 @@ TEST(CameraOptions, AreChecked) {
   test::expect_bad_input(
       [&] { AravisSource source(options); },
       "aravis: sync_tolerance 0.0084 s: expected at most 0.00833333 s, half a period");
+  options.exposure = 0.5;  // [ms]
+  test::expect_bad_input([&] { AravisSource source(options); },
+                         "aravis: exposure 0.5 s: expected less than 0.0166667 s, the period");
+  options.exposure = 0.0005;
   options.rate = 0.0;
   test::expect_bad_input([&] { AravisSource source(options); },
                          "aravis: rate 0, exposure 0.0005: expected both > 0");

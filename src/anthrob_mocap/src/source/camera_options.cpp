@@ -14,6 +14,12 @@ void CameraOptions::check(const std::string& source) const {
     text << "rate " << rate << ", exposure " << exposure << ": expected both > 0";
     throw BadInput(text.str());
   }
+  // A value in another unit would shift the stamps by half of itself.
+  if (!(exposure < 1.0 / rate)) {
+    text << "exposure " << exposure << " s: expected less than " << 1.0 / rate
+         << " s, the period at a rate of " << rate << " Hz";
+    throw BadInput(text.str());
+  }
   // A wider one brings together images one period apart.
   if (!(sync_tolerance <= 0.5 / rate)) {
     text << "sync_tolerance " << sync_tolerance << " s: expected at most " << 0.5 / rate
