@@ -1,6 +1,7 @@
 #include "bag_source.h"
 
 #include <sstream>
+#include <stdexcept>
 
 #include "anthrob_config/errors.h"
 #include "conversions.h"
@@ -8,24 +9,44 @@
 namespace anthrob {
 namespace mocap {
 
+namespace {
+
+/// What rosbag throws does not name the file.
+template <class Read>
+auto reading(const std::string& file, const Read& read) {
+  try {
+    return read();
+  } catch (const BadInput&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw BadInput(file + ": cannot be read as a bag (" + error.what() + ")");
+  }
+}
+
+}  // namespace
+
 BagSource::BagSource(const std::string& file, const std::string& left, const std::string& right,
                      double sync_tolerance, Refuse refuse)
     : file_(file), topics_{left, right}, pairing_(sync_tolerance), refuse_(std::move(refuse)) {
-  try {
-    bag_.open(file, rosbag::bagmode::Read);
-  } catch (const rosbag::BagException& error) {
-    throw BadInput(file + ": cannot be read as a bag (" + error.what() + ")");
-  }
-  view_ = std::make_unique<rosbag::View>(bag_,
-                                         rosbag::TopicQuery(std::vector<std::string>{left, right}));
+  reading(file_, [&] { open(); });
+}
+
+void BagSource::open() {
+  bag_.open(file_, rosbag::bagmode::Read);
+  view_ = std::make_unique<rosbag::View>(
+      bag_, rosbag::TopicQuery(std::vector<std::string>{topics_[kLeft], topics_[kRight]}));
   for (const std::string& topic : topics_) {
     rosbag::View one(bag_, rosbag::TopicQuery(topic));
-    if (one.size() == 0) throw BadInput(file + ": no images on topic " + topic);
+    if (one.size() == 0) throw BadInput(file_ + ": no images on topic " + topic);
   }
   position_ = view_->begin();
 }
 
 FrameSource::Grab BagSource::next(StereoFrame& frame, double) {
+  return reading(file_, [&] { return next_pair(frame); });
+}
+
+FrameSource::Grab BagSource::next_pair(StereoFrame& frame) {
   for (; position_ != view_->end(); ++position_) {
     const sensor_msgs::ImageConstPtr message = position_->instantiate<sensor_msgs::Image>();
     if (!message)

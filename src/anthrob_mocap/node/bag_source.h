@@ -25,11 +25,14 @@ class BagSource final : public FrameSource {
   BagSource(const std::string& file, const std::string& left, const std::string& right,
             double sync_tolerance, Refuse refuse);
 
-  /// @throws BadInput at the end of a bag without a pair
+  /// @throws BadInput at the end of a bag without a pair, or if it is damaged
   Grab next(StereoFrame& frame, double timeout) override;
   Pairing::Counts take_counts() override;
 
  private:
+  void open();
+  Grab next_pair(StereoFrame& frame);
+
   std::string file_, topics_[2];
   rosbag::Bag bag_;
   std::unique_ptr<rosbag::View> view_;

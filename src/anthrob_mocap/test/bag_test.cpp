@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/Image.h>
 
+#include <fstream>
+
 #include "../node/bag_source.h"
 #include "expect_bad_input.h"
 #include "temporary_folder.h"
@@ -68,6 +70,18 @@ TEST_F(Bag, SaysHowManyImagesHaveNoPartner) {
   EXPECT_EQ(
       refused_,
       (std::vector<std::string>{file_ + ": 90 of 110 images have no partner, or came too late"}));
+}
+
+TEST_F(Bag, IsNamedWhereItIsDamaged) {
+  rosbag::Bag bag(file_, rosbag::bagmode::Write);
+  bag.setCompression(rosbag::compression::BZ2);
+  for (int i = 0; i < 1000; ++i) record(bag, "/l", 1.0 + 0.1 * i), record(bag, "/r", 1.0 + 0.1 * i);
+  bag.close();
+  std::fstream bytes(file_, std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekp(6000);  // behind the header of 4096 bytes
+  bytes << std::string(500, 'x');
+  bytes.close();
+  test::expect_bad_input([&] { read(); }, "run.bag: cannot be read as a bag (");
 }
 
 TEST_F(Bag, WithoutAPairIsRefused) {
