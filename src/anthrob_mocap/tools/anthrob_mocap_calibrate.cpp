@@ -86,6 +86,7 @@ int calibrate(const Arguments& arguments) {
     views.push_back(view);
   }
   const auto result = mocap::calibrate_stereo(views, board, width, height, arguments.limits);
+  if (anthrob::tool::interrupted()) return anthrob::tool::kInterrupted;
   std::cout << result.report();
   fs::create_directories(arguments.out);
   write(arguments.out, result.rig);
