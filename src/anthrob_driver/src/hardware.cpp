@@ -43,7 +43,14 @@ class Loader {
     load_ecus();
     for (const auto& [name, node] : model_.at("muscles").entries()) {
       ecu::check_muscle(node);
-      if (!node.has("controller") || !node.has("ecu")) continue;
+      if (!node.has("controller") || !node.has("ecu")) {
+        const bool wired = calibration_.has("muscles") && calibration_.at("muscles").has(name);
+        if (wired && own_model_) {
+          node.fail("expected keys 'controller' and 'ecu': its sensors are in " +
+                    calibration_.file());
+        }
+        continue;
+      }
       // A model with the hand may be used without it.
       if (!hand_ && name.rfind("hand_", 0) == 0) continue;
       const std::string kind = node.text("controller");
@@ -148,13 +155,15 @@ class Loader {
     const ConfigNode hand = config_.at("hand"), sensors = calibration_.at("hand");
     bool takes_controller = false;
     for (const auto& [name, node] : hand.at("muscles").entries()) {
-      const bool in_model = std::any_of(hardware_.muscles.begin(), hardware_.muscles.end(),
-                                        [&n = name](const auto& m) { return m.name == n; });
+      const auto in_model = std::find_if(hardware_.muscles.begin(), hardware_.muscles.end(),
+                                         [&n = name](const auto& m) { return m.name == n; });
       const std::string ecu_name = node.text("ecu");
-      if (!in_model) {
+      if (in_model == hardware_.muscles.end()) {
         takes_controller = true;
         add_muscle(name, ecu_name, "hand", hand.at("controller"), kTick, sensors.at("muscles"),
                    node);
+      } else if (in_model->limits.ecu != ecu_name) {
+        node.at("ecu").fail_expected(in_model->limits.ecu + ", as in " + model_.file());
       }
     }
     if (!takes_controller) hand.at("controller").ignore();
@@ -177,7 +186,8 @@ class Loader {
     // The driver would not listen to it. Another model may have no muscles there.
     if (own_model_ && ecu.muscles.empty()) {
       node.at("ecu").fail(ecu.name + ": expected an ECU with muscles; " +
-                          (hand_ ? "" : "without the hand ") + "this one has none");
+                          (hand_ || !config_.has("hand") ? "" : "without the hand ") +
+                          "this one has none");
     }
     const auto [other, first] = sensor_at_.try_emplace({ecu_index, input}, sensor);
     if (!first) {
@@ -195,7 +205,8 @@ class Loader {
       joint.joint = name;
       joint.ecu = find_ecu(node.text("ecu"), node);
       joint.input = input(node, joint.ecu, name);
-      joint.sensor = load_linear(calibration_.at("joints").at(name), "rad");
+      // A joint need not be able to reach the angle of zero counts.
+      joint.sensor = load_linear(calibration_.at("joints").at(name), "rad", Bounds::any());
       hardware_.joints.push_back(joint);
     }
   }

@@ -28,6 +28,19 @@ void check_reach(const ConfigNode& unit, const char* key, double limit, double r
                              ", the most that the sensor of " + muscle + " can read");
 }
 
+/// The unit would clip a reference beyond its own limits without a word, or stop for it.
+void narrow_to_unit(MuscleHardware& muscle) {
+  const auto narrow = [&](ecu::Mode mode, double lowest, double highest) {
+    const auto m = static_cast<std::size_t>(mode);
+    muscle.limits.lowest[m] = std::max(muscle.limits.lowest[m], lowest);
+    muscle.limits.highest[m] = std::min(muscle.limits.highest[m], highest);
+  };
+  const auto limit = [&](Parameter p) { return muscle.parameters.get(p); };
+  narrow(ecu::Mode::kPosition, limit(Parameter::kPositionLow), limit(Parameter::kPositionHigh));
+  narrow(ecu::Mode::kCurrent, -limit(Parameter::kCurrentLimit), limit(Parameter::kCurrentLimit));
+  narrow(ecu::Mode::kForce, 0.0, limit(Parameter::kForceLimit));
+}
+
 }  // namespace
 
 std::string text(double value) {
@@ -53,11 +66,11 @@ void load_controller(const ConfigNode& node, std::optional<double> period, const
   muscle.limits.highest = {volts, kind.largest_position, kind.largest_current, kind.largest_force};
 }
 
-LinearSensor load_linear(const ConfigNode& node, const std::string& unit) {
+LinearSensor load_linear(const ConfigNode& node, const std::string& unit, const Bounds& offset) {
   LinearSensor sensor;
   sensor.gain = node.number("gain", Bounds::any(), unit + "/count");
   if (sensor.gain == 0.0) node.at("gain").fail_expected("a number other than 0");
-  sensor.offset = node.number("offset", Bounds::between(0.0, 4095.0), "count");
+  sensor.offset = node.number("offset", offset, "count");
   return sensor;
 }
 
@@ -105,18 +118,19 @@ void load_unit(const ConfigNode& node, MuscleHardware& muscle) {
 }
 
 void load_sensors(const ConfigNode& node, MuscleHardware& muscle) {
-  muscle.current = load_linear(node.at("current"), "A");
+  muscle.current = load_linear(node.at("current"), "A", Bounds::between(0.0, 4095.0));
   set(muscle, Parameter::kCurrentGain, muscle.current.gain, node.at("current"));
   set(muscle, Parameter::kCurrentOffset, muscle.current.offset, node.at("current"));
   const bool has_force = node.has("force");
   if (has_force) {
-    muscle.force = load_linear(node.at("force"), "N");
+    muscle.force = load_linear(node.at("force"), "N", Bounds::between(0.0, ecu::kHighestCount));
     if (muscle.force.gain < 0.0) node.at("force").at("gain").fail_expected("a number > 0");
     set(muscle, Parameter::kForceGain, muscle.force.gain, node.at("force"));
     set(muscle, Parameter::kForceOffset, muscle.force.offset, node.at("force"));
   }
   const bool takes_forces = muscle.limits.highest[static_cast<int>(ecu::Mode::kForce)] > 0.0;
   muscle.limits.modes = {true, true, true, has_force && takes_forces};
+  narrow_to_unit(muscle);
 }
 
 void check_home(const ConfigNode& node, const HomeRoutine& home, const MuscleHardware& muscle) {

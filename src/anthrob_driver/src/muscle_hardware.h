@@ -43,7 +43,8 @@ void load_motor(const ConfigNode& node, MuscleHardware& muscle);
 void check_home(const ConfigNode& node, const HomeRoutine& home, const MuscleHardware& muscle);
 
 /// @param unit of the sensor's value
-LinearSensor load_linear(const ConfigNode& node, const std::string& unit);
+/// @param offset where it may be [count]
+LinearSensor load_linear(const ConfigNode& node, const std::string& unit, const Bounds& offset);
 
 }  // namespace driver
 }  // namespace anthrob

@@ -133,6 +133,22 @@ TEST(Hardware, WithoutALargestForceThereIsNoForceMode) {
   EXPECT_TRUE(other.muscles[9].limits.modes[1]);
 }
 
+TEST(Hardware, CommandsBeyondTheUnitsOwnLimitsAreRefused) {
+  // The unit would clip them, or stop.
+  const fs::path file =
+      fs::temp_directory_path() / ("anthrob_narrow_" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(file) << "extends: " << (kConfig / "hardware.yaml").string()
+                      << "\nmodel: " << (kConfig / "model_II.yaml").string()
+                      << "\ncalibration: " << (kConfig / "sensors.yaml").string()
+                      << "\nunits: {type_1: {position_range: [-5.0, 7.0], current_limit: 0.5, "
+                         "force_limit: 25.0}}\n";
+  const Hardware narrow = load_hardware(file, false);
+  fs::remove(file);
+  const ecu::MuscleChannel& limits = narrow.muscles[0].limits;  // lateral_deltoid: type_1
+  EXPECT_EQ(limits.lowest, (std::array<double, 4>{-12.0, -5.0, -0.5, 0.0}));
+  EXPECT_EQ(limits.highest, (std::array<double, 4>{12.0, 7.0, 0.5, 25.0}));
+}
+
 TEST(Hardware, AModelOfPartOfTheRobotIsAnother) {
   const Hardware own = load_hardware(kConfig / "hardware.yaml", false);
   const Hardware tier1 =
@@ -164,7 +180,8 @@ std::string error_of(const std::string& file, const std::string& from, const std
   const fs::path folder =
       fs::temp_directory_path() / ("anthrob_hardware_" + std::to_string(getpid()));
   fs::create_directories(folder);
-  for (const char* name : {"hardware.yaml", "sensors.yaml", "model_I.yaml", "model_II.yaml"}) {
+  for (const char* name : {"hardware.yaml", "sensors.yaml", "model_I.yaml", "model_II.yaml",
+                           "model_II_hand.yaml", "hand.yaml"}) {
     std::ifstream in(kConfig / name);
     std::stringstream text;
     text << in.rdbuf();
@@ -248,6 +265,10 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"hardware.yaml", "loaded: 20.0", "loaded: 2.0", "loaded: 2 N: expected 0, or more than"},
       {"sensors.yaml", "gain: 0.06", "gain: -0.06", "lateral_deltoid.force.gain"},
       {"sensors.yaml", "offset: 400", "offset: 5000", "offset"},
+      {"sensors.yaml", "gain: 0.06, offset: 400", "gain: 0.06, offset: 4090",
+       "lateral_deltoid.force.offset: 4090: expected a number in [0, 4087]"},
+      {"model_I.yaml", "    ecu: ecu_1\n", "",
+       "muscles.lateral_deltoid: expected keys 'controller' and 'ecu': its sensors are in"},
       {"sensors.yaml", "threshold: 20", "threshold: nan", "threshold"},
       {"sensors.yaml", "elbow:", "knee:", "elbow"},
   };
@@ -257,6 +278,20 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
     EXPECT_NE(error.find(".yaml:"), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
+}
+
+TEST(Hardware, TheAngleOfAJointMayBeZeroOutOfItsSensorsRange) {
+  const std::string sensor = "elbow: {gain: 1.2783173232380343e-3, offset: ";
+  EXPECT_EQ(error_of("sensors.yaml", sensor + "400", sensor + "-100"), "no error");
+}
+
+TEST(Hardware, AHandsEcusAreThoseOfTheModelThatHasTheHand) {
+  const std::string error =
+      error_of("hardware.yaml", "model: model_II.yaml", "model: model_II_hand.yaml",
+               "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_6}");
+  EXPECT_NE(error.find("hand.muscles.hand_agonist.ecu: ecu_6: expected ecu_7, as in"),
+            std::string::npos)
+      << error;
 }
 
 TEST(Hardware, OneFileNamesZerosWithAndWithoutTheHand) {
