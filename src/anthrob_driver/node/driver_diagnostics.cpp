@@ -29,13 +29,6 @@ void add_findings(DiagnosticStatus& status, const Findings& findings, int ecu, d
   }
 }
 
-const MuscleHardware& muscle_of(const RobotDriver& driver, const EcuLink& link, int channel) {
-  const auto& muscles = link.own().muscles;
-  const int last = static_cast<int>(muscles.size()) - 1;
-  const int muscle = muscles[static_cast<std::size_t>(std::min(channel, last))];
-  return driver.hardware().muscles[static_cast<std::size_t>(muscle)];
-}
-
 }  // namespace
 
 DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std::string& robot) {
@@ -105,23 +98,25 @@ DiagnosticStatus ecu_status(const RobotDriver& driver, std::size_t ecu, double n
   if (report.fault != ecu::Fault::kNone) {
     status.message += std::string("; ") + ecu::name(report.fault);
     if (!ecu::concerns_unit(report.fault)) {
-      status.message += " (" + muscle_of(driver, link, report.muscle).name + ")";
+      status.message += " (" + link.muscle(report.muscle).name + ")";
     }
   }
+  const bool recent = link.health_known(now);
+  const auto known = [recent](const std::string& value) { return recent ? value : "unknown"; };
   status.values = {
       key_value("stop_latched", link.stop_latched() ? "true" : "false"),
       key_value("fault", ecu::name(report.fault)),
       key_value("session", std::to_string(report.session)),
       key_value("configured", link.configured() ? "true" : "false"),
       key_value("zero_lost", zero_lost ? "true" : "false"),
-      key_value("supply", text(health.supply)),
-      key_value("refused_frames", std::to_string(health.refused_frames)),
-      key_value("transmit_errors", std::to_string(health.transmit_errors)),
-      key_value("receive_errors", std::to_string(health.receive_errors)),
+      key_value("supply", known(text(health.supply))),
+      key_value("refused_frames", known(std::to_string(health.refused_frames))),
+      key_value("transmit_errors", known(std::to_string(health.transmit_errors))),
+      key_value("receive_errors", known(std::to_string(health.receive_errors))),
   };
   for (int c = 0; c < static_cast<int>(link.own().muscles.size()); ++c) {
-    status.values.push_back(key_value(muscle_of(driver, link, c).name + " temperature",
-                                      std::to_string(health.temperature[c])));
+    status.values.push_back(key_value(link.muscle(c).name + " temperature",
+                                      known(std::to_string(health.temperature[c]))));
   }
   for (const int muscle : link.own().muscles) {
     const WindingTemperatureModel& winding = driver.winding(static_cast<std::size_t>(muscle));

@@ -63,6 +63,7 @@ void EcuLink::receive(const ecu::Frame& frame, double now) {
       break;
     case Function::kHealth:
       health_ = ecu::decode_health(frame);
+      health_time_ = now;
       break;
     default:
       break;  // only a host sends those
@@ -113,11 +114,18 @@ void EcuLink::on_report(const ecu::StateReport& report, double now) {
     zeros_.fill(Zero::kNotTold);
     findings_.add(Finding::kEcuRestarted, index_, now);
   }
+  if (!heard_) heard_since_ = now;
   heard_ = true;
   report_ = report;
   if (configured()) begin_upload_anew();  // should another one be needed
   take_state(report.state);
   latched_ = report.stop_latched;
+}
+
+const MuscleHardware& EcuLink::muscle(int channel) const {
+  const int last = static_cast<int>(own().muscles.size()) - 1;
+  const int index = own().muscles[static_cast<std::size_t>(std::min(channel, last))];
+  return hardware_.muscles[static_cast<std::size_t>(index)];
 }
 
 bool EcuLink::take_restart() {
@@ -295,11 +303,16 @@ void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
     ++next_;
     return;
   }
+  const int channel = next_ / ecu::kParameterCount;
   char text[128];
-  std::snprintf(text, sizeof(text), "%s: wrote %g, read back %g: %s", ecu::kParameters[index].name,
-                static_cast<double>(wanted_value()), static_cast<double>(reply.value),
-                ecu::name(reply.result));
-  findings_.add(Finding::kConfigurationRefused, index_, now, text);
+  std::snprintf(text, sizeof(text), ": %s: wrote %g, read back %g: %s",
+                ecu::kParameters[index].name, static_cast<double>(wanted_value()),
+                static_cast<double>(reply.value), ecu::name(reply.result));
+  // The first of a second muscle, as of every one.
+  const bool fewer = channel > 0 && reply.result == ecu::ParameterResult::kUnknown;
+  findings_.add(Finding::kConfigurationRefused, index_, now,
+                muscle(channel).name + text +
+                    (fewer ? "; has the ECU as many muscles as in hardware.yaml?" : ""));
   resume_ = now + kRetryPause;
 }
 

@@ -13,6 +13,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kErrorWarning, "error_warning", false, "the host's CAN controller counted 96 errors, or reported a bus error", "check cable and termination soon"},
     {Finding::kNoAcknowledge, "no_acknowledge", true, "no node on the bus acknowledges the driver's frames", "switch the ECUs on; check the cable and the bit rate; enable again"},
     {Finding::kQueueFull, "queue_full", true, "the CAN interface accepted no more frames (ENOBUFS) in three cycles in a row", "switch the ECUs on; check the cable and the bit rate, or lower the rate; enable again"},
+    {Finding::kBusSilent, "bus_silent", true, "no ECU completely answers two SYNCs in a row, and all did before", "check the bus cable, the CAN interface and the ECUs' supply; enable again"},
     {Finding::kReceiveOverrun, "receive_overrun", false, "the host lost frames because it read them too late", "use `realtime:=true`; look for other programs that keep the computer busy"},
     {Finding::kBusFlooded, "bus_flooded", false, "far more frames in a cycle than the ECUs can send", "find the node that sends too much: `candump -t d can0`"},
     {Finding::kSecondHost, "second_host", true, "another driver or node sends SYNC, requests or references on this bus", "stop it: a bus has one host; then enable again"},

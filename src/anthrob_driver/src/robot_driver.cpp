@@ -297,6 +297,7 @@ RobotDriver::Outcome RobotDriver::disable() {
 }
 
 RobotDriver::Outcome RobotDriver::emergency_stop() {
+  home_.abort("emergency stop");
   if (phase_ == Phase::kEnabling) last_outcome_ = {false, "emergency stop"};
   ecu::Frame stop;
   send(stop);
@@ -339,10 +340,12 @@ void RobotDriver::name_stop(double now) {
 }
 
 void RobotDriver::obey_stop(int ecu) {
+  const std::string what = ecu < 0 ? "a STOP frame came from elsewhere on the bus"
+                                   : stopping_.prefix(ecu) + info(Finding::kStopLatched).meaning;
+  home_.abort(what);
   emergency_stop();
-  stopping_.record(Finding::kStopLatched,
-                   ecu < 0 ? "a STOP frame came from elsewhere on the bus"
-                           : stopping_.prefix(ecu) + info(Finding::kStopLatched).meaning);
+  last_outcome_ = {false, what};
+  stopping_.record(Finding::kStopLatched, what);
 }
 
 void RobotDriver::fail_home(double now) {
@@ -351,6 +354,7 @@ void RobotDriver::fail_home(double now) {
     if (home_.tendon_lost(m)) revoke_zero(hardware_.muscles[m]);
   }
   disable();
+  last_outcome_ = {false, home_.failure()};
   stopping_.record(Finding::kHomeFailed, home_.failure());
 }
 
@@ -370,7 +374,19 @@ void RobotDriver::check_bus(double now) {
   if (watch_.take_stop(finding)) stop(finding, -1);
 }
 
+/// Of a bus on which nobody answers, no single ECU is to blame.
+bool RobotDriver::all_lost() const {
+  return links_.size() > 1 && std::all_of(links_.begin(), links_.end(), [](const EcuLink& link) {
+           return link.sample_time() > 0.0 && !link.alive();
+         });
+}
+
 void RobotDriver::check_ecus(double now) {
+  const bool silent = all_lost();
+  if (silent) {
+    findings_.add(Finding::kBusSilent, -1, now);
+    stop(Finding::kBusSilent, -1);
+  }
   for (std::size_t e = 0; e < links_.size(); ++e) {
     EcuLink& link = links_[e];
     const int index = static_cast<int>(e);
@@ -386,7 +402,8 @@ void RobotDriver::check_ecus(double now) {
         findings_.add(Finding::kEcuSilent, index, now);
       continue;
     }
-    if (link.sample_time() > 0.0 && !link.alive()) {
+    if (!link.alive() && (link.sample_time() > 0.0 || now - link.heard_since() > kSilence)) {
+      if (silent) continue;
       findings_.add(Finding::kEcuLost, index, now);
       stop(Finding::kEcuLost, index);
       continue;

@@ -14,8 +14,11 @@ std::string Stopping::reason(Finding finding, int ecu, const std::string& detail
 }
 
 std::string Stopping::fault_of(int ecu) const {
-  const ecu::Fault fault = links_[static_cast<std::size_t>(ecu)].report().fault;
-  return fault == ecu::Fault::kNone ? "" : ecu::name(fault);
+  const EcuLink& link = links_[static_cast<std::size_t>(ecu)];
+  const ecu::StateReport& report = link.report();
+  if (report.fault == ecu::Fault::kNone) return "";
+  const std::string name = ecu::name(report.fault);
+  return ecu::concerns_unit(report.fault) ? name : name + " of " + link.muscle(report.muscle).name;
 }
 
 std::string Stopping::prefix(int ecu) const {

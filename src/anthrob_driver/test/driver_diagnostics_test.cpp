@@ -67,6 +67,25 @@ TEST(DriverDiagnostics, TellOfMotorsThatGetHot) {
   EXPECT_NEAR(told, 1.0, 0.05);
 }
 
+TEST(DriverDiagnostics, GiveNoHealthThatWasNotReportedJustNow) {
+  Rig rig;
+  const auto supply = [&] {
+    for (const auto& value : ecu_status(rig.driver(), 2, rig.now(), "/anthrob").values) {
+      if (value.key == "supply") return value.value;
+    }
+    return std::string("none");
+  };
+  rig.rack.board(2).set_power(false);
+  rig.run(1000);
+  EXPECT_EQ(supply(), "unknown");
+  rig.rack.board(2).set_power(true);
+  rig.run(2000);
+  EXPECT_NEAR(std::stod(supply()), 12.0, 0.1);
+  rig.rack.board(2).set_power(false);
+  rig.run(2000);
+  EXPECT_EQ(supply(), "unknown");
+}
+
 TEST(DriverDiagnostics, SayThatEnableIsUnderWay) {
   Rig rig;
   rig.run(1000);

@@ -237,8 +237,19 @@ TEST_F(HomeTest, AnEmergencyStopEndsIt) {
   rig.run(3);
   EXPECT_EQ(rig.moving(), 0);
   EXPECT_FALSE(rig.driver().home().running());
+  EXPECT_EQ(failure(), "emergency stop");
   rig.run(1000);
   EXPECT_EQ(rig.moving(), 0);
+}
+
+TEST_F(HomeTest, AnEmergencyStopFromElsewhereEndsItToo) {
+  ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
+  rig.run(500);
+  rig.stranger.send(ecu::Frame{});
+  rig.run(10);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_EQ(failure(), "a STOP frame came from elsewhere on the bus");
+  EXPECT_EQ(rig.driver().last_outcome().reason, failure());
 }
 
 TEST_F(HomeTest, AnAnswerMissingAtTheStartDoesNotDriveAMuscleElsewhere) {
@@ -366,7 +377,7 @@ TEST_F(HomeTest, ASpindleThatMayHaveTurnedUncountedTakesNoPositionsBeforeIt) {
   rig.run(400);
   ASSERT_EQ(rig.driver().phase(), RobotDriver::Phase::kDisabled);
   EXPECT_NE(rig.driver().stops().last().find("ecu_3: an ECU reports a fault"), std::string::npos);
-  EXPECT_NE(rig.driver().stops().last().find("(encoder)"), std::string::npos)
+  EXPECT_NE(rig.driver().stops().last().find("(encoder of " + name + ")"), std::string::npos)
       << rig.driver().stops().last();
   rig.driver().clear_faults(rig.now());
   rig.run(200);

@@ -296,6 +296,70 @@ TEST(RobotDriver, AUnitThatCannotBeConfiguredIsNamed) {
   EXPECT_EQ(rig.driver().start_enable(rig.now()).accepted, false);
 }
 
+/// Whatever the n-th ECU sends that has one of these functions is lost.
+void drop(Rig& rig, std::size_t ecu, std::vector<ecu::Function> functions) {
+  const int node = rig.hardware.ecus[ecu].node;
+  rig.bus.tamper = [node, functions](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool one = std::any_of(functions.begin(), functions.end(), [&](ecu::Function function) {
+      return ecu::function_of(f) == static_cast<int>(function);
+    });
+    return ecu::node_of(f) == node && one ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+}
+
+TEST(RobotDriver, AUnitThatReportsButDoesNotMeasureIsNamed) {
+  Rig rig;
+  drop(rig, 2, {ecu::Function::kMotionA, ecu::Function::kMotionB, ecu::Function::kEffort});
+  rig.run(500);
+  EXPECT_EQ(rig.driver().findings().count(Finding::kEcuLost), 0u);  // it may still begin
+  rig.run(1500);
+  const auto& entries = rig.driver().findings().entries();
+  const auto lost = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
+    return entry.finding == Finding::kEcuLost;
+  });
+  ASSERT_NE(lost, entries.end());
+  EXPECT_EQ(lost->ecu, 2);
+}
+
+TEST(RobotDriver, AUnitWithFewerMusclesIsNamed) {
+  Rig rig;
+  const int node = rig.hardware.ecus[2].node;
+  rig.bus.tamper = [node](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool reply = ecu::function_of(f) == static_cast<int>(ecu::Function::kParameterReply);
+    if (!reply || ecu::node_of(f) != node) return std::vector<ecu::Frame>{f};
+    ecu::ParameterMessage message = ecu::decode_parameter(f);
+    if (message.muscle == 1) message.result = ecu::ParameterResult::kUnknown;
+    return std::vector<ecu::Frame>{ecu::encode_parameter_reply(message, node)};
+  };
+  rig.run(3000);
+  const auto& entries = rig.driver().findings().entries();
+  const auto refused = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
+    return entry.finding == Finding::kConfigurationRefused;
+  });
+  ASSERT_NE(refused, entries.end());
+  const auto second = static_cast<std::size_t>(rig.hardware.ecus[2].muscles[1]);
+  EXPECT_EQ(refused->detail.find(rig.hardware.muscles[second].name + ": "), 0u) << refused->detail;
+  EXPECT_NE(refused->detail.find("has the ECU as many muscles as in hardware.yaml?"),
+            std::string::npos)
+      << refused->detail;
+}
+
+TEST(RobotDriver, OfABusOnWhichNobodyAnswersNoUnitIsBlamed) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.bus.tamper = [](const ecu::Frame&, const MemoryBus::Port&) {
+    return std::vector<ecu::Frame>{};
+  };
+  rig.run(300);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_EQ(rig.driver().stops().last().find("bus_silent: "), 0u) << rig.driver().stops().last();
+  EXPECT_EQ(rig.driver().findings().count(Finding::kEcuLost), 0u);
+  rig.bus.tamper = nullptr;
+  rig.run(500);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;  // without clear_faults
+}
+
 TEST(RobotDriver, ASecondUploadOfParametersIsNoRefusal) {
   Rig rig;
   rig.run(1000);

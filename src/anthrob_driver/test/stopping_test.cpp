@@ -79,10 +79,10 @@ TEST(Stopping, IsAtOnceThoughTheNameOfTheFaultComesLate) {
     const std::string last = rig.driver().stops().last();
     EXPECT_EQ(last.find("ecu_fault: ecu_3: an ECU reports a fault, named in its diagnostics"), 0u)
         << last;
-    EXPECT_EQ(last.find("(over_temperature)") != std::string::npos, named) << last;
+    EXPECT_EQ(last.find("(over_temperature of infraspinatus)") != std::string::npos, named) << last;
     EXPECT_EQ(last.find("none"), std::string::npos) << last;
     const std::string outcome = rig.driver().last_outcome().reason;
-    EXPECT_EQ(outcome.find("(over_temperature)") != std::string::npos, named) << outcome;
+    EXPECT_EQ(outcome.find("(over_temperature of ") != std::string::npos, named) << outcome;
   }
 }
 

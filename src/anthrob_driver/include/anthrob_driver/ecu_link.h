@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -24,6 +25,7 @@ class EcuLink {
   static constexpr int kCyclesPerWrite = 4;
   static constexpr double kReplyTimeout = 0.05;  ///< [s] of a parameter, then it is sent again
   static constexpr double kRetryPause = 1.0;     ///< [s] after a refused parameter
+  static constexpr double kHealthAge = 1.5;      ///< [s] HEALTH comes every half second
 
   /// @param hardware, findings must outlive the link   @param index of this ECU, for findings
   EcuLink(const Hardware& hardware, int index, Findings& findings);
@@ -66,6 +68,8 @@ class EcuLink {
   void expect_configuration(double now);
 
   bool heard() const { return heard_; }
+  /// Time of its first report [s]; 0 if none came.
+  double heard_since() const { return heard_since_; }
   /// Whether it answers.
   bool alive() const { return sampled_ && !returning_ && unanswered_ < kLostSyncs; }
   bool configured() const { return heard_ && report_.configuration == own().configuration; }
@@ -89,6 +93,8 @@ class EcuLink {
   bool take_analog();
   const ecu::StateReport& report() const { return report_; }
   const ecu::Health& health() const { return health_; }
+  /// Whether health() was sent not long ago. Not every ECU sends it.
+  bool health_known(double now) const { return alive() && now - health_time_ <= kHealthAge; }
   double sample_time() const { return sample_time_; }
   ecu::State state() const { return state_; }
   bool stop_latched() const { return latched_; }
@@ -96,6 +102,9 @@ class EcuLink {
   std::string why_not_enable() const;
   /// What clear_faults did not clear, if the ECU answers; empty if nothing is left.
   std::string not_cleared() const;
+
+  /// @param channel that a frame names; the last muscle if there is none
+  const MuscleHardware& muscle(int channel) const;
 
   const EcuHardware& own() const { return hardware_.ecus[static_cast<std::size_t>(index_)]; }
 
@@ -142,7 +151,7 @@ class EcuLink {
   bool latched_ = false;
   bool heard_ = false, sampled_ = false, restarted_ = false, wrong_version_ = false;
   std::string other_version_;
-  double sample_time_ = 0.0;
+  double sample_time_ = 0.0, heard_since_ = 0.0, health_time_ = -HUGE_VAL;
 
   // Upload of the configuration: one parameter at a time, each read back.
   int next_ = 0;

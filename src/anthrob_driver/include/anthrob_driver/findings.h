@@ -15,6 +15,7 @@ enum class Finding : std::uint8_t {
   kErrorWarning,
   kNoAcknowledge,
   kQueueFull,
+  kBusSilent,
   kReceiveOverrun,
   kBusFlooded,
   kSecondHost,
@@ -40,7 +41,7 @@ enum class Finding : std::uint8_t {
   kEncoderDead,
   kMotorHot,
 };
-constexpr int kFindingCount = 30;
+constexpr int kFindingCount = 31;
 
 struct FindingInfo {
   Finding finding;

@@ -100,6 +100,7 @@ class RobotDriver {
                        std::uint8_t session = 0);
   void on_frame(const ecu::Frame& frame, double now);
   void check_bus(double now);
+  bool all_lost() const;
   void check_ecus(double now);
   void check_muscles(double now);
   void continue_enable(double now);
