@@ -50,6 +50,10 @@ using DataPtr = std::shared_ptr<Data>;
   throw BadInput(file + ":" + std::to_string(line) + ": " + message);
 }
 
+std::string join(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
 /// No sensible file is nested deeper; an alias inside its own anchor would never end.
 constexpr int kDeepest = 100;
 
@@ -97,7 +101,8 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
   return data;
 }
 
-DataPtr merge(const DataPtr& base, const DataPtr& over) {
+/// @param path of the maps in their file
+DataPtr merge(const DataPtr& base, const DataPtr& over, const std::string& path = "") {
   if (base->kind != Kind::kMap || over->kind != Kind::kMap) return over;
   auto merged = std::make_shared<Data>(*base);
   merged->file = over->file;
@@ -106,10 +111,16 @@ DataPtr merge(const DataPtr& base, const DataPtr& over) {
     auto& entries = merged->entries;
     const auto entry = std::find_if(entries.begin(), entries.end(),
                                     [&, name = key](const auto& e) { return e.first == name; });
+    const std::string where = join(path, key);
     if (value->kind == Kind::kNull) {
-      if (entry != entries.end()) entries.erase(entry);
+      if (entry == entries.end()) {
+        fail_at(
+            *value->file, value->line,
+            where + ": unknown key; without a value it removes one of the file that is extended");
+      }
+      entries.erase(entry);
     } else if (entry != entries.end()) {
-      entry->second = merge(entry->second, value);
+      entry->second = merge(entry->second, value, where);
     } else {
       entries.emplace_back(key, value);
     }
@@ -217,10 +228,6 @@ void emit(YAML::Emitter& out, const DataPtr& data, bool flow) {
       out << YAML::EndMap;
       break;
   }
-}
-
-std::string join(const std::string& path, const std::string& key) {
-  return path.empty() ? key : path + "." + key;
 }
 
 }  // namespace

@@ -3,6 +3,10 @@
 #include "anthrob_config/config_node.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "anthrob_config/errors.h"
 
@@ -51,6 +55,33 @@ TEST(ConfigNode, RefusesEmptyValuesWhereTheyAreMistakes) {
   EXPECT_EQ(refusal("a:\n  - {b: ~}\n", check),
             "file.yaml:2: a.0.b: (empty): expected a value; otherwise leave the key out");
   EXPECT_EQ(refusal("a: 1\nb: ''\n", check), "");
+}
+
+TEST(ConfigNode, RemovesOnlyWhatTheExtendedFileHas) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("anthrob_config_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "base.yaml") << "muscles: {flexor: {length: 1}, extensor: {length: 2}}\n";
+  const auto said = [&](const std::string& text) -> std::string {
+    std::ofstream(folder / "over.yaml") << "extends: base.yaml\n" << text;
+    try {
+      const ConfigNode muscles = ConfigNode::load((folder / "over.yaml").string()).at("muscles");
+      return muscles.has("flexor") ? "kept" : "removed";
+    } catch (const BadInput& error) {
+      return fs::path(error.what()).filename().string();
+    }
+  };
+  EXPECT_EQ(said("muscles: {flexor: null}\n"), "removed");
+  EXPECT_EQ(said("muscles: {extensor: null}\n"), "kept");
+  const std::string unknown =
+      ": unknown key; without a value it removes one of the file that is "
+      "extended";
+  EXPECT_EQ(said("muscles: {flexr: null}\n"), "over.yaml:2: muscles.flexr" + unknown);
+  EXPECT_EQ(said("muscles:\n  flexor: {lenght: }\n"),
+            "over.yaml:3: muscles.flexor.lenght" + unknown);
+  EXPECT_EQ(said("musclse: null\n"), "over.yaml:2: musclse" + unknown);
+  fs::remove_all(folder);
 }
 
 TEST(ConfigNode, ReadsListsOfSoManyNumbers) {
