@@ -22,6 +22,8 @@ std::vector<double> posture_of(const anthrob_msgs::GoTo::Request& request,
         "names and values differ in number: expected one joint_position for each joint_name, and "
         "one ball_joint_orientation for each ball_joint_name");
   }
+  anthrob::refuse_repeated("joint", request.joint_name);
+  anthrob::refuse_repeated("ball joint", request.ball_joint_name);
   anthrob::Placement posture(model, q);
   for (std::size_t i = 0; i < request.joint_name.size(); ++i) {
     posture.set_joint(request.joint_name[i], request.joint_position[i]);

@@ -35,6 +35,22 @@ anthrob_msgs::SetState state_of(const anthrob::RobotModel& model, const std::vec
   return state;
 }
 
+/// @return whether the simulator is there
+bool wait_for_simulator(const ros::NodeHandle& nh) {
+  constexpr double kSilence = 3.0;  // [s]
+  const std::string service = nh.resolveName("sim/set_state");
+  const ros::WallTime begin = ros::WallTime::now();
+  for (bool told = false; ros::ok(); ros::WallDuration(0.05).sleep()) {
+    if (ros::service::exists(service, false)) return true;
+    if (told || (ros::WallTime::now() - begin).toSec() < kSilence) continue;
+    told = true;
+    ROS_WARN_STREAM("waiting for " << service
+                                   << ", which nobody offers: is the simulator running? Start this "
+                                      "node in the robot's namespace, e.g. __ns:=/anthrob");
+  }
+  return false;
+}
+
 /// @return whether the posture was commanded
 bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const std::string wanted = anthrob::required(settings, "posture", "the name of a posture");
@@ -59,7 +75,7 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   anthrob::refuse_beyond_limits(wanted, *model, equilibrium.reference);
 
   ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 1);
-  if (!ros::service::waitForService("sim/set_state", ros::Duration(-1))) return false;
+  if (!wait_for_simulator(nh)) return false;
   auto state = state_of(*model, step->q, equilibrium.position);
   const bool answered = ros::service::call("sim/set_state", state);
   if (!ros::ok()) return false;

@@ -51,9 +51,11 @@ std::string gains_file(const RobotModel& model, const HeldGains& held, const std
     const std::string gains = found == held.end() ? "" : differing(muscle, found->second);
     if (!gains.empty()) muscles += "  " + muscle.name + ": {gains: {" + gains + "}}\n";
   }
-  if (muscles.empty()) return "";
-  return "# Gains that the robot held when this file was saved.\nextends: \"" + extends +
-         "\"\n\nmuscles:\n" + muscles;
+  const std::string head =
+      muscles.empty() ? "# The robot held the gains of this model when this file was saved.\n"
+                      : "# Gains that the robot held when this file was saved.\n";
+  return head + "extends: \"" + extends + "\"\n" +
+         (muscles.empty() ? "" : "\nmuscles:\n" + muscles);
 }
 
 }  // namespace anthrob

@@ -69,13 +69,15 @@ TEST(GainsFile, LoadsAsTheModelWithTheGainsThatWereHeld) {
   }
 }
 
-TEST(GainsFile, IsEmptyWhereNothingDiffers) {
+TEST(GainsFile, OnlyExtendsTheModelWhereNothingDiffers) {
   const auto model = load_robot_model(kModel);
   HeldGains held;
   held["lateral_deltoid"] = {
       {"position_proportional",
        static_cast<float>(model->muscles[0].controller.position.proportional)}};
-  EXPECT_EQ(gains_file(*model, held, kModel), "");
+  const std::string text = gains_file(*model, held, kModel);
+  EXPECT_NE(text.find("extends: "), std::string::npos) << text;
+  EXPECT_EQ(text.find("muscles"), std::string::npos) << text;
 }
 
 TEST(GainsFile, OfAnotherRobotIsRefused) {

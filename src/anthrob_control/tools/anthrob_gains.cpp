@@ -111,12 +111,7 @@ std::string file_of(const Gains::Response& response, const anthrob::RobotModel& 
 
 void save(const Gains::Response& response, const anthrob::RobotModel& model,
           const Arguments& arguments) {
-  const std::string text = file_of(response, model, arguments);
-  if (text.empty()) {
-    std::fprintf(stderr, "nothing saved: all gains are those of %s\n", arguments.model.c_str());
-    return;
-  }
-  anthrob::write_file_atomically(arguments.save, text);
+  anthrob::write_file_atomically(arguments.save, file_of(response, model, arguments));
 }
 
 int run(const Arguments& arguments) {

@@ -27,6 +27,13 @@ std::string text(double value) {
 
 }  // namespace
 
+void refuse_repeated(const std::string& what, const std::vector<std::string>& names) {
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (std::find(names.begin(), name, *name) == name) continue;
+    throw BadInput(what + " '" + *name + "': named twice");
+  }
+}
+
 Placement::Placement(const RobotModel& model)
     : Placement(model, model.skeleton->rest_configuration()) {}
 

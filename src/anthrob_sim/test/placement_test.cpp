@@ -64,6 +64,15 @@ TEST(Placement, HingesStayWithinTheirStopAndWhatItGives) {
             "joint 'knee': no hinge or prismatic joint of that name");
 }
 
+TEST(Placement, ANameThatComesTwiceIsRefused) {
+  EXPECT_EQ(refusal([] {
+              refuse_repeated("joint", {"elbow", "shoulder", "elbow"});
+            }),
+            "joint 'elbow': named twice");
+  EXPECT_EQ(refusal([] { refuse_repeated("joint", {"elbow", "shoulder"}); }), "");
+  EXPECT_EQ(refusal([] { refuse_repeated("joint", {}); }), "");
+}
+
 TEST(Placement, JointsWithoutAStopGoAsFarAsNumbersMakeSense) {
   const testing_support::TemporaryRobot wheel(
       R"(<robot name="wheel"><link name="base"/>

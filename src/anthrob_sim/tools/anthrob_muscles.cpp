@@ -1,6 +1,7 @@
 // Muscles of a robot in one posture: lengths, forces, wrapping, moment arms.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -159,6 +160,17 @@ void print_table(const Simulation& sim) {
   }
 }
 
+/// @param option "--joint"   @param assignments its values   @return the names
+std::vector<std::string> names_of(const std::string& option,
+                                  const std::vector<std::string>& assignments) {
+  std::vector<std::string> names;
+  for (const std::string& text : assignments) {
+    names.push_back(tool::parse_assignment(option, text).name);
+  }
+  refuse_repeated(option, names);
+  return names;
+}
+
 void set_joint(const RobotModel& model, const std::string& option, Placement& placement) {
   const tool::Assignment a = tool::parse_assignment("--joint", option);
   const int index = model.skeleton->find_joint(a.name);
@@ -253,12 +265,25 @@ int main(int argc, char** argv) {
                  "shoulder_x=-1:1:50");
   app.add_option("--muscle", only, "show only this muscle of a sweep; may be repeated")
       ->needs("--sweep");
-  app.add_option("--plot", plot, "draw a sweep to FILE.svg")->needs("--sweep");
+  app.add_option("--plot", plot, "draw a sweep to FILE.svg")
+      ->needs("--sweep")
+      ->check([](const std::string& file) -> std::string {
+        return std::filesystem::path(file).extension() == ".svg" ? ""
+                                                                 : file + ": expected FILE.svg";
+      });
   app.add_flag("--csv", csv, "print comma-separated values in SI units");
   app.add_flag("--json", json, "print JSON in SI units")->excludes("--csv");
   return tool::run(app, argc, argv, [&]() -> int {
     const auto model = tool::load_model(app, tool::find_model_file(robot, model_name));
     Placement placement(*model);
+    const std::vector<std::string> named = names_of("--joint", joints);
+    names_of("--position", positions);
+    if (!sweep.empty()) {
+      const std::string moved = tool::parse_range("--sweep", sweep).name;
+      if (std::count(named.begin(), named.end(), moved) > 0) {
+        throw BadInput("--joint " + moved + ": --sweep moves it; expected one of the two");
+      }
+    }
     for (const std::string& option : joints) set_joint(*model, option, placement);
     for (const std::string& option : positions) set_position(*model, option, placement);
     check_muscles(*model, only);

@@ -11,10 +11,9 @@ namespace anthrob {
 using HeldGains = std::map<std::string, std::map<std::string, double>>;
 
 /// Text of a model file with the gains that a robot holds: it extends the model, and has `gains:`
-/// for the muscles whose gains differ from the model's. Units hold float 32, so gains that are
-/// equal as float 32 do not count as different.
+/// for the muscles whose gains differ from the model's, if any do. Units hold float 32, so gains
+/// that are equal as float 32 do not count as different.
 /// @param extends path of the model's file, relative to the new file
-/// @return empty if no gain differs
 /// @throws BadInput for muscles that the model lacks, or that have no controller
 std::string gains_file(const RobotModel& model, const HeldGains& held, const std::string& extends);
 

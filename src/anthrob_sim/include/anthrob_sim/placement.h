@@ -9,6 +9,9 @@ namespace anthrob {
 
 class Simulation;
 
+/// @param what they are, such as "joint"   @throws BadInput that says which name comes twice
+void refuse_repeated(const std::string& what, const std::vector<std::string>& names);
+
 /// Collects a requested posture for Simulation::place, and checks every value against the limits of
 /// its joint or muscle. All setters throw BadInput that names the joint or muscle.
 class Placement {

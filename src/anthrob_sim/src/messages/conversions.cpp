@@ -41,6 +41,9 @@ void read_state(const anthrob_msgs::SetState::Request& request, Placement& place
       request.muscle_name.size() != request.muscle_position.size()) {
     throw BadInput("names and values differ in number");
   }
+  refuse_repeated("joint", request.joint_name);
+  refuse_repeated("ball joint", request.ball_joint_name);
+  refuse_repeated("muscle", request.muscle_name);
   for (std::size_t i = 0; i < request.joint_name.size(); ++i) {
     placement.set_joint(request.joint_name[i], request.joint_position[i]);
   }
