@@ -1,11 +1,8 @@
 #!/usr/bin/env python3
-"""Joins the results of several benchmark programs into ALL.json and prints them as tables.
-
-    bench_table.py ALL.json PART.json...
-"""
+"""Joins the results of several benchmark programs into one file and prints them as tables."""
+import argparse
 import json
 import os
-import sys
 
 ROWS = [
     ('skeleton step', 'skeleton', 'mujoco_skeleton'),
@@ -132,7 +129,15 @@ def print_chains(benchmarks):
 
 
 def main():
-    results = join(sys.argv[1], sys.argv[2:])
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('all', metavar='ALL.json', help='file to write')
+    parser.add_argument('parts', metavar='PART.json', nargs='+', help='results of Google Benchmark')
+    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (see --help)\n')
+    arguments = parser.parse_args()
+    try:
+        results = join(arguments.all, arguments.parts)
+    except (OSError, ValueError) as error:
+        parser.error(error)
     medians = {b['run_name']: b['cpu_time'] for b in results['benchmarks'] if b.get('aggregate_name') == 'median'}
     context = results['context']
     print('%d CPUs at %d MHz; medians of one run' % (context['num_cpus'], context['mhz_per_cpu']))

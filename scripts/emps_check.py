@@ -1,13 +1,12 @@
 #!/usr/bin/python3
 """Evaluates a model of the EMPS drive as the authors of its data do: force residual, and replay in closed loop.
 
-    emps_check.py MODEL.yaml DATA.csv...
-
 MODEL.yaml: what anthrob_discover wrote for config/driven_axis. DATA.csv: t, u_vir [V], force [N], position [m], reference [m] and,
 where there are any, pulses [V] that were added to the controller's output, 1 kHz (Janot, Gautier, Brunot 2019). The force
 residual is filtered (zero phase, 100 Hz for the position, 40 Hz for the force) and thinned to 80 Hz; the replay simulates the
 drive's own controller.
 """
+import argparse
 import os
 import sys
 
@@ -105,16 +104,19 @@ def rms(values):
 
 
 def main():
-    if len(sys.argv) < 3:
-        refuse('expected MODEL.yaml and one or more DATA.csv')
-    for file in sys.argv[1:]:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('model', metavar='MODEL.yaml')
+    parser.add_argument('data', metavar='DATA.csv', nargs='+')
+    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (see --help)\n')
+    arguments = parser.parse_args()
+    for file in [arguments.model] + arguments.data:
         if not os.path.isfile(file):
             refuse('%s: no such file' % file)
     try:
-        numbers = numbers_of(load_model(sys.argv[1]))
+        numbers = numbers_of(load_model(arguments.model))
         if numpy is None:
             refuse('numpy is missing: apt-get install python3-numpy')
-        recordings = [(file, numpy.genfromtxt(file, delimiter=',', skip_header=1)) for file in sys.argv[2:]]
+        recordings = [(file, numpy.genfromtxt(file, delimiter=',', skip_header=1)) for file in arguments.data]
     except (OSError, ValueError, yaml.YAMLError) as error:
         refuse(' '.join(str(error).split()))
     for file, data in recordings:

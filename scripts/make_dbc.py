@@ -2,6 +2,7 @@
 """Writes config/anthrob/anthrob_ecu.dbc: the protocol of docs/ecu_protocol.md as a DBC file for CAN tools.
 
 dbc_test of anthrob_driver compares the result with the codec."""
+import argparse
 import os
 
 FUNCTIONS = ['STOP', 'SYNC', 'REQUEST', 'REFERENCE', 'MOTION_A', 'MOTION_B', 'EFFORT', 'ANALOG', 'STATE',
@@ -85,4 +86,5 @@ def main():
 
 
 if __name__ == '__main__':
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     main()

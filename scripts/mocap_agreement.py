@@ -1,9 +1,6 @@
 #!/usr/bin/python3
-"""Compares a ball joint measured by virtual cameras with the simulator's own.
-
-    mocap_agreement.py BAG    BAG: of demo.launch mocap:=virtual, or any with spherical_joint_states and
-                              sim/spherical_joint_states
-"""
+"""Compares a ball joint measured by virtual cameras with the simulator's own."""
+import argparse
 import bisect
 import math
 import sys
@@ -65,16 +62,19 @@ def report(name, seen, truth):
 
 
 def main():
-    if len(sys.argv) != 2:
-        refuse('expected BAG, a bag file, as the only argument')
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('bag', metavar='BAG', help='bag of demo.launch mocap:=virtual, or any with '
+                        'spherical_joint_states and sim/spherical_joint_states')
+    parser.error = lambda message: parser.exit(2, f'{parser.prog}: {message} (see --help)\n')
+    arguments = parser.parse_args()
     try:
-        with rosbag.Bag(sys.argv[1]) as bag:
+        with rosbag.Bag(arguments.bag) as bag:
             seen, truth = read(bag)
     except (OSError, rosbag.ROSBagException) as error:
-        refuse('%s: %s' % (sys.argv[1], error))
+        refuse('%s: %s' % (arguments.bag, error))
     both = sorted(set(seen) & set(truth))
     if not both:
-        refuse('%s: expected spherical_joint_states and sim/spherical_joint_states, with a joint in both' % sys.argv[1])
+        refuse('%s: expected spherical_joint_states and sim/spherical_joint_states, with a joint in both' % arguments.bag)
     for name in both:
         report(name, seen[name], sorted(truth[name]))
 

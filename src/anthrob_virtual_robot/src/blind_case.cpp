@@ -304,12 +304,27 @@ BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
   return blind;
 }
 
+/// @return what a score takes such a case for
+CaseKind kind_of(const std::vector<std::pair<std::string, std::string>>& laws_and_places) {
+  if (laws_and_places.size() > 1) return CaseKind::kPair;
+  for (const HiddenLaw& law : outside_laws()) {
+    if (law.id == laws_and_places.front().first) return CaseKind::kOutside;
+  }
+  return CaseKind::kEffect;
+}
+
 BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws_and_places,
                     std::uint64_t seed, const reference::ArmParameters& believed,
                     const CaseSettings& settings) {
-  BlindCase blind = empty_case(CaseKind::kEffect, seed, believed, settings);
+  BlindCase blind = empty_case(kind_of(laws_and_places), seed, believed, settings);
   Random random(blind.seed, kParameters), sizes(blind.seed, kSize);
   for (const auto& [id, place] : laws_and_places) {
+    const auto is_same = [&, i = id, p = place](const Hidden& h) {
+      return h.id == i && h.place == p;
+    };
+    if (std::any_of(blind.hidden.begin(), blind.hidden.end(), is_same)) {
+      throw std::invalid_argument(id + "@" + place + ": given twice; expected each once");
+    }
     const HiddenLaw& law = hidden_law(id);
     const std::vector<std::string> places = law.places(blind.built);
     if (std::find(places.begin(), places.end(), place) == places.end()) {

@@ -177,6 +177,17 @@ TEST(BlindCase, SizeIsWithinTheFloorsAskedForAndTheSameForASeed) {
   const BlindCase again =
       make_case({{"force_sensor_gain", "lateral_deltoid"}}, 3, model_I(), settings());
   EXPECT_EQ(truth_text(blind), truth_text(again));
+  EXPECT_EQ(blind.kind, CaseKind::kEffect);
+}
+
+TEST(BlindCase, IsOfTheKindThatAScoreTakesItFor) {
+  const auto made = [](const std::vector<std::pair<std::string, std::string>>& hidden) {
+    return make_case(hidden, 3, model_I(), settings());
+  };
+  EXPECT_EQ(made({{"periodic_push", "elbow"}}).kind, CaseKind::kOutside);
+  EXPECT_EQ(made({{"joint_coulomb", "elbow"}, {"payload", "forearm"}}).kind, CaseKind::kPair);
+  EXPECT_THROW(made({{"joint_coulomb", "elbow"}, {"joint_coulomb", "elbow"}}),
+               std::invalid_argument);
 }
 
 /// The ordinary parameter that a hidden thing is the same quantity as; nullptr if none.

@@ -82,8 +82,10 @@ int main(int argc, char** argv) {
       "outside (one that the catalogue lacks), wrapped (all muscles wrap around bones)");
   auto* number_option =
       app.add_option("--case", number,
-                     "number of the case: successive numbers take the next law, then other places");
-  app.add_option("--seed", seed, "seed of all random choices");
+                     "number of the case: successive numbers take the next law, then other places")
+          ->check(anthrob::tool::within(0.0, 1e12));
+  app.add_option("--seed", seed, "seed of all random choices")
+      ->check(anthrob::tool::within(0.0, 1e12));
   app.add_option("--hide", hide,
                  "ID@PLACE: hide this instead of what --case selects; may be repeated")
       ->excludes(kind_option)
