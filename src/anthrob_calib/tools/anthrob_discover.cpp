@@ -75,7 +75,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--seed", question.seed,
                  "seed of the resampling, on which probabilities and intervals depend")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(anthrob::tool::within(0.0, 1e12));
   app.add_option("--calibration", a.calibration,
                  "file that lists the ordinary parameters, which are fitted all the time (default: "
                  "calibration.yaml beside the model or beside the one that it extends)");

@@ -1,10 +1,12 @@
 // Recordings of the rigs, simulated with known parameters and with what real rigs add.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "anthrob_calib/virtual_rig/eyelet_pull.h"
 #include "anthrob_calib/virtual_rig/load_resistor.h"
 #include "anthrob_calib/virtual_rig/ring_stretcher.h"
+#include "anthrob_config/errors.h"
 #include "anthrob_sim/tool/tool.h"
 
 namespace anthrob {
@@ -30,7 +32,14 @@ struct RingChoice {
 /// Two runs of the first specimen, one of the second, as in section 7.2.3.
 void make_ring_recordings(RingChoice choice, std::uint64_t seed, const std::string& out) {
   const std::string rig = rig_folder("rig_oring_stretcher");
-  if (choice.rings.empty()) choice.rings = ring_names(rig);
+  const std::vector<std::string> known = ring_names(rig);
+  if (choice.rings.empty()) choice.rings = known;
+  for (const std::string& ring : choice.rings) {
+    if (std::count(known.begin(), known.end(), ring) > 0) continue;
+    std::string names;
+    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+    throw BadInput("--ring " + ring + ": expected one of: " + names);
+  }
   choice.options.seed = seed;
   for (const std::string& ring : choice.rings) {
     const RingTruth truth = RingTruth::load(rig, ring, choice.truth == "zener" ? 1 : 2);
@@ -100,7 +109,7 @@ int main(int argc, char** argv) {
     CLI::App* command = app.add_subcommand(name, description);
     command->add_option("--out", out, "folder for the recordings")->required();
     command->add_option("--seed", seed, "seed of the noise and of the rig's deviations")
-        ->check(CLI::NonNegativeNumber);
+        ->check(tool::within(0.0, 1e12));
     return command;
   };
   CLI::App* see = add("see", "rubber rings on the stretcher");

@@ -141,6 +141,9 @@ ForeignColumns ForeignColumns::load(const std::string& file) {
   const std::string separator = node.text_or("separator", ",");
   if (separator.size() != 1) node.at("separator").fail_expected("one character");
   columns.separator = separator[0];
+  if (node.has("time") && node.has("rate")) {
+    node.at("rate").fail("beside 'time': expected only one of them");
+  }
   if (node.has("time")) {
     columns.time = node.at("time").text("column");
     columns.time_scale = node.at("time").number_or("scale", 1.0, Bounds::positive(), "s");

@@ -101,7 +101,7 @@ class ForeignReader {
     std::string there;
     for (const std::string& column : header_) there += (there.empty() ? "" : ", ") + column;
     throw BadInput(columns_.file + ": column '" + name + "' is not in " + file_ +
-                   "; expected one of: " + there);
+                   (there.empty() ? ", which is empty" : "; expected one of: " + there));
   }
 
   double number(const std::vector<std::string>& cells, std::size_t place) const {
