@@ -185,7 +185,8 @@ TEST_F(Score, ReportsThatAreNowhereAreNoAnswers) {
   EXPECT_EQ(WEXITSTATUS(status), 2);
   std::ifstream log(at + "/log");
   const std::string said{std::istreambuf_iterator<char>(log), {}};
-  EXPECT_EQ(said, at + "/misspelt: no such folder; expected one that holds NAME/report.json\n");
+  EXPECT_EQ(said, "anthrob_score: " + at +
+                      "/misspelt: no such folder; expected one that holds NAME/report.json\n");
 }
 
 TEST_F(Score, AMedianHasAnInterval) {
