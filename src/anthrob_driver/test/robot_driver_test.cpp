@@ -15,6 +15,14 @@ namespace {
 
 using Phase = RobotDriver::Phase;
 
+/// Null if nothing of that kind was found.
+const Findings::Entry* found(Rig& rig, Finding finding) {
+  const auto& entries = rig.driver().findings().entries();
+  const auto entry = std::find_if(entries.begin(), entries.end(),
+                                  [finding](const auto& e) { return e.finding == finding; });
+  return entry == entries.end() ? nullptr : &*entry;
+}
+
 TEST(RobotDriver, ConfiguresEveryEcuAndReadsItBack) {
   Rig rig;
   rig.run(1000);
@@ -286,11 +294,8 @@ TEST(RobotDriver, AUnitThatCannotBeConfiguredIsNamed) {
     return std::vector<ecu::Frame>{ecu::encode(state, node)};
   };
   rig.run(5000);
-  const auto& entries = rig.driver().findings().entries();
-  const auto refused = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
-    return entry.finding == Finding::kConfigurationRefused;
-  });
-  ASSERT_NE(refused, entries.end());
+  const Findings::Entry* const refused = found(rig, Finding::kConfigurationRefused);
+  ASSERT_NE(refused, nullptr);
   EXPECT_EQ(refused->ecu, 2);
   EXPECT_NE(refused->detail.find("another number of muscles"), std::string::npos);
   EXPECT_EQ(rig.driver().start_enable(rig.now()).accepted, false);
@@ -313,11 +318,8 @@ TEST(RobotDriver, AUnitThatReportsButDoesNotMeasureIsNamed) {
   rig.run(500);
   EXPECT_EQ(rig.driver().findings().count(Finding::kEcuLost), 0u);  // it may still begin
   rig.run(1500);
-  const auto& entries = rig.driver().findings().entries();
-  const auto lost = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
-    return entry.finding == Finding::kEcuLost;
-  });
-  ASSERT_NE(lost, entries.end());
+  const Findings::Entry* const lost = found(rig, Finding::kEcuLost);
+  ASSERT_NE(lost, nullptr);
   EXPECT_EQ(lost->ecu, 2);
 }
 
@@ -332,11 +334,8 @@ TEST(RobotDriver, AUnitWithFewerMusclesIsNamed) {
     return std::vector<ecu::Frame>{ecu::encode_parameter_reply(message, node)};
   };
   rig.run(3000);
-  const auto& entries = rig.driver().findings().entries();
-  const auto refused = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
-    return entry.finding == Finding::kConfigurationRefused;
-  });
-  ASSERT_NE(refused, entries.end());
+  const Findings::Entry* const refused = found(rig, Finding::kConfigurationRefused);
+  ASSERT_NE(refused, nullptr);
   const auto second = static_cast<std::size_t>(rig.hardware.ecus[2].muscles[1]);
   EXPECT_EQ(refused->detail.find(rig.hardware.muscles[second].name + ": "), 0u) << refused->detail;
   EXPECT_NE(refused->detail.find("has the ECU as many muscles as in hardware.yaml?"),
