@@ -241,6 +241,16 @@ BlindCase with_pair(const BlindCase& bare, std::uint64_t seed, const CaseSetting
   return blind;
 }
 
+/// @return what a score takes such a case for
+CaseKind kind_of(const std::vector<std::pair<std::string, std::string>>& laws_and_places) {
+  if (laws_and_places.empty()) return CaseKind::kNull;
+  if (laws_and_places.size() > 1) return CaseKind::kPair;
+  for (const HiddenLaw& law : outside_laws()) {
+    if (law.id == laws_and_places.front().first) return CaseKind::kOutside;
+  }
+  return CaseKind::kEffect;
+}
+
 }  // namespace
 
 CaseKind case_kind(const std::string& name) {
@@ -302,15 +312,6 @@ BlindCase draw_case(CaseKind kind, std::uint64_t number, std::uint64_t seed,
   }
   blind.change = Change(blind, settings).of(blind.hidden);
   return blind;
-}
-
-/// @return what a score takes such a case for
-CaseKind kind_of(const std::vector<std::pair<std::string, std::string>>& laws_and_places) {
-  if (laws_and_places.size() > 1) return CaseKind::kPair;
-  for (const HiddenLaw& law : outside_laws()) {
-    if (law.id == laws_and_places.front().first) return CaseKind::kOutside;
-  }
-  return CaseKind::kEffect;
 }
 
 BlindCase make_case(const std::vector<std::pair<std::string, std::string>>& laws_and_places,

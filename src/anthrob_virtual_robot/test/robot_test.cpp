@@ -184,6 +184,7 @@ TEST(BlindCase, IsOfTheKindThatAScoreTakesItFor) {
   const auto made = [](const std::vector<std::pair<std::string, std::string>>& hidden) {
     return make_case(hidden, 3, model_I(), settings());
   };
+  EXPECT_EQ(made({}).kind, CaseKind::kNull);
   EXPECT_EQ(made({{"periodic_push", "elbow"}}).kind, CaseKind::kOutside);
   EXPECT_EQ(made({{"joint_coulomb", "elbow"}, {"payload", "forearm"}}).kind, CaseKind::kPair);
   EXPECT_THROW(made({{"joint_coulomb", "elbow"}, {"joint_coulomb", "elbow"}}),
