@@ -308,7 +308,7 @@ void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
   std::snprintf(text, sizeof(text), ": %s: wrote %g, read back %g: %s",
                 ecu::kParameters[index].name, static_cast<double>(wanted_value()),
                 static_cast<double>(reply.value), ecu::name(reply.result));
-  // The first of a second muscle, as of every one.
+  // An ECU without that muscle knows none of its parameters.
   const bool fewer = channel > 0 && reply.result == ecu::ParameterResult::kUnknown;
   findings_.add(Finding::kConfigurationRefused, index_, now,
                 muscle(channel).name + text +
