@@ -80,23 +80,44 @@ double share_of_simpler(const Candidate& part, const Candidate& whole) {
 
 FittedCandidate CandidateComparison::fit(const Fitted& base, std::size_t index,
                                          const EffectInstance& start) const {
-  const Candidate& candidate = candidates_[index];
-  Variant variant = base.variant;
-  variant.effects.push_back(start);
-  Fitted from = base;
-  for (const int nuisance : candidate.same_as) {
-    for (Unknown& u : from.unknowns) {
-      if (u.nuisance != nuisance) continue;
-      u.lower = u.upper = u.expected;
-      u.write(u.expected, variant);
-    }
-  }
   FittedCandidate named;
   named.candidate = index;
-  named.fit = train_.extend(
-      from, variant, unknowns_of(candidate, start, static_cast<int>(variant.effects.size()) - 1));
+  named.fit = begin(base, {{index, start}});
   train_.improve(named.fit, kFirstIterations);
   return named;
+}
+
+Fitted CandidateComparison::begin(const Fitted& base, const std::vector<Start>& starts) const {
+  Variant variant = base.variant;
+  Fitted from = base;
+  std::vector<Unknown> more;
+  for (const auto& [index, start] : starts) {
+    const Candidate& candidate = candidates_[index];
+    const auto effect = static_cast<int>(variant.effects.size());
+    variant.effects.push_back(start);
+    const std::vector<Unknown> its = unknowns_of(candidate, start, effect);
+    more.insert(more.end(), its.begin(), its.end());
+    for (const int nuisance : candidate.same_as) {
+      for (Unknown& u : from.unknowns) {
+        if (u.nuisance != nuisance) continue;
+        u.lower = u.upper = u.expected;
+        u.write(u.expected, variant);
+      }
+    }
+  }
+  return train_.extend(from, variant, more);
+}
+
+Tested CandidateComparison::together(const Tested& base, const std::vector<Score>& parts) const {
+  std::vector<Start> starts;
+  for (const Score& part : parts) {
+    starts.push_back({part.candidate, candidates_[part.candidate].sized(part.amount)});
+  }
+  Tested all;
+  all.fit = begin(base.fit, starts);
+  train_.improve(all.fit, kIterations, telling(all.fit));
+  all.test = test_.residual(all.fit.variant);
+  return all;
 }
 
 CandidateComparison::Odds CandidateComparison::odds(const Eigen::VectorXf& one_test,

@@ -42,6 +42,10 @@ void Search::run(std::vector<Score> scores) {
     ShortList list = setup_.comparison.weigh(model_.base, model_.excluded.filter(scores));
     comment_on(list);
     if (list.entries.empty()) break;
+    if (accept_elsewhere(list)) {
+      scores.clear();
+      continue;
+    }
     if (!earns_its_place(list)) {
       if (goes_on_elsewhere(list)) continue;
       break;
@@ -127,6 +131,46 @@ void Search::accept(ShortList& list) {
   model_.named.push_back(std::move(effect));
   model_.forget_refusals(setup_.candidates[best.candidate], answer_);
   model_.base = best;
+}
+
+bool Search::accept_elsewhere(const ShortList& list) {
+  Tested& base = model_.base;
+  const LawElsewhere elsewhere(setup_.context, setup_.scan, screening_);
+  const Effect* const law = elsewhere.repeated(list, model_.accepted());
+  if (!law || !model_.gaps.certain(base)) return false;
+  setup_.stage("checking all other places of " + law->info().id);
+  const std::size_t room =
+      static_cast<std::size_t>(setup_.question.max_effects) - model_.named.size();
+  const auto all = elsewhere.fit(law, model_.accepted(), base, room);
+  if (!all) return false;
+  ShortList both;
+  both.entries = {list.entries.front(), {}};
+  static_cast<Tested&>(both.entries.back()) = all->fit;
+  setup_.comparison.judge(base, both);
+  const FittedCandidate& first = both.entries.front();
+  const bool is_first = first.fit.unknowns.size() == all->fit.fit.unknowns.size();
+  if (!is_first || !lack(model_.gaps.merit_of(both, base)).empty()) return false;
+  name_parts(*all, first.probability);
+  base = setup_.context.tested(setup_.convergence.to_the_end(all->fit.fit));
+  pruning_.drop_superfluous(model_.named.size());
+  return true;
+}
+
+/// @param probability of all of them together: whether each is needed is asked afterwards
+void Search::name_parts(const LawElsewhere::Everywhere& all, double probability) {
+  for (const LawElsewhere::Part& part : all.parts) {
+    const FittedCandidate& with = part.alone.entries.front();
+    const Candidate& candidate = setup_.candidates[with.candidate];
+    NamedEffect effect;
+    effect.found = found_effect(part.alone, setup_.candidates);
+    effect.found.probability = probability;
+    effect.candidate = with.candidate;
+    effect.gained = part.without.fit.cost - with.fit.cost;
+    note_what_it_changes(setup_.test_judge, part.without.test, with.test, effect);
+    setup_.comment("  named with the others: " + candidate.name());
+    model_.forget_refusals(candidate, answer_);
+    model_.named.push_back(std::move(effect));
+  }
 }
 
 /// If the effect just named is a law that was named at other places before, one law for all places

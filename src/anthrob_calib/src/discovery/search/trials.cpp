@@ -124,9 +124,7 @@ std::vector<Trials::Trial> Trials::simulate(const Fitted& base, const std::vecto
   return trials;
 }
 
-std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& scores) const {
-  std::vector<Score> tried = most_promising(scores, candidates_);
-  add_place_of_first(scores, candidates_, tried);
+std::vector<double> Trials::choose_sizes(const Fitted& base, std::vector<Score>& tried) const {
   std::vector<Trial> trials;
   for (std::size_t s = 0; s < tried.size(); ++s) {
     for (Amount& amount : sizes_to_try(tried[s].amount)) trials.push_back({s, std::move(amount)});
@@ -166,6 +164,13 @@ std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& sc
     left[trial.owner] = trial.cost;
     tried[trial.owner].amount = trial.amount;
   }
+  return left;
+}
+
+std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& scores) const {
+  std::vector<Score> tried = most_promising(scores, candidates_);
+  add_place_of_first(scores, candidates_, tried);
+  const std::vector<double> left = choose_sizes(base, tried);
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "anthrob_calib/discovery/judgement/judge.h"
@@ -64,6 +65,9 @@ class CandidateComparison {
   /// After the base has moved to a better fit: fits every candidate once more from there, and
   /// judges all against the new base.
   void follow(const Tested& base, ShortList& list) const;
+  /// Fits several candidates at once, as far as those of a short list.
+  /// @param parts each with the size to begin with   @throws NotSimulated
+  Tested together(const Tested& base, const std::vector<Score>& parts) const;
   /// Computes evidence, significance and probability of each against a base, and sorts, most
   /// probable first.
   void judge(const Tested& base, ShortList& list) const;
@@ -75,6 +79,9 @@ class CandidateComparison {
   Odds odds(const Eigen::VectorXf& one_test, const Eigen::VectorXf& other_test) const;
 
  private:
+  using Start = std::pair<std::size_t, EffectInstance>;  ///< a candidate and its parameters
+
+  Fitted begin(const Fitted& base, const std::vector<Start>& starts) const;
   FittedCandidate fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;
   void turn_to_better_phase(const Fitted& base, FittedCandidate& named) const;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "anthrob_calib/discovery/search/law_elsewhere.h"
 #include "anthrob_calib/discovery/search/pruning.h"
 #include "anthrob_calib/discovery/search/screening.h"
 #include "anthrob_calib/discovery/search/working_model.h"
@@ -37,6 +38,10 @@ class Search {
   /// The first of a list did not earn its place. @return whether another list is worthwhile
   bool goes_on_elsewhere(const ShortList& list);
   void accept(ShortList& list);
+  /// If a law of the list is named elsewhere already: names it at all its places at once, where
+  /// that does better than the first of the list. @return whether it does
+  bool accept_elsewhere(const ShortList& list);
+  void name_parts(const LawElsewhere::Everywhere& all, double probability);
   void unite();
   void separate_first(const ShortList& list, FoundEffect& effect) const;
   void separate(const Variant& with, const Variant& with_rival, FoundEffect& effect) const;

@@ -29,6 +29,9 @@ class Trials {
   /// the first one. @return those that leave least, best first, each at its best size
   /// @param scores largest gain first
   std::vector<Score> best(const Fitted& base, const std::vector<Score>& scores) const;
+  /// Gives each candidate the size at which it leaves least, alone.
+  /// @return the cost that it leaves there; that of the base if no size does better
+  std::vector<double> choose_sizes(const Fitted& base, std::vector<Score>& tried) const;
 
  private:
   /// A candidate at some size.
