@@ -148,10 +148,12 @@ bool Search::accept_elsewhere(const ShortList& list) {
   static_cast<Tested&>(both.entries.back()) = all->fit;
   setup_.comparison.judge(base, both);
   const FittedCandidate& first = both.entries.front();
-  const bool is_first = first.fit.unknowns.size() == all->fit.fit.unknowns.size();
+  const bool is_first = first.fit.variant.effects.size() == all->fit.fit.variant.effects.size();
   if (!is_first || !lack(model_.gaps.merit_of(both, base)).empty()) return false;
   name_parts(*all, first.probability);
-  base = setup_.context.tested(setup_.convergence.to_the_end(all->fit.fit));
+  Tested end = setup_.context.tested(setup_.convergence.to_the_end(all->fit.fit));
+  base = end.test.size() > 0 ? std::move(end) : all->fit;
+  unite();
   pruning_.drop_superfluous(model_.named.size());
   return true;
 }
