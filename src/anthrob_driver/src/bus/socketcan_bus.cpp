@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "anthrob_config/errors.h"
 #include "anthrob_driver/bus/error_frame.h"
@@ -162,6 +163,7 @@ void SocketCanBus::close_socket() {
 void SocketCanBus::lose() {
   close_socket();
   up_ = false;
+  lost_ = true;
 }
 
 void SocketCanBus::recover() {
@@ -226,9 +228,11 @@ bool SocketCanBus::receive(BusEvent& event) {
   using Kind = BusEvent::Kind;
   if (in_->next == in_->count && up_) fetch();
   if (in_->next == in_->count) {
-    if (up_ == reported_up_) return false;
-    reported_up_ = up_;
-    event = {up_ ? Kind::kUp : Kind::kDown, {}, 0};
+    // One that was lost and is back already was down all the same: sends have failed.
+    const bool up = up_ && !std::exchange(lost_, false);
+    if (up == reported_up_) return false;
+    reported_up_ = up;
+    event = {up ? Kind::kUp : Kind::kDown, {}, 0};
     return true;
   }
   const can_frame& raw = in_->frames[in_->next];

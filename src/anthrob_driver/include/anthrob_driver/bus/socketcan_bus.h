@@ -49,6 +49,7 @@ class SocketCanBus final : public Bus {
   int socket_ = -1;
   std::uint64_t openings_ = 0;
   bool up_ = false, reported_up_ = true;
+  bool lost_ = false;          ///< since the last look of receive()
   std::uint32_t dropped_ = 0;  ///< frames that found the socket's queue full, as far as reported
   std::unique_ptr<Batch> out_, in_;
 };
