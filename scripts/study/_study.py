@@ -82,6 +82,17 @@ def start(main):
         sys.exit(1)
 
 
+def whole(least):
+    """Type of an option: a whole number of at least so much."""
+
+    def read(word):
+        if not word.isdecimal() or int(word) < least:
+            raise argparse.ArgumentTypeError(f"{word}: expected a whole number of at least {least}")
+        return int(word)
+
+    return read
+
+
 def load(file):
     with open(file) as text:
         return json.load(text)

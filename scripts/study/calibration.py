@@ -18,7 +18,7 @@ import sys
 import time
 
 from _study import (OUT, OneLineParser, commit, html_page, load, load_published, machine, markdown_page, must,
-                    of_the_study, say, several, start, write)
+                    of_the_study, say, several, start, whole, write)
 
 MODELS = ["I", "II", "III"]
 STAGES = ["tier1_statics", "tier1_dynamics", "tier2_statics", "tier2_dynamics"]
@@ -170,8 +170,7 @@ class Robot:
             start = min(runs, key=lambda r: load(f"{r}/result.json")["fitness"]["after"])
             facts = {**load(f"{start}/step.json"), "searches": len(runs)}
             write(f"{start}/step.json", json.dumps(facts, indent=2) + "\n")
-            with open(f"{self.folder}/{model}/{stage}/best", "w") as text:
-                text.write(os.path.basename(start) + "\n")
+            write(f"{self.folder}/{model}/{stage}/best", os.path.basename(start) + "\n")
             summarise(self.options)
 
     def result(self, stage, model):
@@ -374,17 +373,6 @@ def published(table):
         for seed, result in entry["robots"].items():
             robots.setdefault(str(seed), {}).setdefault(entry["model"], {})[entry["stage"]] = result
     return robots
-
-
-def whole(least):
-    """Type of an option: a whole number of at least so much."""
-
-    def read(word):
-        if not word.isdecimal() or int(word) < least:
-            raise argparse.ArgumentTypeError(f"{word}: expected a whole number of at least {least}")
-        return int(word)
-
-    return read
 
 
 def fraction(word):

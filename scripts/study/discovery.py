@@ -21,7 +21,7 @@ import sys
 import time
 
 from _study import (OUT, OneLineParser, commit, html_page, load, load_published, machine, markdown_page, must,
-                    of_the_study, refuse, run, say, several, start, write)
+                    of_the_study, refuse, run, say, several, start, whole, write)
 
 MAKER = "devel/lib/anthrob_virtual_robot/anthrob_blind_case"
 DISCOVER = "devel/lib/anthrob_calib/anthrob_discover"
@@ -447,7 +447,7 @@ def arguments():
     parser.add_argument("--adopt", action="store_true", help=f"take the cases in {DOCUMENTS}/*.json as done")
     parser.add_argument("--keep", action="store_true", help="keep the recordings of finished cases")
     parser.add_argument("--seed", type=int, default=1, help="seed of all random numbers")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="threads per case")
+    parser.add_argument("--jobs", type=whole(1), default=os.cpu_count(), help="threads per case")
     parser.add_argument("--out", default=OUT, help=f"folder of the results; if not {OUT}, {DOCUMENTS} stays as it is")
     return parser.parse_args()
 

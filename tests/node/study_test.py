@@ -349,7 +349,7 @@ class DiscoveryStudy(Study):
         self.assertEqual([row[1:] for row in two], [['c', 'at least 80 %'], ['d', '']])
 
     def test_bad_input(self):
-        for arguments in (['--case', 'nobody'], ['--slice', '3/2'], ['--slice', 'x'], ['--summary']):
+        for arguments in (['--case', 'nobody'], ['--slice', '3/2'], ['--slice', 'x'], ['--summary'], ['--jobs', '0']):
             with self.assertRaises(SystemExit) as ended:
                 self.study(*arguments)
             self.assertEqual(ended.exception.code, 2, arguments)
