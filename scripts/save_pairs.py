@@ -51,16 +51,19 @@ class Pairs:
     def add(self, stamp, left, right):
         """stamp: text [s]; images: PNG"""
         files = [self.out / side / ('%06d.png' % len(self.times)) for side in ('left', 'right')]
+        parts = [self.out / (side + '.part') for side in ('left', 'right')]
         try:
-            for file, image in zip(files, (left, right)):
-                file.write_bytes(image)
+            for part, image in zip(parts, (left, right)):
+                part.write_bytes(image)
+            # Before its pictures: readers accept a time without pictures, but no picture without a time.
+            with open(self.out / 'times.csv', 'a' if self.times else 'w', encoding='ascii') as times:
+                times.write('%s%d,%s\n' % ('' if self.times else 'index,t\n', len(self.times), stamp))
+            for part, file in zip(parts, files):
+                part.replace(file)
         except OSError:
-            for file in files:
+            for file in parts + files:
                 file.unlink(missing_ok=True)  # no half of a pair
             raise
-        # As they come, so that no picture is without its time, whatever ends the script.
-        with open(self.out / 'times.csv', 'a' if self.times else 'w', encoding='ascii') as times:
-            times.write('%s%d,%s\n' % ('' if self.times else 'index,t\n', len(self.times), stamp))
         self.times.append(stamp)
 
     def __enter__(self):
@@ -85,6 +88,8 @@ def matched(messages, topics, tolerance, leave_out):
     leave_out is called with topic and reason for each image whose stamp cannot be used."""
     waiting, intervals, last = {topic: [] for topic in topics}, [], {}
     for topic, image, _ in messages:
+        if stop_asked:
+            return
         # Of stamps that stand still nobody knows which belong together.
         if image.header.stamp.is_zero() or image.header.stamp == last.get(topic):
             leave_out(topic, '%s: image stamped %.6f s: expected the time of the exposure, after the previous stamp'
@@ -131,7 +136,7 @@ def save_images(arguments, bag):
         if topic not in images:
             raise ValueError('%s: no images on topic %s; image topics of this bag: %s' %
                              (arguments.bag, topic, ', '.join(sorted(images)) or 'none'))
-    bad, unstamped, pairs = [], {}, 0
+    bad, unstamped, pairs, last = [], {}, 0, None
 
     def leave_out(why):
         bad.append(why)
@@ -149,9 +154,15 @@ def save_images(arguments, bag):
             pairs += 1
             if i % arguments.every:
                 continue
+            # Whoever reads the folder wants times that increase.
+            if last and left.header.stamp <= last:
+                leave_out_for_stamp(arguments.topics[0], '%s: image stamped %.6f s: expected a time after that of the '
+                                    'last pair, %.6f s' % (arguments.topics[0], left.header.stamp.to_sec(), last.to_sec()))
+                continue
             stamp = '%d.%09d' % (left.header.stamp.secs, left.header.stamp.nsecs)
             try:
                 folder.add(stamp, of_message(left, arguments.topics[0]), of_message(right, arguments.topics[1]))
+                last = left.header.stamp
             except BadImage as error:
                 leave_out(error)
     for topic, count in unstamped.items():
@@ -210,9 +221,10 @@ def save_cameras(arguments):
     Aravis.enable_interface('Fake')
     try:
         cameras = [Camera(Aravis, name, arguments.exposure) for name in arguments.cameras]
+        began = time.time() - time.monotonic()  # a clock that is set back must not set back the times
         with Pairs(arguments.out) as folder:
             while len(folder.times) < arguments.count and not stop_asked:
-                now = time.time()
+                now = began + time.monotonic()
                 for camera in cameras:
                     camera.trigger()
                 left, right = [camera.picture() for camera in cameras]
@@ -220,7 +232,7 @@ def save_cameras(arguments):
                     folder.add('%.6f' % now, left, right)
                 else:
                     print('no image from %s' % cameras[0 if not left else 1].name, file=sys.stderr)
-                time.sleep(max(0.0, now + 1.0 / arguments.rate - time.time()))
+                time.sleep(max(0.0, now + 1.0 / arguments.rate - began - time.monotonic()))
     except GLib.Error as error:
         raise OSError('cameras %s: %s' % (', '.join(arguments.cameras), error.message))
 
