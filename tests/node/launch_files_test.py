@@ -114,16 +114,31 @@ class LaunchFiles(unittest.TestCase):
             nodes = [node.type for node in load('robot.launch', 'mocap:=' + word).nodes]
             self.assertEqual('anthrob_mocap' in nodes, wanted)
 
+    def test_cameras_of_the_robot(self):
+        asked = dict(files='/a', calibration='/b', source='aravis', left='l', right='r')
+        params = load('robot.launch', 'mocap:=true', *['mocap_%s:=%s' % pair for pair in asked.items()]).params
+        for name in 'calibration', 'source', 'left', 'right':
+            self.assertEqual(params['/anthrob/mocap/' + name].value, asked[name])
+        self.assertEqual(params['/anthrob/mocap/targets'].value, '/a/targets.yaml')
+        self.assertTrue(params['/anthrob/mocap/joint_tf'].value)
+
+    def test_recordings_can_be_watched(self):
+        for file, more in ('record.launch', 'protocol:=tier1_equilibria'), ('record_zero_gravity.launch', 'steps:=5'):
+            for rviz in False, True:
+                nodes = load(file, 'out:=/tmp/1', more, 'rviz:=%s' % rviz).nodes
+                self.assertEqual('rviz' in [node.type for node in nodes], rviz, file)
+
     def test_hand_and_motion_capture_reach_every_back_end(self):
         for backend in 'hardware', 'emulated', 'sim':
             with self.subTest(backend):
                 config = load('robot.launch', 'backend:=' + backend, 'hand:=true', 'mocap:=true')
                 self.assertIn('name="fingers"', config.params['/anthrob/robot_description'].value)
                 models = [node.args for node in config.nodes if node.package == 'anthrob_emulator']
-                models += [p.value for name, p in config.params.items() if name == '/anthrob/simulator/model']
+                models += [p.value for name, p in config.params.items()
+                           if name in ('/anthrob/simulator/model', '/anthrob/driver/model')]
                 for model in models:
                     self.assertIn('model_II_hand.yaml', model)
-                self.assertEqual(len(models), backend != 'hardware')
+                self.assertEqual(len(models), 2 if backend == 'emulated' else 1)
                 seen = any(node.package == 'anthrob_mocap' for node in config.nodes)
                 self.assertEqual(seen, backend != 'emulated')
 

@@ -92,7 +92,7 @@ void refuse_other_back_ends(ros::NodeHandle& nh, const std::string& own) {
   const std::string topic = nh.resolveName("muscle_states"), meant = nh.resolveName(own);
   for (const std::string& node : publishers_of(topic)) {
     if (node == meant || !lives(node)) continue;
-    restore_time();
+    restore_time(meant);
     throw BadInput("parameter ~back_end: " + own + ": but " + node + " publishes " + topic +
                    "; stop it first, or use the robot that is running (launch files: sim:=false; "
                    "rosrun: rosparam delete " +
@@ -108,10 +108,13 @@ bool name_is_taken() {
   return true;
 }
 
-void restore_time() {
+void restore_time(const std::string& ending) {
   // The living publisher of the clock may have the same name as the refused node.
   const std::vector<std::string> clocks = publishers_of("/clock");
-  ros::param::set("/use_sim_time", std::any_of(clocks.begin(), clocks.end(), lives));
+  const bool stays = std::any_of(clocks.begin(), clocks.end(), [&](const std::string& node) {
+    return node != ending && lives(node);
+  });
+  ros::param::set("/use_sim_time", stays);
 }
 
 }  // namespace anthrob

@@ -26,7 +26,8 @@ bool is_fresh(const ros::Time& stamp, const ros::Time& now) {
 
 }  // namespace
 
-TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeHandle nh)
+TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeHandle nh,
+                             bool joint_tf)
     : sim_(std::move(model)),
       q_(sim_.model().skeleton->rest_configuration()),
       forces_(sim_.muscle_count(), kNotMeasured),
@@ -34,6 +35,7 @@ TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeH
       surfaces_(nh, sim_.model()) {
   paths_ = nh.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
   solved_paths_ = nh.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
+  if (joint_tf) transforms_.emplace();
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
       nh.subscribe("muscle_states", 1, &TendonDisplay::see_muscles, this, no_delay),
@@ -110,6 +112,7 @@ void TendonDisplay::draw() {
   visualization_msgs::MarkerArray markers = muscle_markers(sim_, forces_, oldest);
   for (auto& marker : markers.markers) marker.lifetime = ros::Duration(kStaleAfter);
   paths_.publish(markers);
+  if (transforms_) transforms_->sendTransform(ball_joint_transforms(sim_, oldest));
   if (solved_paths_.getNumSubscribers() > 0) tell(oldest);
 }
 

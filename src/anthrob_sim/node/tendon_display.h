@@ -4,8 +4,10 @@
 #include <anthrob_msgs/SphericalJointStates.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,8 @@ namespace anthrob {
 /// nothing.
 class TendonDisplay {
  public:
-  TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeHandle nh);
+  /// @param joint_tf whether to publish the measured ball joints in tf, too; where nobody else does
+  TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeHandle nh, bool joint_tf);
 
  private:
   void see_muscles(const anthrob_msgs::MuscleStates& message);
@@ -42,6 +45,7 @@ class TendonDisplay {
   std::vector<ros::Time> stamps_;  ///< of all joints
   SurfaceDisplay surfaces_;
   ros::Publisher paths_, solved_paths_;
+  std::optional<tf2_ros::TransformBroadcaster> transforms_;  ///< of ball joints
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
   ClockWait clock_wait_;

@@ -35,6 +35,7 @@ bool name_is_taken();
 
 /// Sets `/use_sim_time`, which the launch file of a refused back end may have set, back to what the
 /// running nodes need: true where a living node publishes the clock.
-void restore_time();
+/// @param ending a node whose clock does not count, because it ends with the refused one
+void restore_time(const std::string& ending = "");
 
 }  // namespace anthrob
