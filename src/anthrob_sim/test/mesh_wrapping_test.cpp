@@ -212,6 +212,33 @@ std::vector<MeshOnPath> meshes_of(const RobotModel& model) {
   return found;
 }
 
+bool are_same(const ConvexHull& a, const ConvexHull& b) {
+  bool same = a.half_edge_count() == b.half_edge_count();
+  for (int h = 0; same && h < a.half_edge_count(); ++h) same = a.from(h) == b.from(h);
+  return same;
+}
+
+TEST(MeshWrapping, HullsHaveOneOrderWhereverTheyLieInMemory) {
+  Random random(5);
+  std::vector<Vec3> ball;
+  for (int i = 0; i < 100; ++i) ball.push_back(random.direction());
+  // Of a prism, the ends can be divided into triangles in several ways.
+  for (std::vector<Vec3> points : {ball, testing_support::prism(12, 0.02, 0.05)}) {
+    const ConvexHull first(points);
+    std::vector<std::vector<char>> between;
+    for (int i = 0; i < 50; ++i) {
+      between.emplace_back(static_cast<std::size_t>(random.uniform(1.0, 4000.0)));
+      if (i % 3 == 2) between.erase(between.begin() + i / 3);
+      EXPECT_TRUE(are_same(ConvexHull(points), first)) << i;
+    }
+  }
+  const ConvexHull first(ball);
+  for (int i = 0; i < 20; ++i) {
+    std::rotate(ball.begin(), ball.begin() + 7 + i, ball.end());
+    EXPECT_TRUE(are_same(ConvexHull(ball), first)) << "another order of the points";
+  }
+}
+
 TEST(MeshSurface, PosturesOfModelThreeAgreeWithCgal) {
   const auto model = load_robot_model(testing_support::config("anthrob/model_III.yaml"));
   const std::vector<MeshOnPath> meshes = meshes_of(*model);

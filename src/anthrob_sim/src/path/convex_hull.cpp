@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -22,6 +23,28 @@ double diagonal(const std::vector<Vec3>& points) {
   Vec3 lo = points.front(), hi = points.front();
   for (const Vec3& p : points) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
   return (hi - lo).norm();
+}
+
+/// Vertices and facets in an order of their own: CGAL's follows from where things lie in memory,
+/// and with it the rounding of all that is computed from them.
+void sort(std::vector<Vec3>& points, Facets& facets) {
+  std::vector<int> order(points.size()), place(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::lexicographical_compare(points[a].data(), points[a].data() + 3, points[b].data(),
+                                        points[b].data() + 3);
+  });
+  std::vector<Vec3> sorted;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted.push_back(points[order[i]]);
+    place[order[i]] = static_cast<int>(i);
+  }
+  points.swap(sorted);
+  for (auto& facet : facets) {
+    for (int& corner : facet) corner = place[corner];
+    std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
+  }
+  std::sort(facets.begin(), facets.end());
 }
 
 /// Facets of the hull; `points` is reduced to its vertices.
@@ -45,6 +68,7 @@ Facets hull_of(std::vector<Vec3>& points) {
     }
     facets.push_back(corners);
   }
+  sort(points, facets);
   return facets;
 }
 
