@@ -206,6 +206,11 @@ void Simulation::impose_posture(const std::vector<double>& q) {
   posture_ = q;
 }
 
+std::vector<double> Simulation::true_posture(std::vector<double> read) const {
+  readings_.true_joint_positions(read.data());
+  return read;
+}
+
 void Simulation::impose_posture_reading(const std::vector<double>& q) {
   impose_posture(q);
   readings_.true_joint_positions(posture_.data());

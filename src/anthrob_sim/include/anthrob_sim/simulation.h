@@ -80,6 +80,8 @@ class Simulation {
   /// Imposes the posture for which the sensors read `q`, as in a recording. If the sensors are
   /// late, take `q` from later in the recording, by posture_delay().
   void impose_posture_reading(const std::vector<double>& q);
+  /// The posture [rad, m, quaternions] in which the sensors read this one, as place() takes it.
+  std::vector<double> true_posture(std::vector<double> read) const;
   /// Delay of the joint sensors by effects of the model [s].
   double posture_delay() const;
   void release_posture() { posture_.clear(); }

@@ -6,6 +6,7 @@
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/replay.h"
 #include "anthrob_sim/recording/table_sampler.h"
+#include "replay_modes.h"
 
 namespace anthrob {
 
@@ -78,6 +79,17 @@ void restore_commands(const Dataset& recording, Dataset& out) {
   }
 }
 
+/// Where positions are imposed, no motor runs: it has neither voltage nor current.
+void leave_out_imposed(const Dataset& recording, Dataset& out) {
+  for (Table& table : out.tables) {
+    for (Column& column : table.columns) {
+      const bool electric = column.quantity() == "voltage" || column.quantity() == "current";
+      if (!electric || recording.series(column.owner() + "/position").empty()) continue;
+      std::fill(column.present.begin(), column.present.end(), 0);
+    }
+  }
+}
+
 }  // namespace
 
 Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
@@ -121,6 +133,7 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
   }
   for (auto& sampler : samplers) out.tables.push_back(sampler.take());
   restore_commands(recording, out);
+  if (imposes_positions(mode)) leave_out_imposed(recording, out);
   return out;
 }
 

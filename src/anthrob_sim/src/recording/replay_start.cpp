@@ -11,10 +11,16 @@ namespace anthrob {
 Replay::StartInput Replay::start_input(const MuscleInput& input) const {
   const MuscleModel& muscle = model_->muscles[input.muscle];
   const auto given = meta_.start_position.find(muscle.name);
+  const bool first = meta_.start == "first";
+  const StartInput measured =
+      input.position.empty() || !std::isfinite(input.position.values.front())
+          ? StartInput{false, ecu::Mode::kVoltage, 0.0}
+          : StartInput{true, ecu::Mode::kPosition, input.position.values.front()};
   if (!muscle.has_controller) {
-    const bool excited = meta_.start == "first" && !imposes_positions(mode_);
-    const Series& first = mode_ == ReplayMode::kVoltage ? input.voltage : input.reference;
-    return {false, ecu::Mode::kVoltage, excited && !first.empty() ? first.held_at(0.0) : 0.0};
+    if (first && imposes_positions(mode_)) return measured;
+    const Series& input_at_first = mode_ == ReplayMode::kVoltage ? input.voltage : input.reference;
+    const bool excited = first && !input_at_first.empty();
+    return {false, ecu::Mode::kVoltage, excited ? input_at_first.held_at(0.0) : 0.0};
   }
   if (meta_.start == "given") {
     if (given != meta_.start_position.end()) return {false, ecu::Mode::kPosition, given->second};
@@ -28,11 +34,7 @@ Replay::StartInput Replay::start_input(const MuscleInput& input) const {
     const bool left = mode == ecu::Mode::kVoltage && reference == 0.0;
     if (!left) return {false, mode, reference};
   }
-  if (meta_.start == "first" && !input.position.empty() &&
-      std::isfinite(input.position.values.front())) {
-    return {true, ecu::Mode::kPosition, input.position.values.front()};
-  }
-  return {false, ecu::Mode::kVoltage, 0.0};
+  return first ? measured : StartInput{false, ecu::Mode::kVoltage, 0.0};
 }
 
 std::vector<double> Replay::start_inputs() const {
@@ -219,15 +221,17 @@ bool Replay::start_where_recorded(Simulation& sim, long steps,
   const RecordedStart first = recorded_start();
   std::vector<double> q = skeleton.rest_configuration();
   const std::vector<double> rest = q;
-  const bool ramped = has_time_for(posture_distance(skeleton, rest, first.q), steps);
+  double farthest = posture_distance(skeleton, rest, first.q);
+  for (const double position : first.positions) farthest = std::max(farthest, std::abs(position));
+  const bool ramped = has_time_for(farthest, steps);
   for (const MuscleInput& muscle : muscles_) {
     sim.release(muscle.muscle);
     sim.command(muscle.muscle, ecu::Mode::kVoltage, 0.0);
   }
   if (ramped) {
-    sim.place(rest, std::vector<double>(first.positions.size(), 0.0));
+    sim.place(sim.true_posture(rest), std::vector<double>(first.positions.size(), 0.0));
   } else {
-    sim.place(first.q, first.positions);
+    sim.place(sim.true_posture(first.q), first.positions);
   }
   for (long i = 0; i < steps; ++i) {
     const double from = ramped ? ramp_share(i, steps) : 1.0,
