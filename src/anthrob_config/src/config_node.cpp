@@ -153,11 +153,7 @@ YAML::Node only_document(const std::string& text, const std::string& path) {
 }
 
 DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
-  const std::string canonical = std::filesystem::weakly_canonical(path).string();
-  for (const auto& seen : chain) {
-    if (seen == canonical) throw BadInput(path + ": extends: the file extends itself");
-  }
-  chain.push_back(canonical);
+  chain.push_back(std::filesystem::weakly_canonical(path).string());
 
   require_file(path);
   YAML::Node root;
@@ -179,7 +175,12 @@ DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
     const bool one = extends->kind == Kind::kScalar;
     DataPtr base;
     for (const DataPtr& name : one ? std::vector<DataPtr>{extends} : extends->items) {
-      const DataPtr next = load_file(base_file(path, *name), chain);
+      const std::string base_path = base_file(path, *name);
+      const std::string canonical = std::filesystem::weakly_canonical(base_path).string();
+      if (std::find(chain.begin(), chain.end(), canonical) != chain.end()) {
+        fail_at(path, name->line, "extends: " + name->scalar + ": the file extends itself");
+      }
+      const DataPtr next = load_file(base_path, chain);
       base = base ? merge(base, next) : next;
     }
     if (!base) fail_at(path, extends->line, "extends: expected the name of a YAML file, or a list");

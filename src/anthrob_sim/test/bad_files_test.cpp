@@ -286,7 +286,7 @@ const Case kCases[] = {
      false,
      "robot: robot.urdf",
      "extends: model.yaml\nrobot: robot.urdf",
-     {"model.yaml", "extends itself"}},
+     {"model.yaml:1", "extends itself"}},
     {"alias inside what it stands for",
      false,
      "springs:",

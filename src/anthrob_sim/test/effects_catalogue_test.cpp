@@ -1,6 +1,7 @@
 // What holds for every effect of the catalogue: neutral is nothing, a dose shows, snapshots
 // continue, no memory is allocated, bad entries are refused.
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -257,6 +258,21 @@ TEST(Catalogue, FileAndProgramGiveTheSameModel) {
   // The robot's URDF is beside the extended file.
   EXPECT_EQ(outcome(robot.load(), 300),
             outcome(robot_with("two_muscle_rig/model_I.yaml", effects), 300));
+}
+
+TEST(Catalogue, AnyNameOfALinkIsAPlaceInAFile) {
+  for (const std::string link : {"arm #2", "arm, left", "{arm}", "yes", "arm"}) {
+    const YAML::Node file = YAML::Load(effects_yaml({{"payload", link, {{"mass", 0.1}}}}));
+    EXPECT_EQ(file["effects"][0]["place"].as<std::string>(), link);
+    EXPECT_EQ(file["effects"][0]["mass"].as<double>(), 0.1);
+  }
+}
+
+TEST(Catalogue, AnEmptyPlaceIsRefused) {
+  LoadOptions options;
+  options.effects = {{"wrapping_surface", "", {{"radius", 0.02}}}};
+  const std::string file = config("two_muscle_rig/model_I.yaml");
+  EXPECT_THROW(load_robot_model(file, options), BadInput);
 }
 
 TEST(Catalogue, ModelsAreBuiltAndRunInThreadsAtOnce) {

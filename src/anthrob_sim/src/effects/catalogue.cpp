@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <link.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -209,7 +210,10 @@ std::string effects_yaml(const std::vector<EffectInstance>& effects) {
   out.precision(17);
   out << "effects:\n";
   for (const EffectInstance& effect : effects) {
-    out << "  - {id: " << effect.id << ", place: " << effect.place;
+    YAML::Emitter place;  // links have any names
+    if (effect.place.find_first_of(",[]{}#:") != std::string::npos) place << YAML::DoubleQuoted;
+    place << effect.place;
+    out << "  - {id: " << effect.id << ", place: " << place.c_str();
     for (const auto& [name, value] : effect.parameters) out << ", " << name << ": " << value;
     out << "}\n";
   }

@@ -37,6 +37,7 @@ std::vector<std::string> split_place(const std::string& place) {
   std::istringstream in(place);
   std::string part;
   while (std::getline(in, part, '/')) parts.push_back(part);
+  if (parts.empty()) parts.emplace_back();
   return parts;
 }
 

@@ -86,6 +86,8 @@ class Effect {
   /// The places of this robot at which the effect can act; empty if there are none.
   virtual std::vector<std::string> places(const RobotModel& robot) const = 0;
   /// Its parameters at one of these places: units, typical values and bounds may depend on it.
+  /// Also asked while a model file is read, of a robot whose muscles are not read yet: bounds that
+  /// depend on a muscle then do not hold, and must not be looked up in its absence.
   virtual std::vector<EffectParameter> parameters_at(const RobotModel& robot,
                                                      const std::string& place) const;
   /// Changes the robot at one of its `places`. The parameters are within their bounds and not

@@ -33,8 +33,8 @@ Eigen::MatrixXd moment_arm_matrix(const Simulation& sim);
 Eigen::VectorXd holding_load(const Simulation& sim);
 
 /// Reference of a muscle's position controller that holds a tension at a muscle length, see
-/// Equilibrium::reference. Effects of the power stage (dead zone, sagging supply) and of sensors
-/// are not included. @param length [m]   @param tension [N], > 0
+/// Equilibrium::reference. Dead zone, sagging supply, cogging, heating and effects of sensors are
+/// not included. @param length [m]   @param tension [N], > 0
 /// @throws BadInput if the controller has no proportional gain
 double position_reference(const MuscleModel& muscle, double length, double tension);
 

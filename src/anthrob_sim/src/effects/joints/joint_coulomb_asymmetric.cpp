@@ -16,7 +16,7 @@ EffectInfo describe() {
       "over.";
   i.equation = "tau = -forward if dq/dt > 0, +backward if dq/dt < 0, holds at rest up to both";
   i.source = "Janot, Gautier, Brunot, EMPS benchmark 2019";
-  i.where = "JOINT";
+  i.where = "JOINT (hinges and slides)";
   i.seam = Seam::kJoints;
   i.stage = Stage::kSkeleton;
   i.dissipates = true;

@@ -12,7 +12,8 @@ EffectInfo describe() {
   i.description =
       "Counts get lost with time or with every turn: the measured position drifts away from the "
       "true one, and under position control the robot drifts away from its posture. Force and "
-      "current still agree. The drift starts at zero (reset, start of a replay).";
+      "current still agree. The drift starts at zero where the robot is placed (reset, start of a "
+      "replay's settling).";
   i.equation = "position_read = position + rate t - missed integral |dposition|";
   i.source =
       "thesis, section 8.3: ticks counted in software; re-calibrated when the shoulder rested 3 "

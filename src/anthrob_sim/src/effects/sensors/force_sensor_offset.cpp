@@ -11,7 +11,7 @@ EffectInfo describe() {
   i.description =
       "The reading of a force sensor is wrong by a constant that may grow with time: only its "
       "channel disagrees; joint and current agree. The controller sees the error, too. Time counts "
-      "from the start (reset, start of a replay).";
+      "from where the robot is placed (reset, start of a replay's settling).";
   i.equation = "f_read = f + offset + drift t";
   i.source = "known: 0.5-5 N";
   i.where = "MUSCLE | all";
