@@ -34,11 +34,13 @@ const FaultInfo kFaults[kFaultCount] = {
      "if that is more)",
      "check the encoder's cable and the spindle; clear_faults, enable, home"},
     {Fault::kSyncLost, "sync_lost", "enabled, and no valid SYNC for 15 ms",
-     "check the driver and the bus; clear_faults, enable"},
+     "check the driver and the bus; enable again, after clear_faults if the driver found "
+     "`ecu_lost`"},
     {Fault::kReferenceLost, "reference_lost", "enabled, and no valid REFERENCE for 15 ms",
      "check the driver and the bus; enable again"},
     {Fault::kBusOff, "bus_off", "enabled, and the unit's CAN controller went bus-off",
-     "check cable, termination and bit rate; clear_faults, enable"},
+     "check cable, termination and bit rate; enable again, after clear_faults if the driver found "
+     "`ecu_lost`"},
 };
 
 const char* name(Fault fault) {
