@@ -61,7 +61,8 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
   bench             run the benchmarks, also of MuJoCo and OpenCV for comparison; writes build/bench.json
   study NAME        calibration: repeat chapter 8 of the thesis with virtual robots
                     discovery: the blind test; with --slice K/N a part of it; also --list, --summary, --help
-                    an interrupted study continues; results go to build/study/ and docs/studies/
+                    hours of computing; an interrupted study continues; results go to build/study/ and overwrite
+                    docs/studies/, or go to FOLDER with --out FOLDER
   shell             open a shell in which rosrun, roslaunch and rostopic know the workspace
   clean             remove build/ (but not build/study), devel/ and install/, with any results you keep there
   help              print this text
