@@ -261,7 +261,8 @@ TEST(Catalogue, FileAndProgramGiveTheSameModel) {
 }
 
 TEST(Catalogue, AnyNameOfALinkIsAPlaceInAFile) {
-  for (const std::string link : {"arm #2", "arm, left", "{arm}", "yes", "arm"}) {
+  for (const std::string link :
+       {"arm #2", "arm, left", "{arm}", "\"arm\"", "'arm", "&arm", "*", "yes", "arm"}) {
     const YAML::Node file = YAML::Load(effects_yaml({{"payload", link, {{"mass", 0.1}}}}));
     EXPECT_EQ(file["effects"][0]["place"].as<std::string>(), link);
     EXPECT_EQ(file["effects"][0]["mass"].as<double>(), 0.1);

@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -211,7 +212,10 @@ std::string effects_yaml(const std::vector<EffectInstance>& effects) {
   out << "effects:\n";
   for (const EffectInstance& effect : effects) {
     YAML::Emitter place;  // links have any names
-    if (effect.place.find_first_of(",[]{}#:") != std::string::npos) place << YAML::DoubleQuoted;
+    const bool plain = std::all_of(effect.place.begin(), effect.place.end(), [](unsigned char c) {
+      return std::isalnum(c) || c == '_' || c == '/';
+    });
+    if (!plain) place << YAML::DoubleQuoted;
     place << effect.place;
     out << "  - {id: " << effect.id << ", place: " << place.c_str();
     for (const auto& [name, value] : effect.parameters) out << ", " << name << ": " << value;
