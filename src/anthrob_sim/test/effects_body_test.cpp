@@ -52,6 +52,28 @@ TEST(JointCoulomb, HoldsBelowBreakawayAndTakesAConstantForceAbove) {
   EXPECT_NEAR(speed_of_axis(effects, -45.0, 1000), -expected_speed(25.0, kViscous, 1.0), 1e-3);
 }
 
+TEST(JointCoulomb, SharesTheStribeckCurveWithTheModelsFriction) {
+  const auto friction = [](const std::vector<EffectInstance>& effects) {
+    return robot_with("two_muscle_rig/model_I.yaml", effects)->skeleton->joints[0].friction;
+  };
+  const auto velocity = [&](double torque, double static_ratio) {
+    return friction(
+               {{"joint_coulomb",
+                 "hinge",
+                 {{"torque", torque}, {"static_ratio", static_ratio}, {"stribeck_velocity", 0.5}}}})
+        .stribeck_velocity;
+  };
+  const JointFrictionModel plain = friction({});
+  const double more = plain.static_torque - plain.kinetic_torque;
+  ASSERT_GT(more, 0.0);
+  ASSERT_LT(plain.stribeck_velocity, 0.1);
+  // Next to nothing changes next to nothing; friction without excess at rest has no velocity.
+  EXPECT_NEAR(velocity(1e-9, 1.5), plain.stribeck_velocity, 1e-6);
+  EXPECT_DOUBLE_EQ(velocity(1.0, 1.0), plain.stribeck_velocity);
+  EXPECT_NEAR(velocity(2.0 * more, 1.5), 0.5 * (plain.stribeck_velocity + 0.5), 1e-12);
+  EXPECT_NEAR(velocity(1e3 * more, 1.5), 0.5, 1e-3);
+}
+
 TEST(JointCoulombAsymmetric, TakesAnotherForceInEachDirection) {
   const std::vector<EffectInstance> effects = {
       {"joint_coulomb_asymmetric", "axis", {{"forward", 17.2}, {"backward", 23.6}}}};

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/effects/placed_effects.h"
 
@@ -11,8 +13,9 @@ EffectInfo describe() {
   i.description =
       "Bearings and seals resist with a torque that hardly depends on speed, and hold the joint at "
       "rest up to a somewhat higher torque: it sticks and slips at low speed. Added to the "
-      "friction of the model; the Stribeck velocity replaces the model's. Isotropic for ball "
-      "joints.";
+      "friction of the model. Where both are larger at rest, their Stribeck velocities are "
+      "averaged, "
+      "weighted by how much larger. Isotropic for ball joints.";
   i.equation = "|tau| = torque (1 + (static_ratio - 1) exp(-|dq/dt| / stribeck_velocity))";
   i.source = "thesis (3.6); Stribeck 1902";
   i.where = "JOINT";
@@ -40,9 +43,20 @@ class JointCoulomb final : public JointEffect {
 
  protected:
   void change(const EffectSetting& setting, ModelDraft&, JointModel& joint) const override {
-    joint.friction.kinetic_torque += setting["torque"];
-    joint.friction.static_torque += setting["torque"] * setting["static_ratio"];
-    joint.friction.stribeck_velocity = setting["stribeck_velocity"];
+    JointFrictionModel& friction = joint.friction;
+    const double torque = setting["torque"], at_rest = torque * setting["static_ratio"];
+    const double velocity = setting["stribeck_velocity"];
+    const double more = at_rest - torque;
+    const double models = std::abs(friction.static_torque - friction.kinetic_torque);
+    friction.kinetic_torque += torque;
+    friction.static_torque += at_rest;
+    // A joint has one Stribeck curve. Weighted, so that a vanishing torque changes nothing.
+    if (models == 0.0) {
+      friction.stribeck_velocity = velocity;
+    } else {
+      friction.stribeck_velocity +=
+          (velocity - friction.stribeck_velocity) * more / (models + more);
+    }
   }
 };
 
