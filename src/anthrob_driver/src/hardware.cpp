@@ -20,20 +20,21 @@ using ecu::Parameter;
 
 constexpr double kLongestHome = 120.0;  // [s]
 
-std::string choose(const std::string& wanted, const std::string& otherwise) {
-  return wanted.empty() ? otherwise : wanted;
-}
-
-std::string beside(const std::string& file, const std::string& name) {
-  return (std::filesystem::path(file).parent_path() / name).string();
+/// The file that a key names, in the folder of the file that has the key.
+std::string beside(const ConfigNode& config, const std::string& key) {
+  const ConfigNode name = config.at(key);
+  const std::filesystem::path folder = std::filesystem::path(config.file()).parent_path();
+  const std::string path = (folder / name.as_text()).string();
+  if (!std::filesystem::is_regular_file(path)) name.fail_expected("a file beside this one");
+  return path;
 }
 
 class Loader {
  public:
   Loader(const std::string& file, bool hand, const std::string& model)
       : config_(ConfigNode::load(file)),
-        model_(ConfigNode::load(choose(model, beside(file, config_.text("model"))))),
-        calibration_(ConfigNode::load(beside(file, config_.text("calibration")))),
+        model_(ConfigNode::load(model.empty() ? beside(config_, "model") : model)),
+        calibration_(ConfigNode::load(beside(config_, "calibration"))),
         hand_(hand),
         own_model_(model.empty()) {
     hardware_.file = file;

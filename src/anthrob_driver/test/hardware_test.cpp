@@ -210,6 +210,10 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
     const char *from_too = "", *to_too = "";
   };
   const Case cases[] = {
+      {"hardware.yaml", "model: model_II.yaml", "model: model_4.yaml",
+       ": model: model_4.yaml: expected a file beside this one"},
+      {"hardware.yaml", "calibration: sensors.yaml", "calibration: sensor.yaml",
+       ": calibration: sensor.yaml: expected a file beside this one"},
       {"hardware.yaml", "ecu_1: {node: 1}", "ecu_1: {node: 0}", "ecus.ecu_1.node"},
       {"hardware.yaml", "ecu_2: {node: 2}", "ecu_2: {node: 1}", "another ECU has this node"},
       {"hardware.yaml", "current_limit: 16.0", "current_limit: 160.0",
