@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "anthrob_calib/discovery/location/location.h"
 #include "anthrob_calib/discovery/search/named_effect.h"
 #include "anthrob_sim/effects/catalogue.h"
 
@@ -135,6 +136,21 @@ TEST(Verdict, AnOffsetDependsOnNothing) {
   answer.remaining[0].constant = 0.7;
   fill_in_verdict({{"elbow/position", 3.0}}, true, answer);
   EXPECT_EQ(answer.remaining_description, "elbow/position is off by a constant");
+}
+
+TEST(Regime, OfAConstantToldApartFromWhatElseAGapDependsOn) {
+  std::vector<Dependence> gap = {dependence("biceps_brachii/force", "load", 0.9),
+                                 dependence("elbow/position", "posture", 0.3)};
+  EXPECT_EQ(regime_of("elbow/position", gap), "posture of elbow/position");
+  gap[1].constant = 0.2;
+  EXPECT_EQ(regime_of("elbow/position", gap), "posture of elbow/position");
+  gap[1].constant = 0.6;
+  EXPECT_EQ(regime_of("elbow/position", gap),
+            "mostly off by a constant; the rest: posture of elbow/position");
+  gap[1].share = 0.04;
+  EXPECT_EQ(regime_of("elbow/position", gap), "nothing: off by a constant");
+  gap[1].constant = 0.04;
+  EXPECT_EQ(regime_of("elbow/position", gap), "");
 }
 
 TEST(Verdict, TellsWhatTheRestDependsOn) {

@@ -20,7 +20,7 @@ td,th{border:1px solid #ccc;padding:.25em .6em;text-align:left}th{background:#f2
 .answer{font-size:1.25em;border-left:.4em solid #1f77b4;padding:.3em 1em;background:#f5f9fd}
 .small{color:#555;font-size:.9em}svg{max-width:100%;height:auto}
 summary{cursor:pointer;margin:.6em 0}
-.where{font-size:.9em}.where td:nth-child(7){min-width:17em}.where td:nth-child(8){min-width:12em}
+.where{font-size:.9em}.where td:nth-child(7){min-width:14em}.where td:nth-child(8){min-width:11em}
 </style></head><body>
 )";
 

@@ -10,24 +10,6 @@ namespace discovery {
 
 namespace {
 
-/// What the residual of a place depends on most; empty: on nothing.
-std::string dependence_of(const std::string& channel, const std::vector<Dependence>& dependences) {
-  std::string regime;
-  double best = Dependence::kTelling;
-  for (const Dependence& d : dependences) {
-    if (d.channel.rfind(channel, 0) != 0) continue;
-    if (d.predicted() > best) {
-      best = d.predicted();
-      regime = d.on_what();
-    }
-    if (d.constant > best) {
-      best = d.constant;
-      regime = "nothing: off by a constant";
-    }
-  }
-  return regime;
-}
-
 std::string subsystem_of(const Place& place, const std::vector<SeamGap>& seams) {
   std::string subsystem;
   for (const SeamGap& seam : seams) {
@@ -37,6 +19,21 @@ std::string subsystem_of(const Place& place, const std::vector<SeamGap>& seams) 
 }
 
 }  // namespace
+
+std::string regime_of(const std::string& channel, const std::vector<Dependence>& dependences) {
+  std::string what;
+  double best = Dependence::kTelling, constant = 0.0;
+  for (const Dependence& d : dependences) {
+    if (d.channel.rfind(channel, 0) != 0) continue;
+    constant = std::max(constant, d.constant);
+    if (d.predicted() <= best) continue;
+    best = d.predicted();
+    what = d.on_what();
+  }
+  if (constant <= best) return what;
+  return what.empty() ? "nothing: off by a constant"
+                      : "mostly off by a constant; the rest: " + what;
+}
 
 std::vector<Place> locate(const Judge& judge, const Eigen::VectorXf& residual, double least,
                           const Scales& scales, const std::vector<SeamGap>& seams,
@@ -56,7 +53,7 @@ std::vector<Place> locate(const Judge& judge, const Eigen::VectorXf& residual, d
     place.share = excess(gap, least) / whole;
     if (significance.count(name)) place.significance = significance.at(name);
     place.subsystem = subsystem_of(place, seams);
-    place.regime = dependence_of(name, dependences);
+    place.regime = regime_of(name, dependences);
     places.push_back(std::move(place));
   }
   std::stable_sort(places.begin(), places.end(),
