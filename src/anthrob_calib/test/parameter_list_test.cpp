@@ -89,6 +89,12 @@ TEST(ParameterList, RefusesWhatCannotBeMeant) {
         "low and high");
   }
   EXPECT_EQ(error_of(entry + "range: 1, lower: 0}"), "calibration.yaml:1: 0.lower: unknown key");
+  const std::string two =
+      "- {path: 'muscles.{flexor, extensr}.spindle_radius', unit: m, range: 1, ";
+  EXPECT_NE(error_of(two + "step: 1}").find("0.path: 'extensr' matches no number in "),
+            std::string::npos)
+      << error_of(two + "step: 1}");
+  EXPECT_EQ(error_of(two + "step: 1, if_present: true}"), "no error");
   EXPECT_EQ(error_of("- {path: nowhere, if_presnt: true, unit: m, range: 1, step: 1}"),
             "calibration.yaml:1: 0.if_presnt: unknown key");
 }

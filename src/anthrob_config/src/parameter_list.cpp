@@ -22,6 +22,18 @@ bool is_integer(const std::string& word) {
   return digits == std::string::npos && word != "-" && !word.empty();
 }
 
+/// Of "{a, b}" both; else the word alone.
+std::vector<std::string> alternatives(const std::string& word) {
+  if (word.size() < 2 || word.front() != '{' || word.back() != '}') return {word};
+  std::vector<std::string> found = split(word.substr(1, word.size() - 2), ',');
+  for (std::string& name : found) {
+    const std::size_t begin = name.find_first_not_of(' ');
+    const std::size_t end = name.find_last_not_of(' ');
+    name = begin == std::string::npos ? "" : name.substr(begin, end - begin + 1);
+  }
+  return found;
+}
+
 /// What a word of a pattern stands for below a node: keys as they stand in a key path.
 std::vector<std::string> matches(const std::string& word, const ConfigNode& node) {
   std::vector<std::string> keys;
@@ -31,12 +43,8 @@ std::vector<std::string> matches(const std::string& word, const ConfigNode& node
     for (std::size_t i = 0; i < node.items().size(); ++i) keys.push_back(std::to_string(i));
   }
   if (word == "*") return keys;
-  std::vector<std::string> wanted = {word};
-  if (word.size() > 1 && word.front() == '{' && word.back() == '}') {
-    wanted = split(word.substr(1, word.size() - 2), ',');
-  }
   std::vector<std::string> found;
-  for (const std::string& name : wanted) {
+  for (const std::string& name : alternatives(word)) {
     std::string key = name;
     long from_end = 0;  // stays 0 for a number that no list is long enough for
     if (node.is_sequence() && is_integer(name) && name[0] == '-') {
@@ -60,6 +68,24 @@ void expand(const ConfigNode& node, const std::vector<std::string>& words, std::
   }
   for (const std::string& key : matches(words[depth], node)) {
     expand(child_of(node, key), words, depth + 1, found);
+  }
+}
+
+/// Each alternative of a pattern must match: one that is misspelt must not be left out.
+void check_alternatives(const ConfigNode& entry, const std::vector<std::string>& words,
+                        const ConfigNode& model) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::vector<std::string> names = alternatives(words[i]);
+    if (names.size() < 2) continue;
+    for (const std::string& name : names) {
+      std::vector<std::string> one = words;
+      one[i] = name;
+      std::vector<ConfigNode> numbers;
+      expand(model, one, 0, numbers);
+      if (!numbers.empty()) continue;
+      entry.at("path").fail("'" + name + "' matches no number in " + model.file() +
+                            "; expected another name, or if_present: true");
+    }
   }
 }
 
@@ -142,11 +168,13 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
     check_keys(entry);
     const std::string pattern = entry.text("path");
     std::vector<ConfigNode> numbers;
-    expand(model, split(pattern, '.'), 0, numbers);
+    const std::vector<std::string> words = split(pattern, '.');
+    expand(model, words, 0, numbers);
     const bool may_be_absent = entry.has("if_present") && entry.at("if_present").as_bool();
     if (numbers.empty() && !may_be_absent) {
       entry.at("path").fail_expected("the path of a number in " + model.file());
     }
+    if (!may_be_absent) check_alternatives(entry, words, model);
     for (const ConfigNode& number : numbers) {
       parameters.push_back(read_parameter(entry, number, outside));
       if (!taken.insert(parameters.back().path).second) {
