@@ -267,11 +267,17 @@ TEST(LeastSquares, TellsWhatChangesNothing) {
   EXPECT_TRUE(search(settings("evolution_strategy", 5), v, function).sensitivity.empty());
 }
 
-TEST(LeastSquares, InvalidNeighbourTellsNothing) {
-  // Valid below 1 only.
-  Function edge([](const Point& p) { return p[0] > 1.0 ? Point{} : Point{3.0 + p[0], p[1]}; });
+TEST(LeastSquares, WhereOneNeighbourIsInvalidTheOtherTells) {
   const std::vector<SearchVariable> v = {{1.0, -5.0, 5.0, 0.1}, {0.5, -5.0, 5.0, 0.1}};
-  const auto columns = derivatives(v, {1.0, 0.5}, {4.0, 0.5}, 0.02, edge);
+  // Valid up to 1 only.
+  Function edge([](const Point& p) { return p[0] > 1.0 ? Point{} : Point{3.0 + 2 * p[0], p[1]}; });
+  auto columns = derivatives(v, {1.0, 0.5}, {5.0, 0.5}, 0.02, edge);
+  EXPECT_NEAR(columns[0][0], 0.2, 1e-9);
+  EXPECT_EQ(columns[0][1], 0.0);
+  EXPECT_NEAR(columns[1][1], 0.1, 1e-9);
+  // Valid at 1 only.
+  Function point([](const Point& p) { return p[0] != 1.0 ? Point{} : Point{3.0 + p[0], p[1]}; });
+  columns = derivatives(v, {1.0, 0.5}, {4.0, 0.5}, 0.02, point);
   EXPECT_EQ(columns[0], (Point{0.0, 0.0}));
   EXPECT_NEAR(columns[1][1], 0.1, 1e-9);
 }
@@ -295,6 +301,20 @@ class JournalTest : public testing::Test {
   const std::string file_ = (folder_ / "journal.txt").string();
   Function function_{sphere};
 };
+
+TEST_F(JournalTest, LongEvaluationsAreWrittenBeforeTheirBatchIsFull) {
+  for (const double patience : {1e9, 0.0}) {
+    Journal::Options o = options(false);
+    o.batch = 1000;
+    o.patience = patience;
+    Journal journal(function_, o);
+    journal.fitness({{0.5, 0.5, 0.5}});
+    std::ifstream in(file_);
+    int lines = 0;
+    for (std::string line; std::getline(in, line);) ++lines;
+    EXPECT_EQ(lines, patience > 0.0 ? 2 : 3);
+  }
+}
 
 TEST_F(JournalTest, AnyMethodResumesToTheSameBits) {
   for (const char* method : {"evolution_strategy", "cmaes", "sade", "bee_colony"}) {

@@ -153,7 +153,9 @@ Journal::Options journal_options(const Arguments& arguments, const CalibrationIn
 /// Parameters that the recordings do not determine, and errors that could not be computed.
 void say_doubts(const CalibrationOutcome& outcome) {
   for (const std::string& name : insensitive_parameters(outcome)) {
-    std::cerr << "anthrob_calibrate: " << name << ": not identifiable from these recordings\n";
+    std::cerr << "anthrob_calibrate: " << name
+              << ": not identifiable from these recordings (it changes nothing "
+              << "in them, or values beside it make no valid robot)\n";
   }
   if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
 }

@@ -118,7 +118,9 @@ std::vector<double> Journal::fitness(const std::vector<Point>& points) {
   }
   for (std::size_t i = 0; i < points.size(); ++i) note(points[i], fitness[i]);
   if (points.size() > 1 || open_count_ >= options_.batch) close_generation();
-  if (unsaved_ >= static_cast<std::size_t>(options_.batch)) save();
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - saved_at_;
+  if (unsaved_ >= static_cast<std::size_t>(options_.batch) || waited.count() >= options_.patience)
+    save();
   if (options_.progress) options_.progress(evaluations_);
   return fitness;
 }
@@ -171,6 +173,7 @@ void Journal::save() {
   if (options_.file.empty() || unsaved_ == 0) return;
   write();
   unsaved_ = 0;
+  saved_at_ = std::chrono::steady_clock::now();
 }
 
 void Journal::write() const {

@@ -131,23 +131,50 @@ std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& 
                                              const Point& point,
                                              const std::vector<double>& residuals,
                                              double difference, Evaluator& evaluator) {
+  const auto neighbour = [&](std::size_t i, bool above) {
+    const SearchVariable& v = variables[i];
+    Point there = point;
+    there[i] = above ? std::min(point[i] + difference * v.step, v.upper)
+                     : std::max(point[i] - difference * v.step, v.lower);
+    return there;
+  };
   std::vector<Point> neighbours;
-  std::vector<double> steps;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const SearchVariable& v = variables[i];
     // To the side where there is more room, where there is not enough above.
-    const double up = point[i] + difference * v.step, down = point[i] - difference * v.step;
-    const bool above = up <= v.upper || v.upper - point[i] >= point[i] - v.lower;
-    neighbours.push_back(point);
-    neighbours.back()[i] = above ? std::min(up, v.upper) : std::max(down, v.lower);
-    steps.push_back((neighbours.back()[i] - point[i]) / v.step);
+    const bool above =
+        point[i] + difference * v.step <= v.upper || v.upper - point[i] >= point[i] - v.lower;
+    neighbours.push_back(neighbour(i, above));
   }
   std::vector<std::vector<double>> columns = evaluator.residuals(neighbours);
+  const auto valid = [&](std::size_t i) { return columns[i].size() == residuals.size(); };
+
+  // A point that is no valid robot, such as a path pushed into a surface, may have a valid one
+  // across.
+  std::vector<std::size_t> again;
+  std::vector<Point> across;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const bool valid = columns[i].size() == residuals.size();
-    if (!valid) columns[i].assign(residuals.size(), 0.0);
-    for (std::size_t k = 0; valid && k < residuals.size(); ++k) {
-      columns[i][k] = (columns[i][k] - residuals[k]) / steps[i];
+    if (valid(i)) continue;
+    const Point other = neighbour(i, neighbours[i][i] < point[i]);
+    if (other[i] == point[i]) continue;
+    again.push_back(i);
+    across.push_back(other);
+  }
+  if (!again.empty()) {
+    std::vector<std::vector<double>> others = evaluator.residuals(across);
+    for (std::size_t k = 0; k < again.size(); ++k) {
+      neighbours[again[k]] = across[k];
+      columns[again[k]] = std::move(others[k]);
+    }
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (!valid(i)) {
+      columns[i].assign(residuals.size(), 0.0);
+      continue;
+    }
+    const double steps = (neighbours[i][i] - point[i]) / variables[i].step;
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+      columns[i][k] = (columns[i][k] - residuals[k]) / steps;
     }
   }
   return columns;

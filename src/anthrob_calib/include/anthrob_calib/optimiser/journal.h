@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,6 +37,7 @@ class Journal final : public Evaluator {
     std::string fingerprint;  ///< of everything that the numbers depend on
     bool resume = false;      ///< false: replaces an existing journal
     int batch = 36;           ///< that many single evaluations are one entry of the history
+    double patience = 2.0;    ///< [s] at most between two writings, if evaluations are shorter
     std::function<bool()> stop = {};
     std::function<void(int)> progress = {};  ///< gets the number of evaluations
     std::uint64_t program = 0;               ///< fingerprint of the build that calculates them
@@ -80,6 +82,7 @@ class Journal final : public Evaluator {
   std::vector<Entry> entries_;                         ///< of the file
   std::unique_ptr<resume::ResultFile<double>> lists_;  ///< of residuals, by points
   std::size_t unsaved_ = 0;
+  std::chrono::steady_clock::time_point saved_at_ = std::chrono::steady_clock::now();
   bool outdated_ = false;
   int evaluations_ = 0, replayed_ = 0;
   Point best_;

@@ -27,7 +27,7 @@ class LeastSquaresOptimiser final : public Optimiser {
 
 /// Derivatives of the residuals with respect to each variable, in steps, by one-sided differences:
 /// one list per variable, one entry per residual. Differences are taken to the side that stays
-/// within bounds. If the neighbouring point is invalid, the list is zero.
+/// within bounds, or to the other one if that point is invalid. If both are, the list is zero.
 /// @param residuals at `point`
 std::vector<std::vector<double>> derivatives(const std::vector<SearchVariable>& variables,
                                              const Point& point,
