@@ -69,6 +69,17 @@ TEST(MeasuredRun, RefusesBadRecordingsWithOneLine) {
          [&](Dataset& d) { lose(d, "hinge/position", rows - 11, 11); });
   expect("flexor/reference: nan: expected a finite number",
          [&](Dataset& d) { lose(d, "flexor/reference", 7, 1); });
+  const auto add = [](Dataset& d, const char* column, double value) {
+    Table& table = d.tables[0];
+    table.columns.push_back(
+        {column, std::vector<double>(table.t.size(), value), std::vector<char>(table.t.size(), 1)});
+  };
+  expect("hinge/load: 0.3: expected 0", [&](Dataset& d) { add(d, "hinge/load", 0.3); });
+  expect("no error", [&](Dataset& d) { add(d, "hinge/load", 0.0); });
+  expect("start.reference: extensor is not named", [](Dataset& d) {
+    d.meta.start = "given";
+    d.meta.start_position = {{"flexor", 1.0}};
+  });
   expect("'hinge/position' is missing", [](Dataset& d) {
     auto& present = d.tables[0].column("hinge/position").present;
     std::fill(present.begin(), present.end(), 0);
@@ -93,6 +104,22 @@ TEST(MeasuredRun, RefusesBadRecordingsWithOneLine) {
     state.present.assign(d.tables[0].t.size(), 1);
     state.values[300] = 3.0;
   });
+}
+
+TEST(MeasuredRun, RefusesRobotsThatHaveMoreOrLessThanMotors) {
+  const Dataset data = record_simulation(rig(), plan(3.0, 0.0, "equilibrium"));
+  const std::filesystem::path config = ANTHROB_CONFIG_DIR;
+  const std::pair<const char*, const char*> cases[] = {
+      {"driven_axis/model_I.yaml", "driven_axis/model_I.yaml: has no muscles; calibration needs"},
+      {"two_muscle_rig/model_hill.yaml", "model_hill.yaml: muscles.flexor: has no controller"}};
+  for (const auto& [model, reason] : cases) {
+    try {
+      read_run(data, load_robot_model((config / model).string()));
+      FAIL() << model;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(MeasuredRun, BridgesSamplesThatWereLost) {

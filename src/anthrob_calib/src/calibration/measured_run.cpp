@@ -44,7 +44,10 @@ class RunReader {
     if (recording.tables.empty() || recording.end() <= recording.begin()) {
       fail("fewer than two rows; expected a recording");
     }
+    check_model();
     const Replay names_are_known(model, recording, ReplayMode::kReference);
+    check_start();
+    for (const JointModel& joint : model_.skeleton->joints) check_loads(joint);
     for (const MuscleModel& muscle : model_.muscles) read_muscle(muscle.name);
     if (positions_.size() != references_.size()) positions_.clear();
     for (const JointModel& joint : model_.skeleton->joints) read_joint(joint);
@@ -84,6 +87,43 @@ class RunReader {
  private:
   [[noreturn]] void fail(const std::string& message) const {
     throw BadInput(recording_.folder + ": " + message);
+  }
+
+  void check_model() const {
+    if (model_.muscles.empty()) {
+      throw BadInput(model_.file +
+                     ": has no muscles; calibration needs muscles under position control");
+    }
+    for (const MuscleModel& muscle : model_.muscles) {
+      if (muscle.has_controller) continue;
+      throw BadInput(model_.file + ": muscles." + muscle.name +
+                     ": has no controller; calibration needs a motor under position control at "
+                     "each muscle");
+    }
+  }
+
+  /// A replay leaves motors that are not named without voltage; calibration only knows motors that
+  /// hold a position.
+  void check_start() const {
+    const auto& given = recording_.meta.start_position;
+    if (given.empty()) return;
+    for (const MuscleModel& muscle : model_.muscles) {
+      if (given.count(muscle.name)) continue;
+      fail("meta.yaml: start.reference: " + muscle.name +
+           " is not named; expected the reference of every muscle");
+    }
+  }
+
+  /// Calibration simulates a robot that nothing but its motors moves.
+  void check_loads(const JointModel& joint) const {
+    for (const char* quantity : {"/load", "/effort"}) {
+      if (quantity == std::string("/effort") && !joint.driven) continue;
+      for (const double value : recording_.series(joint.name + quantity).values) {
+        if (value == 0.0) continue;
+        fail(joint.name + quantity + ": " + exact_text(value) +
+             ": expected 0; calibration simulates motors of muscles only");
+      }
+    }
   }
 
   Series column(const std::string& name, bool required = true) const {
