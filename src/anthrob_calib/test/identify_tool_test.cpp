@@ -200,6 +200,27 @@ TEST_F(IdentifyTool, FrictionAndResistanceCanBePastedIntoModels) {
   EXPECT_TRUE(fs::exists(path("ecu") + "/ecu.svg"));
 }
 
+TEST_F(IdentifyTool, LeavesTheResultsOfAnotherCommand) {
+  const fs::path out = path("shared");
+  fs::create_directories(out);
+  std::ofstream(out / "springs.yaml") << "springs: {}\n";
+  ASSERT_EQ(
+      identify("ecu " + path("ecu_1") + " " + path("ecu_2") + " --out " + out.string()).status, 0);
+  EXPECT_EQ(content(out / "springs.yaml"), "springs: {}\n");
+}
+
+TEST_F(IdentifyTool, RefusesMisspeltKeysOfTheRig) {
+  const auto with = [](const std::string& key, const std::string& other) {
+    return [=](const std::string& text) { return replaced(text, key, other); };
+  };
+  expect_refused("see",
+                 altered("ring_1", "meta.yaml",
+                         with("effective_radius:", "scale_sgma: 0.1, effective_radius:")),
+                 "rig.scale_sgma: unknown key");
+  expect_refused("see", altered("ring_1", "meta.yaml", with("ring: ", "ring: a/")),
+                 "specimen.ring: a/");
+}
+
 TEST_F(IdentifyTool, RefusesWhatIsNoRecording) {
   expect_refused("see", path("nowhere"), "nowhere");
   fs::create_directories(path("empty"));

@@ -54,16 +54,18 @@ int judge(const Result&) {
 }
 
 /// Reads all input, and checks that the output can be written, before it computes anything.
+/// @param own files that this command writes in some runs only: those of an earlier run do not
+/// belong to the new report
 template <class Recording, class Identify, class Report, class Summary>
-int identify(const Arguments& arguments, Identify fit, Report report, Summary summary) {
+int identify(const Arguments& arguments, Identify fit, Report report, Summary summary,
+             const std::vector<std::string>& own = {}) {
   auto recordings = read_all<Recording>(arguments.recordings);
   require_writable(arguments.out);
   const auto result = fit(std::move(recordings));
   const OutputFiles files = report(result);
   write_files(arguments.out, files);
-  // One of an earlier run does not belong to this report.
-  if (!files.count("springs.yaml")) {
-    std::filesystem::remove(std::filesystem::path(arguments.out) / "springs.yaml");
+  for (const std::string& name : own) {
+    if (!files.count(name)) std::filesystem::remove(std::filesystem::path(arguments.out) / name);
   }
   std::cout << summary(result);
   return judge(result);
@@ -96,7 +98,8 @@ int main(int argc, char** argv) {
   add_command(app, "ecu", "power stage with load resistors: series resistance", arguments);
   return tool::run(app, argc, argv, [&]() -> int {
     if (see->parsed()) {
-      return identify<RingRecording>(arguments, identify_rings, report_rings, summary_of_rings);
+      return identify<RingRecording>(arguments, identify_rings, report_rings, summary_of_rings,
+                                     {"springs.yaml"});
     }
     if (eyelet->parsed()) {
       return identify<EyeletRecording>(arguments, identify_eyelet, report_eyelet,

@@ -90,6 +90,7 @@ EyeletRecording EyeletRecording::read(const Dataset& recording) {
   const double turning = meta.at("rig").number("turning", Bounds{0.0, 10.0, true, false}, "rad");
   result.turning_sigma =
       meta.at("rig").number_or("turning_sigma", 0.0, Bounds::nonnegative(), "rad");
+  for (const char* part : {"specimen", "rig"}) meta.at(part).refuse_unknown_keys();
   result.speed = smoothed_speed(columns);
   result.t = std::move(columns.t);
   result.force = std::move(columns.values[1]);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "anthrob_config/atomic_file.h"
 #include "anthrob_sim/core/errors.h"
@@ -44,11 +46,13 @@ void require_kept(const std::string& folder, const std::vector<std::string>& nam
 }
 
 void write_files(const std::string& folder, const OutputFiles& files) {
-  std::error_code error;  // write_file_atomically() says what is wrong
+  std::error_code error;  // write_files_atomically() says what is wrong
   fs::create_directories(folder, error);
+  std::vector<std::pair<std::string, std::string>> paths;
   for (const auto& [name, content] : files) {
-    write_file_atomically((fs::path(folder) / name).string(), content);
+    paths.emplace_back((fs::path(folder) / name).string(), content);
   }
+  write_files_atomically(paths);
 }
 
 }  // namespace identification

@@ -78,6 +78,10 @@ class Reader {
                      protocol = meta.at("protocol");
     RingSpecimen& ring = result_.specimen;
     ring.ring = specimen.text("ring");
+    if (ring.ring.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                    "0123456789_-") != std::string::npos) {
+      specimen.at("ring").fail_expected("letters, digits, _ and -, for it names files and springs");
+    }
     ring.number = specimen.at("number").as_integer(1, 1000000);
     ring.rest_length = specimen.number("rest_length", Bounds::positive(), "m");
     ring.section_diameter = specimen.number("section_diameter", Bounds::positive(), "m");
@@ -90,6 +94,7 @@ class Reader {
       result_.force_average = rig.at("force_average").as_integer(1, 10000);
     protocol_ = {protocol.number("hold", Bounds::positive(), "s"),
                  protocol.number("recover", Bounds::positive(), "s")};
+    for (const ConfigNode& part : {specimen, rig, protocol}) part.refuse_unknown_keys();
   }
 
   double duration(const Phase& phase) const {

@@ -52,6 +52,7 @@ LoadRecording LoadRecording::read(const Dataset& recording) {
   result.load_resistance = meta.at("rig").number("load_resistance", Bounds::positive(), "ohm");
   result.current_gain_sigma =
       meta.at("rig").number_or("current_gain_sigma", 0.0, Bounds::nonnegative(), "1");
+  for (const char* part : {"specimen", "rig"}) meta.at(part).refuse_unknown_keys();
 
   const auto& reference = columns.values[0];
   const auto window =
