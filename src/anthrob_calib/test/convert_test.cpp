@@ -516,6 +516,23 @@ TEST(Plot, AnOrientationIsWhole) {
       << line;
 }
 
+TEST(Plot, WhatASensorDidNotAnswerIsLeftOut) {
+  const Folder folder;
+  Dataset data = hinge();
+  Table& table = data.table("spherical_joints");
+  table.t = {0, 5000000, 10000000};
+  for (const char* axis : {"w", "x", "y", "z"}) {
+    table.columns.push_back({std::string("shoulder/") + axis, {0.5, NAN, 0.5}, {1, 1, 1}});
+  }
+  data.save(folder / "set");
+  const std::string command =
+      std::string(ANTHROB_PLOT) + " " + (folder / "set") + " --out " + (folder / "figures");
+  ASSERT_EQ(std::system((command + " 2>" + (folder / "errors.txt")).c_str()), 0);
+  const std::string figure = content(folder / "figures/joint_angles.svg");
+  EXPECT_NE(figure.find("shoulder"), std::string::npos);
+  EXPECT_EQ(figure.find("nan"), std::string::npos);
+}
+
 TEST(Plot, AFigureWithoutLinesIsNotDrawn) {
   const Folder folder;
   hinge().save(folder / "set");

@@ -78,6 +78,16 @@ TEST_F(ForeignCsv, RowsMayBeEvenlySpaced) {
   EXPECT_EQ(dataset.meta.rate, 400.0);
 }
 
+TEST_F(ForeignCsv, AnEmptyRowIsRefusedWhereRowsAreTime) {
+  const std::string rate = "robot: r\nrate: 100\ncolumns: [{from: f, to: flexor/force}]\n";
+  EXPECT_NE(error(rate, "f\n1\n\n\n3\n").find("data.csv:3: an empty row"), std::string::npos)
+      << error(rate, "f\n1\n\n\n3\n");
+  EXPECT_EQ(error(rate, "f\n1\n3\n\n\n"), "no error");
+  EXPECT_EQ(error("robot: r\ntime: {column: t}\ncolumns: [{from: f, to: flexor/force}]\n",
+                  "t,f\n1,1\n\n3,3\n"),
+            "no error");
+}
+
 TEST(ForeignOrientation, EulerAnglesAreIntrinsic) {
   const auto expect = [](const std::string& order, const Eigen::Vector3d& degrees, double w,
                          double x, double y, double z) {

@@ -1,8 +1,10 @@
 // Figures of a recording: joint angles, actuator positions, muscle forces.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <set>
+#include <vector>
 
 #include "anthrob_config/atomic_file.h"
 #include "anthrob_sim/core/errors.h"
@@ -37,6 +39,28 @@ std::vector<std::string> owners(const Dataset& data, const std::string& quantity
     }
   }
   return names;
+}
+
+/// What a sensor answered with `nan` is not drawn; of an orientation, all four numbers.
+void leave_out_orientations_without_answer(Dataset& data) {
+  for (Table& table : data.tables) {
+    for (const Column& first : table.columns) {
+      if (first.quantity() != "w") continue;
+      std::vector<Column*> parts;
+      for (Column& column : table.columns) {
+        const std::string quantity = column.quantity();
+        const bool part = quantity == "w" || quantity == "x" || quantity == "y" || quantity == "z";
+        if (part && column.owner() == first.owner()) parts.push_back(&column);
+      }
+      for (std::size_t i = 0; i < table.t.size(); ++i) {
+        const bool answered = std::all_of(parts.begin(), parts.end(), [i](const Column* part) {
+          return !part->present[i] || std::isfinite(part->values[i]);
+        });
+        if (answered) continue;
+        for (Column* part : parts) part->present[i] = 0;
+      }
+    }
+  }
 }
 
 SvgFigure::Line line(const std::string& label, const Series& series, double scale) {
@@ -113,7 +137,8 @@ int main(int argc, char** argv) {
   app.add_option("IN", in, "bag or dataset folder")->required();
   app.add_option("--out", out, "folder for the figures")->required();
   return tool::run(app, argc, argv, [&]() -> int {
-    const Dataset data = load_recording(in);
+    Dataset data = load_recording(in);
+    leave_out_orientations_without_answer(data);
     tool::say(app, data.remarks);
     std::error_code error;
     std::filesystem::create_directories(out, error);

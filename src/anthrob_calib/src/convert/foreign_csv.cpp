@@ -59,9 +59,19 @@ class ForeignReader {
         dataset.table(orientation.table).column(orientation.joint + part);
       }
     }
+    int blank = 0;  // the first line without anything, 0: none
     for (std::string line; std::getline(in_, line);) {
       ++row_;
-      if (!trimmed(line).empty()) read_row(cells_of(line, columns_.separator), &dataset);
+      if (trimmed(line).empty()) {
+        if (blank == 0) blank = row_;
+        continue;
+      }
+      // Time counts rows: is this one, in which nothing was measured, or none?
+      if (blank > 0 && columns_.time.empty()) {
+        row_ = blank;
+        fail("an empty row; expected none, because `rate` counts rows");
+      }
+      read_row(cells_of(line, columns_.separator), &dataset);
     }
     if (dataset.tables.front().t.size() < 2) {
       throw BadInput(file_ + ": fewer than two rows; expected a recording");
