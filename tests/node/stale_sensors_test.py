@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""A controller whose sensors fall silent stops sending, and says which sensor it misses."""
+"""A controller whose sensors fall silent stops sending, and says which sensor it misses. One whose robot refuses a
+motion goes back to holding the arm."""
 import time
 import unittest
 
 import rospy
 import rostest
 from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
+from anthrob_msgs.srv import GoTo, GoToRequest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Quaternion, Vector3
+from std_srvs.srv import Trigger
 
 MUSCLES = ['lateral_deltoid', 'anterior_deltoid', 'posterior_deltoid', 'supraspinatus', 'infraspinatus',
            'teres_minor', 'teres_major', 'pectoralis_major']
@@ -53,6 +56,27 @@ class StaleSensors(unittest.TestCase):
         """Whether so many commands more have come."""
         wanted = len(self.commands) + count
         return lambda: len(self.commands) >= wanted
+
+    def test_a_motion_that_the_robot_refuses_is_broken_off(self):
+        go_to = rospy.ServiceProxy('controller/go_to', GoTo)
+        zero_gravity = rospy.ServiceProxy('controller/zero_gravity', Trigger)
+        for service in go_to, zero_gravity:
+            service.wait_for_service(20)
+        self.publish(self.sends(20))
+        heard = len(self.commands)
+        there = GoToRequest(ball_joint_name=['shoulder'], duration=2.0,
+                            ball_joint_orientation=[Quaternion(w=0.939693, x=0.220336, z=-0.261591)])
+        self.assertTrue(go_to(there).success)
+        # These muscle_states always tell of FORCE: the command with POSITION was refused.
+        refused = self.says('refused its POSITION references')
+
+        def moving():
+            return [c.header.stamp.to_sec() for c in self.commands[heard:] if c.mode[0] == MuscleCommand.POSITION]
+        self.publish(lambda: moving() and self.commands[-1].mode[0] == MuscleCommand.FORCE)
+        self.assertLess(self.commands[-1].header.stamp.to_sec() - moving()[0], 0.45)  # before command_timeout
+        self.publish(refused)
+        self.assertTrue(zero_gravity().success)
+        self.publish(self.says('zero gravity'))
 
     def test_silence_and_return(self):
         self.publish(self.sends(20))

@@ -37,6 +37,10 @@ std::vector<double> posture_of(const anthrob_msgs::GoTo::Request& request,
   return posture.q();
 }
 
+/// How long a robot may take to follow POSITION after another mode [s]: its states are under way,
+/// and after command_timeout (0.5 s) its motors would stop.
+constexpr double kPatience = 0.2;
+
 class ComputedForceNode {
  public:
   ComputedForceNode(ros::NodeHandle nh, std::shared_ptr<const anthrob::RobotModel> model,
@@ -58,6 +62,7 @@ class ComputedForceNode {
       if (link_.time_jumped()) {
         controller_.reset();
         silent_ = 0.0;
+        unheeded_ = 0.0;
       }
       trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
       if (trouble_.empty()) trouble_ = missing_force();
@@ -100,12 +105,29 @@ class ComputedForceNode {
     // Whatever posture the arm is in when the motors are enabled is the one that is held.
     // Also of those that were, and are again, while this node had no processor.
     if (!link_.take_disabled().empty() || !idle_.empty()) controller_.reset();
+    break_off_if_refused();
     const anthrob::ForceCommand& wanted =
         controller_.update(link_.state().measurement(), silent_ + link_.dt());
     silent_ = 0.0;
     shortfall_ = wanted.shortfall.norm();
     converged_ = wanted.converged;
+    mode_ = wanted.mode;
     link_.send(anthrob::make_command(controller_.model(), wanted.mode, wanted.reference));
+  }
+
+  /// A robot may refuse to go over to POSITION: too far from where its muscles are, or no zero. It
+  /// refuses the whole command, so nobody would hold the arm, and soon its motors would stop.
+  void break_off_if_refused() {
+    const bool positions = idle_.empty() && mode_ == anthrob::ecu::Mode::kPosition;
+    const std::string other =
+        positions ? link_.state().muscle_not_in(anthrob::ecu::Mode::kPosition) : "";
+    unheeded_ = other.empty() ? 0.0 : unheeded_ + silent_ + link_.dt();
+    if (unheeded_ <= kPatience) return;
+    unheeded_ = 0.0;
+    controller_.reset();
+    refused_ = "go_to was broken off: the robot refused its POSITION references (muscle " + other +
+               "); its diagnostics say why (last_rejection)";
+    ROS_ERROR_STREAM(refused_ << "; holding the arm where it is");
   }
 
   bool ready(std::string& why) const {
@@ -117,7 +139,10 @@ class ComputedForceNode {
 
   bool on_zero(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
     response.success = ready(response.message);
-    if (response.success) controller_.zero_gravity();
+    if (response.success) {
+      controller_.zero_gravity();
+      refused_.clear();
+    }
     return true;
   }
 
@@ -126,6 +151,7 @@ class ComputedForceNode {
     try {
       controller_.go_to(posture_of(request, controller_.model(), controller_.target()),
                         request.duration);
+      refused_.clear();
       response.success = true;
     } catch (const BadInput& error) {
       response.message = error.what();
@@ -146,9 +172,11 @@ class ComputedForceNode {
     status.hardware_id = controller_.model().file;
     const bool short_of = shortfall_ > 0.01 || !converged_;
     status.level = !trouble_.empty()            ? DiagnosticStatus::ERROR
+                   : !refused_.empty()          ? DiagnosticStatus::ERROR
                    : !idle_.empty() || short_of ? DiagnosticStatus::WARN
                                                 : DiagnosticStatus::OK;
     status.message = !trouble_.empty()       ? "no commands: " + trouble_
+                     : !refused_.empty()     ? refused_
                      : !idle_.empty()        ? "the motor of " + idle_ + " is not enabled"
                      : short_of              ? "the muscles cannot deliver the torque"
                      : controller_.holds()   ? "zero gravity"
@@ -171,6 +199,9 @@ class ComputedForceNode {
   ros::Publisher diagnostics_;
   std::vector<ros::ServiceServer> services_;
   std::string trouble_ = "nothing measured yet", reported_trouble_, idle_;
+  std::string refused_;  ///< why the last go_to ended early, until the next request
+  anthrob::ecu::Mode mode_ = anthrob::ecu::Mode::kVoltage;  ///< of the last command
+  double unheeded_ = 0.0;  ///< for how long a muscle has not followed it [s]
   double shortfall_ = 0.0;
   double silent_ = 0.0;  ///< since the last command [s]
   double last_dt_ = 0.0;
