@@ -11,8 +11,9 @@ namespace anthrob {
 
 namespace {
 
-constexpr double kForgotten = 0.5;    ///< without an update [s]; begins anew after it
-constexpr double kLongestStep = 0.1;  ///< of a motion [s]; a measurement that old is stale
+constexpr double kForgotten = 0.5;  ///< without an update [s]; begins anew after it
+constexpr double kLongestStep =
+    0.1;  ///< of motion and integrals [s]; a measurement that old is stale
 
 /// Muscles without a controller are left alone: their bounds are zero.
 Eigen::VectorXd bounds(const RobotModel& model, double tension) {
@@ -112,13 +113,16 @@ const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, doub
   if (dt > std::max(kForgotten, 2.0 / settings_.rate)) reset();
   if (fresh_) filter_.reset();
   filter_.step(measured.q, measured.u, dt);
+  // Where commands were held up the motion waits, and nothing is integrated: what it would have
+  // done meanwhile is no step to be taken at once.
+  const double step = std::min(dt, std::max(kLongestStep, 2.0 / settings_.rate));
   posture_.update(filter_.configuration(), filter_.velocity());
   if (fresh_) {
     fresh_ = false;
     held_ = filter_.configuration();
     forget_voltages();
   }
-  compute_torque(dt);
+  compute_torque(step);
   split();
   const ecu::Mode mode = moving_ ? settings_.move_output : settings_.hold_output;
   // What was integrated for another posture would come as a jolt.
@@ -126,7 +130,7 @@ const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, doub
   command_.mode = mode;
   if (command_.mode == ecu::Mode::kPosition) target_posture_.update(target(), zero_);
   for (std::size_t m = 0; m < command_.reference.size(); ++m)
-    command_.reference[m] = reference_for(m, measured.muscles[m], dt);
+    command_.reference[m] = reference_for(m, measured.muscles[m], step);
   return command_;
 }
 
@@ -142,9 +146,7 @@ void ComputedForce::compute_torque(double dt) {
     command_.torque += servo_.hold(held_, q, u);
     return;
   }
-  // Where commands were held up the motion waits: what it would have done meanwhile is no step to
-  // be taken at once.
-  motion_.advance(std::min(dt, std::max(kLongestStep, 2.0 / settings_.rate)));
+  motion_.advance(dt);
   command_.torque += servo_.track(motion_.configuration(), motion_.velocity(), q, u, dt);
   command_.torque.noalias() += posture_.mass_matrix() * motion_.acceleration();
   for (const JointModel& joint : model().skeleton->joints) {

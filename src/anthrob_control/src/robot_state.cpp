@@ -14,10 +14,13 @@ namespace {
 constexpr double kAhead = 0.5;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-std::string check_age(const std::string& who, double stamp, double now, double stale_after) {
+/// A clock that is ahead must not make old measurements young: what counts is the older of stamp
+/// and receipt.
+std::string check_age(const std::string& who, double stamp, double receipt, double now,
+                      double stale_after) {
   if (stamp == kNever) return who + ": not measured yet";
-  const double age = now - stamp;
-  const bool from_ahead = age < -std::max(stale_after, kAhead);
+  const bool from_ahead = now - stamp < -std::max(stale_after, kAhead);
+  const double age = now - (from_ahead ? stamp : std::min(stamp, receipt));
   if (age <= stale_after && !from_ahead) return "";
   char text[32];
   std::snprintf(text, sizeof(text), "%.3f", std::abs(age));
@@ -42,6 +45,8 @@ void RobotState::clear() {
   }
   muscle_stamps_.assign(model_->muscles.size(), kNever);
   joint_stamps_.assign(model_->skeleton->joints.size(), kNever);
+  muscle_receipts_ = muscle_stamps_;
+  joint_receipts_ = joint_stamps_;
   enabled_.assign(model_->muscles.size(), 0);
   mode_.assign(model_->muscles.size(), std::nullopt);
   was_disabled_ = -1;
@@ -56,6 +61,7 @@ void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, 
   measured_.muscles[index] = m;
   enabled_[index] = enabled;
   muscle_stamps_[index] = stamp;
+  muscle_receipts_[index] = received_;
 }
 
 void RobotState::see_mode(const std::string& name, ecu::Mode mode) {
@@ -72,6 +78,7 @@ void RobotState::see_joint(const std::string& name, double position, double velo
   measured_.q[joint.position_offset] = position;
   measured_.u[joint.velocity_offset] = velocity;
   joint_stamps_[index] = stamp;
+  joint_receipts_[index] = received_;
 }
 
 void RobotState::see_ball_joint(const std::string& name, const Quat& orientation,
@@ -86,6 +93,7 @@ void RobotState::see_ball_joint(const std::string& name, const Quat& orientation
   q[0] = unit.w(), q[1] = unit.x(), q[2] = unit.y(), q[3] = unit.z();
   measured_.u.segment<3>(joint.velocity_offset) = velocity;
   joint_stamps_[index] = stamp;
+  joint_receipts_[index] = received_;
 }
 
 bool RobotState::must_be_measured(std::size_t muscle) const {
@@ -94,8 +102,8 @@ bool RobotState::must_be_measured(std::size_t muscle) const {
 
 std::string RobotState::complaint(double now, double stale_after) const {
   for (std::size_t j = 0; j < joint_stamps_.size(); ++j) {
-    const std::string why =
-        check_age("joint " + model_->skeleton->joints[j].name, joint_stamps_[j], now, stale_after);
+    const std::string why = check_age("joint " + model_->skeleton->joints[j].name, joint_stamps_[j],
+                                      joint_receipts_[j], now, stale_after);
     if (!why.empty()) return why;
   }
   return complaint_of_muscles(now, stale_after);
@@ -104,8 +112,8 @@ std::string RobotState::complaint(double now, double stale_after) const {
 std::string RobotState::complaint_of_muscles(double now, double stale_after) const {
   for (std::size_t m = 0; m < muscle_stamps_.size(); ++m) {
     if (!must_be_measured(m)) continue;
-    const std::string why =
-        check_age("muscle " + model_->muscles[m].name, muscle_stamps_[m], now, stale_after);
+    const std::string why = check_age("muscle " + model_->muscles[m].name, muscle_stamps_[m],
+                                      muscle_receipts_[m], now, stale_after);
     if (!why.empty()) return why;
   }
   return "";

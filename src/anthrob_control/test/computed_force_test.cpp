@@ -210,6 +210,28 @@ TEST(ComputedForce, VoltagesForgetWhatTheyIntegratedBeforeAMove) {
   for (std::size_t m = 0; m < first.size(); ++m) EXPECT_NEAR(again[m], first[m], 1e-3) << m;
 }
 
+TEST(ComputedForce, VoltagesDoNotJumpAfterAPause) {
+  const auto model = load_robot_model(kAnthrob + "model_I.yaml");
+  auto settings = ControlSettings::load(kAnthrob + "control.yaml", *model);
+  settings.hold_output = ecu::Mode::kVoltage;
+  RobotMeasurement measured{model->skeleton->rest_configuration(),
+                            Eigen::VectorXd::Zero(model->skeleton->velocity_count),
+                            std::vector<ecu::Measurement>(model->muscles.size())};
+  // What a pause of 0.45 s adds to the voltages.
+  const auto jump = [&](double pause) {
+    ComputedForce controller(model, settings);
+    const Eigen::VectorXd tension = controller.update(measured, 0.005).tension;
+    for (std::size_t m = 0; m < measured.muscles.size(); ++m) {
+      measured.muscles[m].force = tension[static_cast<Eigen::Index>(m)] - 1.0;
+    }
+    for (int i = 0; i < 100; ++i) controller.update(measured, 0.005);
+    const double before = controller.update(measured, 0.005).reference[0];
+    return controller.update(measured, pause).reference[0] - before;
+  };
+  EXPECT_GT(jump(0.005), 0.0);
+  EXPECT_NEAR(jump(0.45), jump(0.1), 1e-9);
+}
+
 TEST(ComputedForce, StaysNearThePostureWithAWrongModel) {
   // Straight muscles in the controller, wrapping ones on the robot: gravity and moment arms are off
   // by some per cent, a servo makes up for it.

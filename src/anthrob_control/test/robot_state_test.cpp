@@ -43,6 +43,17 @@ TEST_F(RobotStateTest, WhatIsStampedAheadOfTimeIsNotFresh) {
             "was set back");
 }
 
+TEST_F(RobotStateTest, AClockThatIsAheadMakesNothingYoung) {
+  state.receive_at(0.6);
+  see_all(1.0);  // by the clock of the sensors
+  EXPECT_EQ(state.complaint(0.65, 0.1), "");
+  EXPECT_EQ(state.complaint(0.8, 0.1), "joint shoulder: the last measurement is 0.200 s old");
+  // One that is late on its way is as old as it says.
+  state.receive_at(2.0);
+  see_all(1.8);
+  EXPECT_EQ(state.complaint(2.0, 0.1), "joint shoulder: the last measurement is 0.200 s old");
+}
+
 TEST_F(RobotStateTest, WhatIsNoMeasurementDoesNotCount) {
   see_all(1.0);
   state.see_joint("elbow", NAN, 0.0, 2.0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,16 +18,19 @@ class RobotState {
 
   void see_muscle(const std::string& name, const ecu::Measurement& measured, bool enabled,
                   double stamp);
+  /// When all that is seen from now on is received, by the clock of `now`. Without it, measurements
+  /// are as old as their stamps say.
+  void receive_at(double now) { received_ = now; }
   /// The control mode of a muscle's motor. Not every robot reports it.
   void see_mode(const std::string& name, ecu::Mode mode);
   void see_joint(const std::string& name, double position, double velocity, double stamp);
   void see_ball_joint(const std::string& name, const Quat& orientation, const Vec3& velocity,
                       double stamp);
 
-  /// The first joint or muscle that was not measured within `stale_after` before `now`, as one
-  /// line; empty if all were. Values that are not finite, or not a rotation, count as not measured.
-  /// Only forces may be NaN, where there is no sensor. Muscles without input, such as ligaments,
-  /// need no measurement, because no unit measures them.
+  /// The first joint or muscle that was not measured, or received, within `stale_after` before
+  /// `now`, as one line; empty if all were. Values that are not finite, or not a rotation, count as
+  /// not measured. Only forces may be NaN, where there is no sensor. Muscles without input, such as
+  /// ligaments, need no measurement, because no unit measures them.
   std::string complaint(double now, double stale_after) const;
   /// The same for muscles only.
   std::string complaint_of_muscles(double now, double stale_after) const;
@@ -55,6 +59,8 @@ class RobotState {
   std::shared_ptr<const RobotModel> model_;
   RobotMeasurement measured_;
   std::vector<double> muscle_stamps_, joint_stamps_;
+  std::vector<double> muscle_receipts_, joint_receipts_;
+  double received_ = std::numeric_limits<double>::infinity();
   std::vector<char> enabled_;
   std::vector<std::optional<ecu::Mode>> mode_;
   int was_disabled_ = -1;  // index of the muscle that take_disabled names

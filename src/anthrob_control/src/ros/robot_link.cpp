@@ -33,8 +33,14 @@ RobotLink::RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model
   };
 }
 
+/// In lock-step measurements come with their step, whatever the clock has come to.
+void RobotLink::note_receipt() {
+  if (!options_.lock_step) state_.receive_at(ros::Time::now().toSec());
+}
+
 void RobotLink::see_muscles(const anthrob_msgs::MuscleStates& m) {
   heard_ = true;
+  note_receipt();
   const std::size_t n = m.name.size();
   if (fits(n, m.position.size()) && fits(n, m.velocity.size()) && fits(n, m.current.size()) &&
       fits(n, m.force.size()) && fits(n, m.ecu_state.size())) {
@@ -49,6 +55,7 @@ void RobotLink::see_muscles(const anthrob_msgs::MuscleStates& m) {
 }
 
 void RobotLink::see_joints(const sensor_msgs::JointState& m) {
+  note_receipt();
   if (fits(m.name.size(), m.position.size()) && fits(m.name.size(), m.velocity.size())) {
     for (std::size_t i = 0; i < m.name.size(); ++i)
       state_.see_joint(m.name[i], m.position[i], m.velocity[i], m.header.stamp.toSec());
@@ -57,6 +64,7 @@ void RobotLink::see_joints(const sensor_msgs::JointState& m) {
 }
 
 void RobotLink::see_ball_joints(const anthrob_msgs::SphericalJointStates& m) {
+  note_receipt();
   if (fits(m.name.size(), m.orientation.size()) && fits(m.name.size(), m.angular_velocity.size())) {
     for (std::size_t i = 0; i < m.name.size(); ++i) {
       const auto& o = m.orientation[i];

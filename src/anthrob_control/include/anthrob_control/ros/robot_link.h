@@ -55,6 +55,7 @@ class RobotLink {
   std::function<void(const anthrob_msgs::SphericalJointStates&)> on_ball_joints;
 
  private:
+  void note_receipt();
   void see_muscles(const anthrob_msgs::MuscleStates& message);
   void see_joints(const sensor_msgs::JointState& message);
   void see_ball_joints(const anthrob_msgs::SphericalJointStates& message);
