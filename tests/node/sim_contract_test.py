@@ -212,7 +212,7 @@ class SimContract(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn('lateral_deltoid/position_proportional=5.5\n', done.stdout)
             self.assertEqual(done.stdout.count('/force_integral=0.625\n'), len(MUSCLES))
-            for wrong in 'lateral_deltoid', 'lateral_deltoid/force_integral', 'nobody/force_integral=1', 'all/force_integral=x', \
+            for wrong in 'lateral_deltoid', '/force_integral=1', 'lateral_deltoid/force_integral', 'nobody/force_integral=1', 'all/force_integral=x', \
                     'all/force_integral=-1':
                 refused = self.run_gains(wrong)
                 self.assertEqual(refused.returncode, 2, wrong)

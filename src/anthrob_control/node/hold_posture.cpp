@@ -1,6 +1,8 @@
 // Puts a running simulator into one posture of a posture file, at equilibrium, and commands the
 // references that hold it. For pictures and for trying things out.
+#include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SetState.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <algorithm>
@@ -51,6 +53,34 @@ bool wait_for_simulator(const ros::NodeHandle& nh) {
   return false;
 }
 
+/// A simulator that does not follow commands would let go of the posture at once. One that says
+/// nothing, such as a paused one, is believed.
+/// @throws std::runtime_error if its motors are not enabled
+void require_enabled(ros::NodeHandle& nh, const anthrob::RobotModel& model) {
+  constexpr double kPatience = 3.0;  // [s] until it has enabled itself
+  using anthrob_msgs::MuscleStates;
+  std::string disabled;
+  const auto see = [&](const MuscleStates& states) {
+    disabled.clear();
+    for (std::size_t i = 0; i < std::min(states.name.size(), states.ecu_state.size()); ++i) {
+      const int muscle = model.find_muscle(states.name[i]);
+      if (muscle < 0 || !model.muscles[muscle].has_controller) continue;
+      if (states.ecu_state[i] != MuscleStates::ENABLED) disabled = states.name[i];
+    }
+  };
+  bool heard = false;
+  const auto subscriber = nh.subscribe<MuscleStates>(
+      "muscle_states", 1,
+      [&](const MuscleStates::ConstPtr& states) { heard = true, see(*states); });
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+  while (ros::ok() && ros::WallTime::now() < end) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    if (heard && disabled.empty()) return;
+  }
+  if (ros::ok() && heard)
+    throw std::runtime_error("muscle " + disabled + " is not enabled; call enable first");
+}
+
 /// @return whether the posture was commanded
 bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const std::string wanted = anthrob::required(settings, "posture", "the name of a posture");
@@ -76,6 +106,7 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 
   ros::Publisher commands = nh.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 1);
   if (!wait_for_simulator(nh)) return false;
+  require_enabled(nh, *model);
   auto state = state_of(*model, step->q, equilibrium.position);
   const bool answered = ros::service::call("sim/set_state", state);
   if (!ros::ok()) return false;

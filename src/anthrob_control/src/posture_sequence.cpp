@@ -9,6 +9,7 @@ namespace anthrob {
 namespace {
 
 /// With more shortfall than this the posture cannot be held [Nm].
+constexpr double kLongestHold = 1e6;  ///< [s]
 constexpr double kHoldable = 0.02;
 
 void read_joint(const ConfigNode& node, const JointModel& joint, std::vector<double>& q) {
@@ -45,6 +46,10 @@ std::string read_name(const ConfigNode& item) {
   if (!good || name.empty() || name.front() == '.' || name.front() == ' ' || name.back() == ' ') {
     item.at("name").fail_expected("letters, digits, '_', '-', '.' and spaces between them");
   }
+  // As a ROS parameter (~posture) it would be a number.
+  if (name.find_first_not_of("0123456789.-") == std::string::npos) {
+    item.at("name").fail_expected("a name with a letter in it");
+  }
   return name;
 }
 
@@ -77,8 +82,11 @@ PostureSequence PostureSequence::load(const std::string& file, const RobotModel&
   for (const ConfigNode& item : node.at("postures").items()) {
     PostureStep step;
     step.name = read_name(item);
-    step.hold = item.number_or("hold", step.hold, Bounds::positive(), "s");
+    step.hold = item.number_or("hold", step.hold, Bounds{0.0, kLongestHold, true, false}, "s");
     step.q = model.skeleton->rest_configuration();
+    if (item.has("joints") && item.has("references")) {
+      item.fail("has joints and references; expected one of them");
+    }
     if (item.has("joints")) {
       for (const auto& [name, value] : item.at("joints").entries()) {
         const int joint = model.skeleton->find_joint(name);

@@ -38,6 +38,8 @@ void read_change(const std::string& text, Gains::Request& request) {
     throw BadInput(text + ": expected MUSCLE/GAIN=VALUE or all/GAIN=VALUE");
   }
   const std::string muscle = text.substr(0, slash);
+  // The service takes an empty name for all muscles: an unset variable of a shell must not.
+  if (muscle.empty()) throw BadInput(text + ": no muscle; expected MUSCLE/GAIN=VALUE or all/...");
   request.muscle.push_back(muscle == "all" ? "" : muscle);
   request.gain.push_back(text.substr(slash + 1, equals - slash - 1));
   request.value.push_back(value);
