@@ -162,6 +162,22 @@ TEST_F(Desk, AnEnableSentAgainDoesNotUndoAStop) {
   EXPECT_EQ(firmware.state(), State::kEnabled);
 }
 
+TEST_F(Desk, AClearSentAgainDoesNotUndoALaterStop) {
+  start();
+  firmware.receive(Frame{});
+  tick();
+  request(Operation::kClear);
+  ASSERT_EQ(firmware.state(), State::kIdle);
+  firmware.receive(Frame{});
+  tick();
+  --sequence;
+  request(Operation::kClear);
+  EXPECT_TRUE(report.stop_latched);
+  EXPECT_EQ(firmware.state(), State::kStopping);
+  request(Operation::kClear);
+  EXPECT_EQ(firmware.state(), State::kIdle);
+}
+
 TEST_F(Desk, SyncLostMeansZeroVoltsWithin15Ms) {
   start();
   host = false;

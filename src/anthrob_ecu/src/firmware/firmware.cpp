@@ -80,10 +80,11 @@ Refusal Firmware::clear() {
 }
 
 void Firmware::on_request(const Request& request) {
-  // The same request again is answered again, but done once: an old enable must not undo a stop.
+  // The same request again is answered again, but done once: an old enable must not undo a stop,
+  // nor an old clear what came after it.
   const bool repeated = request.sequence == sequence_;
   state_changed_ = true;
-  if (repeated && request.operation == Operation::kEnable) return;
+  if (repeated && request.operation != Operation::kDisable) return;
   sequence_ = request.sequence;
   switch (request.operation) {
     case Operation::kEnable:
