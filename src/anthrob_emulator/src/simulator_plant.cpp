@@ -16,6 +16,10 @@ SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
   }
   for (const driver::MuscleHardware& muscle : hardware.muscles) {
     muscles_.push_back(simulation_.model().find_muscle(muscle.name));
+    // The hand may be wired and not simulated.
+    if (muscles_.back() >= 0 || muscle.name.rfind("hand_", 0) == 0) continue;
+    throw BadInput(simulation_.model().file + ": muscles: " + muscle.name + " of " + hardware.file +
+                   " is missing; expected a model of the robot that is wired there");
   }
   for (const MuscleModel& muscle : simulation_.model().muscles) {
     if (muscle.command_delay > 0.0) {

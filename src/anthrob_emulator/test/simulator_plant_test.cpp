@@ -31,6 +31,18 @@ TEST(SimulatorPlant, BoardsReadWhatEffectsOfSensorsLetThemRead) {
   }
 }
 
+TEST(SimulatorPlant, AModelOfAnotherRobotIsRefused) {
+  const driver::Hardware hardware = driver::load_hardware(kHardware, false);
+  try {
+    SimulatorPlant(load_robot_model(ANTHROB_CONFIG_DIR "/two_muscle_rig/model_I.yaml"), hardware);
+    FAIL() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("model_I.yaml: muscles: lateral_deltoid of "),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(SimulatorPlant, CommandsThatTheSimulatorDelaysAreRefused) {
   const driver::Hardware hardware = driver::load_hardware(kHardware, false);
   try {
