@@ -185,6 +185,11 @@ class Camera:
         _, _, width, height = self.camera.get_region()
         self.camera.set_region(0, 0, width, height)
         self.camera.set_pixel_format(aravis.PIXEL_FORMAT_MONO_8)
+        # Else the camera refuses the exposure, or changes it again.
+        if self.camera.is_exposure_auto_available():
+            self.camera.set_exposure_time_auto(aravis.Auto.OFF)
+        if self.camera.is_gain_auto_available():
+            self.camera.set_gain_auto(aravis.Auto.OFF)
         self.camera.set_exposure_time(1e6 * exposure)
         self.camera.set_trigger('Software')
         self.stream = self.camera.create_stream(None, None)

@@ -130,7 +130,7 @@ class MocapInput(unittest.TestCase):
         self.assertGreaterEqual(len(shown), 3)
         self.assertLessEqual({m.header.stamp for m in shown}, set(sent))
 
-    def track_folder(self, pixels):
+    def track_folder(self, pixels, height=488, status=0, rate=60):
         """What the node prints that tracks six copies of a pair from files."""
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
@@ -138,12 +138,12 @@ class MocapInput(unittest.TestCase):
             os.mkdir(os.path.join(folder, side))
             for i in range(6):
                 with open(os.path.join(folder, side, '%06d.pgm' % i), 'wb') as file:
-                    file.write(b'P5\n648 488\n255\n' + picture)
+                    file.write(b'P5\n648 %d\n255\n' % height + picture[:648 * height])
         done = subprocess.run(['rosrun', 'anthrob_mocap', 'anthrob_mocap', '__ns:=/recorded', '_source:=folder',
                                '_left:=' + os.path.join(folder, 'left'), '_right:=' + os.path.join(folder, 'right'),
-                               '_calibration:=' + CONFIG, '_targets:=' + os.path.join(CONFIG, 'targets.yaml')],
+                               '_rate:=%g' % rate, '_calibration:=' + CONFIG, '_targets:=' + os.path.join(CONFIG, 'targets.yaml')],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
-        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(done.returncode, status, done.stdout)
         return done.stdout
 
     def test_end_of_a_recording(self):
@@ -152,8 +152,16 @@ class MocapInput(unittest.TestCase):
         self.assertIn('rate', watch.values)
         self.assertNotIn('exposure_to_result_ms', watch.values)
         said = self.track_folder(self.pixels)
-        for finding in 'swapped', 'no pose', 'pixels', 'most_points':
+        for finding in 'swapped', 'no pose', 'pixels', 'most_points', 'never':
             self.assertNotIn(finding, said)
+
+    def test_a_recording_without_a_joint_says_so(self):
+        self.assertIn('joint shoulder was seen, but in the end never twice', self.track_folder(self.pixels, rate=5))
+        # The scapula's markers are in the upper part of the picture.
+        said = self.track_folder([p[:648 * 240] + bytes(648 * 248) for p in self.pixels])
+        self.assertRegex(said, 'target (scapula|humerus) was never seen')
+        self.assertIn('joint shoulder was never seen', said)
+        self.assertIn('648x487 pixels: expected 648x488', self.track_folder(self.pixels, height=487, status=2))
 
     def test_pulled_camera(self):
         watch = Watch('/cameras: mocap')

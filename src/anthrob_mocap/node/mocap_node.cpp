@@ -13,6 +13,7 @@ namespace mocap {
 
 namespace {
 
+constexpr double kRefusalPeriod = 1.0;  // [s] between two in the log
 constexpr double kReportPeriod = 0.5;   // [s] a lost camera is known within a second
 constexpr double kMarkerPeriod = 0.04;  // [s]
 constexpr double kDebugPeriod = 0.1;    // [s]
@@ -98,6 +99,7 @@ void MocapNode::report_on(TopicInput& input) {
     last_trouble_ = Pairing::complaint(last_counts_, input.tolerance());
   }
   publish_diagnostics(still ? "" : last_trouble_, last_counts_);
+  last_counts_.lost = 0;  // told
 }
 
 void MocapNode::run(FrameSource& source) {
@@ -117,6 +119,8 @@ void MocapNode::run(FrameSource& source) {
   pipeline_.drain();
   if (!ended) return;
   publish_diagnostics(source.trouble(), source.take_counts());
+  if (!untold_.empty()) ROS_WARN_STREAM(untold_);
+  if (options_.recorded && accepted_ == 0 && !last_refusal_.empty()) throw BadInput(last_refusal_);
   log_findings();
   ros::WallDuration(kFarewell).sleep();
 }
@@ -133,6 +137,26 @@ void MocapNode::log_findings() const {
     ROS_WARN_STREAM(recording_.crowd());
   }
   if (!bend.empty()) ROS_WARN_STREAM(bend);
+  if (recording_.given_up() > 0) {
+    ROS_WARN_STREAM(recording_.given_up() << " searches of a target reached step_limit");
+  }
+  if (recording_.poses() > 0) log_missing();
+}
+
+void MocapNode::log_missing() const {
+  const std::vector<std::size_t> targets = recording_.unseen_targets();
+  for (const std::size_t k : targets) {
+    ROS_WARN_STREAM("target " << set_.targets[k].name << " was never seen");
+  }
+  for (const std::size_t j : recording_.unseen_joints()) {
+    ROS_WARN_STREAM("joint " << set_.joints[j].name << " was never seen"
+                             << (targets.empty() ? ": its targets never in the same pair" : ""));
+  }
+  for (const std::size_t j : recording_.joints_without_velocity()) {
+    ROS_WARN_STREAM(
+        "joint " << set_.joints[j].name << " was seen, but in the end never twice within "
+                 << JointEstimator::kLongestGap << " s: not published without velocity");
+  }
 }
 
 bool MocapNode::heard() const {
@@ -175,11 +199,19 @@ void MocapNode::take(std::unique_ptr<StereoFrame> frame) {
     refuse(error.what());
     return;
   }
+  ++accepted_;
+  if (frame->ns == 0) frame->ns = 1;  // 0 means "the latest" to those who look transforms up
   pipeline_.push(std::move(frame));
 }
 
 void MocapNode::refuse(const std::string& why) {
-  ROS_WARN_STREAM_THROTTLE(1.0, why);
+  // The last one of a recording is told at its end, if not here: a bag's sums up.
+  untold_ = why;
+  if (due(last_told_, kRefusalPeriod)) {
+    ROS_WARN_STREAM(why);
+    untold_.clear();
+  }
+  last_refusal_ = why;
   status_.refuse(why);
 }
 

@@ -57,6 +57,7 @@ class MocapNode {
   void check_stamp(const StereoFrame& frame) const;
   void report_on(TopicInput& input);
   void log_findings() const;
+  void log_missing() const;
 
   ros::NodeHandle nh_, images_;
   StereoRig rig_;
@@ -68,15 +69,16 @@ class MocapNode {
   std::vector<ros::Publisher> target_poses_, joint_estimates_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
-  ros::WallTime last_markers_, last_debug_, last_report_;
+  ros::WallTime last_markers_, last_debug_, last_report_, last_told_;
   ros::Time last_report_time_, last_asked_;
   std::string last_trouble_;
   Pairing::Counts last_counts_;
 
   Status status_;
   Health recording_;  ///< of all pictures of a recorded source
-  std::uint64_t index_ = 0;
-  Pipeline pipeline_;  ///< last: its threads use all of the above
+  std::uint64_t index_ = 0, accepted_ = 0;
+  std::string untold_, last_refusal_;  ///< the former: not logged yet
+  Pipeline pipeline_;                  ///< last: its threads use all of the above
 };
 
 }  // namespace mocap

@@ -100,6 +100,10 @@ void Status::judge(const std::string& trouble, const Pairing::Counts& images,
       return;
     }
   }
+  for (const std::size_t j : health_.unseen_joints()) {
+    status.message = joints_[j] + " is not seen: its targets are never seen in the same pair";
+    return;
+  }
   for (const std::size_t j : health_.joints_without_velocity()) {
     status.message = joints_[j] + " is seen, but never twice within " +
                      text(JointEstimator::kLongestGap) +

@@ -13,6 +13,7 @@ namespace mocap {
 namespace {
 
 constexpr double kLargestLag = 0.5;  // [s] behind tf; then pictures are skipped
+constexpr double kPatience = 5.0;    // [s] of wall time until it is said what tf lacks
 
 }  // namespace
 
@@ -30,7 +31,7 @@ VirtualRig::VirtualRig(ros::NodeHandle nh, const StereoRig& rig, const TargetSet
 }
 
 /// How far tf reaches for all links; zero if it does not know them yet.
-ros::Time VirtualRig::latest() const {
+ros::Time VirtualRig::latest() {
   ros::Time common(ros::TIME_MAX);
   for (const Setup::Mount& mount : setup_.mounts) {
     try {
@@ -38,7 +39,8 @@ ros::Time VirtualRig::latest() const {
           buffer_.lookupTransform(setup_.camera_parent, mount.link, ros::Time(0)).header.stamp;
       // Static transforms have stamp zero: they reach anywhere.
       if (!t.isZero()) common = std::min(common, t);
-    } catch (const tf2::TransformException&) {
+    } catch (const tf2::TransformException& error) {
+      missing_ = error.what();
       return ros::Time();
     }
   }
@@ -55,6 +57,11 @@ void VirtualRig::run() {
     if (!reach.isZero() && (next.isZero() || jumped)) {
       // On the grid of whole periods, so that a rerun sees the same instants.
       next.fromSec(std::ceil(reach.toSec() * setup_.rate) / setup_.rate);
+    }
+    if (!reach.isZero()) last_reach_ = ros::WallTime::now();
+    if ((ros::WallTime::now() - last_reach_).toSec() > kPatience) {
+      ROS_WARN_STREAM("no pictures: " << missing_);
+      last_reach_ = ros::WallTime::now();
     }
     if (reach.isZero() || next.isZero() || next + half_exposure > reach) {
       ros::spinOnce();

@@ -26,12 +26,14 @@ class VirtualRig {
   void expose(const ros::Time& stamp);
   bool scene_at(const ros::Time& time, Scene& scene) const;
   void publish(const ros::Time& stamp, const std::vector<Scene>& instants);
-  ros::Time latest() const;
+  ros::Time latest();
 
   StereoRig rig_;
   TargetSet set_;
   Setup setup_;
   Renderer renderer_;
+  std::string missing_ = "nobody publishes tf";  ///< what tf said last
+  ros::WallTime last_reach_ = ros::WallTime::now();
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
   image_transport::ImageTransport transport_;

@@ -353,6 +353,40 @@ TEST(Health, JudgesABentRigAlikeAtAnyZoom) {
   }
 }
 
+TEST(Health, KnowsWhatWasNeverSeen) {
+  Health health(make_rig(), MatchingOptions());
+  EXPECT_TRUE(health.unseen_targets().empty());
+  EXPECT_TRUE(health.unseen_joints().empty());
+  StereoFrame frame;
+  frame.targets.resize(2);
+  frame.joints.resize(1);
+  for (const int k : {0, 1}) {  // one after the other
+    frame.targets[k].valid = true;
+    frame.targets[1 - k].valid = false;
+    health.add(frame);
+    EXPECT_EQ(health.unseen_targets(),
+              k == 0 ? std::vector<std::size_t>{1} : std::vector<std::size_t>{});
+    EXPECT_EQ(health.unseen_joints(), std::vector<std::size_t>{0});
+  }
+  frame.joints[0].valid = true;
+  health.add(frame);
+  EXPECT_TRUE(health.unseen_joints().empty());
+}
+
+TEST(Health, ASinglePoseBendsNoRig) {
+  Health health(make_rig(), MatchingOptions());
+  StereoFrame frame;
+  frame.targets.resize(1);
+  frame.targets[0].valid = true;
+  frame.targets[0].row_error = -0.35;
+  for (int poses = 1; poses <= 5; ++poses) {
+    health.add(frame);
+    EXPECT_EQ(health.uneven_rows().empty(), poses < 5) << poses;
+  }
+  EXPECT_NE(health.uneven_rows().find("differ by -0.350 pixels: recalibrate"), std::string::npos)
+      << health.uneven_rows();
+}
+
 TEST(Health, KnowsJointsWhosePicturesAreTooRare) {
   Health health(make_rig(), MatchingOptions());
   JointEstimator estimator(make_targets().joints[0]);

@@ -34,6 +34,7 @@ std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
   mocap::FolderSource source(recording.left, recording.right, recording.folder);
   if (!mocap::track_all(source, rig, recording, pipeline)) return std::nullopt;
   recording.refuse_contradiction(health);
+  if (!source.assumption().empty()) std::cerr << "note: " << source.assumption() << "\n";
   if (!health.crowd().empty()) std::cerr << "warning: " << health.crowd() << "\n";
   // Markers need not fit yet.
   if (!health.uneven_rows().empty()) std::cerr << "warning: " << health.uneven_rows() << "\n";
@@ -69,6 +70,7 @@ int calibrate(const Arguments& arguments) {
     const auto points = read_points(arguments.recording, set, options);
     if (!points) return anthrob::tool::kInterrupted;
     const auto result = mocap::calibrate_target(target, *points);
+    if (anthrob::tool::interrupted()) return anthrob::tool::kInterrupted;
     for (std::size_t i = 0; i < result.seen.size(); ++i) {
       std::printf("marker %zu: moved by %.2f mm, seen in %d frames, %.3f mm rms\n", i,
                   1e3 * (result.target.markers[i] - target.markers[i]).norm(), result.seen[i],

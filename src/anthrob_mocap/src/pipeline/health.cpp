@@ -55,6 +55,7 @@ void Health::add(const StereoFrame& frame) {
     sums_.row_error += pose.row_error;
     sums_.pixel_rms += pose.pixel_rms;
     ++sums_.targets[k].poses;
+    sums_.targets[k].rows += pose.row_error;
     sums_.targets[k].row_error += pose.row_error * pose.row_error;
     sums_.targets[k].pixel_rms += pose.pixel_rms * pose.pixel_rms;
   }
@@ -64,10 +65,28 @@ void Health::add(const StereoFrame& frame) {
     try_rows(frame);
   }
   still_.resize(frame.joints.size(), 0);
+  sums_.joints.resize(frame.joints.size(), 0);
   for (std::size_t j = 0; j < still_.size(); ++j) {
     const JointEstimate& joint = frame.joints[j];
+    sums_.joints[j] += joint.valid ? 1 : 0;
     if (joint.valid) still_[j] = joint.velocity_valid ? 0 : std::min(still_[j] + 1, kRare);
   }
+}
+
+std::vector<std::size_t> Health::unseen_targets() const {
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < sums_.targets.size(); ++k) {
+    if (sums_.targets[k].poses == 0) result.push_back(k);
+  }
+  return result;
+}
+
+std::vector<std::size_t> Health::unseen_joints() const {
+  std::vector<std::size_t> result;
+  for (std::size_t j = 0; j < sums_.joints.size(); ++j) {
+    if (sums_.joints[j] == 0) result.push_back(j);
+  }
+  return result;
 }
 
 std::vector<std::size_t> Health::joints_without_velocity() const {
@@ -118,10 +137,22 @@ double Health::worst(double Squares::*sum) const {
   return largest;
 }
 
+/// Over all targets with enough poses.
+double Health::mean_of_rows() const {
+  double sum = 0.0;
+  int poses = 0;
+  for (const Squares& target : sums_.targets) {
+    if (target.poses < kFewestPoses) continue;
+    sum += target.rows;
+    poses += target.poses;
+  }
+  return poses > 0 ? sum / poses : 0.0;
+}
+
 std::string Health::uneven_rows() const {
-  if (std::abs(row_error()) > kLargestRowError) {
-    return format("rows of left and right differ by %.3f pixels: recalibrate the cameras",
-                  row_error());
+  const double mean = mean_of_rows();
+  if (std::abs(mean) > kLargestRowError) {
+    return format("rows of left and right differ by %.3f pixels: recalibrate the cameras", mean);
   }
   const double rms = worst(&Squares::row_error);
   if (rms <= kLargestRms) return "";

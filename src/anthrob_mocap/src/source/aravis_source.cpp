@@ -85,6 +85,15 @@ class Camera {
     check.raise();
     arv_camera_set_pixel_format(camera_.get(), ARV_PIXEL_FORMAT_MONO_8, check);
     check.raise();
+    // Else the camera refuses the exposure, or changes it again.
+    if (arv_camera_is_exposure_auto_available(camera_.get(), nullptr)) {
+      arv_camera_set_exposure_time_auto(camera_.get(), ARV_AUTO_OFF, check);
+      check.raise();
+    }
+    if (arv_camera_is_gain_auto_available(camera_.get(), nullptr)) {
+      arv_camera_set_gain_auto(camera_.get(), ARV_AUTO_OFF, check);
+      check.raise();
+    }
     arv_camera_set_exposure_time(camera_.get(), 1e6 * options.exposure, check);
     check.raise();
     if (options.trigger == "free") {

@@ -24,6 +24,9 @@ class Health {
   double row_error() const { return sums_.poses > 0 ? sums_.row_error / sums_.poses : 0.0; }
   double pixel_rms() const { return sums_.poses > 0 ? sums_.pixel_rms / sums_.poses : 0.0; }
 
+  /// Targets without any pose, and joints without any orientation. Indices; none without frames.
+  std::vector<std::size_t> unseen_targets() const;
+  std::vector<std::size_t> unseen_joints() const;
   /// Joints that were seen three times in a row or more, but never twice within
   /// JointEstimator::kLongestGap: they have no velocity and are not published. Pictures are too
   /// rare, or their stamps are wrong.
@@ -49,6 +52,7 @@ class Health {
   struct Squares {
     int poses = 0;
     double row_error = 0.0, pixel_rms = 0.0;  ///< sums of squares
+    double rows = 0.0;                        ///< sum of row errors, with their signs
   };
   struct Sums {
     int frames = 0, poses = 0, cluttered = 0, cut = 0, given_up = 0;
@@ -57,8 +61,10 @@ class Health {
     long on_common_rows = 0, blobs[2] = {0, 0};
     double row_error = 0.0, pixel_rms = 0.0;
     std::vector<Squares> targets;
+    std::vector<int> joints;  ///< frames with an orientation
   };
   double worst(double Squares::*sum) const;
+  double mean_of_rows() const;
   void try_swapped(const StereoFrame& frame);
   void try_rows(const StereoFrame& frame);
 
