@@ -118,7 +118,8 @@ class ComputedForceNode {
   /// A robot may refuse to go over to POSITION: too far from where its muscles are, or no zero. It
   /// refuses the whole command, so nobody would hold the arm, and soon its motors would stop.
   void break_off_if_refused() {
-    const bool positions = idle_.empty() && mode_ == anthrob::ecu::Mode::kPosition;
+    const bool positions =
+        idle_.empty() && !controller_.holds() && mode_ == anthrob::ecu::Mode::kPosition;
     const std::string other =
         positions ? link_.state().muscle_not_in(anthrob::ecu::Mode::kPosition) : "";
     unheeded_ = other.empty() ? 0.0 : unheeded_ + silent_ + link_.dt();
