@@ -14,8 +14,7 @@ EffectInfo describe() {
       "Bearings and seals resist with a torque that hardly depends on speed, and hold the joint at "
       "rest up to a somewhat higher torque: it sticks and slips at low speed. Added to the "
       "friction of the model. Where both are larger at rest, their Stribeck velocities are "
-      "averaged, "
-      "weighted by how much larger. Isotropic for ball joints.";
+      "averaged, weighted by how much larger. Isotropic for ball joints.";
   i.equation = "|tau| = torque (1 + (static_ratio - 1) exp(-|dq/dt| / stribeck_velocity))";
   i.source = "thesis (3.6); Stribeck 1902";
   i.where = "JOINT";
