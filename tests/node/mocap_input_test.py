@@ -157,7 +157,7 @@ class MocapInput(unittest.TestCase):
 
     def test_a_recording_without_a_joint_says_so(self):
         self.assertIn('joint shoulder was seen, but in the end never twice', self.track_folder(self.pixels, rate=5))
-        # The scapula's markers are in the upper part of the picture.
+        # One target is in the upper half of the picture, the other is not.
         said = self.track_folder([p[:648 * 240] + bytes(648 * 248) for p in self.pixels])
         self.assertRegex(said, 'target (scapula|humerus) was never seen')
         self.assertIn('joint shoulder was never seen', said)
