@@ -23,7 +23,8 @@ class SensorGap(unittest.TestCase):
 
     def setUp(self):
         self.now, self.stamps, self.status = 10.0, [], ''
-        rospy.Subscriber('muscle_command', MuscleCommand, lambda m: self.stamps.append(m.header.stamp.to_sec()))
+        self.mode = [MuscleCommand.FORCE] * len(MUSCLES)
+        rospy.Subscriber('muscle_command', MuscleCommand, self.on_command)
         rospy.Subscriber('/diagnostics', DiagnosticArray, self.on_report)
         self.clock = rospy.Publisher('/clock', Clock, queue_size=10)
         self.muscles = rospy.Publisher('muscle_states', MuscleStates, queue_size=10)
@@ -32,6 +33,10 @@ class SensorGap(unittest.TestCase):
         while not all(p.get_num_connections() for p in (self.clock, self.muscles, self.shoulder)):
             self.assertLess(time.time(), end)
             time.sleep(0.05)
+
+    def on_command(self, message):
+        self.mode = list(message.mode)  # as a robot that follows it
+        self.stamps.append(message.header.stamp.to_sec())
 
     def on_report(self, message):
         self.status = message.status[0].message
@@ -43,7 +48,7 @@ class SensorGap(unittest.TestCase):
         zeros = [0.0] * len(MUSCLES)
         self.muscles.publish(MuscleStates(
             header=Header(stamp=stamp), name=MUSCLES, position=zeros, velocity=zeros, current=zeros,
-            voltage=zeros, force=[5.0] * len(MUSCLES), reference=zeros, mode=[3] * len(MUSCLES),
+            voltage=zeros, force=[5.0] * len(MUSCLES), reference=zeros, mode=self.mode,
             ecu_state=[MuscleStates.ENABLED] * len(MUSCLES)))
         if shoulder:
             self.shoulder.publish(SphericalJointStates(
