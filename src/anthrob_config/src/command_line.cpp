@@ -18,6 +18,12 @@ namespace {
 
 volatile std::sig_atomic_t interrupt_seen = 0;
 
+/// The second one of its kind ends a program that does not come to look.
+void on_interrupt(int number) {
+  interrupt_seen = 1;
+  std::signal(number, SIG_DFL);
+}
+
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   for (char& c : text) {
@@ -75,8 +81,7 @@ CLI::Validator within(double lowest, double highest) {
 
 bool interrupted() {
   static const bool kListening = [] {
-    std::signal(SIGINT, [](int) { interrupt_seen = 1; });
-    std::signal(SIGTERM, [](int) { interrupt_seen = 1; });
+    for (const int number : {SIGINT, SIGTERM}) std::signal(number, on_interrupt);
     return true;
   }();
   return kListening && interrupt_seen != 0;
