@@ -81,8 +81,15 @@ TEST_F(ResultFileTest, OfAnotherContextIsBegunAnew) {
     const File journal(file_, kContext + 1);
     EXPECT_EQ(journal.inherited(), 0u);
     EXPECT_TRUE(journal.begun_anew());
+    EXPECT_FALSE(journal.find(1).has_value());
   }
-  EXPECT_FALSE(fs::exists(file_));  // an empty one stays nowhere
+  EXPECT_EQ(File(file_, kContext).inherited(), 3u);  // nothing was written instead
+  {
+    File journal(file_, kContext + 1);
+    journal.append(1, second_);
+  }
+  EXPECT_EQ(File(file_, kContext + 1).find(1).value(), second_);
+  EXPECT_EQ(File(file_, kContext).inherited(), 0u);
 }
 
 TEST_F(ResultFileTest, ServesOneRunAtATime) {

@@ -83,23 +83,26 @@ ResultFile<Scalar>::ResultFile(std::string file, std::uint64_t context) : file_(
   std::memcpy(wanted + kTitleSize, &context, sizeof(context));
   const bool there = read_all(descriptor_, title, kHeader, 0);
   begun_anew_ = there && std::memcmp(title, wanted, kHeader) != 0;
-  if (there && !begun_anew_) {
-    read_index();
-  } else if (ftruncate(descriptor_, 0) != 0 || !write_all(descriptor_, wanted, kHeader, 0)) {
-    close(descriptor_);
-    fail(file_);
-  } else {
-    end_ = kHeader;
-  }
+  context_ = context;
+  if (there && !begun_anew_) read_index();
 }
 
 template <class Scalar>
 ResultFile<Scalar>::~ResultFile() {
-  // Recordings that were refused leave nothing behind.
-  if (places_.empty()) remove();
+  // Recordings that were refused leave nothing behind, and spoil nothing that was there.
+  if (places_.empty() && !begun_anew_) remove();
   std::error_code error;
   if (places_.empty() && made_folder_) fs::remove(fs::path(file_).parent_path(), error);
   close(descriptor_);
+}
+
+template <class Scalar>
+void ResultFile<Scalar>::begin() {
+  char header[kHeader];
+  std::memcpy(header, kTitle, kTitleSize);
+  std::memcpy(header + kTitleSize, &context_, sizeof(context_));
+  if (ftruncate(descriptor_, 0) != 0 || !write_all(descriptor_, header, kHeader, 0)) fail(file_);
+  end_ = kHeader;
 }
 
 template <class Scalar>
@@ -151,6 +154,7 @@ void ResultFile<Scalar>::append(std::uint64_t key, const Result& result) {
   if (count > 0) std::memcpy(record.data() + kHead, result.data(), count * sizeof(Scalar));
   std::memcpy(record.data() + record.size() - sizeof(sum), &sum, sizeof(sum));
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (end_ == 0) begin();
   if (!write_all(descriptor_, record.data(), record.size(), end_)) fail(file_);
   places_[key] = {end_, count};
   end_ += static_cast<std::int64_t>(record.size());

@@ -21,8 +21,9 @@ class ResultFile {
  public:
   using Result = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  /// Opens the file. If it has another context or is not such a file, it is emptied. Creates its
-  /// folder; if nothing gets written, the destructor removes file and folder again.
+  /// Opens the file. If it has another context or is not such a file, the first result replaces it:
+  /// a run that is refused before spoils nothing. Creates its folder; if nothing gets written, the
+  /// destructor removes what was created.
   /// @param context fingerprint of everything that results depend on beside their keys
   /// @throws BadInput if another run uses it; std::runtime_error if it cannot be written
   ResultFile(std::string file, std::uint64_t context);
@@ -32,7 +33,7 @@ class ResultFile {
 
   /// Number of results that the file held when it was opened.
   std::size_t inherited() const { return inherited_; }
-  /// Whether the file had another context, so that its results were deleted.
+  /// Whether the file had another context, so that its results do not count.
   bool begun_anew() const { return begun_anew_; }
   std::optional<Result> find(std::uint64_t key) const;
   void append(std::uint64_t key, const Result& result);
@@ -46,11 +47,14 @@ class ResultFile {
   };
 
   void read_index();
+  /// Makes it a file of this context without results.
+  void begin();
 
   std::string file_;
   bool made_folder_ = false, begun_anew_ = false;
   int descriptor_ = -1;
-  std::int64_t end_ = 0;
+  std::uint64_t context_ = 0;
+  std::int64_t end_ = 0;  ///< 0: nothing of this context has been written
   std::size_t inherited_ = 0;
   std::unordered_map<std::uint64_t, Place> places_;
   mutable std::mutex mutex_;
