@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
+#include "anthrob_calib/discovery/judgement/one_sided_gaps.h"
 #include "anthrob_sim/core/random.h"
 
 namespace anthrob {
@@ -54,6 +56,44 @@ TEST(BlockSignificance, DoesNotDoubtGainsForSmallLossesBesideThem) {
   EXPECT_LT(block_significance(-gains), -1.0);
   for (int i = 0; i < 24; ++i) gains[i] = i % 2 == 0 ? 45.0 : -44.0;
   EXPECT_LT(block_significance(gains), 1.0);
+}
+
+/// Measured in 20 s, of which residuals are made up.
+class Effort final : public Experiment {
+ public:
+  Effort() {
+    channels_.push_back({"axis", "effort", "N", 0, 0, 800});
+    present_.assign(800, 1);
+    bin_ = 0.025;
+    duration_ = 20.0;
+  }
+  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
+};
+
+TEST(OneSidedGaps, AreCertainOnOneSideAndNotThereOnTheOther) {
+  const Experiments experiments = {std::make_shared<Effort>()};
+  const Eigen::VectorXf ones = Eigen::VectorXf::Ones(800);
+  const Judge judge(experiments, ones, {});
+  const CounterRandom random(3, 1);
+  Eigen::VectorXf noise(800);
+  for (int i = 0; i < 800; ++i) {
+    noise[i] = static_cast<float>(random.normal(static_cast<std::uint64_t>(i)));
+  }
+  const auto gaps = [&](float learned, float held_out) {
+    return one_sided_gaps(judge, learned * noise, judge, held_out * noise);
+  };
+  EXPECT_TRUE(gaps(1.0f, 1.0f).empty());
+  EXPECT_TRUE(gaps(1.0f, 1.6f).empty());  // not certain
+  EXPECT_TRUE(gaps(5.0f, 5.0f).empty());  // on both sides: a gap like any other
+  ASSERT_EQ(gaps(1.0f, 5.0f).size(), 1u);
+  ASSERT_EQ(gaps(5.0f, 1.0f).size(), 1u);
+  const OneSidedGap gap = gaps(1.0f, 5.0f).front();
+  EXPECT_EQ(gap.channel, "axis/effort");
+  EXPECT_NEAR(gap.learned, 1.0, 0.1);
+  EXPECT_NEAR(gap.held_out, 5.0, 0.5);
+  Eigen::VectorXf jolt = noise;
+  jolt[400] = 300.0f;  // in one block only: by chance
+  EXPECT_TRUE(one_sided_gaps(judge, noise, judge, jolt).empty());
 }
 
 }  // namespace

@@ -55,7 +55,10 @@ TEST(Preparation, RefusesRecordingsThatCannotAnswer) {
   EXPECT_NE(refusal(judged_by_a_copy).find("expected every recording once"), std::string::npos);
   copy.table("joints").columns[0].values[3] += 1e-3;
   judged_by_a_copy.test = {copy};
-  EXPECT_EQ(refusal(judged_by_a_copy), "not refused");
+  EXPECT_NE(
+      refusal(judged_by_a_copy).find(" % of the shorter one are the same measurements as in "),
+      std::string::npos)
+      << refusal(judged_by_a_copy);
 
   Question still = good;
   for (Table& table : still.train[0].tables) {
@@ -256,6 +259,7 @@ TEST(Preparation, RemarksOnATestWithTheCommandsOfATrain) {
   question.model_file = ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml";
   question.train = {arm.record({}, 1, 1)};
   question.test = {arm.record({}, 2, 2)};
+  question.nuisances = ordinary_parameters(question.model_file);
   const Evaluator evaluator(question.model_file, {}, 0.001, 1);
   EXPECT_TRUE(prepare(evaluator, question).remarks.empty());
   question.test = {arm.record({}, 1, 2)};
@@ -309,6 +313,67 @@ TEST(AxisExperiment, WhereNoPositionIsMeasuredNothingIsCompared) {
     absent += in_hole;
   }
   EXPECT_EQ(absent, 10);
+}
+
+TEST(Preparation, RefusesNumbersThatNobodyMeasures) {
+  Question axis = axis_question(20.4, 0.0);
+  const auto at = [](std::size_t row, double value) {
+    return [=](Table&, Column& column) { column.values[row] = value; };
+  };
+  change(axis.train[0], "effort", at(20, 1e300));
+  EXPECT_NE(refusal(axis).find("axis/joints.csv: row 21: axis/effort: expected a finite number"),
+            std::string::npos)
+      << refusal(axis);
+  axis = axis_question(20.4, 0.0);
+  change(axis.test[0], "position", [](Table&, Column& column) {
+    for (double& value : column.values) value *= 1000.0;  // in millimetres
+  });
+  EXPECT_NE(refusal(axis).find("row 1: axis/position: "), std::string::npos) << refusal(axis);
+  EXPECT_NE(refusal(axis).find("expected a position of a joint that goes from"), std::string::npos);
+}
+
+TEST(Preparation, RefusesAPartOfARecordingBesideIt) {
+  Question axis = axis_question(20.4, 0.0);
+  Dataset part = axis.train[0];
+  for (Table& table : part.tables) {
+    table.t.erase(table.t.begin(), table.t.begin() + 5000);
+    for (Column& column : table.columns) {
+      column.values.erase(column.values.begin(), column.values.begin() + 5000);
+      column.present.erase(column.present.begin(), column.present.begin() + 5000);
+    }
+  }
+  axis.test = {part};
+  EXPECT_NE(refusal(axis).find("100 % of the shorter one are the same measurements as in axis"),
+            std::string::npos)
+      << refusal(axis);
+}
+
+TEST(Preparation, OfAnAxisWithADeadEffortSensorIsRefused) {
+  Question axis = axis_question(20.4, 0.0);
+  change(axis.train[0], "effort", [](Table&, Column& column) {
+    std::fill(column.values.begin(), column.values.end(), 0.0);
+  });
+  EXPECT_NE(refusal(axis).find("axis/effort' is missing"), std::string::npos) << refusal(axis);
+}
+
+TEST(Preparation, RemarksOnStampsAndOnWhatIsNotFitted) {
+  Question axis = axis_question(20.4, 0.0);
+  const Evaluator evaluator(axis.model_file, {}, 0.001, 1);
+  EXPECT_TRUE(prepare(evaluator, axis).remarks.empty());
+  for (Table& table : axis.train[0].tables) {
+    for (std::size_t i = 3; i < table.t.size(); i += 3) table.t[i] = table.t[i - 1];
+  }
+  std::vector<std::string> remarks = prepare(evaluator, axis).remarks;
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_NE(remarks[0].find("33.3 % of its rows have the time of the row before"),
+            std::string::npos)
+      << remarks[0];
+  axis = axis_question(20.4, 0.0);
+  axis.nuisances.clear();
+  axis.calibration_file = "empty.yaml";
+  remarks = prepare(evaluator, axis).remarks;
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].find("empty.yaml: lists no parameters"), 0u) << remarks[0];
 }
 
 TEST(Preparation, RefusesAStepThatIsTooCoarseForAnAxis) {

@@ -79,7 +79,9 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--calibration", a.calibration,
                  "file that lists the ordinary parameters, which are fitted all the time (default: "
                  "calibration.yaml beside the model or beside the one that it extends)");
-  app.add_option("--dt", question.step, "step of the simulations [s]")->capture_default_str();
+  app.add_option("--dt", question.step, "step of the simulations [s]")
+      ->capture_default_str()
+      ->check(anthrob::tool::within(1e-5, 0.1));
   app.add_option(
          "--close-the-loop", a.robot_file,
          "if the robot is itself a simulation: MODEL is the model file of that simulated robot; "
@@ -112,12 +114,6 @@ void load_question(const CLI::App& app, Arguments& a) {
   question.simulated_robot_file = a.robot_file;
   question.model_fingerprint = resume::model_fingerprint(ConfigNode::load(question.model_file));
   tool::say(app, remarks);
-  if (question.nuisances.empty()) {
-    std::cerr << question.model_file
-              << ": no ordinary parameters are fitted, because there is neither a "
-                 "calibration.yaml beside it nor --calibration; a wrong length or radius may be "
-                 "reported as an effect\n";
-  }
   question.train = load_all(app, a.train);
   question.test = load_all(app, a.test);
   question.repeats = load_all(app, a.repeats);
@@ -130,7 +126,7 @@ void say_what_is_continued(const discovery::Journal& journal, const std::string&
   } else if (journal.begun_anew()) {
     std::cerr << out
               << "/journal.bin: belongs to another model, --dt, --calibration or build of the "
-              << "program; it is discarded and everything is simulated again\n";
+              << "program; everything is simulated again, and replaces it\n";
   }
 }
 

@@ -189,7 +189,6 @@ std::map<std::string, double> Judge::growth_significance(const Eigen::VectorXf& 
 
 bool certain_gap(const Judge& train, const Eigen::VectorXf& learned, const Judge& test,
                  const Eigen::VectorXf& held_out, double gap) {
-  constexpr double kCertain = 2.0;
   const auto in = [](const std::map<std::string, double>& channels, const std::string& name) {
     const auto found = channels.find(name);
     return found == channels.end() ? 0.0 : found->second;
@@ -200,7 +199,7 @@ bool certain_gap(const Judge& train, const Eigen::VectorXf& learned, const Judge
   for (const auto& [name, other] : test.channel_gaps(held_out)) {
     const double least = std::min(other, in(gaps, name));
     const double significance = (in(sure, name) + in(sure_of_held_out, name)) / M_SQRT2;
-    if (least > kCertain || (least > gap && significance > kSure)) return true;
+    if (least > kCertainGap || (least > gap && significance > kSure)) return true;
   }
   return false;
 }

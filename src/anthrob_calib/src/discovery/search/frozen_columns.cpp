@@ -112,6 +112,15 @@ std::set<std::string> frozen_columns(const RobotModel& robot, const Dataset& rec
                         " never changes, though the muscle was moved: left out");
     }
   }
+  for (const JointModel& joint : robot.skeleton->joints) {
+    const std::string column = joint.name + "/effort";
+    const Series effort = recording.series(column);
+    if (!joint.driven || effort.values.size() < kFewestValues || range_of(effort) > 0.0) continue;
+    if (!moves(recording.series(joint.name + "/position"), kLeastJoint)) continue;
+    frozen.insert(column);
+    remarks.push_back(recording.folder + ": " + column +
+                      " never changes, though the joint was moved: left out");
+  }
   return frozen;
 }
 

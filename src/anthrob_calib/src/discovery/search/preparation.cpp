@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <map>
 
 #include "anthrob_calib/discovery/experiment/chain_experiment.h"
 #include "anthrob_calib/discovery/judgement/judge.h"
+#include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/discovery/search/frozen_columns.h"
 #include "anthrob_calib/discovery/search/movement.h"
 #include "anthrob_calib/discovery/search/repeats.h"
 #include "anthrob_calib/discovery/search/shared_channels.h"
+#include "anthrob_calib/discovery/search/sound_recordings.h"
 #include "anthrob_calib/discovery/search/synchronisation.h"
-#include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -26,46 +25,6 @@ constexpr double kAxisBin = 0.025;        // [s]
 constexpr double kMostDifferences = 4e5;  // of the training recordings
 constexpr double kQuickLook = 20.0;       // [s]
 constexpr double kSlowLook = 120.0;       // [s]
-
-/// "1.25"
-std::string decimal(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
-}
-
-void refuse_nonsense(const Dataset& recording) {
-  for (const Table& table : recording.tables) {
-    for (std::size_t i = 1; i < table.t.size(); ++i) {
-      if (table.t[i] < table.t[i - 1]) {
-        throw BadInput(recording.folder + "/" + table.name + ".csv: row " + std::to_string(i + 1) +
-                       ": time runs backwards: expected rows in order of time");
-      }
-    }
-    for (const Column& column : table.columns) {
-      for (std::size_t i = 0; i < column.values.size(); ++i) {
-        if (column.present[i] && !std::isfinite(column.values[i])) {
-          throw BadInput(recording.folder + "/" + table.name + ".csv: row " +
-                         std::to_string(i + 1) + ": " + column.name + ": expected a finite number");
-        }
-      }
-    }
-  }
-  // Files of one recording share a clock.
-  for (const Table& table : recording.tables) {
-    if (table.t.empty()) continue;
-    const double late = seconds(table.t.front() - recording.begin());
-    const double length = seconds(recording.end() - recording.begin());
-    const double covered = seconds(table.t.back() - table.t.front());
-    if (length > 0.0 && table.t.size() > 2 && (late > 0.5 * length || covered < 0.3 * length) &&
-        table.name != "commands") {
-      throw BadInput(recording.folder + "/" + table.name +
-                     ".csv: not synchronised with the other files: it covers " + decimal(covered) +
-                     " s, from " + decimal(late) + " s on, of a recording of " + decimal(length) +
-                     " s; expected all files to use one clock");
-    }
-  }
-}
 
 /// Recordings of one option, by their lengths.
 struct Length {
@@ -83,8 +42,8 @@ Length refuse_shortness(const std::vector<Dataset>& recordings, const std::strin
   }
   if (length.seconds < kShortest) {
     throw BadInput(recordings.front().folder + ": too short: the " + option + " recordings are " +
-                   decimal(length.seconds) + " s long in all; expected at least " +
-                   decimal(kShortest) + " s");
+                   short_number(length.seconds) + " s long in all; expected at least " +
+                   short_number(kShortest) + " s");
   }
   return length;
 }
@@ -93,11 +52,12 @@ Length refuse_shortness(const std::vector<Dataset>& recordings, const std::strin
 void refuse_too_few_blocks(const Question& question, const Length& train, const Length& test) {
   if (train.blocks + test.blocks >= Judge::kFewestBlocks) return;
   throw BadInput(question.test.front().folder + ": too short: the --train recordings are " +
-                 decimal(train.seconds) + " s and the --test recordings " + decimal(test.seconds) +
-                 " s long, together " + std::to_string(train.blocks + test.blocks) + " blocks of " +
-                 decimal(Judge::kBlock) + " s; expected at least " +
+                 short_number(train.seconds) + " s and the --test recordings " +
+                 short_number(test.seconds) + " s long, together " +
+                 std::to_string(train.blocks + test.blocks) + " blocks of " +
+                 short_number(Judge::kBlock) + " s; expected at least " +
                  std::to_string(Judge::kFewestBlocks) + " blocks (" +
-                 decimal(Judge::kFewestBlocks * Judge::kBlock) +
+                 short_number(Judge::kFewestBlocks * Judge::kBlock) +
                  " s), because nothing can be named by fewer");
 }
 
@@ -105,23 +65,9 @@ void refuse_too_few_blocks(const Question& question, const Length& train, const 
 void remark_on_few_blocks(const Length& length, const std::string& option,
                           std::vector<std::string>& remarks) {
   if (length.blocks >= Judge::kFewestBlocks) return;
-  remarks.push_back("the " + option + " recordings are only " + decimal(length.seconds) +
+  remarks.push_back("the " + option + " recordings are only " + short_number(length.seconds) +
                     " s long in all, which is too short to say how certain a gap is there; " +
-                    decimal(Judge::kFewestBlocks * Judge::kBlock) + " s or more would do");
-}
-
-/// Training recordings cannot judge, and a copy of a recording shows no noise.
-void refuse_copies(const Question& question) {
-  std::map<std::uint64_t, std::string> folders;
-  for (const auto* group : {&question.train, &question.test, &question.repeats}) {
-    for (const Dataset& recording : *group) {
-      const auto [other, is_new] =
-          folders.emplace(resume::content_fingerprint(recording), recording.folder);
-      if (is_new) continue;
-      throw BadInput(recording.folder + ": the same recording as " + other->second +
-                     ": expected every recording once among --train, --test and --repeat");
-    }
-  }
+                    short_number(Judge::kFewestBlocks * Judge::kBlock) + " s or more would do");
 }
 
 void append(const std::vector<std::string>& more, std::vector<std::string>& remarks) {
@@ -141,6 +87,16 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
   return remarks;
 }
 
+std::vector<std::string> remarks_on_ordinary_parameters(const Question& question) {
+  if (!question.nuisances.empty()) return {};
+  const std::string why = question.calibration_file.empty()
+                              ? question.model_file + ": no calibration.yaml beside it"
+                              : question.calibration_file + ": lists no parameters";
+  return {why +
+          ", so no ordinary parameters are fitted; a wrong length or radius may be reported "
+          "as an effect"};
+}
+
 }  // namespace
 
 PreparedRecordings prepare(const Evaluator& evaluator, const Question& asked) {
@@ -150,20 +106,21 @@ PreparedRecordings prepare(const Evaluator& evaluator, const Question& asked) {
     throw BadInput("--test: expected at least one recording to judge by, which is not fitted");
   }
   for (const auto* group : {&asked.train, &asked.test, &asked.repeats}) {
-    for (const Dataset& recording : *group) refuse_nonsense(recording);
+    for (const Dataset& recording : *group) refuse_nonsense(robot, recording);
   }
-  refuse_copies(asked);
   const Length length = refuse_shortness(asked.train, "--train");
   const Length held_out = refuse_shortness(asked.test, "--test");
   refuse_too_few_blocks(asked, length, held_out);
   refuse_stillness(robot, asked.train);
   refuse_stillness(robot, asked.test);
+  refuse_copies(asked);
 
   PreparedRecordings prepared;
   prepared.question = asked;
   prepared.remarks = remarks_on(robot, asked);
   remark_on_few_blocks(length, "--train", prepared.remarks);
   remark_on_few_blocks(held_out, "--test", prepared.remarks);
+  append(remarks_on_ordinary_parameters(asked), prepared.remarks);
   append(leave_out_frozen(robot, prepared.question), prepared.remarks);
   const Question& question = prepared.question;
   std::vector<double> late;  // [s]
@@ -172,6 +129,7 @@ PreparedRecordings prepare(const Evaluator& evaluator, const Question& asked) {
   }
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) {
+      append(remarks_on_stamps(recording), prepared.remarks);
       append(remarks_on_clocks(robot, recording), prepared.remarks);
     }
   }

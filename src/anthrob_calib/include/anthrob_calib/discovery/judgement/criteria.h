@@ -12,6 +12,7 @@ namespace discovery {
 /// by what the best model leaves, not by the floor.
 constexpr double kRealGap = 1.4;
 constexpr double kFaintGap = 1.15;
+constexpr double kCertainGap = 2.0;  ///< no noise estimate is that wrong
 
 /// Share of what an effect gains. A model without the effect that still lacks more than this after
 /// a rough fit is not fitted further.
