@@ -176,12 +176,46 @@ TEST(Report, SaysWhyTheRestHasNoName) {
   EXPECT_TRUE(holds(report_html(answer, question, 1.0),
                     "that no law of the catalogue, as fitted here, explains"));
   question.effects = {"payload"};
-  EXPECT_TRUE(
-      holds(report_html(answer, question, 1.0), "none of the effects that --effects lists"));
+  std::string page = report_html(answer, question, 1.0);
+  EXPECT_TRUE(holds(page, "that no law that --effects lists, as fitted here, explains. "));
+  EXPECT_TRUE(holds(page, "Looked for were only the effects that --effects lists: payload."));
+  EXPECT_TRUE(holds(page, "Nothing that --effects lists earned its place"));
+  EXPECT_TRUE(holds(page, "run again without <code>--effects</code>"));
+  EXPECT_FALSE(holds(page, "the law is one that the catalogue lacks"));
   question.max_effects = 1;
+  answer.ended_full = true;  // by an effect that was improbable at the end
+  page = report_html(answer, question, 1.0);
+  EXPECT_TRUE(holds(page, "beyond the 1 effect with which --max-effects ended the search"));
+  EXPECT_TRUE(holds(page, "run again with a larger <code>--max-effects</code>"));
+  EXPECT_TRUE(holds(page, "no further one was looked for"));
+  question.max_effects = 0;
+  page = report_html(answer, question, 1.0);
+  EXPECT_TRUE(holds(page, "no effect was looked for, as --max-effects says"));
+  EXPECT_FALSE(holds(page, "earned its place"));
+}
+
+TEST(Report, SaysWhereAFitDoesNotCarryOver) {
+  Answer answer;
+  answer.verdict = "no_missing_effect";
+  const char* const kNot = "what was learned does not carry over: axis/effort (0.8 floors";
+  EXPECT_FALSE(holds(report_html(answer, {}, 1.0), "carry over"));
+  answer.one_sided = {{"axis/effort", 0.8, 27.5}};
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), kNot));
+  answer.verdict = "effects_found";
   answer.effects = {cogging()};
-  EXPECT_TRUE(
-      holds(report_html(answer, question, 1.0), "beyond the 1 effect that --max-effects allows"));
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), kNot));
+}
+
+TEST(Report, SaysWhereAnIntervalEndsWithItsRange) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  answer.effects[0].parameters[0].high_ends = true;
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), ", where its range ends"));
+  EXPECT_TRUE(holds(summary(answer), ", where its range ends"));
+  const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
+  EXPECT_EQ(json["effects"][0]["parameters"].begin().value().count("high_ends"), 1u);
+  EXPECT_EQ(json["effects"][0]["parameters"].begin().value().count("low_ends"), 0u);
 }
 
 TEST(Report, TellsWhatTheLoopRecordedAlsoWhereNothingIsNamed) {
@@ -201,7 +235,7 @@ TEST(Report, ClaimsNoMoreThanWasFound) {
   answer.per_channel["elbow/position"] = {2.0, 1.6, 1.6, 1.0};
   answer.per_channel["brachialis/force"] = {1.1, 1.1, 1.1, 1.0};
   std::string page = report_html(answer, {}, 1.0);
-  EXPECT_TRUE(holds(page, "no certain gap"));
+  EXPECT_TRUE(holds(page, "no channel with a certain gap"));
   EXPECT_FALSE(holds(page, "no missing effect<"));
   EXPECT_TRUE(holds(page, "but not certain: elbow/position (1.6).")) << page;
   EXPECT_TRUE(holds(page, "held-out recordings</th>"));
@@ -335,6 +369,16 @@ TEST(Report, SeamsThatGrowAreNotRed) {
   answer.seams = {{"elbow", "position", true, 4.0, -1.0, 5.0}};  // no voltages
   page = report_html(answer, {}, 1.0);
   EXPECT_TRUE(holds(page, grey + "5</td>"));
+  answer.seams = {{"triceps_brachii", "force", false, 2.0, 1.9, 10.6, 10.2}};
+  page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, grey + "10.6</td>"));
+  EXPECT_TRUE(holds(page, grey + "10.2</td>"));  // still far above what it was
+  answer.seams = {{"triceps_brachii", "force", false, 9.5, 5.2, 10.5, 16.1}};
+  page = report_html(answer, {}, 1.0);
+  EXPECT_TRUE(holds(page, grey + "10.5</td>"));
+  EXPECT_FALSE(holds(page, grey + "16.1</td>"));  // natural
+  answer.seams[0].postures = 19.5;
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), grey + "19.5</td>"));
 }
 
 TEST(Report, ExplainsItsWords) {
@@ -395,11 +439,13 @@ TEST(Report, SaysThatTheSearchEndedAtItsCap) {
   EXPECT_FALSE(holds(report_html(answer, question, 1.0), "--max-effects"));
   EXPECT_TRUE(nlohmann::json::parse(report_json(answer, question, 1.0))["remarks"].empty());
   question.max_effects = 1;
+  answer.ended_full = true;
   EXPECT_TRUE(holds(report_html(answer, question, 1.0), said));
   const auto json = nlohmann::json::parse(report_json(answer, question, 1.0));
   ASSERT_EQ(json["remarks"].size(), 1u);
   EXPECT_TRUE(holds(json["remarks"][0], said)) << json["remarks"];
   question.max_effects = 3;
+  answer.ended_full = false;
   answer.ended_early = true;
   EXPECT_TRUE(holds(report_html(answer, question, 1.0), "the rounds that --max-effects 3 allows"));
 }

@@ -40,6 +40,8 @@ TEST(Seams, AForceThatIsRightInTheMeasuredPostureIsWrongByThePosture) {
   EXPECT_EQ(subsystem_of(gap), "friction along the path, skeleton, joints or their sensors");
   gap = {"biceps_brachii", "force", false, 3.0, -1.0, 20.0, 4.0};  // an arm that ran away
   EXPECT_EQ(subsystem_of(gap), "spindle, tendon, spring, length of the path or force sensor");
+  gap.postures = 6.5;  // errors of the postures must be in it
+  EXPECT_EQ(subsystem_of(gap), "spindle, tendon, spring, path or force sensor");
   gap = {"biceps_brachii", "force", false, 4.0, 5.0, 4.0, 1.2};
   gap.positions = 0.9;  // right whatever the posture: then it is right there, too
   EXPECT_EQ(subsystem_of(gap), "power stage, motor or gear");

@@ -1,5 +1,6 @@
 #include "anthrob_calib/discovery/conclusion.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "anthrob_calib/discovery/location/location.h"
 #include "anthrob_calib/discovery/location/seams.h"
 #include "anthrob_calib/discovery/location/wrap_angle.h"
+#include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/discovery/search/common_law.h"
 #include "anthrob_calib/discovery/search/found_effect.h"
 #include "anthrob_calib/discovery/separation/separating_experiment.h"
@@ -42,6 +44,9 @@ void measure_effects(const SearchSetup& setup, WorkingModel& model) {
         const bool flat = is_flat(fit, i);
         std::tie(found.low, found.high) = flat ? flat_range(setup.train, fit, i) : ranges[i];
         found.undetermined = found.low <= u.lower && found.high >= u.upper;
+        // Where nothing is, no range ends: there is no less than that.
+        found.low_ends = found.low <= u.lower && u.lower != 0.0;
+        found.high_ends = found.high >= u.upper && u.upper != 0.0;
       }
       model.named[e].found.parameters.push_back(std::move(found));
     }
@@ -71,6 +76,23 @@ void compare_gaps(const SearchSetup& setup, const WorkingModel& model, Answer& a
 /// effect for counts.
 double least_gap(const Answer& answer) {
   return answer.effects.empty() ? kRealGap : kFaintGap;
+}
+
+/// What speaks against the recordings or the floors, seen only now.
+void remark_on_gaps(const SearchSetup& setup, const WorkingModel& model, Answer& answer) {
+  constexpr double kTooGood = 0.3;  // [floors] rounding of the coarsest sensors alone leaves more
+  answer.one_sided =
+      one_sided_gaps(setup.train_judge, model.base.fit.residual, setup.test_judge, model.base.test);
+  for (const OneSidedGap& gap : answer.one_sided) answer.remarks.push_back(remark_on(gap));
+  for (const auto& [channel, gap] : setup.train_judge.channel_gaps(model.base.fit.residual)) {
+    const auto held_out = answer.per_channel.find(channel);
+    if (held_out == answer.per_channel.end()) continue;
+    const double least = std::min(gap, held_out->second.after);
+    if (least > kTooGood) continue;
+    answer.remarks.push_back(channel + ": a gap of only " + short_number(least) +
+                             " floors: the floor is too high and hides what may be missing; check "
+                             "the units of all recordings, and that --repeat shows the same robot");
+  }
 }
 
 void locate_gap(const SearchSetup& setup, const WorkingModel& model, Answer& answer) {
@@ -127,6 +149,7 @@ void conclude(const SearchSetup& setup, WorkingModel& model, Answer& answer) {
   measure_effects(setup, model);
   for (const NamedEffect& effect : model.named) answer.effects.push_back(effect.found);
   compare_gaps(setup, model, answer);
+  remark_on_gaps(setup, model, answer);
   const double least = least_gap(answer), first = model.gaps.first_excess(least);
   answer.remaining_share = first > 0.0 ? model.gaps.excess_of(model.base.test, least) / first : 0.0;
   locate_gap(setup, model, answer);

@@ -58,6 +58,7 @@ Answer discover(const Evaluator& evaluator, const Question& question) {
   Search search(setup, model, screening, pruning, answer);
   search.run(std::move(scores));
   while (search.fill_out()) search.run({});
+  answer.ended_full = !model.has_room();
   pruning.drop_improbable();
   find_alternatives(setup, model, screening, answer);
   measure_what_is_left(setup.test_judge, model.recalibrated.test, model.base.test, model.named);

@@ -27,17 +27,28 @@ std::string probability_text(double probability) {
   return "probability " + short_number(probability);
 }
 
+namespace {
+
+/// What an interval does not say: that a wider range might have made it wider.
+std::string end_text(const FoundParameter& p) {
+  if (p.low_ends && p.high_ends) return ", where its range begins and ends";
+  if (p.low_ends) return ", where its range begins";
+  return p.high_ends ? ", where its range ends" : "";
+}
+
+}  // namespace
+
 std::string range_text(const FoundParameter& p) {
   if (p.known) return "taken as known";
   if (p.undetermined) return "not determined by these recordings";
-  return short_number(p.low) + " to " + short_number(p.high);
+  return short_number(p.low) + " to " + short_number(p.high) + end_text(p);
 }
 
 std::string interval_text(const FoundParameter& p) {
   const std::string unit = p.unit == "1" ? "" : " " + p.unit;
   if (!p.has_interval()) return short_number(p.value) + unit + ", " + range_text(p);
   return short_number(p.value) + " [" + short_number(p.low) + ", " + short_number(p.high) + "]" +
-         unit;
+         unit + end_text(p);
 }
 
 }  // namespace discovery

@@ -44,9 +44,10 @@ std::string rivals_of(const FoundEffect& effect, std::size_t number, const Answe
   }
   html += "</ul><p>To tell them apart: " + escaped(effect.separating_experiment) + ".</p>\n";
   if (effect.separating_recording.targets.empty()) return html;
-  return html + "<p>The same as a protocol for the recorder: <code>" + separating_file(number) +
-         "</code>. By simulation it should bring " +
-         short_number(effect.separating_recording.distance()) + " nat of evidence.</p>\n";
+  return html + "<p>Or, with the motors on, by a protocol for the recorder: <code>" +
+         separating_file(number) + "</code>. As they are fitted now, the two differ there by " +
+         short_number(effect.separating_recording.distance()) +
+         " nat; fitted to that recording, too, they will differ by less.</p>\n";
 }
 
 std::string finding(const FoundEffect& effect, std::size_t number, const Answer& answer) {
@@ -84,14 +85,15 @@ std::string gap_table(const Answer& answer) {
          "recordings were never fitted.</p>\n";
 }
 
-std::string findings(const Answer& answer) {
+std::string findings(const Answer& answer, const Question& question) {
   std::string html;
   for (std::size_t e = 0; e < answer.effects.size(); ++e) {
     html += finding(answer.effects[e], e + 1, answer);
   }
-  if (answer.effects.empty()) {
-    const char* const what = answer.improbable.empty() ? "earned its place" : "is probable enough";
-    html += "<p>Nothing in the catalogue " + std::string(what) + ".</p>\n";
+  if (answer.effects.empty() && question.max_effects > 0) {
+    html += std::string("<p>Nothing ") +
+            (question.effects.empty() ? "in the catalogue " : "that --effects lists ") +
+            (answer.improbable.empty() ? "earned its place" : "is probable enough") + ".</p>\n";
   }
   for (const Alternative& alternative : answer.alternatives) {
     html += "<p>Or " + escaped(alternative_text(alternative, answer)) +

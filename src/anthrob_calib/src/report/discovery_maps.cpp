@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "anthrob_calib/discovery/judgement/criteria.h"
+#include "anthrob_calib/discovery/location/seams.h"
 #include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/report/discovery_sentences.h"
 #include "anthrob_calib/report/html.h"
@@ -28,8 +29,10 @@ const char* const kAboutSeams =
 from measured voltages; from measured motor positions; and, for forces, from measured motor positions
 and postures (what noise of the postures adds is subtracted). Where a gap disappears from one column
 to the next, its cause is in the part that measurements replaced. A force that is still red in the
-last column is wrong because of something between motor and force sensor. A gap that grows (grey)
-says nothing: motors fed with voltages drift away from the measured ones.</p>
+last column is wrong because of something between motor and force sensor; there it may be up to twice
+as large as before, because an imposed posture does not give way to a wrong force. What has grown
+otherwise (grey) says nothing: motors fed with voltages drift away from the measured ones, and
+measured postures have errors of their own.</p>
 )";
 
 std::string colour_of(double gap) {
@@ -46,19 +49,19 @@ std::string heat_cell(double gap) {
          (gap < 0.0 ? std::string() : short_number(gap)) + "</td>";
 }
 
+std::string grey_cell(double gap) {
+  return "<td style=\"background:#eeeeee\">" + short_number(gap) + "</td>";
+}
+
 /// Gaps of one channel from left to right. Only a fall tells: what has grown is grey, not red.
 std::string seam_cells(const SeamGap& seam) {
   std::string html;
   double left = HUGE_VAL;
-  for (const double gap : {seam.commands, seam.voltages, seam.positions, seam.postures}) {
-    if (gap > left) {
-      html += "<td style=\"background:#eeeeee\">" + short_number(gap) + "</td>";
-    } else {
-      html += heat_cell(gap);
-    }
-    if (gap >= 0.0) left = gap;
+  for (const double gap : {seam.commands, seam.voltages, seam.positions}) {
+    html += gap > left ? grey_cell(gap) : heat_cell(gap);
+    if (gap >= 0.0) left = std::min(left, gap);
   }
-  return html;
+  return html + (postures_mislead(seam) ? grey_cell(seam.postures) : heat_cell(seam.postures));
 }
 
 /// Of the places that disagree, first what explains most of the gap; elsewhere a curve through
@@ -133,7 +136,9 @@ std::string dependence_figures(const std::vector<Dependence>& dependences) {
 }  // namespace
 
 std::string where_table(const Answer& answer) {
-  if (answer.where.empty()) return "<p>Nowhere beyond the noise.</p>\n";
+  if (answer.where.empty()) {
+    return "<p>Nowhere beyond the noise, in the recordings that were fitted.</p>\n";
+  }
   std::string html =
       "<table "
       "class=\"where\"><tr><th>place</th><th>channel</th><th>rmse</th><th>floor</th><th>share</"

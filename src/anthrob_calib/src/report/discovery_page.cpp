@@ -71,8 +71,8 @@ std::string report_html(const Answer& answer, const Question& question, double r
           escaped(question.model_file) + ", seed " + std::to_string(question.seed) + ", " +
           duration_text(runtime) + " of computing</p>\n<p class=\"answer\">" +
           answer_sentences(answer, question) + "</p>\n") +
-         next_steps(answer) + gap_table(answer) + example_figures(answer) +
-         "<h2>What was found</h2>\n" + findings(answer) +
+         next_steps(answer, question) + gap_table(answer) + example_figures(answer) +
+         "<h2>What was found</h2>\n" + findings(answer, question) +
          "<h2>Where model and measurements disagree</h2>\n" + where_table(answer) +
          folded("By place and regime: does the gap depend on speed, load, wrap angle or time?",
                 regime_map(answer)) +

@@ -21,15 +21,38 @@ std::string place_text(const std::string& name, const std::string& place) {
 
 /// Why the rest has no name.
 std::string nameless(const Answer& answer, const Question& question) {
-  if (answer.effects.size() >= static_cast<std::size_t>(question.max_effects)) {
+  if (question.max_effects == 0) {
+    return "Something is missing; no effect was looked for, as --max-effects says. ";
+  }
+  if (answer.ended_full) {
     return "Something else is missing, beyond the " + std::to_string(question.max_effects) +
-           (question.max_effects == 1 ? " effect" : " effects") + " that --max-effects allows. ";
+           (question.max_effects == 1 ? " effect" : " effects") +
+           " with which --max-effects ended the search. ";
   }
-  if (!question.effects.empty()) {
-    return "Something is missing, and it is none of the effects that --effects lists. ";
+  return std::string("Something is missing that no law ") +
+         (question.effects.empty() ? "of the catalogue" : "that --effects lists") +
+         ", as fitted here, explains" + (answer.effects.empty() ? ". " : " completely. ");
+}
+
+/// That not the whole catalogue was tried; empty if it was.
+std::string restriction(const Question& question) {
+  if (question.effects.empty()) return "";
+  std::string list;
+  for (const std::string& id : question.effects) list += (list.empty() ? "" : ", ") + escaped(id);
+  return " Looked for were only the effects that --effects lists: " + list + ".";
+}
+
+/// Where the fit does not carry over; empty if it does.
+std::string one_sided(const Answer& answer) {
+  if (answer.one_sided.empty()) return "";
+  std::string list;
+  for (const OneSidedGap& gap : answer.one_sided) {
+    list += (list.empty() ? "" : ", ") + escaped(gap.channel) + " (" + short_number(gap.learned) +
+            " floors where it was fitted, " + short_number(gap.held_out) + " held out)";
   }
-  return "Something is missing that no law of the catalogue, as fitted here, explains" +
-         std::string(answer.effects.empty() ? ". " : " completely. ");
+  return " But what was learned does not carry over: " + list +
+         ". Either something changed between these recordings, or ordinary parameters stand in for "
+         "what is missing.";
 }
 
 /// Channels that are more than noise at the end, where none of them is so for certain.
@@ -132,9 +155,12 @@ std::string improbable_sentence(const Answer& answer) {
 
 std::string answer_sentences(const Answer& answer, const Question& question) {
   if (answer.verdict == "no_missing_effect") {
-    return "No missing effect found: with its ordinary parameters fitted, the model has no certain "
-           "gap to the held-out recordings (all channels together " +
-           short_number(answer.test.recalibrated) + " times the floor)." + uncertain_gaps(answer);
+    return "No missing effect found: with its ordinary parameters fitted, the model has no channel "
+           "with a certain gap both in the recordings that were fitted and in the held-out ones "
+           "(there, all channels together " +
+           short_number(answer.test.recalibrated) + " times the floor)." +
+           (answer.one_sided.empty() ? uncertain_gaps(answer) : one_sided(answer)) +
+           restriction(question);
   }
   if (answer.verdict == "effects_found") {
     const bool falls = answer.test.after < answer.test.recalibrated;
@@ -144,21 +170,25 @@ std::string answer_sentences(const Answer& answer, const Question& question) {
            short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
            " times the floor; " + short_number(100.0 * answer.remaining_share) +
            " % of the squared gap above the noise remain." +
-           (answer.remaining_description == kNoCertainGap ? uncertain_gaps(answer) : "");
+           (!answer.one_sided.empty()                       ? one_sided(answer)
+            : answer.remaining_description == kNoCertainGap ? uncertain_gaps(answer)
+                                                            : "") +
+           restriction(question);
   }
   std::string offers;
   if (!answer.effects.empty()) {
-    offers = "The catalogue offers: ";
+    offers = "What comes nearest: ";
     for (const FoundEffect& effect : answer.effects) offers += named(effect);
   }
   return nameless(answer, question) + offers + alternatives(answer) +
          (answer.effects.empty() ? improbable_sentence(answer) : "") + "The held-out gap is " +
          short_number(answer.test.after) +
          " times the floor (recalibrated model: " + short_number(answer.test.recalibrated) +
-         "). What remains: " + escaped(answer.remaining_description) + ".";
+         "). What remains: " + escaped(answer.remaining_description) + "." + one_sided(answer) +
+         restriction(question);
 }
 
-std::string next_steps(const Answer& answer) {
+std::string next_steps(const Answer& answer, const Question& question) {
   std::vector<std::string> steps;
   if (!answer.effects.empty()) {
     const bool enough = answer.verdict == "effects_found";
@@ -182,8 +212,11 @@ std::string next_steps(const Answer& answer) {
   if (answer.verdict == "unexplained") {
     steps.push_back(
         "See below where the gap is and what it depends on. Check columns, signs and delays of the "
-        "recordings and the ranges of ordinary parameters; otherwise the law is one that the "
-        "catalogue lacks.");
+        "recordings and the ranges of ordinary parameters; otherwise " +
+        std::string(answer.ended_full || answer.ended_early
+                        ? "run again with a larger <code>--max-effects</code>."
+                    : question.effects.empty() ? "the law is one that the catalogue lacks."
+                                               : "run again without <code>--effects</code>."));
   }
   std::string list;
   for (const std::string& step : steps) list += "<li>" + step + "</li>\n";

@@ -6,7 +6,7 @@ namespace anthrob {
 namespace discovery {
 
 std::string cap_remark(const Answer& answer, const Question& question) {
-  if (answer.effects.size() < static_cast<std::size_t>(question.max_effects)) {
+  if (!answer.ended_full) {
     return answer.ended_early ? "the search ended with the rounds that --max-effects " +
                                     std::to_string(question.max_effects) +
                                     " allows; with a larger number it would go on"

@@ -10,6 +10,7 @@
 #include "anthrob_calib/discovery/experiment/evaluator.h"
 #include "anthrob_calib/discovery/experiment/noise_floor.h"
 #include "anthrob_calib/discovery/experiment/regimes.h"
+#include "anthrob_calib/discovery/judgement/one_sided_gaps.h"
 #include "anthrob_calib/discovery/location/dependence.h"
 #include "anthrob_calib/discovery/separation/separating_recording.h"
 
@@ -40,6 +41,7 @@ struct FoundParameter {
   double value = 0.0, low = 0.0, high = 0.0;  ///< 95 % interval
   bool known = false;         ///< not fitted: the catalogue's number, without an interval
   bool undetermined = false;  ///< the recordings exclude no value of its range
+  bool low_ends = false, high_ends = false;  ///< the interval ends there because its range does
 
   bool has_interval() const { return !known && !undetermined; }
 };
@@ -150,6 +152,8 @@ struct Answer {
   std::vector<std::string> dropped;  ///< named first, but no longer needed beside the others
   Refused refused;
   bool ended_early = false;  ///< the search had as many rounds as `max_effects` allows
+  bool ended_full = false;   ///< the search had named `max_effects`, some of which may be dropped
+  std::vector<OneSidedGap> one_sided;  ///< of what the extended model leaves
   double remaining_share = 0.0;
   std::string remaining_description;
   Gap train, test;

@@ -12,7 +12,7 @@ std::string gap_table(const Answer& answer);
 
 /// Each effect with its parameters, rivals and the experiment that tells them apart; then what was
 /// not named.
-std::string findings(const Answer& answer);
+std::string findings(const Answer& answer, const Question& question);
 
 }  // namespace discovery
 }  // namespace anthrob

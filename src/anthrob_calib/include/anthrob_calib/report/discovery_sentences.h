@@ -11,7 +11,7 @@ namespace discovery {
 std::string answer_sentences(const Answer& answer, const Question& question);
 
 /// What the reader can do now, as a list.
-std::string next_steps(const Answer& answer);
+std::string next_steps(const Answer& answer, const Question& question);
 
 /// Laws that earned their place and were not added, with what speaks against them; empty: none.
 std::string improbable_sentence(const Answer& answer);

@@ -89,6 +89,16 @@ double beyond_noise(double gap) {
   return std::sqrt(std::max(0.0, gap * gap - 1.0));
 }
 
+double whole_of(const SeamGap& gap) {
+  return gap.commands >= 0.0 ? gap.commands : gap.voltages;
+}
+
+/// Fed with measured values, motors or arm may drift away further than in the whole chain.
+double before_postures(const SeamGap& gap) {
+  const double whole = whole_of(gap);
+  return whole >= 0.0 ? std::min(whole, gap.positions) : gap.positions;
+}
+
 /// Whether a gap's cause is cut off by feeding at a later seam.
 bool goes(double from, double to) {
   constexpr double kGone = 0.5;  // less than this share is left
@@ -96,6 +106,11 @@ bool goes(double from, double to) {
 }
 
 }  // namespace
+
+bool postures_mislead(const SeamGap& gap) {
+  constexpr double kStiffer = 2.0;
+  return gap.positions >= 0.0 && gap.postures > kStiffer * before_postures(gap);
+}
 
 std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Question& question,
                                const PreparedRecordings& recordings, const Scales& scales,
@@ -125,19 +140,19 @@ std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Question& quest
 }
 
 std::string subsystem_of(const SeamGap& gap) {
-  const double whole = gap.commands >= 0.0 ? gap.commands : gap.voltages;
   const bool from_controllers = goes(gap.commands, gap.voltages);
   if (gap.channel == "voltage") return "controller, or what it measures";
   if (!gap.of_joint && (gap.channel == "position" || gap.channel == "current")) {
     return from_controllers ? "controller" : "power stage, motor or gear, or their load";
   }
-  if (goes(whole, gap.positions)) {
+  if (goes(whole_of(gap), gap.positions)) {
     return from_controllers ? "controller" : "power stage, motor or gear";
   }
   if (gap.channel != "force") return "path, skeleton, joints or their sensors";
-  if (gap.postures < 0.0) return "spindle, tendon, spring, path or force sensor";
-  // Fed with voltages, motors or arm may drift away further than in the whole chain.
-  return goes(whole >= 0.0 ? std::min(whole, gap.positions) : gap.positions, gap.postures)
+  if (gap.postures < 0.0 || postures_mislead(gap)) {
+    return "spindle, tendon, spring, path or force sensor";
+  }
+  return goes(before_postures(gap), gap.postures)
              ? "friction along the path, skeleton, joints or their sensors"
              : "spindle, tendon, spring, length of the path or force sensor";
 }
