@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -345,6 +346,11 @@ int ConfigNode::as_integer(int lo, int hi) const {
   if (data_->kind != Kind::kScalar) fail_expected(expectation);
   data_->read = true;
   int value = 0;
+  // yaml-cpp takes a leading 0 for octal, as C does; whoever writes 010 means ten.
+  const std::string& text = data_->scalar;
+  if (text.size() > 1 && text[0] == '0' && std::isdigit(static_cast<unsigned char>(text[1]))) {
+    fail_expected(expectation + ", without a leading 0");
+  }
   if (!YAML::convert<int>::decode(YAML::Node(data_->scalar), value) || value < lo || value > hi) {
     fail_expected(expectation);
   }
@@ -388,7 +394,14 @@ std::vector<double> ConfigNode::as_numbers(std::size_t count, const std::string&
 void ConfigNode::refuse_unknown_keys() const {
   for (const auto& [key, value] : data_->entries) {
     const ConfigNode child(value, join(path_, key));
-    if (!value->read) child.fail("unknown key");
+    // A base's key may be wrong only for what a file that extends it has changed beside it.
+    const bool changed = !path_.empty() && *value->file != *data_->file;
+    if (!value->read) {
+      child.fail("unknown key" +
+                 (changed ? ", with what " + *data_->file + ":" + std::to_string(data_->line) +
+                                " sets; there, '" + key + ": null' removes it"
+                          : std::string()));
+    }
     child.refuse_unknown_keys();
   }
   for (std::size_t i = 0; i < data_->items.size(); ++i) {

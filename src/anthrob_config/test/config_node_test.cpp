@@ -84,6 +84,34 @@ TEST(ConfigNode, RemovesOnlyWhatTheExtendedFileHas) {
   fs::remove_all(folder);
 }
 
+TEST(ConfigNode, SaysWhichFileMakesAKeyUnknown) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("anthrob_config_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "base.yaml") << "gear: {law: a, steepness: 1}\n";
+  std::ofstream(folder / "over.yaml") << "extends: base.yaml\n\ngear: {law: b}\n";
+  const ConfigNode root = ConfigNode::load((folder / "over.yaml").string());
+  root.at("gear").at("law").as_text();
+  try {
+    root.refuse_unknown_keys();
+    FAIL() << "not refused";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(std::string(error.what()),
+              (folder / "base.yaml:1: gear.steepness: unknown key, with what ").string() +
+                  (folder / "over.yaml:3 sets; there, 'steepness: null' removes it").string());
+  }
+  fs::remove_all(folder);
+}
+
+TEST(ConfigNode, TakesNoLeadingZeroForOctal) {
+  const auto read = [](const ConfigNode& root) { root.at("a").as_integer(0, 20); };
+  EXPECT_EQ(refusal("a: 10\n", read), "");
+  EXPECT_EQ(refusal("a: 0\n", read), "");
+  EXPECT_EQ(refusal("a: 010\n", read),
+            "file.yaml:1: a: 010: expected an integer from 0 to 20, without a leading 0");
+}
+
 TEST(ConfigNode, ReadsListsOfSoManyNumbers) {
   const auto read = [](const ConfigNode& root) { root.at("a").as_numbers(2, "m"); };
   EXPECT_EQ(refusal("a: [1, 2]\n", read), "");
