@@ -6,6 +6,13 @@
 #include "anthrob_sim/core/errors.h"
 #include "simulator_node.h"
 
+namespace {
+
+/// Real-time factor below which a cycle takes minutes, in which the node does not listen.
+constexpr double kSlowest = 1e-3;
+
+}  // namespace
+
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "simulator";
@@ -35,6 +42,10 @@ int main(int argc, char** argv) {
     }
     SimulatorNode::Options options;
     take(settings, "rate", nonnegative_number_of, options.rate);
+    if (options.rate > 0.0 && options.rate < kSlowest) {
+      throw BadInput("parameter ~rate: " + std::to_string(options.rate) +
+                     ": expected 0, for as fast as possible, or at least 0.001");
+    }
     take(settings, "state_rate", number_of, options.state_rate);
     take(settings, "paused", truth_of, options.paused);
     options.supervisor.auto_enable = true;

@@ -442,7 +442,7 @@ void SimulatorNode::pace() {
     std::this_thread::sleep_for(kListening);
     hear();
   }
-  if (!options_.paused) std::this_thread::sleep_until(deadline_);
+  if (!options_.paused && ros::ok()) std::this_thread::sleep_until(deadline_);
 }
 
 void SimulatorNode::hear() {

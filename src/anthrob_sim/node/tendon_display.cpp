@@ -95,7 +95,10 @@ void TendonDisplay::draw() {
   const ros::Time now = ros::Time::now();
   if (now.isZero()) return clock_wait_.look();
   const std::string joint = missing(now);
+  if (joint.empty() || whole_.isZero() || whole_ > now) whole_ = now;
   if (!joint.empty()) {
+    // Where a bag begins, or a robot, not all topics are there at once.
+    if ((now - whole_).toSec() <= kStaleAfter) return;
     ROS_WARN_STREAM_THROTTLE(10.0, "tendons are not drawn: joint " << joint << " is not measured");
     return;
   }

@@ -48,6 +48,7 @@ class TendonDisplay {
   std::optional<tf2_ros::TransformBroadcaster> transforms_;  ///< of ball joints
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
+  ros::Time whole_;  ///< when all joints were last measured; at first, when drawing began
   ClockWait clock_wait_;
 };
 

@@ -30,6 +30,15 @@ void expect_sensible(double value, const char* kind, const std::string& name, co
   throw BadInput(std::string(kind) + name + what + ": expected a finite number below 1e9");
 }
 
+/// A Hill muscle can pull its tendon in only so far.
+void expect_reachable(double position, const char* kind, const MuscleModel& muscle,
+                      const char* what) {
+  const double highest = muscle.actuator->highest_position();
+  if (position <= highest) return;
+  throw BadInput(kind + muscle.name + what + ": " + std::to_string(position) +
+                 ": expected at most " + std::to_string(highest));
+}
+
 /// Streams of random numbers of joint sensors begin here; muscles come before.
 constexpr std::uint64_t kJointStreams = 1u << 20;
 
@@ -128,6 +137,7 @@ void Simulation::impose_position(int muscle, double position, double velocity) {
   check_muscle(muscle);
   const std::string& name = muscles_[muscle].model().name;
   expect_sensible(position, "muscle ", name, ": position");
+  expect_reachable(position, "muscle ", muscles_[muscle].model(), ": position");
   expect_sensible(velocity, "muscle ", name, ": velocity");
   muscles_[muscle].impose(position, velocity);
 }
@@ -143,6 +153,7 @@ void Simulation::impose_reading(int muscle, double from, double to) {
 }
 
 double Simulation::position_delay(int muscle) const {
+  check_muscle(muscle);
   return readings_.position_delay(static_cast<std::size_t>(muscle));
 }
 
@@ -198,6 +209,7 @@ void Simulation::check_place(const std::vector<double>& q,
   }
   for (std::size_t i = 0; i < muscles_.size(); ++i) {
     expect_sensible(positions[i], "place: muscle ", muscles_[i].model().name, "");
+    expect_reachable(positions[i], "place: muscle ", muscles_[i].model(), "");
   }
 }
 
@@ -344,7 +356,9 @@ void Simulation::advance_actuators() {
     return;
   }
   for (std::size_t m = 0; m < muscles_.size(); ++m) {
-    lines_[m] = {muscles_[m].voltage(), muscles_[m].actuator().current};
+    // A motor that is moved from outside draws nothing.
+    const bool imposed = muscles_[m].drive() == Drive::kImposed;
+    lines_[m] = {imposed ? 0.0 : muscles_[m].voltage(), muscles_[m].actuator().current};
   }
   for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
     model_->power_effects[i]->apply(lines_, store_.at(power_offsets_[i]));
@@ -438,27 +452,29 @@ void Simulation::check_finite() const {
         body.v_W.cwiseAbs().sum() + body.w_W.cwiseAbs().sum() + body.X_WB.p.cwiseAbs().sum();
     if (!is_sensible(size)) {
       throw NumericalFailure(time(), "body " + model_->skeleton->bodies[i].name,
-                             "its motion is not finite");
+                             "its motion is not a number below 1e9");
     }
   }
   // A body's orientation shows in its joint.
   for (const JointModel& joint : model_->skeleton->joints) {
     for (int k = 0; k < joint.position_size(); ++k) {
       if (is_sensible(q_[joint.position_offset + k])) continue;
-      throw NumericalFailure(time(), "joint " + joint.name, "its position is not finite");
+      throw NumericalFailure(time(), "joint " + joint.name,
+                             "its position is not a number below 1e9");
     }
   }
   for (const Muscle& muscle : muscles_) {
     const std::string& name = muscle.model().name;
     if (!is_sensible(muscle.actuator().position)) {
-      throw NumericalFailure(time(), "muscle " + name, "its actuator's position is not finite");
+      throw NumericalFailure(time(), "muscle " + name,
+                             "its actuator's position is not a number below 1e9");
     }
     // A spring may treat NaN expansion as slack and hide it.
     if (!is_sensible(muscle.expansion())) {
-      throw NumericalFailure(time(), "muscle " + name, "its length is not finite");
+      throw NumericalFailure(time(), "muscle " + name, "its length is not a number below 1e9");
     }
     if (!is_sensible(std::abs(muscle.tension(0)) + std::abs(muscle.spring_tension()))) {
-      throw NumericalFailure(time(), "muscle " + name, "its tension is not finite");
+      throw NumericalFailure(time(), "muscle " + name, "its tension is not a number below 1e9");
     }
   }
 }

@@ -141,6 +141,20 @@ TEST(SupplySag, SharesTheVoltageLostByTheSumOfCurrents) {
   EXPECT_NEAR(12.0 * current - motors, 0.2 * current * current, 1e-12);
 }
 
+TEST(SupplySag, DoesNotCountAMotorThatIsMovedFromOutside) {
+  const auto robot = robot_with(kRig, {{"supply_sag", "ecu_1", {{"resistance", 2.0}}}});
+  const auto turned = [&](bool beside) {
+    Simulation sim(robot);
+    for (int m = 0; m < 2; ++m) sim.command(m, ecu::Mode::kVoltage, beside || m == 0 ? 6.0 : 0.0);
+    sim.step(5);  // both draw
+    sim.impose_position(1, 0.0, 0.0);
+    sim.step(200);
+    EXPECT_EQ(sim.reading(1).current, 0.0);
+    return sim.muscle(0).actuator().velocity;
+  };
+  EXPECT_NEAR(turned(true), turned(false), 1e-3 * std::abs(turned(false)));
+}
+
 TEST(SupplySag, CountsTheMotorsOfItsEcuOrAllOfThem) {
   for (const char* place : {"ecu_1", "ecu_3", "global"}) {
     const auto robot =

@@ -44,6 +44,21 @@ TEST(MuscleSweep, MomentArmIsTheSlopeOfTheLength) {
   }
 }
 
+TEST(MuscleSweep, RefusesWhatABallJointCannotTake) {
+  const auto model = load_robot_model(config("anthrob/model_I.yaml"));
+  const std::vector<double> q = model->skeleton->rest_configuration(), still(11, 0.0);
+  const SweepAxis axis = axis_named(*model, "shoulder_x");
+  EXPECT_THROW(sweep_muscles(model, q, still, axis, -4.0, 4.0, 3), BadInput);
+  auto limited = std::make_shared<RobotModel>(*model);
+  auto skeleton = std::make_shared<SkeletonModel>(*model->skeleton);
+  JointStopModel& stop = skeleton->joints[static_cast<std::size_t>(axis.joint)].stop;
+  stop.enabled = true;
+  stop.upper = 0.5;
+  limited->skeleton = skeleton;
+  EXPECT_THROW(sweep_muscles(limited, q, still, axis, -1.0, 1.0, 3), BadInput);
+  EXPECT_EQ(sweep_muscles(limited, q, still, axis, -0.4, 0.4, 3).position.size(), 3u);
+}
+
 TEST(MuscleSweep, KeepsTheOtherJointsWhereTheyAre) {
   const auto model = load_robot_model(config("anthrob/model_I.yaml"));
   std::vector<double> q = model->skeleton->rest_configuration();

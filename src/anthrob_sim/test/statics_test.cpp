@@ -123,6 +123,30 @@ TEST(Equilibrium, TheSimulationTakesIt) {
   }
 }
 
+TEST(Equilibrium, AsksNoHillMuscleForMoreThanItCanPullIn) {
+  const auto model = load_robot_model(config("two_muscle_rig/model_hill.yaml"));
+  Simulation scratch(model), sim(model);
+  int limited = 0, held = 0;
+  for (double angle = -1.5; angle < 1.9; angle += 0.3) {
+    const Equilibrium e = find_equilibrium(scratch, {angle});
+    for (std::size_t m = 0; m < model->muscles.size(); ++m) {
+      const double highest = model->muscles[m].actuator->highest_position();
+      EXPECT_LE(e.position[m], highest + 1e-9) << angle;
+      limited += e.position[m] > highest - 1e-6;
+    }
+    // What it says is what the simulation finds there.
+    sim.place({angle}, e.position);
+    for (std::size_t m = 0; m < model->muscles.size(); ++m) {
+      EXPECT_NEAR(sim.muscle(static_cast<int>(m)).spring_tension(), e.tension[m], 1e-3) << angle;
+    }
+    held += e.shortfall.norm() < 1e-6;
+  }
+  EXPECT_GT(limited, 0);
+  EXPECT_GT(held, 0);
+  EXPECT_THROW(sim.place({0.0}, std::vector<double>(model->muscles.size(), 5.0)), BadInput);
+  EXPECT_THROW(sim.impose_position(0, 5.0, 0.0), BadInput);
+}
+
 /// Nothing chooses a ligament's tension: slack it has none, taut what its stretch gives, and the
 /// muscles carry the rest.
 TEST(Equilibrium, LigamentsPullAsTheirStretchSays) {

@@ -8,6 +8,23 @@
 #include "anthrob_sim/recording/unanswered.h"
 #include "anthrob_sim/tool/tool.h"
 
+namespace {
+
+/// What no position is imposed on stays without voltage.
+std::vector<std::string> motors_without_position(const anthrob::RobotModel& model,
+                                                 const anthrob::Dataset& recording) {
+  std::vector<std::string> remarks;
+  for (const anthrob::MuscleModel& muscle : model.muscles) {
+    if (!muscle.actuator->takes_input()) continue;
+    if (!recording.series(muscle.name + "/position").empty()) continue;
+    remarks.push_back(recording.folder + ": " + muscle.name +
+                      "/position was not measured: its motor is let go");
+  }
+  return remarks;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
@@ -38,6 +55,9 @@ int main(int argc, char** argv) {
       throw BadInput("--out " + out + ": expected another folder than the recording");
     }
     recording.require_place(out);
+    if (replay_mode == ReplayMode::kPosition || replay_mode == ReplayMode::kPosture) {
+      tool::say(app, motors_without_position(*model, recording));
+    }
     tool::Progress progress("replay");
     tool::interrupted();
     std::string failure;

@@ -52,12 +52,13 @@ class Simulation {
   /// @throws BadInput if the muscle has no controller, the parameter is no gain, or the value is
   /// outside of its range
   void set_gain(int muscle, ecu::Parameter gain, double value);
-  /// Applies a voltage [V] to the power stage until release(). It bypasses the control law and the
-  /// delay of commands.
+  /// Applies a voltage [V], cut off at the power stage's limit, instead of the last command and
+  /// past the control law and the delay of commands. After release() it is a command like any
+  /// other.
   void apply_voltage(int muscle, double voltage);
   /// Imposes a motion until release(): at the end of every step the actuator is at `position` [rad]
   /// with `velocity` [rad/s].
-  /// @throws BadInput for numbers that are not finite
+  /// @throws BadInput for numbers that are not finite, or a position that the actuator cannot take
   void impose_position(int muscle, double position, double velocity);
   /// Imposes the motion for which the position sensor reads `to` [rad] at the end of the step,
   /// having read `from` one step before, as in a recording. If the sensor is late, take both values
@@ -92,12 +93,13 @@ class Simulation {
   /// released.
   /// @param q joint positions, size position_count
   /// @param positions actuator positions, one per muscle [rad]
-  /// @throws BadInput for other sizes or numbers that are not finite; nothing has changed then
+  /// @throws BadInput for other sizes, numbers that are not finite, or positions that an actuator
+  /// cannot take; nothing has changed then
   void place(const std::vector<double>& q, const std::vector<double>& positions);
   /// Resets the robot to its initial state. Time continues, and muscles stay enabled or disabled.
   void reset();
   /// Advances time without motion, so that a posture placed next gets its own time stamp.
-  void skip(int steps) { step_index_ += static_cast<std::uint64_t>(steps); }
+  void skip(std::uint64_t steps) { step_index_ += steps; }
 
   /// @throws NumericalFailure naming time and place; the simulation stays in the failed state
   void step(int count = 1);

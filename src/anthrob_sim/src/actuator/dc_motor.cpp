@@ -33,6 +33,7 @@ void DcMotor::place(double position, StateView state) const {
 
 void DcMotor::impose(double position, double velocity, double, StateView state) const {
   auto& s = state.as<State>();
+  s.current = 0.0;  // what moves it is not its winding
   s.velocity = velocity;
   s.position = position;
 }
@@ -115,7 +116,7 @@ std::shared_ptr<const Actuator> DcMotor::load(const ConfigNode& kind, const Conf
               gear.number("inertia", Bounds::nonnegative(), "kg m^2");
   p.ratio = gear.number("ratio", Bounds::positive(), "1");
   p.friction_torque = gear.number("friction_torque", Bounds::nonnegative(), "Nm");
-  p.spindle_radius = muscle.number("spindle_radius", Bounds::positive(), "m");
+  p.spindle_radius = muscle.number("spindle_radius", {0.0, 0.5, true, false}, "m");
   p.rest_tendon_length = read_rest_tendon_length(muscle);
   p.voltage_limit = kind.number("nominal_voltage", Bounds::positive(), "V");
   return std::make_shared<DcMotor>(p, make_gear_law(gear), step);

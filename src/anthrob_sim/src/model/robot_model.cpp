@@ -26,6 +26,16 @@ void require_snake_case(const ConfigNode& node, const std::string& name) {
   if (!is_snake_case(name)) node.fail("'" + name + "': expected a name in lower_snake_case");
 }
 
+/// A point of a path in its link's frame [m]; millimetres would be far away.
+Vec3 near_link(const ConfigNode& node) {
+  constexpr double kFarthest = 10.0;
+  const Vec3 point = node.as_vector3("m");
+  if (point.cwiseAbs().maxCoeff() > kFarthest) {
+    node.fail_expected("three numbers [x, y, z] from -10 to 10 [m]");
+  }
+  return point;
+}
+
 class Builder {
  public:
   Builder(const ConfigNode& config, const LoadOptions& options)
@@ -300,7 +310,7 @@ class Builder {
     }
     if (type.empty()) entry.fail("expected a point or one of: " + wrapping_surface_types());
     if (type == "point") {
-      obstacle.point_B = X_BF * entry.at("point").as_vector3("m");
+      obstacle.point_B = X_BF * near_link(entry.at("point"));
       obstacle.friction = eyelets;
     } else {
       obstacle.surface = make_wrapping_surface(type, entry.at(type), X_BF);
@@ -397,6 +407,15 @@ int RobotModel::find_muscle(const std::string& muscle) const {
     if (muscles[i].name == muscle) return static_cast<int>(i);
   }
   return -1;
+}
+
+int RobotModel::muscle_index(const std::string& muscle) const {
+  const int index = find_muscle(muscle);
+  if (index >= 0) return index;
+  std::string names;
+  for (const MuscleModel& known : muscles) names += (names.empty() ? "" : ", ") + known.name;
+  throw BadInput(file + ": has no muscle '" + muscle + "'; expected " +
+                 (names.empty() ? "a robot with muscles" : "one of " + names));
 }
 
 std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,

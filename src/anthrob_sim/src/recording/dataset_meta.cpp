@@ -25,7 +25,7 @@ void load_start(const ConfigNode& start, DatasetMeta& meta, std::vector<std::str
   if (!start.is_map()) start.fail_expected("a map of reference and settle_s");
   for (const auto& [key, value] : start.entries()) {
     if (key == "settle_s") {
-      meta.settle_s = value.as_number(Bounds::nonnegative(), "s");
+      meta.settle_s = value.as_number(Bounds::between(0.0, 3600.0), "s");
     } else if (key == "reference" && value.is_map()) {
       meta.start = "given";
       for (const auto& [muscle, position] : value.entries()) {

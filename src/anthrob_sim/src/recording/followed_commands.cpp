@@ -183,8 +183,9 @@ void require_commanded(const Dataset& recording, const std::string& muscle,
         recording.folder + ": " + muscle + ": at " + at + " s its unit followed " +
         word_of("mode", static_cast<int>(s.in_force.mode)) + " " +
         exact_text(s.in_force.reference) +
-        ", but the recording contains no such command; cut the recording there, or replay "
-        "its voltages");
+        ", but the recording contains no such command (rosbag misses those that are sent while it "
+        "connects: begin to record first, and wait before the first command); cut the recording "
+        "there, or replay its voltages");
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_sim/placement.h"
 #include "anthrob_sim/simulation.h"
 
 namespace anthrob {
@@ -14,6 +15,9 @@ void check_range(const JointModel& joint, const SweepAxis& axis, double from, do
   if (count < 2 || !std::isfinite(from) || !std::isfinite(to) || !(from < to)) {
     throw BadInput("sweep of " + axis.name + ": expected FROM < TO and at least 2 points");
   }
+  if (joint.type == JointType::kBall && (from < -M_PI || to > M_PI)) {
+    throw BadInput("sweep of " + axis.name + ": expected a range from -pi to pi [rad]");
+  }
   if (joint.type != JointType::kBall && joint.stop.enabled &&
       (from < joint.stop.lower || to > joint.stop.upper)) {
     throw BadInput("sweep of " + axis.name + ": expected a range within the joint's limits " +
@@ -21,17 +25,13 @@ void check_range(const JointModel& joint, const SweepAxis& axis, double from, do
   }
 }
 
+/// @throws BadInput for a posture beyond the joint's stop
 void set_axis(const JointModel& joint, const SweepAxis& axis, double value,
-              const std::vector<double>& start, std::vector<double>& q) {
+              const std::vector<double>& start, Placement& posture) {
+  if (joint.type != JointType::kBall) return posture.set_joint(joint.name, value);
   const double* from = &start[joint.position_offset];
-  double* to = &q[joint.position_offset];
-  if (joint.type != JointType::kBall) {
-    *to = value;
-    return;
-  }
   const Quat turn(Eigen::AngleAxisd(value, Vec3::Unit(axis.component)));
-  const Quat turned = canonical(Quat(from[0], from[1], from[2], from[3]) * turn);
-  to[0] = turned.w(), to[1] = turned.x(), to[2] = turned.y(), to[3] = turned.z();
+  posture.set_ball_joint(joint.name, Quat(from[0], from[1], from[2], from[3]) * turn);
 }
 
 }  // namespace
@@ -59,11 +59,11 @@ MuscleSweep sweep_muscles(const std::shared_ptr<const RobotModel>& model,
   for (std::size_t m = 0; m < model->muscles.size(); ++m) {
     sweep.muscles[m].muscle = model->muscles[m].name;
   }
-  std::vector<double> posture = q;
+  Placement posture(*model, q);
   for (int i = 0; i < count; ++i) {
     const double value = from + (to - from) * i / (count - 1);
     set_axis(joint, axis, value, q, posture);
-    sim.place(posture, actuators);
+    sim.place(posture.q(), actuators);
     sweep.position.push_back(value);
     for (std::size_t m = 0; m < sweep.muscles.size(); ++m) {
       const Muscle& muscle = sim.muscle(static_cast<int>(m));

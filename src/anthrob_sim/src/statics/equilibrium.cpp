@@ -1,5 +1,7 @@
 #include "anthrob_sim/statics/equilibrium.h"
 
+#include <algorithm>
+
 #include "anthrob_config/errors.h"
 #include "anthrob_sim/statics/least_effort.h"
 
@@ -7,10 +9,23 @@ namespace anthrob {
 
 namespace {
 
-/// Where the actuator stands when the relaxed spring carries the tension.
+/// Where the actuator would stand when the relaxed spring carries the tension.
 double holding_position(const MuscleModel& muscle, double length, double tension) {
   const double stretched = muscle.spring->rest_length() + muscle.spring->relaxed_expansion(tension);
   return muscle.actuator->position_for(length - stretched);
+}
+
+/// The tension up to which the actuator can take its place. It is lower than asked for where the
+/// actuator can pull its tendon in only so far, as a Hill muscle.
+double reachable_tension(const MuscleModel& muscle, double length, double wanted) {
+  const double highest = muscle.actuator->highest_position();
+  if (holding_position(muscle, length, wanted) <= highest) return wanted;
+  double low = 0.0, high = wanted;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (holding_position(muscle, length, middle) <= highest ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace
@@ -65,7 +80,11 @@ Equilibrium find_equilibrium(Simulation& sim, const std::vector<double>& q,
   Eigen::VectorXd highest = Eigen::VectorXd::Constant(count, options.highest_tension);
   for (Eigen::Index m = 0; m < count; ++m) {
     const Muscle& muscle = sim.muscle(static_cast<int>(m));
-    if (muscle.model().actuator->takes_input()) continue;
+    if (muscle.model().actuator->takes_input()) {
+      highest[m] = reachable_tension(muscle.model(), muscle.length(), options.highest_tension);
+      lowest[m] = std::min(lowest[m], highest[m]);
+      continue;
+    }
     lowest[m] = highest[m] = muscle.model().spring->relaxed_tension(muscle.expansion());
   }
   const LeastEffort split =
@@ -76,7 +95,10 @@ Equilibrium find_equilibrium(Simulation& sim, const std::vector<double>& q,
   for (Eigen::Index m = 0; m < count; ++m) {
     const MuscleModel& model = sim.model().muscles[m];
     const double length = sim.muscle(static_cast<int>(m)).length();
-    const double tension = split.tension[m], position = holding_position(model, length, tension);
+    const double tension = split.tension[m];
+    // Where the actuator cannot even take up the tendon, it goes as far as it can.
+    const double position =
+        std::min(holding_position(model, length, tension), model.actuator->highest_position());
     result.tension.push_back(tension);
     result.position.push_back(position);
     result.reference.push_back(model.has_controller

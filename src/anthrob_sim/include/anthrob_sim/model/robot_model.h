@@ -74,6 +74,8 @@ struct RobotModel {
 
   /// Index in `muscles`, or -1.
   int find_muscle(const std::string& muscle) const;
+  /// Index in `muscles`.   @throws BadInput with the muscles that there are
+  int muscle_index(const std::string& muscle) const;
 };
 
 constexpr double kMaximumStep = 0.1;  ///< [s] of a simulation

@@ -33,8 +33,9 @@ Eigen::MatrixXd moment_arm_matrix(const Simulation& sim);
 Eigen::VectorXd holding_load(const Simulation& sim);
 
 /// Reference of a muscle's position controller that holds a tension at a muscle length, see
-/// Equilibrium::reference. Dead zone, sagging supply, cogging, heating and effects of sensors are
-/// not included. @param length [m]   @param tension [N], > 0
+/// Equilibrium::reference. Not included are friction, what a tendon or spring remembers (creep,
+/// softening, hysteresis), dead zone, sagging supply, cogging, heating and effects of sensors.
+/// @param length [m]   @param tension [N], > 0
 /// @throws BadInput if the controller has no proportional gain
 double position_reference(const MuscleModel& muscle, double length, double tension);
 
