@@ -39,6 +39,9 @@ int main(int argc, char** argv) {
       {"model", "path of a model file (required)"},
       {"protocol", "path of a protocol file (required)"},
       {"out", "folder to record into, as a whole path (required)"},
+      {"robot_model",
+       "path of the model that is simulated, which must be the same where a session goes on "
+       "(default: not checked)"},
       {"approach_speed",
        "[rad/s] of the motors on the way to the rest posture at first (default: 1)"},
       {"enable", "true: enable the motors first (default: false)"},
@@ -68,7 +71,10 @@ int main(int argc, char** argv) {
           "parameter ~lock_step: true: expected false for a zero_gravity protocol, in which only "
           "the controller may step the simulator");
     }
-    anthrob::Recorder recorder(nh, settings, model, protocol, folder, options, approach_speed);
+    std::string robot_model;
+    settings.getParam("robot_model", robot_model);
+    anthrob::Recorder recorder(nh, settings, model, protocol, folder, options, approach_speed,
+                               robot_model);
     ROS_INFO_STREAM("recording into " << folder);
     const bool ready = !enable_first || enable(nh);
     return ready && recorder.run() ? 0 : 130;

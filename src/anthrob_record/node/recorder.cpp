@@ -27,11 +27,12 @@ constexpr double kDegree = 0.017453292519943295;
 
 Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<const RobotModel> model,
                    const Protocol& protocol, const std::string& folder,
-                   const RobotLink::Options& options, double approach_speed)
+                   const RobotLink::Options& options, double approach_speed,
+                   const std::string& robot_model)
     : nh_(nh),
       model_(model),
       protocol_(protocol),
-      store_(folder, model, protocol, ros::Time::isSimTime() ? "simulated" : "true"),
+      store_(folder, model, protocol, ros::Time::isSimTime() ? "simulated" : "true", robot_model),
       bags_(store_, model, nh.getNamespace() + "/"),
       link_(nh, model, options),
       lock_step_(options.lock_step),

@@ -19,9 +19,10 @@ namespace anthrob {
 /// both have.
 class Recorder {
  public:
+  /// @param robot_model model file of the simulated robot; empty: a real or an unknown one
   Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<const RobotModel> model,
            const Protocol& protocol, const std::string& folder, const RobotLink::Options& options,
-           double approach_speed);
+           double approach_speed, const std::string& robot_model);
 
   /// @return whether everything was recorded; false if ROS shut down first
   /// @throws std::runtime_error if a posture cannot be recorded

@@ -24,7 +24,7 @@ bool is_part(const fs::path& file) {
          extension.find_first_not_of("0123456789", std::strlen(kPart)) == std::string::npos;
 }
 
-/// FNV-1a: enough to tell two protocols apart.
+/// FNV-1a: enough to tell two protocols or models apart.
 std::string fingerprint(const std::string& text) {
   std::uint64_t hash = 14695981039346656037ULL;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
@@ -33,11 +33,23 @@ std::string fingerprint(const std::string& text) {
   return digits;
 }
 
+/// "model_robot.yaml 0123456789abcdef"; empty without a file.
+std::string identity_of(const std::string& model_file) {
+  if (model_file.empty()) return "";
+  const std::string text = ConfigNode::load(model_file).to_yaml();
+  return fs::path(model_file).filename().string() + " " + fingerprint(text);
+}
+
 }  // namespace
 
 RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const RobotModel> model,
-                               const Protocol& protocol, const std::string& time)
-    : folder_(folder), model_(std::move(model)), protocol_(protocol), time_(time) {
+                               const Protocol& protocol, const std::string& time,
+                               const std::string& simulated)
+    : folder_(folder),
+      model_(std::move(model)),
+      protocol_(protocol),
+      time_(time),
+      simulated_(identity_of(simulated)) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw std::runtime_error(folder_ + ": cannot be created: " + error.message());
@@ -64,12 +76,13 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   const auto expect = [&](const char* key, const std::string& now) {
     if (node.has(key) && node.text(key) != now) {
       node.at(key).fail_expected(now +
-                                 ", or a new folder: a session has one robot, and either "
-                                 "simulated or true time");
+                                 ", or a new folder: a session has one robot, simulated by one "
+                                 "model or in true time");
     }
   };
   expect("robot", model_->name);
   expect("time", time_);
+  if (!simulated_.empty()) expect("simulated", simulated_);
   if (node.has("rest")) baseline_ = read_sample(node.at("rest"), *model_);
   remove_parts("");
 }
@@ -80,6 +93,7 @@ std::string RecordingStore::session_text() const {
       << "protocol: " << word(protocol_.kind) << "\nrobot: " << model_->name << "\ntime: " << time_
       << "\nmodel: " << fs::path(model_->file).filename().string() << "\nfingerprint: f"
       << fingerprint(protocol_.text) << "  # of protocol, postures and references\n";
+  if (!simulated_.empty()) out << "simulated: " << simulated_ << "  # by this model\n";
   if (baseline()) {
     out << "rest: " << sample_yaml(*model_, baseline_)
         << "  # the first rest posture; drift is measured from it\n";

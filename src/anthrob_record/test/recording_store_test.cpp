@@ -128,6 +128,15 @@ TEST_F(RecordingStoreTest, AFolderBelongsToOneSession) {
   const auto model_II = load_robot_model(anthrob_folder() + "model_II_tier1.yaml");
   EXPECT_THROW(RecordingStore(folder, model_II, protocol, "true"), BadInput);
   EXPECT_THROW(RecordingStore(folder, model, protocol, "simulated"), BadInput);
+  const std::string of_one = folder + "_simulated";
+  const std::string robot = anthrob_folder() + "model_II_tier1.yaml";
+  RecordingStore(of_one, model, protocol, "simulated", robot);
+  RecordingStore(of_one, model, protocol, "simulated", robot);
+  RecordingStore(of_one, model, protocol, "simulated");  // nobody says which
+  EXPECT_THROW(
+      RecordingStore(of_one, model, protocol, "simulated", anthrob_folder() + "model_I_tier1.yaml"),
+      BadInput);
+  std::filesystem::remove_all(of_one);
   EXPECT_NO_THROW(RecordingStore(folder, model, protocol, "true"));
 }
 
