@@ -3,14 +3,35 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "anthrob_sim/report/muscle_sweep.h"
 
 namespace anthrob {
 
 namespace {
 
-/// With more shortfall than this the posture cannot be held [Nm].
 constexpr double kLongestHold = 1e6;  ///< [s]
+/// With more shortfall than this the posture cannot be held [Nm].
 constexpr double kHoldable = 0.02;
+
+/// "shoulder_z 0.024, elbow -0.003": what is missing, largest first, without what hardly is.
+std::string by_axis(const SkeletonModel& skeleton, const Eigen::VectorXd& shortfall) {
+  std::vector<std::pair<double, std::string>> parts;
+  for (const SweepAxis& axis : sweep_axes(skeleton)) {
+    const int at = skeleton.joints[static_cast<std::size_t>(axis.joint)].velocity_offset;
+    const double missing = shortfall[at + axis.component];
+    if (std::abs(missing) < 0.1 * shortfall.norm()) continue;
+    char text[40];
+    std::snprintf(text, sizeof(text), " %.3g", missing);
+    parts.emplace_back(-std::abs(missing), axis.name + text);
+  }
+  std::sort(parts.begin(), parts.end());
+  std::string list;
+  for (const auto& [order, part] : parts) list += (list.empty() ? "" : ", ") + part;
+  return list;
+}
 
 void read_joint(const ConfigNode& node, const JointModel& joint, std::vector<double>& q) {
   double* p = &q[joint.position_offset];
@@ -107,7 +128,8 @@ void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
   const double shortfall = equilibrium.shortfall.norm();
   if (shortfall <= kHoldable) return;
   throw BadInput("posture '" + name + "': the muscles of " + model.file + " cannot hold it: " +
-                 std::to_string(shortfall) + " Nm of joint torque are missing");
+                 std::to_string(shortfall) + " Nm of joint torque are missing (" +
+                 by_axis(*model.skeleton, equilibrium.shortfall) + ")");
 }
 
 void refuse_beyond_limits(const std::string& posture, const RobotModel& model,
