@@ -350,8 +350,7 @@ TEST_F(HomeTest, AUnitThatRestartedTakesNoPositionsBeforeIt) {
   restart(2);
   const auto infraspinatus = command("infraspinatus", ecu::Mode::kPosition, 1.0);
   EXPECT_FALSE(infraspinatus.accepted);
-  EXPECT_EQ(infraspinatus.reason,
-            "muscle 'infraspinatus': ecu_3 has lost its zero: call home first");
+  EXPECT_EQ(infraspinatus.reason, "muscle 'infraspinatus': ecu_3 has no zero: call home first");
   EXPECT_EQ(rig.driver().supervisor().last_rejection(), infraspinatus.reason);
   EXPECT_FALSE(command("teres_minor", ecu::Mode::kPosition, 1.0).accepted);
   EXPECT_TRUE(command("infraspinatus", ecu::Mode::kVoltage, 0.0).accepted);
@@ -384,7 +383,7 @@ TEST_F(HomeTest, ASpindleThatMayHaveTurnedUncountedTakesNoPositionsBeforeIt) {
   EXPECT_EQ(rig.driver().findings().count(Finding::kEcuFault), 0u) << "it was cleared";
   ASSERT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
   EXPECT_EQ(command(name, ecu::Mode::kPosition, 0.0).reason,
-            "muscle '" + name + "': ecu_3 has lost its zero: call home first");
+            "muscle '" + name + "': ecu_3 has no zero: call home first");
   EXPECT_TRUE(command(name, ecu::Mode::kForce, 2.0).accepted);
   EXPECT_TRUE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);
 }
@@ -440,7 +439,7 @@ TEST_F(HomeTest, AnInterruptedWriteOfZerosLosesThoseThatAreNotConfirmed) {
   rig.run(200);
   ASSERT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
   EXPECT_EQ(command("infraspinatus", ecu::Mode::kPosition, 0.0).reason,
-            "muscle 'infraspinatus': ecu_3 has lost its zero: call home first");
+            "muscle 'infraspinatus': ecu_3 has no zero: call home first");
   EXPECT_TRUE(command("infraspinatus", ecu::Mode::kForce, 2.0).accepted);
   EXPECT_TRUE(command("anterior_deltoid", ecu::Mode::kPosition, 0.0).accepted);  // confirmed
   EXPECT_FALSE(command("brachialis", ecu::Mode::kPosition, 0.0).accepted);       // not asked yet

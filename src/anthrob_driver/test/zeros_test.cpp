@@ -12,7 +12,7 @@ namespace driver {
 namespace {
 
 constexpr std::size_t kUnit = 2;  // ecu_3, of infraspinatus and teres_minor
-const char* const kNoZero = "muscle 'infraspinatus': ecu_3 has lost its zero: call home first";
+const char* const kNoZero = "muscle 'infraspinatus': ecu_3 has no zero: call home first";
 
 class ZerosTest : public testing::Test {
  protected:

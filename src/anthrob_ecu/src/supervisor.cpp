@@ -73,7 +73,7 @@ std::string Supervisor::check(const std::vector<std::string>& names,
     const auto muscle = it - muscles_.begin();
     const std::size_t ecu = ecu_of_[static_cast<std::size_t>(muscle)];
     if (static_cast<Mode>(modes[i]) == Mode::kPosition && zero_lost_[ecu]) {
-      return who + ecus_[ecu] + " has lost its zero: call home first";
+      return who + ecus_[ecu] + " has no zero: call home first";
     }
     const double reference = references[i];
     if (!std::isfinite(reference)) return who + "reference is not a finite number";
