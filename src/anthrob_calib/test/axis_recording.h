@@ -11,7 +11,8 @@ namespace discovery {
 
 /// m a = u - viscous v - coulomb sign(v) - offset, under a slowly reversing effort, integrated with
 /// steps of 10 us.
-inline Dataset axis_recording(double coulomb, double offset, std::uint64_t seed) {
+inline Dataset axis_recording(double coulomb, double offset, std::uint64_t seed,
+                              double viscous = 203.5) {
   Dataset data;
   data.folder = "axis";
   data.meta.robot = "driven_axis";
@@ -20,7 +21,7 @@ inline Dataset axis_recording(double coulomb, double offset, std::uint64_t seed)
   table.column("axis/effort");
   Column &position = table.columns[0], &effort = table.columns[1];
   const CounterRandom random(seed, 9);
-  const double mass = 95.1089, viscous = 203.5, h = 1e-5;
+  const double mass = 95.1089, h = 1e-5;
   const double first = 60.0 + 20.0 * random.uniform(1), second = 2.0 + 3.0 * random.uniform(2);
   double q = 0.1, v = 0.0, u = 0.0;  // far from both stops
   for (int i = 0; i < 800000; ++i) {

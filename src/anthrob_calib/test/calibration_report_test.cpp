@@ -75,6 +75,33 @@ TEST(CalibrationReport, NamesWhatChangesNothingAlsoInBrief) {
   EXPECT_GT(no, name);
 }
 
+TEST(CalibrationReport, GivesNoIntervalAtTheEndOfARange) {
+  CalibrationOutcome outcome;
+  outcome.parameters.resize(2);
+  for (ModelParameter& p : outcome.parameters) p.upper = 1.0;
+  outcome.best = {0.5, 1.0};
+  outcome.identifiability.parameters = {{0.01, 0.3, 10.0, true}, {0.01, 0.3, 10.0, true}};
+  outcome.identifiability.singular_values = Eigen::VectorXd::Ones(2);
+  outcome.identifiability.flattest = {1.0, 0.0};
+  EXPECT_FALSE(is_at_bound(outcome, 0));
+  EXPECT_TRUE(is_at_bound(outcome, 1));
+  const auto list = nlohmann::json::parse(result_json(outcome))["parameters"];
+  EXPECT_TRUE(list[0]["ci95"][0].is_number());
+  EXPECT_EQ(list[0].count("at_bound"), 0u);
+  EXPECT_TRUE(list[1]["ci95"][0].is_null());
+  EXPECT_EQ(list[1]["at_bound"], true);
+}
+
+TEST(CalibrationReport, SaysThatTheSearchLookedTooEarly) {
+  CalibrationOutcome outcome;
+  outcome.fitness = 4e-6;
+  outcome.simulation.motion = 2.0;
+  outcome.moves_on = 1e-7;
+  EXPECT_EQ(too_early(outcome), "");
+  outcome.moves_on = 2e-6;
+  EXPECT_NE(too_early(outcome).find("after 2 s of motion"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace calibration
 }  // namespace anthrob

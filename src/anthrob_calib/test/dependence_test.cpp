@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "anthrob_calib/discovery/location/step_means.h"
 #include "anthrob_sim/core/random.h"
 #include "swing.h"
 
@@ -126,6 +127,23 @@ TEST(Dependence, SumsOfTwoQuantitiesShowBoth) {
   EXPECT_EQ(both.second->word, "load");
   EXPECT_NEAR(both.share, 2.0 / (13.0 / 3.0), 0.04);
   EXPECT_NEAR(both.second->share, (2.0 + 32.0 / 27.0) / (13.0 / 3.0), 0.05);
+}
+
+TEST(StepMeans, HaveErrorsOverBlocksNotOverBins) {
+  // Constant in each block: a hundred bins of one tell no more than one.
+  const CounterRandom random(4, 1);
+  ChannelResidual together, apart;
+  for (std::size_t i = 0; i < 40000; ++i) {
+    together.block.push_back(i / 100);
+    together.y.push_back(random.normal(i / 100));
+    apart.y.push_back(random.normal(1000 + i));
+  }
+  apart.block = together.block;
+  const Steps one{std::vector<std::size_t>(40000, 0), 1};
+  const double blocks = 200.0, bins = 20000.0;  // in a half
+  EXPECT_NEAR(means_of(together, one, true).error[0], 1.0 / std::sqrt(blocks),
+              0.15 / std::sqrt(blocks));
+  EXPECT_NEAR(means_of(apart, one, true).error[0], 1.0 / std::sqrt(bins), 0.15 / std::sqrt(bins));
 }
 
 }  // namespace

@@ -150,8 +150,16 @@ Journal::Options journal_options(const Arguments& arguments, const CalibrationIn
   return options;
 }
 
-/// Parameters that the recordings do not determine, and errors that could not be computed.
-void say_doubts(const CalibrationOutcome& outcome) {
+/// Parameters that the recordings do not determine, or not within their range, and errors that
+/// could not be computed.
+void say_doubts(const CalibrationOutcome& outcome, bool searched) {
+  for (std::size_t i = 0; searched && i < outcome.parameters.size(); ++i) {
+    if (!is_at_bound(outcome, i)) continue;
+    const ModelParameter& p = outcome.parameters[i];
+    std::cerr << "anthrob_calibrate: " << p.name() << ": ended at the end of its range ("
+              << outcome.best[i] << " " << p.unit << "); expected a wider range, or something else "
+              << "is wrong with the model\n";
+  }
   for (const std::string& name : insensitive_parameters(outcome)) {
     std::cerr << "anthrob_calibrate: " << name
               << ": not identifiable from these recordings (it changes nothing "
@@ -208,7 +216,7 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   outcome.sensitivity = found.sensitivity;
   write(arguments, input, outcome);
   std::cout << summary(outcome);
-  say_doubts(outcome);
+  say_doubts(outcome, complete && !arguments.evaluate);
   if (complete && !arguments.evaluate && !std::isfinite(outcome.fitness)) {
     std::cerr << "anthrob_calibrate: " << input.config.model_file
               << ": no set of parameters could be simulated over the recordings; replay them with "

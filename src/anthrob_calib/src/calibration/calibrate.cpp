@@ -131,6 +131,21 @@ DriveErrors errors_with(Drive drive, const char* name, const Problem& problem, c
   return errors;
 }
 
+/// CalibrationOutcome::moves_on, from the replays in full length.
+double moves_on(const Problem& problem, const CalibrationOutcome& outcome, const Stop& stop) {
+  std::vector<RunDifferences> moved = outcome.calibration.after;
+  if (moved.empty() || problem.runs().front().is_trajectory) return 0.0;
+  const auto early =
+      simulate_runs(problem.build(outcome.best), problem.runs(), outcome.simulation, stop);
+  double sum = 0.0;
+  for (std::size_t r = 0; r < moved.size(); ++r) {
+    moved[r].after.posture -= early[r].after.posture;
+    moved[r].after.force -= early[r].after.force;
+    sum += moved[r].fitness(outcome.weights);
+  }
+  return sum / static_cast<double>(moved.size());
+}
+
 std::vector<DriveErrors> compare_drives(const Problem& problem, const Point& best,
                                         const std::vector<MeasuredRun>& runs, const Stop& stop) {
   std::vector<DriveErrors> errors;
@@ -253,6 +268,8 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
   try {
     replay(problem.runs(), outcome.calibration);
     replay(input.validation, outcome.validation);
+    attempt([&] { outcome.moves_on = moves_on(problem, outcome, stop); });
+    if (const std::string early = too_early(outcome); !early.empty()) doubt(early);
     if (!thorough) return outcome;
     attempt([&] {
       outcome.identifiability = examine(problem, outcome.best, kProfiles, [&] {

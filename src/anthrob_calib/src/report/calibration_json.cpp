@@ -62,8 +62,10 @@ ordered_json parameters_json(const CalibrationOutcome& o) {
       entry["sigma"] = number(k.sigma);
       const identification::Estimate estimate = interval(o.identifiability, i, o.best[i]);
       entry["ci95"] = {number(estimate.lo), number(estimate.hi)};
+      if (is_at_bound(o, i)) entry["ci95"] = {nullptr, nullptr};
       entry["identifiable"] = k.identifiable;
     }
+    if (is_at_bound(o, i)) entry["at_bound"] = true;
     list.push_back(entry);
   }
   return list;

@@ -1,6 +1,7 @@
 #include "anthrob_calib/report/calibration_outcome.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 
 namespace anthrob {
@@ -16,6 +17,24 @@ std::vector<std::string> insensitive_parameters(const CalibrationOutcome& outcom
     if (sensitivity[i] <= kNothing * most) names.push_back(outcome.parameters[i].name());
   }
   return names;
+}
+
+bool is_at_bound(const CalibrationOutcome& outcome, std::size_t parameter) {
+  const ModelParameter& p = outcome.parameters[parameter];
+  const double edge = 1e-6 * p.range(), value = outcome.best[parameter];
+  return value - p.lower < edge || p.upper - value < edge;
+}
+
+std::string too_early(const CalibrationOutcome& outcome) {
+  constexpr double kMuch = 0.25;
+  if (outcome.moves_on <= kMuch * outcome.fitness) return "";
+  char text[320];
+  std::snprintf(text, sizeof(text),
+                "the search looked at equilibria after %g s of motion, but the simulated arm moves "
+                "on until the recordings end: by %.3g in the measure of the fitness, of which %.3g "
+                "is left; what was found may be wrong; expected a longer simulate.motion",
+                outcome.simulation.motion, outcome.moves_on, outcome.fitness);
+  return text;
 }
 
 MeanErrors run_errors(const RunDifferences& run, const RobotModel& model) {

@@ -83,15 +83,13 @@ std::string parameter_table(const CalibrationOutcome& o) {
     const ModelParameter& p = o.parameters[i];
     const bool known = !o.identifiability.parameters.empty();
     const bool told = !std::count(nothing.begin(), nothing.end(), p.name());
-    const double edge = 1e-6 * p.range();
-    const bool at_bound = o.best[i] - p.lower < edge || p.upper - o.best[i] < edge;
     out += row({escaped(p.name()), p.unit, text(p.lower) + " ... " + text(p.upper),
                 text(p.initial, "%.6g"), text(o.best[i], "%.6g"),
                 known ? text(o.identifiability.parameters[i].sigma, "%.2g") : "",
                 !known                                         ? (told ? "" : "<b>no</b>")
                 : o.identifiability.parameters[i].identifiable ? "yes"
                                                                : "<b>no</b>",
-                at_bound ? "yes" : ""});
+                is_at_bound(o, i) ? "yes" : ""});
   }
   return out + "</table>\n";
 }

@@ -44,6 +44,9 @@ struct CalibrationOutcome {
   int evaluations = 0;
   std::vector<Generation> history;
   BeforeAfter calibration, validation;
+  /// Of equilibria: how far the calibrated arm moves on from `simulation.motion`, when the search
+  /// looked, to the end of the recordings, in the measure of the fitness.
+  double moves_on = 0.0;
   bool held_out = false;  ///< whether held-out recordings were given
   Identifiability identifiability;
   std::vector<DriveErrors> drives;
@@ -54,6 +57,12 @@ struct CalibrationOutcome {
 /// Names of the parameters that have no influence on the compared quantities, by the derivatives of
 /// the search. Empty if the method has no derivatives.
 std::vector<std::string> insensitive_parameters(const CalibrationOutcome& outcome);
+
+/// Whether the search ended at an end of the range of a parameter, which may lie elsewhere then.
+bool is_at_bound(const CalibrationOutcome& outcome, std::size_t parameter);
+
+/// Says that the arm was not at rest when the search looked at equilibria. Empty if it was.
+std::string too_early(const CalibrationOutcome& outcome);
 
 /// Errors of runs as Tables C.12 and D.1 have them: means over runs of each run's mean.
 struct MeanErrors {

@@ -223,6 +223,7 @@ std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
       probability[static_cast<std::size_t>(m)] += share[m] / share.sum() / kDraws;
     }
   }
+  for (double& p : probability) p = std::min(p, 1.0);  // not for rounding above it
   return probability;
 }
 

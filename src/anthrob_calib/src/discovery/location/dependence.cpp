@@ -26,7 +26,7 @@ class ChannelBins {
  public:
   ChannelBins(const Experiments& experiments, const Channel& channel,
               const Eigen::VectorXf& residual, const Eigen::VectorXf& whitener) {
-    std::size_t offset = 0;
+    std::size_t offset = 0, before = 0;
     for (std::size_t e = 0; e < experiments.size(); ++e) {
       const Experiment& experiment = *experiments[e];
       const Channel* c = find_channel(experiment, channel);
@@ -36,9 +36,12 @@ class ChannelBins {
         bins_.emplace_back(e, b);
         residual_.y.push_back(static_cast<double>(residual[i] / whitener[i]));
         const auto block = static_cast<std::size_t>(experiment.bin_time(b) / Judge::kBlock);
-        residual_.odd.push_back((block + e) % 2 == 1);
+        // Numbered on from experiment to experiment, so that odd ones begin every other.
+        residual_.block.push_back(before + block + e % 2);
       }
       offset += experiment.size();
+      if (!residual_.block.empty()) before = residual_.block.back() + 2;
+      before += before % 2;
     }
   }
 

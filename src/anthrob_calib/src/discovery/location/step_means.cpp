@@ -28,7 +28,7 @@ Predicted predicted(const ChannelResidual& residual, const Steps& steps, const S
       means_of(residual, {std::vector<std::size_t>(residual.y.size(), 0), 1}, !odd);
   double by_constant = 0.0, by_steps = 0.0, whole = 0.0;
   for (std::size_t i = 0; i < residual.y.size(); ++i) {
-    if (static_cast<bool>(residual.odd[i]) != odd) continue;
+    if (residual.is_odd(i) != odd) continue;
     const double y = residual.y[i], off = y - all.mean[0];
     const std::size_t step = steps.of[i];
     const double e = y - (means.has(step) || !wider ? means.mean[step] : wide.mean[wider->of[i]]);
@@ -38,6 +38,33 @@ Predicted predicted(const ChannelResidual& residual, const Steps& steps, const S
   }
   if (!(whole > 0.0)) return {};
   return {1.0 - by_constant / whole, (by_constant - by_steps) / whole};
+}
+
+/// From what the bins of each block deviate together (cluster-robust).
+void add_errors(const ChannelResidual& residual, const Steps& steps, bool odd, StepMeans& means) {
+  const std::size_t count = residual.y.size();
+  std::vector<double> squares(steps.count, 0.0), blocks = squares, together = squares;
+  std::vector<char> touched(steps.count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (residual.is_odd(i) != odd) continue;
+    together[steps.of[i]] += residual.y[i] - means.mean[steps.of[i]];
+    touched[steps.of[i]] = 1;
+    if (i + 1 < count && residual.block[i + 1] == residual.block[i]) continue;
+    for (std::size_t k = 0; k < steps.count; ++k) {
+      if (!touched[k]) continue;
+      squares[k] += together[k] * together[k];
+      blocks[k] += 1.0;
+      together[k] = 0.0;
+      touched[k] = 0;
+    }
+  }
+  for (std::size_t k = 0; k < steps.count; ++k) {
+    if (!means.has(k)) continue;
+    // Of a single block nothing is known.
+    means.error[k] = blocks[k] < 2.0
+                         ? std::abs(means.mean[k])
+                         : std::sqrt(squares[k] * blocks[k] / (blocks[k] - 1.0)) / means.count[k];
+  }
 }
 
 }  // namespace
@@ -73,25 +100,21 @@ StepMeans means_of(const ChannelResidual& residual, const Steps& steps, bool odd
   StepMeans means;
   means.count.assign(steps.count, 0.0);
   means.mean = means.error = means.count;
-  std::vector<double> square = means.count;
   for (std::size_t i = 0; i < residual.y.size(); ++i) {
-    if (static_cast<bool>(residual.odd[i]) != odd) continue;
+    if (residual.is_odd(i) != odd) continue;
     means.mean[steps.of[i]] += residual.y[i];
-    square[steps.of[i]] += residual.y[i] * residual.y[i];
     means.count[steps.of[i]] += 1.0;
   }
   for (std::size_t k = 0; k < steps.count; ++k) {
-    const double n = means.count[k];
-    means.mean[k] = means.has(k) ? means.mean[k] / n : 0.0;
-    if (!means.has(k)) continue;
-    means.error[k] = std::sqrt(std::max(0.0, square[k] / n - means.mean[k] * means.mean[k]) / n);
+    means.mean[k] = means.has(k) ? means.mean[k] / means.count[k] : 0.0;
   }
+  add_errors(residual, steps, odd, means);
   return means;
 }
 
 std::vector<double> centres_of(const std::vector<double>& x, const ChannelResidual& residual,
                                const Steps& steps, bool odd) {
-  return means_of({x, residual.odd}, steps, odd).mean;
+  return means_of({x, residual.block}, steps, odd).mean;
 }
 
 Predicted predicted(const ChannelResidual& residual, const Steps& steps, const Steps* wider) {

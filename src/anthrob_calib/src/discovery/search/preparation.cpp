@@ -89,9 +89,10 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
 
 std::vector<std::string> remarks_on_ordinary_parameters(const Question& question) {
   if (!question.nuisances.empty()) return {};
-  const std::string why = question.calibration_file.empty()
-                              ? question.model_file + ": no calibration.yaml beside it"
-                              : question.calibration_file + ": lists no parameters";
+  const std::string why =
+      question.calibration_file.empty()
+          ? question.model_file + ": no calibration.yaml beside it or what it extends"
+          : question.calibration_file + ": lists no parameters";
   return {why +
           ", so no ordinary parameters are fitted; a wrong length or radius may be reported "
           "as an effect"};

@@ -22,13 +22,18 @@ Steps crossed(const Steps& one, const Steps& other);
 
 /// The residual of one channel at its bins.
 struct ChannelResidual {
-  std::vector<double> y;  ///< [unit of the channel]
-  std::vector<char> odd;  ///< whether in a block of time with an odd number
+  std::vector<double> y;           ///< [unit of the channel]
+  std::vector<std::size_t> block;  ///< number of the block of time; bins of a block lie together
+
+  bool is_odd(std::size_t bin) const { return block[bin] % 2 == 1; }
 };
 
 /// Means of one half of the blocks, by step.
 struct StepMeans {
-  std::vector<double> count, mean, error;  ///< bins; residual and its standard error [its unit]
+  std::vector<double> count;  ///< bins
+  /// Residual, and its standard error over blocks, within which residuals are correlated [its
+  /// unit].
+  std::vector<double> mean, error;
 
   /// Whether there are enough bins for a mean.
   bool has(std::size_t step) const;
