@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <iterator>
 
+#include "anthrob_config/made_folder.h"
+
 namespace anthrob {
 namespace {
 
@@ -70,6 +72,26 @@ TEST_F(AtomicFileTest, OfSeveralAllAreReplacedOrNone) {
   }
   EXPECT_EQ(text("a") + text("b"), "12");
   EXPECT_EQ(files(), 2);
+}
+
+TEST_F(AtomicFileTest, FoldersThatWereMadeForNothingGoAgain) {
+  MadeFolder made(path("new/a/b"));
+  EXPECT_TRUE(made.exists());
+  EXPECT_TRUE(fs::is_directory(path("new/a/b")));
+  made.take_back();
+  EXPECT_FALSE(fs::exists(path("new")));
+  fs::create_directory(path("old"));
+  MadeFolder beside(path("old/c/"));
+  write_file_atomically(path("old/file"), "x");
+  beside.take_back();
+  EXPECT_FALSE(fs::exists(path("old/c")));
+  EXPECT_EQ(text("old/file"), "x");
+  MadeFolder used(path("used/d"));
+  write_file_atomically(path("used/d/file"), "x");
+  used.take_back();
+  EXPECT_EQ(text("used/d/file"), "x");
+  MadeFolder impossible(path("old/file/e"));
+  EXPECT_FALSE(impossible.exists());
 }
 
 }  // namespace

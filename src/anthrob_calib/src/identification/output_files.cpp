@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "anthrob_config/atomic_file.h"
+#include "anthrob_config/made_folder.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -14,14 +15,10 @@ namespace identification {
 namespace fs = std::filesystem;
 
 void require_writable(const std::string& folder) {
-  std::error_code error;
-  const bool made = fs::create_directories(folder, error);
-  std::error_code unseen;
-  if (!fs::is_directory(folder, unseen)) {
+  MadeFolder made(folder);
+  if (!made.exists()) {
     throw std::runtime_error("--out " + folder + ": cannot be created: " +
-                             (error    ? error.message()
-                              : unseen ? unseen.message()
-                                       : "it is a file") +
+                             (made.error() ? made.error().message() : "it is a file") +
                              "; expected a folder");
   }
   const std::string probe = (fs::path(folder) / ".writable").string();
@@ -30,9 +27,9 @@ void require_writable(const std::string& folder) {
   } catch (const std::runtime_error& reason) {
     throw std::runtime_error("--out " + folder + ": " + reason.what());
   }
+  std::error_code error;
   fs::remove(probe, error);
-  // If a later check refuses the input, no empty folder is left behind.
-  if (made) fs::remove(folder, error);
+  made.take_back();
 }
 
 void require_kept(const std::string& folder, const std::vector<std::string>& names,

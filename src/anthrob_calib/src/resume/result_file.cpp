@@ -68,9 +68,8 @@ Word sum_of(Word key, const Scalar* values, Word count) {
 }  // namespace
 
 template <class Scalar>
-ResultFile<Scalar>::ResultFile(std::string file, std::uint64_t context) : file_(std::move(file)) {
-  std::error_code error;  // open() says what is wrong
-  made_folder_ = fs::create_directories(fs::path(file_).parent_path(), error);
+ResultFile<Scalar>::ResultFile(std::string file, std::uint64_t context)
+    : file_(std::move(file)), folder_(fs::path(file_).parent_path()) {
   descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor_ < 0) fail(file_);
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
@@ -91,8 +90,7 @@ template <class Scalar>
 ResultFile<Scalar>::~ResultFile() {
   // Recordings that were refused leave nothing behind, and spoil nothing that was there.
   if (places_.empty() && !begun_anew_) remove();
-  std::error_code error;
-  if (places_.empty() && made_folder_) fs::remove(fs::path(file_).parent_path(), error);
+  if (places_.empty()) folder_.take_back();
   close(descriptor_);
 }
 

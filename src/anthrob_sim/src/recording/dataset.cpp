@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "anthrob_config/atomic_file.h"
+#include "anthrob_config/made_folder.h"
 #include "anthrob_sim/core/errors.h"
 #include "table_file.h"
 
@@ -146,16 +147,14 @@ Dataset Dataset::load(const std::string& folder) {
 
 void Dataset::require_place(const std::string& target) const {
   refuse_name_of_bag(target);
-  std::error_code error;
-  const bool made = fs::create_directories(target, error);
-  if (!fs::is_directory(target, error)) {
-    throw std::runtime_error(target + ": cannot be created as a folder");
-  }
+  MadeFolder made(target);
+  if (!made.exists()) throw std::runtime_error(target + ": cannot be created as a folder");
   obsolete_tables(target, *this);
   const fs::path probe = fs::path(target) / ".writable";
   write_files_atomically({{probe.string(), ""}});
+  std::error_code error;
   fs::remove(probe, error);
-  if (made) fs::remove(target, error);
+  made.take_back();
 }
 
 void Dataset::save(const std::string& target) const {

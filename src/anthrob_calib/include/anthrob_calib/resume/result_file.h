@@ -7,6 +7,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "anthrob_config/made_folder.h"
+
 namespace anthrob {
 namespace resume {
 
@@ -51,7 +53,8 @@ class ResultFile {
   void begin();
 
   std::string file_;
-  bool made_folder_ = false, begun_anew_ = false;
+  MadeFolder folder_;
+  bool begun_anew_ = false;
   int descriptor_ = -1;
   std::uint64_t context_ = 0;
   std::int64_t end_ = 0;  ///< 0: nothing of this context has been written
