@@ -389,5 +389,16 @@ TEST(ViaPointShift, AxesAreThoseOfTheLinkThatTheFileNames) {
   EXPECT_NEAR((moved - 0.01 * x).norm(), 0.0, 1e-12);
 }
 
+TEST(WrappingSurface, ThatHidesAPathPointIsNamed) {
+  try {
+    robot_with(kRig, {{"wrapping_surface", "flexor", {{"radius", 0.09}}}});
+    FAIL() << "not refused";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("at rest, with wrapping_surface @ flexor; expected"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace anthrob

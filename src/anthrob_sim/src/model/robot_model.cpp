@@ -361,6 +361,16 @@ class Builder {
     }
   }
 
+  /// ", with wrapping_surface @ biceps_brachii/1": what may have moved points and surfaces.
+  std::string with_effects_at(const std::string& muscle) const {
+    std::string list;
+    for (const EffectInstance& effect : model_->effects) {
+      if (effect.place.rfind(muscle, 0) != 0) continue;
+      list += (list.empty() ? ", with " : ", ") + effect.id + " @ " + effect.place;
+    }
+    return list;
+  }
+
   /// Points inside surfaces are easiest explained while the file is at hand.
   void check_rest_posture() {
     std::vector<BodyState> bodies;
@@ -380,7 +390,9 @@ class Builder {
         char text[32];
         std::snprintf(text, sizeof(text), "%.2f", 1e3 * obstacle.penetration);
         const std::string message = std::string("a neighbouring path point lies ") + text +
-                                    " mm inside the surface at rest; expected it outside";
+                                    " mm inside the surface at rest" +
+                                    with_effects_at(model_->muscles[m].name) +
+                                    "; expected it outside";
         const int number = path.obstacles()[i].entry;
         const ConfigNode list = nodes[m].second.at("path");
         const ConfigNode entry = number >= 0 ? entries[number] : list;
