@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
           "the controller may step the simulator");
     }
     std::string robot_model;
-    settings.getParam("robot_model", robot_model);
+    anthrob::take(settings, "robot_model", anthrob::text_of, robot_model);
     anthrob::Recorder recorder(nh, settings, model, protocol, folder, options, approach_speed,
                                robot_model);
     ROS_INFO_STREAM("recording into " << folder);
