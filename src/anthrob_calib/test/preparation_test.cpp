@@ -259,7 +259,6 @@ TEST(Preparation, RemarksOnATestWithTheCommandsOfATrain) {
   question.model_file = ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml";
   question.train = {arm.record({}, 1, 1)};
   question.test = {arm.record({}, 2, 2)};
-  question.nuisances = ordinary_parameters(question.model_file);
   const Evaluator evaluator(question.model_file, {}, 0.001, 1);
   EXPECT_TRUE(prepare(evaluator, question).remarks.empty());
   question.test = {arm.record({}, 1, 2)};
@@ -356,24 +355,18 @@ TEST(Preparation, OfAnAxisWithADeadEffortSensorIsRefused) {
   EXPECT_NE(refusal(axis).find("axis/effort' is missing"), std::string::npos) << refusal(axis);
 }
 
-TEST(Preparation, RemarksOnStampsAndOnWhatIsNotFitted) {
+TEST(Preparation, RemarksOnRepeatedStamps) {
   Question axis = axis_question(20.4, 0.0);
   const Evaluator evaluator(axis.model_file, {}, 0.001, 1);
   EXPECT_TRUE(prepare(evaluator, axis).remarks.empty());
   for (Table& table : axis.train[0].tables) {
     for (std::size_t i = 3; i < table.t.size(); i += 3) table.t[i] = table.t[i - 1];
   }
-  std::vector<std::string> remarks = prepare(evaluator, axis).remarks;
+  const std::vector<std::string> remarks = prepare(evaluator, axis).remarks;
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_NE(remarks[0].find("33.3 % of its rows have the time of the row before"),
             std::string::npos)
       << remarks[0];
-  axis = axis_question(20.4, 0.0);
-  axis.nuisances.clear();
-  axis.calibration_file = "empty.yaml";
-  remarks = prepare(evaluator, axis).remarks;
-  ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_EQ(remarks[0].find("empty.yaml: lists no parameters"), 0u) << remarks[0];
 }
 
 TEST(Preparation, RefusesAStepThatIsTooCoarseForAnAxis) {

@@ -34,6 +34,19 @@ void recalibrate(const SearchSetup& setup, WorkingModel& model, Answer& answer) 
   model.compare_with_this(answer);
 }
 
+/// What the answer cannot know.
+void remark_on_ordinary_parameters(const Question& question, Answer& answer) {
+  if (!question.nuisances.empty()) return;
+  const std::string why =
+      question.calibration_file.empty()
+          ? question.model_file + ": no calibration.yaml beside it or what it extends"
+          : question.calibration_file + ": lists no parameters";
+  answer.remarks.push_back(
+      why +
+      ", so no ordinary parameters are fitted; a wrong length or radius may be reported "
+      "as an effect");
+}
+
 }  // namespace
 
 Answer discover(const Evaluator& evaluator, const Question& question) {
@@ -41,6 +54,7 @@ Answer discover(const Evaluator& evaluator, const Question& question) {
   Answer answer;
   answer.scales = setup.scales;
   answer.remarks = setup.recordings.remarks;
+  remark_on_ordinary_parameters(question, answer);
   for (const std::string& remark : answer.remarks) setup.comment(remark);
   WorkingModel model(setup);
   recalibrate(setup, model, answer);

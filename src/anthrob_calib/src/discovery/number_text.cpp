@@ -15,6 +15,12 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string precise_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
 std::string duration_text(double seconds) {
   if (seconds < 120.0) return short_number(seconds) + " s";
   if (seconds < 7200.0) return short_number(std::round(seconds / 60.0)) + " min";

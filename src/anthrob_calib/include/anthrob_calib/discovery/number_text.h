@@ -10,6 +10,9 @@ namespace discovery {
 /// "0.0421", three significant digits, or all before the point if there are more: "26123".
 std::string short_number(double value);
 
+/// "3.995": six significant digits.
+std::string precise_number(double value);
+
 /// "95 s", "17 min", "3.2 h"
 std::string duration_text(double seconds);
 

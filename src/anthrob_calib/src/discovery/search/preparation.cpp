@@ -42,7 +42,7 @@ Length refuse_shortness(const std::vector<Dataset>& recordings, const std::strin
   }
   if (length.seconds < kShortest) {
     throw BadInput(recordings.front().folder + ": too short: the " + option + " recordings are " +
-                   short_number(length.seconds) + " s long in all; expected at least " +
+                   precise_number(length.seconds) + " s long in all; expected at least " +
                    short_number(kShortest) + " s");
   }
   return length;
@@ -52,8 +52,8 @@ Length refuse_shortness(const std::vector<Dataset>& recordings, const std::strin
 void refuse_too_few_blocks(const Question& question, const Length& train, const Length& test) {
   if (train.blocks + test.blocks >= Judge::kFewestBlocks) return;
   throw BadInput(question.test.front().folder + ": too short: the --train recordings are " +
-                 short_number(train.seconds) + " s and the --test recordings " +
-                 short_number(test.seconds) + " s long, together " +
+                 precise_number(train.seconds) + " s and the --test recordings " +
+                 precise_number(test.seconds) + " s long, together " +
                  std::to_string(train.blocks + test.blocks) + " blocks of " +
                  short_number(Judge::kBlock) + " s; expected at least " +
                  std::to_string(Judge::kFewestBlocks) + " blocks (" +
@@ -65,7 +65,7 @@ void refuse_too_few_blocks(const Question& question, const Length& train, const 
 void remark_on_few_blocks(const Length& length, const std::string& option,
                           std::vector<std::string>& remarks) {
   if (length.blocks >= Judge::kFewestBlocks) return;
-  remarks.push_back("the " + option + " recordings are only " + short_number(length.seconds) +
+  remarks.push_back("the " + option + " recordings are only " + precise_number(length.seconds) +
                     " s long in all, which is too short to say how certain a gap is there; " +
                     short_number(Judge::kFewestBlocks * Judge::kBlock) + " s or more would do");
 }
@@ -85,17 +85,6 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
     }
   }
   return remarks;
-}
-
-std::vector<std::string> remarks_on_ordinary_parameters(const Question& question) {
-  if (!question.nuisances.empty()) return {};
-  const std::string why =
-      question.calibration_file.empty()
-          ? question.model_file + ": no calibration.yaml beside it or what it extends"
-          : question.calibration_file + ": lists no parameters";
-  return {why +
-          ", so no ordinary parameters are fitted; a wrong length or radius may be reported "
-          "as an effect"};
 }
 
 }  // namespace
@@ -121,7 +110,6 @@ PreparedRecordings prepare(const Evaluator& evaluator, const Question& asked) {
   prepared.remarks = remarks_on(robot, asked);
   remark_on_few_blocks(length, "--train", prepared.remarks);
   remark_on_few_blocks(held_out, "--test", prepared.remarks);
-  append(remarks_on_ordinary_parameters(asked), prepared.remarks);
   append(leave_out_frozen(robot, prepared.question), prepared.remarks);
   const Question& question = prepared.question;
   std::vector<double> late;  // [s]

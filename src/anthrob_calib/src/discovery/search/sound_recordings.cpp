@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_set>
 
 #include "anthrob_calib/discovery/number_text.h"
@@ -65,8 +66,8 @@ void refuse_other_clocks(const Dataset& recording) {
         table.name != "commands") {
       throw BadInput(recording.folder + "/" + table.name +
                      ".csv: not synchronised with the other files: it covers " +
-                     short_number(covered) + " s, from " + short_number(late) +
-                     " s on, of a recording of " + short_number(length) +
+                     precise_number(covered) + " s, from " + precise_number(late) +
+                     " s on, of a recording of " + precise_number(length) +
                      " s; expected all files to use one clock");
     }
   }
@@ -86,30 +87,52 @@ std::vector<std::uint64_t> rows_of(const Table& table) {
 
 using Stretches = std::unordered_set<std::uint64_t>;
 
-/// Of what was measured: everything in which so much happens that no other recording has the same.
-Stretches stretches_of(const Dataset& recording) {
+/// Everything in which so much happens that no other recording has the same.
+Stretches stretches_of(const Table& table) {
   Stretches stretches;
-  for (const Table& table : recording.tables) {
-    if (table.name == "commands") continue;
-    const std::vector<std::uint64_t> rows = rows_of(table);
-    for (std::size_t i = 0; i + kStretch <= rows.size(); ++i) {
-      const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i);
-      const std::unordered_set<std::uint64_t> distinct(begin, begin + kStretch);
-      if (distinct.size() < kDistinct) continue;
-      stretches.insert(resume::Fingerprint().add(&*begin, kStretch * sizeof(*begin)).value());
-    }
+  const std::vector<std::uint64_t> rows = rows_of(table);
+  for (std::size_t i = 0; i + kStretch <= rows.size(); ++i) {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i);
+    const std::unordered_set<std::uint64_t> distinct(begin, begin + kStretch);
+    if (distinct.size() < kDistinct) continue;
+    stretches.insert(resume::Fingerprint().add(&*begin, kStretch * sizeof(*begin)).value());
   }
   return stretches;
+}
+
+/// By table, of what was measured.
+using Contents = std::map<std::string, Stretches>;
+
+Contents contents_of(const Dataset& recording) {
+  Contents contents;
+  for (const Table& table : recording.tables) {
+    Stretches stretches;
+    if (table.name != "commands") stretches = stretches_of(table);
+    if (!stretches.empty()) contents[table.name] = std::move(stretches);
+  }
+  return contents;
 }
 
 /// How much of the shorter one is also in the longer one, from 0 to 1.
 double shared(const Stretches& one, const Stretches& two) {
   const Stretches &shorter = one.size() < two.size() ? one : two,
                   &longer = one.size() < two.size() ? two : one;
-  if (shorter.empty()) return 0.0;
   const auto common = std::count_if(shorter.begin(), shorter.end(),
                                     [&](std::uint64_t s) { return longer.count(s) > 0; });
   return static_cast<double>(common) / static_cast<double>(shorter.size());
+}
+
+/// In the table that shares least: joints without noise may well move alike in true repeats.
+double shared(const Contents& one, const Contents& two) {
+  double least = 1.0;
+  bool any = false;
+  for (const auto& [table, stretches] : one) {
+    const auto other = two.find(table);
+    if (other == two.end()) continue;
+    least = std::min(least, shared(stretches, other->second));
+    any = true;
+  }
+  return any ? least : 0.0;
 }
 
 }  // namespace
@@ -145,15 +168,15 @@ void refuse_copies(const Question& question) {
   struct Known {
     std::string folder;
     std::uint64_t content;
-    Stretches stretches;
+    Contents contents;
   };
   std::vector<Known> known;
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) {
-      Known own{recording.folder, resume::content_fingerprint(recording), stretches_of(recording)};
+      Known own{recording.folder, resume::content_fingerprint(recording), contents_of(recording)};
       for (const Known& other : known) {
         const bool same = own.content == other.content;
-        const double share = same ? 1.0 : shared(own.stretches, other.stretches);
+        const double share = same ? 1.0 : shared(own.contents, other.contents);
         if (share < kShared) continue;
         const std::string how = same ? ": the same recording as "
                                      : ": " + short_number(100.0 * share) +
