@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Real-time factor below which a cycle takes minutes, in which the node does not listen.
+/// Real-time factor below which one cycle takes many seconds.
 constexpr double kSlowest = 1e-3;
 
 }  // namespace

@@ -365,7 +365,7 @@ class Builder {
   std::string with_effects_at(const std::string& muscle) const {
     std::string list;
     for (const EffectInstance& effect : model_->effects) {
-      if (effect.place.rfind(muscle, 0) != 0) continue;
+      if (effect.place != muscle && effect.place.rfind(muscle + "/", 0) != 0) continue;
       list += (list.empty() ? ", with " : ", ") + effect.id + " @ " + effect.place;
     }
     return list;
