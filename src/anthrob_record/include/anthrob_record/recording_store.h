@@ -12,9 +12,8 @@ namespace anthrob {
 /// The output folder of a session. Every recording has NAME.bag and NAME.yaml, which has the keys
 /// of a dataset folder's meta.yaml. NAME.yaml is written last, so a recording is complete when both
 /// exist. Further files:
-///   session.yaml       protocol, robot, kind of time, simulated model, first rest posture; a
-///   folder
-///                      belongs to one session
+///   session.yaml       protocol, robot, kind of time, simulated model, first rest posture;
+///                      a folder belongs to one session
 ///   samples.csv        one row per recording: theta, f, q at its end
 ///   repeatability.csv  how far repeated runs are apart
 class RecordingStore {
