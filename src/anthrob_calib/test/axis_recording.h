@@ -9,10 +9,10 @@
 namespace anthrob {
 namespace discovery {
 
-/// m a = u - viscous v - coulomb sign(v) - offset, under a slowly reversing effort, integrated with
-/// steps of 10 us.
+/// m a = u - viscous v - coulomb sign(v) - offset - stiffness (q - 0.1 m), under a slowly reversing
+/// effort, integrated with steps of 10 us.
 inline Dataset axis_recording(double coulomb, double offset, std::uint64_t seed,
-                              double viscous = 203.5) {
+                              double viscous = 203.5, double stiffness = 0.0) {
   Dataset data;
   data.folder = "axis";
   data.meta.robot = "driven_axis";
@@ -35,7 +35,7 @@ inline Dataset axis_recording(double coulomb, double offset, std::uint64_t seed,
       position.values.push_back(q + 2e-7 * random.normal(static_cast<std::uint64_t>(100 + row)));
       effort.values.push_back(u);
     }
-    const double drive = u - offset - viscous * v;
+    const double drive = u - offset - stiffness * (q - 0.1) - viscous * v;
     const double friction = std::abs(v) < 1e-7 && std::abs(drive) < coulomb
                                 ? drive
                                 : std::copysign(coulomb, v == 0.0 ? drive : v);

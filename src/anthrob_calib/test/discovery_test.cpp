@@ -118,6 +118,7 @@ TEST(DrivenAxis, AFitThatDoesNotCarryOverIsSaidNotTo) {
   Question question = axis_question(0.0, 0.0);
   question.train = {axis_recording(0.0, 0.0, 1, 400.0)};
   const Answer answer = ask(question);
+  EXPECT_EQ(answer.verdict, "unexplained");
   ASSERT_EQ(answer.one_sided.size(), 1u) << summary(answer);
   EXPECT_EQ(answer.one_sided[0].channel, "axis/effort");
   EXPECT_LT(answer.one_sided[0].learned, 1.4);

@@ -10,6 +10,7 @@ Merit earned() {
   Merit merit;
   merit.probability = 0.9;
   merit.none = 0.01;
+  merit.learned = 300.0;
   merit.evidence = 30.0;
   merit.needed_evidence = 9.4;
   merit.significance = 7.0;
@@ -37,6 +38,12 @@ TEST(Merit, EachConditionAloneDenies) {
   EXPECT_EQ(lack(share),
             "it removes only 6.0 % of the squared gap on held-out recordings; more than 10 % are "
             "required");
+}
+
+TEST(Merit, WhatUndoesOnlyWhatWasLearnedIsDenied) {
+  Merit merit = earned();
+  merit.learned = 0.0;
+  EXPECT_EQ(lack(merit), "it does not fit the training recordings better");
 }
 
 TEST(Merit, AGapThatGrowsIsSaidToGrow) {

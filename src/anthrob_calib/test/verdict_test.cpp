@@ -36,6 +36,19 @@ TEST(Verdict, WithoutANameItIsTheGapThatDecides) {
   EXPECT_EQ(gap.verdict, "unexplained");
 }
 
+TEST(Verdict, AGapOnOneSideOnlyIsNotCalledNothing) {
+  Answer answer;
+  answer.one_sided = {{"elbow/position", 0.8, 27.0}};
+  fill_in_verdict({{"elbow/position", 0.8}}, false, answer);
+  EXPECT_EQ(answer.verdict, "unexplained");
+  EXPECT_EQ(answer.remaining_description,
+            "elbow/position differs between the fitted and the held-out recordings");
+  Answer found = named(0.9, 0.0);
+  found.one_sided = answer.one_sided;
+  fill_in_verdict({{"elbow/position", 0.8}}, false, found);
+  EXPECT_EQ(found.verdict, "effects_found");
+}
+
 TEST(Verdict, ALawThatLeavesMuchOfWhatItWasToExplainIsLessLikely) {
   Answer answer = named(0.9, 0.0);
   answer.effects.push_back(answer.effects[0]);

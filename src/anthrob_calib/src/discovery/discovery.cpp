@@ -71,9 +71,11 @@ Answer discover(const Evaluator& evaluator, const Question& question) {
   Pruning pruning(setup, model, answer);
   Search search(setup, model, screening, pruning, answer);
   search.run(std::move(scores));
-  while (search.fill_out()) search.run({});
-  answer.ended_full = !model.has_room();
-  pruning.drop_improbable();
+  if (pruning.drop_improbable() && model.gaps.certain(model.base)) {
+    // A law that was dropped may have kept the right one from being tried in its place.
+    search.run({});
+    pruning.drop_improbable();
+  }
   find_alternatives(setup, model, screening, answer);
   measure_what_is_left(setup.test_judge, model.recalibrated.test, model.base.test, model.named);
   pruning.spare_channels_that_pay();

@@ -24,6 +24,11 @@ std::string nameless(const Answer& answer, const Question& question) {
   if (question.max_effects == 0) {
     return "Something is missing; no effect was looked for, as --max-effects says. ";
   }
+  if (answer.effects.empty() && !answer.certain && !answer.one_sided.empty()) {
+    return "The recordings that were fitted and the held-out ones differ in a way that this model "
+           "does "
+           "not explain. ";
+  }
   if (answer.ended_full) {
     return "Something else is missing, beyond the " + std::to_string(question.max_effects) +
            (question.max_effects == 1 ? " effect" : " effects") +
@@ -50,7 +55,7 @@ std::string one_sided(const Answer& answer) {
     list += (list.empty() ? "" : ", ") + escaped(gap.channel) + " (" + short_number(gap.learned) +
             " floors where it was fitted, " + short_number(gap.held_out) + " held out)";
   }
-  return " But what was learned does not carry over: " + list +
+  return " What was learned does not carry over: " + list +
          ". Either something changed between these recordings, or ordinary parameters stand in for "
          "what is missing.";
 }
@@ -158,8 +163,7 @@ std::string answer_sentences(const Answer& answer, const Question& question) {
     return "No missing effect found: with its ordinary parameters fitted, the model has no channel "
            "with a certain gap both in the recordings that were fitted and in the held-out ones "
            "(there, all channels together " +
-           short_number(answer.test.recalibrated) + " times the floor)." +
-           (answer.one_sided.empty() ? uncertain_gaps(answer) : one_sided(answer)) +
+           short_number(answer.test.recalibrated) + " times the floor)." + uncertain_gaps(answer) +
            restriction(question);
   }
   if (answer.verdict == "effects_found") {
@@ -170,9 +174,9 @@ std::string answer_sentences(const Answer& answer, const Question& question) {
            short_number(answer.test.recalibrated) + " to " + short_number(answer.test.after) +
            " times the floor; " + short_number(100.0 * answer.remaining_share) +
            " % of the squared gap above the noise remain." +
-           (!answer.one_sided.empty()                       ? one_sided(answer)
-            : answer.remaining_description == kNoCertainGap ? uncertain_gaps(answer)
-                                                            : "") +
+           (!answer.one_sided.empty() ? one_sided(answer)
+            : !answer.certain         ? uncertain_gaps(answer)
+                                      : "") +
            restriction(question);
   }
   std::string offers;

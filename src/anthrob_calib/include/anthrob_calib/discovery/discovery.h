@@ -153,6 +153,8 @@ struct Answer {
   Refused refused;
   bool ended_early = false;  ///< the search had as many rounds as `max_effects` allows
   bool ended_full = false;   ///< the search had named `max_effects`, some of which may be dropped
+  bool certain =
+      false;  ///< what the extended model leaves has a gap that is certain (certain_gap())
   std::vector<OneSidedGap> one_sided;  ///< of what the extended model leaves
   double remaining_share = 0.0;
   std::string remaining_description;

@@ -30,6 +30,8 @@ std::string lack(const Merit& merit) {
         "(probability %.2g)",
         merit.none);
   }
+  // What got worse where it was learned has only undone what the ordinary parameters had learned.
+  if (merit.learned <= 0.0) return "it does not fit the training recordings better";
   if (merit.evidence <= merit.needed_evidence) {
     return words("it gains only %.1f nat on held-out recordings; more than %.1f are required",
                  merit.evidence, merit.needed_evidence);

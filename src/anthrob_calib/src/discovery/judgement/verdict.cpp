@@ -40,8 +40,10 @@ double trust_in(const FoundEffect& effect, bool left_counts) {
 }
 
 void fill_in_verdict(const std::map<std::string, double>& left, bool certain, Answer& answer) {
+  answer.certain = certain;
   if (answer.effects.empty()) {
-    answer.verdict = certain ? "unexplained" : "no_missing_effect";
+    const bool any = certain || !answer.one_sided.empty();
+    answer.verdict = any ? "unexplained" : "no_missing_effect";
   } else {
     const bool most_remains = certain && answer.remaining_share > kMostRemains;
     answer.verdict = most_remains ? "unexplained" : "effects_found";
@@ -63,8 +65,11 @@ void fill_in_verdict(const std::map<std::string, double>& left, bool certain, An
                    });
   const bool any = !remaining.empty() && explained(remaining.front(), left) > 0.0;
   const Dependence* cause = any ? &remaining.front() : nullptr;
-  if (!certain) {
-    answer.remaining_description = kNoCertainGap;
+  if (!certain && !answer.one_sided.empty()) {
+    answer.remaining_description = answer.one_sided.front().channel +
+                                   " differs between the fitted and the held-out recordings";
+  } else if (!certain) {
+    answer.remaining_description = "no certain gap";
   } else if (cause && cause->constant > cause->predicted()) {
     answer.remaining_description = cause->channel + " is off by a constant";
   } else if (cause) {

@@ -33,6 +33,7 @@ Merit Gaps::merit_of(const ShortList& list, const Tested& base) const {
   Merit merit;
   merit.probability = best.probability;
   merit.none = list.none;
+  merit.learned = base.fit.cost - best.fit.cost;
   merit.evidence = best.evidence;
   merit.needed_evidence = needed_evidence(candidates_);
   merit.significance = best.significance;

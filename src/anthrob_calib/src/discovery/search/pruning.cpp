@@ -35,10 +35,10 @@ void Pruning::drop_superfluous(std::size_t newest) {
   }
 }
 
-void Pruning::drop_improbable() {
+bool Pruning::drop_improbable() {
   // Where the search was full, the gap that a law leaves may be due to effects without a place.
   const bool left_counts = model_.has_room() || !model_.gaps.any(model_.base, kFaintGap);
-  for (;;) {
+  for (bool any = false;; any = true) {
     measure_what_is_left(setup_.test_judge, model_.recalibrated.test, model_.base.test,
                          model_.named);
     model_.note_limits();
@@ -47,16 +47,17 @@ void Pruning::drop_improbable() {
       model_.charge_for_spoilt_channels(spared());
     }
     const NamedEffect* const improbable = least_of_improbable(model_.named, left_counts);
-    if (!improbable) return;
+    if (!improbable) return any;
     const auto e = static_cast<std::size_t>(improbable - model_.named.data());
     const Candidate& candidate = setup_.candidates[improbable->candidate];
     setup_.stage("fitting without " + candidate.name() + ", which is improbable");
     std::optional<Fitted> without =
         setup_.context.without(e, improbable->candidate, model_.base.fit);
-    if (!without) return;
+    if (!without) return any;
     Tested base = setup_.context.tested(setup_.convergence.to_the_end(*without));
-    if (base.test.size() == 0) return;
+    if (base.test.size() == 0) return any;
     setup_.comment("  too improbable to be added: " + candidate.name());
+    model_.given_up.insert(improbable->candidate);
     const FoundEffect& found = improbable->found;
     answer_.improbable.push_back(
         {found.id, found.name, found.place, found.probability * trust_in(found), found.evidence,

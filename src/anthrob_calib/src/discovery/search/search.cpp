@@ -24,6 +24,12 @@ constexpr int kMostRounds = 2;        ///< for each effect that may be named
 }  // namespace
 
 void Search::run(std::vector<Score> scores) {
+  add_effects(std::move(scores));
+  while (fill_out()) add_effects({});
+  answer_.ended_full = !model_.has_room();
+}
+
+void Search::add_effects(std::vector<Score> scores) {
   std::size_t looked_again = SIZE_MAX;  // with so many effects accepted
   answer_.ended_early = false;
   // Dropped effects make room for others, but rounds are limited.
@@ -36,7 +42,7 @@ void Search::run(std::vector<Score> scores) {
       scores = new_scores();
     }
     scores.erase(std::remove_if(scores.begin(), scores.end(),
-                                [&](const Score& s) { return model_.is_named(s.candidate); }),
+                                [&](const Score& s) { return !model_.may_be_named(s.candidate); }),
                  scores.end());
     setup_.stage(title + "fitting the short list");
     ShortList list = setup_.comparison.weigh(model_.base, model_.excluded.filter(scores));
@@ -219,7 +225,7 @@ bool Search::fill_out() {
   for (std::size_t e = 0; e < model_.named.size(); ++e) {
     NamedEffect& effect = model_.named[e];
     const std::optional<std::size_t> fuller = std::exchange(effect.fuller, std::nullopt);
-    if (!fuller || model_.is_named(*fuller)) continue;
+    if (!fuller || !model_.may_be_named(*fuller)) continue;
     const Candidate& candidate = setup_.candidates[*fuller];
     const std::string name = setup_.candidates[effect.candidate].name();
     setup_.stage("checking whether " + candidate.name() + " does better than " + name);

@@ -20,6 +20,10 @@ bool WorkingModel::is_named(std::size_t candidate) const {
                      [&](const NamedEffect& effect) { return effect.candidate == candidate; });
 }
 
+bool WorkingModel::may_be_named(std::size_t candidate) const {
+  return !is_named(candidate) && given_up.count(candidate) == 0;
+}
+
 std::vector<std::size_t> WorkingModel::accepted() const {
   std::vector<std::size_t> candidates;
   for (const NamedEffect& effect : named) candidates.push_back(effect.candidate);

@@ -9,6 +9,7 @@ namespace discovery {
 /// short list is named.
 struct Merit {
   double probability = 0.0, none = 0.0;  ///< of this candidate; that none of the list is right
+  double learned = 0.0;                  ///< reduction of the cost on training recordings
   double evidence = 0.0;                 ///< gain in held-out log score [nat]
   double needed_evidence = 0.0;          ///< needed_evidence() [nat]
   double significance = 0.0;             ///< of the gain over blocks [standard errors]

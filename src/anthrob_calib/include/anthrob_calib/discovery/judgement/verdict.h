@@ -8,9 +8,6 @@
 namespace anthrob {
 namespace discovery {
 
-/// Answer::remaining_description where no gap is certain.
-constexpr char kNoCertainGap[] = "no certain gap";
-
 /// Factor for the probability of an effect: it is lower the more of the gap the law leaves, if its
 /// shape ends at a limit, and if it spoils a channel.
 /// @param left_counts whether what the law leaves matters
@@ -20,6 +17,7 @@ double trust_in(const FoundEffect& effect, bool left_counts = true);
 /// named effects and their rivals by trust_in().
 /// @param left gap of each channel in the training recordings, with the named effects [floors]
 /// @param certain whether some gap that is left is certain (certain_gap())
+/// @param answer with the gaps on one side only
 void fill_in_verdict(const std::map<std::string, double>& left, bool certain, Answer& answer);
 
 }  // namespace discovery

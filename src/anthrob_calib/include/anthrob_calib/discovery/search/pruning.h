@@ -19,8 +19,9 @@ class Pruning {
   void drop_superfluous(std::size_t newest);
   /// Drops effects, one after another, whose law is hardly the right one (least_of_improbable()):
   /// it explains too little, its shape ends at a limit, or it makes a channel too much worse. Such
-  /// a law may do what another one should.
-  void drop_improbable();
+  /// a law may do what another one should, and is not named again.
+  /// @return whether any was dropped
+  bool drop_improbable();
   /// Fits the model so that the effects cost no channel anything, as far as possible. Undone if
   /// that spoils a channel where none was spoilt.
   void spare_channels_that_pay();

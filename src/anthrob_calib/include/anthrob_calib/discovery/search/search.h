@@ -22,15 +22,16 @@ class Search {
          Answer& answer)
       : setup_(setup), model_(model), screening_(screening), pruning_(pruning), answer_(answer) {}
 
-  /// Effect after effect, until none earns its place.
+  /// Effect after effect, until none earns its place and no named law should say more.
   /// @param scores of the model as it is; empty: to be found
   void run(std::vector<Score> scores);
+
+ private:
+  void add_effects(std::vector<Score> scores);
   /// Replaces a named law by one that says more at its place, if that one did better in the round
   /// in which the simple one was named, and clearly does now.
   /// @return whether a law was replaced, so that the search should go on
   bool fill_out();
-
- private:
   std::vector<Score> new_scores();
   void comment_on(const ShortList& list) const;
   bool base_moves_on(const ShortList& list);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <set>
 #include <vector>
 
 #include "anthrob_calib/discovery/search/excluded_places.h"
@@ -19,6 +20,8 @@ struct WorkingModel {
 
   bool has_room() const;  ///< for another effect (--max-effects)
   bool is_named(std::size_t candidate) const;
+  /// Whether a candidate is neither named nor given up.
+  bool may_be_named(std::size_t candidate) const;
   std::vector<std::size_t> accepted() const;  ///< candidates of the named effects, in their order
 
   /// Makes the model, as long as no effect is named, the one with which all effects are compared.
@@ -40,6 +43,7 @@ struct WorkingModel {
   std::vector<NamedEffect> named;           ///< in the order of the model
   Gaps gaps;
   ExcludedPlaces excluded;
+  std::set<std::size_t> given_up;  ///< candidates that were named and dropped as improbable
 
  private:
   const SearchSetup& setup_;
