@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <random>
@@ -19,7 +20,7 @@ namespace {
 using testing_support::ClosedLoop;
 using testing_support::JointNoise;
 
-constexpr double kDegree = 0.017453292519943295;
+constexpr double kDegree = M_PI / 180.0;
 const std::string kAnthrob = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/";
 /// Larger than what a stereo rig a metre away shows of a humerus (0.1 degrees).
 const JointNoise kNoise{0.2 * kDegree, 0.05};

@@ -21,7 +21,7 @@ constexpr double kAskAgain = 0.05;  ///< [s] of wall time
 constexpr double kUndriven = 0.5;   ///< [s]: motors may start with the first commands
 /// How long a robot may take to appear, of wall time [s].
 constexpr double kPatience = 30.0;
-constexpr double kDegree = 0.017453292519943295;
+constexpr double kDegree = M_PI / 180.0;
 
 }  // namespace
 

@@ -18,7 +18,7 @@ constexpr double kStaticRatio = 0.8;          // mu_k / mu_s, as in the thesis
 constexpr double kGrain = 0.003;              // [m] length over which the line is alike
 constexpr double kPath = 0.9, kSpindleToEyelet = 0.4, kLineRest = 0.01;  // [m]
 constexpr double kLineStiffness = 20000.0;  // [N/m] as in the model file
-constexpr double kHalfPi = 1.5707963267948966;
+constexpr double kHalfPi = 0.5 * M_PI;
 
 /// Friction that changes as the line passes by: a first-order random walk along its length.
 class UnevenLine {

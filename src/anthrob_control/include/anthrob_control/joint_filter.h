@@ -41,7 +41,7 @@ class JointFilter {
  private:
   /// Exact for a signal that is constant between samples.
   static double share(double cutoff, double dt) {
-    constexpr double kTwoPi = 6.283185307179586;
+    constexpr double kTwoPi = 2.0 * M_PI;
     return -std::expm1(-kTwoPi * cutoff * dt);
   }
 

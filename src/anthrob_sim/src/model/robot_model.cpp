@@ -10,7 +10,6 @@
 
 #include "anthrob_config/names.h"
 #include "anthrob_ecu/model_file.h"
-#include "anthrob_sim/actuator/geared_motor.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
@@ -221,7 +220,7 @@ class Builder {
       }
     }
     if (node.has("controller")) {
-      if (!dynamic_cast<const GearedMotor*>(muscle.actuator.get())) {
+      if (!muscle.motor()) {
         node.at("controller")
             .fail(
                 "only a motor can have a controller; expected null for ligaments and Hill muscles");

@@ -7,8 +7,7 @@ namespace anthrob {
 
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kTwoPi = 2.0 * M_PI;
 }  // namespace
 
 CircleWrap::CircleWrap(double radius, WrapStart start, int half_turns)
@@ -35,7 +34,7 @@ void CircleWrap::initialise(double angle, double l1, double l2, State& state) co
   if (start_ == WrapStart::kNotWrapping || state.side == 0.0) return;
   // (4.26) plus the fewest whole turns that bring alpha to Lambda half turns or beyond.
   const double alpha = state.side * state.theta - reach;
-  const double turns = std::ceil((half_turns_ * kPi - alpha) / kTwoPi);
+  const double turns = std::ceil((half_turns_ * M_PI - alpha) / kTwoPi);
   state.theta += state.side * kTwoPi * std::max(0.0, turns);
 }
 

@@ -81,7 +81,7 @@ void Cylinder::follow(const CircleWrap::Result& w, const Polar& p1, const Polar&
   contact.length_out = w.b2 * stretch;
   contact.turning = w.alpha / stretch;  // a helix bends less: curvature 1 / (r stretch^2)
   contact.wrap_angle = w.alpha;
-  contact.half_turns = static_cast<int>(w.alpha / 3.141592653589793);
+  contact.half_turns = static_cast<int>(w.alpha / M_PI);
 }
 
 void Cylinder::trace(const WrapContact& contact, std::vector<Vec3>& points) const {

@@ -215,7 +215,7 @@ void MeshSurface::follow(const Vec3& before, const Vec3& after, const Way& way,
   if (!started) contact.direction_in = direction;
   contact.direction_out = direction;
   contact.wrap_angle = contact.turning;
-  contact.half_turns = static_cast<int>(contact.turning / 3.141592653589793);
+  contact.half_turns = static_cast<int>(contact.turning / M_PI);
   contact.pull_in = way.before.pull_back(contact.direction_in - border.before);
   contact.pull_out = way.after.pull_back(contact.direction_out + border.after);
   if (count == 0) {

@@ -144,7 +144,7 @@ void SelectedMesh::wrap(const Vec3& before, const Vec3& after, StateView,
     direction = ahead;
   }
   contact.wrap_angle = contact.turning;
-  contact.half_turns = static_cast<int>(contact.turning / 3.141592653589793);
+  contact.half_turns = static_cast<int>(contact.turning / M_PI);
 }
 
 void SelectedMesh::trace(const WrapContact& contact, std::vector<Vec3>& points) const {

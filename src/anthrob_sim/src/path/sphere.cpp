@@ -88,7 +88,7 @@ void Sphere::follow(const CircleWrap::Result& w, const Vec3& normal, const Arm& 
   contact.length_out = w.b2;
   contact.turning = w.alpha;
   contact.wrap_angle = w.alpha;
-  contact.half_turns = static_cast<int>(w.alpha / 3.141592653589793);
+  contact.half_turns = static_cast<int>(w.alpha / M_PI);
 }
 
 void Sphere::trace(const WrapContact& contact, std::vector<Vec3>& points) const {

@@ -28,7 +28,7 @@ class Random final {
   double sign() { return uniform() < 0.5 ? -1.0 : 1.0; }
   double normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    return radius * std::cos(6.283185307179586 * uniform());
+    return radius * std::cos(2.0 * M_PI * uniform());
   }
   template <class T>
   const T& pick(const std::vector<T>& list) {

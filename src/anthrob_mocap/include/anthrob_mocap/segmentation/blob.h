@@ -14,7 +14,7 @@ struct Blob {
   double axis_ratio = 1.0;     ///< longest to shortest standard deviation, >= 1
   double fill = 1.0;           ///< area by that of the ellipse of the same moments; 1: an ellipse
 
-  double radius() const { return std::sqrt(area / 3.14159265358979323846); }
+  double radius() const { return std::sqrt(area / M_PI); }
 };
 
 }  // namespace mocap

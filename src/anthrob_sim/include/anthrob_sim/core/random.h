@@ -21,7 +21,7 @@ class CounterRandom {
 
   /// Standard normal (Box-Muller).
   double normal(std::uint64_t index) const {
-    constexpr double kTwoPi = 6.283185307179586;
+    constexpr double kTwoPi = 2.0 * M_PI;
     return std::sqrt(-2.0 * std::log(uniform(2 * index))) *
            std::cos(kTwoPi * uniform(2 * index + 1));
   }

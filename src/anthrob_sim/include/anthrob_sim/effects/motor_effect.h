@@ -13,9 +13,7 @@ class MotorEffect : public MuscleEffect {
   using MuscleEffect::MuscleEffect;
 
  protected:
-  bool fits(const MuscleModel& muscle) const override {
-    return dynamic_cast<const GearedMotor*>(muscle.actuator.get()) != nullptr;
-  }
+  bool fits(const MuscleModel& muscle) const override { return muscle.motor() != nullptr; }
   void change(const EffectSetting& setting, ModelDraft& draft, std::size_t muscle) const override {
     MuscleModel& model = draft.robot.muscles[muscle];
     const auto plain = std::dynamic_pointer_cast<const DcMotor>(model.actuator);
@@ -32,9 +30,7 @@ class MotorWrappingEffect : public MuscleEffect {
   using MuscleEffect::MuscleEffect;
 
  protected:
-  bool fits(const MuscleModel& muscle) const override {
-    return dynamic_cast<const GearedMotor*>(muscle.actuator.get()) != nullptr;
-  }
+  bool fits(const MuscleModel& muscle) const override { return muscle.motor() != nullptr; }
   void change(const EffectSetting& setting, ModelDraft& draft, std::size_t muscle) const override {
     MuscleModel& model = draft.robot.muscles[muscle];
     model.actuator = wrap(setting, std::dynamic_pointer_cast<const GearedMotor>(model.actuator),

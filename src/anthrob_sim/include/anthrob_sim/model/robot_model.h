@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "anthrob_ecu/control_law.h"
-#include "anthrob_sim/actuator/actuator.h"
+#include "anthrob_sim/actuator/geared_motor.h"
 #include "anthrob_sim/actuator/power_effect.h"
 #include "anthrob_sim/effects/effect_instance.h"
 #include "anthrob_sim/path/muscle_path.h"
@@ -41,6 +41,8 @@ struct MuscleModel {
   int steps_per_tick = 1;      ///< simulation steps between two ticks of the controller
   double command_delay = 0.0;  ///< until the controller gets a command [s]
 
+  /// Null: a ligament or a Hill muscle.
+  const GearedMotor* motor() const { return dynamic_cast<const GearedMotor*>(actuator.get()); }
   /// As on the robot: a unit whose force limit is 0 measures no force and has no mode FORCE.
   bool has_force_sensor() const { return !has_controller || limits.force > 0.0; }
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "anthrob_config/config_node.h"
 
 namespace anthrob {
@@ -19,7 +21,7 @@ struct Ring {
     const double l0 = node.number("rest_length", Bounds::positive(), "m");
     const double d = node.number("section_diameter", Bounds::positive(), "m");
     const int strands = node.at("strands").as_integer(1, 100);
-    return {l0, quantity * strands * 0.25 * 3.141592653589793 * d * d};
+    return {l0, quantity * strands * 0.25 * M_PI * d * d};
   }
 };
 

@@ -41,9 +41,7 @@ class PwmDeadZone final : public MuscleEffect {
   PwmDeadZone() : MuscleEffect(describe()) {}
 
  protected:
-  bool fits(const MuscleModel& muscle) const override {
-    return dynamic_cast<const GearedMotor*>(muscle.actuator.get()) != nullptr;
-  }
+  bool fits(const MuscleModel& muscle) const override { return muscle.motor() != nullptr; }
   void change(const EffectSetting& setting, ModelDraft& draft, std::size_t muscle) const override {
     draft.robot.power_effects.push_back(std::make_shared<DeadZone>(muscle, setting["width"]));
   }

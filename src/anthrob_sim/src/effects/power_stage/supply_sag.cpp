@@ -25,10 +25,6 @@ EffectInfo describe() {
   return i;
 }
 
-const GearedMotor* motor_of(const MuscleModel& muscle) {
-  return dynamic_cast<const GearedMotor*>(muscle.actuator.get());
-}
-
 class Supply final : public PowerEffect {
  public:
   struct User {
@@ -75,7 +71,7 @@ class SupplySag final : public Effect {
     std::vector<std::string> list;
     bool any = false;
     for (const MuscleModel& muscle : robot.muscles) {
-      if (!motor_of(muscle)) continue;
+      if (!muscle.motor()) continue;
       any = true;
       if (muscle.ecu.empty()) continue;
       if (std::find(list.begin(), list.end(), muscle.ecu) == list.end()) list.push_back(muscle.ecu);
@@ -88,7 +84,7 @@ class SupplySag final : public Effect {
     std::vector<Supply::User> users;
     for (std::size_t i = 0; i < draft.robot.muscles.size(); ++i) {
       const MuscleModel& muscle = draft.robot.muscles[i];
-      const GearedMotor* motor = motor_of(muscle);
+      const GearedMotor* motor = muscle.motor();
       if (!motor) continue;
       if (setting.place() != "global" && setting.place() != muscle.ecu) continue;
       users.push_back({i, motor->input_high(), motor->conductance()});

@@ -68,9 +68,7 @@ class EncoderDrift final : public MuscleEffect {
   EncoderDrift() : MuscleEffect(describe()) {}
 
  protected:
-  bool fits(const MuscleModel& muscle) const override {
-    return dynamic_cast<const GearedMotor*>(muscle.actuator.get()) != nullptr;
-  }
+  bool fits(const MuscleModel& muscle) const override { return muscle.motor() != nullptr; }
   void change(const EffectSetting& setting, ModelDraft& draft, std::size_t muscle) const override {
     draft.robot.reading_effects.push_back(
         std::make_shared<Drift>(muscle, setting["rate"], setting["missed"], draft.robot.step));

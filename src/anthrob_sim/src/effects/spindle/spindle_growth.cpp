@@ -6,7 +6,7 @@
 namespace anthrob {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kTwoPi = 2.0 * M_PI;
 
 EffectInfo describe() {
   EffectInfo i;
