@@ -59,12 +59,19 @@ INIT
 } >"$script"
 chmod +x "$script"
 
+# On processors with AMX it needs help.
+xstate=
+if grep -qw amx_tile /proc/cpuinfo; then
+  xstate="$(mktemp /tmp/vcan_xstate.XXXXXX)"
+  cc -shared -fPIC -O1 -o "$xstate" "$(dirname "$0")/uml_xstate.c" -ldl || { rm -f "$xstate"; xstate=; }
+fi
+
 # In a process group of its own and in the background, so that a signal gets through and ends all of it.
 exec 3> >(sed -u 's/\r//g; /^Halting\.$/d; /reboot: System halted$/d')
-TMPDIR=/tmp setsid linux.uml mem="${ANTHROB_VCAN_MEMORY:-768M}" rootfstype=hostfs rootflags=/ rw "init=$script" \
+TMPDIR=/tmp LD_PRELOAD="$xstate" setsid linux.uml mem="${ANTHROB_VCAN_MEMORY:-768M}" rootfstype=hostfs rootflags=/ rw "init=$script" \
   con=null con0=null,fd:1 quiet loglevel=0 </dev/null 2>"$out/.kernel" >&3 &
 uml=$!
-trap 'kill -KILL -- -$uml 2>/dev/null; rm -f "$script"' EXIT
+trap 'kill -KILL -- -$uml 2>/dev/null; rm -f "$script" ${xstate:+"$xstate"}' EXIT
 trap 'exit 143' TERM INT
 wait "$uml"
 exec 3>&-
