@@ -21,7 +21,12 @@ bool WorkingModel::is_named(std::size_t candidate) const {
 }
 
 bool WorkingModel::may_be_named(std::size_t candidate) const {
-  return !is_named(candidate) && given_up.count(candidate) == 0;
+  const Candidate& one = setup_.candidates[candidate];
+  return !is_named(candidate) &&
+         std::none_of(given_up.begin(), given_up.end(), [&](std::size_t other) {
+           const Candidate& dropped = setup_.candidates[other];
+           return dropped.effect == one.effect && dropped.owner() == one.owner();
+         });
 }
 
 std::vector<std::size_t> WorkingModel::accepted() const {

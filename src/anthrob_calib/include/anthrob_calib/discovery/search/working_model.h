@@ -20,7 +20,8 @@ struct WorkingModel {
 
   bool has_room() const;  ///< for another effect (--max-effects)
   bool is_named(std::size_t candidate) const;
-  /// Whether a candidate is neither named nor given up.
+  /// Whether a candidate is not named, and its law not given up at its muscle, joint or body: what
+  /// stood in for another law at one point of a muscle would do so at the next.
   bool may_be_named(std::size_t candidate) const;
   std::vector<std::size_t> accepted() const;  ///< candidates of the named effects, in their order
 
