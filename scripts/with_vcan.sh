@@ -68,7 +68,8 @@ fi
 
 # In a process group of its own and in the background, so that a signal gets through and ends all of it.
 exec 3> >(sed -u 's/\r//g; /^Halting\.$/d; /reboot: System halted$/d')
-TMPDIR=/tmp LD_PRELOAD="$xstate" setsid linux.uml mem="${ANTHROB_VCAN_MEMORY:-768M}" rootfstype=hostfs rootflags=/ rw "init=$script" \
+TMPDIR=/tmp LD_PRELOAD="$xstate" \
+  setsid linux.uml mem="${ANTHROB_VCAN_MEMORY:-768M}" rootfstype=hostfs rootflags=/ rw "init=$script" \
   con=null con0=null,fd:1 quiet loglevel=0 </dev/null 2>"$out/.kernel" >&3 &
 uml=$!
 trap 'kill -KILL -- -$uml 2>/dev/null; rm -f "$script" ${xstate:+"$xstate"}' EXIT
