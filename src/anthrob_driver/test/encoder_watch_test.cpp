@@ -66,6 +66,17 @@ TEST(EncoderWatch, AMotorThatTurnsUncountedIsFoundWithinAFifthOfASecond) {
   EXPECT_NE(watch({[](double) { return Moment{-2.0, -1.0}; }, stuck}), "");
 }
 
+// POSITION control would run away with it.
+TEST(EncoderWatch, AnEncoderThatCountsBackwardsIsFound) {
+  const auto backwards = [](double position) { return -position; };
+  double when = 0.0;
+  EXPECT_EQ(watch({runs, backwards}, &when),
+            "at 2.0 V and 0.67 A its motor must have turned by 0.20 rad, but the encoder counted "
+            "-0.200 rad");
+  EXPECT_NEAR(when, EncoderWatch::kLasts, 2.0 * kPeriod);
+  EXPECT_NE(watch({[](double) { return Moment{-2.0, -1.0}; }, backwards}), "");
+}
+
 TEST(EncoderWatch, AnEncoderThatDiesInMotionIsFound) {
   double when = 0.0;
   EXPECT_NE(watch({runs, [](double position) { return std::min(position, 1.0); }}, &when), "");

@@ -199,6 +199,18 @@ TEST_F(HomeTest, AForceSensorThatDoesNotFollowEndsItEitherWay) {
   }
 }
 
+TEST_F(HomeTest, ASlackMuscleThatPaysOutWindsTheWrongWay) {
+  Home home(rig.hardware);
+  std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.0, 5.0});
+  readings[3].force = 0.0;
+  home.start(0.0);
+  home.step(readings, 0.0);
+  readings[3].position = -0.6;
+  home.step(readings, 0.005);
+  EXPECT_NE(home.failure().find("supraspinatus"), std::string::npos) << home.failure();
+  EXPECT_NE(home.failure().find("winds the wrong way"), std::string::npos) << home.failure();
+}
+
 TEST_F(HomeTest, ATravelBeforeItGrippedIsNoneAfterIt) {
   Home home(rig.hardware);
   std::vector<Home::Reading> readings(rig.hardware.muscles.size(), {0.0, 5.0});
@@ -216,7 +228,7 @@ TEST_F(HomeTest, AMotorWiredTheWrongWayStopsBeforeItPaysOutItsTendon) {
   rig.plant.reverse(3);
   home();
   EXPECT_NE(failure().find("supraspinatus"), std::string::npos) << failure();
-  EXPECT_NE(failure().find("winds the wrong way"), std::string::npos) << failure();
+  EXPECT_NE(failure().find("counts backwards"), std::string::npos) << failure();
   rig.run(20);
   EXPECT_EQ(rig.moving(), 0);
   EXPECT_GT(rig.plant.muscle(3).position, -1.5);

@@ -5,11 +5,13 @@
 namespace anthrob {
 namespace driver {
 
-/// Detects an encoder that does not count although its motor turns. A motor that stands still draws
-/// I = V / R, whatever holds it. If it draws less, the difference is back-EMF, so it turns at
+/// Detects an encoder that does not count, or counts backwards, although its motor turns. A motor
+/// that stands still draws I = V / R, whatever holds it. If it draws less, the difference is
+/// back-EMF, so it turns at
 ///   w = (V - R I) / k   [rad/s]
-/// If w shows for kLasts, in one direction, that the motor turns, and the position has changed by
-/// less than kCounted of that, then encoder, motor cable or current sensor is broken.
+/// If w shows for kLasts, in one direction, that the motor turns, and the position has changed in
+/// that direction by less than kCounted of that, then encoder, motor cable or current sensor is
+/// broken or connected the wrong way round.
 /// It does not notice this on a motor so slow that its back-EMF is below kLeast.
 class EncoderWatch {
  public:
