@@ -9,6 +9,7 @@ With --bag, two images (sensor_msgs/Image, mono8) make a pair if their stamps ar
 tolerance. With --cameras, the script triggers two GenICam cameras together, until it has N pairs or you press Ctrl-C;
 this needs the packages python3-gi and gir1.2-aravis-0.8."""
 import argparse
+import os
 import pathlib
 import signal
 import statistics
@@ -43,6 +44,7 @@ class Pairs:
 
     def __init__(self, out):
         self.out, self.times = pathlib.Path(out), []
+        self.length = 0  # [bytes] of times.csv
         for side in ('left', 'right'):
             (self.out / side).mkdir(parents=True, exist_ok=True)
             if any((self.out / side).iterdir()):
@@ -61,10 +63,16 @@ class Pairs:
             for part, file in zip(parts, files):
                 part.replace(file)
         except OSError:
+            # The last line may be torn.
+            if self.times:
+                os.truncate(self.out / 'times.csv', self.length)
+            else:
+                (self.out / 'times.csv').unlink(missing_ok=True)
             for file in parts + files:
                 file.unlink(missing_ok=True)  # no half of a pair
             raise
         self.times.append(stamp)
+        self.length = (self.out / 'times.csv').stat().st_size
 
     def __enter__(self):
         return self
@@ -185,6 +193,8 @@ class Camera:
         _, _, width, height = self.camera.get_region()
         self.camera.set_region(0, 0, width, height)
         self.camera.set_pixel_format(aravis.PIXEL_FORMAT_MONO_8)
+        # Another program may have left it at one picture.
+        self.camera.set_acquisition_mode(aravis.AcquisitionMode.CONTINUOUS)
         # Else the camera refuses the exposure, or changes it again.
         if self.camera.is_exposure_auto_available():
             self.camera.set_exposure_time_auto(aravis.Auto.OFF)

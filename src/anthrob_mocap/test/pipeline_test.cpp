@@ -1,5 +1,6 @@
 // Pipeline: order and failures in both modes, equal results, no growth; contradictions.
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -31,6 +32,25 @@ struct Number final : Packet {
 class EitherMode : public ::testing::TestWithParam<PipelineMode> {};
 INSTANTIATE_TEST_SUITE_P(Modes, EitherMode,
                          ::testing::Values(PipelineMode::kSequential, PipelineMode::kThreaded));
+
+// A new process, because TBB counts the processors once.
+TEST(PipelineDeathTest, ThreadedRunsOnASingleProcessorToo) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto run = [] {
+    alarm(20);  // it once waited for ever
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(static_cast<unsigned>(sched_getcpu()), &one);
+    if (sched_setaffinity(0, sizeof(one), &one) != 0) std::exit(2);
+    int done = 0;
+    Pipeline pipeline({{"stage", {[](Packet&) {}}}}, PipelineMode::kThreaded, 2,
+                      [&](PacketPtr) { ++done; });
+    for (int i = 0; i < 10; ++i) pipeline.push(std::make_unique<Number>());
+    pipeline.drain();
+    std::exit(done == 10 ? 0 : 1);
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(0), "");
+}
 
 TEST_P(EitherMode, KeepsTheOrderInEveryStage) {
   std::vector<std::vector<int>> seen(3);

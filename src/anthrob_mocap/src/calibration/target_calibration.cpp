@@ -80,7 +80,7 @@ TargetCalibration round(const MarkerTarget& target, double tolerance,
     const Labelling& labelling = search.find(points, edges, std::vector<char>(points.size(), 1));
     // Three markers alone are too uncertain while the target is not known well.
     if (labelling.count >= std::min<int>(4, static_cast<int>(target.markers.size())) &&
-        !labelling.ambiguous) {
+        !labelling.ambiguous && !labelling.gave_up) {
       mean.add(labelling, points);
     }
   }

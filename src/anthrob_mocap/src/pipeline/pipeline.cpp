@@ -2,6 +2,7 @@
 
 #include <tbb/flow_graph.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -148,7 +149,9 @@ class ThreadedRunner final : public Pipeline::Runner {
 Pipeline::Pipeline(std::vector<Stage> stages, PipelineMode mode, int in_flight, Sink sink) {
   if (stages.empty()) throw std::invalid_argument("pipeline: expected at least one stage");
   if (in_flight < 1) throw std::invalid_argument("pipeline: expected room for at least one packet");
-  if (mode == PipelineMode::kSequential) {
+  // push() waits for worker threads, and with a single processor there are none.
+  const bool workers = tbb::this_task_arena::max_concurrency() > 1;
+  if (mode == PipelineMode::kSequential || !workers) {
     runner_ = std::make_unique<SequentialRunner>(std::move(stages), std::move(sink));
   } else {
     runner_ = std::make_unique<ThreadedRunner>(std::move(stages), std::move(sink), in_flight);

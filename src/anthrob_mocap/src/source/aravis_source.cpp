@@ -85,6 +85,9 @@ class Camera {
     check.raise();
     arv_camera_set_pixel_format(camera_.get(), ARV_PIXEL_FORMAT_MONO_8, check);
     check.raise();
+    // Another program may have left it at one picture.
+    arv_camera_set_acquisition_mode(camera_.get(), ARV_ACQUISITION_MODE_CONTINUOUS, check);
+    check.raise();
     // Else the camera refuses the exposure, or changes it again.
     if (arv_camera_is_exposure_auto_available(camera_.get(), nullptr)) {
       arv_camera_set_exposure_time_auto(camera_.get(), ARV_AUTO_OFF, check);

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <thread>
@@ -44,12 +45,20 @@ class Camera {
     check(dc1394_format7_set_roi(camera, DC1394_VIDEO_MODE_FORMAT7_0, DC1394_COLOR_CODING_MONO8,
                                  DC1394_USE_MAX_AVAIL, 0, 0, options.width, options.height),
           "cannot set the image region");
+    // Else the camera changes the exposure again.
+    set_manual(DC1394_FEATURE_SHUTTER, "cannot switch the automatic exposure off");
+    set_manual(DC1394_FEATURE_GAIN, "cannot switch the automatic gain off");
     check(dc1394_feature_set_absolute_control(camera, DC1394_FEATURE_SHUTTER, DC1394_ON),
           "cannot set the exposure");
     check(dc1394_feature_set_absolute_value(camera, DC1394_FEATURE_SHUTTER,
                                             static_cast<float>(options.exposure)),
           "cannot set the exposure");
     const bool external = parse_trigger(options.trigger);
+    if (external) {
+      // One picture a pulse, exposed for as long as SHUTTER says.
+      check(dc1394_external_trigger_set_mode(camera, DC1394_TRIGGER_MODE_0),
+            "cannot set the trigger mode");
+    }
     check(dc1394_external_trigger_set_power(camera, external ? DC1394_ON : DC1394_OFF),
           "cannot set the trigger");
     check(dc1394_capture_setup(camera, kBuffers, DC1394_CAPTURE_FLAGS_DEFAULT),
@@ -59,6 +68,16 @@ class Camera {
   ~Camera() {
     dc1394_video_set_transmission(camera_.get(), DC1394_OFF);
     dc1394_capture_stop(camera_.get());
+  }
+
+  /// Where the camera has such a mode.
+  void set_manual(dc1394feature_t feature, const char* what) {
+    dc1394feature_modes_t modes;
+    check(dc1394_feature_get_modes(camera_.get(), feature, &modes), what);
+    const dc1394feature_mode_t* begin = modes.modes;
+    const dc1394feature_mode_t* end = begin + modes.num;
+    if (std::find(begin, end, DC1394_FEATURE_MODE_MANUAL) == end) return;
+    check(dc1394_feature_set_mode(camera_.get(), feature, DC1394_FEATURE_MODE_MANUAL), what);
   }
 
   bool grab(double exposure, TimedImage& timed) {
