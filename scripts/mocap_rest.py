@@ -23,6 +23,7 @@ except ImportError:
 
 LEAST_TURN, MOST_TURN = 5.0, 175.0  # [deg] smaller ones have no clear axis; half a turn has no clear sign
 LEAST_ANGLE = 15.0                  # [deg] between two axes that are different
+STILL, STILL_PLACE = 1.0, 0.01      # [deg], [m] noise and sway of a robot that is held still, more than that moved
 MOST_MISFIT = 15.0                  # [deg] between a given axis and the measured one
 
 
@@ -78,6 +79,11 @@ def mean(quaternions):
     return numpy.linalg.eigh(q.T @ q)[1][:, -1].tolist()
 
 
+def mostly(values):
+    """What 95 of 100 do not exceed."""
+    return sorted(values)[int(0.95 * (len(values) - 1))]
+
+
 # ---- recordings ----
 
 class Recording:
@@ -91,8 +97,14 @@ class Recording:
         self.parent = mean(parents)                                          # in the camera
         self.place = [sum(p[i] for _, p, _ in rows) / len(rows) for i in range(3)]  # of the parent in the camera [m]
         self.child = mean(relative)                                          # in the parent
-        moved = max(turn_degrees(product(inverse(self.child), q)) for q in relative)
-        print('# %s: %d pairs, at most %.2f degrees from their mean' % (file, len(rows), moved))
+        moved = [turn_degrees(product(inverse(self.child), q)) for q in relative]
+        print('# %s: %d pairs, at most %.2f degrees from their mean' % (file, len(rows), max(moved)))
+        turned = [turn_degrees(product(inverse(self.parent), q)) for q in parents]
+        away = [math.dist(self.place, p) for _, p, _ in rows]
+        if mostly(moved) > STILL or mostly(turned) > STILL or mostly(away) > STILL_PLACE:
+            raise BadInput('%s: the child moved by %.1f degrees in the parent, the parent by %.1f degrees and %.1f mm '
+                           'before the cameras: expected a recording in which both hold still (%g degrees, %g mm)' %
+                           (file, mostly(moved), mostly(turned), 1e3 * mostly(away), STILL, 1e3 * STILL_PLACE))
 
 
 def read_rows(file, parent, child):

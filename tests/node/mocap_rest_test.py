@@ -50,19 +50,22 @@ class MocapRest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def record(self, name, joint, unseen=False, mount=MOUNT, child_mount=CHILD_MOUNT):
-        """Pairs of a joint that holds still but for noise that cancels; signs of quaternions as they come."""
+    def record(self, name, joint, unseen=False, mount=MOUNT, child_mount=CHILD_MOUNT, swing=0.0, sway=0.0):
+        """Pairs of a joint that holds still but for noise that cancels; signs of quaternions as they come.
+        swing: by how many degrees the joint turns, sway: by how many m the trunk moves, meanwhile
+        """
         trunk = mul(inv(CAMERA), mount)
         apart = [0.0] + [a - b for a, b in zip(MOUNT_POSITION, CAMERA_POSITION)]
         place = mul(mul(inv(CAMERA), apart), CAMERA)[1:]
         lines = [HEADER]
         for i in range(12):
             noise = about([[1, 0, 0], [0, 1, 0], [0, 0, 1]][i // 2 % 3], 0.05 if i % 2 else -0.05)
-            q = mul(mul(mul(mul(trunk, mul(inv(mount), ORIGIN)), joint), child_mount), noise)
+            swung = mul(joint, about([0, 0, 1], swing * i / 11))
+            q = mul(mul(mul(mul(trunk, mul(inv(mount), ORIGIN)), swung), child_mount), noise)
             arm = [1, 0.1, 0.2, 1.5, *[(-x if i % 4 == 1 else x) for x in q], 1e-4]
             if unseen or i == 5:
                 arm = [0] + [''] * 8
-            lines.append([0.1 * i, 1, *place, *trunk, 1e-4, *arm])
+            lines.append([0.1 * i, 1, place[0] + sway * i / 11, *place[1:], *trunk, 1e-4, *arm])
         with open(self.path(name), 'w') as file:
             file.write(''.join(','.join(str(cell) for cell in line) + '\n' for line in lines))
         return self.path(name)
@@ -87,6 +90,12 @@ class MocapRest(unittest.TestCase):
     def expect_same(self, found, expected, tolerance=1e-4):
         distance = min(max(abs(sign * x - y) for x, y in zip(found, expected)) for sign in (1, -1))
         self.assertLess(distance, tolerance, '%s, expected %s' % (found, expected))
+
+    def test_a_robot_that_moved_is_refused(self):
+        expected = 'expected a recording in which both hold still'
+        self.refuse(expected, self.record('swing.csv', ONE, swing=5.0))
+        self.refuse(expected, self.record('sway.csv', ONE, sway=0.05))
+        self.assertEqual(self.run_script(self.record('rest.csv', ONE, swing=0.3, sway=0.003)).returncode, 0)
 
     def test_two_turns_find_all_mounts(self):
         rest = self.record('rest.csv', ONE)
