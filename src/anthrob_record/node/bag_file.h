@@ -25,15 +25,22 @@ class BagFile {
   void write(const std::string& topic, const Message& message) {
     // A bag cannot hold time 0.
     const ros::Time stamp = std::max(message.header.stamp, ros::TIME_MIN);
-    bag_->write(prefix_ + topic, stamp, message);
+    try {
+      bag_->write(prefix_ + topic, stamp, message);
+    } catch (const rosbag::BagException& error) {
+      fail(error);
+    }
   }
-  /// @throws rosbag::BagException, for example if the disk is full
+  /// @throws std::runtime_error, as write does, for example if the disk is full
   void close();
 
   GapWatch gaps;  ///< in the measurements while the bag is written
 
  private:
   void abandon();
+  [[noreturn]] void fail(const rosbag::BagException& error) const;
+
+  std::string file_;
 
   std::unique_ptr<rosbag::Bag> bag_;  ///< null after it failed to close
   std::string prefix_;

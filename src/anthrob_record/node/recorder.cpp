@@ -69,6 +69,7 @@ bool Recorder::run() {
     ROS_INFO_STREAM("moving slowly to the posture " << protocol_.rest.name
                                                     << " first, if it is far away");
   }
+  std::string missed;
   for (int repeat = 1; repeat <= protocol_.repeats; ++repeat) {
     for (const Protocol::Target& target : protocol_.targets) {
       ++done_;
@@ -80,14 +81,13 @@ bool Recorder::run() {
       for (int attempt = 0; result == Result::kAgain && attempt <= protocol_.redo; ++attempt)
         result = record(target, repeat);
       if (result == Result::kShutdown) return false;
-      if (result == Result::kAgain) {
-        throw std::runtime_error(
-            bags_.names().front() + ": " + trouble_ +
-            "; giving up: complete recordings are kept, and the same command continues");
-      }
+      if (result == Result::kAgain) missed += "\n  " + bags_.names().front() + ": " + trouble_;
     }
   }
   store_.summarise();
+  if (!missed.empty()) {
+    throw std::runtime_error("not recorded; the same command tries these again:" + missed);
+  }
   ROS_INFO("all recorded");
   return true;
 }

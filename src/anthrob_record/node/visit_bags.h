@@ -53,7 +53,7 @@ class VisitBags {
   /// What was not measured for too long, and for how long; empty if nothing.
   std::string trouble() const;
 
-  /// @throws rosbag::BagException, for example if the disk is full
+  /// @throws std::runtime_error, for example if the disk is full
   void close();
   /// To be called after close(), once the store has taken the bags over.
   void release();

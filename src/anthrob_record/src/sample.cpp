@@ -14,7 +14,7 @@ SampleMean::SampleMean(std::shared_ptr<const RobotModel> model) : model_(std::mo
 
 void SampleMean::reset() {
   position_.assign(model_->muscles.size(), 0.0);
-  force_ = position_;
+  force_ = forces_ = position_;
   offset_.setZero();
   count_ = 0;
 }
@@ -23,7 +23,9 @@ void SampleMean::add(const RobotMeasurement& measured) {
   if (count_ == 0) first_q_ = measured.q;
   for (std::size_t m = 0; m < position_.size(); ++m) {
     position_[m] += measured.muscles[m].position;
+    if (!std::isfinite(measured.muscles[m].force)) continue;
     force_[m] += measured.muscles[m].force;
+    ++forces_[m];
   }
   // Orientations are averaged in the tangent at the first one: they hardly differ.
   posture_difference(*model_->skeleton, first_q_, measured.q, scratch_);
@@ -33,8 +35,10 @@ void SampleMean::add(const RobotMeasurement& measured) {
 
 Sample SampleMean::mean(double time) const {
   Sample sample{time, position_, force_, first_q_};
-  for (std::size_t m = 0; m < position_.size(); ++m)
-    sample.position[m] /= count_, sample.force[m] /= count_;
+  for (std::size_t m = 0; m < position_.size(); ++m) {
+    sample.position[m] /= count_;
+    sample.force[m] /= forces_[m];  // NaN without any
+  }
   posture_plus(*model_->skeleton, first_q_, offset_ / count_, sample.q);
   return sample;
 }

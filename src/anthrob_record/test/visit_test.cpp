@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "anthrob_sim/simulation.h"
 #include "support.h"
 
@@ -37,6 +39,20 @@ class VisitTest : public ::testing::Test {
   std::shared_ptr<const RobotModel> model = tier1();
   Protocol protocol;
 };
+
+TEST_F(VisitTest, AForceIsTheMeanOfWhatWasMeasured) {
+  load("tier1_equilibria");
+  SampleMean mean(model);
+  RobotMeasurement at = standing(*model, protocol.rest);
+  for (const double force : {4.0, std::nan(""), 6.0}) {
+    at.muscles[2].force = force;
+    at.muscles[3].force = std::nan("");
+    mean.add(at);
+  }
+  EXPECT_EQ(mean.mean(1.0).force[0], 5.0);
+  EXPECT_EQ(mean.mean(1.0).force[2], 5.0);
+  EXPECT_TRUE(std::isnan(mean.mean(1.0).force[3]));  // it has no sensor
+}
 
 TEST_F(VisitTest, AnEquilibriumIsRecordedFromRestToTheEndOfTheHold) {
   load("tier1_equilibria");

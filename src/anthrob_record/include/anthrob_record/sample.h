@@ -27,6 +27,7 @@ class SampleMean {
  private:
   std::shared_ptr<const RobotModel> model_;
   std::vector<double> position_, force_, first_q_;
+  std::vector<double> forces_;        ///< how many numbers are in force_
   Eigen::VectorXd offset_, scratch_;  ///< sum of the differences from the first joint positions
   int count_ = 0;
 };
