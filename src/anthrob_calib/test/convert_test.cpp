@@ -153,6 +153,34 @@ TEST(Convert, BagToFolderToBagIsBitForBit) {
                                            "/anthrob/muscle_command", 8);
 }
 
+TEST(Convert, ReplacesOnlyRecordings) {
+  const Folder folder;
+  write_original(folder / "a.bag");
+  const Dataset dataset = read_bag(folder / "a.bag").dataset;
+  write_bag(dataset, folder / "b.bag");
+  write_bag(dataset, folder / "b.bag");
+  const auto expect_refused = [&](const std::string& expected) {
+    try {
+      write_bag(dataset, folder / "b.bag");
+      ADD_FAILURE() << "replaced: " << expected;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  };
+  {
+    rosbag::Bag bag(folder / "b.bag", rosbag::bagmode::Append);
+    sensor_msgs::JointState weather;
+    bag.write("/weather", ros::Time(1.0), weather);
+  }
+  expect_refused("b.bag: holds /weather, which would be lost");
+  std::ofstream(folder / "b.bag") << "a letter";
+  expect_refused("b.bag: is no bag");
+  std::filesystem::remove(folder / "b.bag");
+  std::ofstream(folder / "b.yaml") << "robot: arm\nmuscles: []\n";
+  expect_refused("b.yaml: is no description of a recording");
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.bag"));
+}
+
 TEST(Convert, SaysWhatItDoesNotCarry) {
   const Folder folder;
   write_original(folder / "a.bag");

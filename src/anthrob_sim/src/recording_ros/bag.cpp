@@ -12,6 +12,7 @@
 #include <set>
 
 #include "anthrob_config/atomic_file.h"
+#include "anthrob_config/config_node.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/recording/load_recording.h"
 #include "anthrob_sim/recording/topic_tables.h"
@@ -319,7 +320,34 @@ void write_rows(const Table& table, const Dataset& dataset, const std::string& t
 
 }  // namespace
 
+/// Only a recording may be replaced by one.
+/// @throws BadInput if `file` or the description beside it is something else
+void check_replaceable(const std::string& file) {
+  const std::string beside = meta_beside(file);
+  if (std::filesystem::exists(beside)) {
+    const ConfigNode there = ConfigNode::load(beside);
+    if (!there.is_map() || !there.has("kind")) {
+      throw BadInput(beside +
+                     ": is no description of a recording and would be overwritten; "
+                     "expected another name for the bag");
+    }
+  }
+  if (!std::filesystem::exists(file)) return;
+  rosbag::Bag bag;
+  try {
+    bag.open(file, rosbag::bagmode::Read);
+  } catch (const rosbag::BagException&) {
+    throw BadInput(file + ": is no bag and would be overwritten; expected another name");
+  }
+  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
+    if (is_of_a_recording(connection->topic)) continue;
+    throw BadInput(file + ": holds " + connection->topic +
+                   ", which would be lost; expected another name");
+  }
+}
+
 BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
+  check_replaceable(file);
   const TopicTables topics = topic_tables(dataset);
   if (topics.tables.empty()) {
     throw BadInput(dataset.folder + ": contains no column that a bag can store");
