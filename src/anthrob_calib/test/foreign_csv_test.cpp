@@ -204,6 +204,9 @@ TEST_F(ForeignCsv, WhatIsWrongIsSaidInOneLine) {
             std::string::npos);
   EXPECT_NE(error(kMap, head + "0,1,2\n0,1,2\n").find(":3: time does not increase"),
             std::string::npos);
+  EXPECT_NE(error(kMap, head + "1.7e15,1,2\n1.8e15,1,2\n")
+                .find(":2: time 1.7e+12 s: expected at most 9e9 s; is it in another unit?"),
+            std::string::npos);
   EXPECT_NE(error(kMap, head + "0,1,2\n1,1\n").find(":3: 2 cells; expected 3"), std::string::npos);
   EXPECT_NE(error(kMap, head + "0,nan,2\n").find("expected a number"), std::string::npos);
   EXPECT_NE(error(kMap, head + "0,1,2\n").find("fewer than two rows"), std::string::npos);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "anthrob_sim/core/errors.h"
 
@@ -13,6 +14,7 @@ namespace anthrob {
 namespace {
 
 constexpr const char* kParts[] = {"/w", "/x", "/y", "/z"};
+constexpr double kLatest = 9e9;  ///< [s] nanoseconds of 64 bits end there
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 std::string trimmed(const std::string& text) {
@@ -131,6 +133,12 @@ class ForeignReader {
     double t = static_cast<double>(count_++) / columns_.rate;
     if (!columns_.time.empty()) t = columns_.time_scale * number(cells, time_);
     if (!std::isfinite(t)) fail("column '" + columns_.time + "': empty; expected a time");
+    if (std::abs(t) > kLatest) {
+      std::ostringstream text;
+      text << t;
+      fail("time " + text.str() +
+           " s: expected at most 9e9 s; is it in another unit? set time.scale");
+    }
     const auto stamp = static_cast<Nanoseconds>(std::llround(1e9 * t));
     if (count_ > 1 && stamp <= last_)
       fail("time does not increase; expected every row later than the one before");
