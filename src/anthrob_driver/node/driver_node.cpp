@@ -142,14 +142,22 @@ bool DriverNode::on_home(Trigger::Request&, Trigger::Response& response) {
   return true;
 }
 
-bool DriverNode::on_disable(Trigger::Request&, Trigger::Response& response) {
-  thread_.call([&](RobotDriver& driver, double) { answer(driver.disable(), response); });
+bool DriverNode::on_disable(TriggerEvent& event) {
+  thread_.call([&](RobotDriver& driver, double) { answer(driver.disable(), event.getResponse()); });
+  ROS_WARN_STREAM("disabled by " << event.getCallerName());
   return true;
 }
 
-bool DriverNode::on_emergency_stop(Trigger::Request&, Trigger::Response& response) {
-  thread_.call([&](RobotDriver& driver, double) { answer(driver.emergency_stop(), response); });
+bool DriverNode::on_emergency_stop(TriggerEvent& event) {
+  thread_.call(
+      [&](RobotDriver& driver, double) { answer(driver.emergency_stop(), event.getResponse()); });
+  ROS_WARN_STREAM("emergency stop by " << event.getCallerName());
   return true;
+}
+
+void DriverNode::on_stop_message(const ros::MessageEvent<const std_msgs::Empty>& event) {
+  thread_.call([](RobotDriver& driver, double) { driver.emergency_stop(); });
+  ROS_WARN_STREAM_THROTTLE(1.0, "emergency stop by " << event.getPublisherName());
 }
 
 bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response) {
@@ -329,12 +337,7 @@ void DriverNode::log_stops() {
 void DriverNode::run() {
   subscribers_ = {
       command_nh_.subscribe("muscle_command", 100, &DriverNode::on_command, this, kNoDelay),
-      stop_nh_.subscribe<std_msgs::Empty>(
-          "emergency_stop", 1,
-          [this](const std_msgs::EmptyConstPtr&) {
-            thread_.call([](RobotDriver& driver, double) { driver.emergency_stop(); });
-          },
-          ros::VoidConstPtr(), kNoDelay),
+      stop_nh_.subscribe("emergency_stop", 1, &DriverNode::on_stop_message, this, kNoDelay),
   };
   services_ = {
       request_nh_.advertiseService("enable", &DriverNode::on_enable, this),

@@ -54,8 +54,11 @@ class DriverNode {
   void pass_commands();
   bool on_enable(Trigger::Request& request, Trigger::Response& response);
   bool on_home(Trigger::Request& request, Trigger::Response& response);
-  bool on_disable(Trigger::Request& request, Trigger::Response& response);
-  bool on_emergency_stop(Trigger::Request& request, Trigger::Response& response);
+  // The log says who asked for a stop.
+  using TriggerEvent = ros::ServiceEvent<Trigger::Request, Trigger::Response>;
+  bool on_disable(TriggerEvent& event);
+  bool on_emergency_stop(TriggerEvent& event);
+  void on_stop_message(const ros::MessageEvent<const std_msgs::Empty>& event);
   bool on_clear_faults(Trigger::Request& request, Trigger::Response& response);
   bool on_gains(anthrob_msgs::Gains::Request& request, anthrob_msgs::Gains::Response& response);
 

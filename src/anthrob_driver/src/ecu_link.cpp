@@ -88,7 +88,12 @@ void EcuLink::finish_answer(double now) {
   sampled_ = true;
   sample_time_ = now;
   take_state(sample_.motion[0].state);
-  latched_ = sample_.motion[0].stop_latched;
+  take_latched(sample_.motion[0].stop_latched);
+}
+
+void EcuLink::take_latched(bool latched) {
+  if (latched_ && !latched) own_stop_ = false;
+  latched_ = latched;
 }
 
 void EcuLink::take_state(ecu::State state) {
@@ -119,7 +124,7 @@ void EcuLink::on_report(const ecu::StateReport& report, double now) {
   report_ = report;
   if (configured()) begin_upload_anew();  // should another one be needed
   take_state(report.state);
-  latched_ = report.stop_latched;
+  take_latched(report.stop_latched);
 }
 
 const MuscleHardware& EcuLink::muscle(int channel) const {
@@ -330,7 +335,8 @@ std::string EcuLink::why_not_enable() const {
 }
 
 std::string EcuLink::not_cleared() const {
-  if (!alive()) return "";
+  if (!heard_) return "";
+  if (!alive()) return "does not answer; check its power and cable";
   if (state_ == ecu::State::kFault) {
     return std::string("fault ") + ecu::name(report_.fault) + " persists";
   }

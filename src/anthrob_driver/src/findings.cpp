@@ -7,12 +7,12 @@ namespace driver {
 
 // clang-format off
 const FindingInfo kFindings[kFindingCount] = {
-    {Finding::kInterfaceDown, "interface_down", true, "the CAN interface is down or gone", "plug the adapter in; `ip link set can0 up type can bitrate 1000000 restart-ms 100`; enable again"},
+    {Finding::kInterfaceDown, "interface_down", true, "the CAN interface is down or gone", "plug the adapter in; `ip link set can0 up type can bitrate 1000000 restart-ms 100` and `ip link set can0 txqueuelen 64`; enable again"},
     {Finding::kBusOff, "bus_off", true, "the host's CAN controller left the bus after 256 errors", "check cable, termination (120 ohm at both ends) and bit rate; enable again"},
     {Finding::kErrorPassive, "error_passive", true, "the host's CAN controller counted 128 errors", "check cable, termination (120 ohm at both ends) and bit rate; enable again; if that is refused, set the interface down and up"},
     {Finding::kErrorWarning, "error_warning", false, "the host's CAN controller counted 96 errors, or reported a bus error", "check cable and termination soon"},
     {Finding::kNoAcknowledge, "no_acknowledge", true, "no node on the bus acknowledges the driver's frames", "switch the ECUs on; check the cable and the bit rate; enable again"},
-    {Finding::kQueueFull, "queue_full", true, "the CAN interface accepted no more frames (ENOBUFS) in three cycles in a row", "switch the ECUs on; check the cable and the bit rate, or lower the rate; enable again"},
+    {Finding::kQueueFull, "queue_full", true, "the CAN interface accepted no more frames (ENOBUFS) in three cycles in a row", "switch the ECUs on; check the cable and the bit rate; `ip link set can0 txqueuelen 64`, or lower the rate; enable again"},
     {Finding::kBusSilent, "bus_silent", true, "no ECU completely answers two SYNCs in a row, and all did before", "check the bus cable, the CAN interface and the ECUs' supply; enable again"},
     {Finding::kReceiveOverrun, "receive_overrun", false, "the host lost frames because it read them too late", "use `realtime:=true`; look for other programs that keep the computer busy"},
     {Finding::kBusFlooded, "bus_flooded", false, "far more frames in a cycle than the ECUs can send", "find the node that sends too much: `candump -t d can0`"},
@@ -36,7 +36,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kCommandTimeout, "command_timeout", true, "no fresh, valid muscle_command within `command_timeout`", "keep commands coming; enable again"},
     {Finding::kHomeFailed, "home_failed", true, "`home` met one of its limits, or an ECU did not confirm its zero", "check the muscle that is named: tendon, pulley, polarity, sensors; repair; enable, home"},
     {Finding::kTendonSlack, "tendon_slack", true, "a tendon lost its force in motion: it broke, slipped or left its pulley", "look at the tendon that is named; repair it; clear_faults, enable, home"},
-    {Finding::kEncoderDead, "encoder_dead", true, "a motor turns, judging by its voltage and current, but its encoder does not count", "check the encoder's cable, then the motor's cable and its current sensor; clear_faults, enable, home"},
+    {Finding::kEncoderDead, "encoder_dead", true, "a motor turns, judging by its voltage and current, but its encoder does not count, or counts backwards", "check the encoder's cable and polarity, then the motor's cable and its current sensor; clear_faults, enable, home"},
     {Finding::kMotorHot, "motor_hot", true, "a motor drew more current than its winding withstands for long", "find what it pulls against; let it cool; clear_faults, enable"},
 };
 // clang-format on

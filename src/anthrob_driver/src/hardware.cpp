@@ -221,10 +221,12 @@ class Loader {
     home.wind_speed = node.number("wind_speed", Bounds::positive(), "rad/s");
     home.travel_limit = node.number("travel_limit", Bounds::positive(), "rad");
     home.slip_drop = node.number("slip_drop", Bounds::fraction(), "1");
+    // With nothing left of the pretension, no tendon would ever be slack.
+    if (home.slip_drop >= 1.0) node.at("slip_drop").fail_expected("less than 1");
     home.settle_time = node.number("settle_time", Bounds::positive(), "s");
     home.time_limit = node.number("time_limit", Bounds::positive(), "s");
-    if (home.force_limit <= home.pretension) {
-      node.at("force_limit").fail_expected("more than pretension");
+    if (home.force_limit <= home.pretension + home.tolerance) {
+      node.at("force_limit").fail_expected("more than pretension and tolerance together");
     }
     // A tendon grips from half of it on, and is held from four fifths on.
     if (home.tolerance >= 0.5 * home.pretension) {

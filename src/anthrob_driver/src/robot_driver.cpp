@@ -151,7 +151,9 @@ RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
         first_step_.too_far(names, modes, references, references_, sampler_.last());
     if (!far.empty()) return refuse(far);
   }
-  const Outcome outcome = supervisor_.command(names, modes, references, now, accepted_);
+  // The time-out runs from when it was sent. A stamp in the future gains nothing.
+  const Outcome outcome =
+      supervisor_.command(names, modes, references, now - std::max(0.0, age), accepted_);
   if (!outcome.accepted) return outcome;
   for (const ecu::MuscleReference& reference : accepted_) {
     references_[static_cast<std::size_t>(reference.muscle)] = reference;
@@ -293,7 +295,8 @@ RobotDriver::Outcome RobotDriver::disable() {
   }
   request(Operation::kDisable, 0);
   watch_.sent(bus_.flush(), last_cycle_);
-  return supervisor_.disable();
+  supervisor_.disable();
+  return {true, unconfirmed()};
 }
 
 RobotDriver::Outcome RobotDriver::emergency_stop() {
@@ -301,9 +304,18 @@ RobotDriver::Outcome RobotDriver::emergency_stop() {
   if (phase_ == Phase::kEnabling) last_outcome_ = {false, "emergency stop"};
   ecu::Frame stop;
   send(stop);
+  for (EcuLink& link : links_) link.stop_sent();
   clear_repeats_ = 0;
   disable();
-  return supervisor_.emergency_stop();
+  supervisor_.emergency_stop();
+  return {true, unconfirmed()};
+}
+
+std::string RobotDriver::unconfirmed() const {
+  const std::string trouble = watch_.trouble();
+  if (trouble.empty()) return "";
+  return "the ECUs may not have received it: " + trouble +
+         ". Without references they stop by themselves";
 }
 
 void RobotDriver::stop(Finding finding, int ecu, const std::string& detail) {
@@ -340,12 +352,15 @@ void RobotDriver::name_stop(double now) {
 }
 
 void RobotDriver::obey_stop(int ecu) {
-  const std::string what = ecu < 0 ? "a STOP frame came from elsewhere on the bus"
-                                   : stopping_.prefix(ecu) + info(Finding::kStopLatched).meaning;
+  const bool own = ecu >= 0 && links_[static_cast<std::size_t>(ecu)].holds_own_stop();
+  const std::string what =
+      ecu < 0 ? "a STOP frame came from elsewhere on the bus"
+      : own   ? stopping_.prefix(ecu) + "still holds an emergency stop of this driver"
+              : stopping_.prefix(ecu) + info(Finding::kStopLatched).meaning;
   home_.abort(what);
   emergency_stop();
   last_outcome_ = {false, what};
-  stopping_.record(Finding::kStopLatched, what);
+  stopping_.record(Finding::kStopLatched, what, own ? "clear_faults, enable" : nullptr);
 }
 
 void RobotDriver::fail_home(double now) {
@@ -374,15 +389,19 @@ void RobotDriver::check_bus(double now) {
   if (watch_.take_stop(finding)) stop(finding, -1);
 }
 
-/// Of a bus on which nobody answers, no single ECU is to blame.
-bool RobotDriver::all_lost() const {
-  return links_.size() > 1 && std::all_of(links_.begin(), links_.end(), [](const EcuLink& link) {
-           return link.sample_time() > 0.0 && !link.alive();
-         });
+/// Of a bus on which nobody answers, no single ECU is to blame. The first ECUs may have answered
+/// the SYNC during which it fell silent, so that they have missed one less.
+bool RobotDriver::bus_silent() const {
+  const auto answered_once = [](const EcuLink& link) { return link.sample_time() > 0.0; };
+  const auto missed = [](const EcuLink& link) { return !link.answered_last(); };
+  const auto lost = [](const EcuLink& link) { return !link.alive(); };
+  return links_.size() > 1 && std::all_of(links_.begin(), links_.end(), answered_once) &&
+         std::all_of(links_.begin(), links_.end(), missed) &&
+         std::any_of(links_.begin(), links_.end(), lost);
 }
 
 void RobotDriver::check_ecus(double now) {
-  const bool silent = all_lost();
+  const bool silent = bus_silent();
   if (silent) {
     findings_.add(Finding::kBusSilent, -1, now);
     stop(Finding::kBusSilent, -1);

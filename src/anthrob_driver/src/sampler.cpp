@@ -58,7 +58,9 @@ void Sampler::close(const std::vector<EcuLink>& links, const ecu::Supervisor& su
     const MuscleHardware& wired = hardware_.muscles[m];
     const EcuLink& link = links[static_cast<std::size_t>(wired.ecu)];
     MuscleSample& muscle = sample_.muscles[m];
-    muscle = {false, nan, nan, nan, nan, nan, 0.0, ecu::Mode::kVoltage, ecu::State::kFault};
+    muscle = {false, nan, nan, nan, nan, nan, nan, ecu::Mode::kVoltage, ecu::State::kFault};
+    muscle.mode = sent_[m].mode;
+    muscle.reference = sent_[m].reference;
     if (!link.complete()) continue;
     anything = muscle.measured = true;
     const ecu::Motion& motion = link.motion(wired.channel);
@@ -67,8 +69,6 @@ void Sampler::close(const std::vector<EcuLink>& links, const ecu::Supervisor& su
     muscle.current = motion.current;
     muscle.voltage = link.effort().voltage[wired.channel];
     muscle.force = link.effort().force[wired.channel];
-    muscle.mode = sent_[m].mode;
-    muscle.reference = sent_[m].reference;
     const bool failed = supervisor.state(static_cast<int>(m)) == ecu::State::kFault;
     muscle.state = failed ? ecu::State::kFault : motion.state;
   }

@@ -30,8 +30,8 @@ TEST(ErrorFrame, SaysTheWorst) {
       {CAN_ERR_TX_TIMEOUT, 0, Kind::kNoAcknowledge},
       {CAN_ERR_CRTL | CAN_ERR_TX_TIMEOUT, 0, Kind::kNoAcknowledge},
       {CAN_ERR_RESTARTED, 0, Kind::kErrorActive},
-      {CAN_ERR_PROT, 0, Kind::kErrorWarning},
-      {CAN_ERR_BUSERROR, 0, Kind::kErrorWarning},
+      {CAN_ERR_PROT, 0, Kind::kBusError},
+      {CAN_ERR_BUSERROR, 0, Kind::kBusError},
       // Without its class the byte means nothing.
       {CAN_ERR_ACK, CAN_ERR_CRTL_TX_PASSIVE, Kind::kNoAcknowledge},
   };

@@ -257,6 +257,7 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
       {"hardware.yaml", "time_limit: 20.0", "time_limit: 1e5", "expected at most 120 s"},
       {"hardware.yaml", "tolerance: 1.0", "tolerance: 2.5", "home.tolerance"},
       {"hardware.yaml", "slip_drop: 0.5", "slip_drop: 0.2", "home.slip_drop"},
+      {"hardware.yaml", "slip_drop: 0.5", "slip_drop: 1.0", "home.slip_drop: 1.0: expected less"},
       {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_9}", "ecu_9"},
       {"hardware.yaml", "hand_agonist: {ecu: ecu_7}", "hand_agonist: {ecu: ecu_1}",
        "already has 2"},

@@ -359,6 +359,50 @@ TEST(RobotDriver, OfABusOnWhichNobodyAnswersNoUnitIsBlamed) {
   EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;  // without clear_faults
 }
 
+TEST(RobotDriver, ABusThatIsCutWithinACycleIsNoUnitsFaultEither) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  int efforts = 0;  // ends an ECU's answer
+  rig.bus.tamper = [&efforts](const ecu::Frame& frame, const MemoryBus::Port&) {
+    if (efforts == 3) return std::vector<ecu::Frame>{};
+    efforts += ecu::function_of(frame) == static_cast<int>(ecu::Function::kEffort);
+    return std::vector<ecu::Frame>{frame};
+  };
+  rig.run(300);
+  EXPECT_EQ(rig.moving(), 0);
+  EXPECT_EQ(rig.driver().stops().count(), 1u);
+  EXPECT_EQ(rig.driver().stops().last().find("bus_silent: "), 0u) << rig.driver().stops().last();
+  EXPECT_EQ(rig.driver().findings().count(Finding::kEcuLost), 0u);
+}
+
+TEST(RobotDriver, AControllerThatIsNoLongerPassiveIsTrusted) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.host.report(BusEvent::Kind::kErrorPassive);
+  rig.run(20);
+  EXPECT_EQ(rig.moving(), 0);
+  rig.host.report(BusEvent::Kind::kBusError);  // says nothing about its count
+  rig.run(20);
+  EXPECT_FALSE(rig.enable());
+  rig.host.report(BusEvent::Kind::kErrorWarning);
+  rig.run(20);
+  EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+}
+
+TEST(RobotDriver, ADelayedCommandDoesNotBeginTheTimeOutAnew) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.commander_runs = false;
+  rig.run(300);
+  const std::vector<std::string> names = {rig.hardware.muscles.front().name};
+  ASSERT_TRUE(rig.driver().command(names, {0}, {0.5}, rig.now(), 0.4).accepted);
+  EXPECT_NEAR(rig.driver().supervisor().command_age(rig.now()), 0.3, 0.021);
+  ASSERT_TRUE(rig.driver().command(names, {0}, {0.5}, rig.now(), 0.1).accepted);
+  EXPECT_NEAR(rig.driver().supervisor().command_age(rig.now()), 0.1, 1e-9);
+  ASSERT_TRUE(rig.driver().command(names, {0}, {0.5}, rig.now(), -0.4).accepted);
+  EXPECT_NEAR(rig.driver().supervisor().command_age(rig.now()), 0.0, 1e-9);
+}
+
 TEST(RobotDriver, ASecondUploadOfParametersIsNoRefusal) {
   Rig rig;
   rig.run(1000);

@@ -56,6 +56,40 @@ TEST(Stopping, AStopFromElsewhereIsCountedAndNamed) {
   EXPECT_TRUE(rig.driver().supervisor().stop_latched());
 }
 
+TEST(Stopping, AStopThatAnEcuStillHoldsIsKnownAsItsOwn) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.driver().emergency_stop();
+  rig.run(50);
+  rig.bus.tamper = [](const ecu::Frame& f, const MemoryBus::Port&) {
+    const bool lost = ecu::function_of(f) == static_cast<int>(ecu::Function::kRequest);
+    return lost ? std::vector<ecu::Frame>{} : std::vector<ecu::Frame>{f};
+  };
+  rig.driver().clear_faults(rig.now());
+  rig.run(500);
+  EXPECT_EQ(rig.driver().stops().last(),
+            "stop_latched: ecu_1: still holds an emergency stop of this driver; clear_faults, "
+            "enable");
+  rig.bus.tamper = nullptr;
+  rig.driver().clear_faults(rig.now());
+  rig.run(200);
+  EXPECT_EQ(rig.driver().not_cleared(), "");
+  EXPECT_TRUE(rig.enable()) << rig.driver().last_outcome().reason;
+}
+
+TEST(Stopping, AStopTellsIfItMayNotHaveArrived) {
+  Rig rig;
+  ASSERT_TRUE(rig.start());
+  rig.host.set_up(false);
+  rig.run(10);
+  EXPECT_EQ(rig.driver().emergency_stop().reason,
+            "the ECUs may not have received it: the CAN interface is down or missing. Without "
+            "references they stop by themselves");
+  rig.host.set_up(true);
+  rig.run(10);
+  EXPECT_EQ(rig.driver().disable().reason, "");
+}
+
 TEST(Stopping, IsAtOnceThoughTheNameOfTheFaultComesLate) {
   for (const bool named : {true, false}) {
     Rig rig;
@@ -108,12 +142,11 @@ TEST(Stopping, WhatIsNotClearedIsNamed) {
   EXPECT_EQ(clear(), "ecu_1: holds its emergency stop");
   rig.bus.tamper = nullptr;
   EXPECT_EQ(clear(), "");
-  // Who does not answer cannot say.
   rig.rack.board(2).peripherals.supply = 8.0;
   rig.run(100);
   rig.rack.board(2).set_power(false);
   rig.run(100);
-  EXPECT_EQ(clear(), "");
+  EXPECT_EQ(clear(), "ecu_3: does not answer; check its power and cable");
 }
 
 TEST(Stopping, EveryDisableIsAHalt) {

@@ -105,7 +105,7 @@ Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
     if (!follows_references(reference.muscle)) return refuse(why_stopped(reference.muscle));
   }
   commanded_ = true;
-  last_command_ = time;
+  last_command_ = std::max(last_command_, time);
   accepted = std::move(checked);
   return {true, ""};
 }

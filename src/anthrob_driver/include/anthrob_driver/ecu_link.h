@@ -72,6 +72,8 @@ class EcuLink {
   double heard_since() const { return heard_since_; }
   /// Whether it answers.
   bool alive() const { return sampled_ && !returning_ && unanswered_ < kLostSyncs; }
+  /// Whether it completely answered the last SYNC but one; the current one is still open.
+  bool answered_last() const { return unanswered_ == 0; }
   bool configured() const { return heard_ && report_.configuration == own().configuration; }
   /// Whether all frames that answer the current SYNC have arrived. False for the first answer of an
   /// ECU that was lost: an old frame from its controller could pass for a new one, because the
@@ -98,9 +100,12 @@ class EcuLink {
   double sample_time() const { return sample_time_; }
   ecu::State state() const { return state_; }
   bool stop_latched() const { return latched_; }
+  /// This driver sends STOP. The ECU may hold it long after, if no CLEAR reaches it.
+  void stop_sent() { own_stop_ = true; }
+  bool holds_own_stop() const { return latched_ && own_stop_; }
   /// Why it cannot be enabled; empty if it can.
   std::string why_not_enable() const;
-  /// What clear_faults did not clear, if the ECU answers; empty if nothing is left.
+  /// What clear_faults did not clear; empty if nothing is left, or the ECU was never heard.
   std::string not_cleared() const;
 
   /// @param channel that a frame names; the last muscle if there is none
@@ -122,6 +127,7 @@ class EcuLink {
   bool take_part(unsigned part, std::uint8_t counter, double now);
   void finish_answer(double now);
   void take_state(ecu::State state);
+  void take_latched(bool latched);
   void on_report(const ecu::StateReport& report, double now);
   void on_reply(const ecu::ParameterMessage& reply, double now);
   void on_zero_reply(const ecu::ParameterMessage& reply);
@@ -149,6 +155,7 @@ class EcuLink {
   ecu::Health health_;
   ecu::State state_ = ecu::State::kBoot;
   bool latched_ = false;
+  bool own_stop_ = false;  ///< sent, and not seen cleared since
   bool heard_ = false, sampled_ = false, restarted_ = false, wrong_version_ = false;
   std::string other_version_;
   double sample_time_ = 0.0, heard_since_ = 0.0, health_time_ = -HUGE_VAL;

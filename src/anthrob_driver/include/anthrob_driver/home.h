@@ -15,12 +15,13 @@ namespace driver {
 class Home {
  public:
   struct Reading {
-    double position, force;  ///< NaN: no answer to this SYNC; only force NaN: no sensor
+    double position, force;  ///< [rad], [N]; NaN: no answer to this SYNC; only force NaN: no sensor
   };
   enum class State { kIdle, kRunning, kReached, kFailed };
 
   explicit Home(const Hardware& hardware) : hardware_(hardware) {}
 
+  /// @param now [s] here and below, of a clock that never jumps
   void start(double now);
   /// One cycle. @param readings one for each muscle
   void step(const std::vector<Reading>& readings, double now);

@@ -29,8 +29,8 @@ namespace driver {
 class RobotDriver {
  public:
   struct Options {
-    double rate = 200.0;  ///< [Hz] of cycle()
-    double command_timeout = 0.5;
+    double rate = 200.0;           ///< [Hz] of cycle()
+    double command_timeout = 0.5;  ///< [s] without a command after which motors are disabled
     /// [rad] How far the first POSITION reference of a muscle after enable, home or another mode
     /// may be from its position; 0: no limit
     double first_step = 0.0;
@@ -63,13 +63,15 @@ class RobotDriver {
   /// @param names, gains, values as of read_gain_changes
   Outcome start_gains(const std::vector<std::string>& names, const std::vector<std::string>& gains,
                       const std::vector<double>& values, double now);
+  /// Always accepted; `reason` tells if the ECUs may not have received it.
   Outcome disable();
   Outcome emergency_stop();
   Outcome clear_faults(double now);
 
   /// Between clear_faults and the moment the ECUs have cleared too.
   bool clearing(double now) const;
-  /// The first ECU that answers and is in FAULT or holds an emergency stop, and why; empty: none.
+  /// The first ECU that was heard and now does not answer, is in FAULT or holds an emergency stop,
+  /// and which of these; empty: none.
   std::string not_cleared() const;
 
   Phase phase() const { return phase_; }
@@ -100,7 +102,7 @@ class RobotDriver {
                        std::uint8_t session = 0);
   void on_frame(const ecu::Frame& frame, double now);
   void check_bus(double now);
-  bool all_lost() const;
+  bool bus_silent() const;
   void check_ecus(double now);
   void check_muscles(double now);
   void continue_enable(double now);
@@ -125,6 +127,8 @@ class RobotDriver {
   /// @param now HUGE_VAL: record the stop now, with or without the reason
   void name_stop(double now);
   void halt(Finding finding, int ecu, const std::string& what);
+  /// Why the ECUs may not have received a stop; empty: no reason.
+  std::string unconfirmed() const;
   /// @param ecu which holds the stop; -1: a frame on the bus
   void obey_stop(int ecu);
   void fail_home(double now);

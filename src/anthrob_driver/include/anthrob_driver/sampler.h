@@ -13,11 +13,14 @@ namespace driver {
 
 /// One muscle at one SYNC.
 struct MuscleSample {
-  bool measured = false;  ///< its ECU answered this SYNC; otherwise the numbers are meaningless
-  double position = 0.0, velocity = 0.0, current = 0.0, voltage = 0.0, force = 0.0;
-  double reference = 0.0;  ///< reference and mode that were sent with this SYNC
+  bool measured = false;  ///< its ECU answered this SYNC; otherwise the measurements are NaN
+  double position = 0.0, velocity = 0.0;  ///< [rad], [rad/s]; gear output, winding in positive
+  double current = 0.0;                   ///< [A] motor loop
+  double voltage = 0.0;                   ///< [V] output of the controller
+  double force = 0.0;                     ///< [N] NaN also if it has no sensor
+  double reference = 0.0;                 ///< [V, rad, A or N] sent with this SYNC
   ecu::Mode mode = ecu::Mode::kVoltage;
-  ecu::State state = ecu::State::kBoot;
+  ecu::State state = ecu::State::kBoot;  ///< FAULT also if its ECU did not answer
 };
 
 /// All muscles at one SYNC.

@@ -22,7 +22,7 @@ BusEvent::Kind kind_of_error(std::uint32_t id, std::uint8_t controller) {
   // acknowledged it.
   if (id & (CAN_ERR_ACK | CAN_ERR_TX_TIMEOUT)) return Kind::kNoAcknowledge;
   if (id & CAN_ERR_RESTARTED) return Kind::kErrorActive;
-  return Kind::kErrorWarning;
+  return Kind::kBusError;
 }
 
 }  // namespace driver

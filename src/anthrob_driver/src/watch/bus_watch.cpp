@@ -35,6 +35,11 @@ void BusWatch::receive(const BusEvent& event, double now) {
       condition_ = Condition::kGood;
       break;
     case Kind::kErrorWarning:
+      // On the way back from passive, too.
+      if (condition_ == Condition::kPassive) condition_ = Condition::kGood;
+      found(Finding::kErrorWarning, now);
+      break;
+    case Kind::kBusError:
       found(Finding::kErrorWarning, now);
       break;
     case Kind::kErrorPassive:

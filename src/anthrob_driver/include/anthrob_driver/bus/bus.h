@@ -14,7 +14,8 @@ struct BusEvent {
     kEcho,            ///< our own frame, now acknowledged on the wire
     kForeign,         ///< extended, remote or otherwise not of this protocol
     kErrorActive,     ///< the controller has recovered
-    kErrorWarning,    ///< 96 errors
+    kErrorWarning,    ///< 96 errors, and less than 128
+    kBusError,        ///< a single error
     kErrorPassive,    ///< 128 errors: it may send only in a restricted way
     kBusOff,          ///< 256 errors: it has left the bus
     kNoAcknowledge,   ///< no node acknowledged our frame (in time)
