@@ -2,9 +2,9 @@
 
 #include <dc1394/dc1394.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <thread>
