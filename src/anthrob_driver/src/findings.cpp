@@ -37,6 +37,7 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kHomeFailed, "home_failed", true, "`home` met one of its limits, or an ECU did not confirm its zero", "check the muscle that is named: tendon, pulley, polarity, sensors; repair; enable, home"},
     {Finding::kTendonSlack, "tendon_slack", true, "a tendon lost its force in motion: it broke, slipped or left its pulley", "look at the tendon that is named; repair it; clear_faults, enable, home"},
     {Finding::kEncoderDead, "encoder_dead", true, "a motor turns, judging by its voltage and current, but its encoder does not count, or counts backwards", "check the encoder's cable and polarity, then the motor's cable and its current sensor; clear_faults, enable, home"},
+    {Finding::kForceImplausible, "force_implausible", true, "a motor pulls, judging by its current, much harder than its force sensor reads", "check the force sensor and its cable, then that nothing holds the tendon between spindle and sensor; clear_faults, enable"},
     {Finding::kMotorHot, "motor_hot", true, "a motor drew more current than its winding withstands for long", "find what it pulls against; let it cool; clear_faults, enable"},
 };
 // clang-format on

@@ -66,6 +66,8 @@ class Loader {
       controller.refuse_unknown_keys();
       if (node.has("actuator")) {
         load_motor(model_.at("actuators").at(node.text("actuator")), hardware_.muscles.back());
+        hardware_.muscles.back().winch.radius =
+            node.number_or("spindle_radius", 0.0, Bounds::positive(), "m");
       }
     }
     load_hand();

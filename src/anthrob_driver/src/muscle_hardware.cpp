@@ -79,8 +79,10 @@ void load_motor(const ConfigNode& node, MuscleHardware& muscle) {
   const ConfigNode motor = node.at("motor"), gear = node.at("gear"), stage = node.at("power_stage");
   muscle.resistance = motor.number("resistance", Bounds::positive(), "ohm") +
                       stage.number("resistance", Bounds::nonnegative(), "ohm");
-  muscle.back_emf = motor.number("back_emf_constant", Bounds::positive(), "Vs/rad") *
-                    gear.number("ratio", Bounds::positive(), "1");
+  const double ratio = gear.number("ratio", Bounds::positive(), "1");
+  muscle.winch.back_emf = motor.number("back_emf_constant", Bounds::positive(), "Vs/rad") * ratio;
+  muscle.winch.inertia =
+      motor.number("rotor_inertia", Bounds::positive(), "kg m^2") * ratio * ratio;
 }
 
 void load_unit(const ConfigNode& node, MuscleHardware& muscle) {

@@ -289,6 +289,18 @@ std::vector<Kind> kinds() {
   k.push_back({"force sensor's cable cut", K::kEverybody, int(Finding::kEcuFault),
                [](Rig& r) { r.rack.board(kVictim).peripherals.force_sensor_cut = true; },
                [](Rig& r) { r.rack.board(kVictim).peripherals.force_sensor_cut = false; }, 20});
+  k.push_back({"force sensor stands still, FORCE", K::kEverybody, int(Finding::kForceImplausible),
+               [](Rig& r) {
+                 const auto muscle = static_cast<std::size_t>(kVictimMuscles[0]);
+                 pull(r, muscle, ecu::Mode::kForce, 30.0);
+                 r.rack.board(kVictim).peripherals.force_sensor_stuck = true;
+                 r.volts[muscle] = 100.0;
+               },
+               [](Rig& r) {
+                 r.rack.board(kVictim).peripherals.force_sensor_stuck = false;
+                 let_pull_by_volts(r);
+               },
+               1200});
   k.push_back({"elbow potentiometer's cable cut", K::kNobody, int(Finding::kJointSensor),
                [](Rig& r) { r.rack.board(kElbow).peripherals.potentiometer_cut = true; },
                [](Rig& r) { r.rack.board(kElbow).peripherals.potentiometer_cut = false; }});

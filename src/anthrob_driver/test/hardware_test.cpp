@@ -60,7 +60,9 @@ TEST(Hardware, GainsAndLimitsAreTheModels) {
 TEST(Hardware, MotorsAreTheModels) {
   const Hardware arm = load_hardware(kConfig / "hardware.yaml", true);
   EXPECT_DOUBLE_EQ(arm.muscles[0].resistance, 0.67 + 0.12);  // lateral_deltoid, RE-25
-  EXPECT_DOUBLE_EQ(arm.muscles[0].back_emf, 0.0115 * 128.0);
+  EXPECT_DOUBLE_EQ(arm.muscles[0].winch.back_emf, 0.0115 * 128.0);
+  EXPECT_DOUBLE_EQ(arm.muscles[0].winch.inertia, 1.05e-6 * 128.0 * 128.0);
+  EXPECT_DOUBLE_EQ(arm.muscles[0].winch.radius, 0.0065);
   EXPECT_DOUBLE_EQ(arm.muscles[9].resistance, 4.69 + 0.12);  // triceps_brachii, A-max 22
   EXPECT_EQ(arm.muscles[11].resistance, 0.0);                // of the hand nothing is known
 }

@@ -19,7 +19,8 @@ inline Hardware with_bench_motors(Hardware robot) {
   const TendonPlant::Parameters bench;
   for (MuscleHardware& muscle : robot.muscles) {
     muscle.resistance = bench.resistance;
-    muscle.back_emf = bench.constant * bench.ratio;
+    muscle.winch = {bench.constant * bench.ratio, bench.inertia * bench.ratio * bench.ratio,
+                    bench.radius};
   }
   return robot;
 }

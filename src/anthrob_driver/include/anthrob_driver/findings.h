@@ -39,9 +39,10 @@ enum class Finding : std::uint8_t {
   kHomeFailed,
   kTendonSlack,
   kEncoderDead,
+  kForceImplausible,
   kMotorHot,
 };
-constexpr int kFindingCount = 31;
+constexpr int kFindingCount = 32;
 
 struct FindingInfo {
   Finding finding;

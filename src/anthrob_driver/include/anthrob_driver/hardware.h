@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "anthrob_driver/calibration.h"
+#include "anthrob_driver/watch/force_watch.h"
 #include "anthrob_ecu/parameters.h"
 #include "anthrob_ecu/protocol.h"
 #include "anthrob_ecu/supervisor.h"
@@ -21,8 +22,8 @@ struct MuscleHardware {
   LinearSensor force, current;
   double encoder_scale = 0.0;  ///< [rad/count]
   double home_position = 0.0;  ///< [rad] its position after home, in the pretensioned posture
-  /// Of the model's motor: with its power stage [ohm], at the gear output [Vs/rad]; 0: not known
-  double resistance = 0.0, back_emf = 0.0;
+  double resistance = 0.0;     ///< [ohm] of the model's motor and power stage; 0: not known
+  Winch winch;
   /// What WindingTemperatureModel has to know [A, s]; 0: not known
   double nominal_current = 0.0, thermal_time_constant = 0.0;
 };

@@ -86,9 +86,10 @@ ecu::Readings Board::read(const Plant& plant) {
                     ? count(truth.position, wired.encoder_scale)
                     : static_cast<std::int32_t>(std::lround(truth.position / wired.encoder_scale));
     r.current = static_cast<std::uint16_t>(wired.current.count(truth.current));
-    r.force = peripherals.force_sensor_cut
-                  ? std::uint16_t{0}
-                  : static_cast<std::uint16_t>(wired.force.count(truth.force));
+    if (!peripherals.force_sensor_stuck) {
+      force_[c] = static_cast<std::uint16_t>(wired.force.count(truth.force));
+    }
+    r.force = peripherals.force_sensor_cut ? std::uint16_t{0} : force_[c];
     r.temperature = peripherals.temperature;
   }
   for (std::size_t j = 0; j < hardware_.joints.size(); ++j) {

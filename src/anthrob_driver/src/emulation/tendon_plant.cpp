@@ -20,7 +20,7 @@ TendonPlant::TendonPlant(const Hardware& hardware)
   for (std::size_t m = 0; m < tendons_.size(); ++m) {
     if (hardware.muscles[m].resistance <= 0.0) continue;
     tendons_[m].resistance = hardware.muscles[m].resistance;
-    tendons_[m].back_emf = hardware.muscles[m].back_emf;
+    tendons_[m].back_emf = hardware.muscles[m].winch.back_emf;
   }
 }
 

@@ -11,13 +11,17 @@ MuscleWatch::MuscleWatch(const MuscleHardware& muscle, const TendonLimits& tendo
     : name_(muscle.name),
       pretension_(pretension),
       tendon_(tendons),
-      encoder_(muscle.resistance, muscle.back_emf),
+      encoder_(muscle.resistance, muscle.winch.back_emf),
+      force_(muscle.winch),
       winding_(muscle.nominal_current, muscle.thermal_time_constant) {}
 
 std::optional<MuscleWatch::Alarm> MuscleWatch::step(const MuscleSample& sample, double time,
                                                     bool enabled, bool homing) {
   if (sample.measured) winding_.step(sample.current, time);
-  if (!enabled || homing) tendon_.restart();
+  if (!enabled || homing) {
+    tendon_.restart();
+    force_.restart();
+  }
   if (!enabled) {
     encoder_.restart();
     return std::nullopt;
@@ -27,6 +31,10 @@ std::optional<MuscleWatch::Alarm> MuscleWatch::step(const MuscleSample& sample, 
     if (!slack.empty()) return Alarm{Finding::kTendonSlack, name_ + ": " + slack, true};
     const std::string dead = encoder_.step(sample.position, sample.voltage, sample.current, time);
     if (!dead.empty()) return Alarm{Finding::kEncoderDead, name_ + ": " + dead, true};
+    const std::string hard =
+        homing ? ""
+               : force_.step(sample.position, sample.velocity, sample.current, sample.force, time);
+    if (!hard.empty()) return Alarm{Finding::kForceImplausible, name_ + ": " + hard, false};
   }
   if (winding_.relative_temperature_rise() <= WindingTemperatureModel::kLimit) return std::nullopt;
   char text[120];

@@ -40,6 +40,7 @@ class Board {
     double supply = 12.0;
     int temperature = 30;
     bool force_sensor_cut = false;
+    bool force_sensor_stuck = false;  ///< both muscles' stand where they were
     bool potentiometer_cut = false;
     bool bus_off = false;
   } peripherals;
@@ -57,6 +58,7 @@ class Board {
   int unfed_ = 0;
   std::int32_t counted_ = 0;  ///< by the first muscle's encoder, before it was cut
   bool flicker_ = false;
+  std::uint16_t force_[ecu::kMusclesPerEcu] = {};  ///< [count] read last
 };
 
 }  // namespace driver

@@ -7,13 +7,14 @@
 #include "anthrob_driver/hardware.h"
 #include "anthrob_driver/sampler.h"
 #include "anthrob_driver/watch/encoder_watch.h"
+#include "anthrob_driver/watch/force_watch.h"
 #include "anthrob_driver/watch/tendon_watch.h"
 #include "anthrob_driver/watch/winding_temperature_model.h"
 
 namespace anthrob {
 namespace driver {
 
-/// Watches one muscle: its tendon, its encoder and its motor's winding.
+/// Watches one muscle: its tendon, its encoder, its force sensor and its motor's winding.
 class MuscleWatch {
  public:
   /// Reason to stop all motors.
@@ -43,6 +44,7 @@ class MuscleWatch {
   double pretension_;
   TendonWatch tendon_;
   EncoderWatch encoder_;
+  ForceWatch force_;
   WindingTemperatureModel winding_;
 };
 
