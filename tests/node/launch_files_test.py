@@ -85,6 +85,9 @@ class LaunchFiles(unittest.TestCase):
             self.assertIn('--%s 0' % name.replace('_', '-'), node.args)
         recorder = load('record.launch', 'protocol:=1', 'out:=/tmp/1').params['/anthrob/recorder/protocol']
         self.assertTrue(recorder.value.endswith('/record_1.yaml'), recorder.value)
+        for name in 'record.launch', 'record_zero_gravity.launch':
+            params = load(name, 'protocol:=1', 'model:=2', 'out:=/tmp/1').params
+            self.assertTrue(params['/anthrob/recorder/robot_model'].value.endswith('/model_2.yaml'))
 
     def test_a_protocol_is_named_or_is_a_file(self):
         for asked, protocol, model in (
