@@ -70,7 +70,7 @@ TEST(ParameterList, RefusesWhatCannotBeMeant) {
                 .find("expected the path of a number"),
             std::string::npos);
   EXPECT_NE(error_of("- {path: joints.elbow.friction.viscous, unit: x, low: 1, high: 2, step: 1}")
-                .find("outside [low, high]"),
+                .find(": expected 1 to 2, its low and high"),
             std::string::npos);
   EXPECT_NE(error_of("- {path: joints.elbow.friction.viscous, unit: x, low: 2, high: 1, step: 1}")
                 .find("more than low"),

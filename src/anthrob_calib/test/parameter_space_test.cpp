@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "two_muscle_rig.h"
 
 namespace anthrob {
@@ -21,6 +23,37 @@ shares: [{path: joints.hinge.friction.kinetic, of: joints.hinge.friction.static,
   const auto overrides = space.overrides({0.04, 0.5});
   EXPECT_DOUBLE_EQ(overrides.at("joints.hinge.friction.static"), 0.04);
   EXPECT_DOUBLE_EQ(overrides.at("joints.hinge.friction.kinetic"), 0.02);
+}
+
+TEST(ParameterSpace, AShareAtItsBoundIsTakenUpAgain) {
+  const std::string before =
+                        "parameters: [{path: a, unit: Nm, low: 0.0, high: 2.0, step: 0.1}]\n"
+                        "shares: [{path: b, of: a, low: 0.0, high: ",
+                    after = ", step: 0.1}]\n";
+  int beyond = 0;
+  for (const double bound : {0.3, 0.8, 0.9, 1.2}) {
+    for (int i = 1; i < 100; ++i) {
+      const double a = 0.017 * i;
+      std::ostringstream model;
+      model.precision(17);
+      model << "{a: " << a << ", b: " << bound * a << "}";
+      beyond += bound * a / a > bound;
+      const ParameterSpace space(
+          ConfigNode::parse(before + std::to_string(bound) + after, "c.yaml"),
+          ConfigNode::parse(model.str(), "m.yaml"));
+      EXPECT_LE(space.initial()[1], bound);
+    }
+  }
+  EXPECT_GT(beyond, 0);  // the bit in question occurs
+  try {
+    ParameterSpace(ConfigNode::parse(before + "0.8" + after, "c.yaml"),
+                   ConfigNode::parse("{a: 1.0, b: 0.9}", "m.yaml"));
+    ADD_FAILURE();
+  } catch (const BadInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "c.yaml:2: shares.0.path: in the model, its share of a is 0.9: expected 0 to 0.8, "
+                 "its low and high");
+  }
 }
 
 TEST(ParameterSpace, NothingIsAShareOfAShare) {

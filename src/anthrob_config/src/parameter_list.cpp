@@ -120,8 +120,10 @@ ModelParameter read_parameter(const ConfigNode& entry, const ConfigNode& number,
       p.lower = std::min(p.lower, p.initial);
       p.upper = std::max(p.upper, p.initial);
     } else if (p.initial < p.lower || p.initial > p.upper) {
-      entry.fail(p.path + " is " + std::to_string(p.initial) + " in " + number.file() +
-                 ", outside [low, high]");
+      std::ostringstream text;
+      text << p.path << " is " << p.initial << " in " << number.file() << ": expected " << p.lower
+           << " to " << p.upper << ", its low and high";
+      entry.fail(text.str());
     }
   }
   return p;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <sstream>
+
+#include "anthrob_sim/recording/table.h"
 
 namespace anthrob {
 namespace calibration {
@@ -59,10 +62,15 @@ void ParameterSpace::read_share(const ConfigNode& entry, const ConfigNode& model
   const Share share{parameters_.size(), entry.text("of"), number_at(model, entry.text("of"))};
   const double value = number_at(model, p.path);
   p.initial = share.base != 0.0 ? value / share.base : p.lower;
-  if (p.initial < p.lower || p.initial > p.upper || (share.base == 0.0 && value != 0.0)) {
-    entry.at("path").fail("in the model, its share of " + entry.text("of") +
-                          " lies outside low ... high; expected a range that contains it");
+  // A share that ended at its bound may come back a bit beyond it: (0.8 b) / b.
+  const double slack = 1e-12 * std::max(std::abs(p.lower), std::abs(p.upper));
+  if (p.initial < p.lower - slack || p.initial > p.upper + slack ||
+      (share.base == 0.0 && value != 0.0)) {
+    entry.at("path").fail("in the model, its share of " + entry.text("of") + " is " +
+                          exact_text(p.initial) + ": expected " + exact_text(p.lower) + " to " +
+                          exact_text(p.upper) + ", its low and high");
   }
+  p.initial = std::clamp(p.initial, p.lower, p.upper);
   for (const ModelParameter& other : parameters_) {
     if (other.path == p.path) entry.at("path").fail("already listed; expected each path once");
   }

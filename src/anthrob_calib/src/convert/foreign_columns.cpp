@@ -46,6 +46,7 @@ ForeignColumns::Entry load_entry(const ConfigNode& node) {
     node.at("to").fail_expected("<muscle or joint>/<quantity of numbers>, as in docs/files.md");
   }
   entry.scale = node.number_or("scale", 1.0, Bounds::any(), "unit of to per unit of from");
+  if (entry.scale == 0.0) node.at("scale").fail_expected("a number other than 0");
   entry.offset = node.number_or("offset", 0.0, Bounds::any(), "unit of to");
   entry.table = load_table(node, "");
   return entry;
