@@ -29,11 +29,12 @@ std::string too_early(const CalibrationOutcome& outcome) {
   constexpr double kMuch = 0.25;
   if (outcome.moves_on <= kMuch * outcome.fitness) return "";
   char text[320];
-  std::snprintf(text, sizeof(text),
-                "the search looked at equilibria after %g s of motion, but the simulated arm moves "
-                "on until the recordings end: by %.3g in the measure of the fitness, of which %.3g "
-                "is left; what was found may be wrong; expected a longer simulate.motion",
-                outcome.simulation.motion, outcome.moves_on, outcome.fitness);
+  std::snprintf(
+      text, sizeof(text),
+      "equilibria are compared after %g s of motion, but the simulated arm moves on until "
+      "the recordings end: by %.3g in the measure of the fitness, which is %.3g; what is "
+      "fitted so may be wrong; expected a longer simulate.motion",
+      outcome.simulation.motion, outcome.moves_on, outcome.fitness);
   return text;
 }
 
