@@ -4,13 +4,19 @@
 #include <vector>
 
 #include "anthrob_driver/calibration.h"
-#include "anthrob_driver/watch/force_watch.h"
 #include "anthrob_ecu/parameters.h"
 #include "anthrob_ecu/protocol.h"
 #include "anthrob_ecu/supervisor.h"
 
 namespace anthrob {
 namespace driver {
+
+/// Motor, gear and spindle of a muscle, as its model describes them.
+struct Winch {
+  double back_emf = 0.0;  ///< k [Vs/rad, Nm/A] at the gear output; 0: not known
+  double inertia = 0.0;   ///< J of the rotor [kg m^2] at the gear output
+  double radius = 0.0;    ///< r of the spindle [m]; 0: not known
+};
 
 /// One muscle as it is wired.
 struct MuscleHardware {

@@ -24,7 +24,7 @@ std::string EncoderWatch::step(double position, double voltage, double current, 
   const double counted = position - start_;
   const double turned = turned_;
   turning_ = 0;  // looked at; anew from the next measurement on
-  if (std::copysign(counted, counted * turned) >= kCounted * std::abs(turned)) return "";
+  if (counted / turned >= kCounted) return "";
   char text[160];
   std::snprintf(text, sizeof(text),
                 "at %.1f V and %.2f A its motor must have turned by %.2f rad, but the encoder "

@@ -2,15 +2,10 @@
 
 #include <string>
 
+#include "anthrob_driver/hardware.h"
+
 namespace anthrob {
 namespace driver {
-
-/// Motor, gear and spindle of a muscle, as its model describes them.
-struct Winch {
-  double back_emf = 0.0;  ///< k [Vs/rad, Nm/A] at the gear output; 0: not known
-  double inertia = 0.0;   ///< J of the rotor [kg m^2] at the gear output
-  double radius = 0.0;    ///< r of the spindle [m]; 0: not known
-};
 
 /// Detects a motor that pulls much harder than its force sensor reads. What its current does not
 /// spend on acceleration pulls the tendon,
@@ -29,8 +24,7 @@ class ForceWatch {
   static constexpr double kLosses = 4.0;
   /// [N] Allows for the friction of motor and gear without load.
   static constexpr double kExcess = 100.0;
-
-  /// [rad] within kLasts
+  /// [rad] within kLasts; 0.1 mm of Anthrob's tendons
   static constexpr double kWindsIn = 0.02;
 
   explicit ForceWatch(const Winch& winch) : winch_(winch) {}
