@@ -117,6 +117,11 @@ class LaunchFiles(unittest.TestCase):
             nodes = [node.type for node in load('robot.launch', 'mocap:=' + word).nodes]
             self.assertEqual('anthrob_mocap' in nodes, wanted)
 
+    def test_a_robot_without_its_forearm_has_its_own_wiring(self):
+        for model, wanted in ('II', '/hardware.yaml'), ('I_tier1', '/hardware_tier1.yaml'):
+            params = load('robot.launch', 'model:=' + model).params
+            self.assertTrue(params['/anthrob/driver/hardware'].value.endswith('config/anthrob' + wanted))
+
     def test_cameras_of_the_robot(self):
         asked = dict(files='/a', calibration='/b', source='aravis', left='l', right='r')
         params = load('robot.launch', 'mocap:=true', *['mocap_%s:=%s' % pair for pair in asked.items()]).params

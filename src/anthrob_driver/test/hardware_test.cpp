@@ -34,6 +34,22 @@ TEST(Hardware, AnthrobWithAndWithoutHand) {
   EXPECT_FALSE(all.muscles[12].limits.modes[3]);
 }
 
+TEST(Hardware, AnthrobWithoutItsForearm) {
+  const Hardware upper = load_hardware(kConfig / "hardware_tier1.yaml", false);
+  EXPECT_EQ(upper.muscles.size(), 8u);
+  EXPECT_EQ(upper.ecus.size(), 4u);
+  EXPECT_EQ(upper.idle_nodes, (std::vector<int>{5, 6, 7}));
+  EXPECT_TRUE(upper.joints.empty());
+  for (const char* name : {"model_I_tier1.yaml", "model_III_tier1.yaml"}) {
+    const Hardware other = load_hardware(kConfig / "hardware_tier1.yaml", false, kConfig / name);
+    EXPECT_EQ(difference(upper, other), "") << name;
+  }
+  // A muscle that both have is wired and limited alike.
+  Hardware arm = load_hardware(kConfig / "hardware.yaml", false);
+  arm.muscles.resize(8);
+  EXPECT_EQ(difference(upper, arm), "");
+}
+
 TEST(Hardware, ARobotWithoutHand) {
   const std::string file = ANTHROB_CONFIG_DIR "/two_muscle_rig/hardware.yaml";
   EXPECT_FALSE(has_hand(file));
