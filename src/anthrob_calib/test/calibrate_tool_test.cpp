@@ -349,6 +349,12 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
   expect("--config " + path("impossible.yaml") + out + " --data " + path("eq"), "impossible.yaml:");
   write(path("unknown.yaml"), content(path("c.yaml")) + "colour: red\n");
   expect("--config " + path("unknown.yaml") + out + " --data " + path("eq"), "unknown key");
+  std::string nowhere = content(path("c.yaml"));
+  const std::size_t model = nowhere.find("model: ") + 7;
+  write(path("nowhere.yaml"),
+        nowhere.replace(model, nowhere.find('\n', model) - model, "not_there.yaml"));
+  expect("--config " + path("nowhere.yaml") + out + " --data " + path("eq"),
+         "model: not_there.yaml: expected a model file");
   expect(config + out + " --optimiser magic --data " + path("eq"),
          "--optimiser: magic not in {evolution_strategy,");
   std::string text = content(path("c.yaml"));
@@ -357,6 +363,7 @@ TEST_F(CalibrateTool, BadInputIsOneLineAndNothingIsLost) {
       "--config " + path("target.yaml") + out + " --optimiser least_squares --data " + path("eq"),
       "target: 0.1: expected 0");
   expect(config + out + " --resume --data " + path("eq"), "expected the journal");
+  EXPECT_FALSE(fs::exists(path("bad")));  // nothing was there to resume
 
   fs::create_directories(path("held_out"));
   fs::copy(path("eq/E2"), path("held_out/of_them"), fs::copy_options::recursive);

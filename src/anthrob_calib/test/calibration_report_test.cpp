@@ -28,10 +28,12 @@ TEST(CalibrationReport, HasTheErrorsOfParametersWhereNoRecordingCouldBeReplayed)
   outcome.parameters[0].path = "joints.elbow.friction.viscous";
   outcome.parameters[0].upper = 1.0;
   outcome.best = {0.5};
-  outcome.identifiability.parameters = {{0.01, 0.3, 10.0, true}};
+  outcome.identifiability.parameters = {{0.01, 0.3, 10.0, 0.0, 1.0, 0.04, true}};
   outcome.identifiability.singular_values = Eigen::VectorXd::Ones(1);
   outcome.identifiability.flattest = {1.0};
-  EXPECT_NE(report_html(outcome).find("1 of 1 parameters are identifiable"), std::string::npos);
+  const std::string page = report_html(outcome);
+  EXPECT_NE(page.find("1 of 1 parameters are identifiable"), std::string::npos);
+  EXPECT_NE(page.find("0.477719 ... 0.522281"), std::string::npos);  // Student's, 10 degrees
 }
 
 TEST(CalibrationReport, HasWhatOneOfTheModelsDoes) {
@@ -80,7 +82,8 @@ TEST(CalibrationReport, GivesNoIntervalAtTheEndOfARange) {
   outcome.parameters.resize(2);
   for (ModelParameter& p : outcome.parameters) p.upper = 1.0;
   outcome.best = {0.5, 1.0};
-  outcome.identifiability.parameters = {{0.01, 0.3, 10.0, true}, {0.01, 0.3, 10.0, true}};
+  outcome.identifiability.parameters = {{0.01, 0.3, 10.0, 0.0, 1.0, 0.04, true},
+                                        {0.01, 0.3, 10.0, 0.0, 1.0, 0.04, true}};
   outcome.identifiability.singular_values = Eigen::VectorXd::Ones(2);
   outcome.identifiability.flattest = {1.0, 0.0};
   EXPECT_FALSE(is_at_bound(outcome, 0));

@@ -105,6 +105,29 @@ TEST(DifferenceStack, MeansAreTheNoiseWhereNoPathIsFitted) {
   EXPECT_EQ(typical, 5 * 2 * 3);
 }
 
+TEST(ResidualNoise, IsNotMuchMoreThanWhatIsLeft) {
+  const Problem problem = problem_of(runs_of(rig(), "equilibrium", 1.0));
+  DifferenceStack stack(problem, [] {});
+  const std::vector<double> left = stack.describe(problem.space().initial());
+  const auto rows = static_cast<Eigen::Index>(left.size());
+  double square = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (stack.rows[k].kind != DifferenceStack::kForce) continue;
+    square += std::pow(left[k] / stack.rows[k].weight, 2);
+    count += 1.0;
+  }
+  const double rms = std::sqrt(square / count);
+  // Half of the rows go into the parameters: the rest tells of the noise.
+  const ResidualNoise known(stack, left, Eigen::VectorXd::Constant(rows, 0.5));
+  EXPECT_NEAR(known.force, rms * std::sqrt(2.0), 1e-9);
+  EXPECT_FALSE(known.absorbed[DifferenceStack::kForce]);
+  // Each row counts for fifty: the parameters could have followed more than there is.
+  for (DifferenceStack::Row& row : stack.rows) row.repetition = 50.0;
+  const ResidualNoise doubtful(stack, left, Eigen::VectorXd::Constant(rows, 0.5));
+  EXPECT_NEAR(doubtful.force, rms * std::sqrt(10.0), 1e-9);
+  EXPECT_TRUE(doubtful.absorbed[DifferenceStack::kForce]);
+}
+
 }  // namespace
 }  // namespace calibration
 }  // namespace anthrob

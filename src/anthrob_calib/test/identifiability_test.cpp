@@ -29,6 +29,23 @@ TEST(Identifiability, OnePostureDoesNotTellFourParameters) {
   }
 }
 
+TEST(Identifiability, IsJudgedByTheInterval) {
+  for (const char* kind : {"equilibrium", "trajectory"}) {
+    const Problem problem = problem_of(runs_of(rig(), kind, 1.0));
+    const Point initial = problem.space().initial();
+    const Identifiability known = examine(problem, initial, 0);
+    for (std::size_t i = 0; i < initial.size(); ++i) {
+      const ModelParameter& range = problem.space().parameters()[i];
+      const identification::Estimate estimate = interval(known, i, initial[i]);
+      const double most = kIdentifiableShare * identification::kNormal95 * range.range() /
+                          std::sqrt(3.0);  // 2 * range / sqrt(12)
+      EXPECT_EQ(known.parameters[i].identifiable, estimate.hi - estimate.lo < most) << kind << i;
+      EXPECT_GE(estimate.lo, range.lower);
+      EXPECT_LE(estimate.hi, range.upper);
+    }
+  }
+}
+
 TEST(Identifiability, TellsWhatEquilibriaCannot) {
   // The inductance of a motor moves no equilibrium.
   const Problem problem =
@@ -45,8 +62,9 @@ TEST(Identifiability, TellsWhatEquilibriaCannot) {
   for (const double fitness : known.profiles[0].fitness) {
     EXPECT_NEAR(fitness, known.profiles[0].fitness[0], 0.05 * known.profiles[0].fitness[0]);
   }
-  EXPECT_EQ(equilibria_needed(40, 8), 11);  // (5.13)
-  EXPECT_EQ(equilibria_needed(7 * 4, 4), 8);
+  EXPECT_EQ(equilibria_needed(40, 8, 3), 11);  // (5.13)
+  EXPECT_EQ(equilibria_needed(7 * 4, 4, 3), 8);
+  EXPECT_EQ(equilibria_needed(8, 2, 1), 6);  // a hinge
 }
 
 TEST(Identifiability, ATendonThatIsJustTautTellsLittle) {

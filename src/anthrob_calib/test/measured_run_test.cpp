@@ -58,6 +58,12 @@ TEST(MeasuredRun, RefusesBadRecordingsWithOneLine) {
     EXPECT_NE(error.find(part), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos);
   };
+  const auto scale = [](Dataset& d, const char* column, double by) {
+    for (double& value : d.tables[0].column(column).values) value *= by;
+  };
+  expect("expected a position of a joint that goes from",
+         [&](Dataset& d) { scale(d, "hinge/position", 180.0 / M_PI); });
+  expect("expected the tension of a tendon", [&](Dataset& d) { scale(d, "flexor/force", -1.0); });
   expect("fewer than two rows", [](Dataset& d) { d.tables.clear(); });
   const auto lose = [](Dataset& d, const char* column, std::size_t from, std::size_t count) {
     auto& values = d.tables[0].column(column).values;

@@ -316,6 +316,15 @@ TEST_F(JournalTest, LongEvaluationsAreWrittenBeforeTheirBatchIsFull) {
   }
 }
 
+TEST_F(JournalTest, ItsFolderServesOneRunAtATime) {
+  {
+    const Journal first(function_, options(false));
+    EXPECT_THROW(Journal(function_, options(true)), BadInput);
+    EXPECT_THROW(Journal(function_, options(false)), BadInput);
+  }
+  EXPECT_NO_THROW(Journal(function_, options(true)));
+}
+
 TEST_F(JournalTest, AnyMethodResumesToTheSameBits) {
   for (const char* method : {"evolution_strategy", "cmaes", "sade", "bee_colony"}) {
     const auto v = variables(4, 3.0);

@@ -140,6 +140,7 @@ void run_seed(const Trial& trial, std::uint64_t seed, Tally& tally) {
     const double error = std::abs(best[i] - truth[i]) / estimate.sigma;
     tally.covered += estimate.lo <= truth[i] && truth[i] <= estimate.hi ? 1 : 0;
     EXPECT_LT(error, 5.0) << i;
+    EXPECT_LT(estimate.hi - estimate.lo, 1.2 * k.prior_sigma) << i;  // 0.3 of its range's interval
     tally.worst = std::max(tally.worst, error);
     tally.squares += error * error;
   }

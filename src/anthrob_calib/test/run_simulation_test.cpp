@@ -109,6 +109,33 @@ TEST(SimulateRuns, EachRestsAsLongAsItsRobotDid) {
   }
 }
 
+TEST(SimulateRuns, AreComparedAsTheModelsSensorsMeasure) {
+  const auto sensed = std::make_shared<RobotModel>(*rig());
+  for (SensorModel* sensor : {&sensed->sensors.force, &sensed->sensors.joint_position}) {
+    sensor->delay = 0.02;
+    sensor->average = 10;
+  }
+  const std::vector<MeasuredRun> runs = runs_of(sensed, "trajectory");
+  const auto differences = [&](const std::shared_ptr<const RobotModel>& model) {
+    double force = 0.0, posture = 0.0;
+    for (const RunDifferences& run : simulate_runs(model, runs, as_recorded())) {
+      force = std::max(force, run.path.force.cwiseAbs().maxCoeff());
+      posture = std::max(posture, run.path.posture.cwiseAbs().maxCoeff());
+    }
+    return std::make_pair(force, posture);
+  };
+  const auto same = differences(sensed), ideal = differences(rig());
+  EXPECT_LT(same.first, 1e-6);
+  EXPECT_LT(same.second, 1e-8);
+  EXPECT_GT(ideal.first, 0.5);
+  EXPECT_GT(ideal.second, 0.01);
+  // Noise and counts are not predicted.
+  const auto noisy = std::make_shared<RobotModel>(*sensed);
+  noisy->sensors.force.noise = 1.0;
+  noisy->sensors.joint_position.quantum = 0.1;
+  EXPECT_EQ(differences(noisy), same);
+}
+
 TEST(SimulateRuns, AReturnBeginsWhereImposedPositionsEnded) {
   RecordingPlan out = plan(4.0, -1.0, "trajectory"), other = plan(2.0, 0.0, "trajectory");
   RecordingPlan back = out;

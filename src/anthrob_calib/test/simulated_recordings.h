@@ -54,13 +54,16 @@ inline Dataset record_simulation(const std::shared_ptr<const RobotModel>& model,
     for (int m = 0; m < muscles; ++m) {
       const std::string& name = model->muscles[m].name;
       put(name + "/reference", sim.muscle(m).reference());
-      put(name + "/position", sim.reading(m).position);
-      put(name + "/force", sim.reading(m).force + plan.force_noise * noise.normal(drawn++));
+      const ecu::Measurement& measured = sim.muscle(m).measured();
+      put(name + "/position", measured.position);
+      put(name + "/force", measured.force + plan.force_noise * noise.normal(drawn++));
     }
-    for (const JointModel& joint : model->skeleton->joints) {
+    for (std::size_t j = 0; j < model->skeleton->joints.size(); ++j) {
+      const JointModel& joint = model->skeleton->joints[j];
       const double* q = sim.read_positions() + joint.position_offset;
       if (joint.type != JointType::kBall) {
-        put(joint.name + "/position", q[0] + plan.angle_noise * noise.normal(drawn++));
+        put(joint.name + "/position", sim.measured_joint_position(static_cast<int>(j)) +
+                                          plan.angle_noise * noise.normal(drawn++));
         continue;
       }
       Quat turn(q[0], q[1], q[2], q[3]);

@@ -37,7 +37,11 @@ struct Arguments {
 
 CalibrationConfig configure(const Arguments& arguments) {
   CalibrationConfig config = CalibrationConfig::load(arguments.config);
-  if (!arguments.model.empty()) config.model_file = arguments.model;
+  if (arguments.model.empty()) {
+    config.require_model();
+  } else {
+    config.model_file = arguments.model;
+  }
   if (!arguments.method.empty()) config.optimiser.method = arguments.method;
   if (arguments.generations > 0) config.optimiser.generations = arguments.generations;
   if (arguments.seed >= 0) config.optimiser.seed = static_cast<std::uint64_t>(arguments.seed);
@@ -71,10 +75,15 @@ void write(const Arguments& arguments, const CalibrationInput& input,
   identification::write_files(arguments.out, files);
 }
 
-/// Refuses to overwrite the journal of an earlier search: without --resume, or by --evaluate.
+/// Refuses to overwrite the journal of an earlier search (without --resume, or by --evaluate), and
+/// to resume where there is none, before any folder is made.
 void keep_earlier_search(const Arguments& arguments) {
   const fs::path journal = fs::path(arguments.out) / "journal.txt";
-  if (!fs::exists(journal)) return;
+  if (!fs::exists(journal)) {
+    if (!arguments.resume) return;
+    throw BadInput(journal.string() +
+                   ": does not exist; expected the journal of an interrupted run");
+  }
   if (arguments.evaluate) {
     throw BadInput(journal.string() +
                    ": belongs to an earlier search; expected another --out for --evaluate");

@@ -51,6 +51,11 @@ CalibrationConfig CalibrationConfig::load(const std::string& file) {
   return config;
 }
 
+void CalibrationConfig::require_model() const {
+  if (std::filesystem::is_regular_file(model_file)) return;
+  node.at("model").fail_expected("a model file, by its path from this file");
+}
+
 void CalibrationConfig::check(const std::vector<MeasuredRun>& runs,
                               const std::string& folder) const {
   for (const MeasuredRun& run : runs) {

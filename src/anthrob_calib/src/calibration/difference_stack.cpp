@@ -97,6 +97,9 @@ namespace {
 
 using Kind = DifferenceStack::Kind;
 
+/// Share of the rows that count as not followed by the parameters, at least.
+constexpr double kLeastFree = 0.1;
+
 const Eigen::MatrixXd& errors_of(const Differences& differences, Kind kind) {
   return kind == DifferenceStack::kPosture ? differences.posture : differences.force;
 }
@@ -206,13 +209,19 @@ void DifferenceStack::describe_run(const MeasuredRun& run, const RunDifferences&
 ResidualNoise::ResidualNoise(const DifferenceStack& stack, const std::vector<double>& left,
                              const Eigen::VectorXd& leverage) {
   constexpr int kPosture = DifferenceStack::kPosture, kForce = DifferenceStack::kForce;
-  double square[2] = {0.0, 0.0};
+  double square[2] = {0.0, 0.0}, count[2] = {0.0, 0.0};
   for (std::size_t k = 0; k < left.size(); ++k) {
     const DifferenceStack::Row& row = stack.rows[k];
     if (!row.is_typical) continue;
     square[row.kind] += std::pow(left[k] / row.weight, 2);
+    count[row.kind] += 1.0;
     // Where rows repeat each other a parameter follows as many of them.
     free[row.kind] += 1.0 - row.repetition * leverage(static_cast<Eigen::Index>(k));
+  }
+  for (const int kind : {kPosture, kForce}) {
+    const double least = kLeastFree * count[kind];
+    absorbed[kind] = count[kind] > 0.0 && free[kind] < least;
+    free[kind] = std::max(free[kind], least);
   }
   constexpr double kSmallest = 1e-9;  // perfect data
   posture = std::max(kSmallest, std::sqrt(square[kPosture] / std::max(1.0, free[kPosture])));

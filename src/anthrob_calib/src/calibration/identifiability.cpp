@@ -74,7 +74,8 @@ class LinearFit {
         std::max(1e-30, squares / static_cast<double>(std::max<Eigen::Index>(1, typical - n_)));
     for (Eigen::Index i = 0; i < n_; ++i) {
       const double prior = (variables_[i].upper - variables_[i].lower) / std::sqrt(12.0);
-      known_.push_back({0.0, prior, HUGE_VAL, false});
+      known_.push_back(
+          {0.0, prior, HUGE_VAL, variables_[i].lower, variables_[i].upper, 0.0, false});
     }
     auto columns =
         derivatives(variables_, best_, left_, LeastSquaresOptimiser::kDifference, stack_);
@@ -108,9 +109,8 @@ class LinearFit {
   std::vector<Profile> profiles(int most) {
     std::vector<std::size_t> order(best_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto doubt = [&](std::size_t i) { return known_[i].sigma / known_[i].prior_sigma; };
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return doubt(a) > doubt(b); });
+                     [&](std::size_t a, std::size_t b) { return known_[a].left > known_[b].left; });
     std::vector<Profile> profiles;
     for (const std::size_t i : order) {
       if (static_cast<int>(profiles.size()) >= most || known_[i].identifiable) break;
@@ -188,9 +188,13 @@ class LinearFit {
       variance += of_kind[kind];
     }
     ParameterKnowledge& p = known_[i];
-    p.sigma = std::sqrt(variance) * variables_[i].step;
-    p.identifiable = p.sigma < kIdentifiableShare * p.prior_sigma;
+    // Less than the range says is not known, however large the noise.
+    p.sigma = std::min(std::sqrt(variance) * variables_[i].step, p.prior_sigma);
     p.freedom = effective_freedom(of_kind, noise_, stack_.repetition, variance);
+    const identification::Estimate estimate =
+        identification::make_estimate(0.0, p.sigma, p.freedom);
+    p.left = estimate.hi / (identification::kNormal95 * p.prior_sigma);
+    p.identifiable = p.left < kIdentifiableShare;
   }
 
   const std::vector<SearchVariable> variables_;
@@ -218,6 +222,7 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
   result.parameters = fit.known();
   result.posture_noise = fit.noise().posture;
   result.force_noise = fit.noise().force;
+  result.noise_is_doubtful = fit.noise().absorbed[0] || fit.noise().absorbed[1];
   fit.find_directions(result);
   result.profiles = fit.profiles(profiles);
   return result;
@@ -226,11 +231,15 @@ Identifiability examine(const Problem& problem, const std::vector<double>& best,
 identification::Estimate interval(const Identifiability& known, std::size_t parameter,
                                   double value) {
   const ParameterKnowledge& p = known.parameters[parameter];
-  return identification::make_estimate(value, p.sigma, p.freedom);
+  identification::Estimate estimate = identification::make_estimate(value, p.sigma, p.freedom);
+  estimate.lo = std::max(estimate.lo, std::min(p.lower, value));
+  estimate.hi = std::min(estimate.hi, std::max(p.upper, value));
+  return estimate;
 }
 
-int equilibria_needed(int unknowns, int muscles) {
-  return std::max(1, (unknowns - muscles + 2) / 3);
+int equilibria_needed(int unknowns, int muscles, int degrees_of_freedom) {
+  const int missing = std::max(0, unknowns - muscles);
+  return std::max(1, (missing + degrees_of_freedom - 1) / degrees_of_freedom);
 }
 
 }  // namespace calibration

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "anthrob_calib/recordings/plausible_values.h"
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_sim/core/errors.h"
@@ -51,6 +52,7 @@ class RunReader {
     for (const MuscleModel& muscle : model_.muscles) read_muscle(muscle.name);
     if (positions_.size() != references_.size()) positions_.clear();
     for (const JointModel& joint : model_.skeleton->joints) read_joint(joint);
+    refuse_implausible_values(model_, recording);
   }
 
   MeasuredRun read() {

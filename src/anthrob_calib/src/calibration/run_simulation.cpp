@@ -34,7 +34,10 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 class Comparison {
  public:
   Comparison(const RobotModel& model, const Samples& measured, int rows)
-      : model_(model), measured_(measured), now_(model.skeleton->velocity_count) {
+      : model_(model),
+        measured_(measured),
+        seen_(static_cast<std::size_t>(model.skeleton->position_count)),
+        now_(model.skeleton->velocity_count) {
     posture_.setZero(rows, model.skeleton->velocity_count);
     differences.joints = static_cast<int>(model.skeleton->joints.size());
     differences.force.setZero(rows, static_cast<Eigen::Index>(model.muscles.size()));
@@ -43,12 +46,12 @@ class Comparison {
 
   void add(const Simulation& sim, int row, double weight = 1.0) {
     const Eigen::VectorXd q = measured_.q.row(row);
-    posture_row(*model_.skeleton, q.data(), sim.read_positions(), now_.data());
+    see_posture(sim);
+    posture_row(*model_.skeleton, q.data(), seen_.data(), now_.data());
     posture_.row(row) += weight * now_;
     for (Eigen::Index m = 0; m < differences.force.cols(); ++m) {
-      const ecu::Measurement reading = sim.reading(static_cast<int>(m));
-      const double force = std::max(reading.force, 0.0);  // as units measure it
-      differences.force(row, m) += weight * (force - measured_.force(row, m));
+      const ecu::Measurement& reading = sim.muscle(static_cast<int>(m)).measured();
+      differences.force(row, m) += weight * (reading.force - measured_.force(row, m));
       if (differences.actuator.cols() > 0) {
         differences.actuator(row, m) += weight * (reading.position - measured_.position(row, m));
       }
@@ -61,8 +64,19 @@ class Comparison {
   }
 
  private:
+  /// As the model's sensors see it.
+  void see_posture(const Simulation& sim) {
+    std::copy_n(sim.read_positions(), seen_.size(), seen_.begin());
+    const auto& joints = model_.skeleton->joints;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].type == JointType::kBall) continue;
+      seen_[joints[j].position_offset] = sim.measured_joint_position(static_cast<int>(j));
+    }
+  }
+
   const RobotModel& model_;
   const Samples& measured_;
+  std::vector<double> seen_;
   RowMatrix posture_;
   Eigen::RowVectorXd now_;
   Differences differences;
@@ -262,9 +276,11 @@ std::map<int, Snapshot> settle_at_home(const std::shared_ptr<const RobotModel>& 
 
 }  // namespace
 
-std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& model,
+std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& robot,
                                           const std::vector<MeasuredRun>& runs,
                                           const SimulationOptions& options, const Stop& stop) {
+  const auto model = std::make_shared<RobotModel>(*robot);
+  model->sensors = robot->sensors.predictable();
   const std::vector<Chain> chains = chains_of(runs);
   const std::map<int, Snapshot> homes = settle_at_home(model, runs, chains, options, stop);
   std::vector<RunDifferences> results(runs.size());

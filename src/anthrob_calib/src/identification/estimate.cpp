@@ -8,10 +8,6 @@
 namespace anthrob {
 namespace identification {
 
-namespace {
-constexpr double kNormal95 = 1.959963984540054;
-}
-
 Estimate make_estimate(double value, double sigma, double freedom) {
   const boost::math::students_t distribution(freedom);
   const double reach = boost::math::quantile(distribution, 0.975) * sigma;

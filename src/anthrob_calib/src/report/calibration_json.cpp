@@ -124,7 +124,8 @@ std::string result_json(const CalibrationOutcome& o) {
   if (!o.identifiability.parameters.empty()) out["identifiability"] = identifiability_json(o);
   if (!o.calibration.runs.empty() && !o.calibration.runs.front().is_trajectory) {
     const int needed = equilibria_needed(static_cast<int>(o.parameters.size()),
-                                         static_cast<int>(o.model->muscles.size()));
+                                         static_cast<int>(o.model->muscles.size()),
+                                         o.model->skeleton->velocity_count);
     out["equilibria"] = {{"given", o.calibration.runs.size()}, {"needed_by_5.13", needed}};
   }
   for (const DriveErrors& d : o.drives) {

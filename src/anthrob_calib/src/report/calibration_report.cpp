@@ -74,9 +74,15 @@ std::string errors_section(const BeforeAfter& both, const RobotModel& model,
   return out;
 }
 
+std::string interval_text(const CalibrationOutcome& o, std::size_t parameter) {
+  const identification::Estimate estimate =
+      interval(o.identifiability, parameter, o.best[parameter]);
+  return text(estimate.lo, "%.6g") + " ... " + text(estimate.hi, "%.6g");
+}
+
 std::string parameter_table(const CalibrationOutcome& o) {
   std::string out = "<table>" + row({"parameter", "unit", "range", "before", "after", "sigma",
-                                     "identifiable", "at a bound"},
+                                     "95 % interval", "identifiable", "at a bound"},
                                     "th");
   const std::vector<std::string> nothing = insensitive_parameters(o);
   for (std::size_t i = 0; i < o.parameters.size(); ++i) {
@@ -86,6 +92,7 @@ std::string parameter_table(const CalibrationOutcome& o) {
     out += row({escaped(p.name()), p.unit, text(p.lower) + " ... " + text(p.upper),
                 text(p.initial, "%.6g"), text(o.best[i], "%.6g"),
                 known ? text(o.identifiability.parameters[i].sigma, "%.2g") : "",
+                known && !is_at_bound(o, i) ? interval_text(o, i) : "",
                 !known                                         ? (told ? "" : "<b>no</b>")
                 : o.identifiability.parameters[i].identifiable ? "yes"
                                                                : "<b>no</b>",
@@ -110,7 +117,8 @@ std::string identifiability_section(const CalibrationOutcome& o) {
   if (!o.calibration.runs.empty() && !o.calibration.runs.front().is_trajectory) {
     out += "Equilibria needed by (5.13): " +
            std::to_string(equilibria_needed(static_cast<int>(o.parameters.size()),
-                                            static_cast<int>(o.model->muscles.size()))) +
+                                            static_cast<int>(o.model->muscles.size()),
+                                            o.model->skeleton->velocity_count)) +
            ", given: " + std::to_string(o.calibration.runs.size()) + ".";
   }
   out += "</p>\n<p>Singular values of the derivatives with respect to steps, largest first: ";
@@ -137,8 +145,8 @@ std::string drives_section(const CalibrationOutcome& o) {
                          "largest actuator difference [deg]"},
                         "th");
   for (const DriveErrors& d : o.drives) {
-    out += row({d.drive, text(kDegrees * d.posture, "%.2f"), text(d.force, "%.2f"),
-                text(kDegrees * d.actuator, "%.2f")});
+    out += row({d.drive, std::isfinite(d.posture) ? text(kDegrees * d.posture, "%.2f") : "",
+                text(d.force, "%.2f"), text(kDegrees * d.actuator, "%.2f")});
   }
   return out + "</table>\n";
 }

@@ -16,6 +16,15 @@
 
 namespace anthrob {
 
+SensorsModel SensorsModel::predictable() const {
+  SensorsModel quiet = *this;
+  for (SensorModel* sensor :
+       {&quiet.position, &quiet.velocity, &quiet.current, &quiet.force, &quiet.joint_position}) {
+    sensor->noise = sensor->quantum = 0.0;
+  }
+  return quiet;
+}
+
 namespace {
 
 /// How deep a path point may lie inside where an effect may have moved points or surfaces [m].

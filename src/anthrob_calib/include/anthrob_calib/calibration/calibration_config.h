@@ -23,6 +23,8 @@ struct CalibrationConfig {
 
   /// @throws BadInput with one line
   static CalibrationConfig load(const std::string& file);
+  /// @throws BadInput with file and line of `model` if it names no file
+  void require_model() const;
   /// @throws BadInput if a run is not of the kind that `recordings` asks for
   void check(const std::vector<MeasuredRun>& runs, const std::string& folder) const;
 };

@@ -71,6 +71,10 @@ struct ResidualNoise {
   double posture = 0.0;         ///< [rad]
   double force = 0.0;           ///< [N]
   double free[2] = {0.0, 0.0};  ///< degrees of freedom of each kind
+  /// By kind: the parameters could follow nearly all of the noise, so that it is hardly known. At
+  /// least a tenth of the rows count as free then: the noise is taken as up to three times the
+  /// differences that remain, and no more.
+  bool absorbed[2] = {false, false};
 
   ResidualNoise() = default;
   /// @param left the list at the best point   @param leverage of each row

@@ -54,9 +54,10 @@ void wait_for_command(Simulation& sim, const MeasuredRun& run, const SimulationO
 RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationOptions& options,
                       const Stop& stop = {});
 
-/// Simulates all runs with one model. Chains run in parallel on all threads.
+/// Simulates all runs with one model. Chains run in parallel on all threads. Compared is what the
+/// model's sensors measure, with their delays and averages, without noise and counts.
 /// @throws NumericalFailure
-std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& model,
+std::vector<RunDifferences> simulate_runs(const std::shared_ptr<const RobotModel>& robot,
                                           const std::vector<MeasuredRun>& runs,
                                           const SimulationOptions& options, const Stop& stop = {});
 

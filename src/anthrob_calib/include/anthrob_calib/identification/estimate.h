@@ -6,6 +6,9 @@
 namespace anthrob {
 namespace identification {
 
+/// Half of a normal 95 % interval, in standard deviations.
+constexpr double kNormal95 = 1.959963984540054;
+
 /// A number with its standard error and confidence interval.
 struct Estimate {
   double value = 0.0;

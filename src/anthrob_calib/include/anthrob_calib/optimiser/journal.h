@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "anthrob_calib/optimiser/evaluator.h"
+#include "anthrob_calib/resume/folder_lock.h"
 #include "anthrob_calib/resume/result_file.h"
 
 namespace anthrob {
@@ -43,7 +44,8 @@ class Journal final : public Evaluator {
     std::uint64_t program = 0;               ///< fingerprint of the build that calculates them
   };
 
-  /// @throws BadInput if there is nothing to resume, or it belongs to something else
+  /// @throws BadInput if there is nothing to resume, it belongs to something else, or another run
+  /// writes into the same folder
   Journal(Evaluator& evaluator, Options options);
 
   std::vector<double> fitness(const std::vector<Point>& points) override;
@@ -79,6 +81,7 @@ class Journal final : public Evaluator {
 
   Evaluator& evaluator_;
   Options options_;
+  std::unique_ptr<resume::FolderLock> lock_;
   std::vector<Entry> entries_;                         ///< of the file
   std::unique_ptr<resume::ResultFile<double>> lists_;  ///< of residuals, by points
   std::size_t unsaved_ = 0;

@@ -22,7 +22,7 @@ struct BeforeAfter {
 /// Errors of the calibrated model with other inputs of the actuators (section 8.3).
 struct DriveErrors {
   std::string drive;
-  double posture = 0.0;   ///< root mean square over runs and joints [rad]
+  double posture = 0.0;   ///< root mean square over runs and turning joints [rad]; NaN: none turns
   double force = 0.0;     ///< [N]
   double actuator = 0.0;  ///< largest difference of an actuator position [rad]
 };

@@ -18,14 +18,9 @@ namespace {
 std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const RobotModel>& model,
                                                 const Variant& variant) {
   auto quiet = std::make_shared<RobotModel>(*model);
-  SensorsModel& sensors = quiet->sensors;
-  for (SensorModel* sensor : {&sensors.position, &sensors.velocity, &sensors.current,
-                              &sensors.force, &sensors.joint_position}) {
-    sensor->noise = 0.0;
-    sensor->quantum = 0.0;
-  }
-  sensors.position.quantum = variant.position_count;
-  sensors.force.quantum = variant.force_count;
+  quiet->sensors = model->sensors.predictable();
+  quiet->sensors.position.quantum = variant.position_count;
+  quiet->sensors.force.quantum = variant.force_count;
   return quiet;
 }
 

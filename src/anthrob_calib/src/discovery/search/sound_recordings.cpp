@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "anthrob_calib/discovery/number_text.h"
+#include "anthrob_calib/recordings/plausible_values.h"
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 
@@ -14,47 +15,10 @@ namespace discovery {
 
 namespace {
 
-constexpr double kLargest = 1e9;        // in whatever unit
-constexpr double kRangesBeyond = 10.0;  // of a joint, beyond its stops
 constexpr double kRepeatedRows = 0.02;  // share that deserves a remark
 constexpr std::size_t kStretch = 50;    // rows
 constexpr std::size_t kDistinct = 25;   // of them; where less happens, two recordings may agree
 constexpr double kShared = 0.1;         // of the stretches of the shorter recording
-
-[[noreturn]] void refuse(const Dataset& recording, const Table& table, std::size_t row,
-                         const std::string& complaint) {
-  throw BadInput(recording.folder + "/" + table.name + ".csv: row " + std::to_string(row + 1) +
-                 ": " + complaint);
-}
-
-void refuse_no_number(const Dataset& recording, const Table& table, const Column& column) {
-  for (std::size_t i = 0; i < column.values.size(); ++i) {
-    if (!column.present[i] || std::abs(column.values[i]) < kLargest) continue;
-    refuse(recording, table, i,
-           column.name + ": expected a finite number" +
-               (std::isfinite(column.values[i]) ? " below 1e9" : ""));
-  }
-}
-
-void refuse_far_positions(const RobotModel& robot, const Dataset& recording, const Table& table,
-                          const Column& column) {
-  if (column.quantity() != "position") return;
-  const int j = robot.skeleton->find_joint(column.owner());
-  if (j < 0) return;
-  const JointModel& joint = robot.skeleton->joints[static_cast<std::size_t>(j)];
-  if (!joint.stop.enabled || joint.dof() > 1) return;
-  const double low = joint.stop.lower, high = joint.stop.upper;
-  const double beyond = kRangesBeyond * (high - low);
-  for (std::size_t i = 0; i < column.values.size(); ++i) {
-    if (!column.present[i]) continue;
-    const double value = column.values[i];
-    if (value >= low - beyond && value <= high + beyond) continue;
-    refuse(recording, table, i,
-           column.name + ": " + short_number(value) +
-               ": expected a position of a joint that goes " + "from " + short_number(low) +
-               " to " + short_number(high) + " (in rad or m)");
-  }
-}
 
 void refuse_other_clocks(const Dataset& recording) {
   for (const Table& table : recording.tables) {
@@ -141,13 +105,10 @@ void refuse_nonsense(const RobotModel& robot, const Dataset& recording) {
   for (const Table& table : recording.tables) {
     for (std::size_t i = 1; i < table.t.size(); ++i) {
       if (table.t[i] >= table.t[i - 1]) continue;
-      refuse(recording, table, i, "time runs backwards: expected rows in order of time");
-    }
-    for (const Column& column : table.columns) {
-      refuse_no_number(recording, table, column);
-      refuse_far_positions(robot, recording, table, column);
+      refuse_row(recording, table, i, "time runs backwards: expected rows in order of time");
     }
   }
+  refuse_implausible_values(robot, recording);
   refuse_other_clocks(recording);
 }
 

@@ -54,6 +54,9 @@ struct SensorsModel {
   /// 1 on a robot without controllers.
   int steps_per_tick = 1;
   std::uint64_t seed = 1;
+
+  /// The same without chance: no noise and no counts. What remains can be predicted.
+  SensorsModel predictable() const;
 };
 
 /// A robot as its files describe it: immutable, shared by any number of simulations.

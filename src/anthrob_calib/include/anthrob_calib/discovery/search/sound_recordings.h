@@ -9,7 +9,7 @@ namespace anthrob {
 namespace discovery {
 
 /// Refuses time that runs backwards, files that do not share a clock, and numbers that nobody can
-/// have measured, such as positions far beyond a joint's stops (in another unit).
+/// have measured (refuse_implausible_values()).
 /// @throws BadInput with file, row and column
 void refuse_nonsense(const RobotModel& robot, const Dataset& recording);
 
