@@ -87,6 +87,14 @@ ros::Publisher claim_robot(ros::NodeHandle& nh) {
                  " publishes it already; stop that simulator or driver first");
 }
 
+void refuse_other_clocks() {
+  const std::string other = living_publisher("/clock");
+  if (other.empty()) return;
+  throw BadInput("/clock: " + other +
+                 " publishes it already; a second one would turn time back and forth: give each "
+                 "simulator a ROS master of its own (roslaunch -p PORT)");
+}
+
 void refuse_other_back_ends(ros::NodeHandle& nh, const std::string& own) {
   if (own.empty()) return;
   const std::string topic = nh.resolveName("muscle_states"), meant = nh.resolveName(own);

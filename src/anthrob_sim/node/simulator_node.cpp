@@ -9,6 +9,7 @@
 
 #include "anthrob_ecu/gains.h"
 #include "anthrob_ros/diagnostics.h"
+#include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/messages/conversions.h"
 #include "anthrob_sim/placement.h"
 
@@ -41,6 +42,7 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       nh_(nh),
       surfaces_(nh_, sim_.model()) {
   clock_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  refuse_other_clocks();
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
   joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
   spherical_joints_ =

@@ -234,6 +234,34 @@ TEST(ReplayStart, MotorsWhosePositionsAreImposedHaveNoCurrent) {
   EXPECT_EQ(muscles.find("flexor/force")->present, std::vector<char>({1, 1}));
 }
 
+TEST(ReplayStart, BallJointsWithoutMusclesStandAsTheyWereMeasured) {
+  auto bare = std::make_shared<RobotModel>(*load_robot_model(config("anthrob/model_I.yaml")));
+  bare->muscles.clear();
+  auto skeleton = std::make_shared<SkeletonModel>(*bare->skeleton);
+  for (JointModel& joint : skeleton->joints) joint.driven = joint.name == "elbow";
+  bare->skeleton = skeleton;
+  Dataset recording;
+  Table& table = recording.table("joints");
+  table.t = {0, 5000000};
+  const double turn[] = {0.8, 0.6, 0.0, 0.0};
+  table.columns = {{"elbow/position", {0.7, 0.7}, {1, 1}}, {"elbow/effort", {0.0, 0.0}, {1, 1}}};
+  for (int k = 0; k < 4; ++k) {
+    table.columns.push_back({std::string("shoulder/") + "wxyz" [k], { turn[k], turn[k] }, {1, 1}});
+  }
+  const Replay replay(bare, recording, ReplayMode::kReference);
+  Simulation sim(bare);
+  replay.start(sim);
+  const std::vector<double> expected = {0.8, 0.6, 0.0, 0.0, 0.7};
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_NEAR(sim.configuration()[k], expected[k], 1e-12) << k;
+  }
+  // Recordings that begin elsewhere do not share the beginning.
+  Dataset other = recording;
+  other.table("joints").columns[2].values = {0.6, 0.6};
+  other.table("joints").columns[3].values = {0.8, 0.8};
+  EXPECT_NE(Replay(bare, other, ReplayMode::kReference).start_inputs(), replay.start_inputs());
+}
+
 TEST(ReplayStart, StartsMusclesWithoutControllersAtRest) {
   const auto hill = load_robot_model(config("two_muscle_rig/model_hill.yaml"));
   Dataset recording;

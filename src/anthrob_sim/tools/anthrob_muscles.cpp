@@ -131,21 +131,30 @@ void print_json(const std::vector<Row>& rows) {
   std::cout << list.dump(2) << "\n";
 }
 
-/// For people: millimetres.
+/// For people: millimetres. The arm of a slide is a number without unit.
 void print_table(const Simulation& sim) {
   const std::vector<std::string> axes = axis_names(*sim.model().skeleton);
+  std::vector<double> scale(axes.size(), 1e3);
+  bool slides = false;
+  for (const JointModel& joint : sim.model().skeleton->joints) {
+    if (joint.type != JointType::kPrismatic) continue;
+    scale[static_cast<std::size_t>(joint.velocity_offset)] = 1.0;
+    slides = true;
+  }
   std::cout << std::left << std::setw(20) << "muscle" << std::right << std::setw(11) << "length mm"
             << std::setw(10) << "SEE mm" << std::setw(9) << "force N";
   for (const std::string& axis : axes) std::cout << std::setw(12) << axis;
-  std::cout << "  wrapping (moment arms in mm)\n" << std::fixed;
+  std::cout << "  wrapping (moment arms in mm" << (slides ? "; of slides in m/m" : "") << ")\n"
+            << std::fixed;
   for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
     const Muscle& muscle = sim.muscle(m);
     std::cout << std::left << std::setw(20) << muscle.model().name << std::right
               << std::setprecision(2) << std::setw(11) << 1e3 * muscle.length()
               << std::setprecision(3) << std::setw(10) << 1e3 * muscle.expansion()
               << std::setprecision(2) << std::setw(9) << muscle.spring_tension();
+    std::size_t axis = 0;
     for (const double arm : sim.moment_arms(static_cast<int>(m))) {
-      std::cout << std::setprecision(1) << std::setw(12) << 1e3 * arm;
+      std::cout << std::setprecision(1) << std::setw(12) << scale[axis++] * arm;
     }
     const auto& obstacles = muscle.model().path->obstacles();
     for (std::size_t i = 0; i < obstacles.size(); ++i) {

@@ -20,6 +20,11 @@ std::string living_publisher(const std::string& topic);
 ///   `/use_sim_time`; it is first set back to what the running nodes need
 ros::Publisher claim_robot(ros::NodeHandle& nh);
 
+/// To be called by a node that has just advertised `/clock`: with two clocks on one master,
+/// nobody's time goes forwards.
+/// @throws BadInput naming another living node that publishes it
+void refuse_other_clocks();
+
 /// A launch file starts a simulator and a node that commands it. If a driver serves the robot, the
 /// simulator is refused, and that node must not command the driver instead. To be called before the
 /// node commands or enables anything.

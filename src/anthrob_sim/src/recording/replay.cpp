@@ -86,7 +86,7 @@ void Replay::read_joint(const JointModel& joint, int index, const Dataset& recor
     require(!joints_.back().position.empty());
     return;
   }
-  if (mode_ != ReplayMode::kPosture) return;
+  if (mode_ != ReplayMode::kPosture && !model_->muscles.empty()) return;
   balls_.push_back({index, OrientationSeries::read(recording, joint.name)});
   require(!balls_.back().turns.empty());
 }
@@ -134,7 +134,8 @@ Replay::Use Replay::use_of(const Dataset& recording, const Column& column) const
   if (quantity == "load" || (quantity == "effort" && joint.driven)) return Use::kAll;
   const bool number = quantity == "w" || quantity == "x" || quantity == "y" || quantity == "z";
   if (mode_ == ReplayMode::kPosture && (quantity == "position" || number)) return Use::kAll;
-  return quantity == "position" && model_->muscles.empty() ? Use::kStart : Use::kNone;
+  const bool starts = model_->muscles.empty() && (quantity == "position" || number);
+  return starts ? Use::kStart : Use::kNone;
 }
 
 void Replay::check_inputs(const Dataset& recording) const {

@@ -57,6 +57,11 @@ std::vector<double> Replay::start_inputs() const {
       inputs.insert(inputs.end(), {joint.effort.acting_at(0.0), joint.load.acting_at(0.0)});
     }
   }
+  for (const BallInput& ball : balls_) {
+    double turn[] = {1.0, 0.0, 0.0, 0.0};
+    if (!ball.turns.empty()) ball.turns.at(0.0, turn);
+    inputs.insert(inputs.end(), std::begin(turn), std::end(turn));
+  }
   return inputs;
 }
 
@@ -109,6 +114,10 @@ Replay::Settled Replay::settle(Simulation& sim, const std::function<bool()>& wan
     for (const JointInput& input : joints_) {
       if (input.position.empty()) continue;
       q[model.skeleton->joints[input.joint].position_offset] = input.position.values.front();
+    }
+    for (const BallInput& input : balls_) {
+      if (input.turns.empty()) continue;
+      input.turns.at(0.0, &q[model.skeleton->joints[input.joint].position_offset]);
     }
   }
   std::vector<double> placed(model.muscles.size(), 0.0);

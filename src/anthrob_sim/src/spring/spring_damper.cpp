@@ -30,7 +30,7 @@ double SpringDamper::dissipation(double rate, StateView state) const {
 std::shared_ptr<const SeriesElasticElement> SpringDamper::load(const ConfigNode& node, int quantity,
                                                                double step) {
   return std::make_shared<SpringDamper>(
-      node.number("rest_length", Bounds::nonnegative(), "m"),
+      node.number("rest_length", Bounds::between(0.0, 1.0), "m"),
       quantity * node.number("stiffness", Bounds::positive(), "N/m"),
       quantity * node.number("damping", Bounds::nonnegative(), "Ns/m"), step);
 }

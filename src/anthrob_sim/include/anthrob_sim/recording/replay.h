@@ -129,7 +129,7 @@ class Replay {
   DatasetMeta meta_;
   std::vector<MuscleInput> muscles_;
   std::vector<JointInput> joints_;
-  std::vector<BallInput> balls_;  ///< of kPosture only
+  std::vector<BallInput> balls_;  ///< of kPosture, and of robots without muscles
   double duration_ = 0.0;
 };
 

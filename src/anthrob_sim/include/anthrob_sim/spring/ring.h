@@ -18,8 +18,8 @@ struct Ring {
 
   /// Reads `rest_length`, `section_diameter` and `strands`.
   static Ring load(const ConfigNode& node, int quantity) {
-    const double l0 = node.number("rest_length", Bounds::positive(), "m");
-    const double d = node.number("section_diameter", Bounds::positive(), "m");
+    const double l0 = node.number("rest_length", Bounds::fraction(), "m");
+    const double d = node.number("section_diameter", Bounds{0.0, 0.1, true, false}, "m");
     const int strands = node.at("strands").as_integer(1, 100);
     return {l0, quantity * strands * 0.25 * M_PI * d * d};
   }
