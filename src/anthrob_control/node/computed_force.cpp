@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <std_srvs/Trigger.h>
 
+#include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
@@ -111,8 +112,11 @@ class ComputedForceNode {
     silent_ = 0.0;
     shortfall_ = wanted.shortfall.norm();
     converged_ = wanted.converged;
+    limited_ = wanted.limited;
     mode_ = wanted.mode;
-    link_.send(anthrob::make_command(controller_.model(), wanted.mode, wanted.reference));
+    // A muscle that FORCE leaves alone must not go on holding a position that was ours.
+    placed_ = placed_ || wanted.mode != anthrob::ecu::Mode::kForce;
+    link_.send(anthrob::make_command(controller_.model(), wanted.mode, wanted.reference, placed_));
   }
 
   /// A robot may refuse to go over to POSITION: too far from where its muscles are, or no zero. It
@@ -172,19 +176,23 @@ class ComputedForceNode {
     status.name = name_;
     status.hardware_id = controller_.model().file;
     const bool short_of = shortfall_ > 0.01 || !converged_;
-    status.level = !trouble_.empty()            ? DiagnosticStatus::ERROR
-                   : !refused_.empty()          ? DiagnosticStatus::ERROR
-                   : !idle_.empty() || short_of ? DiagnosticStatus::WARN
-                                                : DiagnosticStatus::OK;
-    status.message = !trouble_.empty()       ? "no commands: " + trouble_
-                     : !refused_.empty()     ? refused_
-                     : !idle_.empty()        ? "the motor of " + idle_ + " is not enabled"
-                     : short_of              ? "the muscles cannot deliver the torque"
+    const bool at_limit = idle_.empty() && limited_ >= 0;
+    status.level = !trouble_.empty()                        ? DiagnosticStatus::ERROR
+                   : !refused_.empty()                      ? DiagnosticStatus::ERROR
+                   : !idle_.empty() || short_of || at_limit ? DiagnosticStatus::WARN
+                                                            : DiagnosticStatus::OK;
+    status.message = !trouble_.empty()   ? "no commands: " + trouble_
+                     : !refused_.empty() ? refused_
+                     : !idle_.empty()    ? "the motor of " + idle_ + " is not enabled"
+                     : short_of          ? "the muscles cannot deliver the torque"
+                     : at_limit          ? "muscle " + controller_.model().muscles[limited_].name +
+                                      " would need a position beyond its limit"
                      : controller_.holds()   ? "zero gravity"
                      : controller_.arrived() ? "holding a posture"
                                              : "on the way to a posture";
     status.values.resize(1);
-    status.values[0].key = "shortfall [Nm]";
+    status.values[0].key =
+        "shortfall [" + anthrob::torque_unit(*controller_.model().skeleton) + "]";
     status.values[0].value = std::to_string(shortfall_);
     diagnostic_msgs::DiagnosticArray array;
     array.header.stamp = link_.now();
@@ -207,6 +215,8 @@ class ComputedForceNode {
   double silent_ = 0.0;  ///< since the last command [s]
   double last_dt_ = 0.0;
   bool converged_ = true;
+  bool placed_ = false;  ///< whether muscles without force sensor were commanded
+  int limited_ = -1;     ///< muscle whose reference ends at its position limit
   ros::WallTime reported_;
 };
 

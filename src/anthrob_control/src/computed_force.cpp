@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "anthrob_control/posture_sequence.h"
+#include "anthrob_sim/recording/table.h"
 #include "anthrob_sim/statics/equilibrium.h"
 
 namespace anthrob {
@@ -23,6 +25,20 @@ Eigen::VectorXd bounds(const RobotModel& model, double tension) {
     bound[static_cast<Eigen::Index>(m)] = std::min(tension, model.muscles[m].limits.force);
   }
   return bound;
+}
+
+/// Zero gravity would let the arm fall.
+void refuse_without_forces(const RobotModel& model, const ControlSettings& settings) {
+  const bool forces =
+      settings.hold_output == ecu::Mode::kForce || settings.move_output == ecu::Mode::kForce;
+  if (!forces) return;
+  for (const MuscleModel& muscle : model.muscles) {
+    if (muscle.has_controller && muscle.has_force_sensor()) return;
+  }
+  throw BadInput(
+      model.file +
+      ": no muscle has a force sensor; expected POSITION, not FORCE, as the controller's "
+      "output (hold and move)");
 }
 
 }  // namespace
@@ -44,6 +60,8 @@ ComputedForce::ComputedForce(std::shared_ptr<const RobotModel> model,
       Eigen::VectorXd::Zero(model->skeleton->velocity_count);
   command_.tension = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model->muscles.size()));
   command_.reference.assign(model->muscles.size(), 0.0);
+  refuse_without_controllers(*model);
+  refuse_without_forces(*model, settings);
   // Muscles that cannot be held in POSITION are refused here, before the arm depends on them.
   const bool positions =
       settings.hold_output == ecu::Mode::kPosition || settings.move_output == ecu::Mode::kPosition;
@@ -83,6 +101,7 @@ void ComputedForce::go_to(const std::vector<double>& q, double duration) {
   }
   if (!(duration > 0.0)) throw std::invalid_argument("go_to: duration: expected > 0 s");
   refuse_haste(q, duration);
+  refuse_beyond_limits(q);
   if (!moving_) servo_.reset();
   motion_.start(target(), q, duration);
   moving_ = true;
@@ -94,14 +113,30 @@ void ComputedForce::refuse_haste(const std::vector<double>& q, double duration) 
     const double way = PostureMotion::kFastest * joint_distance(joints[j], target(), q);
     const double fastest = settings_.joints[j].fastest;
     if (way <= fastest * duration) continue;
-    char text[200];
-    std::snprintf(
-        text, sizeof(text),
-        "duration: %g s: joint '%s' would move at %.3g rad/s, but 'fastest' allows %g rad/s; "
-        "expected at least %.3g s",
-        duration, joints[j].name.c_str(), way / duration, fastest, way / fastest);
-    throw BadInput(text);
+    const char* const unit = joints[j].type == JointType::kPrismatic ? "m/s" : "rad/s";
+    char speeds[100], least[20];
+    std::snprintf(speeds, sizeof(speeds), "at %.3g %s, but 'fastest' allows %g %s", way / duration,
+                  unit, fastest, unit);
+    std::snprintf(least, sizeof(least), "%.3g", way / fastest);
+    throw BadInput("duration: " + exact_text(duration) + " s: joint '" + joints[j].name +
+                   "' would move " + speeds + "; expected at least " + least + " s");
   }
+}
+
+void ComputedForce::refuse_beyond_limits(const std::vector<double>& q) {
+  if (settings_.move_output != ecu::Mode::kPosition) return;
+  target_posture_.update(q, zero_);
+  TensionSplit split = split_;
+  Eigen::VectorXd wanted = target_posture_.load();
+  subtract_ligaments(target_posture_, wanted);
+  const TensionSplit::Result& result = split.solve(target_posture_.moment_arms(), wanted);
+  std::vector<double> references(model().muscles.size(), 0.0);
+  for (std::size_t m = 0; m < references.size(); ++m) {
+    if (!model().muscles[m].has_controller) continue;
+    references[m] = position_reference(model().muscles[m], target_posture_.muscle_length(m),
+                                       result.tension[static_cast<Eigen::Index>(m)]);
+  }
+  anthrob::refuse_beyond_limits("go_to", model(), references);
 }
 
 const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, double dt) {
@@ -129,6 +164,7 @@ const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, doub
   if (mode != command_.mode) forget_voltages();
   command_.mode = mode;
   if (command_.mode == ecu::Mode::kPosition) target_posture_.update(target(), zero_);
+  command_.limited = -1;
   for (std::size_t m = 0; m < command_.reference.size(); ++m)
     command_.reference[m] = reference_for(m, measured.muscles[m], step);
   return command_;
@@ -155,24 +191,28 @@ void ComputedForce::compute_torque(double dt) {
   }
 }
 
-void ComputedForce::split() {
-  wanted_ = command_.torque;
+void ComputedForce::subtract_ligaments(const PostureModel& posture, Eigen::VectorXd& torque) const {
   for (const Ligament& ligament : ligaments_) {
     const Eigen::Index m = static_cast<Eigen::Index>(ligament.muscle);
-    wanted_ -= posture_.moment_arms().col(m) * tension_of(ligament);
+    torque -= posture.moment_arms().col(m) * tension_of(ligament, posture);
   }
+}
+
+void ComputedForce::split() {
+  wanted_ = command_.torque;
+  subtract_ligaments(posture_, wanted_);
   const TensionSplit::Result& result = split_.solve(posture_.moment_arms(), wanted_);
   command_.tension = result.tension;
   for (const Ligament& ligament : ligaments_) {
-    command_.tension[static_cast<Eigen::Index>(ligament.muscle)] = tension_of(ligament);
+    command_.tension[static_cast<Eigen::Index>(ligament.muscle)] = tension_of(ligament, posture_);
   }
   command_.shortfall = result.shortfall;
   command_.converged = result.converged;
 }
 
-double ComputedForce::tension_of(const Ligament& ligament) const {
+double ComputedForce::tension_of(const Ligament& ligament, const PostureModel& posture) const {
   return model().muscles[ligament.muscle].spring->relaxed_tension(
-      posture_.muscle_length(ligament.muscle) - ligament.slack_length);
+      posture.muscle_length(ligament.muscle) - ligament.slack_length);
 }
 
 double ComputedForce::reference_for(std::size_t muscle, const ecu::Measurement& measured,
@@ -184,6 +224,7 @@ double ComputedForce::reference_for(std::size_t muscle, const ecu::Measurement& 
     case ecu::Mode::kPosition: {
       const double reference =
           position_reference(m, target_posture_.muscle_length(muscle), tension);
+      if (std::abs(reference) > m.limits.position) command_.limited = static_cast<int>(muscle);
       return std::min(m.limits.position, std::max(-m.limits.position, reference));
     }
     case ecu::Mode::kVoltage: {

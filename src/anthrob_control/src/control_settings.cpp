@@ -4,6 +4,8 @@ namespace anthrob {
 
 namespace {
 
+constexpr double kFastestSlide = 0.4;  ///< [m/s] unless the settings say otherwise
+
 ecu::Mode read_mode(const ConfigNode& node) {
   const std::string word = node.as_text();
   if (word == "FORCE") return ecu::Mode::kForce;
@@ -12,14 +14,20 @@ ecu::Mode read_mode(const ConfigNode& node) {
   node.fail_expected("FORCE, POSITION or VOLTAGE");
 }
 
-JointGains read_gains(const ConfigNode& node) {
+JointGains read_gains(const ConfigNode& node, const JointModel& joint) {
+  const bool slides = joint.type == JointType::kPrismatic;
   JointGains gains;
-  gains.stiffness = node.number("stiffness", Bounds::nonnegative(), "Nm/rad");
-  gains.damping = node.number("damping", Bounds::nonnegative(), "Nms/rad");
-  gains.integral = node.number("integral", Bounds::nonnegative(), "Nm/(rad s)");
-  gains.yield = node.number("yield", Bounds::nonnegative(), "Nm");
-  gains.strength = node.number("strength", Bounds::nonnegative(), "Nm");
-  gains.fastest = node.number_or("fastest", gains.fastest, Bounds::positive(), "rad/s");
+  if (slides) gains.fastest = kFastestSlide;
+  const auto read = [&](const char* key, const char* turning, const char* sliding) {
+    return node.number(key, Bounds::nonnegative(), slides ? sliding : turning);
+  };
+  gains.stiffness = read("stiffness", "Nm/rad", "N/m");
+  gains.damping = read("damping", "Nms/rad", "Ns/m");
+  gains.integral = read("integral", "Nm/(rad s)", "N/(m s)");
+  gains.yield = read("yield", "Nm", "N");
+  gains.strength = read("strength", "Nm", "N");
+  gains.fastest =
+      node.number_or("fastest", gains.fastest, Bounds::positive(), slides ? "m/s" : "rad/s");
   return gains;
 }
 
@@ -46,7 +54,7 @@ ControlSettings ControlSettings::load(const std::string& file, const RobotModel&
       value.fail("unknown joint; expected a movable joint of " + model.file);
   }
   for (const JointModel& joint : model.skeleton->joints)
-    settings.joints.push_back(read_gains(joints.at(joint.name)));
+    settings.joints.push_back(read_gains(joints.at(joint.name), joint));
   node.refuse_unknown_keys();
   return settings;
 }

@@ -123,12 +123,20 @@ PostureSequence PostureSequence::load(const std::string& file, const RobotModel&
   return sequence;
 }
 
+std::string torque_unit(const SkeletonModel& skeleton) {
+  const auto slides = [](const JointModel& joint) { return joint.type == JointType::kPrismatic; };
+  const auto& joints = skeleton.joints;
+  if (std::none_of(joints.begin(), joints.end(), slides)) return "Nm";
+  return std::all_of(joints.begin(), joints.end(), slides) ? "N" : "Nm or N";
+}
+
 void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
                             const Equilibrium& equilibrium) {
   const double shortfall = equilibrium.shortfall.norm();
   if (shortfall <= kHoldable) return;
-  throw BadInput("posture '" + name + "': the muscles of " + model.file + " cannot hold it: " +
-                 std::to_string(shortfall) + " Nm of joint torque are missing (" +
+  throw BadInput("posture '" + name + "': the muscles of " + model.file +
+                 " cannot hold it: " + std::to_string(shortfall) + " " +
+                 torque_unit(*model.skeleton) + " of joint torque are missing (" +
                  by_axis(*model.skeleton, equilibrium.shortfall) + ")");
 }
 

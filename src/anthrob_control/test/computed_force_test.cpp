@@ -306,6 +306,20 @@ TEST(ComputedForce, RefusesPositionsThatNoGainHolds) {
   EXPECT_THROW(ComputedForce(model, settings), BadInput);
 }
 
+TEST(ComputedForce, RefusesRobotsThatCannotTakeItsCommands) {
+  const std::string rig = std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/";
+  const auto hill = load_robot_model(rig + "model_hill.yaml");
+  ControlSettings settings;
+  settings.joints.resize(1);
+  EXPECT_THROW(ComputedForce(hill, settings), BadInput);  // nobody takes commands
+  auto blind = std::make_shared<RobotModel>(*load_robot_model(rig + "model_I.yaml"));
+  for (MuscleModel& muscle : blind->muscles) muscle.limits.force = 0.0;
+  ASSERT_FALSE(blind->muscles[0].has_force_sensor());
+  EXPECT_THROW(ComputedForce(blind, settings), BadInput);  // nobody takes FORCE
+  settings.hold_output = ecu::Mode::kPosition;
+  EXPECT_NO_THROW(ComputedForce(blind, settings));
+}
+
 TEST(ComputedForce, RefusesMeasurementsThatDoNotFit) {
   const auto plant = load_robot_model(kAnthrob + "model_I.yaml");
   const auto settings = ControlSettings::load(kAnthrob + "control.yaml", *plant);
@@ -362,6 +376,27 @@ TEST_F(GoTo, RefusesHaste) {
   }
   EXPECT_NEAR(fastest, 4.0 / 1.02, 0.02);
   EXPECT_EQ(last, 1.5);
+}
+
+TEST_F(GoTo, RefusesWhatIsBeyondTheLimitOfAMuscle) {
+  auto limited = std::make_shared<RobotModel>(*robot);
+  for (MuscleModel& muscle : limited->muscles) muscle.limits.position = 1.0;
+  ComputedForce other(limited, settings);
+  other.update(measured, 0.005);
+  try {
+    other.go_to(aim, 2.0);
+    FAIL() << "no refusal";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("expected at most 1.000000 rad, its position limit"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(other.holds());
+  // On the way, where what is measured decides, it is said.
+  EXPECT_EQ(controller.update(measured, 0.005).limited, -1);
+  settings.hold_output = ecu::Mode::kPosition;
+  ComputedForce holding(limited, settings);
+  EXPECT_GE(holding.update(measured, 0.005).limited, 0);
 }
 
 TEST_F(GoTo, RefusesNoDuration) {

@@ -20,6 +20,14 @@ TEST(MakeCommand, LeavesMusclesOutThatLackTheMode) {
   EXPECT_EQ(force.mode.size(), 11u);
   EXPECT_EQ(force.reference.size(), 11u);
   for (const std::string& name : force.name) EXPECT_EQ(name.rfind("hand", 0), std::string::npos);
+  const auto released = make_command(*model, ecu::Mode::kForce, references, true);
+  ASSERT_EQ(released.name.size(), 13u);
+  for (std::size_t m = 0; m < 13; ++m) {
+    const bool hand = released.name[m].rfind("hand", 0) == 0;
+    EXPECT_EQ(released.mode[m],
+              static_cast<std::uint8_t>(hand ? ecu::Mode::kVoltage : ecu::Mode::kForce));
+    EXPECT_EQ(released.reference[m], hand ? 0.0 : 2.0);
+  }
 }
 
 TEST(ReferenceWatch, NamesAMuscleThatFollowsSomethingElseForASecond) {

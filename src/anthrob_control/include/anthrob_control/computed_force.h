@@ -28,6 +28,7 @@ struct ForceCommand {
   Eigen::VectorXd shortfall;      ///< the part of it that they cannot deliver [Nm]
   Eigen::VectorXd tension;        ///< least-effort tensions; ligaments: their own [N]
   bool converged = true;          ///< whether the split is the least-effort one
+  int limited = -1;               ///< a muscle whose POSITION reference ends at its limit, or -1
 };
 
 /// Computed-force control. The joint torques are the model's gravity, centrifugal and inertia terms
@@ -41,6 +42,7 @@ struct ForceCommand {
 /// Uses no clock, and does not allocate while running.
 class ComputedForce {
  public:
+  /// @throws BadInput if no muscle takes the commands that the settings ask for
   ComputedForce(std::shared_ptr<const RobotModel> model, const ControlSettings& settings);
 
   /// Starts again: the next update holds the posture that is measured then.
@@ -49,7 +51,8 @@ class ComputedForce {
   void zero_gravity();
   /// @param q posture, size position_count   @param duration [s], > 0
   /// @throws std::invalid_argument
-  /// @throws BadInput if a joint would move faster than it may; the controller continues as before
+  /// @throws BadInput if a joint would move faster than it may, or if a muscle would need a
+  /// position beyond its limit there; the controller continues as before
   void go_to(const std::vector<double>& q, double duration);
 
   /// @param dt since the last update [s]
@@ -72,9 +75,11 @@ class ComputedForce {
   static std::vector<Ligament> ligaments_of(const RobotModel& model);
   void forget_voltages();
   void refuse_haste(const std::vector<double>& q, double duration) const;
+  void refuse_beyond_limits(const std::vector<double>& q);
   void compute_torque(double dt);
   void split();
-  double tension_of(const Ligament& ligament) const;
+  void subtract_ligaments(const PostureModel& posture, Eigen::VectorXd& torque) const;
+  double tension_of(const Ligament& ligament, const PostureModel& posture) const;
   double reference_for(std::size_t muscle, const ecu::Measurement& measured, double dt);
 
   ControlSettings settings_;

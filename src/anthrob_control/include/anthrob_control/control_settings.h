@@ -8,14 +8,14 @@
 
 namespace anthrob {
 
-/// Gains and limits of one joint.
+/// Gains and limits of one joint; of one that slides with m for rad and N for Nm.
 struct JointGains {
   double stiffness = 0.0;  ///< [Nm/rad]
   double damping = 0.0;    ///< [Nms/rad]
   double integral = 0.0;   ///< only on the way to a posture [Nm/(rad s)]
   double yield = 0.0;      ///< zero gravity: with more torque than this the joint yields [Nm]
   double strength = 0.0;   ///< largest correcting torque on the way to a posture [Nm]
-  double fastest = 4.0;    ///< highest speed that go_to may ask for [rad/s]
+  double fastest = 4.0;    ///< highest speed that go_to may ask for [rad/s]; unless given: 0.4 m/s
 };
 
 /// Settings of the computed-force controller: a YAML file beside the robot's models, see

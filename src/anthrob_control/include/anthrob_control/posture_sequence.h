@@ -8,7 +8,11 @@
 
 namespace anthrob {
 
-/// @throws BadInput naming posture and model if more than 0.02 Nm are missing to hold the posture
+/// Of what muscles deliver to the joints: "Nm", "N" if all slide, "Nm or N" if some do.
+std::string torque_unit(const SkeletonModel& skeleton);
+
+/// @throws BadInput naming posture and model if more than 0.02 Nm (N) are missing to hold the
+/// posture
 void refuse_if_not_holdable(const std::string& name, const RobotModel& model,
                             const Equilibrium& equilibrium);
 /// Refuses references beyond the muscles' limits, as simulator and driver would.

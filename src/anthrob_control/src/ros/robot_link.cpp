@@ -201,15 +201,16 @@ ros::Time RobotLink::send(anthrob_msgs::MuscleCommand command) {
 }
 
 anthrob_msgs::MuscleCommand make_command(const RobotModel& model, ecu::Mode mode,
-                                         const std::vector<double>& references) {
+                                         const std::vector<double>& references, bool release) {
   anthrob_msgs::MuscleCommand command;
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
     const MuscleModel& muscle = model.muscles[m];
     if (!muscle.has_controller) continue;
-    if (mode == ecu::Mode::kForce && !muscle.has_force_sensor()) continue;
-    command.name.push_back(model.muscles[m].name);
-    command.mode.push_back(static_cast<std::uint8_t>(mode));
-    command.reference.push_back(references[m]);
+    const bool blind = mode == ecu::Mode::kForce && !muscle.has_force_sensor();
+    if (blind && !release) continue;
+    command.name.push_back(muscle.name);
+    command.mode.push_back(static_cast<std::uint8_t>(blind ? ecu::Mode::kVoltage : mode));
+    command.reference.push_back(blind ? 0.0 : references[m]);
   }
   return command;
 }
