@@ -561,6 +561,25 @@ TEST(Plot, WhatASensorDidNotAnswerIsLeftOut) {
   EXPECT_EQ(figure.find("nan"), std::string::npos);
 }
 
+TEST(Plot, ShowsAPeakOfOneSampleInALongRecording) {
+  const Folder folder;
+  Dataset data = hinge();
+  Table& table = data.table("muscles");
+  Column force{"flexor/force", {}, {}};
+  for (int i = 0; i < 30001; ++i) {
+    table.t.push_back(Nanoseconds{2000000} * i);
+    force.values.push_back(i == 12345 ? 97.0 : 5.0);
+    force.present.push_back(1);
+  }
+  table.columns.push_back(force);
+  data.save(folder / "set");
+  const std::string command = std::string(ANTHROB_PLOT) + " " + (folder / "set") + " --out " +
+                              (folder / "figures") + " 2>" + (folder / "errors.txt");
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  // The axis reaches beyond it.
+  EXPECT_NE(content(folder / "figures/muscle_forces.svg").find(">100<"), std::string::npos);
+}
+
 TEST(Plot, AFigureWithoutLinesIsNotDrawn) {
   const Folder folder;
   hinge().save(folder / "set");

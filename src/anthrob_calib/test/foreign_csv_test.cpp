@@ -168,6 +168,24 @@ TEST_F(ForeignCsv, MuscleRobotsSurviveTheFolderAndTheBag) {
   }
 }
 
+TEST_F(ForeignCsv, WhereTheMotorsStoodBefore) {
+  const auto meta = [&](const std::string& start) {
+    const Dataset dataset = read(
+        "robot: r\nrate: 10\n" + start + "columns: [{from: a, to: a/reference}]\n", "a\n1\n2\n");
+    dataset.save((folder_ / "out").string());
+    return Dataset::load((folder_ / "out").string()).meta;
+  };
+  EXPECT_EQ(meta("").start, "first");
+  EXPECT_EQ(meta("start: zero\n").start, "zero");
+  const DatasetMeta given = meta("start: {a: 0.5}\n");
+  EXPECT_EQ(given.start, "given");
+  EXPECT_EQ(given.start_position.at("a"), 0.5);
+  EXPECT_NE(
+      error("robot: r\nrate: 10\nstart: last\ncolumns: [{from: a, to: a/reference}]\n", "a\n1\n")
+          .find("start: last: expected first, zero or {muscle: rad}"),
+      std::string::npos);
+}
+
 TEST_F(ForeignCsv, OneModeForAll) {
   const Dataset dataset = read(
       "robot: r\nrate: 10\nmode: FORCE\ncolumns: [{from: a, to: a/reference}, {from: b, to: "

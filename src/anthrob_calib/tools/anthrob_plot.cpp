@@ -66,10 +66,24 @@ void leave_out_orientations_without_answer(Dataset& data) {
 SvgFigure::Line line(const std::string& label, const Series& series, double scale) {
   SvgFigure::Line result;
   result.label = label;
-  const std::size_t stride = 1 + series.t.size() / kMostPoints;
-  for (std::size_t i = 0; i < series.t.size(); i += stride) {
+  const auto draw = [&](std::size_t i) {
     result.x.push_back(series.t[i]);
     result.y.push_back(scale * series.values[i]);
+  };
+  const std::size_t count = series.t.size(), stride = 1 + 2 * count / kMostPoints;
+  for (std::size_t begin = 0; begin < count; begin += stride) {
+    // The least and the most of each block: a peak of one sample is what one looks for.
+    const auto first = series.values.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last =
+        series.values.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stride, count));
+    const auto gap = std::find_if(first, last, [](double value) { return std::isnan(value); });
+    const auto [least, most] = std::minmax_element(first, gap);
+    const auto index = [&](auto at) {
+      return static_cast<std::size_t>(at - series.values.begin());
+    };
+    if (gap != first) draw(index(std::min(least, most)));
+    if (gap != first && least != most) draw(index(std::max(least, most)));
+    if (gap != last) draw(index(gap));
   }
   return result;
 }

@@ -138,6 +138,7 @@ ForeignColumns ForeignColumns::load(const std::string& file) {
   }
   columns.meta.settle_s =
       node.number_or("settle_s", columns.meta.settle_s, Bounds::nonnegative(), "s");
+  if (node.has("start")) columns.meta.load_start_reference(node.at("start"));
   if (node.has("notes")) columns.meta.other["notes"] = node.at("notes").to_yaml();
   const std::string separator = node.text_or("separator", ",");
   if (separator.size() != 1) node.at("separator").fail_expected("one character");

@@ -26,16 +26,8 @@ void load_start(const ConfigNode& start, DatasetMeta& meta, std::vector<std::str
   for (const auto& [key, value] : start.entries()) {
     if (key == "settle_s") {
       meta.settle_s = value.as_number(Bounds::between(0.0, 3600.0), "s");
-    } else if (key == "reference" && value.is_map()) {
-      meta.start = "given";
-      for (const auto& [muscle, position] : value.entries()) {
-        meta.start_position[muscle] = position.as_number(Bounds::any(), "rad");
-      }
     } else if (key == "reference") {
-      meta.start = value.as_text();
-      if (meta.start != "first" && meta.start != "zero") {
-        value.fail_expected("first, zero or {muscle: rad}");
-      }
+      meta.load_start_reference(value);
     } else {
       meta.other_start[key] = value.to_yaml();
       remarks->push_back(value.file() + ": " + value.path() +
@@ -75,6 +67,19 @@ void put_yaml(const std::string& indent, const std::string& key, const std::stri
 }
 
 }  // namespace
+
+void DatasetMeta::load_start_reference(const ConfigNode& reference) {
+  if (!reference.is_map()) {
+    start = reference.as_text();
+    if (start != "first" && start != "zero")
+      reference.fail_expected("first, zero or {muscle: rad}");
+    return;
+  }
+  start = "given";
+  for (const auto& [muscle, position] : reference.entries()) {
+    start_position[muscle] = position.as_number(Bounds::any(), "rad");
+  }
+}
 
 DatasetMeta load_meta(const std::string& file, std::vector<std::string>* remarks) {
   DatasetMeta meta;

@@ -6,6 +6,8 @@
 
 namespace anthrob {
 
+class ConfigNode;
+
 /// meta.yaml of a dataset folder. What is not listed here is kept in `other`.
 struct DatasetMeta {
   std::string robot;
@@ -16,6 +18,9 @@ struct DatasetMeta {
   double settle_s = 5.0;                           ///< [s]
   std::map<std::string, std::string> other_start;  ///< unknown keys of `start`, as YAML text
   std::map<std::string, std::string> other;  ///< sensors, notes and unknown keys, as YAML text
+
+  /// Takes `start` and `start_position` from `first`, `zero` or `{muscle: rad}`. @throws BadInput
+  void load_start_reference(const ConfigNode& reference);
 };
 
 /// meta.yaml of a dataset folder, or NAME.yaml beside NAME.bag.
