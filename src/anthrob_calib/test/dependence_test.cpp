@@ -70,6 +70,16 @@ TEST(Dependence, IsBeyondWhatAConstantDoes) {
   EXPECT_LT(noise.share, Dependence::kTelling);
 }
 
+TEST(Dependence, ExplainsNoMoreThanAllThereIs) {
+  // The constant of every second block predicts the others worse than none.
+  const Dependence d = dependence_of({time(), speed()}, [](std::size_t b) {
+    return 2.0 * speed_at(b) + (b / 100 % 2 ? 1.0 : -1.0);
+  });
+  EXPECT_GE(d.constant, 0.0);
+  EXPECT_GE(d.share, 0.0);
+  EXPECT_LE(d.predicted(), 1.0);
+}
+
 TEST(Dependence, OnTwoQuantitiesTogether) {
   // Friction that grows with the load: the sign of the velocity alone explains its mean only.
   const Dependence friction = dependence_of({time(), direction(), load()}, [](std::size_t b) {

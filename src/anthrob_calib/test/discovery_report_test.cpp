@@ -59,6 +59,7 @@ TEST(Report, EveryKeyIsDocumented) {
   answer.verdict = "effects_found";
   answer.effects = {cogging()};
   answer.effects[0].parameters[0].undetermined = true;
+  answer.effects[0].parameters[0].at_bound = true;
   answer.effects[0].rivals.resize(1);
   answer.effects[0].separating_recording.targets.resize(1);
   answer.where.resize(1);
@@ -119,6 +120,38 @@ TEST(Report, WhatTheRecordingsDoNotDetermineIsSaidInWords) {
   const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
   EXPECT_EQ(json["effects"][0]["parameters"]["amplitude"]["undetermined"], true);
   EXPECT_FALSE(json["effects"][0]["parameters"]["periods"].contains("undetermined"));
+}
+
+TEST(Report, ASizeThatLiesAtTheEndOfItsRangeIsNotUndetermined) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  FoundParameter& amplitude = answer.effects[0].parameters[0];
+  amplitude.at_bound = amplitude.low_ends = amplitude.high_ends = true;
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "at the end of its range; it may lie beyond"));
+  EXPECT_TRUE(holds(summary(answer), "amplitude 0.005 Nm, at the end of its range"))
+      << summary(answer);
+  const auto json = nlohmann::json::parse(report_json(answer, {}, 1.0));
+  EXPECT_EQ(json["effects"][0]["parameters"]["amplitude"]["at_bound"], true);
+}
+
+TEST(Report, SizesHaveTheDigitsOfTheirIntervals) {
+  FoundParameter gain{"gain", "1", 1.005924, 1.005081, 1.006812};
+  EXPECT_EQ(interval_text(gain), "1.0059 [1.0051, 1.0068]");
+  gain.value = 0.04212, gain.low = 0.0384, gain.high = 0.0471;
+  EXPECT_EQ(interval_text(gain), "0.0421 [0.0384, 0.0471]");
+  gain.low = gain.high = gain.value;
+  EXPECT_EQ(interval_text(gain), "0.0421 [0.0421, 0.0421]");
+}
+
+TEST(Report, TheAnswerHasTheSizeThatIsThere) {
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  answer.effects[0].parameters = {{"forward", "Nm", 0.0, 0.0, 0.008},
+                                  {"backward", "Nm", 0.0032, 0.003, 0.0034},
+                                  {"width", "rad", 3.0, 2.0, 4.0}};
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "(backward 0.0032"));
 }
 
 TEST(Report, NumbersAreShortAndHaveNoExponentOfUsualSize) {
@@ -392,6 +425,12 @@ TEST(Report, ExplainsItsWords) {
   for (const char* word : {"floor", "recalibrated", "share", "significance", "nat"}) {
     EXPECT_TRUE(holds(page, "<li>" + std::string(word) + ": ")) << word;
   }
+  // Where something was named, less counts.
+  EXPECT_TRUE(holds(page, "(1.4 floors)"));
+  Answer answer;
+  answer.verdict = "effects_found";
+  answer.effects = {cogging()};
+  EXPECT_TRUE(holds(report_html(answer, {}, 1.0), "(1.15 floors)"));
 }
 
 TEST(Report, HasTheRemarksOnRecordings) {

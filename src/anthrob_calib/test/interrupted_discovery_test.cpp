@@ -118,6 +118,25 @@ TEST_F(InterruptedRun, ToolDoesNotReplaceTheModelThatItReads) {
   EXPECT_EQ(content(path("found/model.yaml")), text);
 }
 
+TEST_F(InterruptedRun, LoopDoesNotReplaceRecordingsThatItReads) {
+  const std::string model = kConfig + "/driven_axis/model_I.yaml";
+  for (const char* end : {"", "/"}) {
+    axis_recording(20.4, 0.0, 1).save(path("train"));
+    axis_recording(20.4, 0.0, 2).save(path("found/separating_1_test"));
+    const std::string command = std::string(ANTHROB_DISCOVER) + " --model " + model + " --train " +
+                                path("train") + " --test " + path("found/separating_1_test") + end +
+                                " --close-the-loop " + model + " --out " + path("found") +
+                                " >/dev/null 2>" + path("errors");
+    const int status = std::system(command.c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 2);
+    EXPECT_NE(content(path("errors")).find("separating_1_test is an input of this run"),
+              std::string::npos)
+        << content(path("errors"));
+    EXPECT_TRUE(fs::exists(path("found/separating_1_test/meta.yaml")));
+  }
+}
+
 TEST_F(InterruptedRun, ToolSaysFirstThatItCannotWrite) {
   const std::string command =
       std::string(ANTHROB_DISCOVER) + " --model " + kConfig +

@@ -34,6 +34,9 @@ class MadeExperiment final : public Experiment {
     for (std::size_t b = 0; b < bins; ++b) noise_.push_back(bins > 1 ? random.normal(b) : 0.0);
   }
 
+  /// As of a file with few digits.
+  void set_step_of_digits(double step) { channels_.front().digits = step; }
+
   void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
     const double difference = (model->step == kCoarse ? coarse_ : difference_)(*model);
     for (std::size_t b = 0; b < noise_.size(); ++b) {

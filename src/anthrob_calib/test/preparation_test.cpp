@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "anthrob_calib/discovery/fit/model_fit.h"
 #include "anthrob_calib/discovery/search/repeats.h"
 #include "anthrob_sim/core/errors.h"
 #include "arm.h"
 #include "axis_recording.h"
+#include "made_experiment.h"
 
 namespace anthrob {
 namespace discovery {
@@ -445,6 +448,80 @@ TEST(MeasureScales, CountsOfAnEncoderReachTheVoltagesOfItsController) {
   // Nor does the voltage's own sensor take anything off them.
   const Dataset both = round_motors(coarse, "voltage", expected);
   EXPECT_NEAR(scales_of(both).at(voltage).counts, scale.counts, 1e-3 * scale.counts);
+}
+
+/// Every n-th row of all tables.
+Dataset thinned(Dataset data, std::size_t every) {
+  for (Table& table : data.tables) {
+    if (table.name == "commands") continue;
+    Table kept;
+    kept.name = table.name;
+    for (const Column& column : table.columns) kept.columns.push_back({column.name, {}, {}});
+    for (std::size_t i = 0; i < table.t.size(); i += every) {
+      kept.t.push_back(table.t[i]);
+      for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        kept.columns[c].values.push_back(table.columns[c].values[i]);
+        kept.columns[c].present.push_back(table.columns[c].present[i]);
+      }
+    }
+    table = kept;
+  }
+  return data;
+}
+
+TEST(Floors, OfARecordingWithFewerRowsAreHigher) {
+  const Arm arm;
+  const Dataset whole = arm.record({}, 1, 1);
+  const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
+  const auto fast = make_experiment(*arm.plain, whole),
+             slow = make_experiment(*arm.plain, thinned(whole, 4));  // one row a bin
+  const Scales scales = measure_scales(evaluator, {fast}, {});
+  const auto gap = [&](const std::shared_ptr<const Experiment>& experiment, const Scales& floors) {
+    const Differences differences = evaluator.compare({Variant{}}, {experiment}).front();
+    const Eigen::VectorXf w = whitener({experiment}, floors, false);
+    return std::sqrt(differences.cwiseProduct(w).squaredNorm() /
+                     static_cast<float>((w.array() > 0.0f).count()));
+  };
+  EXPECT_NEAR(gap(fast, scales), 1.0, 0.1);
+  EXPECT_NEAR(gap(slow, scales), 1.0, 0.1);  // 2 if all had the same floor
+  // The other way round: slow noise would be in the means of many rows, too.
+  EXPECT_LT(gap(fast, measure_scales(evaluator, {slow}, {})), 0.7);
+}
+
+TEST(Floors, HoldWhatFilesRound) {
+  const Arm arm;
+  const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
+  const Dataset whole = arm.record({}, 1, 1);
+  Dataset printed = whole;
+  double squares = 0.0, count = 0.0;
+  for (Table& table : printed.tables) {
+    for (Column& column : table.columns) {
+      if (column.name != "biceps_brachii/position") continue;
+      for (double& value : column.values) {
+        char text[32];
+        std::snprintf(text, sizeof(text), "%.3g", value);
+        const double error = std::strtod(text, nullptr) - value;
+        squares += error * error;
+        count += 1.0;
+        value += error;
+      }
+    }
+  }
+  const double rounded = std::sqrt(squares / count);
+  const auto digits_of = [&](const Dataset& data) {
+    for (const Channel& channel : make_experiment(*arm.plain, data)->channels()) {
+      if (channel.name() == "biceps_brachii/position") return channel.digits;
+    }
+    return -1.0;
+  };
+  EXPECT_EQ(digits_of(whole), 0.0);
+  EXPECT_NEAR(digits_of(printed) / std::sqrt(12.0), rounded, 0.2 * rounded);
+  // Also where most numbers are exact, so that nothing scatters.
+  const auto exact = std::make_shared<MadeExperiment>([](double, double, double) { return 0.0; },
+                                                      [](double, double, double) { return 0.0; });
+  exact->set_step_of_digits(0.5);
+  EXPECT_NEAR(measure_scales(evaluator, {exact}, {}).at("elbow/position").floor,
+              0.5 / std::sqrt(12.0), 1e-9);
 }
 
 TEST(CoarseStep, TellsTheSameChanges) {

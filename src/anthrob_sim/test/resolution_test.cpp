@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 
 #include "anthrob_sim/core/random.h"
 
@@ -34,6 +36,31 @@ TEST(Resolution, OfSensorsThatHardlyMoved) {
   EXPECT_EQ(resolution_of({0.5, 0.4}), 0.0);
   two[7] = NAN;  // not measured
   EXPECT_NEAR(resolution_of(two), 0.1, 1e-12);
+}
+
+TEST(StepOfDigits, IsWhatPrintingRounds) {
+  const CounterRandom random(8, 1);
+  std::vector<double> exact;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    exact.push_back(6.0 * std::sin(0.01 * static_cast<double>(i)) + 0.01 * random.normal(i));
+  }
+  for (const int digits : {3, 4, 6, 7}) {
+    std::vector<double> printed;
+    double squares = 0.0;
+    for (const double value : exact) {
+      char text[32];
+      std::snprintf(text, sizeof(text), "%.*g", digits, value);
+      printed.push_back(std::strtod(text, nullptr));
+      squares += std::pow(printed.back() - value, 2);
+    }
+    const double error = std::sqrt(squares / static_cast<double>(exact.size()));
+    EXPECT_NEAR(step_of_digits(printed) / std::sqrt(12.0), error, 0.05 * error) << digits;
+    printed[5] = NAN, printed[6] = 0.0;
+    EXPECT_GT(step_of_digits(printed), 0.0);
+    printed.resize(50);
+    EXPECT_EQ(step_of_digits(printed), 0.0);
+  }
+  EXPECT_EQ(step_of_digits(exact), 0.0);
 }
 
 TEST(WhiteNoise, IsThatOnASmoothSeries) {

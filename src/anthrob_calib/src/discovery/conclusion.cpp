@@ -22,6 +22,13 @@ namespace discovery {
 
 namespace {
 
+/// Whether only the bound of its range keeps a size from going on. Where nothing is, it does not.
+bool is_at_end(double value, const Unknown& u) {
+  const double close = 1e-6 * (u.upper - u.lower);
+  return (value <= u.lower + close && u.lower != 0.0) ||
+         (value >= u.upper - close && u.upper != 0.0);
+}
+
 /// Values and intervals of all effects in the model as it is at the end: later ones have moved
 /// earlier ones.
 void measure_effects(const SearchSetup& setup, WorkingModel& model) {
@@ -43,7 +50,9 @@ void measure_effects(const SearchSetup& setup, WorkingModel& model) {
         found.known = false;
         const bool flat = is_flat(fit, i);
         std::tie(found.low, found.high) = flat ? flat_range(setup.train, fit, i) : ranges[i];
-        found.undetermined = found.low <= u.lower && found.high >= u.upper;
+        const bool spans = found.low <= u.lower && found.high >= u.upper;
+        found.at_bound = spans && is_at_end(value, u);
+        found.undetermined = spans && !found.at_bound;
         // Where nothing is, no range ends: there is no less than that.
         found.low_ends = found.low <= u.lower && u.lower != 0.0;
         found.high_ends = found.high >= u.upper && u.upper != 0.0;
@@ -72,12 +81,6 @@ void compare_gaps(const SearchSetup& setup, const WorkingModel& model, Answer& a
   answer.growth = setup.test_judge.growth_significance(model.recalibrated.test, model.base.test);
 }
 
-/// Gaps smaller than this are not located or counted [floors]; a gap that was worth naming an
-/// effect for counts.
-double least_gap(const Answer& answer) {
-  return answer.effects.empty() ? kRealGap : kFaintGap;
-}
-
 /// What speaks against the recordings or the floors, seen only now.
 void remark_on_gaps(const SearchSetup& setup, const WorkingModel& model, Answer& answer) {
   constexpr double kTooGood = 0.3;  // [floors] rounding of the coarsest sensors alone leaves more
@@ -89,9 +92,13 @@ void remark_on_gaps(const SearchSetup& setup, const WorkingModel& model, Answer&
     if (held_out == answer.per_channel.end()) continue;
     const double least = std::min(gap, held_out->second.after);
     if (least > kTooGood) continue;
-    answer.remarks.push_back(channel + ": a gap of only " + short_number(least) +
-                             " floors: the floor is too high and hides what may be missing; check "
-                             "the units of all recordings, and that --repeat shows the same robot");
+    answer.remarks.push_back(
+        channel + ": a gap of only " + short_number(least) +
+        " floors: the floor is too high and hides what may be missing; " +
+        (setup.question.repeats.empty()
+             ? "check the units and the noise of all recordings"
+             : "check the units of all recordings, and that --repeat shows the "
+               "same robot"));
   }
 }
 
@@ -115,6 +122,10 @@ void locate_gap(const SearchSetup& setup, const WorkingModel& model, Answer& ans
 }
 
 }  // namespace
+
+double least_gap(const Answer& answer) {
+  return answer.effects.empty() ? kRealGap : kFaintGap;
+}
 
 void find_alternatives(const SearchSetup& setup, const WorkingModel& model, Screening& screening,
                        Answer& answer) {

@@ -16,8 +16,8 @@ std::string parameter_table(const FoundEffect& effect) {
   std::string html =
       "<table><tr><th>parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>\n";
   for (const FoundParameter& p : effect.parameters) {
-    html += "<tr>" + cell(p.name) + cell(short_number(p.value)) + cell(range_text(p)) +
-            cell(p.unit) + "</tr>\n";
+    html += "<tr>" + cell(p.name) + cell(value_text(p)) + cell(range_text(p)) + cell(p.unit) +
+            "</tr>\n";
   }
   return html + "</table>\n";
 }

@@ -33,6 +33,7 @@ Json parameters_json(const std::vector<FoundParameter>& parameters) {
         {"value", number(p.value)}, {"ci95", {number(p.low), number(p.high)}}, {"unit", p.unit}};
     if (p.known) json[p.name]["known"] = true;
     if (p.undetermined) json[p.name]["undetermined"] = true;
+    if (p.at_bound) json[p.name]["at_bound"] = true;
     if (p.low_ends) json[p.name]["low_ends"] = true;
     if (p.high_ends) json[p.name]["high_ends"] = true;
   }

@@ -1,3 +1,4 @@
+#include "anthrob_calib/discovery/conclusion.h"
 #include "anthrob_calib/discovery/number_text.h"
 #include "anthrob_calib/report/discovery_channels.h"
 #include "anthrob_calib/report/discovery_findings.h"
@@ -24,7 +25,8 @@ summary{cursor:pointer;margin:.6em 0}
 </style></head><body>
 )";
 
-const char* const kTerms = R"(<h2>Terms</h2><ul>
+std::string terms(const Answer& answer) {
+  return R"(<h2>Terms</h2><ul>
 <li>floor: the gap that noise alone leaves in a channel. It comes from repeats of the same commands or,
 without any, from how neighbouring values scatter; errors of rounding and of the simulation are in it.
 Gaps are given in floors</li>
@@ -33,13 +35,15 @@ the training recordings, and without any effect added</li>
 <li>share: the part of a channel in the squared gap of all channels together, each above the noise</li>
 <li>significance: by how many standard errors (sigma), over blocks of 2 s, a channel stands above what
 a wrong floor may look like</li>
-<li>squared gap: the square of a gap, as far as it stands above what noise may look like (1.15 floors)</li>
+<li>squared gap: the square of a gap, as far as it stands above what noise may look like ()" +
+         short_number(least_gap(answer)) + R"( floors)</li>
 <li>probability: how likely this law at this place is the right one, among the laws that were fitted
 and none at all; what it leaves lowers it. The rest, up to 1, belongs to rivals and to laws that the
 catalogue lacks</li>
 <li>nat: the unit of the log score. One nat more: the recordings are 2.7 times as probable</li>
 </ul>
 )";
+}
 
 std::string verdict_text(const Answer& answer) {
   if (answer.verdict == "no_missing_effect") return "no missing effect found";
@@ -81,7 +85,7 @@ std::string report_html(const Answer& answer, const Question& question, double r
          "<h2>Held-out gap by channel</h2>\n" + worse_channels(answer) +
          folded("All channels", channel_table(answer)) +
          "<h2>What these recordings can show</h2>\n" + visibility(answer, question) +
-         "<h2>Recordings</h2>" + recordings(answer, question) + kTerms + "</body></html>\n";
+         "<h2>Recordings</h2>" + recordings(answer, question) + terms(answer) + "</body></html>\n";
 }
 
 }  // namespace discovery

@@ -78,12 +78,27 @@ std::string uncertain_gaps(const Answer& answer) {
   return text + ".";
 }
 
+/// The first size, or a larger one of the same unit: of laws with one for each direction, one may
+/// be 0.
+const FoundParameter& largest_of(const std::vector<FoundParameter>& parameters) {
+  const FoundParameter* largest = &parameters.front();
+  for (const FoundParameter& p : parameters) {
+    const bool comparable = p.unit == largest->unit && !p.known && !largest->known;
+    if (comparable && parameters.front().value == 0.0 &&
+        std::abs(p.value) > std::abs(largest->value)) {
+      largest = &p;
+    }
+  }
+  return *largest;
+}
+
 /// An effect with its size and probability, as a sentence.
 std::string named(const FoundEffect& effect) {
   std::string text = place_text(effect.name, effect.place);
   if (!effect.parameters.empty()) {
-    const FoundParameter& p = effect.parameters.front();
-    text += " (" + escaped(p.name) + " " + escaped(with_unit(p.value, p.unit)) + ", " +
+    const FoundParameter& p = largest_of(effect.parameters);
+    const std::string unit = p.unit == "1" ? "" : "\u00a0" + p.unit;
+    text += " (" + escaped(p.name) + " " + escaped(value_text(p) + unit) + ", " +
             (p.has_interval() ? "95 % interval " : "") + range_text(p) + ")";
   }
   return text + ", " + probability_text(effect.probability) + ". ";
@@ -132,7 +147,7 @@ std::string alternatives(const Answer& answer) {
 }  // namespace
 
 std::string with_unit(double value, const std::string& unit) {
-  return short_number(value) + (unit == "1" ? "" : "\u00a0" + unit);
+  return short_number(value) + (unit == "1" || unit.empty() ? "" : "\u00a0" + unit);
 }
 
 std::string doubt_clause(const std::string& at_limit, const std::string& spoils) {

@@ -30,6 +30,32 @@ double resolution_of(std::vector<double> values) {
   return step;
 }
 
+double step_of_digits(const std::vector<double>& values) {
+  constexpr int kFewest = 3, kMost = 7;    // as programs print
+  constexpr std::size_t kTelling = 100;    // values
+  constexpr double kExact = 1e-7;          // of the last digit
+  const auto unit_of = [](double value) {  // of the first digit
+    return std::pow(10.0, std::floor(std::log10(std::abs(value))));
+  };
+  std::size_t count = 0;
+  int digits = kFewest;
+  double squares = 0.0;  // of the first digits' units
+  for (const double value : values) {
+    if (!std::isfinite(value) || value == 0.0) continue;
+    ++count;
+    const double unit = unit_of(value);
+    squares += unit * unit;
+    const auto holds = [&](int d) {
+      const double last = value / unit * std::pow(10.0, d - 1);
+      return std::abs(last - std::round(last)) < kExact * std::pow(10.0, d - kFewest);
+    };
+    while (digits <= kMost && !holds(digits)) ++digits;
+    if (digits > kMost) return 0.0;
+  }
+  if (count < kTelling) return 0.0;
+  return std::sqrt(squares / static_cast<double>(count)) * std::pow(10.0, 1 - digits);
+}
+
 double white_noise(const Eigen::VectorXf& series) {
   std::vector<double> third;
   for (Eigen::Index i = 3; i < series.size(); ++i) {

@@ -6,6 +6,10 @@
 namespace anthrob {
 namespace discovery {
 
+/// Gaps smaller than this are not located or counted [floors]; a gap that was worth naming an
+/// effect for counts.
+double least_gap(const Answer& answer);
+
 /// Lists single laws that could replace two named effects (Answer::alternatives).
 void find_alternatives(const SearchSetup& setup, const WorkingModel& model, Screening& screening,
                        Answer& answer);

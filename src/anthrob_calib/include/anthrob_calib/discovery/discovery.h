@@ -42,8 +42,10 @@ struct FoundParameter {
   bool known = false;         ///< not fitted: the catalogue's number, without an interval
   bool undetermined = false;  ///< the recordings exclude no value of its range
   bool low_ends = false, high_ends = false;  ///< the interval ends there because its range does
+  /// The value is at the end of its range, and the interval is all of it: the size may lie beyond.
+  bool at_bound = false;
 
-  bool has_interval() const { return !known && !undetermined; }
+  bool has_interval() const { return !known && !undetermined && !at_bound; }
 };
 
 struct Rival {

@@ -19,6 +19,9 @@ std::string duration_text(double seconds);
 /// "probability 0.93", or that it is above 0.999 or below 0.001: none is certain.
 std::string probability_text(double probability);
 
+/// Its value, with as many digits as its interval is known to.
+std::string value_text(const FoundParameter& parameter);
+
 /// "0.04 to 0.06", the interval, or why there is none.
 std::string range_text(const FoundParameter& parameter);
 

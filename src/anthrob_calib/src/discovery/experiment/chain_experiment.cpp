@@ -79,7 +79,9 @@ ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recordi
                     {"force", "N", Reader::kForce}};
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
     for (const auto& q : quantities) {
-      if (mode_ == ReplayMode::kVoltage && q.kind == Reader::kVoltage) continue;
+      // Without a controller it is the command, not an answer to it.
+      const bool given = mode_ == ReplayMode::kVoltage || !model.muscles[m].has_controller;
+      if (given && q.kind == Reader::kVoltage) continue;
       if (imposed && q.kind != Reader::kForce) continue;
       const std::string& name = model.muscles[m].name;
       add({q.kind, static_cast<int>(m), 0, {}, {}}, recording.series(name + "/" + q.quantity),
@@ -124,6 +126,15 @@ ChainExperiment::Sampling& ChainExperiment::sampling_of(const std::vector<double
   return samplings_.back();
 }
 
+double ChainExperiment::Sampling::rows_per_bin() const {
+  double sum = 0.0, bins = 0.0;
+  for (const double share : per_bin) {
+    sum += share;
+    bins += share > 0.0 ? 1.0 : 0.0;
+  }
+  return sum > 0.0 ? bins / sum : 1.0;
+}
+
 void ChainExperiment::add(Reader reader, const Series& series, const Channel& channel) {
   if (series.empty()) return;
   Sampling& sampling = sampling_of(series.t);
@@ -137,6 +148,8 @@ void ChainExperiment::add(Reader reader, const Series& series, const Channel& ch
   channels_.back().offset = reader.offset;
   channels_.back().count = bins_;
   channels_.back().resolution = resolution_of(series.values);
+  channels_.back().rows = sampling.rows_per_bin();
+  channels_.back().digits = step_of_digits(series.values);
   if (reader.kind == Reader::kForce) {
     reader.noise = cut_off_noise(series, channels_.back().resolution);
   }
@@ -155,6 +168,7 @@ void ChainExperiment::add_ball(int joint, const std::string& name, const Dataset
   }
   for (int component = 0; component < 3; ++component) {
     channels_.push_back({name, "orientation", "rad", component, present_.size(), bins_});
+    channels_.back().rows = sampling.rows_per_bin();
     for (const double share : sampling.per_bin) present_.push_back(share > 0.0);
   }
   sampling.readers.push_back(std::move(reader));

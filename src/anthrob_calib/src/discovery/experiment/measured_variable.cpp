@@ -83,7 +83,7 @@ std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
       if (column.quantity() == "position" || word->second == "posture") {
         const std::string rate_unit = unit.empty() ? "" : unit + "/s";
         MeasuredVariable speed{column.name, "speed", {}, false, rate_unit},
-            sign{column.name, "sign of velocity", {}, true, rate_unit};
+            sign{column.name, "sign of velocity", {}, true, ""};
         for (std::size_t e = 0; e < experiments.size(); ++e) {
           speed.values.push_back(rate_of(variable.values[e], experiments[e]->bin()));
         }

@@ -111,8 +111,10 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
 
 }  // namespace
 
-double ChannelScale::sigma() const {
-  return std::hypot(floor, numerics, counts);
+double ChannelScale::sigma(double rows_of_recording) const {
+  constexpr double kAlike = 1.1;  // what gaps and the end of a recording change
+  const double fewer = rows / rows_of_recording;
+  return std::hypot(fewer > kAlike ? floor * std::sqrt(fewer) : floor, numerics, counts);
 }
 
 double correlation_length(const Eigen::VectorXf& series) {
@@ -143,6 +145,7 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
   }
   Scales scales;
   std::map<std::string, Moments> numerics, counts, noise;
+  std::map<std::string, double> averaged;  // bins, each divided by its measurements
   for_each_channel(
       train, [&](const Experiment& experiment, const Channel& channel, Eigen::Index offset) {
         scales[channel.name()].unit = channel.unit;
@@ -150,6 +153,7 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
         const double sigma = white_noise(own);
         noise[channel.name()].squares += sigma * sigma * static_cast<double>(own.size());
         noise[channel.name()].count += static_cast<double>(own.size());
+        averaged[channel.name()] += static_cast<double>(own.size()) / channel.rows;
         const auto add_change = [&](const Differences& other, Moments& moments) {
           if (other.size() == 0) return;
           const auto changed = measured(experiment, channel, other, offset);
@@ -163,13 +167,14 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
     scale.numerics = numerics[name].rms();
     scale.counts = counts[name].rms();
     scale.floor = noise[name].rms();
+    if (averaged[name] > 0.0) scale.rows = noise[name].count / averaged[name];
   }
   if (!repeats.empty()) from_repeats(evaluator, train, repeats, lags, scales);
   std::map<std::string, double> roundings, counted;  // of its sensor; where controllers see it
   for (const auto& experiment : train) {
     for (const Channel& channel : experiment->channels()) {
       double& largest = roundings[channel.name()];
-      largest = std::max(largest, channel.resolution / std::sqrt(12.0));
+      largest = std::max(largest, std::max(channel.resolution, channel.digits) / std::sqrt(12.0));
       if (is_counted(*evaluator.model(), channel)) counted[channel.name()] = largest;
     }
   }
@@ -188,18 +193,19 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
 Eigen::VectorXf whitener(const Experiments& experiments, const Scales& scales, bool independent) {
   Eigen::VectorXf factors =
       Eigen::VectorXf::Zero(static_cast<Eigen::Index>(total_size(experiments)));
-  for_each_channel(experiments, [&](const Experiment& experiment, const Channel& channel,
-                                    Eigen::Index offset) {
-    const auto found = scales.find(channel.name());
-    if (found == scales.end()) return;
-    const ChannelScale& scale = found->second;
-    const double factor = 1.0 / (scale.sigma() * (independent ? std::sqrt(scale.inflation) : 1.0));
-    for (std::size_t b = 0; b < channel.count; ++b) {
-      if (experiment.present()[channel.offset + b]) {
-        factors[offset + static_cast<Eigen::Index>(b)] = static_cast<float>(factor);
-      }
-    }
-  });
+  for_each_channel(
+      experiments, [&](const Experiment& experiment, const Channel& channel, Eigen::Index offset) {
+        const auto found = scales.find(channel.name());
+        if (found == scales.end()) return;
+        const ChannelScale& scale = found->second;
+        const double factor =
+            1.0 / (scale.sigma(channel.rows) * (independent ? std::sqrt(scale.inflation) : 1.0));
+        for (std::size_t b = 0; b < channel.count; ++b) {
+          if (experiment.present()[channel.offset + b]) {
+            factors[offset + static_cast<Eigen::Index>(b)] = static_cast<float>(factor);
+          }
+        }
+      });
   return factors;
 }
 

@@ -37,6 +37,8 @@ Predicted predicted(const ChannelResidual& residual, const Steps& steps, const S
     whole += y * y;
   }
   if (!(whole > 0.0)) return {};
+  // A constant that predicts worse than none is none.
+  by_constant = std::min(by_constant, whole);
   return {1.0 - by_constant / whole, (by_constant - by_steps) / whole};
 }
 

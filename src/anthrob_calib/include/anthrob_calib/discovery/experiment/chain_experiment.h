@@ -38,6 +38,8 @@ class ChainExperiment final : public Experiment {
     std::vector<Row> rows;
     std::vector<double> per_bin;  ///< 1 / rows in it, or 0
     std::vector<Reader> readers;
+
+    double rows_per_bin() const;  ///< harmonic mean over bins with any
   };
 
   std::size_t bin_of(double time) const;

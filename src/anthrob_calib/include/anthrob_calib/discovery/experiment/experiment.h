@@ -23,6 +23,8 @@ struct Channel {
   int component = 0;                  ///< of an orientation: 0, 1, 2
   std::size_t offset = 0, count = 0;  ///< its bins in the vector of differences
   double resolution = 0.0;            ///< one count of its sensor; 0: none to be seen
+  double rows = 1.0;                  ///< measurements in a bin (harmonic mean)
+  double digits = 0.0;                ///< step of its file's last digits; 0: they are many
 
   std::string name() const { return place + "/" + quantity; }
 };

@@ -15,13 +15,18 @@ namespace discovery {
 struct ChannelScale {
   std::string unit;
   /// Scatter between repeats or, without repeats, between neighbouring bins; at least the rounding
-  /// error of the sensor, count / sqrt(12), which repeats share and therefore do not show.
+  /// error of the sensor, count / sqrt(12), which repeats share and therefore do not show, and that
+  /// of a file that has few digits.
   double floor = 0.0;
   double numerics = 0.0;  ///< rms difference from a simulation with half the step
   double counts = 0.0;  ///< rms difference from one whose controllers see the counts of the sensors
   double inflation = 1.0;  ///< bins that count as one because noise is correlated; >= 1
+  double rows = 1.0;       ///< measurements in a bin where the floor was measured
 
-  double sigma() const;
+  double sigma() const { return sigma(rows); }
+  /// Of a recording with fewer measurements in a bin, which averages less of the noise. One with
+  /// more gets the floor as it is: noise that lasts is not averaged.
+  double sigma(double rows_of_recording) const;
 };
 
 /// By Channel::name().
