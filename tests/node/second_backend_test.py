@@ -125,7 +125,9 @@ class SecondBackend(unittest.TestCase):
             heir = self.start('simulator', master=master)
             try:
                 wait_for(lambda: rosgraph.Master('/test', master).lookupNode('/anthrob/simulator') != where_it_was)
-                wait_for_states(master)
+                # It is offered after all refusals.
+                wait_for(lambda: '/anthrob/enable' in [
+                    name for name, nodes in rosgraph.Master('/test', master).getSystemState()[2]] or heir.poll())
                 self.assertIsNone(heir.poll())
             finally:
                 heir.terminate()

@@ -140,7 +140,9 @@ TEST(Report, SizesHaveTheDigitsOfTheirIntervals) {
   EXPECT_EQ(interval_text(gain), "1.0059 [1.0051, 1.0068]");
   gain.value = 0.04212, gain.low = 0.0384, gain.high = 0.0471;
   EXPECT_EQ(interval_text(gain), "0.0421 [0.0384, 0.0471]");
-  gain.low = gain.high = gain.value;
+  gain.value = 12345.0, gain.low = 12300.0, gain.high = 12400.0;
+  EXPECT_EQ(interval_text(gain), "12345 [12300, 12400]");
+  gain.value = gain.low = gain.high = 0.04212;
   EXPECT_EQ(interval_text(gain), "0.0421 [0.0421, 0.0421]");
 }
 

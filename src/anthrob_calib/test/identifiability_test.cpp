@@ -65,6 +65,7 @@ TEST(Identifiability, TellsWhatEquilibriaCannot) {
   EXPECT_EQ(equilibria_needed(40, 8, 3), 11);  // (5.13)
   EXPECT_EQ(equilibria_needed(7 * 4, 4, 3), 8);
   EXPECT_EQ(equilibria_needed(8, 2, 1), 6);  // a hinge
+  EXPECT_EQ(equilibria_needed(8, 2, 0), 6);  // a rig without joints
 }
 
 TEST(Identifiability, ATendonThatIsJustTautTellsLittle) {

@@ -136,6 +136,24 @@ TEST(SimulateRuns, AreComparedAsTheModelsSensorsMeasure) {
   EXPECT_EQ(differences(noisy), same);
 }
 
+TEST(SimulateRuns, ImposedPositionsAreWhatALateSensorReadThen) {
+  const auto late = std::make_shared<RobotModel>(*rig());
+  late->sensors.position.delay = 0.02;
+  late->sensors.position.average = 11;
+  SimulationOptions options = as_recorded();
+  options.drive = Drive::kSampledPositions;
+  double most = 0.0, way = 0.0;
+  const std::vector<MeasuredRun> runs = runs_of(late, "trajectory");
+  for (const RunDifferences& run : simulate_runs(late, runs, options)) {
+    most = std::max(most, run.path.actuator.cwiseAbs().maxCoeff());
+  }
+  for (const RunDifferences& run : simulate_runs(rig(), runs, options)) {
+    way = std::max(way, run.path.actuator.cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(way, 0.01);   // an ideal sensor shows what was imposed
+  EXPECT_LT(most, 0.03);  // at up to 8 rad/s: 0.2 rad if the delay were forgotten
+}
+
 TEST(SimulateRuns, AReturnBeginsWhereImposedPositionsEnded) {
   RecordingPlan out = plan(4.0, -1.0, "trajectory"), other = plan(2.0, 0.0, "trajectory");
   RecordingPlan back = out;

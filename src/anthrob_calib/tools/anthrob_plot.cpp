@@ -71,19 +71,18 @@ SvgFigure::Line line(const std::string& label, const Series& series, double scal
     result.y.push_back(scale * series.values[i]);
   };
   const std::size_t count = series.t.size(), stride = 1 + 2 * count / kMostPoints;
-  for (std::size_t begin = 0; begin < count; begin += stride) {
-    // The least and the most of each block: a peak of one sample is what one looks for.
-    const auto first = series.values.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last =
-        series.values.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stride, count));
-    const auto gap = std::find_if(first, last, [](double value) { return std::isnan(value); });
-    const auto [least, most] = std::minmax_element(first, gap);
-    const auto index = [&](auto at) {
-      return static_cast<std::size_t>(at - series.values.begin());
-    };
-    if (gap != first) draw(index(std::min(least, most)));
-    if (gap != first && least != most) draw(index(std::max(least, most)));
-    if (gap != last) draw(index(gap));
+  std::size_t begin = 0;
+  while (begin < count) {
+    // The least and the most of each block: a peak of one sample is what one looks for. A block
+    // ends where nothing was measured.
+    std::size_t end = begin, least = begin, most = begin;
+    for (; end < std::min(begin + stride, count) && !std::isnan(series.values[end]); ++end) {
+      if (series.values[end] < series.values[least]) least = end;
+      if (series.values[end] > series.values[most]) most = end;
+    }
+    draw(std::min(least, most));
+    if (least != most) draw(std::max(least, most));
+    begin = std::max(end, begin + 1);  // after a gap's own sample
   }
   return result;
 }

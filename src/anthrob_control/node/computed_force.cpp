@@ -115,7 +115,8 @@ class ComputedForceNode {
     limited_ = wanted.limited;
     mode_ = wanted.mode;
     // A muscle that FORCE leaves alone must not go on holding a position that was ours.
-    placed_ = placed_ || wanted.mode != anthrob::ecu::Mode::kForce;
+    const bool other = wanted.mode != anthrob::ecu::Mode::kForce;
+    placed_ = placed_ || (other && link_.state().muscle_not_in(wanted.mode).empty());
     link_.send(anthrob::make_command(controller_.model(), wanted.mode, wanted.reference, placed_));
   }
 

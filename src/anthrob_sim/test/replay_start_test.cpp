@@ -255,6 +255,10 @@ TEST(ReplayStart, BallJointsWithoutMusclesStandAsTheyWereMeasured) {
   for (std::size_t k = 0; k < expected.size(); ++k) {
     EXPECT_NEAR(sim.configuration()[k], expected[k], 1e-12) << k;
   }
+  // What comes later drives nothing.
+  Dataset interrupted = recording;
+  interrupted.table("joints").columns[3].values.back() = NAN;
+  EXPECT_NO_THROW(Replay(bare, interrupted, ReplayMode::kReference));
   // Recordings that begin elsewhere do not share the beginning.
   Dataset other = recording;
   other.table("joints").columns[2].values = {0.6, 0.6};

@@ -291,8 +291,9 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
       });
       if (outcome.identifiability.noise_is_doubtful) {
         doubt(
-            "the remaining differences change so slowly that the parameters could follow nearly "
-            "all noise: its size, and with it the parameters' errors, are hardly known");
+            "the parameters could follow nearly all noise, because the recordings are few or the "
+            "remaining differences change slowly: its size, and with it the parameters' errors, "
+            "are hardly known");
       }
     });
     attempt([&] { outcome.drives = compare_drives(problem, outcome.best, problem.runs(), stop); });

@@ -239,7 +239,8 @@ identification::Estimate interval(const Identifiability& known, std::size_t para
 
 int equilibria_needed(int unknowns, int muscles, int degrees_of_freedom) {
   const int missing = std::max(0, unknowns - muscles);
-  return std::max(1, (missing + degrees_of_freedom - 1) / degrees_of_freedom);
+  const int equations = std::max(1, degrees_of_freedom);  // a rig may have no joint that moves
+  return std::max(1, (missing + equations - 1) / equations);
 }
 
 }  // namespace calibration

@@ -28,6 +28,13 @@ void advance(Simulation& sim, int steps, const Stop& stop) {
   }
 }
 
+/// By how much the model's sensor of a motor's position lags behind it [s].
+double sensor_lag(const RobotModel& model, int muscle) {
+  const SensorModel& sensor = model.sensors.position;
+  const double tick = model.step * model.muscles[static_cast<std::size_t>(muscle)].steps_per_tick;
+  return sensor.delay + 0.5 * (sensor.average - 1) * tick;
+}
+
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Fills rows of differences from a running simulation; a row may be a mean over several steps.
@@ -139,7 +146,7 @@ class Driver {
     };
     for (Eigen::Index m = 0; m < path.position.cols(); ++m) {
       const auto muscle = static_cast<int>(m);
-      const double due = time + sim.position_delay(muscle);
+      const double due = time + sim.position_delay(muscle) + sensor_lag(sim.model(), muscle);
       sim.impose_reading(muscle, at(m, due - sim.step_length()), at(m, due));
     }
   }

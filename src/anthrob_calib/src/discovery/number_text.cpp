@@ -46,8 +46,9 @@ std::string told_apart(double number, const FoundParameter& p) {
   int digits = 3;
   while (digits < kMostDigits && std::pow(10.0, first + 1 - digits) > 0.5 * width) ++digits;
   if (digits == 3) return short_number(number);
+  const bool is_whole = std::abs(number) >= std::pow(10.0, digits) && std::abs(number) < 1e7;
   char text[32];
-  std::snprintf(text, sizeof(text), "%.*g", digits, number);
+  std::snprintf(text, sizeof(text), is_whole ? "%.*f" : "%.*g", is_whole ? 0 : digits, number);
   return text;
 }
 

@@ -68,10 +68,15 @@ void refuse_row(const Dataset& recording, const Table& table, std::size_t row,
                  ": " + complaint);
 }
 
+void refuse_no_numbers(const Dataset& recording) {
+  for (const Table& table : recording.tables) {
+    for (const Column& column : table.columns) refuse_no_number(recording, table, column);
+  }
+}
+
 void refuse_implausible_values(const RobotModel& robot, const Dataset& recording) {
   for (const Table& table : recording.tables) {
     for (const Column& column : table.columns) {
-      refuse_no_number(recording, table, column);
       refuse_far_positions(robot, recording, table, column);
       refuse_pushing_tendons(robot, recording, table, column);
     }

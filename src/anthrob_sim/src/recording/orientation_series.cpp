@@ -13,10 +13,14 @@ constexpr double kUnit = 0.01;
 
 }  // namespace
 
-OrientationSeries OrientationSeries::read(const Dataset& recording, const std::string& joint) {
+OrientationSeries OrientationSeries::read(const Dataset& recording, const std::string& joint,
+                                          bool only_first) {
   const char* const names[] = {"/w", "/x", "/y", "/z"};
   OrientationSeries turns;
   for (int k = 0; k < 4; ++k) turns.number[k] = recording.series(joint + names[k]);
+  for (Series& number : turns.number) {
+    if (only_first && !number.empty()) number.t.resize(1), number.values.resize(1);
+  }
   for (const Series& number : turns.number) {
     if (number.t == turns.t()) continue;
     throw BadInput(recording.folder + ": " + joint +

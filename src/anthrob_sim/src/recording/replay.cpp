@@ -87,7 +87,8 @@ void Replay::read_joint(const JointModel& joint, int index, const Dataset& recor
     return;
   }
   if (mode_ != ReplayMode::kPosture && !model_->muscles.empty()) return;
-  balls_.push_back({index, OrientationSeries::read(recording, joint.name)});
+  const bool only_first = mode_ != ReplayMode::kPosture;
+  balls_.push_back({index, OrientationSeries::read(recording, joint.name, only_first)});
   require(!balls_.back().turns.empty());
 }
 

@@ -65,6 +65,7 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
   const Differences base = evaluator.compare({given}, {train.front()}).front();
   std::map<std::string, Moments> moments;
   std::map<std::string, std::vector<double>> lengths;
+  std::map<std::string, double> averaged;  // bins, each divided by its measurements
   for (std::size_t r = 0; r < repeats.size(); ++r) {
     const auto& repeat = repeats[r];
     const long lag = lags.empty() ? 0 : lags[r];
@@ -95,6 +96,7 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
                        std::sqrt(2.0f));
         moments[a.name()].squares += double(both.back()) * both.back();
         moments[a.name()].count += 1.0;
+        averaged[a.name()] += 0.5 / a.rows + 0.5 / b.rows;
       }
       lengths[a.name()].push_back(correlation_length(
           Eigen::Map<Eigen::VectorXf>(both.data(), static_cast<Eigen::Index>(both.size()))));
@@ -103,6 +105,7 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
   for (auto& [name, scale] : scales) {
     if (!moments.count(name)) continue;
     scale.floor = moments[name].rms();
+    if (averaged[name] > 0.0) scale.rows = moments[name].count / averaged[name];
     double mean = 0.0;
     for (const double length : lengths[name]) mean += length;
     scale.inflation = std::max(1.0, mean / static_cast<double>(lengths[name].size()));

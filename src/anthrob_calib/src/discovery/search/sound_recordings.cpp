@@ -108,6 +108,7 @@ void refuse_nonsense(const RobotModel& robot, const Dataset& recording) {
       refuse_row(recording, table, i, "time runs backwards: expected rows in order of time");
     }
   }
+  refuse_no_numbers(recording);
   refuse_implausible_values(robot, recording);
   refuse_other_clocks(recording);
 }

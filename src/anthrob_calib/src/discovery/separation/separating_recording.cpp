@@ -129,8 +129,11 @@ SeparatingRecording plan_separation(const Evaluator& evaluator, const Variant& n
   const Experiments experiments = {make_experiment(model, imagined, options)};
   const auto differences = evaluator.compare({rival}, experiments).front();
   if (differences.size() == 0) return {};
+  // Floors as they were measured: the robot is recorded at its own rate, not at that of this plan.
+  Scales floors = scales;
+  for (auto& [name, scale] : floors) scale.rows = 0.0;
   const Eigen::VectorXf whitened =
-      differences.cwiseProduct(whitener(experiments, scales, true)).eval();
+      differences.cwiseProduct(whitener(experiments, floors, true)).eval();
   measure_distances(*experiments.front(), whitened, plan);
   std::stable_sort(plan.targets.begin(), plan.targets.end(),
                    [](const auto& a, const auto& b) { return a.distance > b.distance; });

@@ -89,9 +89,8 @@ class RobotLink {
 /// A command for all muscles that have the mode. It leaves the others out, because with one of them
 /// the whole command would be refused.
 /// @param references one per muscle of the model, in its order [V, rad, A or N, by mode]
-/// @param release with FORCE: muscles without force sensor get VOLTAGE 0 instead, and give way;
-/// left
-///   out, they would go on with their last command
+/// @param release with FORCE: muscles without force sensor get VOLTAGE 0 instead of being left out,
+///   where they would go on with their last command
 anthrob_msgs::MuscleCommand make_command(const RobotModel& model, ecu::Mode mode,
                                          const std::vector<double>& references,
                                          bool release = false);

@@ -13,7 +13,9 @@ struct OrientationSeries {
   /// Reads the orientation of a joint; empty if it was not measured.
   /// @throws BadInput if the four numbers were not measured at the same times, or if one of the
   /// quaternions is not of unit length
-  static OrientationSeries read(const Dataset& recording, const std::string& joint);
+  /// @param only_first leaves out, and does not look at, all but the first orientation
+  static OrientationSeries read(const Dataset& recording, const std::string& joint,
+                                bool only_first = false);
 
   bool empty() const { return number[0].empty(); }
   const std::vector<double>& t() const { return number[0].t; }  ///< [s]

@@ -9,7 +9,7 @@ namespace anthrob {
 namespace discovery {
 
 /// Refuses time that runs backwards, files that do not share a clock, and numbers that nobody can
-/// have measured (refuse_implausible_values()).
+/// have measured (recordings/plausible_values.h).
 /// @throws BadInput with file, row and column
 void refuse_nonsense(const RobotModel& robot, const Dataset& recording);
 
