@@ -19,9 +19,8 @@ FolderLock::FolderLock(const std::string& folder)
     throw std::runtime_error(folder + ": cannot be opened: " + std::strerror(errno));
   }
   if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-  const bool taken = errno == EWOULDBLOCK;
   // A network file system may know no locks of folders; then there is none.
-  if (!taken) return;
+  if (errno != EWOULDBLOCK) return;
   close(descriptor_);
   throw BadInput(folder + ": in use by another run; expected another --out folder");
 }

@@ -15,7 +15,7 @@ struct JointGains {
   double integral = 0.0;   ///< only on the way to a posture [Nm/(rad s)]
   double yield = 0.0;      ///< zero gravity: with more torque than this the joint yields [Nm]
   double strength = 0.0;   ///< largest correcting torque on the way to a posture [Nm]
-  double fastest = 4.0;    ///< highest speed that go_to may ask for [rad/s]; unless given: 0.4 m/s
+  double fastest = 4.0;    ///< highest speed that go_to may ask for [rad/s]; of slides 0.4 [m/s]
 };
 
 /// Settings of the computed-force controller: a YAML file beside the robot's models, see
