@@ -62,7 +62,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
   study NAME        calibration: repeat chapter 8 of the thesis with virtual robots
                     discovery: the blind test; with --slice K/N a part of it; also --list, --summary, --help
                     hours of computing; an interrupted study continues; results go to build/study/ and overwrite
-                    docs/studies/, or go to FOLDER with --out FOLDER
+                    studies/, or go to FOLDER with --out FOLDER
   shell             open a shell in which rosrun, roslaunch and rostopic know the workspace
   clean             remove build/ (but not build/study), devel/ and install/, with any results you keep there
   help              print this text

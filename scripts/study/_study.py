@@ -18,7 +18,7 @@ WIDTH = 120     # of a line of markdown
 
 
 def of_the_study(options):
-    """Whether the results go to docs/studies: only those in the default folder do."""
+    """Whether the results go to studies/: only those in the default folder do."""
     return os.path.normpath(options.out) == OUT
 
 
@@ -99,7 +99,7 @@ def load(file):
 
 
 def load_published(file):
-    """Results that an earlier run, perhaps on another machine, has written to docs/studies."""
+    """Results that an earlier run, perhaps on another machine, has written to studies/."""
     if not os.path.exists(file):
         refuse(f"{file}: no such file; --adopt expects the results of an earlier run there")
     return load(file)
@@ -119,14 +119,14 @@ def machine():
 
 
 def commit():
-    """Commit of the workspace, with -dirty if files differ from it (docs/ aside: studies write there). Else unknown."""
+    """Commit of the workspace, with -dirty if files outside of studies/ differ from it. Else unknown."""
     if not shutil.which("git"):
         return "unknown"
 
     def git(*words):
         return subprocess.run(["git", *words], capture_output=True, text=True).stdout.strip()
 
-    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs")
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!studies")
     return (git("rev-parse", "--short", "HEAD") or "unknown") + ("-dirty" if changed else "")
 
 

@@ -3,8 +3,8 @@
 thesis.
 
 Every step leaves its result under build/study/calibration/. The same command continues an interrupted study and does
-not repeat finished steps. Writes build/study/calibration.json and .html, docs/studies/calibration.md, and the results
-behind it, docs/studies/calibration.json. With --adopt, also on another machine, what is in this file counts as done.
+not repeat finished steps. Writes build/study/calibration.json and .html, studies/calibration.md, and the results
+behind it, studies/calibration.json. With --adopt, also on another machine, what is in this file counts as done.
 """
 
 import argparse
@@ -44,8 +44,8 @@ RECORDER = "devel/lib/anthrob_virtual_robot/anthrob_virtual_robot"
 TOOL = "devel/lib/anthrob_calib/anthrob_calibrate"
 ROBOT = "config/anthrob"
 CONFIG = "config/anthrob/calibration"
-DOCUMENT = "docs/studies/calibration.md"
-PUBLISHED = "docs/studies/calibration.json"
+DOCUMENT = "studies/calibration.md"
+PUBLISHED = "studies/calibration.json"
 OPTIMISERS = ["least_squares", "evolution_strategy", "cmaes", "sade", "bee_colony"]
 JACOBIANS = {"statics": 8, "dynamics": 4}  # at most, of least squares; dynamics start from the result of statics
 
@@ -289,8 +289,9 @@ FACTS = {  # words of the pages for the facts of the JSON file
 }
 ABOUT = [
     "How close does calibration bring a model to its robot? Here the robots are"
-    " [virtual](../virtual_robot.md#a-robot-to-be-calibrated): each is model II with parameters of its own and with"
-    " properties that the models lack, such as tendons that stretch. [Models I, II and III](../models.md) of Anthrob"
+    " [virtual](virtual_robot.md#a-robot-to-be-calibrated): each is model II with parameters of its own and with"
+    " properties that the models lack, such as tendons that stretch."
+    " [Models I, II and III](../docs/simulator.md#models-i-ii-and-iii) of Anthrob"
     " are calibrated against every robot in four stages, as in chapter 8 of the thesis. The table compares the errors"
     " before and after with those that the thesis measured on the real robot.",
     "This page is written by `./catkin_ws.sh study calibration` from [these results](calibration.json). With `--adopt`,"
@@ -304,7 +305,7 @@ KEY = {
                " medians over robots.",
     "*before*, *after*": "of the uncalibrated model; of the model that this stage has calibrated.",
     "*factor*": "the shoulder's error before, divided by that after.",
-    "*thesis*": "the same numbers from Tables C.12 and D.1 of the [thesis](../../README.md#sources-and-licence).",
+    "*thesis*": "the same numbers from Tables C.12 and D.1 of the [thesis](../README.md#sources-and-licence).",
     "*target reached*": f"\"yes: <= {ENOUGH['statics']:.0f} deg\" (statics) or \"yes: <= {ENOUGH['dynamics']:.0f} deg\""
                         " (dynamics) if the shoulder's error after calibration is that small; otherwise"
                         " \"yes: factor\" if the factor is at least the thesis's, or \"no\".",
@@ -361,7 +362,7 @@ def summarise(options):
     title = "Study of calibration with virtual robots"
     write(f"{options.out}/calibration.html", html_page(title, page(table, facts)))
     if of_the_study(options):
-        os.makedirs("docs/studies", exist_ok=True)
+        os.makedirs("studies", exist_ok=True)
         write(DOCUMENT, markdown_page(title, page(table, facts)))
         write(PUBLISHED, json.dumps(published(table), indent=1) + "\n")
 

@@ -3,10 +3,10 @@
 lacks. Discovery gets only recordings and a model; a third program compares its reports with the truth.
 
 Every case leaves its result under build/study/discovery/. The same command continues an interrupted study and does not
-repeat finished cases. Writes build/study/discovery.json and .html, docs/studies/discovery.md, and the answers behind
-it, docs/studies/discovery.json. A --seed other than 1 is a study of other cases; its files are named discovery_seed_2
+repeat finished cases. Writes build/study/discovery.json and .html, studies/discovery.md, and the answers behind
+it, studies/discovery.json. A --seed other than 1 is a study of other cases; its files are named discovery_seed_2
 and so on. Slices may run on several hosts. Either bring their reports/ and sealed/ together and run with --summary, or
-run the slices one after the other with --adopt, each with the docs/studies/discovery.json of the one before.
+run the slices one after the other with --adopt, each with the studies/discovery.json of the one before.
 """
 
 import argparse
@@ -31,7 +31,7 @@ ROUNDS = {"effect": 2}  # cases per law, each at another place
 COUNTS = {"null": 60, "pair": 12, "wrapped": 1}
 KINDS = ["effect", "null", "pair", "outside", "wrapped"]
 MOST_EFFECTS = {"wrapped": 12}
-DOCUMENTS = "docs/studies"
+DOCUMENTS = "studies"
 DRAWN = ["kind", "effects", "change", "slow", "stated_noise", "noise_memory"]  # of a truth: what was asked
 TOLD = ["id", "place", "probability", "shows_in", "left", "parameters", "rivals"]  # of a named effect: to score it
 SPENT = ["spent_s", "processor_s"]  # files that remain after an interruption
@@ -318,7 +318,7 @@ KEY = {
                                  " sensor alone.",
     "*held out*": "of the test recording, which was not used to fit anything.",
     "*effect*, *place*": "what the model lacks and where it acts, for example `joint_coulomb @ elbow`; see the"
-                         " [catalogue](../effects.md).",
+                         " [catalogue](../docs/effects.md).",
     "*verdict*": "`effects_found`: at least one effect explains the held-out recording better, by more than chance."
                  " `no_missing_effect`: no effect is named and no gap is certain. `unexplained`: a gap is certain, and"
                  " no effect of the catalogue closes enough of it; effects may be named all the same, mostly with a low"
@@ -371,14 +371,14 @@ def case_rows(result):
 def page(result, facts, options):
     """Parts of the page, see markdown_page()."""
     return [
-        "Does [discovery](../discovery.md) find what a model lacks, and is it silent where nothing is missing? Each"
-        " case is a [virtual robot](../virtual_robot.md) in which something may be hidden that its model lacks."
+        "Does [discovery](../docs/discovery.md) find what a model lacks, and is it silent where nothing is missing?"
+        " Each case is a [virtual robot](virtual_robot.md) in which something may be hidden that its model lacks."
         " Discovery gets recordings and the model, but not the truth. Another program then compares its answer with"
         " the truth.",
         f"This page is written by `./catkin_ws.sh study discovery --seed {options.seed}` from"
         f" [these answers]({study_name(options)}.json). With `--adopt`, the command takes them as done and continues"
         " with the other cases. What went right and wrong in every seed is described in"
-        " [discovery_results.md](../discovery_results.md).",
+        " [notes.md](notes.md).",
         "## Who answered", {FACTS[key]: value for key, value in facts.items()},
         "If there are several versions, later ones may have been changed because of what earlier ones had answered.",
         "## Terms", KEY,

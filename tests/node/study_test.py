@@ -92,7 +92,7 @@ class Study(unittest.TestCase):
 
     def told(self):
         """The page that the study writes into the documents."""
-        with open(f'docs/studies/{self.study_of.__name__}.md') as file:
+        with open(f'studies/{self.study_of.__name__}.md') as file:
             return file.read()
 
 
@@ -137,7 +137,7 @@ class CalibrationStudy(Study):
         self.assertEqual(ended.exception.code, 2)
 
     def results(self):
-        with open('docs/studies/calibration.json') as file:
+        with open('studies/calibration.json') as file:
             return json.load(file)
 
     def test_every_result_tells_of_its_own_search(self):
@@ -230,7 +230,7 @@ class DiscoveryStudy(Study):
         self.assertEqual(self.told(), before)
         self.study('--adopt', '--case', 'effect_01', 'null_00')
         self.assertEqual(self.calls(), 4)  # effect_01 is not made again
-        with open('docs/studies/discovery.json') as file:
+        with open('studies/discovery.json') as file:
             self.assertEqual(list(json.load(file)), ['effect_01', 'null_00'])
 
     def test_another_seed_is_another_study(self):
@@ -243,7 +243,7 @@ class DiscoveryStudy(Study):
         shutil.rmtree('out')
         self.study('--seed', '2', '--adopt', '--case', 'effect_01')
         self.assertEqual(self.calls(), 4)
-        with open('docs/studies/discovery_seed_2.md') as file:
+        with open('studies/discovery_seed_2.md') as file:
             self.assertIn('- seed: 2', file.read())
 
     def test_cases_elsewhere_leave_the_document_alone(self):
@@ -252,7 +252,7 @@ class DiscoveryStudy(Study):
         self.study('--out', 'elsewhere', '--case', 'null_00')
         self.assertTrue(os.path.exists('elsewhere/discovery.html'))
         self.assertEqual(self.told(), before)
-        with open('docs/studies/discovery.json') as file:
+        with open('studies/discovery.json') as file:
             self.assertEqual(list(json.load(file)), ['effect_01'])
         self.study('--out', 'out/', '--case', 'null_00')  # the same folder
         self.assertNotEqual(self.told(), before)

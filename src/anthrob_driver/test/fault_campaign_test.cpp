@@ -1,6 +1,6 @@
 // Every way a bus, a host or an ECU can go wrong, injected into a moving robot: how long until zero
 // volts at the ECU, what the driver calls it, and that nothing moves again before the user says so.
-// With FAULT_TABLE=FILE in the environment the table goes to that file (docs/fault_campaign.md).
+// With FAULT_TABLE=FILE in the environment the table goes to that file (studies/fault_campaign.md).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -413,7 +413,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, FaultCampaign, testing::Range(std::size_t{0}, ki
 
 /// The first table of the docs has these kinds, in this order, and no others.
 TEST(FaultCampaignTable, IsThatOfTheDocs) {
-  std::ifstream in(ANTHROB_DOCS_DIR "/fault_campaign.md");
+  std::ifstream in(ANTHROB_DOCS_DIR "/../studies/fault_campaign.md");
   std::vector<std::string> rows;
   for (std::string line; std::getline(in, line) && line.rfind("## ", 0) != 0;) {
     const bool row = line.rfind("| ", 0) == 0 && line.rfind("| fault,", 0) != 0;

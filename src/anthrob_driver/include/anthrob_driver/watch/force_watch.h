@@ -16,7 +16,7 @@ namespace driver {
 class ForceWatch {
  public:
   // Chosen, not measured on a robot. ordinary_motion_test shows no alarm in motions of the emulated
-  // Anthrob; docs/fault_campaign.md says how fast a sensor that stands still stops it.
+  // Anthrob; studies/fault_campaign.md says how fast a sensor that stands still stops it.
 
   /// [s] The unit's force filter is 0.03 s late (order 60 at 1 kHz).
   static constexpr double kLasts = 0.1;

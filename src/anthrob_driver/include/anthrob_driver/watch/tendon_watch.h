@@ -16,7 +16,7 @@ namespace driver {
 class TendonWatch {
  public:
   // Chosen, not measured on a robot. ordinary_motion_test shows no alarm in motions of the emulated
-  // Anthrob up to 165 N and 8.4 rad/s; docs/fault_campaign.md says how fast a break stops it.
+  // Anthrob up to 165 N and 8.4 rad/s; studies/fault_campaign.md says how fast a break stops it.
 
   /// [s] for which the load must have been there before, so that a short peak is no load
   static constexpr double kHeld = 0.2;

@@ -20,7 +20,7 @@ constexpr double kOutOfReach = 0.5;
 
 /// Share of the squared gap that a law leaves of what it should explain, at which it is as likely
 /// as not that the true law is another one. Measured by how often the answers of the study
-/// (docs/studies), seeds 1 to 6, were right.
+/// (studies/notes.md), seeds 1 to 6, were right.
 constexpr double kEvenOdds = 0.05;
 
 /// Factor for the probability of a law with a shape parameter at the end of its range where that
