@@ -39,7 +39,7 @@ struct Recovery {
   /// cautious.
   double score() const { return std::sqrt(scores / count); }
   double mean_reach() const { return reach / count; }
-  /// A row of the table in docs/identification.md.
+  /// A row of the table in studies/measurements.md.
   void print() const {
     std::printf("| %s | %.6g | %.3g | %.2g | %.2g | %d/%d |\n", name.c_str(), truth, allowed, rms(),
                 worst, covered, count);

@@ -1,5 +1,5 @@
 // Parameters are forgotten and found again; intervals have to cover the truth as often as they say.
-// A few seeds as a rule; ANTHROB_SEEDS=20 is the campaign of docs/calibration.md, with the arm,
+// A few seeds as a rule; ANTHROB_SEEDS=20 is the campaign of studies/measurements.md, with the arm,
 // too.
 #include <gtest/gtest.h>
 

@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
       "Identifies parameters of components from recordings of the test rigs "
-      "(docs/identification.md). Writes YAML to paste into a model file, report.json and figures.",
+      "(docs/calibration.md). Writes YAML to paste into a model file, report.json and figures.",
       "anthrob_identify");
   app.require_subcommand(1);
   Arguments arguments;

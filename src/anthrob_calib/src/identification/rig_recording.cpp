@@ -87,7 +87,7 @@ ConfigNode rig_meta(const Dataset& recording) {
   if (fs::path(recording.folder).extension() == ".bag") {
     throw BadInput(recording.folder +
                    ": a bag does not say what was on the rig; convert it with anthrob_convert and "
-                   "add the keys of docs/identification.md to the folder's meta.yaml");
+                   "add the keys of docs/calibration.md to the folder's meta.yaml");
   }
   std::string text;
   for (const auto& [key, yaml] : recording.meta.other) {

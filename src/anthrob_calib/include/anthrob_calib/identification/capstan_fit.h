@@ -28,7 +28,7 @@ struct EyeletRecording {
   std::vector<SlidingPoint> points;
 
   /// Reads columns `tendon/position`, `tendon/force`, `weight/load` and the keys `specimen` and
-  /// `rig` of meta.yaml (docs/identification.md); finds where the line moves steadily.
+  /// `rig` of meta.yaml (docs/calibration.md); finds where the line moves steadily.
   /// @throws BadInput with one line
   static EyeletRecording read(const Dataset& recording);
 };

@@ -45,7 +45,7 @@ struct RingRecording {
   std::vector<RelaxationTest> tests;
 
   /// Reads columns `ring/position`, `ring/reference`, `ring/force` and the keys `specimen`, `rig`,
-  /// `protocol` and `run` of meta.yaml (docs/identification.md).
+  /// `protocol` and `run` of meta.yaml (docs/calibration.md).
   /// @throws BadInput with one line if it is not such a recording, or a part of it is missing
   static RingRecording read(const Dataset& recording);
 };

@@ -26,7 +26,7 @@ struct LoadRecording {
   std::vector<LoadPoint> points;
 
   /// Reads columns `resistor/reference`, `oscilloscope/voltage`, `oscilloscope/current` and the
-  /// keys `specimen` and `rig` of meta.yaml (docs/identification.md).
+  /// keys `specimen` and `rig` of meta.yaml (docs/calibration.md).
   /// @throws BadInput with one line
   static LoadRecording read(const Dataset& recording);
 };
