@@ -56,7 +56,8 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
                     elsewhere with -DCMAKE_INSTALL_PREFIX=DIR
   sim [ARG:=VALUE]  simulate Anthrob, with RViz if there is a display; takes the arguments of sim.launch, such as
                     robot:=anthrob model:=II rviz:=false rate:=1 (0: as fast as possible)
-  demo              simulate the arm as it rises, bends and returns; bag, figures and pictures go to build/demo/
+  demo              simulate the arm as it rises, bends and returns; bag, figures and pictures (one of them moves) go to
+                    build/demo/
   test [PACKAGE...] run all tests, or those of the named packages; the last line counts them
   bench             run the benchmarks, also of MuJoCo and OpenCV for comparison; writes build/bench.json
   study NAME        calibration: repeat chapter 8 of the thesis with virtual robots
@@ -199,8 +200,11 @@ demo() {
   say "taking pictures of the arm in three postures"  # on a virtual screen, which shows nothing else
   xvfb-run -a -s "-screen 0 1280x960x24" scripts/picture_postures.sh "$out/postures.png" rest abducted flexed >>"$out/demo.log" 2>&1 ||
     die "the picture failed: see build/demo/demo.log"
+  say "taking a moving picture"
+  xvfb-run -a -s "-screen 0 1280x960x24" scripts/moving_picture.py "$out/arm.gif" rest abducted flexed diagonal >>"$out/demo.log" 2>&1 ||
+    die "the moving picture failed: see build/demo/demo.log"
   say "done: build/demo/ holds"
-  (cd "$out" && ls -1 -- *.bag *.svg *.png && echo "recording/")
+  (cd "$out" && ls -1 -- *.bag *.svg *.png *.gif && echo "recording/")
 }
 
 # usage: ctest_of KINDS PACKAGES ARGUMENT...

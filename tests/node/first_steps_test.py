@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""The commands of docs/start.md, word by word, and the numbers that the page gives."""
+import glob
+import math
+import os
+import re
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import rosbag
+import rospy
+import rostest
+from anthrob_msgs.msg import MuscleStates
+from documents_test import TOP, prose_and_blocks, read
+from waiting import wait_for
+
+
+def blocks_of(page):
+    """The blocks of commands of each section, by its heading."""
+    sections = re.split(r'^## (.*)\n', page, flags=re.MULTILINE)[1:]
+    return {title: [lines for _, lines in prose_and_blocks('\n' + body)[1]] for title, body in zip(sections[::2], sections[1::2])}
+
+
+class FirstSteps(unittest.TestCase):
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        os.symlink(os.path.join(TOP, 'config'), os.path.join(self.folder, 'config'))
+        self.page = read('docs/start.md')
+        self.blocks = blocks_of(self.page)
+        self.force = math.nan
+        rospy.Subscriber('/anthrob/muscle_states', MuscleStates, self.see)
+
+    def see(self, states):
+        self.force, self.seen = states.force[states.name.index('lateral_deltoid')], states.header.stamp.to_sec()
+
+    def start(self, block):
+        shell = subprocess.Popen(['bash', '-e', '-c', '\n'.join(block)], cwd=self.folder, stdout=subprocess.PIPE,
+                                 stderr=subprocess.STDOUT, universal_newlines=True, start_new_session=True)
+        self.addCleanup(shell.communicate)
+        self.addCleanup(lambda: os.killpg(shell.pid, signal.SIGINT))
+        return shell
+
+    def run_all(self, block):
+        done = subprocess.run(['bash', '-e', '-c', '\n'.join(block)], cwd=self.folder, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, universal_newlines=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout
+
+    def told(self, pattern):
+        found = re.search(pattern, self.page)
+        self.assertTrue(found, pattern)
+        return [float(number) for number in found.groups()]
+
+    def test_as_they_stand(self):
+        wait_for(lambda: not math.isnan(self.force), 30.0, 'the simulator')
+        moving, = self.blocks['Move a muscle and record']
+        self.start(moving)
+        bag = os.path.join(self.folder, 'run.bag')
+        wait_for(lambda: os.path.exists(bag), 40.0, 'the recording')
+        self.check_motion(bag)
+        self.check_stop(*self.blocks['Inspect, stop and step the robot'])
+        converted = self.run_all(self.blocks['Convert and replay the recording'][0])
+        self.assertIn('lateral_deltoid', converted)  # of anthrob_muscles
+        for name in 'run/commands.csv', 'run/muscles.csv', 'replayed/muscles.csv', 'figures/*.svg':
+            self.assertTrue(glob.glob(os.path.join(self.folder, name)), name)
+
+    def check_motion(self, bag):
+        """Degrees so long after the first command; as far as 10 s were recorded."""
+        begun, angles = None, []
+        with rosbag.Bag(bag) as recording:
+            for topic, message, arrived in recording.read_messages():
+                if topic.endswith('muscle_command'):  # rostopic stamps nothing
+                    begun = begun or arrived.to_sec()
+                elif topic.endswith('spherical_joint_states') and begun:
+                    half = math.acos(min(1.0, abs(message.orientation[0].w)))
+                    angles.append((message.header.stamp.to_sec() - begun, math.degrees(2.0 * half)))
+        angle, after = self.told(r'from (\d+) degrees after\s+(\d+) s')
+        self.assertGreater(angles[-1][0], after + 1.0)
+        self.assertAlmostEqual(min(angles, key=lambda a: abs(a[0] - after))[1], angle, delta=1.0)
+        self.assertGreater(angles[-1][1], angle + 1.0)  # it creeps on
+
+    def check_stop(self, block):
+        before, after, seconds = self.told(r'(\d+) N become (\d+) N in (\d+) s')
+        text = '\n'.join(block)
+        stop = text.index('rosservice call /anthrob/clear_faults')
+        self.assertAlmostEqual(self.force, before, delta=8.0)
+        self.run_all(text[:stop].splitlines())
+        stopped = self.seen
+        wait_for(lambda: self.seen > stopped + seconds, 60.0, 'the tendon to give way')
+        self.assertAlmostEqual(self.force, after, delta=8.0)
+        said = self.run_all(text[stop:].splitlines())
+        self.assertEqual(said.count('success: True'), 5, said)
+
+
+if __name__ == '__main__':
+    rospy.init_node('first_steps')
+    rostest.rosrun('anthrob_tests', 'first_steps', FirstSteps)
