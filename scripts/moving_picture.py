@@ -23,10 +23,10 @@ from anthrob_msgs.srv import Step
 from std_srvs.srv import SetBool
 
 PORT = 11398  # beside a simulation that may be running already
-FRAME_STEPS = 80  # of 1 ms
-MOVE_FRAMES, HOLD_FRAMES = 20, 6  # a posture: 1.6 s to it, 0.5 s there
-DRAWN = 0.4  # [s] of wall time until RViz has drawn what was published
-CROP, WIDTH, COLOURS = "780x760+250+90", 360, 48
+FRAME_STEPS = 100  # of 1 ms
+MOVE_FRAMES, HOLD_FRAMES = 16, 6  # a posture: 1.6 s to it, 0.6 s there
+DRAWN = 0.3  # [s] of wall time until RViz has drawn what was published
+CROP, WIDTH, COLOURS = "600x640+310+175", 360, 32
 
 
 def refuse(message):

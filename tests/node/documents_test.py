@@ -154,7 +154,7 @@ class Command:
     def options(self, told, words):
         for word in words:
             option = re.match(r'(--[a-z][\w-]*)', word)
-            if option and not re.search(r'(?<![\w-])' + option.group(1) + r'(?![\w-])', told):
+            if option and option.group(1) != '--help' and not re.search(r'(?<![\w-])%s(?![\w-])' % option.group(1), told):
                 yield 'no option %s' % option.group(1)
 
     def files(self):
@@ -189,7 +189,7 @@ class Command:
         yield from self.options(told, words)
         for word in words:
             parameter = re.match(r'(_[a-z]\w*):=', word)
-            if parameter and parameter.group(1) not in told and '~' + parameter.group(1)[1:] not in told:
+            if parameter and not re.search(r'\b%s\b' % parameter.group(1), told):
                 yield 'no parameter %s' % parameter.group(1)
 
     def roslaunch(self):
