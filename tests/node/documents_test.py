@@ -269,8 +269,9 @@ class Documents(unittest.TestCase):
                         'rosrun anthrob_sim anthrob_replay --model config/anthrob/model_IV.yaml',
                         'rosrun anthrob_control anthrob_posture_player _posture:=FILE', 'roslaunch anthrob_bringup simulate.launch',
                         'roslaunch anthrob_bringup sim.launch modle:=II', 'rosservice call /anthrob/enabled',
-                        'rostopic echo /anthrob/muscle_state', 'rostopic pub /anthrob/muscle_command anthrob_msgs/MuscleCommands', 'scripts/save_pair.py boards',
-                        'scripts/save_pairs.py boards --bags run.bag', 'devel/lib/anthrob_sim/no_test', 'rosbag record -O "run.bag'):
+                        'rostopic echo /anthrob/muscle_state', 'rostopic pub /anthrob/muscle_command anthrob_msgs/MuscleCommands',
+                        'scripts/save_pair.py boards', 'scripts/save_pairs.py boards --bags run.bag', 'devel/lib/anthrob_sim/no_test',
+                        'rosbag record -O "run.bag'):
             with self.subTest(command):
                 try:
                     self.assertNotEqual(Command(command).wrong(), [])

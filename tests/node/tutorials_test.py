@@ -91,7 +91,8 @@ class Files(Tutorial):
         model = re.sub(r'  shoulder:\n.*?(?=  elbow:)', '\n'.join(joint) + '\n', model, count=1, flags=re.DOTALL)
         flexor = re.search(r'  shoulder_flexor:\n.*?(?=    path:)', model, re.DOTALL).group()
         for name, sign in ('abductor', ''), ('adductor', '-'):
-            model += flexor.replace('flexor', name).replace('ecu_1', 'ecu_3') + '\n'.join(path).replace('0.0, 0.0', '0.0, ' + sign + '0.0') + '\n'
+            model += flexor.replace('flexor', name).replace('ecu_1', 'ecu_3')
+            model += '\n'.join(path).replace('0.0, 0.0', '0.0, ' + sign + '0.0') + '\n'
         self.write('my_arm/model_I.yaml', model)
         self.compare(table, 'rosrun anthrob_sim anthrob_muscles --robot my_arm --model I')
 
