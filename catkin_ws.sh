@@ -190,9 +190,9 @@ demo() {
   # roslaunch ends with 0 even if a node failed.
   ! grep -q 'exit code -\?[1-9]' "$out/demo.log" || die "the demo did not finish: see build/demo/demo.log"
   [ -f "$out/demo.bag" ] || die "nothing was recorded: see build/demo/demo.log"
-  rosrun anthrob_calib anthrob_convert "$out/demo.bag" "$out/recording" >>"$out/demo.log" ||
+  rosrun anthrob_recording anthrob_convert "$out/demo.bag" "$out/recording" >>"$out/demo.log" ||
     die "converting the bag failed: see above"
-  rosrun anthrob_calib anthrob_plot "$out/recording" --out "$out" || die "drawing failed: see above"
+  rosrun anthrob_recording anthrob_plot "$out/recording" --out "$out" || die "drawing failed: see above"
   if ! command -v xvfb-run >/dev/null || ! command -v import >/dev/null; then
     say "no pictures: xvfb or imagemagick is missing; the rest is in build/demo/"
     return 0
@@ -249,7 +249,7 @@ tests() {
     grep -q "\"_ctest_${package}_" build/tests.json || refuse "test: $package: this package has no tests of its own"
   done
   # shellcheck disable=SC2207
-  [ $# -eq 0 ] || built=($(sed -nE 's/.*"name" : "_ctest_.*_gtest_([a-z0-9_]+)".*/\1/p' build/tests.json))
+  [ $# -eq 0 ] || built=($(sed -nE 's/.*"name" : "_ctest_(anthrob_[a-z]+(_[a-z]+)?)_gtest_.*/\1_test/p' build/tests.json | sort -u))
   say "building the tests (log: build/build.log)"
   [ ${#built[@]} -eq 0 ] || catkin_make -j"$(nproc)" "${built[@]}" >>build/build.log 2>&1 ||
     { grep -m5 -E 'error|Error' build/build.log >&2; die "the tests do not build: see build/build.log"; }

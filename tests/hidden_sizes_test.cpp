@@ -1,12 +1,13 @@
 // What virtual robots hide can be said in the words of the effect catalogue: its ids, places,
 // parameters, and within its bounds. Else discovery would be asked for what it cannot answer.
-#include <anthrob_reference/arm.h>
-#include <anthrob_sim/effects/catalogue.h>
-#include <anthrob_sim/model/robot_model.h>
-#include <anthrob_virtual_robot/hidden_law.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "anthrob_reference/arm.h"
+#include "anthrob_sim/effects/catalogue.h"
+#include "anthrob_sim/model/robot_model.h"
+#include "hidden_law.h"
 
 namespace anthrob {
 namespace {

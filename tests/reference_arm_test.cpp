@@ -1,10 +1,11 @@
 // The simulator against an independent model of the arm, over the motion of the demo: same
 // commands, no shared code.
-#include <anthrob_control/posture_sequence.h>
-#include <anthrob_reference/arm.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "anthrob_control/posture_sequence.h"
+#include "anthrob_reference/arm.h"
 
 namespace anthrob {
 namespace {

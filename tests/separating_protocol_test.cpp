@@ -1,13 +1,14 @@
 // The protocols that discovery writes to tell rivals apart are protocols that the recorder runs:
 // its own reader takes them, with every target and every muscle.
-#include <anthrob_calib/discovery/experiment/simulated_recording.h>
-#include <anthrob_calib/discovery/separation/separating_files.h>
-#include <anthrob_record/protocol.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "experiment/simulated_recording.h"
+#include "protocol.h"
+#include "report/separating_files.h"
 
 namespace anthrob {
 namespace {

@@ -1,14 +1,15 @@
 // A recording of the virtual robot, read and replayed by the simulator: the same robot, no shared
 // code, so without hidden effects and noise they agree.
-#include <anthrob_sim/recording/dataset.h>
-#include <anthrob_sim/recording/replay.h>
-#include <anthrob_virtual_robot/recording.h>
-#include <anthrob_virtual_robot/session.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
+
+#include "anthrob_recording/dataset.h"
+#include "anthrob_sim/replay/replay.h"
+#include "recording.h"
+#include "session.h"
 
 namespace anthrob {
 namespace {

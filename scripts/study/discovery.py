@@ -24,7 +24,7 @@ from _study import (OUT, OneLineParser, commit, html_page, load, load_published,
                     of_the_study, refuse, run, say, several, start, whole, write)
 
 MAKER = "devel/lib/anthrob_virtual_robot/anthrob_blind_case"
-DISCOVER = "devel/lib/anthrob_calib/anthrob_discover"
+DISCOVER = "devel/lib/anthrob_discovery/anthrob_discover"
 SCORE = "src/anthrob_virtual_robot/scripts/anthrob_score"
 MODEL = "config/anthrob/model_I.yaml"
 ROUNDS = {"effect": 2}  # cases per law, each at another place

@@ -19,7 +19,7 @@ NODES = {
     'anthrob_sim': ['anthrob_simulator', 'anthrob_tendons'],
     'anthrob_driver': ['anthrob_driver'],
     'anthrob_control': ['anthrob_computed_force', 'anthrob_hold_posture', 'anthrob_posture_player'],
-    'anthrob_record': ['anthrob_recorder'],
+    'anthrob_recorder': ['anthrob_recorder'],
     'anthrob_mocap': ['anthrob_mocap', 'anthrob_virtual_cameras'],
 }
 
@@ -110,7 +110,7 @@ class Parameters(unittest.TestCase):
         self.check('anthrob_control', 'anthrob_computed_force',
                    [model, ('settings', os.path.join(CONFIG, 'control_tier1.yaml'))],
                    [('lock_step', '1'), ('steps', '2.5'), ('steps', '0')])
-        self.check('anthrob_record', 'anthrob_recorder',
+        self.check('anthrob_recorder', 'anthrob_recorder',
                    [model, ('protocol', os.path.join(CONFIG, 'record_tier1_equilibria.yaml')), ('out', '/nowhere')],
                    [('out', 'relative'), ('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
 

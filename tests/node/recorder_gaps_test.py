@@ -91,7 +91,7 @@ class RecorderGaps(unittest.TestCase):
         self.time, self.aims, self.commands = 1.0, [], []
         out = os.path.join(self.folder, 'out')
         process = subprocess.Popen(
-            ['rosrun', 'anthrob_record', 'anthrob_recorder', '__ns:=/anthrob', '_model:=' +
+            ['rosrun', 'anthrob_recorder', 'anthrob_recorder', '__ns:=/anthrob', '_model:=' +
              os.path.join(self.config, 'model_II_tier1.yaml'), '_protocol:=' + protocol, '_out:=' + out],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         end = time.time() + 50

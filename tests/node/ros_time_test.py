@@ -71,7 +71,7 @@ class RosTime(unittest.TestCase):
             'player': self.start('anthrob_control', 'anthrob_posture_player', model=RIG, postures=self.postures()),
             'controller': self.start('anthrob_control', 'anthrob_computed_force', model=tier1,
                                      settings=os.path.join(ANTHROB, 'control_tier1.yaml')),
-            'recorder': self.start('anthrob_record', 'anthrob_recorder', model=tier1, out=os.path.join(folder.name, 'out'),
+            'recorder': self.start('anthrob_recorder', 'anthrob_recorder', model=tier1, out=os.path.join(folder.name, 'out'),
                                    protocol=os.path.join(ANTHROB, 'record_tier1_equilibria.yaml')),
             'tendons': self.start('anthrob_sim', 'anthrob_tendons', model=RIG),
         }

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "anthrob_calib/identification/estimate.h"
+#include "identification/estimate.h"
 
 namespace anthrob {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "anthrob_calib/calibration/problem.h"
+#include "problem/problem.h"
 #include "two_muscle_rig.h"
 
 namespace anthrob {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_sim/core/random.h"
-#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_core/random.h"
+#include "anthrob_recording/dataset.h"
 #include "anthrob_sim/simulation.h"
 
 namespace anthrob {

@@ -9,16 +9,17 @@
 #include <optional>
 #include <thread>
 
-#include "anthrob_calib/calibration/calibrate.h"
 #include "anthrob_calib/calibration/extended_model.h"
-#include "anthrob_calib/identification/output_files.h"
-#include "anthrob_calib/optimiser/mpi_evaluator.h"
-#include "anthrob_calib/optimiser/problem_evaluator.h"
-#include "anthrob_calib/report/calibration_report.h"
 #include "anthrob_calib/resume/fingerprint.h"
-#include "anthrob_config/extended_files.h"
+#include "anthrob_core/config_node.h"
+#include "anthrob_core/files.h"
+#include "anthrob_recording/bag.h"
 #include "anthrob_sim/effects/catalogue.h"
-#include "anthrob_sim/tool/tool.h"
+#include "anthrob_sim/tool.h"
+#include "calibration/calibrate.h"
+#include "calibration/problem_evaluator.h"
+#include "optimiser/mpi_evaluator.h"
+#include "report/calibration_report.h"
 
 namespace anthrob {
 namespace {
@@ -62,17 +63,16 @@ void keep_model(const Arguments& arguments, const CalibrationInput& input, const
                 const Point& best) {
   std::map<std::string, double> overrides = input.started;
   for (const auto& [path, value] : problem.space().overrides(best)) overrides[path] = value;
-  identification::write_files(arguments.out,
-                              {{"model.yaml", model_text(arguments, input, overrides)}});
+  write_files(arguments.out, {{"model.yaml", model_text(arguments, input, overrides)}});
 }
 
 void write(const Arguments& arguments, const CalibrationInput& input,
            const CalibrationOutcome& outcome) {
-  identification::OutputFiles files;
+  OutputFiles files;
   files["result.json"] = result_json(outcome);
   files["report.html"] = report_html(outcome);
   files["model.yaml"] = model_text(arguments, input, outcome.overrides);
-  identification::write_files(arguments.out, files);
+  write_files(arguments.out, files);
 }
 
 /// Refuses to overwrite the journal of an earlier search (without --resume, or by --evaluate), and
@@ -101,12 +101,17 @@ void keep_input(const Arguments& arguments, const std::string& model_file) {
   for (const std::string& file : arguments.start) {
     read.push_back(fs::weakly_canonical(file).string());
   }
-  identification::require_kept(arguments.out, {"model.yaml", "result.json"}, read);
+  require_kept(arguments.out, {"model.yaml", "result.json"}, read);
 }
 
 /// This build, with the libraries of effects that the model has loaded.
 std::uint64_t program_of(const Arguments& arguments) {
   return resume::program_fingerprint(arguments.program, effect_library_files());
+}
+
+/// @param from folder of recordings, or one of them; empty: none
+Recordings recordings_of(const std::string& from) {
+  return {from, from.empty() ? std::vector<Dataset>() : load_recordings(from)};
 }
 
 /// Reads the input in every process. If one of them fails, all stop, and one error is reported.
@@ -115,12 +120,13 @@ CalibrationInput read_together(const Arguments& arguments, const MpiSession& ses
   std::optional<CalibrationInput> input;
   std::string complaint;
   try {
-    input.emplace(CalibrationInput::read(configure(arguments), arguments.data, arguments.validation,
-                                         arguments.start));
+    CalibrationConfig config = configure(arguments);
+    input.emplace(CalibrationInput::read(std::move(config), recordings_of(arguments.data),
+                                         recordings_of(arguments.validation), arguments.start));
     if (session.rank() == 0) {
       keep_earlier_search(arguments);
       keep_input(arguments, input->config.model_file);
-      identification::require_writable(arguments.out);
+      require_writable(arguments.out);
     }
   } catch (const BadInput& error) {  // the others wait for what is said of it
     complaint = kBad + std::string(error.what());

@@ -4,12 +4,12 @@
 #include <set>
 #include <type_traits>
 
-#include "anthrob_calib/identification/ecu_report.h"
-#include "anthrob_calib/identification/eyelet_report.h"
-#include "anthrob_calib/identification/ring_report.h"
-#include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/recording/load_recording.h"
-#include "anthrob_sim/tool/tool.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_recording/bag.h"
+#include "anthrob_sim/tool.h"
+#include "identification/ecu_report.h"
+#include "identification/eyelet_report.h"
+#include "identification/ring_report.h"
 
 namespace anthrob {
 namespace {

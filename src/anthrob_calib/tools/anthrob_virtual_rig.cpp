@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <iostream>
 
-#include "anthrob_calib/virtual_rig/eyelet_pull.h"
-#include "anthrob_calib/virtual_rig/load_resistor.h"
-#include "anthrob_calib/virtual_rig/ring_stretcher.h"
-#include "anthrob_config/errors.h"
-#include "anthrob_sim/tool/tool.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_sim/tool.h"
+#include "virtual_rig/eyelet_pull.h"
+#include "virtual_rig/load_resistor.h"
+#include "virtual_rig/ring_stretcher.h"
 
 namespace anthrob {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
-#include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/placement.h"
 
 namespace {

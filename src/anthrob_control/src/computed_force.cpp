@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "anthrob_control/posture_sequence.h"
-#include "anthrob_sim/recording/table.h"
+#include "anthrob_recording/table.h"
 #include "anthrob_sim/statics/equilibrium.h"
 
 namespace anthrob {

@@ -1,10 +1,10 @@
-#include "anthrob_control/gains_file.h"
+#include "gains_file.h"
 
 #include <cstdio>
 #include <cstdlib>
 
+#include "anthrob_core/errors.h"
 #include "anthrob_ecu/parameters.h"
-#include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
 

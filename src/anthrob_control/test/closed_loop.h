@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "anthrob_control/computed_force.h"
-#include "anthrob_sim/core/random.h"
+#include "anthrob_core/random.h"
 #include "anthrob_sim/simulation.h"
 #include "anthrob_sim/statics/equilibrium.h"
 

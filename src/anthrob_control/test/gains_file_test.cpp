@@ -1,4 +1,4 @@
-#include "anthrob_control/gains_file.h"
+#include "gains_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace {

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "anthrob_config/atomic_file.h"
-#include "anthrob_config/command_line.h"
-#include "anthrob_config/extended_files.h"
-#include "anthrob_control/gains_file.h"
+#include "anthrob_core/command_line.h"
+#include "anthrob_core/config_node.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/files.h"
 #include "anthrob_ecu/gains.h"
-#include "anthrob_sim/core/errors.h"
+#include "gains_file.h"
 
 namespace {
 

@@ -10,10 +10,10 @@
 #include <limits>
 #include <thread>
 
-#include "anthrob_driver/call_guard.h"
-#include "anthrob_driver/measurement_age.h"
 #include "anthrob_ros/diagnostics.h"
+#include "call_guard.h"
 #include "driver_diagnostics.h"
+#include "measurement_age.h"
 
 namespace anthrob {
 namespace driver {

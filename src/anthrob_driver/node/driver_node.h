@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "anthrob_driver/driver_thread.h"
-#include "anthrob_driver/reading_group.h"
-#include "anthrob_driver/stamp_clock.h"
+#include "reading_group.h"
 #include "request_queue.h"
+#include "stamp_clock.h"
 
 namespace anthrob {
 namespace driver {

@@ -1,6 +1,6 @@
 #include <ros/ros.h>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_ros/clock_wait.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"

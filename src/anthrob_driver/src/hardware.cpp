@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 #include "anthrob_ecu/model_file.h"
 #include "muscle_hardware.h"
 

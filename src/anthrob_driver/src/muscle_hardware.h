@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 #include "anthrob_driver/hardware.h"
 
 namespace anthrob {

@@ -1,4 +1,4 @@
-#include "anthrob_driver/call_guard.h"
+#include "call_guard.h"
 
 #include <gtest/gtest.h>
 

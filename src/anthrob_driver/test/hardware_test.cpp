@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace driver {

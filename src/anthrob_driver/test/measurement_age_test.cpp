@@ -1,4 +1,4 @@
-#include "anthrob_driver/measurement_age.h"
+#include "measurement_age.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "anthrob_driver/reading_group.h"
+#include "reading_group.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "rig.h"
 
 namespace anthrob {

@@ -1,4 +1,4 @@
-#include "anthrob_driver/stamp_clock.h"
+#include "stamp_clock.h"
 
 #include <gtest/gtest.h>
 

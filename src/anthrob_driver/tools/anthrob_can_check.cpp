@@ -11,13 +11,13 @@
 #include <memory>
 #include <thread>
 
-#include "anthrob_config/command_line.h"
-#include "anthrob_config/errors.h"
-#include "anthrob_driver/bus/bit_count.h"
+#include "anthrob_core/command_line.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_driver/driver_thread.h"
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
+#include "bus/bit_count.h"
 
 namespace anthrob {
 namespace driver {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "anthrob_ecu/wire_layout.h"
+#include "wire_layout.h"
 
 namespace anthrob {
 namespace ecu {

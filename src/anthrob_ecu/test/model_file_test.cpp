@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_ecu/parameters.h"
 
 namespace anthrob {

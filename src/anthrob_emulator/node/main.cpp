@@ -15,10 +15,10 @@
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
-#include "anthrob_emulator/simulator_plant.h"
 #include "anthrob_ros/single_backend.h"
-#include "anthrob_sim/messages/conversions.h"
-#include "anthrob_sim/tool/tool.h"
+#include "anthrob_sim/conversions.h"
+#include "anthrob_sim/tool.h"
+#include "simulator_plant.h"
 
 namespace anthrob {
 namespace {

@@ -1,4 +1,4 @@
-#include "anthrob_emulator/simulator_plant.h"
+#include "simulator_plant.h"
 
 #include <algorithm>
 #include <cmath>

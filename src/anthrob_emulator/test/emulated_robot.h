@@ -9,7 +9,7 @@
 #include "anthrob_driver/emulation/memory_bus.h"
 #include "anthrob_driver/emulation/rack.h"
 #include "anthrob_driver/robot_driver.h"
-#include "anthrob_emulator/simulator_plant.h"
+#include "simulator_plant.h"
 
 namespace anthrob {
 namespace testing_support {

@@ -1,5 +1,5 @@
 // The simulator behind emulated ECUs: what their sensors and power stages are wired to.
-#include "anthrob_emulator/simulator_plant.h"
+#include "simulator_plant.h"
 
 #include <gtest/gtest.h>
 

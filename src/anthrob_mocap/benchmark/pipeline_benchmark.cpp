@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "anthrob_mocap/pipeline/pipeline.h"
+#include "pipeline/pipeline.h"
 
 namespace anthrob {
 namespace mocap {

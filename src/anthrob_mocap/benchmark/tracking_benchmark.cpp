@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "../test/support.h"
+#include "support.h"
 
 namespace anthrob {
 namespace mocap {

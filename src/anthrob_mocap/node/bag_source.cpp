@@ -3,7 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "conversions.h"
 
 namespace anthrob {

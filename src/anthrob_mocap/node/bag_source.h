@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "anthrob_mocap/source/frame_source.h"
-#include "anthrob_mocap/source/pairing.h"
+#include "source/frame_source.h"
+#include "source/pairing.h"
 
 namespace anthrob {
 namespace mocap {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -8,9 +8,9 @@
 #include <sensor_msgs/Imu.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "anthrob_mocap/output/annotation.h"
-#include "anthrob_mocap/pipeline/stereo_frame.h"
-#include "anthrob_mocap/source/pairing.h"
+#include "output/annotation.h"
+#include "pipeline/stereo_frame.h"
+#include "source/pairing.h"
 
 namespace anthrob {
 namespace mocap {

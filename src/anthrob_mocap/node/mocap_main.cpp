@@ -1,9 +1,9 @@
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/pipeline/tracker_file.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
 #include "mocap_node.h"
 #include "open_source.h"
+#include "pipeline/tracker_file.h"
 
 namespace mocap = anthrob::mocap;
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "conversions.h"
 
 namespace anthrob {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 
-#include "anthrob_mocap/pipeline/tracker.h"
-#include "anthrob_mocap/render/setup.h"
-#include "anthrob_mocap/source/frame_source.h"
+#include "pipeline/tracker.h"
+#include "render/setup.h"
+#include "source/frame_source.h"
 #include "status.h"
 #include "topic_input.h"
 

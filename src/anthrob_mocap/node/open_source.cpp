@@ -1,12 +1,12 @@
 #include "open_source.h"
 
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/source/aravis_source.h"
-#include "anthrob_mocap/source/folder_source.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_ros/parameters.h"
 #include "bag_source.h"
+#include "source/aravis_source.h"
+#include "source/folder_source.h"
 #ifdef ANTHROB_HAVE_DC1394
-#include "anthrob_mocap/source/dc1394_source.h"
+#include "source/dc1394_source.h"
 #endif
 
 namespace anthrob {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "anthrob_mocap/camera/stereo_rig.h"
-#include "anthrob_mocap/source/frame_source.h"
+#include "camera/stereo_rig.h"
+#include "source/frame_source.h"
 
 namespace anthrob {
 namespace mocap {

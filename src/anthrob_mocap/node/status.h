@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_mocap/pipeline/health.h"
-#include "anthrob_mocap/pipeline/tracker.h"
-#include "anthrob_mocap/source/pairing.h"
+#include "pipeline/health.h"
+#include "pipeline/tracker.h"
+#include "source/pairing.h"
 
 namespace anthrob {
 namespace mocap {

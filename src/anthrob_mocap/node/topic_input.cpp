@@ -2,7 +2,7 @@
 
 #include <ros/topic.h>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "conversions.h"
 
 namespace anthrob {

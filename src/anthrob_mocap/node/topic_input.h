@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "anthrob_mocap/camera/stereo_rig.h"
-#include "anthrob_mocap/source/pairing.h"
+#include "camera/stereo_rig.h"
+#include "source/pairing.h"
 
 namespace anthrob {
 namespace mocap {

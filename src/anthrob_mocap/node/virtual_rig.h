@@ -6,8 +6,8 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
-#include "anthrob_mocap/render/renderer.h"
-#include "anthrob_mocap/render/setup.h"
+#include "render/renderer.h"
+#include "render/setup.h"
 
 namespace anthrob {
 namespace mocap {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

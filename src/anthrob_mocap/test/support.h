@@ -5,9 +5,9 @@
 #include <memory>
 #include <random>
 
-#include "anthrob_mocap/calibration/rectification.h"
-#include "anthrob_mocap/pipeline/tracker.h"
-#include "anthrob_mocap/render/renderer.h"
+#include "calibration/rectification.h"
+#include "pipeline/tracker.h"
+#include "render/renderer.h"
 
 namespace anthrob {
 namespace mocap {

@@ -3,11 +3,11 @@
 #include <iostream>
 #include <map>
 
-#include "anthrob_config/atomic_file.h"
-#include "anthrob_config/command_line.h"
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/calibration/stereo_calibration.h"
-#include "anthrob_mocap/source/image_file.h"
+#include "anthrob_core/command_line.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/files.h"
+#include "calibration/stereo_calibration.h"
+#include "source/image_file.h"
 
 namespace mocap = anthrob::mocap;
 namespace fs = std::filesystem;

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "anthrob_config/atomic_file.h"
-#include "anthrob_config/command_line.h"
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/output/pose_table.h"
-#include "anthrob_mocap/pipeline/tracker_file.h"
+#include "anthrob_core/command_line.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/files.h"
+#include "output/pose_table.h"
+#include "pipeline/tracker_file.h"
 #include "recording.h"
 
 namespace mocap = anthrob::mocap;

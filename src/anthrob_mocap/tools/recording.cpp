@@ -1,7 +1,7 @@
 #include "recording.h"
 
-#include "anthrob_config/command_line.h"
-#include "anthrob_config/errors.h"
+#include "anthrob_core/command_line.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "anthrob_mocap/pipeline/health.h"
-#include "anthrob_mocap/pipeline/tracker.h"
-#include "anthrob_mocap/source/folder_source.h"
+#include "pipeline/health.h"
+#include "pipeline/tracker.h"
+#include "source/folder_source.h"
 
 namespace anthrob {
 namespace mocap {

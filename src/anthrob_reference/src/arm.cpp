@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "anthrob_reference/check.h"
-#include "anthrob_reference/load.h"
+#include "check.h"
+#include "load.h"
 
 namespace anthrob::reference {
 namespace {

@@ -1,4 +1,4 @@
-#include "anthrob_reference/load.h"
+#include "load.h"
 
 #include <yaml-cpp/yaml.h>
 

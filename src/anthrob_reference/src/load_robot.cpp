@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "anthrob_reference/load.h"
+#include "load.h"
 
 namespace anthrob::reference {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "anthrob_reference/check.h"
+#include "check.h"
 
 namespace anthrob::reference {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_reference/check.h"
+#include "check.h"
 
 namespace anthrob::reference {
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "anthrob_reference/load.h"
 #include "anthrob_reference/muscle.h"
+#include "load.h"
 #include "support.h"
 
 namespace anthrob::reference {

@@ -1,4 +1,4 @@
-#include "anthrob_reference/load.h"
+#include "load.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 

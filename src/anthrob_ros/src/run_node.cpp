@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/single_backend.h"
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace {

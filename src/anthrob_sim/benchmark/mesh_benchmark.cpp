@@ -6,10 +6,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "../test/mesh_reference.h"
-#include "anthrob_sim/path/cylinder.h"
-#include "anthrob_sim/path/mesh_surface.h"
 #include "anthrob_sim/simulation.h"
+#include "path/cylinder.h"
+#include "path/mesh_reference.h"
+#include "path/mesh_surface.h"
 
 namespace anthrob {
 namespace {

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "anthrob_sim/path/cylinder.h"
-#include "anthrob_sim/path/sphere.h"
+#include "path/cylinder.h"
+#include "path/sphere.h"
 
 namespace anthrob {
 

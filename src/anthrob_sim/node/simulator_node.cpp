@@ -10,7 +10,7 @@
 #include "anthrob_ecu/gains.h"
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_ros/single_backend.h"
-#include "anthrob_sim/messages/conversions.h"
+#include "anthrob_sim/conversions.h"
 #include "anthrob_sim/placement.h"
 
 namespace anthrob {

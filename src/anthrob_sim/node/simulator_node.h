@@ -16,9 +16,9 @@
 #include <map>
 
 #include "anthrob_ecu/supervisor.h"
-#include "anthrob_sim/driven_joints.h"
-#include "anthrob_sim/report/solved_path.h"
 #include "anthrob_sim/simulation.h"
+#include "report/solved_path.h"
+#include "simulation/driven_joints.h"
 #include "surface_display.h"
 
 namespace anthrob {

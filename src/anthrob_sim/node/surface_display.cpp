@@ -1,6 +1,6 @@
 #include "surface_display.h"
 
-#include "anthrob_sim/messages/conversions.h"
+#include "anthrob_sim/conversions.h"
 
 namespace anthrob {
 

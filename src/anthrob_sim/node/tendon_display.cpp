@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/messages/conversions.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_sim/conversions.h"
 
 namespace anthrob {
 

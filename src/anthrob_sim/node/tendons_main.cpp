@@ -1,9 +1,9 @@
 #include <ros/ros.h>
 
+#include "anthrob_core/errors.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
 #include "anthrob_ros/single_backend.h"
-#include "anthrob_sim/core/errors.h"
 #include "tendon_display.h"
 
 int main(int argc, char** argv) {

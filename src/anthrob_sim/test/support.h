@@ -4,10 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <string>
 
-#include "anthrob_sim/core/types.h"
+#include "anthrob_core/testing/random.h"
 #include "anthrob_sim/model/robot_model.h"
 
 namespace anthrob {
@@ -43,30 +42,6 @@ class TemporaryRobot {
 
  private:
   std::filesystem::path folder_;
-};
-
-/// Seeded, so that a failure can be seen again.
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double lo, double hi) {
-    return std::uniform_real_distribution<double>(lo, hi)(engine_);
-  }
-  int integer(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
-  Vec3 vector(double size) {
-    return {uniform(-size, size), uniform(-size, size), uniform(-size, size)};
-  }
-  Vec3 direction() {
-    for (;;) {
-      const Vec3 v = vector(1.0);
-      if (v.norm() > 0.1 && v.norm() < 1.0) return v.normalized();
-    }
-  }
-  Quat rotation() { return Quat(Eigen::AngleAxisd(uniform(-3.14, 3.14), direction())); }
-  Pose pose(double size) { return {rotation().toRotationMatrix(), vector(size)}; }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 /// Postures of Anthrob's work space: shoulder within 60 degrees of rest, elbow 2 to 130 degrees.

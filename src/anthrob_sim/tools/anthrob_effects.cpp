@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
 #include "anthrob_sim/effects/catalogue.h"
-#include "anthrob_sim/tool/tool.h"
+#include "anthrob_sim/tool.h"
 
 namespace anthrob {
 namespace {
@@ -19,12 +20,6 @@ const char* kind_name(EffectParameter::Kind kind) {
   return kind == EffectParameter::kSize    ? "size"
          : kind == EffectParameter::kShape ? "shape"
                                            : "given";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 /// Breaks a paragraph into lines of at most 90 letters.

@@ -6,12 +6,12 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "anthrob_config/atomic_file.h"
+#include "anthrob_core/files.h"
+#include "anthrob_recording/dataset.h"
 #include "anthrob_sim/placement.h"
-#include "anthrob_sim/recording/dataset.h"
 #include "anthrob_sim/report/muscle_sweep.h"
 #include "anthrob_sim/simulation.h"
-#include "anthrob_sim/tool/tool.h"
+#include "anthrob_sim/tool.h"
 
 namespace anthrob {
 namespace {

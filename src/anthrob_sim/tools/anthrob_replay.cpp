@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <iostream>
 
-#include "anthrob_sim/recording/load_recording.h"
-#include "anthrob_sim/recording/replay.h"
-#include "anthrob_sim/recording/unanswered.h"
-#include "anthrob_sim/tool/tool.h"
+#include "anthrob_recording/bag.h"
+#include "anthrob_recording/unanswered.h"
+#include "anthrob_sim/replay/replay.h"
+#include "anthrob_sim/tool.h"
 
 namespace {
 

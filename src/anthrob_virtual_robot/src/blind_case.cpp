@@ -1,12 +1,12 @@
-#include "anthrob_virtual_robot/blind_case.h"
+#include "blind_case.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "anthrob_virtual_robot/channels.h"
-#include "anthrob_virtual_robot/dosing.h"
-#include "anthrob_virtual_robot/places.h"
+#include "channels.h"
+#include "dosing.h"
+#include "places.h"
 
 namespace anthrob::virtual_robot {
 namespace {

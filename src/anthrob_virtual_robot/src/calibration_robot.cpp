@@ -1,10 +1,10 @@
-#include "anthrob_virtual_robot/calibration_robot.h"
+#include "calibration_robot.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_virtual_robot/hidden_law.h"
-#include "anthrob_virtual_robot/places.h"
+#include "hidden_law.h"
+#include "places.h"
 
 namespace anthrob::virtual_robot {
 namespace {

@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/channels.h"
+#include "channels.h"
 
 #include <algorithm>
 #include <cmath>

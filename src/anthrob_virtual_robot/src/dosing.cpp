@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/dosing.h"
+#include "dosing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/draft.h"
+#include "draft.h"
 
 #include <numeric>
 #include <sstream>

@@ -1,9 +1,9 @@
-#include "anthrob_virtual_robot/excitation.h"
+#include "excitation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_virtual_robot/posture_reference.h"
+#include "posture_reference.h"
 
 namespace anthrob::virtual_robot {
 namespace {

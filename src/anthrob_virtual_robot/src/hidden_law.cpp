@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/hidden_law.h"
+#include "hidden_law.h"
 
 #include <stdexcept>
 

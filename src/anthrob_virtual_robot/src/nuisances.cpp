@@ -1,6 +1,6 @@
-#include "anthrob_virtual_robot/nuisances.h"
+#include "nuisances.h"
 
-#include "anthrob_virtual_robot/places.h"
+#include "places.h"
 
 namespace anthrob::virtual_robot {
 

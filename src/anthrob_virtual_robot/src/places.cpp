@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/places.h"
+#include "places.h"
 
 #include <stdexcept>
 

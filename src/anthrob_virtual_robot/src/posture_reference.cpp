@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/posture_reference.h"
+#include "posture_reference.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>

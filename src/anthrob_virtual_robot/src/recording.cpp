@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/recording.h"
+#include "recording.h"
 
 #include <cmath>
 #include <filesystem>

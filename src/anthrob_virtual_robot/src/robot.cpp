@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/robot.h"
+#include "robot.h"
 
 #include <algorithm>
 

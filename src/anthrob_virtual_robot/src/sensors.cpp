@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/sensors.h"
+#include "sensors.h"
 
 #include <cmath>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "anthrob_virtual_robot/session.h"
+#include "session.h"
 
 #include <algorithm>
 #include <cmath>

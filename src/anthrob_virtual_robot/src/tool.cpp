@@ -1,8 +1,8 @@
-#include "anthrob_virtual_robot/tool.h"
+#include "tool.h"
 
 #include <stdexcept>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob::virtual_robot {
 

@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
-#include "anthrob_virtual_robot/blind_case.h"
-#include "anthrob_virtual_robot/channels.h"
-#include "anthrob_virtual_robot/places.h"
+#include "blind_case.h"
+#include "channels.h"
+#include "places.h"
 
 namespace anthrob::virtual_robot {
 

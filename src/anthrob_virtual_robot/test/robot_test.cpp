@@ -6,10 +6,10 @@
 #include <set>
 #include <string>
 
-#include "anthrob_virtual_robot/blind_case.h"
-#include "anthrob_virtual_robot/channels.h"
-#include "anthrob_virtual_robot/dosing.h"
-#include "anthrob_virtual_robot/posture_reference.h"
+#include "blind_case.h"
+#include "channels.h"
+#include "dosing.h"
+#include "posture_reference.h"
 #include "support.h"
 
 namespace anthrob::virtual_robot {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "anthrob_virtual_robot/hidden_law.h"
-#include "anthrob_virtual_robot/robot.h"
+#include "hidden_law.h"
+#include "robot.h"
 
 namespace anthrob::virtual_robot {
 

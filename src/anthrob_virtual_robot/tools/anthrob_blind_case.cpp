@@ -5,8 +5,8 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "anthrob_virtual_robot/blind_case.h"
-#include "anthrob_virtual_robot/tool.h"
+#include "blind_case.h"
+#include "tool.h"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <iostream>
 
-#include "anthrob_virtual_robot/blind_case.h"
-#include "anthrob_virtual_robot/session.h"
-#include "anthrob_virtual_robot/tool.h"
+#include "blind_case.h"
+#include "session.h"
+#include "tool.h"
 
 int main(int argc, char** argv) {
   using namespace anthrob::virtual_robot;

@@ -1,4 +1,4 @@
-#include "anthrob_calib/calibration/calibrate.h"
+#include "calibration/calibrate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <set>
 
 #include "anthrob_calib/resume/fingerprint.h"
+#include "anthrob_recording/dataset.h"
 #include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/recording/dataset.h"
 
 namespace anthrob {
 namespace calibration {
@@ -178,8 +178,8 @@ std::vector<DriveErrors> compare_drives(const Problem& problem, const Point& bes
 
 }  // namespace
 
-CalibrationInput CalibrationInput::read(CalibrationConfig config, const std::string& data,
-                                        const std::string& validation,
+CalibrationInput CalibrationInput::read(CalibrationConfig config, const Recordings& data,
+                                        const Recordings& validation,
                                         const std::vector<std::string>& start) {
   const ConfigNode own = ConfigNode::load(config.model_file);
   ConfigNode model = own.clone();
@@ -187,10 +187,10 @@ CalibrationInput CalibrationInput::read(CalibrationConfig config, const std::str
   for (const std::string& file : start) take_over(file, own, model, started);
   const auto robot = build_robot_model(model);
   CalibrationInput input{std::move(config), model, std::move(started), {}, {}};
-  input.runs = read_runs(data, robot);
-  input.config.check(input.runs, data);
-  if (!validation.empty()) input.validation = read_runs(validation, robot);
-  keep_apart(input.validation, validation, input.runs, data);
+  input.runs = read_runs(data.list, robot);
+  input.config.check(input.runs, data.from);
+  input.validation = read_runs(validation.list, robot);
+  keep_apart(input.validation, validation.from, input.runs, data.from);
   return input;
 }
 

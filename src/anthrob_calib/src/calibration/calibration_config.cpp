@@ -1,8 +1,8 @@
-#include "anthrob_calib/calibration/calibration_config.h"
+#include "calibration/calibration_config.h"
 
 #include <filesystem>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace calibration {

@@ -1,9 +1,9 @@
-#include "anthrob_calib/calibration/derivative_limits.h"
+#include "calibration/derivative_limits.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/optimiser/least_squares_optimiser.h"
+#include "optimiser/least_squares_optimiser.h"
 
 namespace anthrob {
 namespace calibration {

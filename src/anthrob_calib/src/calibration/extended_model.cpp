@@ -5,7 +5,7 @@
 #include <sstream>
 #include <vector>
 
-#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_recording/dataset.h"
 
 namespace anthrob {
 namespace calibration {

@@ -1,4 +1,4 @@
-#include "anthrob_calib/calibration/identifiability.h"
+#include "calibration/identifiability.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "anthrob_calib/calibration/derivative_limits.h"
-#include "anthrob_calib/optimiser/least_squares_optimiser.h"
-#include "anthrob_calib/optimiser/problem_evaluator.h"
+#include "calibration/derivative_limits.h"
+#include "calibration/problem_evaluator.h"
+#include "optimiser/least_squares_optimiser.h"
 
 namespace anthrob {
 namespace calibration {

@@ -1,11 +1,12 @@
-#include "anthrob_calib/identification/capstan_fit.h"
+#include "identification/capstan_fit.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/identification/least_squares.h"
-#include "anthrob_calib/identification/number_text.h"
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
+#include "identification/least_squares.h"
+#include "identification/number_text.h"
 
 namespace anthrob {
 namespace identification {
@@ -44,13 +45,13 @@ void require_friction(const CapstanFit& result, const Fit& fit,
                       const std::vector<SlidingPoint>& points) {
   const std::string& name = points.front().recording;
   if (fit.at_bound >= 0) {
-    throw BadInput(name + ": tendon/force: " + rounded(points.front().force.value, 3) + " N at " +
-                   rounded(points.front().load, 3) +
+    throw BadInput(name + ": tendon/force: " + significant(points.front().force.value, 3) +
+                   " N at " + significant(points.front().load, 3) +
                    " N of weight/load: the fit of the friction ends at its bound; expected forces "
                    "near the load. Check unit and sign of both columns");
   }
   if (result.both.value > 0.0) return;
-  throw BadInput(name + ": tendon/position: mu_k is " + rounded(result.both.value, 3) +
+  throw BadInput(name + ": tendon/position: mu_k is " + significant(result.both.value, 3) +
                  " by its direction: expected a positive number; reverse the sign of the column, "
                  "which grows while the line is pulled");
 }

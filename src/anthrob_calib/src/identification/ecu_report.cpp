@@ -1,10 +1,11 @@
-#include "anthrob_calib/identification/ecu_report.h"
+#include "identification/ecu_report.h"
 
 #include <algorithm>
 
-#include "anthrob_calib/identification/number_text.h"
-#include "anthrob_calib/identification/rig_recording.h"
-#include "anthrob_sim/report/svg_figure.h"
+#include "anthrob_core/text.h"
+#include "anthrob_recording/svg_figure.h"
+#include "identification/number_text.h"
+#include "identification/rig_recording.h"
 
 namespace anthrob {
 namespace identification {
@@ -21,7 +22,7 @@ std::string drop_figure(const EcuResult& result) {
   int colour = 0;
   for (const LoadRecording& recording : result.fitted) {
     Line line;
-    line.label = "R_L = " + rounded(recording.load_resistance, 3) + " ohm";
+    line.label = "R_L = " + significant(recording.load_resistance, 3) + " ohm";
     line.marks = colour % 2 == 0 ? Line::kFilled : Line::kOpen;
     line.colour = colour++;
     for (const LoadPoint& point : recording.points) {
@@ -32,7 +33,7 @@ std::string drop_figure(const EcuResult& result) {
     panel.lines.push_back(line);
   }
   Line fit;
-  fit.label = "R_ECU = " + rounded(result.fit.resistance.value, 3) + " ohm";
+  fit.label = "R_ECU = " + significant(result.fit.resistance.value, 3) + " ohm";
   fit.colour = colour;
   fit.x = {least, most};
   fit.y = {result.fit.resistance.value * least, result.fit.resistance.value * most};
@@ -43,8 +44,8 @@ std::string drop_figure(const EcuResult& result) {
 std::string power_stage_yaml(const Estimate& resistance) {
   return "# Identified by anthrob_identify ecu. Paste it into an actuator of a model "
          "file.\npower_stage:\n  resistance: " +
-         rounded(resistance.value, 4) + "  # [ohm] 95 %: " + rounded(resistance.lo, 4) + " to " +
-         rounded(resistance.hi, 4) + "\n";
+         significant(resistance.value, 4) + "  # [ohm] 95 %: " + significant(resistance.lo, 4) +
+         " to " + significant(resistance.hi, 4) + "\n";
 }
 
 ordered_json report_json(const EcuResult& result) {
@@ -98,8 +99,8 @@ OutputFiles report_ecu(const EcuResult& result) {
 
 std::string summary_of_ecu(const EcuResult& result) {
   std::string out = "R_ECU " + with_error(result.fit.resistance, 1.0) + " ohm; RMSE " +
-                    rounded(result.fit_error, 3) + " V, second specimen ";
-  out += result.validation_error ? rounded(*result.validation_error, 3) + " V" : "not measured";
+                    significant(result.fit_error, 3) + " V, second specimen ";
+  out += result.validation_error ? significant(*result.validation_error, 3) + " V" : "not measured";
   return out + "\n";
 }
 

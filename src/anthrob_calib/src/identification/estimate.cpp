@@ -1,4 +1,4 @@
-#include "anthrob_calib/identification/estimate.h"
+#include "identification/estimate.h"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>

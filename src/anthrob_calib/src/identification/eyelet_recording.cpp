@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/identification/capstan_fit.h"
-#include "anthrob_calib/identification/number_text.h"
-#include "anthrob_calib/identification/rig_recording.h"
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
+#include "identification/capstan_fit.h"
+#include "identification/number_text.h"
+#include "identification/rig_recording.h"
 
 namespace anthrob {
 namespace identification {
@@ -108,7 +109,7 @@ EyeletRecording EyeletRecording::read(const Dataset& recording) {
       const auto block = static_cast<std::size_t>(static_cast<double>(piece.size()) / kBlocks);
       const Estimate force = mean_of_series(piece, std::max<std::size_t>(1, block));
       if (!(force.value > 0.0)) {
-        throw BadInput(result.name + ": tendon/force: mean of " + rounded(force.value, 3) +
+        throw BadInput(result.name + ": tendon/force: mean of " + significant(force.value, 3) +
                        " N while the line moves: expected a positive number; reverse the sign of "
                        "the column");
       }

@@ -1,11 +1,12 @@
-#include "anthrob_calib/identification/eyelet_report.h"
+#include "identification/eyelet_report.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/identification/number_text.h"
-#include "anthrob_calib/identification/rig_recording.h"
-#include "anthrob_sim/report/svg_figure.h"
+#include "anthrob_core/text.h"
+#include "anthrob_recording/svg_figure.h"
+#include "identification/number_text.h"
+#include "identification/rig_recording.h"
 
 namespace anthrob {
 namespace identification {
@@ -36,7 +37,7 @@ void add_example(const EyeletResult& result, bool pulling, SvgFigure& figure) {
   auto& panel =
       figure.add_panel("time [s]", pulling ? "force, pulling [N]" : "force, relaxing [N]");
   Line force, weight, mean;
-  force.label = "sensor", weight.label = "load " + rounded(load, 3) + " N", mean.label = "mean";
+  force.label = "sensor", weight.label = "load " + significant(load, 3) + " N", mean.label = "mean";
   weight.dashed = true;
   const std::size_t stride = 1 + recording->t.size() / 1500;
   for (std::size_t i = 0; i < recording->t.size(); i += stride) {
@@ -105,8 +106,8 @@ std::string friction_yaml(const CapstanFit& fit) {
   return "# Identified by anthrob_identify eyelet. Paste it into a model file. This rig does not "
          "measure static (here\n# kinetic / 0.8, the ratio of the thesis), stribeck_velocity and "
          "steepness.\neyelet_friction:\n  law: smooth_stribeck\n  static: " +
-         rounded(mu / kStaticRatio, 4) + "  # [1]\n  kinetic: " + rounded(mu, 4) +
-         "  # [1] 95 %: " + rounded(fit.both.lo, 4) + " to " + rounded(fit.both.hi, 4) +
+         significant(mu / kStaticRatio, 4) + "  # [1]\n  kinetic: " + significant(mu, 4) +
+         "  # [1] 95 %: " + significant(fit.both.lo, 4) + " to " + significant(fit.both.hi, 4) +
          "\n  stribeck_velocity: 0.001  # [m/s]\n  steepness: 10  # [1]\n";
 }
 
@@ -170,8 +171,8 @@ std::string summary_of_eyelet(const EyeletResult& result) {
   std::string out = "mu_k " + with_error(result.fit.both, 1.0);
   if (result.fit.pulling) out += ", pulling " + with_error(*result.fit.pulling, 1.0);
   if (result.fit.relaxing) out += ", relaxing " + with_error(*result.fit.relaxing, 1.0);
-  out += "; RMSE " + rounded(result.fit_error, 3) + " N, second specimen ";
-  out += result.validation_error ? rounded(*result.validation_error, 3) + " N" : "not measured";
+  out += "; RMSE " + significant(result.fit_error, 3) + " N, second specimen ";
+  out += result.validation_error ? significant(*result.validation_error, 3) + " N" : "not measured";
   return out + "\n";
 }
 

@@ -1,4 +1,4 @@
-#include "anthrob_calib/identification/least_squares.h"
+#include "identification/least_squares.h"
 
 #include <ceres/ceres.h>
 

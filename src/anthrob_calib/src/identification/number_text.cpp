@@ -1,4 +1,4 @@
-#include "anthrob_calib/identification/number_text.h"
+#include "identification/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,6 @@
 
 namespace anthrob {
 namespace identification {
-
-std::string rounded(double value, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.*g", digits, value);
-  return text;
-}
 
 std::string with_error(const Estimate& estimate, double unit) {
   // Two digits of the error, and the value as far.

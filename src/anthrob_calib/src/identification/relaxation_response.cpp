@@ -1,4 +1,4 @@
-#include "anthrob_calib/identification/relaxation_response.h"
+#include "identification/relaxation_response.h"
 
 #include <algorithm>
 #include <cmath>

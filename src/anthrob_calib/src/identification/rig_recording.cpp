@@ -1,11 +1,11 @@
-#include "anthrob_calib/identification/rig_recording.h"
+#include "identification/rig_recording.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace identification {

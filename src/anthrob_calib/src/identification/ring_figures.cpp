@@ -1,10 +1,11 @@
-#include "anthrob_calib/identification/ring_figures.h"
+#include "identification/ring_figures.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/identification/number_text.h"
-#include "anthrob_sim/report/svg_figure.h"
+#include "anthrob_core/text.h"
+#include "anthrob_recording/svg_figure.h"
+#include "identification/number_text.h"
 
 namespace anthrob {
 namespace identification {
@@ -54,7 +55,7 @@ void add_relaxation(const RingRecording& recording, const ViscoelasticFit& fit, 
       });
   const auto force = predicted_force(fit.model(), fit.zero.value, recording, *nearest);
   auto& panel = figure.add_panel("time [s]", "stress [MPa]");
-  Line measured = curve("measured, strain " + rounded(nearest->strain, 3), 10);
+  Line measured = curve("measured, strain " + significant(nearest->strain, 3), 10);
   Line model = curve("model", 1);
   const double scale = 1.0 / (recording.specimen.area() * kMega);
   const std::size_t stride = 1 + (force.size() - nearest->hold) / 1000;

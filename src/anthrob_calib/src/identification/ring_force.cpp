@@ -1,9 +1,9 @@
-#include "anthrob_calib/identification/ring_force.h"
+#include "identification/ring_force.h"
 
 #include <cmath>
 #include <utility>
 
-#include "anthrob_calib/identification/relaxation_response.h"
+#include "identification/relaxation_response.h"
 
 namespace anthrob {
 namespace identification {

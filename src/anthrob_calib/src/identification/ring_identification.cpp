@@ -1,10 +1,10 @@
-#include "anthrob_calib/identification/ring_identification.h"
+#include "identification/ring_identification.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <tuple>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace identification {

@@ -1,13 +1,14 @@
-#include "anthrob_calib/identification/ring_recording.h"
+#include "identification/ring_recording.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
-#include "anthrob_calib/identification/number_text.h"
-#include "anthrob_calib/identification/rig_recording.h"
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
+#include "identification/number_text.h"
+#include "identification/rig_recording.h"
 
 namespace anthrob {
 namespace identification {
@@ -164,7 +165,7 @@ class Reader {
                                          test.force.end(), 0.0) /
                          static_cast<double>(size - half);
     if (test.used && !(force > 0.0)) {  // else noise may hide it
-      fail(stretch.begin, "ring/force: " + rounded(force, 3) +
+      fail(stretch.begin, "ring/force: " + significant(force, 3) +
                               " N more while stretched than released: expected a positive "
                               "number; reverse the sign of the column");
     }

@@ -1,10 +1,11 @@
-#include "anthrob_calib/identification/ring_report.h"
+#include "identification/ring_report.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "anthrob_calib/identification/number_text.h"
-#include "anthrob_calib/identification/ring_figures.h"
+#include "anthrob_core/text.h"
+#include "identification/number_text.h"
+#include "identification/ring_figures.h"
 
 namespace anthrob {
 namespace identification {
@@ -18,8 +19,8 @@ const char* model_name(const RingModelResult& model) {
 }
 
 std::string commented(const Estimate& estimate, const std::string& unit, const std::string& name) {
-  return rounded(estimate.value, 6) + "  # [" + unit + "] " + name +
-         ", 95 %: " + rounded(estimate.lo, 6) + " to " + rounded(estimate.hi, 6) + "\n";
+  return significant(estimate.value, 6) + "  # [" + unit + "] " + name +
+         ", 95 %: " + significant(estimate.lo, 6) + " to " + significant(estimate.hi, 6) + "\n";
 }
 
 std::string spring_yaml(const RingResult& ring, const RingModelResult& model) {
@@ -27,8 +28,8 @@ std::string spring_yaml(const RingResult& ring, const RingModelResult& model) {
   const auto& p = model.fit->parameters;
   std::string out = "  ring_" + ring.ring + (model.arms == 1 ? "" : "_wiechert") + ":\n";
   out += std::string("    type: ") + model_name(model) + "\n";
-  out += "    rest_length: " + rounded(specimen.rest_length, 6) + "  # [m]\n";
-  out += "    section_diameter: " + rounded(specimen.section_diameter, 6) + "  # [m]\n";
+  out += "    rest_length: " + significant(specimen.rest_length, 6) + "  # [m]\n";
+  out += "    section_diameter: " + significant(specimen.section_diameter, 6) + "  # [m]\n";
   out += "    strands: " + std::to_string(specimen.strands) + "\n";
   out += "    modulus: " + commented(p[0], "Pa", "E_0");
   if (model.arms == 1) {
@@ -106,7 +107,7 @@ ordered_json ring_json(const RingResult& ring) {
 }
 
 std::string error_text(const std::optional<double>& error) {
-  return error ? rounded(*error, 3) + " N" : "not measured";
+  return error ? significant(*error, 3) + " N" : "not measured";
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
-#include "anthrob_calib/identification/series_resistance_fit.h"
+#include "identification/series_resistance_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "anthrob_calib/identification/least_squares.h"
-#include "anthrob_calib/identification/number_text.h"
-#include "anthrob_calib/identification/rig_recording.h"
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
+#include "identification/least_squares.h"
+#include "identification/number_text.h"
+#include "identification/rig_recording.h"
 
 namespace anthrob {
 namespace identification {
@@ -113,7 +114,7 @@ SeriesResistanceFit fit_series_resistance(const std::vector<LoadRecording>& reco
   if (fit_gain) result.gain = fit.estimate(2);
   if (fit.at_bound >= 0 || !(fit.values[0] > 0.0)) {
     throw BadInput(recordings.front().name + ": oscilloscope/current: R_ECU would be " +
-                   rounded(fit.values[0], 3) +
+                   significant(fit.values[0], 3) +
                    " ohm: expected a positive number within the bounds of the fit; check the signs "
                    "and units of oscilloscope/current and oscilloscope/voltage");
   }

@@ -1,4 +1,4 @@
-#include "anthrob_calib/identification/viscoelastic_fit.h"
+#include "identification/viscoelastic_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "anthrob_calib/identification/least_squares.h"
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
+#include "identification/least_squares.h"
 
 namespace anthrob {
 namespace identification {

@@ -1,11 +1,11 @@
-#include "anthrob_calib/optimiser/descent.h"
+#include "optimiser/descent.h"
 
 #include <ceres/ceres.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/optimiser/least_squares_optimiser.h"
+#include "optimiser/least_squares_optimiser.h"
 
 namespace anthrob {
 namespace calibration {

@@ -1,10 +1,10 @@
-#include "anthrob_calib/optimiser/evolution_strategy.h"
+#include "optimiser/evolution_strategy.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "anthrob_sim/core/random.h"
+#include "anthrob_core/random.h"
 
 namespace anthrob {
 namespace calibration {

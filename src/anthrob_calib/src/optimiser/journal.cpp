@@ -1,4 +1,4 @@
-#include "anthrob_calib/optimiser/journal.h"
+#include "optimiser/journal.h"
 
 #include <cmath>
 #include <filesystem>
@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "anthrob_calib/resume/fingerprint.h"
-#include "anthrob_config/atomic_file.h"
-#include "anthrob_sim/core/errors.h"
-#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/files.h"
+#include "anthrob_recording/dataset.h"
 
 namespace anthrob {
 namespace calibration {

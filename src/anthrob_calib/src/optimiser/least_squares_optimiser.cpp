@@ -1,11 +1,11 @@
-#include "anthrob_calib/optimiser/least_squares_optimiser.h"
+#include "optimiser/least_squares_optimiser.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "anthrob_calib/optimiser/descent.h"
+#include "optimiser/descent.h"
 
 namespace anthrob {
 namespace calibration {

@@ -1,4 +1,4 @@
-#include "anthrob_calib/optimiser/mpi_evaluator.h"
+#include "optimiser/mpi_evaluator.h"
 
 #define OMPI_SKIP_MPICXX 1  // the C++ bindings are long dead
 #include <mpi.h>

@@ -1,10 +1,10 @@
-#include "anthrob_calib/optimiser/optimiser.h"
+#include "optimiser/optimiser.h"
 
 #include <algorithm>
 
-#include "anthrob_calib/optimiser/evolution_strategy.h"
-#include "anthrob_calib/optimiser/least_squares_optimiser.h"
-#include "anthrob_calib/optimiser/pagmo_optimiser.h"
+#include "optimiser/evolution_strategy.h"
+#include "optimiser/least_squares_optimiser.h"
+#include "optimiser/pagmo_optimiser.h"
 
 namespace anthrob {
 namespace calibration {

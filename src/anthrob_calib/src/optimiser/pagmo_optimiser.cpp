@@ -1,4 +1,4 @@
-#include "anthrob_calib/optimiser/pagmo_optimiser.h"
+#include "optimiser/pagmo_optimiser.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 
-#include "anthrob_sim/core/random.h"
+#include "anthrob_core/random.h"
 
 namespace anthrob {
 namespace calibration {

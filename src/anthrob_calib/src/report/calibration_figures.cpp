@@ -1,16 +1,14 @@
-#include "anthrob_calib/report/calibration_figures.h"
+#include "report/calibration_figures.h"
 
 #include <cmath>
 
-#include "anthrob_calib/report/joint_unit.h"
-#include "anthrob_sim/report/svg_figure.h"
+#include "anthrob_recording/svg_figure.h"
+#include "report/joint_unit.h"
 
 namespace anthrob {
 namespace calibration {
 
 namespace {
-
-constexpr double kDegrees = 57.29577951308232;
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (double& v : values) v *= factor;

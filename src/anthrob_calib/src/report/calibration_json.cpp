@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "anthrob_calib/report/calibration_report.h"
-#include "anthrob_calib/report/joint_unit.h"
+#include "report/calibration_report.h"
+#include "report/joint_unit.h"
 
 namespace anthrob {
 namespace calibration {
@@ -11,8 +11,6 @@ namespace calibration {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double kDegrees = 57.29577951308232;
 
 /// JSON has no infinity.
 ordered_json number(double value) {

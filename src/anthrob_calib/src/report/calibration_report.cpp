@@ -1,20 +1,19 @@
-#include "anthrob_calib/report/calibration_report.h"
+#include "report/calibration_report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
-#include "anthrob_calib/report/calibration_figures.h"
 #include "anthrob_calib/report/html.h"
-#include "anthrob_calib/report/joint_unit.h"
+#include "anthrob_core/text.h"
+#include "report/calibration_figures.h"
+#include "report/joint_unit.h"
 
 namespace anthrob {
 namespace calibration {
 
 namespace {
-
-constexpr double kDegrees = 57.29577951308232;
 
 std::string text(double value, const char* format = "%.4g") {
   if (!std::isfinite(value)) return "invalid";

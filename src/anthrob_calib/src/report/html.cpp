@@ -1,21 +1,8 @@
 #include "anthrob_calib/report/html.h"
 
-namespace anthrob {
+#include "anthrob_core/text.h"
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
+namespace anthrob {
 
 std::string cell(const std::string& text) {
   return "<td>" + escaped(text) + "</td>";

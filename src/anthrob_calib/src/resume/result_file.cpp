@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "anthrob_calib/resume/fingerprint.h"
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace resume {

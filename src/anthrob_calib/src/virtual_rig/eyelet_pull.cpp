@@ -1,10 +1,10 @@
-#include "anthrob_calib/virtual_rig/eyelet_pull.h"
+#include "virtual_rig/eyelet_pull.h"
 
 #include <cmath>
 
-#include "anthrob_calib/virtual_rig/virtual_recording.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/simulation.h"
+#include "virtual_rig/virtual_recording.h"
 
 namespace anthrob {
 namespace virtual_rig {

@@ -1,11 +1,11 @@
-#include "anthrob_calib/virtual_rig/load_resistor.h"
+#include "virtual_rig/load_resistor.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_calib/virtual_rig/virtual_recording.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/simulation.h"
+#include "virtual_rig/virtual_recording.h"
 
 namespace anthrob {
 namespace virtual_rig {

@@ -1,4 +1,4 @@
-#include "anthrob_calib/virtual_rig/virtual_recording.h"
+#include "virtual_rig/virtual_recording.h"
 
 #include <cmath>
 

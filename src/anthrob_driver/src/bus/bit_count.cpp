@@ -1,4 +1,4 @@
-#include "anthrob_driver/bus/bit_count.h"
+#include "bus/bit_count.h"
 
 #include <cstddef>
 #include <vector>
@@ -48,7 +48,8 @@ BitCount count_bits(const ecu::Frame& frame) {
   append(bits, 0, 3);  // data frame, base format, reserved
   append(bits, frame.length, 4);
   // A length code above 8 still means 8 bytes.
-  for (int i = 0; i < frame.length && i < 8; ++i) append(bits, frame.data[static_cast<std::size_t>(i)], 8);
+  for (int i = 0; i < frame.length && i < 8; ++i)
+    append(bits, frame.data[static_cast<std::size_t>(i)], 8);
   append(bits, crc15(bits), 15);
   // Delimiters, acknowledge, end of frame and pause: 1 + 2 + 7 + 3, never stuffed.
   const int stuffable = static_cast<int>(bits.size()), plain = stuffable + 13;

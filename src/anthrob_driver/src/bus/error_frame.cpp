@@ -1,4 +1,4 @@
-#include "anthrob_driver/bus/error_frame.h"
+#include "bus/error_frame.h"
 
 #include <linux/can/error.h>
 

@@ -15,8 +15,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "anthrob_config/errors.h"
-#include "anthrob_driver/bus/error_frame.h"
+#include "anthrob_core/errors.h"
+#include "bus/error_frame.h"
 
 namespace anthrob {
 namespace driver {

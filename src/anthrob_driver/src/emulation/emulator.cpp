@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_driver/driver_thread.h"
 
 namespace anthrob {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "anthrob_driver/bus/bit_count.h"
+#include "bus/bit_count.h"
 
 namespace anthrob {
 namespace driver {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 #include "anthrob_ecu/control_law.h"
 
 namespace anthrob {

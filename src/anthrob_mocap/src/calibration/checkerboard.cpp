@@ -1,11 +1,11 @@
-#include "anthrob_mocap/calibration/checkerboard.h"
+#include "calibration/checkerboard.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/calibration/rectification.h"
+#include "calibration/rectification.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>

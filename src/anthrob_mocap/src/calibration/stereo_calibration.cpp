@@ -1,4 +1,4 @@
-#include "anthrob_mocap/calibration/stereo_calibration.h"
+#include "calibration/stereo_calibration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/calibration/rectification.h"
+#include "anthrob_core/errors.h"
+#include "calibration/rectification.h"
 
 namespace anthrob {
 namespace mocap {
@@ -15,7 +15,6 @@ namespace mocap {
 namespace {
 
 constexpr int kGridColumns = 8, kGridRows = 6;
-constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kOutlier = 3.0;  // times the median error of views
 
 using Points2 = std::vector<std::vector<cv::Point2f>>;

@@ -1,11 +1,11 @@
-#include "anthrob_mocap/calibration/target_calibration.h"
+#include "calibration/target_calibration.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/labelling/clique_search.h"
+#include "anthrob_core/errors.h"
+#include "labelling/clique_search.h"
 
 namespace anthrob {
 namespace mocap {

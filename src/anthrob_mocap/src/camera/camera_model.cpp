@@ -1,10 +1,10 @@
-#include "anthrob_mocap/camera/camera_model.h"
+#include "camera/camera_model.h"
 
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 
 namespace anthrob {
 namespace mocap {

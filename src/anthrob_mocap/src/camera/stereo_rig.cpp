@@ -1,8 +1,8 @@
-#include "anthrob_mocap/camera/stereo_rig.h"
+#include "camera/stereo_rig.h"
 
 #include <cmath>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/joint/joint_estimator.h"
+#include "joint/joint_estimator.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/labelling/clique_search.h"
+#include "labelling/clique_search.h"
 
 #include <algorithm>
 #include <cmath>

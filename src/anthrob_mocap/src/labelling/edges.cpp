@@ -1,4 +1,4 @@
-#include "anthrob_mocap/labelling/edges.h"
+#include "labelling/edges.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/labelling/labeller.h"
+#include "labelling/labeller.h"
 
 #include <algorithm>
 #include <numeric>

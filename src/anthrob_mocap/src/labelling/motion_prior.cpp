@@ -1,4 +1,4 @@
-#include "anthrob_mocap/labelling/motion_prior.h"
+#include "labelling/motion_prior.h"
 
 namespace anthrob {
 namespace mocap {

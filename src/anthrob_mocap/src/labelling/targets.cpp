@@ -1,4 +1,4 @@
-#include "anthrob_mocap/labelling/targets.h"
+#include "labelling/targets.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -7,9 +7,9 @@
 #include <limits>
 #include <sstream>
 
-#include "../unit_quaternion.h"
-#include "anthrob_config/config_node.h"
-#include "anthrob_config/names.h"
+#include "anthrob_core/config_node.h"
+#include "anthrob_core/text.h"
+#include "core/unit_quaternion.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/matching/epipolar_matcher.h"
+#include "matching/epipolar_matcher.h"
 
 #include <algorithm>
 #include <cmath>

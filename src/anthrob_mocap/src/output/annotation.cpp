@@ -1,4 +1,4 @@
-#include "anthrob_mocap/output/annotation.h"
+#include "output/annotation.h"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/output/pose_table.h"
+#include "output/pose_table.h"
 
 #include <cstdio>
 

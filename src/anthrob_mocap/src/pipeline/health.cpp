@@ -1,4 +1,4 @@
-#include "anthrob_mocap/pipeline/health.h"
+#include "pipeline/health.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/pipeline/pipeline.h"
+#include "pipeline/pipeline.h"
 
 #include <tbb/flow_graph.h>
 #include <tbb/parallel_for.h>
@@ -8,7 +8,7 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/pipeline/tracker.h"
+#include "pipeline/tracker.h"
 
 namespace anthrob {
 namespace mocap {

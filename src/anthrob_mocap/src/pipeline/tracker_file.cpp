@@ -1,8 +1,8 @@
-#include "anthrob_mocap/pipeline/tracker_file.h"
+#include "pipeline/tracker_file.h"
 
 #include <sstream>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/pose/pose_estimator.h"
+#include "pose/pose_estimator.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,8 +1,10 @@
-#include "anthrob_mocap/render/renderer.h"
+#include "render/renderer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "anthrob_core/random.h"
 
 namespace anthrob {
 namespace mocap {
@@ -13,11 +15,8 @@ namespace {
 // generator per pixel would cost more than all the rest.
 constexpr std::size_t kNoiseTable = 1 << 18;
 
-std::uint64_t hash(std::uint64_t x) {  // splitmix64
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
+std::uint64_t hash(std::uint64_t x) {
+  return split_mix(x + 0x9e3779b97f4a7c15ULL);
 }
 
 std::uint8_t clip(double grey) {

@@ -1,7 +1,7 @@
-#include "anthrob_mocap/render/setup.h"
+#include "render/setup.h"
 
-#include "../unit_quaternion.h"
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
+#include "core/unit_quaternion.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/segmentation/segmenter.h"
+#include "segmentation/segmenter.h"
 
 #include <algorithm>
 #include <cmath>

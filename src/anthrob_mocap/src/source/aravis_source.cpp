@@ -1,4 +1,4 @@
-#include "anthrob_mocap/source/aravis_source.h"
+#include "source/aravis_source.h"
 
 #include <arv.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <thread>
 
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/source/live_pair.h"
+#include "anthrob_core/errors.h"
+#include "source/live_pair.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,8 +1,8 @@
-#include "anthrob_mocap/source/camera_options.h"
+#include "source/camera_options.h"
 
 #include <sstream>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/source/dc1394_source.h"
+#include "source/dc1394_source.h"
 
 #include <dc1394/dc1394.h>
 
@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <thread>
 
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/source/live_pair.h"
+#include "anthrob_core/errors.h"
+#include "source/live_pair.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/source/folder_source.h"
+#include "source/folder_source.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "anthrob_config/errors.h"
-#include "anthrob_mocap/source/image_file.h"
+#include "anthrob_core/errors.h"
+#include "source/image_file.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,4 +1,4 @@
-#include "anthrob_mocap/source/image_file.h"
+#include "source/image_file.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,9 +1,9 @@
-#include "anthrob_mocap/source/live_pair.h"
+#include "source/live_pair.h"
 
 #include <chrono>
 #include <cstdio>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

@@ -1,10 +1,10 @@
-#include "anthrob_mocap/source/pairing.h"
+#include "source/pairing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 namespace mocap {

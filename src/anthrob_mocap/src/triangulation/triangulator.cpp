@@ -1,4 +1,4 @@
-#include "anthrob_mocap/triangulation/triangulator.h"
+#include "triangulation/triangulator.h"
 
 namespace anthrob {
 namespace mocap {

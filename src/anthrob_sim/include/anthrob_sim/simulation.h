@@ -7,7 +7,7 @@
 #include "anthrob_sim/friction/resistance_solver.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/muscle/muscle.h"
-#include "anthrob_sim/sensing/reading_chain.h"
+#include "anthrob_sim/reading_chain.h"
 #include "anthrob_sim/skeleton/joint_loads.h"
 #include "anthrob_sim/skeleton/skeleton.h"
 

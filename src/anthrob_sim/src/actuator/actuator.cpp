@@ -2,9 +2,9 @@
 
 #include <map>
 
+#include "actuator/hill_muscle.h"
+#include "actuator/ligament.h"
 #include "anthrob_sim/actuator/dc_motor.h"
-#include "anthrob_sim/actuator/hill_muscle.h"
-#include "anthrob_sim/actuator/ligament.h"
 
 namespace anthrob {
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/actuator/hill_muscle.h"
+#include "actuator/hill_muscle.h"
 
 #include <algorithm>
 #include <cmath>

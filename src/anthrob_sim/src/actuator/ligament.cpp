@@ -1,4 +1,4 @@
-#include "anthrob_sim/actuator/ligament.h"
+#include "actuator/ligament.h"
 
 namespace anthrob {
 

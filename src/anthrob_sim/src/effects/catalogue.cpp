@@ -11,7 +11,7 @@
 #include <mutex>
 #include <sstream>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 

@@ -1,22 +1,11 @@
 #include "anthrob_sim/effects/effect.h"
 
 #include <algorithm>
-#include <sstream>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
 
 namespace anthrob {
-
-namespace {
-
-std::string number_text(double value) {
-  std::ostringstream out;
-  out.precision(12);
-  out << value;
-  return out.str();
-}
-
-}  // namespace
 
 std::string seam_name(Seam seam) {
   static const char* const kNames[] = {"controller", "power stage", "motor",  "gear",
@@ -87,7 +76,8 @@ void EffectSetting::fail(const std::string& key, const std::string& expectation)
     origin_.at(key).fail_expected(expectation);
   }
   const auto given = instance_.parameters.find(key);
-  const std::string value = given == instance_.parameters.end() ? "" : number_text(given->second);
+  const std::string value =
+      given == instance_.parameters.end() ? "" : significant(given->second, 12);
   origin_.fail("effect " + id() + " at " + place() + ": " +
                (key == "place" ? "" : key + ": " + value + ": ") + "expected " + expectation);
 }

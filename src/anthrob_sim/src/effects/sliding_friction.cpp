@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "anthrob_sim/effects/friction_effect.h"
-#include "anthrob_sim/friction/smooth_stribeck.h"
+#include "friction/smooth_stribeck.h"
 
 namespace anthrob {
 

@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "anthrob_sim/friction/smooth_stribeck.h"
-#include "anthrob_sim/friction/sticking.h"
+#include "friction/smooth_stribeck.h"
+#include "friction/sticking.h"
 
 namespace anthrob {
 

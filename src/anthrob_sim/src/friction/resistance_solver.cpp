@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_sim/friction/joint_friction.h"
+#include "friction/joint_friction.h"
 
 namespace anthrob {
 

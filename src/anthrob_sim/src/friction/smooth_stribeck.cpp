@@ -1,4 +1,4 @@
-#include "anthrob_sim/friction/smooth_stribeck.h"
+#include "friction/smooth_stribeck.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/friction/sticking.h"
+#include "friction/sticking.h"
 
 #include <algorithm>
 #include <cmath>

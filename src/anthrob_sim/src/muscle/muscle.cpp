@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_core/errors.h"
 #include "anthrob_ecu/gains.h"
-#include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
 

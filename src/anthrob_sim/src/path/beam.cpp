@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/beam.h"
+#include "path/beam.h"
 
 #include <algorithm>
 

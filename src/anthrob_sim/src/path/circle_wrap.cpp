@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/circle_wrap.h"
+#include "path/circle_wrap.h"
 
 #include <algorithm>
 #include <cmath>

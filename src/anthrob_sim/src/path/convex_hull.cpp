@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/convex_hull.h"
+#include "path/convex_hull.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

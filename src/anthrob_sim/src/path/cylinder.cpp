@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/cylinder.h"
+#include "path/cylinder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/distance_field.h"
+#include "path/distance_field.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/horizon.h"
+#include "path/horizon.h"
 
 namespace anthrob {
 

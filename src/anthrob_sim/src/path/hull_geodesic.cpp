@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/hull_geodesic.h"
+#include "path/hull_geodesic.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/hull_locator.h"
+#include "path/hull_locator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/mesh_cache.h"
+#include "path/mesh_cache.h"
 
 namespace anthrob {
 

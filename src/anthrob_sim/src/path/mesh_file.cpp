@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/mesh_file.h"
+#include "path/mesh_file.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

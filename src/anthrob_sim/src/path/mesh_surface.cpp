@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/mesh_surface.h"
+#include "path/mesh_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "anthrob_sim/path/mesh_cache.h"
-#include "anthrob_sim/path/mesh_file.h"
-#include "anthrob_sim/path/selected_mesh.h"
+#include "path/mesh_cache.h"
+#include "path/mesh_file.h"
+#include "path/selected_mesh.h"
 
 namespace anthrob {
 

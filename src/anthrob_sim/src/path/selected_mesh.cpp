@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/selected_mesh.h"
+#include "path/selected_mesh.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/sphere.h"
+#include "path/sphere.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "anthrob_sim/path/strip_search.h"
+#include "path/strip_search.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_sim/path/distance_field.h"
+#include "path/distance_field.h"
 
 namespace anthrob {
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/path/taut_string.h"
+#include "path/taut_string.h"
 
 #include <algorithm>
 #include <cmath>

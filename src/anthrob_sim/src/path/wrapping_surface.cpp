@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include "anthrob_sim/path/cylinder.h"
-#include "anthrob_sim/path/mesh_surface.h"
-#include "anthrob_sim/path/sphere.h"
+#include "path/cylinder.h"
+#include "path/mesh_surface.h"
+#include "path/sphere.h"
 
 namespace anthrob {
 

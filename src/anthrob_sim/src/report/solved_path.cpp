@@ -1,4 +1,4 @@
-#include "anthrob_sim/report/solved_path.h"
+#include "report/solved_path.h"
 
 #include <cstdio>
 

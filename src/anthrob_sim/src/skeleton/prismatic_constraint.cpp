@@ -1,4 +1,4 @@
-#include "anthrob_sim/skeleton/prismatic_constraint.h"
+#include "skeleton/prismatic_constraint.h"
 
 namespace anthrob {
 

@@ -4,8 +4,8 @@
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 #include <btBulletDynamicsCommon.h>
 
-#include "anthrob_sim/skeleton/prismatic_constraint.h"
-#include "anthrob_sim/skeleton/tree_constraint_solver.h"
+#include "skeleton/prismatic_constraint.h"
+#include "skeleton/tree_constraint_solver.h"
 
 namespace anthrob {
 

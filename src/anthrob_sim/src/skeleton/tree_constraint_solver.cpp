@@ -1,4 +1,4 @@
-#include "anthrob_sim/skeleton/tree_constraint_solver.h"
+#include "skeleton/tree_constraint_solver.h"
 
 #include <LinearMath/btTransformUtil.h>
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <sstream>
 
-#include "anthrob_sim/core/errors.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {

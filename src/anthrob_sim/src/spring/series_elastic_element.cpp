@@ -2,9 +2,9 @@
 
 #include <map>
 
-#include "anthrob_sim/spring/spring_damper.h"
-#include "anthrob_sim/spring/wiechert.h"
-#include "anthrob_sim/spring/zener.h"
+#include "spring/spring_damper.h"
+#include "spring/wiechert.h"
+#include "spring/zener.h"
 
 namespace anthrob {
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/spring/spring_damper.h"
+#include "spring/spring_damper.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/spring/wiechert.h"
+#include "spring/wiechert.h"
 
 namespace anthrob {
 

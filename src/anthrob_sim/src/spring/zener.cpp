@@ -1,4 +1,4 @@
-#include "anthrob_sim/spring/zener.h"
+#include "spring/zener.h"
 
 namespace anthrob {
 

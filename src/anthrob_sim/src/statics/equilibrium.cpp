@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_sim/statics/least_effort.h"
 
 namespace anthrob {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "laws.h"
+#include "laws/laws.h"
 
 namespace anthrob::virtual_robot {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "anthrob_virtual_robot/hidden_law.h"
-#include "anthrob_virtual_robot/places.h"
+#include "hidden_law.h"
+#include "places.h"
 
 namespace anthrob::virtual_robot {
 

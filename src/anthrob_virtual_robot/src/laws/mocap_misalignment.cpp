@@ -1,4 +1,4 @@
-#include "laws.h"
+#include "laws/laws.h"
 
 namespace anthrob::virtual_robot {
 namespace {

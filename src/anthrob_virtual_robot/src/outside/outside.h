@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../laws/laws.h"
+#include "laws/laws.h"
 
 namespace anthrob::virtual_robot {
 

@@ -1,4 +1,4 @@
-#include "outside.h"
+#include "outside/outside.h"
 
 namespace anthrob::virtual_robot {
 namespace {

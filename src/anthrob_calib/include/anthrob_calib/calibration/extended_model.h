@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 
 namespace anthrob {
 namespace calibration {

@@ -4,9 +4,6 @@
 
 namespace anthrob {
 
-/// As text of a page, whatever it holds.
-std::string escaped(const std::string& text);
-
 /// A cell of a table that holds this text.
 std::string cell(const std::string& text);
 

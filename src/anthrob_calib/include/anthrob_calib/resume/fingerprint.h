@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_config/config_node.h"
-#include "anthrob_sim/recording/dataset.h"
+#include "anthrob_core/config_node.h"
+#include "anthrob_recording/dataset.h"
 
 namespace anthrob {
 namespace resume {

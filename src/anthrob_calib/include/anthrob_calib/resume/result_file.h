@@ -7,7 +7,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "anthrob_config/made_folder.h"
+#include "anthrob_core/files.h"
 
 namespace anthrob {
 namespace resume {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 #include "anthrob_sim/core/state.h"
 
 namespace anthrob {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 
 namespace anthrob {
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "anthrob_config/errors.h"
+#include "anthrob_core/errors.h"
 
 namespace anthrob {
 

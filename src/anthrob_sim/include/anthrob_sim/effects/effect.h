@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
 #include "anthrob_sim/model/robot_model.h"
 
 namespace anthrob {

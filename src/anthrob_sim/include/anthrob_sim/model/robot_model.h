@@ -8,7 +8,7 @@
 #include "anthrob_ecu/control_law.h"
 #include "anthrob_sim/actuator/geared_motor.h"
 #include "anthrob_sim/actuator/power_effect.h"
-#include "anthrob_sim/effects/effect_instance.h"
+#include "anthrob_sim/model/effect_instance.h"
 #include "anthrob_sim/path/muscle_path.h"
 #include "anthrob_sim/sensing/reading_effect.h"
 #include "anthrob_sim/sensing/sensor.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_config/config_node.h"
+#include "anthrob_core/config_node.h"
+#include "anthrob_core/pose.h"
 #include "anthrob_sim/core/state.h"
-#include "anthrob_sim/core/types.h"
 
 namespace anthrob {
 

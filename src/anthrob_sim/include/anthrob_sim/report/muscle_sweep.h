@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_recording/svg_figure.h"
 #include "anthrob_sim/model/robot_model.h"
-#include "anthrob_sim/report/svg_figure.h"
 
 namespace anthrob {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "anthrob_config/config_node.h"
-#include "anthrob_sim/core/random.h"
+#include "anthrob_core/config_node.h"
+#include "anthrob_core/random.h"
 #include "anthrob_sim/core/state.h"
 
 namespace anthrob {

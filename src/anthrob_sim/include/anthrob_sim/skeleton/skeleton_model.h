@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_sim/core/types.h"
+#include "anthrob_core/pose.h"
 
 namespace anthrob {
 

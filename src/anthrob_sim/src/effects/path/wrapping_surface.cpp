@@ -2,7 +2,7 @@
 
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/effects/placed_effects.h"
-#include "anthrob_sim/path/cylinder.h"
+#include "path/cylinder.h"
 
 namespace anthrob {
 namespace {

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace anthrob {
+
+/// Waits until a file, or a folder's list of files, is on the disk, as far as the file system
+/// supports it. A file that is renamed earlier may be empty after a power cut.
+/// @throws std::runtime_error if the disk is full or fails
+void keep_on_disk(const std::string& path);
+
+/// A file that is written beside its final place and moved there once it is complete. So the place
+/// always has either the old file or the complete new one. If it is not moved, it is deleted.
+class AtomicFile {
+ public:
+  /// All members throw std::runtime_error naming the file and the reason.
+  explicit AtomicFile(const std::string& file);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  std::ostream& stream() { return out_; }
+  /// Finishes writing: everything is then on the disk, beside its final place.
+  void close();
+  /// After close().
+  void move_into_place();
+  /// After close(), for an unfinished result: moves it to FILE.partial and leaves FILE unchanged.
+  /// @return the name FILE.partial
+  std::string move_beside();
+
+ private:
+  void move_to(const std::string& place);
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  std::string file_, part_;
+  std::ofstream out_;
+};
+
+/// @throws std::runtime_error naming the file and the reason
+void write_file_atomically(const std::string& file, const std::string& content);
+
+/// Writes files that belong together.
+/// @param files name and content. All are complete beside their targets before the first is
+/// renamed, so that a full disk replaces none of them
+/// @throws std::runtime_error naming the file and the reason
+void write_files_atomically(const std::vector<std::pair<std::string, std::string>>& files);
+
+/// Creates a folder with all folders above it, and can take that back: what is refused later leaves
+/// no empty folders behind.
+class MadeFolder {
+ public:
+  /// Does not throw: `exists` and `error` tell whether it is there, and why not.
+  explicit MadeFolder(const std::filesystem::path& folder);
+
+  bool exists() const { return exists_; }
+  const std::error_code& error() const { return error_; }
+  /// Removes the folders that were created, as far as they are empty.
+  void take_back();
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< deepest first
+  bool exists_ = false;
+  std::error_code error_;
+};
+
+/// Contents of a report's files by name; all are complete before the first one is written.
+using OutputFiles = std::map<std::string, std::string>;
+
+/// Checks that files can be written into a folder, or that it can be created.
+/// @throws std::runtime_error with one line: the folder and the reason
+void require_writable(const std::string& folder);
+
+/// Checks that no input file would be overwritten.
+/// @param names of the files that will be written into the folder
+/// @param read canonical paths of the input files
+/// @throws BadInput with one line: the folder and the name
+void require_kept(const std::string& folder, const std::vector<std::string>& names,
+                  const std::vector<std::string>& read);
+
+/// Creates the folder and writes each file atomically; replaces older files of the same names.
+/// @throws std::runtime_error naming the file and the reason
+void write_files(const std::string& folder, const OutputFiles& files);
+
+}  // namespace anthrob

@@ -1,0 +1,189 @@
+#include "anthrob_core/command_line.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "anthrob_core/errors.h"
+
+namespace anthrob {
+namespace tool {
+
+namespace {
+
+volatile std::sig_atomic_t interrupt_seen = 0;
+
+/// The second one of its kind ends a program that does not come to look.
+void on_interrupt(int number) {
+  interrupt_seen = 1;
+  std::signal(number, SIG_DFL);
+}
+
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+/// What roslaunch adds to a command line: "__name:=discover", "__log:=..."
+bool is_remapping(const std::string& argument) {
+  return argument.rfind("__", 0) == 0 && argument.find(":=") != std::string::npos;
+}
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Whether all of a text is one finite number.
+bool read_number(const std::string& text, double& value) {
+  std::size_t used = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    return false;
+  }
+  return used == text.size() && std::isfinite(value);
+}
+
+}  // namespace
+
+int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  std::vector<char*> arguments;
+  std::copy_if(argv, argv + argc, std::back_inserter(arguments),
+               [](const char* argument) { return !is_remapping(argument); });
+  try {
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
+    const int status = body();
+    // What a full disk has cut off is no answer.
+    if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      std::cerr << app.get_name() << ": standard output: cannot be written\n";
+      return kFailed;
+    }
+    return status;
+  } catch (const CLI::Success& e) {
+    app.exit(e);
+    return kDone;
+  } catch (const CLI::ParseError& e) {
+    std::cerr << app.get_name() << ": " << one_line(e.what()) << " (see --help)\n";
+    return kBadInput;
+  } catch (const BadInput& e) {
+    std::cerr << app.get_name() << ": " << e.what() << "\n";
+    return kBadInput;
+  } catch (const std::exception& e) {
+    std::cerr << app.get_name() << ": " << one_line(e.what()) << "\n";
+    return kFailed;
+  }
+}
+
+CLI::Validator within(double lowest, double highest) {
+  std::ostringstream range;
+  range << "a number from " << lowest << " to " << highest;
+  const auto check = [lowest, highest, range = range.str()](std::string& text) -> std::string {
+    double value = 0.0;
+    const bool number = CLI::detail::lexical_cast(text, value);
+    if (number && value >= lowest && value <= highest) return "";
+    return text + ": expected " + range;
+  };
+  return CLI::Validator(check, range.str());
+}
+
+bool interrupted() {
+  static const bool kListening = [] {
+    for (const int number : {SIGINT, SIGTERM}) std::signal(number, on_interrupt);
+    return true;
+  }();
+  return kListening && interrupt_seen != 0;
+}
+
+void say(const CLI::App& app, const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) std::cerr << app.get_name() << ": " << remark << "\n";
+}
+
+Assignment parse_assignment(const std::string& option, const std::string& text) {
+  const auto fail = [&] {
+    throw BadInput(option + " " + text + ": expected NAME=NUMBER or NAME=NUMBER,NUMBER,...");
+  };
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) fail();
+  Assignment assignment{text.substr(0, equals), {}};
+  std::istringstream values(text.substr(equals + 1));
+  std::string value;
+  while (std::getline(values, value, ',')) {
+    assignment.values.emplace_back();
+    if (!read_number(value, assignment.values.back())) fail();
+  }
+  if (assignment.values.empty()) fail();
+  return assignment;
+}
+
+Range parse_range(const std::string& option, const std::string& text) {
+  const auto fail = [&](const std::string& expected) {
+    throw BadInput(option + " " + text + ": expected " + expected);
+  };
+  const auto equals = text.find('=');
+  const auto first = text.find(':', equals == std::string::npos ? 0 : equals),
+             second = first == std::string::npos ? first : text.find(':', first + 1);
+  Range range;
+  const bool split = equals != std::string::npos && equals > 0 && second != std::string::npos;
+  if (!split || !read_number(text.substr(equals + 1, first - equals - 1), range.from) ||
+      !read_number(text.substr(first + 1, second - first - 1), range.to)) {
+    fail("NAME=FROM:TO:POINTS");
+  }
+  range.name = text.substr(0, equals);
+  const char* end = text.data() + text.size();
+  const auto points = std::from_chars(text.data() + second + 1, end, range.points);
+  if (points.ec != std::errc() || points.ptr != end || range.points < 2 ||
+      range.points > kMostPoints) {
+    fail("a whole number of POINTS from 2 to " + std::to_string(kMostPoints));
+  }
+  return range;
+}
+
+Progress::Progress(const std::string& what)
+    : what_(what), start_(now()), visible_(isatty(2) == 1) {}
+
+Progress::~Progress() {
+  if (visible_) std::fprintf(stderr, "\r\033[K");
+}
+
+void Progress::update(double share) {
+  show(progress_text(share, elapsed()));
+}
+
+void Progress::show(const std::string& state) {
+  const double t = now();
+  if (!visible_ || t - last_ < 0.2) return;
+  last_ = t;
+  std::fprintf(stderr, "\r\033[K%s: %s", what_.c_str(), state.c_str());
+}
+
+double Progress::elapsed() const {
+  return now() - start_;
+}
+
+std::string progress_text(double share, double elapsed) {
+  char text[80];
+  if (share > 0.0 && share < 1.0) {
+    std::snprintf(text, sizeof(text), "%3.0f %%, %.0f s left", 100.0 * share,
+                  elapsed * (1.0 - share) / share);
+  } else {
+    // Nothing is known of what is left: it has just begun, or takes longer than was reckoned.
+    std::snprintf(text, sizeof(text), "%3.0f %%, %.0f s so far", 100.0 * share, elapsed);
+  }
+  return text;
+}
+
+}  // namespace tool
+}  // namespace anthrob

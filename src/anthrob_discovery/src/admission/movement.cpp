@@ -1,0 +1,80 @@
+#include "admission/movement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_core/errors.h"
+#include "anthrob_recording/resolution.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kLeastTurn = 0.02;       // [rad] of a motor
+constexpr double kLeastFollowed = 0.01;   // [rad] of a reference that the motor follows
+constexpr double kLeastForce = 0.5;       // [N]
+constexpr double kLeastDriven = 1e-5;     // [rad] or [m] of a driven axis
+constexpr double kBeyondNoise = 2.0;      // standard deviations of the means
+constexpr std::size_t kMeans = 200;       // at least, where there are so many values
+constexpr std::size_t kMostInAMean = 16;  // values; more would hide motion
+
+/// Whether a muscle moves, or its motor at least tries to.
+bool muscle_moves(const Dataset& recording, const std::string& muscle) {
+  const auto series = [&](const char* quantity) { return recording.series(muscle + quantity); };
+  const Series position = series("/position");
+  if (moves(position, kLeastTurn) || moves(series("/force"), kLeastForce)) return true;
+  const double asked = range_of(series("/reference"));
+  if (position.empty()) return asked > kLeastTurn;
+  // The motor may not have followed: it was disabled, or what was measured stood still.
+  if (asked <= kLeastFollowed) return false;
+  return moves(position, 0.0) || moves(series("/force"), 0.0) || moves(series("/voltage"), 0.0) ||
+         moves(series("/current"), 0.0);
+}
+
+}  // namespace
+
+double range_of(const Series& series) {
+  if (series.empty()) return 0.0;
+  const auto [low, high] = std::minmax_element(series.values.begin(), series.values.end());
+  return *high - *low;
+}
+
+bool moves(const Series& series, double least) {
+  if (series.empty()) return false;
+  const auto size = static_cast<Eigen::Index>(series.values.size());
+  const Eigen::Map<const Eigen::VectorXd> values(series.values.data(), size);
+  // From the first value on, so that a small motion far from zero keeps its digits.
+  const Eigen::VectorXd own = values.array() - values[0];
+  const auto in_a_mean =
+      static_cast<Eigen::Index>(std::clamp<std::size_t>(own.size() / kMeans, 1, kMostInAMean));
+  Eigen::ArrayXd means(size / in_a_mean);
+  for (Eigen::Index i = 0; i < means.size(); ++i) {
+    means[i] = own.segment(i * in_a_mean, in_a_mean).mean();
+  }
+  if (!(means.maxCoeff() - means.minCoeff() > least)) return false;
+  const double spread = std::sqrt((means - means.mean()).square().mean());
+  const double noise = white_noise(own.cast<float>()) / std::sqrt(static_cast<double>(in_a_mean));
+  return spread > kBeyondNoise * noise;
+}
+
+void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recordings) {
+  for (const Dataset& recording : recordings) {
+    for (const MuscleModel& muscle : robot.muscles) {
+      if (muscle_moves(recording, muscle.name)) return;
+    }
+    for (const JointModel& joint : robot.skeleton->joints) {
+      if (joint.driven && moves(recording.series(joint.name + "/position"), kLeastDriven)) return;
+    }
+  }
+  const std::string name = recordings.front().folder;
+  throw BadInput(name +
+                 (robot.muscles.empty()
+                      ? ": the axis does not move, so friction and inertia are not identifiable; "
+                        "expected motion over the range of interest"
+                      : ": no muscle moves, so friction, springs and motors are not "
+                        "identifiable; expected motion over the range of interest"));
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,239 @@
+#include "admission/synchronisation.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+
+#include "admission/movement.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_recording/orientation_series.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr double kBin = 0.05;         // [s] lags are multiples of it: 0.1 s may explain far less
+constexpr double kLongestLag = 5.0;   // [s]
+constexpr double kShareOfTime = 0.3;  // of the recording, by which it may be shifted
+constexpr double kFold = 1.0;         // [s] fitted and judged in turn
+constexpr double kRidge = 1e-3;       // of the diagonal; rates of antagonists are much alike
+constexpr double kMostWork = 4e7;     // products for one lag
+constexpr int kMostBins = 6000;
+constexpr double kLeastTurn = 0.02;  // [rad] or [m]
+constexpr double kLeastForce = 0.5;  // [N]
+
+constexpr double kPlausible = 0.25;  // [s] lag of real sensors, and a little more
+constexpr double kLate = 0.5;        // [s] beyond doubt
+constexpr double kExplains = 0.6;    // least share of the squares at the other lag
+constexpr double kClearly = 0.3;     // more than at a plausible lag
+constexpr double kFewMovements = 2.5, kSeveralMovements = 4.0;
+
+/// Rates of several quantities, one column each, by bin of time; in units of their root mean
+/// square.
+struct Rates {
+  explicit Rates(Eigen::Index bins) : values(bins, 0), known(static_cast<std::size_t>(bins), 1) {}
+
+  Eigen::MatrixXd values;
+  std::vector<char> known;  ///< whether all of them are
+
+  void add(const Series& series) {
+    const Eigen::Index bins = values.rows();
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(bins), count = sum;
+    for (std::size_t i = 0; i < series.t.size(); ++i) {
+      const auto bin = static_cast<Eigen::Index>(series.t[i] / kBin + 1e-9);
+      if (bin >= bins) break;
+      sum[bin] += series.values[i] - series.values.front();
+      count[bin] += 1.0;
+    }
+    Eigen::VectorXd rate = Eigen::VectorXd::Zero(bins);
+    known.front() = known.back() = 0;
+    for (Eigen::Index b = 1; b + 1 < bins; ++b) {
+      if (count[b - 1] > 0.0 && count[b + 1] > 0.0) {
+        rate[b] = sum[b + 1] / count[b + 1] - sum[b - 1] / count[b - 1];
+      } else {
+        known[static_cast<std::size_t>(b)] = 0;
+      }
+    }
+    const double rms = rate.norm() / std::sqrt(static_cast<double>(bins));
+    if (!(rms > 0.0)) return;
+    values.conservativeResize(Eigen::NoChange, values.cols() + 1);
+    values.rightCols<1>() = rate / rms;
+  }
+};
+
+/// Every second fold of the time: the sums of which a regression is made.
+struct Half {
+  Eigen::MatrixXd gram, cross;
+  double squares = 0.0;
+};
+
+Half half_of(const Rates& muscles, const Rates& joints, Eigen::Index lag, int which) {
+  std::vector<Eigen::Index> rows, late;
+  for (Eigen::Index b = 0; b < muscles.values.rows(); ++b) {
+    const auto fold = static_cast<int>(static_cast<double>(b) * kBin / kFold + 1e-9);
+    if (fold % 2 != which || b + lag < 0 || b + lag >= joints.values.rows()) continue;
+    if (!muscles.known[static_cast<std::size_t>(b)] ||
+        !joints.known[static_cast<std::size_t>(b + lag)]) {
+      continue;
+    }
+    rows.push_back(b);
+    late.push_back(b + lag);
+  }
+  if (static_cast<Eigen::Index>(rows.size()) < 2 * muscles.values.cols()) return {};
+  const Eigen::MatrixXd x = muscles.values(rows, Eigen::all), y = joints.values(late, Eigen::all);
+  return {x.transpose() * x, x.transpose() * y, y.squaredNorm()};
+}
+
+/// Squares that a regression to one half leaves in the other.
+double left_of(const Half& half, const Half& other) {
+  Eigen::MatrixXd gram = half.gram;
+  gram.diagonal() = (1.0 + kRidge) * gram.diagonal().array() + 1e-9;
+  const Eigen::MatrixXd weights = gram.ldlt().solve(half.cross);
+  return other.squares - 2.0 * weights.cwiseProduct(other.cross).sum() +
+         weights.cwiseProduct(other.gram * weights).sum();
+}
+
+/// @param lag by how many bins joints are late
+std::optional<double> explained(const Rates& muscles, const Rates& joints, Eigen::Index lag) {
+  const Half even = half_of(muscles, joints, lag, 0), odd = half_of(muscles, joints, lag, 1);
+  if (even.gram.size() == 0 || odd.gram.size() == 0) return {};
+  const double squares = even.squares + odd.squares;
+  if (!(squares > 0.0)) return {};
+  return 1.0 - (left_of(even, odd) + left_of(odd, even)) / squares;
+}
+
+/// Number of seconds over which the squares of the joints' velocities are spread.
+double movements(const Rates& joints) {
+  std::map<int, double> power;
+  for (Eigen::Index b = 0; b < joints.values.rows(); ++b) {
+    if (!joints.known[static_cast<std::size_t>(b)]) continue;
+    power[static_cast<int>(static_cast<double>(b) * kBin + 1e-9)] +=
+        joints.values.row(b).squaredNorm();
+  }
+  double sum = 0.0, squares = 0.0;
+  for (const auto& [second, own] : power) {
+    sum += own;
+    squares += own * own;
+  }
+  return squares > 0.0 ? sum * sum / squares : 0.0;
+}
+
+struct Fit {
+  double lag = 0.0;       ///< by how much joints are late [s]
+  double share = -1e300;  ///< of their squares that is explained
+};
+
+Fit best_of(const std::vector<Fit>& fits, double from, double to) {
+  Fit best;
+  for (const Fit& fit : fits) {
+    const double size = std::abs(fit.lag);
+    if (size > from + 1e-9 && size <= to + 1e-9 && fit.share > best.share) best = fit;
+  }
+  return best;
+}
+
+/// Series of the joints that move, by the table that they are in. Tables with muscles have their
+/// clock.
+std::map<std::string, std::vector<Series>> moving_joints(const RobotModel& robot,
+                                                         const Dataset& recording) {
+  std::map<std::string, std::vector<Series>> moving;
+  const auto add = [&](const std::string& column, const Series& series) {
+    if (!moves(series, kLeastTurn)) return;
+    for (const Table& table : recording.tables) {
+      if (table.name == "commands" || !table.find(column)) continue;
+      const bool has_muscles =
+          std::any_of(table.columns.begin(), table.columns.end(),
+                      [&](const Column& other) { return robot.find_muscle(other.owner()) >= 0; });
+      if (!has_muscles) moving[table.name].push_back(series);
+    }
+  };
+  for (const JointModel& joint : robot.skeleton->joints) {
+    if (joint.type != JointType::kBall) {
+      add(joint.name + "/position", recording.series(joint.name + "/position"));
+      continue;
+    }
+    const OrientationSeries turns = OrientationSeries::read(recording, joint.name);
+    const char* const parts[] = {"/w", "/x", "/y", "/z"};
+    for (int k = 0; k < 4; ++k) add(joint.name + parts[k], turns.number[k]);
+  }
+  return moving;
+}
+
+/// Positions and forces of the muscles of which both are measured.
+std::vector<Series> moving_muscles(const RobotModel& robot, const Dataset& recording) {
+  std::vector<Series> moving;
+  for (const MuscleModel& muscle : robot.muscles) {
+    const Series position = recording.series(muscle.name + "/position"),
+                 force = recording.series(muscle.name + "/force");
+    if (position.empty() || force.empty()) continue;
+    if (moves(position, kLeastTurn)) moving.push_back(position);
+    if (moves(force, kLeastForce)) moving.push_back(force);
+  }
+  return moving;
+}
+
+struct Suspicion {
+  std::string text;  ///< empty: none
+  bool certain = false;
+};
+
+Suspicion suspicion_of(const Rates& muscles, const Rates& joints, double length) {
+  const double spread = movements(joints);
+  if (spread < kFewMovements) return {};
+  const auto reach =
+      static_cast<Eigen::Index>(std::min(kLongestLag, kShareOfTime * length) / kBin + 1e-9);
+  std::vector<Fit> fits;
+  for (Eigen::Index lag = -reach; lag <= reach; ++lag) {
+    const auto share = explained(muscles, joints, lag);
+    if (share) fits.push_back({static_cast<double>(lag) * kBin, *share});
+  }
+  const auto clearly_better = [&](double bound) {
+    const double near = best_of(fits, -1.0, bound).share;
+    const double far = best_of(fits, bound, kLongestLag).share;
+    return near > -1e300 && far >= kExplains && far - std::max(0.0, near) >= kClearly;
+  };
+  if (!clearly_better(kPlausible)) return {};
+  const Fit best = best_of(fits, kPlausible, kLongestLag);
+  char text[250];
+  std::snprintf(text, sizeof(text),
+                "joints seem to be stamped %.1f s too %s: with that shift, motor positions and "
+                "forces explain %.0f %% of their motion, without it only %.0f %%",
+                std::abs(best.lag), best.lag > 0.0 ? "late" : "early", 100.0 * best.share,
+                100.0 * std::max(0.0, best_of(fits, -1.0, kPlausible).share));
+  return {text, spread >= kSeveralMovements && clearly_better(kLate)};
+}
+
+}  // namespace
+
+std::vector<std::string> remarks_on_clocks(const RobotModel& robot, const Dataset& recording) {
+  const std::vector<Series> acting = moving_muscles(robot, recording);
+  if (acting.empty()) return {};
+  const auto moving = moving_joints(robot, recording);
+  const double length = seconds(recording.end() - recording.begin());
+  const double work = kMostWork / static_cast<double>(acting.size() * acting.size());
+  const auto bins = static_cast<Eigen::Index>(
+      std::min({std::floor(length / kBin) + 1.0, work, static_cast<double>(kMostBins)}));
+  if (bins < 3) return {};
+  Rates muscles(bins);
+  for (const Series& series : acting) muscles.add(series);
+  std::vector<std::string> remarks;
+  for (const auto& [table, series] : moving) {
+    Rates joints(bins);
+    for (const Series& own : series) joints.add(own);
+    const Suspicion suspicion = suspicion_of(muscles, joints, static_cast<double>(bins) * kBin);
+    if (suspicion.text.empty()) continue;
+    const std::string line = recording.folder + "/" + table +
+                             ".csv: not synchronised with the other files: " + suspicion.text +
+                             "; expected all files to use one clock";
+    if (suspicion.certain) throw BadInput(line);
+    remarks.push_back(line);
+  }
+  return remarks;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

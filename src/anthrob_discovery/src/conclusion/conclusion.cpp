@@ -1,0 +1,54 @@
+#include "conclusion/conclusion.h"
+
+#include "conclusion/sizes.h"
+#include "conclusion/verdict.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// How an effect is told from its first rival.
+FoundEffect with_separation(FoundEffect effect, const NamedEffect& named,
+                            const Hypotheses& hypotheses, const Admission& admission,
+                            const Scales& scales) {
+  effect.separating_experiment = how_to_separate(effect);
+  if (!named.contest) return effect;
+  effect.separating_recording =
+      plan_separation(hypotheses.evaluator, named.contest->named, named.contest->rival,
+                      admission.question.train.front(), scales, admission.train.front()->bin());
+  return effect;
+}
+
+void append(const std::vector<std::string>& more, std::vector<std::string>& remarks) {
+  remarks.insert(remarks.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const Scales& scales,
+                const std::vector<MeasuredVariable>& variables, const Baseline& baseline,
+                const SearchResult& found, const Diagnosis& diagnosis) {
+  const auto sizes = measure_sizes(hypotheses, variables, found, admission.question.seed);
+  Answer answer;
+  answer.verdict = verdict_on(!found.named.empty(), diagnosis);
+  for (std::size_t e = 0; e < found.named.size(); ++e) {
+    FoundEffect effect{found.named[e].found, sizes[e], {}, {}};
+    answer.effects.push_back(
+        with_separation(trusted(std::move(effect)), found.named[e], hypotheses, admission, scales));
+  }
+  answer.remaining = remaining_of(diagnosis);
+  answer.given = baseline.given;
+  answer.recalibrated = found.recalibrated.fit.variant;
+  answer.extended = found.extended.fit.variant;
+  answer.scales = scales;
+  answer.search = found.record;
+  answer.diagnosis = diagnosis;
+  answer.remarks = admission.remarks;
+  append(remarks_on_ordinary_parameters(admission.question), answer.remarks);
+  append(diagnosis.remarks, answer.remarks);
+  return answer;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,74 @@
+#include "diagnosis/examples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr std::size_t kMost = 3;
+
+/// Largest change first; among unchanged channels, the largest gap.
+std::vector<std::string> by_change(const std::map<std::string, Gap>& gaps) {
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [name, gap] : gaps) {
+    order.emplace_back(-std::abs(gap.recalibrated - gap.after) - 1e-3 * gap.recalibrated, name);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::string> names;
+  for (const auto& [change, name] : order) names.push_back(name);
+  return names;
+}
+
+/// The component of a channel that changes most: an orientation has three.
+const Channel* most_changed(const Experiment& experiment, const std::string& name,
+                            const Eigen::VectorXf& recalibrated, const Eigen::VectorXf& after) {
+  const Channel* found = nullptr;
+  double most = -1.0;
+  for (const Channel& channel : experiment.channels()) {
+    if (channel.name() != name) continue;
+    const auto from = static_cast<Eigen::Index>(channel.offset),
+               count = static_cast<Eigen::Index>(channel.count);
+    const auto one = recalibrated.segment(from, count), other = after.segment(from, count);
+    const double change = (one - other).squaredNorm() + 1e-6 * one.squaredNorm();
+    if (change <= most) continue;
+    most = change;
+    found = &channel;
+  }
+  return found;
+}
+
+std::string label_of(const Channel& channel) {
+  if (channel.quantity != "orientation") return channel.name();
+  return channel.name() + "/" + "xyz"[channel.component];
+}
+
+}  // namespace
+
+std::vector<Example> examples_of(const Experiment& experiment, const Eigen::VectorXf& whitener,
+                                 const Eigen::VectorXf& recalibrated, const Eigen::VectorXf& after,
+                                 const std::map<std::string, Gap>& gaps) {
+  std::vector<std::string> names = by_change(gaps);
+  if (names.size() > kMost) names.resize(kMost);
+  std::vector<Example> examples;
+  for (const std::string& name : names) {
+    const Channel* channel = most_changed(experiment, name, recalibrated, after);
+    if (!channel) continue;
+    Example example{label_of(*channel), channel->unit, {}, {}, {}};
+    for (std::size_t b = 0; b < channel->count; ++b) {
+      const auto k = static_cast<Eigen::Index>(channel->offset + b);
+      const double factor = whitener[k];
+      if (!(factor > 0.0)) continue;
+      example.t.push_back(experiment.bin_time(b));
+      example.recalibrated.push_back(recalibrated[k] / factor);
+      example.after.push_back(after[k] / factor);
+    }
+    examples.push_back(std::move(example));
+  }
+  return examples;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

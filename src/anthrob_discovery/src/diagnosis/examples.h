@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/gap.h"
+#include "experiment/experiment.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// One channel of a held-out recording, for a figure.
+struct Example {
+  std::string channel, unit;
+  std::vector<double> t, recalibrated, after;  ///< simulated minus measured
+};
+
+/// The channels of a held-out recording that changed most, for figures.
+/// @param whitener of the residuals, of which this experiment's come first
+/// @param gaps by channel
+std::vector<Example> examples_of(const Experiment& experiment, const Eigen::VectorXf& whitener,
+                                 const Eigen::VectorXf& recalibrated, const Eigen::VectorXf& after,
+                                 const std::map<std::string, Gap>& gaps);
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,65 @@
+#include "discover.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "admission/admission.h"
+#include "baseline/baseline.h"
+#include "conclusion/conclusion.h"
+#include "detectability/detectability.h"
+#include "diagnosis/diagnosis.h"
+#include "hypotheses/hypotheses.h"
+#include "hypotheses/screening.h"
+#include "measurement/measurement.h"
+#include "search/search.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+void say_remarks(const Admission& admission, const Observer& observer) {
+  for (const std::string& remark : admission.remarks) observer.say(remark);
+  for (const std::string& remark : remarks_on_ordinary_parameters(admission.question)) {
+    observer.say(remark);
+  }
+}
+
+}  // namespace
+
+Answer discover(const Evaluator& evaluator, const Question& question, const Observer& observer) {
+  // A wrong effect is told at once.
+  std::vector<Candidate> candidates = list_candidates(evaluator, question.effects);
+
+  const Admission admission = admit(evaluator, question);
+  const Measurement measurement = describe(admission);
+  const Scales scales =
+      measure_scales(evaluator, admission.train, admission.repeats, admission.lags);
+  const auto variables = measured_variables(admission.train, admission.question.train);
+  const Hypotheses hypotheses = pose(evaluator, std::move(candidates), admission, scales);
+  say_remarks(admission, observer);
+
+  const Baseline baseline = recalibrate(hypotheses, observer);
+  const Fitted& base = baseline.recalibrated.fit;
+
+  observer.stage("screening " + std::to_string(hypotheses.candidates.size()) + " candidates");
+  Screening screening(hypotheses.scan, base, hypotheses.candidates, admission.quick,
+                      admission.slow);
+  std::vector<Score> scores = screening.scores(base);
+
+  observer.stage("checking which effects these recordings can show");
+  Detectability detectability = detect(hypotheses, base, screening, scores);
+
+  const SearchResult found =
+      search(hypotheses, baseline, screening, std::move(scores), question.max_effects, observer);
+  const Diagnosis diagnosis =
+      diagnose(hypotheses, admission, scales, variables, baseline, found, observer);
+  Answer answer = conclude(hypotheses, admission, scales, variables, baseline, found, diagnosis);
+  answer.measurement = measurement;
+  answer.detectability = std::move(detectability);
+  return answer;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

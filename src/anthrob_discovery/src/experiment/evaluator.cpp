@@ -1,0 +1,144 @@
+#include "experiment/evaluator.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+
+#include "anthrob_calib/resume/fingerprint.h"
+#include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/effects/catalogue.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// Sensors as the model has them, but without chance: what remains is what can be predicted.
+std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const RobotModel>& model,
+                                                const Variant& variant) {
+  auto quiet = std::make_shared<RobotModel>(*model);
+  quiet->sensors = model->sensors.predictable();
+  quiet->sensors.position.quantum = variant.position_count;
+  quiet->sensors.force.quantum = variant.force_count;
+  return quiet;
+}
+
+std::uint64_t key_of(const Variant& variant,
+                     const std::vector<std::shared_ptr<const Experiment>>& experiments) {
+  resume::Fingerprint key;
+  key.add(variant.step).add(variant.position_count).add(variant.force_count);
+  key.add(static_cast<std::uint64_t>(variant.nuisances.size()));
+  for (const double value : variant.nuisances) key.add(value);
+  for (const EffectInstance& effect : variant.effects) {
+    key.add(effect.id).add(effect.place);
+    for (const auto& [name, value] : effect.parameters) key.add(name).add(value);
+  }
+  for (const auto& experiment : experiments) key.add(experiment->fingerprint());
+  return key.value();
+}
+
+}  // namespace
+
+Evaluator::Evaluator(const std::string& model_file, std::vector<ModelParameter> nuisances,
+                     double step, int jobs)
+    : config_(ConfigNode::load(model_file)),
+      nuisances_(std::move(nuisances)),
+      step_(step),
+      jobs_(jobs) {
+  plain_ = build({});
+}
+
+std::vector<double> Evaluator::initial_nuisances() const {
+  std::vector<double> values;
+  for (const ModelParameter& p : nuisances_) values.push_back(p.initial);
+  return values;
+}
+
+std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const {
+  LoadOptions options;
+  options.step = variant.step > 0.0 ? variant.step : step_;
+  options.slow_controllers = options.step > step_;
+  if (!variant.nuisances.empty()) options.overrides = overrides_of(nuisances_, variant.nuisances);
+  options.effects = variant.effects;
+  return without_noise(build_robot_model(config_, options), variant);
+}
+
+Journal& Evaluator::keep_journal(const std::string& file) {
+  resume::Fingerprint context;
+  // Effect libraries may have no mark of a linker; what they hold tells.
+  context.add(resume::program_fingerprint(resume::program_fingerprint(), effect_library_files()))
+      .add(resume::model_fingerprint(config_))
+      .add(step_);
+  for (const ModelParameter& p : nuisances_) context.add(p.path);
+  journal_ = std::make_unique<Journal>(file, context.value());
+  return *journal_;
+}
+
+Differences Evaluator::simulate(
+    const Variant& variant,
+    const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
+  ++simulated_;
+  try {
+    const auto model = build(variant);
+    Differences differences = Differences::Zero(static_cast<Eigen::Index>(total_size(experiments)));
+    std::size_t offset = 0;
+    Starts starts;
+    for (const auto& experiment : experiments) {
+      experiment->compare(model, starts, differences.data() + offset);
+      offset += experiment->size();
+    }
+    if (differences.allFinite()) return differences;
+  } catch (const NumericalFailure&) {
+  } catch (const BadInput&) {
+  }
+  return {};  // no such robot
+}
+
+Differences Evaluator::known_or_simulated(
+    const Variant& variant,
+    const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
+  if (!journal_) return simulate(variant, experiments);
+  const std::uint64_t key = key_of(variant, experiments);
+  if (auto known = journal_->find(key)) return std::move(*known);
+  Differences result = simulate(variant, experiments);
+  journal_->append(key, result);
+  return result;
+}
+
+std::vector<Differences> Evaluator::compare(
+    const std::vector<Variant>& variants,
+    const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
+  std::vector<Differences> results(variants.size());
+  std::atomic<std::size_t> done{0};
+  const auto begin = std::chrono::steady_clock::now();
+  side_by_side(variants.size(), [&](std::size_t i) {
+    results[i] = known_or_simulated(variants[i], experiments);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    const Batch batch{++done, variants.size(), elapsed.count()};
+    const std::lock_guard<std::mutex> lock(progress_mutex_);
+    if (progress_ && !progress_(batch)) throw Interrupted();
+  });
+  return results;
+}
+
+void Evaluator::side_by_side(std::size_t count,
+                             const std::function<void(std::size_t)>& work) const {
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                            static_cast<std::size_t>(jobs_));
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+      },
+      tbb::simple_partitioner());
+}
+
+std::size_t total_size(const std::vector<std::shared_ptr<const Experiment>>& experiments) {
+  std::size_t size = 0;
+  for (const auto& experiment : experiments) size += experiment->size();
+  return size;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

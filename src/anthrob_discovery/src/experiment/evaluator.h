@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "anthrob_calib/resume/result_file.h"
+#include "anthrob_core/parameter_list.h"
+#include "anthrob_sim/model/effect_instance.h"
+#include "experiment/experiment.h"
+
+namespace anthrob {
+namespace discovery {
+
+/// A model as it might be: the given one with its ordinary parameters moved and effects added.
+struct Variant {
+  std::vector<double> nuisances;  ///< values of Evaluator::nuisances(), or empty: as given
+  std::vector<EffectInstance> effects = {};
+  double step = 0.0;  ///< of the simulation [s]; 0: as usual
+  /// Counts of the sensors of motor positions [rad] and forces [N], which controllers pass on.
+  double position_count = 0.0, force_count = 0.0;
+};
+
+/// Differences of all experiments, one after the other; empty if the variant cannot be built or
+/// simulated.
+using Differences = Eigen::VectorXf;
+
+/// What was simulated before an interruption.
+using Journal = resume::ResultFile<float>;
+
+/// Progress of the variants that are compared together.
+struct Batch {
+  std::size_t done = 0, size = 0;
+  double elapsed = 0.0;  ///< since it was begun [s]
+};
+
+/// Thrown when the user interrupts the work.
+class Interrupted : public std::exception {};
+
+/// Compares variants of a model with experiments, on many threads. The results do not depend on the
+/// number of threads.
+class Evaluator {
+ public:
+  /// @param model_file, nuisances as read for it
+  Evaluator(const std::string& model_file, std::vector<ModelParameter> nuisances, double step,
+            int jobs);
+
+  const std::shared_ptr<const RobotModel>& model() const { return plain_; }
+  const std::vector<ModelParameter>& nuisances() const { return nuisances_; }
+  std::vector<double> initial_nuisances() const;
+
+  /// @param progress called when one more of a batch is done; returns false to stop
+  void on_progress(std::function<bool(const Batch&)> progress) { progress_ = std::move(progress); }
+
+  /// Opens a journal file: results that are in it are not simulated again. It is only valid for
+  /// this program, this model and these ordinary parameters; otherwise it is started again.
+  Journal& keep_journal(const std::string& file);
+  std::size_t simulated() const { return simulated_; }  ///< variants, so far
+
+  /// @return one result for each variant. @throws Interrupted
+  std::vector<Differences> compare(
+      const std::vector<Variant>& variants,
+      const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
+
+  /// Runs `count` independent pieces of work, as many at a time as there are threads. Rethrows what
+  /// they throw.
+  void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const;
+
+  /// @throws BadInput if it cannot be built
+  std::shared_ptr<const RobotModel> build(const Variant& variant) const;
+
+ private:
+  Differences simulate(const Variant& variant,
+                       const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
+  Differences known_or_simulated(
+      const Variant& variant,
+      const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
+
+  ConfigNode config_;
+  std::vector<ModelParameter> nuisances_;
+  double step_;
+  int jobs_;
+  std::shared_ptr<const RobotModel> plain_;
+  std::function<bool(const Batch&)> progress_;
+  mutable std::mutex progress_mutex_;
+  std::unique_ptr<Journal> journal_;
+  mutable std::atomic<std::size_t> simulated_{0};
+};
+
+/// Length of all experiments' differences together.
+std::size_t total_size(const std::vector<std::shared_ptr<const Experiment>>& experiments);
+
+}  // namespace discovery
+}  // namespace anthrob

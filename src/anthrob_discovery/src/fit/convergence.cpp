@@ -1,0 +1,166 @@
+#include "fit/convergence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "judgement/criteria.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+constexpr int kRough = 8;           ///< iterations by the first slopes
+constexpr int kPolish = 8;          ///< iterations by the same slopes
+constexpr int kSurveys = 4;         ///< how often sensitivities are simulated again
+constexpr double kSettled = 5e-4;   ///< share of the cost
+constexpr double kAtTheEnd = 5e-4;  ///< share of the cost
+constexpr int kFinishing = 5;       ///< rounds of exact slopes
+constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
+constexpr double kRoughlySettled = 0.01;
+constexpr double kHopeless = 4.0 / 3.0;  ///< times what rough steps should reach
+/// Times the cost of a fit from elsewhere: one begun anew that is still above it does not pass it.
+constexpr double kFallsBehind = 1.02;
+/// Multiples of the sizes of effects from which a fit that clearly misses is begun anew.
+constexpr double kOtherSizes[] = {0.6, 0.8, 1.0, 1.25, 1.6};
+
+/// Whether a fit might come down to a rival's cost if each of the rounds there are gained as much
+/// as the last one.
+bool might_reach(double rival, const Fitted& fitted, double gain) {
+  return fitted.cost - (kSurveys + kFinishing) * gain <= rival;
+}
+
+/// A fit's variant with other sizes of its effects, and shapes as they were expected or of the
+/// simplest form.
+Variant resized(const Fitted& fitted, double factor, bool plain) {
+  Variant other = fitted.variant;
+  for (const Unknown& u : fitted.unknowns) {
+    if (u.effect < 0) continue;
+    const double shape = plain ? u.plain.value_or(u.expected) : u.expected;
+    const double size = u.read(fitted.variant) - u.neutral.value_or(0.0);
+    u.write(u.neutral ? *u.neutral + factor * size : shape, other);
+  }
+  return other;
+}
+
+}  // namespace
+
+bool Convergence::clearly_misses(const Fitted& fitted) const {
+  return judge_.gap(fitted.residual) > kClearGap;
+}
+
+double Convergence::left_open(const Fitted& fitted) const {
+  return (clearly_misses(fitted) ? kRoughlySettled : kAtTheEnd) * fitted.cost;
+}
+
+/// Polishes as long as that reduces the cost. If an effect is clearly missing, the last steps of
+/// the model without it are not worth their time.
+bool Convergence::converge(Fitted& fitted, double rival, double level) const {
+  std::optional<ModelFit::Surveyed> surveyed;
+  for (int k = 0; k < kSurveys; ++k) {
+    const bool clear = clearly_misses(fitted);
+    const double before = fitted.cost;
+    fit_.polish(fitted, kPolish, clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides,
+                &surveyed);
+    const double gain = before - fitted.cost;
+    if (fitted.cost > level || !might_reach(rival, fitted, gain)) return false;
+    if (gain < (clear ? kRoughlySettled : kSettled) * before) break;
+  }
+  return true;
+}
+
+Fitted Convergence::rough(const Variant& variant, std::vector<Unknown> unknowns,
+                          Bends bends) const {
+  Fitted fitted = fit_.start(variant, std::move(unknowns), std::move(bends));
+  fit_.improve(fitted, kRough);
+  return fitted;
+}
+
+Fitted Convergence::converged(const Variant& variant, std::vector<Unknown> unknowns) const {
+  Fitted fitted = rough(variant, std::move(unknowns));
+  converge(fitted);
+  return fitted;
+}
+
+bool Convergence::converge_within_reach(Fitted& fitted, double level) const {
+  fit_.improve(fitted, kRough);
+  if (fitted.cost > kHopeless * level) return false;
+  fit_.polish(fitted, kPolish, ModelFit::Slopes::kOneSide);
+  // Too far above the level for better sensitivities to help.
+  if (fitted.cost > level) return false;
+  converge(fitted);
+  return true;
+}
+
+Fitted Convergence::to_the_end(const Fitted& fitted) const {
+  return *to_the_end_within_reach(fitted, HUGE_VAL);
+}
+
+std::optional<Fitted> Convergence::to_the_end_within_reach(const Fitted& fitted, double level,
+                                                           double rival) const {
+  std::optional<Fitted> best = roughly_from_given(fitted);
+  if (std::min(fitted.cost, best ? best->cost : HUGE_VAL) > level) return std::nullopt;
+  bool near = best && converge(*best, rival, kFallsBehind * fitted.cost);
+  if (!best || best->cost >= fitted.cost) {
+    best = fitted;
+    near = converge(*best, rival);
+  }
+  if (begin_anew(*best)) near = true;
+  if (near) finish(*best, rival);
+  return best;
+}
+
+/// A large effect makes valleys beside the right one: a joint that sticks too often can be had by
+/// more friction or by a higher ratio of static friction. Where a fit clearly misses and one of a
+/// few other sizes does better at once, fits from there.
+bool Convergence::begin_anew(Fitted& fitted) const {
+  if (fitted.variant.effects.empty() || !clearly_misses(fitted)) return false;
+  std::vector<Variant> others;
+  for (const bool plain : {true, false}) {
+    for (const double factor : kOtherSizes) others.push_back(resized(fitted, factor, plain));
+  }
+  const std::vector<Eigen::VectorXf> residuals = fit_.residuals(others);
+  double least = fitted.residual.squaredNorm();
+  const Variant* best = nullptr;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (residuals[i].size() == 0 || !(residuals[i].squaredNorm() < least)) continue;
+    least = residuals[i].squaredNorm();
+    best = &others[i];
+  }
+  if (!best) return false;
+  Fitted anew = converged(*best, fitted.unknowns);
+  if (anew.cost >= fitted.cost) return false;
+  fitted = std::move(anew);
+  return true;
+}
+
+/// Nothing if the effects cannot be simulated with the given parameters.
+std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) const {
+  Variant given = fitted.variant;
+  given.nuisances = evaluator_.initial_nuisances();
+  try {
+    return rough(given, fitted.unknowns, fitted.bends);
+  } catch (const NotSimulated&) {
+    return std::nullopt;
+  }
+}
+
+/// Last iterations: near the minimum, sensitivities of the coarse step no longer reduce the cost,
+/// those of the usual step do. Where something is left, their errors do not cancel out over the
+/// residual.
+void Convergence::finish(Fitted& fitted, double rival) const {
+  std::optional<ModelFit::Surveyed> surveyed;
+  for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
+    const bool left = judge_.gap(fitted.residual) > kFaintGap;
+    const auto slopes = left ? ModelFit::Slopes::kExactToBothSides : ModelFit::Slopes::kExact;
+    const double before = fitted.cost;
+    fit_.polish(fitted, kPolish, slopes, &surveyed);
+    const double gain = before - fitted.cost;
+    if (gain < kAtTheEnd * before || !might_reach(rival, fitted, gain)) break;
+  }
+}
+
+}  // namespace discovery
+}  // namespace anthrob

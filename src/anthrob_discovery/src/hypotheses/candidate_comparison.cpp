@@ -1,0 +1,264 @@
+#include "hypotheses/candidate_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "anthrob_sim/effects/placed_effects.h"
+#include "fit/phase.h"
+#include "hypotheses/trials.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// Largest size that is tried: bounds may be infinite.
+constexpr double kLargest = 100.0;   // [doses]
+constexpr double kMostOfIt = 0.75;   ///< of a gain
+constexpr double kAllOfIt = 0.98;    ///< of a gain, apart from what the shape of a law makes
+constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
+constexpr int kIterations = 6;
+constexpr double kTelling = 2.0;  ///< [nat] a smaller gain of an iteration decides nothing
+
+/// The least relative gain of an iteration that may matter, however long the recordings are.
+double telling(const Fitted& fitted) {
+  return std::min(3e-3, kTelling / fitted.cost);
+}
+
+std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstance& start,
+                                 int effect) {
+  std::vector<Unknown> unknowns;
+  for (const EffectParameter& p : candidate.parameters) {
+    if (p.kind == EffectParameter::kGiven) continue;
+    const double value = start.parameters.at(p.name);
+    const double dose = std::abs(p.typical - (p.kind == EffectParameter::kSize ? p.neutral : 0.0));
+    Unknown u;
+    u.effect = effect;
+    u.parameter = p.name;
+    u.lower = std::max(p.bounds.lo, value - kLargest * dose);
+    u.upper = std::min(p.bounds.hi, value + kLargest * dose);
+    if (p.bounds.lo_open) u.lower += 1e-3 * dose;
+    if (p.bounds.hi_open) u.upper -= 1e-3 * dose;
+    if (p.kind == EffectParameter::kSize) {
+      u.neutral = p.neutral;
+      u.scale = std::max(0.2 * std::abs(value - p.neutral), 0.03 * dose);
+      u.finest = 0.003 * dose;
+    } else {
+      // With an unknown sign, nothing can be expected.
+      const bool either = p.bounds.lo < 0.0 && p.bounds.hi > 0.0;
+      u.scale = 0.3 * dose;
+      u.finest = 0.03 * dose;
+      u.expected = either ? p.neutral : p.typical;
+      u.plain = p.neutral;
+      u.spread = (either ? 3.0 : 1.5) * dose;
+    }
+    unknowns.push_back(u);
+  }
+  return unknowns;
+}
+
+/// Of a PathEffect: "MUSCLE" is everywhere on it, "MUSCLE/2" one place of it.
+bool contains(const std::string& wide, const std::string& narrow) {
+  return narrow.size() > wide.size() && narrow.compare(0, wide.size(), wide) == 0 &&
+         narrow[wide.size()] == '/';
+}
+
+}  // namespace
+
+bool is_nested_in(const Candidate& part, const Candidate& whole) {
+  return part.place == whole.place && part.effect->info().seam == whole.effect->info().seam &&
+         part.sizes().size() < whole.sizes().size();
+}
+
+double share_of_simpler(const Candidate& part, const Candidate& whole) {
+  if (is_nested_in(part, whole)) return kMostOfIt;
+  const EffectInfo &a = part.effect->info(), &b = whole.effect->info();
+  const bool everywhere = dynamic_cast<const PathEffect*>(part.effect) != nullptr;
+  return everywhere && a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
+}
+
+FittedCandidate CandidateComparison::fit(const Fitted& base, std::size_t index,
+                                         const EffectInstance& start) const {
+  FittedCandidate named;
+  named.candidate = index;
+  named.fit = begin(base, {{index, start}});
+  train_.improve(named.fit, kFirstIterations);
+  return named;
+}
+
+Fitted CandidateComparison::begin(const Fitted& base, const std::vector<Start>& starts) const {
+  Variant variant = base.variant;
+  Fitted from = base;
+  std::vector<Unknown> more;
+  for (const auto& [index, start] : starts) {
+    const Candidate& candidate = candidates_[index];
+    const auto effect = static_cast<int>(variant.effects.size());
+    variant.effects.push_back(start);
+    const std::vector<Unknown> its = unknowns_of(candidate, start, effect);
+    more.insert(more.end(), its.begin(), its.end());
+    for (const int nuisance : candidate.same_as) {
+      for (Unknown& u : from.unknowns) {
+        if (u.nuisance != nuisance) continue;
+        u.lower = u.upper = u.expected;
+        u.write(u.expected, variant);
+      }
+    }
+  }
+  return train_.extend(from, variant, more);
+}
+
+Tested CandidateComparison::together(const Tested& base, const std::vector<Score>& parts) const {
+  std::vector<Start> starts;
+  for (const Score& part : parts) {
+    starts.push_back({part.candidate, candidates_[part.candidate].sized(part.amount)});
+  }
+  Tested all;
+  all.fit = begin(base.fit, starts);
+  train_.improve(all.fit, kIterations, telling(all.fit));
+  all.test = test_.residual(all.fit.variant);
+  return all;
+}
+
+CandidateComparison::Odds CandidateComparison::odds(const Eigen::VectorXf& one_test,
+                                                    const Eigen::VectorXf& other_test) const {
+  const bool other_is_better = other_test.squaredNorm() < one_test.squaredNorm();
+  const Eigen::MatrixXd scores =
+      test_judge_.block_scores({one_test, other_test}, other_is_better ? 1 : 0);
+  return {model_probabilities(scores, {0.0, 0.0}, seed_)[0], (scores.row(0) - scores.row(1)).sum()};
+}
+
+void CandidateComparison::judge(const Tested& base, ShortList& list) const {
+  std::vector<Eigen::VectorXf> train = {base.fit.residual}, test = {base.test};
+  for (const FittedCandidate& named : list.entries) {
+    train.push_back(named.fit.residual);
+    test.push_back(named.test);
+  }
+  std::size_t best = 0;
+  double least = train[0].squaredNorm() + test[0].squaredNorm();
+  for (std::size_t i = 1; i < train.size(); ++i) {
+    const double size = train[i].squaredNorm() + test[i].squaredNorm();
+    if (size < least) {
+      least = size;
+      best = i;
+    }
+  }
+  const Eigen::MatrixXd on_train = train_judge_.block_scores(train, best);
+  const Eigen::MatrixXd on_test = test_judge_.block_scores(test, best);
+  Eigen::MatrixXd all(on_train.rows(), on_train.cols() + on_test.cols());
+  all << on_train, on_test;
+
+  // Each unknown costs half a log of the number of blocks; having looked at many candidates costs
+  // the logarithm of their number.
+  std::vector<double> handicap = {0.0};
+  for (const FittedCandidate& named : list.entries) {
+    const auto more = static_cast<double>(named.fit.unknowns.size() - base.fit.unknowns.size());
+    handicap.push_back(0.5 * more * std::log(static_cast<double>(all.cols())) +
+                       std::log(static_cast<double>(candidates_.size())));
+  }
+  const std::vector<double> probability = model_probabilities(all, handicap, seed_);
+  list.none = probability[0];
+  for (std::size_t i = 0; i < list.entries.size(); ++i) {
+    FittedCandidate& named = list.entries[i];
+    const auto row = static_cast<Eigen::Index>(i + 1);
+    named.evidence = (on_test.row(row) - on_test.row(0)).sum();
+    named.significance = block_significance((all.row(row) - all.row(0)).transpose());
+    named.probability = probability[i + 1];
+  }
+  std::stable_sort(list.entries.begin(), list.entries.end(),
+                   [](const FittedCandidate& a, const FittedCandidate& b) {
+                     return a.probability > b.probability;
+                   });
+}
+
+void CandidateComparison::follow(const Tested& base, ShortList& list) const {
+  train_.side_by_side(list.entries.size(), [&](std::size_t i) {
+    FittedCandidate& named = list.entries[i];
+    try {
+      FittedCandidate other = fit(base.fit, named.candidate, named.fit.variant.effects.back());
+      train_.improve(other.fit, kIterations, telling(other.fit));
+      if (other.fit.cost >= named.fit.cost) return;
+      other.test = test_.residual(other.fit.variant);
+      if (other.test.size() > 0) named = std::move(other);
+    } catch (const NotSimulated&) {
+      // Stays where it is.
+    }
+  });
+  judge(base, list);
+  prefer_simpler(base.fit, list);
+}
+
+void CandidateComparison::turn_to_better_phase(const Fitted& base, FittedCandidate& named) const {
+  if (!has_phase(candidates_[named.candidate])) return;
+  const auto turned = better_phase(train_, candidates_[named.candidate], named.fit);
+  if (!turned) return;
+  try {
+    FittedCandidate other = fit(base, named.candidate, *turned);
+    train_.improve(other.fit, kIterations, telling(other.fit));
+    if (other.fit.cost < named.fit.cost) named = std::move(other);
+  } catch (const NotSimulated&) {
+    // Stays where it is.
+  }
+}
+
+void CandidateComparison::prefer_simpler(const Fitted& base, ShortList& list) const {
+  if (list.entries.empty()) return;
+  const FittedCandidate& best = list.entries.front();
+  const Candidate& whole = candidates_[best.candidate];
+  for (std::size_t i = 1; i < list.entries.size(); ++i) {
+    const FittedCandidate& other = list.entries[i];
+    const double share = share_of_simpler(candidates_[other.candidate], whole);
+    const double gain = base.cost - other.fit.cost;
+    if (share == 1.0 || gain < share * (base.cost - best.fit.cost) || other.evidence <= 0.0) {
+      continue;
+    }
+    FittedCandidate simple = std::move(list.entries[i]);
+    simple.probability += best.probability;
+    list.entries.front().probability = 0.0;
+    list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(i));
+    list.entries.insert(list.entries.begin(), std::move(simple));
+    return;
+  }
+}
+
+ShortList CandidateComparison::weigh(const Tested& base, const std::vector<Score>& scores) const {
+  const std::vector<Score> tried = Trials(scan_, candidates_).best(base.fit, scores);
+  std::vector<std::optional<FittedCandidate>> fitted(tried.size());
+  train_.side_by_side(tried.size(), [&](std::size_t i) {
+    try {
+      const std::size_t candidate = tried[i].candidate;
+      fitted[i] = fit(base.fit, candidate, candidates_[candidate].sized(tried[i].amount));
+    } catch (const NotSimulated&) {
+      // Cannot be simulated at that size: not this one.
+    }
+  });
+  ShortList list;
+  for (std::optional<FittedCandidate>& named : fitted) {
+    if (named) list.entries.push_back(std::move(*named));
+  }
+  std::stable_sort(
+      list.entries.begin(), list.entries.end(),
+      [](const FittedCandidate& a, const FittedCandidate& b) { return a.fit.cost < b.fit.cost; });
+  if (list.entries.size() > kJudged) list.entries.resize(kJudged);
+  const auto fit_on = [&](FittedCandidate& named, double rival) {
+    train_.improve(named.fit, kIterations, telling(named.fit), rival);
+    turn_to_better_phase(base.fit, named);
+    named.test = test_.residual(named.fit.variant);
+  };
+  if (!list.entries.empty()) {
+    fit_on(list.entries.front(), HUGE_VAL);
+    const double first = list.entries.front().fit.cost;
+    train_.side_by_side(list.entries.size() - 1,
+                        [&](std::size_t i) { fit_on(list.entries[i + 1], first); });
+  }
+  list.entries.erase(
+      std::remove_if(list.entries.begin(), list.entries.end(),
+                     [](const FittedCandidate& named) { return named.test.size() == 0; }),
+      list.entries.end());
+  judge(base, list);
+  prefer_simpler(base.fit, list);
+  return list;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,17 @@
+#include "question/observer.h"
+
+#include "experiment/evaluator.h"
+
+namespace anthrob {
+namespace discovery {
+
+void Observer::stage(const std::string& what) const {
+  if (progress && !progress(what)) throw Interrupted();
+}
+
+void Observer::say(const std::string& line) const {
+  if (comment) comment(line);
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,4 @@
+// A library that registers nothing.
+int of_no_use() {
+  return 0;
+}

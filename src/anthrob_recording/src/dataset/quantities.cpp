@@ -1,0 +1,61 @@
+#include "anthrob_recording/quantities.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <set>
+
+namespace anthrob {
+
+namespace {
+
+const std::array<const char*, 4> kModes = {"VOLTAGE", "POSITION", "CURRENT", "FORCE"};
+const std::array<const char*, 5> kStates = {"BOOT", "IDLE", "ENABLED", "STOPPING", "FAULT"};
+
+}  // namespace
+
+bool is_muscle_quantity(const std::string& quantity) {
+  static const std::set<std::string> kAll = {"mode",    "reference", "position", "velocity",
+                                             "current", "voltage",   "force",    "ecu_state"};
+  return kAll.count(quantity) > 0;
+}
+
+bool is_ball_quantity(const std::string& quantity) {
+  static const std::set<std::string> kAll = {"w", "x", "y", "z", "wx", "wy", "wz"};
+  return kAll.count(quantity) > 0;
+}
+
+bool is_joint_quantity(const std::string& quantity) {
+  static const std::set<std::string> kAll = {"position", "velocity", "effort", "load"};
+  return kAll.count(quantity) > 0;
+}
+
+bool is_known_quantity(const std::string& quantity) {
+  return is_muscle_quantity(quantity) || is_ball_quantity(quantity) || is_joint_quantity(quantity);
+}
+
+bool holds_words(const std::string& quantity) {
+  return quantity == "mode" || quantity == "ecu_state";
+}
+
+std::string word_of(const std::string& quantity, int value) {
+  const bool mode = quantity == "mode";
+  const int count = static_cast<int>(mode ? kModes.size() : kStates.size());
+  if (value < 0 || value >= count) return std::to_string(value);
+  return mode ? kModes[value] : kStates[value];
+}
+
+int number_of(const std::string& quantity, const std::string& word) {
+  const auto find = [&](const auto& words) {
+    const auto it = std::find(words.begin(), words.end(), word);
+    return it == words.end() ? -1 : static_cast<int>(it - words.begin());
+  };
+  const int index = quantity == "mode" ? find(kModes) : find(kStates);
+  if (index >= 0) return index;
+  int value = -1;
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  return result.ec == std::errc() && result.ptr == word.data() + word.size() && value < 256 ? value
+                                                                                            : -1;
+}
+
+}  // namespace anthrob

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/SphericalJointStates.h>
+#include <sensor_msgs/JointState.h>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "anthrob_recording/table.h"
+
+namespace anthrob {
+
+/// Cells of one row: column name and value.
+using Cells = std::vector<std::pair<std::string, double>>;
+
+/// Appends what a message puts into a row.
+/// @return false if its lists differ in length; the cells are then incomplete
+bool to_cells(const anthrob_msgs::MuscleCommand& m, Cells& cells);
+bool to_cells(const anthrob_msgs::MuscleStates& m, Cells& cells);
+bool to_cells(const sensor_msgs::JointState& m, Cells& cells);
+bool to_cells(const anthrob_msgs::SphericalJointStates& m, Cells& cells);
+
+/// Whether names can head columns, and which value is whose: no separators in them, none twice.
+bool are_column_owners(const std::vector<std::string>& names);
+
+/// Fills a message, except for its header, from a row of a table.
+/// @throws BadInput if a quantity is given for some names only, or if an orientation, an angular
+/// velocity or a command is incomplete
+void from_row(const Table& table, std::size_t index, anthrob_msgs::MuscleCommand& m);
+void from_row(const Table& table, std::size_t index, anthrob_msgs::MuscleStates& m);
+void from_row(const Table& table, std::size_t index, sensor_msgs::JointState& m);
+void from_row(const Table& table, std::size_t index, anthrob_msgs::SphericalJointStates& m);
+
+}  // namespace anthrob

@@ -1,0 +1,58 @@
+// Recordings between bags and dataset folders.
+#include <filesystem>
+#include <iostream>
+
+#include "anthrob_core/command_line.h"
+#include "anthrob_core/errors.h"
+#include "anthrob_recording/bag.h"
+#include "anthrob_recording/dataset.h"
+#include "foreign/foreign_csv.h"
+
+namespace {
+
+void say_not_carried(const std::vector<std::string>& list) {
+  for (const std::string& what : list) std::cout << "not converted: " << what << "\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace anthrob;
+  CLI::App app(
+      "Converts a bag to a dataset folder or back; the bag is the one that ends in .bag. With "
+      "--columns, converts a CSV file of another program to a dataset folder.",
+      "anthrob_convert");
+  std::string in, out, columns;
+  app.add_option("IN", in, "bag, dataset folder, or CSV file")->required();
+  app.add_option("OUT", out, "dataset folder or bag")->required();
+  app.add_option("--columns", columns,
+                 "YAML file that says what the columns of the CSV file are (docs/files.md)");
+  return tool::run(app, argc, argv, [&]() -> int {
+    if (!columns.empty()) {
+      read_foreign_csv(in, ForeignColumns::load(columns)).save(out);
+      return tool::kDone;
+    }
+    const auto is_bag = [](const std::string& path) {
+      return std::filesystem::path(path).extension() == ".bag";
+    };
+    if (!std::filesystem::exists(in))
+      throw BadInput(in + ": no such recording; expected a bag or a dataset folder");
+    if (is_bag(in) == is_bag(out)) {
+      throw BadInput("IN " + in + ", OUT " + out +
+                     ": expected one of them to end in .bag; for a CSV file, give --columns");
+    }
+    if (!is_bag(in)) {
+      const Dataset recording = Dataset::load(in);
+      tool::say(app, recording.remarks);
+      const BagRemarks done = write_bag(recording, out);
+      tool::say(app, done.remarks);
+      say_not_carried(done.not_carried);
+      return tool::kDone;
+    }
+    const BagContents contents = read_bag(in);
+    tool::say(app, contents.dataset.remarks);
+    contents.dataset.save(out);
+    say_not_carried(contents.not_carried);
+    return tool::kDone;
+  });
+}
