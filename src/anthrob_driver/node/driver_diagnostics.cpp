@@ -3,6 +3,10 @@
 #include <algorithm>
 
 #include "anthrob_ros/diagnostics.h"
+#include "link/ecu_link.h"
+#include "routine/home.h"
+#include "watch/bus_watch.h"
+#include "watch/winding_temperature_model.h"
 
 namespace anthrob {
 namespace driver {

@@ -11,9 +11,11 @@
 #include <thread>
 
 #include "anthrob_ros/diagnostics.h"
-#include "call_guard.h"
 #include "driver_diagnostics.h"
-#include "measurement_age.h"
+#include "publishing/measurement_age.h"
+#include "routine/home.h"
+#include "routine/live_gains.h"
+#include "thread/call_guard.h"
 
 namespace anthrob {
 namespace driver {

@@ -13,10 +13,10 @@
 #include <optional>
 #include <vector>
 
-#include "anthrob_driver/driver_thread.h"
-#include "reading_group.h"
+#include "publishing/reading_group.h"
+#include "publishing/stamp_clock.h"
 #include "request_queue.h"
-#include "stamp_clock.h"
+#include "thread/driver_thread.h"
 
 namespace anthrob {
 namespace driver {

@@ -10,6 +10,12 @@
 #include "anthrob_driver/emulation/rack.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/robot_driver.h"
+#include "emulation/board.h"
+#include "link/ecu_link.h"
+#include "routine/home.h"
+#include "routine/live_gains.h"
+#include "watch/bus_watch.h"
+#include "watch/winding_temperature_model.h"
 
 namespace anthrob {
 namespace driver {

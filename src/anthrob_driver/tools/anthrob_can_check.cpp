@@ -13,11 +13,12 @@
 
 #include "anthrob_core/command_line.h"
 #include "anthrob_core/errors.h"
-#include "anthrob_driver/driver_thread.h"
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
 #include "bus/bit_count.h"
+#include "thread/driver_thread.h"
+#include "watch/bus_watch.h"
 
 namespace anthrob {
 namespace driver {

@@ -11,7 +11,6 @@
 #include <iostream>
 #include <memory>
 
-#include "anthrob_driver/driver_thread.h"
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
@@ -110,7 +109,7 @@ int run(const Arguments& arguments) {
     ++tick;
     // A driver that is refused sends no SYNC: then time and ball joints of this namespace are a
     // robot's.
-    if (!rack.board(0).firmware().sync_seen()) return;
+    if (!rack.sync_seen()) return;
     if (arguments.clock && !clock) clock = std::make_unique<RobotClock>(arguments.pace);
     if (clock && tick % kTicksPerClock == 0) clock->publish();
     if (balls && tick % ticks_per_message == 0) balls->publish();

@@ -5,6 +5,9 @@
 namespace anthrob {
 namespace driver {
 
+/// [s] of the clock that never jumps.
+double monotonic_now();
+
 /// Gives the calling thread SCHED_FIFO with `priority` and locks the process's memory.
 /// @return empty, or what the system refused
 std::string become_realtime(int priority);

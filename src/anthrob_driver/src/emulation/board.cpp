@@ -1,4 +1,4 @@
-#include "anthrob_driver/emulation/board.h"
+#include "emulation/board.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <ctime>
 
 #include "anthrob_core/errors.h"
-#include "anthrob_driver/driver_thread.h"
+#include "anthrob_driver/realtime.h"
 
 namespace anthrob {
 namespace driver {

@@ -1,4 +1,4 @@
-#include "anthrob_driver/watch/bus_watch.h"
+#include "watch/bus_watch.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "anthrob_driver/watch/force_watch.h"
+#include "watch/force_watch.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "anthrob_driver/watch/muscle_watch.h"
+#include "watch/muscle_watch.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "anthrob_driver/watch/tendon_watch.h"
+#include "watch/tendon_watch.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "anthrob_driver/watch/winding_temperature_model.h"
+#include "watch/winding_temperature_model.h"
 
 #include <cmath>
 

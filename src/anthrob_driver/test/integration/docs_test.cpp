@@ -8,12 +8,17 @@
 #include <fstream>
 #include <sstream>
 
-#include "anthrob_driver/emulation/board.h"
 #include "anthrob_driver/findings.h"
 #include "anthrob_driver/robot_driver.h"
 #include "anthrob_ecu/fault.h"
 #include "anthrob_ecu/parameters.h"
 #include "anthrob_ecu/protocol.h"
+#include "emulation/board.h"
+#include "link/ecu_link.h"
+#include "routine/enabling.h"
+#include "routine/zeros.h"
+#include "watch/bus_watch.h"
+#include "watch/encoder_watch.h"
 
 namespace anthrob {
 namespace driver {

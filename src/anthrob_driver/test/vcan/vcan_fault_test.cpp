@@ -21,10 +21,13 @@
 #include <thread>
 
 #include "anthrob_core/errors.h"
-#include "anthrob_driver/driver_thread.h"
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
+#include "emulation/board.h"
+#include "link/ecu_link.h"
+#include "thread/driver_thread.h"
+#include "watch/bus_watch.h"
 
 namespace anthrob {
 namespace driver {

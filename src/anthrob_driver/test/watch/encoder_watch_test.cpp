@@ -1,4 +1,4 @@
-#include "anthrob_driver/watch/encoder_watch.h"
+#include "watch/encoder_watch.h"
 
 #include <gtest/gtest.h>
 

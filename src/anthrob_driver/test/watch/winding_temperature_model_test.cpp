@@ -1,5 +1,5 @@
 // Motors that are too hot by what they drew: the estimate against its closed form, and the driver.
-#include "anthrob_driver/watch/winding_temperature_model.h"
+#include "watch/winding_temperature_model.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -5,16 +5,21 @@
 #include <vector>
 
 #include "anthrob_driver/bus/bus.h"
-#include "anthrob_driver/emulation/board.h"
+#include "anthrob_driver/emulation/plant.h"
+#include "anthrob_driver/hardware.h"
 
 namespace anthrob {
 namespace driver {
 
+class Board;
+
 /// All ECUs of a robot in software, on one plant and one bus.
 class Rack {
  public:
-  /// @param hardware, plant, bus must outlive the rack   @param session as a Board's
+  /// @param hardware, plant, bus must outlive the rack
+  /// @param session what the first boots draw their sessions from
   Rack(const Hardware& hardware, Plant& plant, Bus& bus, std::uint8_t session = 0);
+  ~Rack();
 
   /// Gives every ECU the zero of the plant, as a `home` that found it would: the present positions
   /// count as 0 rad. For comparisons with a simulator; ECUs that were just switched on have no
@@ -25,13 +30,16 @@ class Rack {
   /// One millisecond: boards tick, the plant moves, what is to be sent is sent.
   void tick();
 
-  Board& board(std::size_t ecu) { return boards_[ecu]; }
+  /// Whether a driver has ever sent a valid SYNC.
+  bool sync_seen() const;
+  /// For tests, which break things there.
+  Board& board(std::size_t ecu) { return *boards_[ecu]; }
   std::size_t size() const { return boards_.size(); }
 
  private:
   Plant& plant_;
   Bus& bus_;
-  std::vector<Board> boards_;
+  std::vector<std::unique_ptr<Board>> boards_;
 };
 
 }  // namespace driver

@@ -1,0 +1,207 @@
+// What users ask for.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "driver/implementation.h"
+
+namespace anthrob {
+namespace driver {
+
+namespace {
+
+using ecu::Operation;
+
+constexpr int kRepeats = 3;  // cycles in which disable and clear are sent
+
+std::string too_old(double age, double limit) {
+  if (std::abs(age) <= limit) return "";
+  char text[120];
+  std::snprintf(text, sizeof(text),
+                "sent %.1f s %s: a recording, or the clocks of two computers differ", std::abs(age),
+                age > 0.0 ? "ago" : "ahead of time");
+  return text;
+}
+
+}  // namespace
+
+RobotDriver::Outcome RobotDriver::Implementation::command(const std::vector<std::string>& names,
+                                                          const std::vector<std::uint8_t>& modes,
+                                                          const std::vector<double>& references,
+                                                          double now, double age) {
+  const std::string old = too_old(age, options_.command_timeout);
+  if (!old.empty()) return refuse(old);
+  if (home_.running()) return refuse("home is running");
+  if (phase_ == Phase::kEnabled) {
+    const std::string far =
+        first_step_.too_far(names, modes, references, references_, sampler_.last());
+    if (!far.empty()) return refuse(far);
+  }
+  // The time-out runs from when it was sent. A stamp in the future gains nothing.
+  const Outcome outcome =
+      supervisor_.command(names, modes, references, now - std::max(0.0, age), accepted_);
+  if (!outcome.accepted) return outcome;
+  for (const ecu::MuscleReference& reference : accepted_) {
+    references_[static_cast<std::size_t>(reference.muscle)] = reference;
+  }
+  return outcome;
+}
+
+std::string RobotDriver::Implementation::why_not_enable() const {
+  if (supervisor_.stop_latched()) return "emergency stop is latched: call clear_faults first";
+  if (!watch_.trouble().empty()) return watch_.trouble();
+  if (gains_.changing()) return "gains are being changed; try again in a second";
+  for (const EcuLink& link : links_) {
+    const std::string who = link.own().name + ": ";
+    if (supervisor_.state(link.own().muscles.front()) == ecu::State::kFault) {
+      return who + "is in FAULT: call clear_faults first";
+    }
+    const std::string reason = link.why_not_enable();
+    if (!reason.empty()) return who + reason;
+  }
+  for (const MuscleWatch& muscle : muscles_) {
+    const std::string reason = muscle.why_not_enable();
+    if (!reason.empty()) return reason;
+  }
+  return "";
+}
+
+RobotDriver::Outcome RobotDriver::Implementation::start_enable(double now) {
+  if (phase_ == Phase::kEnabled) return last_outcome_ = {true, "already enabled"};
+  if (phase_ == Phase::kEnabling) return {true, "enabling"};
+  name_stop(HUGE_VAL);
+  const std::string reason = why_not_enable();
+  if (!reason.empty()) {
+    findings_.add(Finding::kEnableRefused, -1, now, reason);
+    return last_outcome_ = {false, reason};
+  }
+  phase_ = Phase::kEnabling;
+  // Outcome reported if disable() comes before confirmation.
+  last_outcome_ = {false, "disabled before every ECU confirmed"};
+  disable_repeats_ = clear_repeats_ = 0;
+  enabling_.start(links_.size(), now);
+  for (ecu::MuscleReference& reference : references_) {
+    reference.mode = ecu::Mode::kVoltage;
+    reference.reference = 0.0;
+  }
+  return {true, "enabling"};
+}
+
+void RobotDriver::Implementation::continue_enable(double now) {
+  const auto ask = [this](const EcuLink& link) {
+    return request(Operation::kEnable, link.own().node, link.own().configuration,
+                   link.report().session);
+  };
+  switch (enabling_.step(links_, now, ask)) {
+    case Enabling::State::kWaiting:
+      return;
+    case Enabling::State::kRefused:
+      return finish_enable(false, enabling_.refusal());
+    case Enabling::State::kConfirmed: {
+      const Outcome outcome = supervisor_.enable(now);
+      return finish_enable(outcome.accepted, outcome.reason);
+    }
+  }
+}
+
+void RobotDriver::Implementation::finish_enable(bool success, const std::string& reason) {
+  last_outcome_ = {success, reason};
+  if (success) {
+    phase_ = Phase::kEnabled;
+    return;
+  }
+  findings_.add(Finding::kEnableRefused, -1, last_cycle_, reason);
+  disable();
+}
+
+RobotDriver::Outcome RobotDriver::Implementation::start_home(double now) {
+  if (phase_ != Phase::kEnabled) return {false, "not enabled: call enable first"};
+  if (home_.running()) return {false, "home is running already"};
+  if (gains_.changing()) return {false, "gains are being changed; try again in a second"};
+  home_.start(now);
+  return {true, "homing"};
+}
+
+RobotDriver::Outcome RobotDriver::Implementation::clear_faults(double now) {
+  const Outcome outcome = supervisor_.clear_faults();
+  if (phase_ != Phase::kDisabled) return outcome;
+  name_stop(HUGE_VAL);
+  findings_.clear();
+  cleared_ = now;
+  disable_repeats_ = 0;
+  clear_repeats_ = kRepeats;
+  return outcome;
+}
+
+RobotDriver::Outcome RobotDriver::Implementation::start_gains(const std::vector<std::string>& names,
+                                                              const std::vector<std::string>& gains,
+                                                              const std::vector<double>& values,
+                                                              double now) {
+  std::vector<ecu::GainChange> changes;
+  const std::string wrong =
+      ecu::read_gain_changes(supervisor_.muscles(), names, gains, values, changes);
+  if (!wrong.empty()) return {false, wrong};
+  if (changes.empty()) return {true, ""};
+  if (gains_.changing()) return {false, "gains are being changed already"};
+  if (home_.running()) return {false, "home is running"};
+  if (phase_ == Phase::kEnabling) return {false, "enable is in progress; try again in a second"};
+  for (const ecu::GainChange& change : changes) {
+    const int ecu = hardware_.muscles[static_cast<std::size_t>(change.gain.muscle)].ecu;
+    const EcuLink& link = links_[static_cast<std::size_t>(ecu)];
+    if (!link.alive()) return {false, link.own().name + ": does not answer"};
+    if (phase_ == Phase::kDisabled && !link.configured())
+      return {false, link.own().name + ": is being configured; try again in a second"};
+  }
+  gains_.start(std::move(changes), now);
+  return {true, ""};
+}
+
+bool RobotDriver::Implementation::clearing(double now) const {
+  if (cleared_ < 0.0 || now - cleared_ > kClearGrace) return false;
+  return clear_repeats_ > 0 || !not_cleared().empty();
+}
+
+std::string RobotDriver::Implementation::not_cleared() const {
+  for (const EcuLink& link : links_) {
+    const std::string left = link.not_cleared();
+    if (!left.empty()) return link.own().name + ": " + left;
+  }
+  return "";
+}
+
+RobotDriver::Outcome RobotDriver::Implementation::disable() {
+  ++halts_;
+  home_.abort("disabled");
+  phase_ = Phase::kDisabled;
+  disable_repeats_ = kRepeats;
+  for (ecu::MuscleReference& reference : references_) {
+    reference.mode = ecu::Mode::kVoltage;
+    reference.reference = 0.0;
+  }
+  request(Operation::kDisable, 0);
+  watch_.sent(bus_.flush(), last_cycle_);
+  supervisor_.disable();
+  return {true, unconfirmed()};
+}
+
+RobotDriver::Outcome RobotDriver::Implementation::emergency_stop() {
+  home_.abort("emergency stop");
+  if (phase_ == Phase::kEnabling) last_outcome_ = {false, "emergency stop"};
+  ecu::Frame stop;
+  send(stop);
+  for (EcuLink& link : links_) link.stop_sent();
+  clear_repeats_ = 0;
+  disable();
+  supervisor_.emergency_stop();
+  return {true, unconfirmed()};
+}
+
+std::string RobotDriver::Implementation::unconfirmed() const {
+  const std::string trouble = watch_.trouble();
+  if (trouble.empty()) return "";
+  return "the ECUs may not have received it: " + trouble +
+         ". Without references they stop by themselves";
+}
+
+}  // namespace driver
+}  // namespace anthrob
