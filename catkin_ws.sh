@@ -22,7 +22,7 @@ needed_packages=(
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libpagmo-dev libopenmpi-dev openmpi-bin
   libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libusb-1.0-0-dev
-  libdc1394-dev pkg-config python3-numpy
+  libdc1394-dev pkg-config python3-numpy python3-jinja2
   libgtest-dev libgmock-dev
 )
 # For tests, benchmarks and the demo's pictures only. What cannot be installed is left out of them.

@@ -43,7 +43,9 @@ void write_files(const std::string& folder, const OutputFiles& files) {
   fs::create_directories(folder, error);
   std::vector<std::pair<std::string, std::string>> paths;
   for (const auto& [name, content] : files) {
-    paths.emplace_back((fs::path(folder) / name).string(), content);
+    const fs::path path = fs::path(folder) / name;
+    fs::create_directories(path.parent_path(), error);
+    paths.emplace_back(path.string(), content);
   }
   write_files_atomically(paths);
 }

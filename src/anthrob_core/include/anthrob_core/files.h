@@ -69,7 +69,7 @@ class MadeFolder {
   std::error_code error_;
 };
 
-/// Contents of a report's files by name; all are complete before the first one is written.
+/// Contents of a report's files by name, also "FOLDER/NAME"; all are complete before the first one is written.
 using OutputFiles = std::map<std::string, std::string>;
 
 /// Checks that files can be written into a folder, or that it can be created.
