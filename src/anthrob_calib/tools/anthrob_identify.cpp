@@ -6,6 +6,7 @@
 
 #include "anthrob_core/errors.h"
 #include "anthrob_recording/bag.h"
+#include "anthrob_recording/page.h"
 #include "anthrob_sim/tool.h"
 #include "identification/ecu_report.h"
 #include "identification/eyelet_report.h"
@@ -68,7 +69,10 @@ int identify(const Arguments& arguments, Identify fit, Report report, Summary su
     if (!files.count(name)) std::filesystem::remove(std::filesystem::path(arguments.out) / name);
   }
   std::cout << summary(result);
-  return judge(result);
+  const int status = judge(result);
+  const std::filesystem::path out = arguments.out;
+  write_page("identification", (out / "report.json").string(), (out / "report.html").string());
+  return status;
 }
 
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
@@ -87,7 +91,8 @@ int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
       "Identifies parameters of components from recordings of the test rigs "
-      "(docs/calibration.md). Writes YAML to paste into a model file, report.json and figures.",
+      "(docs/calibration.md). Writes YAML to paste into a model file, report.html, report.json "
+      "and figures.",
       "anthrob_identify");
   app.require_subcommand(1);
   Arguments arguments;

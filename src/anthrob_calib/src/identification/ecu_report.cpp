@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "anthrob_core/text.h"
+#include "anthrob_recording/page.h"
 #include "anthrob_recording/svg_figure.h"
 #include "identification/number_text.h"
 #include "identification/rig_recording.h"
@@ -92,9 +93,12 @@ EcuResult identify_ecu(std::vector<LoadRecording> recordings) {
 }
 
 OutputFiles report_ecu(const EcuResult& result) {
-  return {{"ecu.svg", drop_figure(result)},
-          {"power_stage.yaml", power_stage_yaml(result.fit.resistance)},
-          {"report.json", report_json(result).dump(2) + "\n"}};
+  OutputFiles files = {{"ecu.svg", drop_figure(result)},
+                       {"power_stage.yaml", power_stage_yaml(result.fit.resistance)}};
+  ordered_json json = report_json(result);
+  json["figures"] = figures_of(files);
+  files["report.json"] = json.dump(2) + "\n";
+  return files;
 }
 
 std::string summary_of_ecu(const EcuResult& result) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anthrob_core/text.h"
+#include "anthrob_recording/page.h"
 #include "anthrob_recording/svg_figure.h"
 #include "identification/number_text.h"
 #include "identification/rig_recording.h"
@@ -162,9 +163,12 @@ OutputFiles report_eyelet(const EyeletResult& result) {
   add_example(result, false, figure);
   add_friction_force(result, figure);
   add_coefficients(result, figure);
-  return {{"eyelet.svg", figure.render()},
-          {"eyelet_friction.yaml", friction_yaml(result.fit)},
-          {"report.json", report_json(result).dump(2) + "\n"}};
+  OutputFiles files = {{"eyelet.svg", figure.render()},
+                       {"eyelet_friction.yaml", friction_yaml(result.fit)}};
+  ordered_json json = report_json(result);
+  json["figures"] = figures_of(files);
+  files["report.json"] = json.dump(2) + "\n";
+  return files;
 }
 
 std::string summary_of_eyelet(const EyeletResult& result) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "anthrob_core/text.h"
+#include "anthrob_recording/page.h"
 #include "identification/number_text.h"
 #include "identification/ring_figures.h"
 
@@ -128,6 +129,7 @@ OutputFiles report_rings(const std::vector<RingResult>& rings) {
   const bool any = std::any_of(rings.begin(), rings.end(),
                                [](const RingResult& ring) { return ring.has_fit(); });
   if (any) files["springs.yaml"] = springs_yaml(rings);
+  json["figures"] = figures_of(files);
   files["report.json"] = json.dump(2) + "\n";
   return files;
 }
