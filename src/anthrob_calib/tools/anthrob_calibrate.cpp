@@ -14,11 +14,13 @@
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/files.h"
 #include "anthrob_recording/bag.h"
+#include "anthrob_recording/page.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/tool.h"
 #include "calibration/calibrate.h"
 #include "calibration/problem_evaluator.h"
 #include "optimiser/mpi_evaluator.h"
+#include "report/calibration_figures.h"
 #include "report/calibration_report.h"
 
 namespace anthrob {
@@ -68,11 +70,15 @@ void keep_model(const Arguments& arguments, const CalibrationInput& input, const
 
 void write(const Arguments& arguments, const CalibrationInput& input,
            const CalibrationOutcome& outcome) {
-  OutputFiles files;
-  files["result.json"] = result_json(outcome);
-  files["report.html"] = report_html(outcome);
+  OutputFiles files = report_files(outcome);
   files["model.yaml"] = model_text(arguments, input, outcome.overrides);
   write_files(arguments.out, files);
+  remove_other_figures(arguments.out, kinds_of_figures(), files);
+}
+
+void write_html(const Arguments& arguments) {
+  const fs::path out = arguments.out;
+  write_page("calibration", (out / "result.json").string(), (out / "report.html").string());
 }
 
 /// Refuses to overwrite the journal of an earlier search (without --resume, or by --evaluate), and
@@ -183,6 +189,27 @@ void say_doubts(const CalibrationOutcome& outcome, bool searched) {
   if (!outcome.doubt.empty()) std::cerr << "anthrob_calibrate: " << outcome.doubt << "\n";
 }
 
+/// @param complete whether the search was not interrupted
+/// @return exit status
+int say_how_it_ended(const Arguments& arguments, const CalibrationInput& input,
+                     const CalibrationOutcome& outcome, bool complete) {
+  if (complete && !arguments.evaluate && !std::isfinite(outcome.fitness)) {
+    std::cerr << "anthrob_calibrate: " << input.config.model_file
+              << ": no set of parameters could be simulated over the recordings; replay them with "
+                 "anthrob_replay to see where the simulation fails\n";
+    return tool::kFailed;
+  }
+  if (complete && !outcome.interrupted) return tool::kDone;
+  if (arguments.evaluate) {
+    std::cerr << "anthrob_calibrate: interrupted; the errors that were computed are in "
+              << arguments.out << "\n";
+  } else {
+    std::cerr << "anthrob_calibrate: interrupted; the best result so far is in " << arguments.out
+              << "; --resume continues the search\n";
+  }
+  return tool::kInterrupted;
+}
+
 int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession& session) {
   const CalibrationInput input = read_together(arguments, session);
   say_remarks(app, input);
@@ -232,24 +259,10 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   write(arguments, input, outcome);
   std::cout << summary(outcome);
   say_doubts(outcome, complete && !arguments.evaluate);
-  if (complete && !arguments.evaluate && !std::isfinite(outcome.fitness)) {
-    std::cerr << "anthrob_calibrate: " << input.config.model_file
-              << ": no set of parameters could be simulated over the recordings; replay them with "
-                 "anthrob_replay to see where the simulation fails\n";
-    return tool::kFailed;
-  }
-  if (complete && !outcome.interrupted) {
-    journal.forget_residuals();
-    return tool::kDone;
-  }
-  if (arguments.evaluate) {
-    std::cerr << "anthrob_calibrate: interrupted; the errors that were computed are in "
-              << arguments.out << "\n";
-  } else {
-    std::cerr << "anthrob_calibrate: interrupted; the best result so far is in " << arguments.out
-              << "; --resume continues the search\n";
-  }
-  return tool::kInterrupted;
+  const int status = say_how_it_ended(arguments, input, outcome, complete);
+  if (status == tool::kDone) journal.forget_residuals();
+  write_html(arguments);
+  return status;
 }
 
 void add_options(CLI::App& app, Arguments& a) {

@@ -1,5 +1,6 @@
 #include "report/calibration_figures.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "anthrob_recording/svg_figure.h"
@@ -60,8 +61,7 @@ void add_joint_panels(SvgFigure& figure, const MeasuredRun& run, const RunDiffer
   panel.lines.push_back({"after", t, scaled(after.path.joint_error(joint), scale)});
 }
 
-}  // namespace
-
+/// Fitness over evaluations, logarithmic.
 std::string fitness_figure(const std::vector<Generation>& history) {
   SvgFigure figure("Fitness");
   auto& panel = figure.add_panel("evaluations", "log10 of fitness");
@@ -78,6 +78,7 @@ std::string fitness_figure(const std::vector<Generation>& history) {
   return figure.render();
 }
 
+/// Joint and force errors of every run.
 std::string run_error_figure(const BeforeAfter& both, const RobotModel& model,
                              const std::string& title) {
   SvgFigure figure(title);
@@ -107,6 +108,7 @@ std::string run_error_figure(const BeforeAfter& both, const RobotModel& model,
   return figure.render();
 }
 
+/// One trajectory over time. Needs `after`.
 std::string trajectory_figure(const BeforeAfter& both, std::size_t r, const RobotModel& model) {
   const MeasuredRun& run = both.runs[r];
   SvgFigure figure(run.name);
@@ -141,6 +143,40 @@ std::string profile_figure(const Identifiability& identifiability,
     panel.lines.push_back({"profile", profile.value, y});
   }
   return figure.render();
+}
+
+/// Shows the longest trajectory: this choice does not depend on the errors.
+void add_runs(const BeforeAfter& both, const CalibrationOutcome& o, const std::string& which,
+              const std::string& title, OutputFiles& files) {
+  if (both.runs.empty()) return;
+  if (both.runs.size() > 1) {
+    files["figures/" + which + "_errors.svg"] = run_error_figure(both, *o.model, title);
+  }
+  const auto longest = std::max_element(
+      both.runs.begin(), both.runs.end(),
+      [](const MeasuredRun& a, const MeasuredRun& b) { return a.path.count() < b.path.count(); });
+  if (!longest->is_trajectory || both.after.empty()) return;
+  files["figures/" + which + "_trajectory.svg"] =
+      trajectory_figure(both, static_cast<std::size_t>(longest - both.runs.begin()), *o.model);
+}
+
+}  // namespace
+
+OutputFiles calibration_figures(const CalibrationOutcome& o) {
+  OutputFiles files = {{"figures/fitness.svg", fitness_figure(o.history)}};
+  add_runs(o.validation, o, "held_out", "Errors of held-out runs", files);
+  add_runs(o.calibration, o, "fitted", "Errors of calibration runs", files);
+  if (!o.identifiability.profiles.empty()) {
+    files["figures/profiles.svg"] = profile_figure(o.identifiability, o.parameters, o.fitness);
+  }
+  return files;
+}
+
+const std::set<std::string>& kinds_of_figures() {
+  static const std::set<std::string> kinds = {"fitness",       "held_out_errors",
+                                              "fitted_errors", "held_out_trajectory",
+                                              "profiles",      "fitted_trajectory"};
+  return kinds;
 }
 
 }  // namespace calibration

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "anthrob_recording/page.h"
 #include "report/calibration_report.h"
 #include "report/joint_unit.h"
 
@@ -50,6 +52,7 @@ ordered_json runs_json(const BeforeAfter& both, const RobotModel& model) {
 
 ordered_json parameters_json(const CalibrationOutcome& o) {
   ordered_json list = ordered_json::array();
+  const std::vector<std::string> nothing = insensitive_parameters(o);
   for (std::size_t i = 0; i < o.parameters.size(); ++i) {
     const ModelParameter& p = o.parameters[i];
     ordered_json entry = {{"path", p.path},     {"unit", p.unit},   {"initial", p.initial},
@@ -64,6 +67,8 @@ ordered_json parameters_json(const CalibrationOutcome& o) {
       entry["identifiable"] = k.identifiable;
     }
     if (is_at_bound(o, i)) entry["at_bound"] = true;
+    entry["name"] = p.name();
+    if (std::count(nothing.begin(), nothing.end(), p.name())) entry["insensitive"] = true;
     list.push_back(entry);
   }
   return list;
@@ -72,6 +77,7 @@ ordered_json parameters_json(const CalibrationOutcome& o) {
 ordered_json identifiability_json(const CalibrationOutcome& o) {
   const Identifiability& id = o.identifiability;
   ordered_json out;
+  out["identifiable_share"] = kIdentifiableShare;
   out["posture_noise_deg"] = kDegrees * id.posture_noise;
   out["force_noise_N"] = id.force_noise;
   out["singular_values"] = std::vector<double>(
@@ -102,7 +108,7 @@ ordered_json history_json(const std::vector<Generation>& history) {
 
 }  // namespace
 
-std::string result_json(const CalibrationOutcome& o) {
+std::string result_json(const CalibrationOutcome& o, const OutputFiles& figures) {
   ordered_json out;
   out["config"] = std::filesystem::path(o.config_file).filename().string();
   out["model"] = std::filesystem::path(o.model_file).filename().string();
@@ -135,6 +141,8 @@ std::string result_json(const CalibrationOutcome& o) {
   out["overrides"] = o.overrides;
   out["given"] = o.given;
   out["history"] = history_json(o.history);
+  out["validation_given"] = o.held_out;
+  out["figures"] = figures_of(figures);
   return out.dump(2) + "\n";
 }
 

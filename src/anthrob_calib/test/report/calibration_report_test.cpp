@@ -6,11 +6,16 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "rendered_page.h"
 #include "rig_problem.h"
 
 namespace anthrob {
 namespace calibration {
 namespace {
+
+std::string report_html(const CalibrationOutcome& outcome) {
+  return rendered_page("calibration", report_files(outcome), "result.json");
+}
 
 TEST(CalibrationReport, TellsRecordingsThatCannotBeSimulatedFromNone) {
   CalibrationOutcome outcome;
