@@ -9,6 +9,8 @@
 
 #include "arm.h"
 #include "axis_recording.h"
+#include "rendered_page.h"
+#include "rendered_page.h"
 #include "report/discovery_report.h"
 #include "report/discovery_summary.h"
 #include "report/model_text.h"
@@ -240,7 +242,8 @@ TEST(Arm, FrictionOfTheElbowIsNamedAmongOtherEffects) {
   const std::string text = model_text(answer, evaluator, question, kConfig + "/anthrob");
   EXPECT_NE(text.find("extends: model_I.yaml"), std::string::npos) << text;
   EXPECT_NE(text.find("joint_coulomb"), std::string::npos);
-  const std::string page = report_html(answer, question, 1.0);
+  const std::string page =
+      rendered_page("discovery", report_files(answer, question, 1.0), "report.json");
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }

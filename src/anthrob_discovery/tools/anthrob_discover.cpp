@@ -8,10 +8,12 @@
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/files.h"
 #include "anthrob_recording/bag.h"
+#include "anthrob_recording/page.h"
 #include "anthrob_recording/unanswered.h"
 #include "anthrob_sim/tool.h"
 #include "loop/closed_loop.h"
 #include "output_folder.h"
+#include "report/discovery_figures.h"
 #include "report/discovery_report.h"
 #include "report/discovery_summary.h"
 #include "report/model_text.h"
@@ -139,10 +141,10 @@ void write_answer(const discovery::Answer& answer, const discovery::Evaluator& e
                   const Arguments& a, double runtime) {
   const discovery::Question& question = a.question;
   OutputFiles files = separating_files(answer, *evaluator.model());
-  files["report.json"] = report_json(answer, question, runtime);
-  files["report.html"] = report_html(answer, question, runtime);
+  files.merge(report_files(answer, question, runtime));
   files["model.yaml"] = model_text(answer, evaluator, question, a.out);
   write_files(a.out, files);
+  remove_other_figures(a.out, discovery::kinds_of_figures(), files);
   discovery::remove_other_protocols(a.out, files);
   std::vector<std::string> made = save_from(a.train.size(), question.train, a.out);
   for (const std::string& name : save_from(a.test.size(), question.test, a.out)) {
@@ -188,6 +190,7 @@ int run(const CLI::App& app, Arguments& a) {
     write_answer(answer, evaluator, a, runtime.count());
     journal.remove();
     std::cout << summary(answer);
+    write_page("discovery", a.out + "/report.json", a.out + "/report.html");
     return tool::kDone;
   } catch (const discovery::Interrupted&) {
     bar.reset();

@@ -3,6 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "anthrob_calib/resume/fingerprint.h"
+#include "anthrob_recording/page.h"
+#include "judgement/criteria.h"
+#include "report/discovery_figures.h"
 #include "report/discovery_report.h"
 #include "report/discovery_summary.h"
 #include "report/separating_files.h"
@@ -73,7 +76,9 @@ Json alternatives_json(const Answer& answer) {
   for (const Alternative& one : answer.search.alternatives) {
     Json instead_of = Json::array();
     for (const std::size_t e : one.instead_of) {
-      instead_of.push_back({{"id", answer.effects[e].id}, {"place", answer.effects[e].place}});
+      instead_of.push_back({{"id", answer.effects[e].id},
+                            {"place", answer.effects[e].place},
+                            {"name", answer.effects[e].name}});
     }
     list.push_back({{"id", one.id},
                     {"name", one.name},
@@ -104,7 +109,8 @@ Json where_json(const Answer& answer) {
                      {"rmse", number(place.rmse)},
                      {"noise_floor", number(place.noise_floor)},
                      {"share", number(place.share)},
-                     {"significance", number(place.significance)}});
+                     {"significance", number(place.significance)},
+                     {"unit", place.unit}});
   }
   return where;
 }
@@ -128,13 +134,15 @@ Json second_json(const Dependence::Second& second) {
   return {{"variable", second.variable},
           {"how", second.word},
           {"share", number(second.share)},
-          {"curves", curves}};
+          {"curves", curves},
+          {"unit", second.unit}};
 }
 
-Json dependences_json(const Answer& answer) {
+/// @param kind of their figures, "gap"
+Json dependences_json(const std::vector<Dependence>& dependences, const std::string& kind,
+                      const OutputFiles& figures) {
   Json list = Json::array();
-  for (const Dependence& d : answer.remaining.dependences) {
-    if (d.variable.empty() || d.share <= Dependence::kTelling) continue;
+  for (const Dependence& d : dependences) {
     list.push_back({{"channel", d.channel},
                     {"variable", d.variable},
                     {"how", d.word},
@@ -142,7 +150,12 @@ Json dependences_json(const Answer& answer) {
                     {"constant", number(d.constant)},
                     {"at", d.curve.at},
                     {"curve", d.curve.mean}});
-    if (d.second) list.back()["second"] = second_json(*d.second);
+    Json& entry = list.back();
+    if (d.second) entry["second"] = second_json(*d.second);
+    entry["unit"] = d.unit;
+    entry["variable_unit"] = d.variable_unit;
+    const std::string figure = "figures/" + kind + "_" + std::to_string(list.size()) + ".svg";
+    if (figures.count(figure)) entry["figure"] = figure;
   }
   return list;
 }
@@ -197,7 +210,8 @@ Json improbable_json(const Answer& answer) {
                     {"probability", number(law.probability)},
                     {"evidence", number(law.evidence)},
                     {"shows_in", law.shows_in},
-                    {"left", number(law.left)}});
+                    {"left", number(law.left)},
+                    {"name", law.name}});
     if (!law.at_limit.empty()) list.back()["at_limit"] = law.at_limit;
     if (!law.spoils.empty()) {
       list.back()["spoils"] = law.spoils;
@@ -207,9 +221,78 @@ Json improbable_json(const Answer& answer) {
   return list;
 }
 
+Json one_sided_json(const std::vector<OneSidedGap>& gaps) {
+  Json list = Json::array();
+  for (const OneSidedGap& gap : gaps) {
+    list.push_back({{"channel", gap.channel},
+                    {"learned", number(gap.learned)},
+                    {"held_out", number(gap.held_out)}});
+  }
+  return list;
+}
+
+/// With -1, what was not compared is left out.
+Json seams_json(const std::vector<SeamGap>& seams) {
+  Json list = Json::array();
+  for (const SeamGap& seam : seams) {
+    Json entry = {{"place", seam.place}, {"channel", seam.channel}};
+    if (seam.commands >= 0.0) entry["commands"] = number(seam.commands);
+    if (seam.voltages >= 0.0) entry["voltages"] = number(seam.voltages);
+    if (seam.positions >= 0.0) entry["positions"] = number(seam.positions);
+    if (seam.postures >= 0.0) entry["postures"] = number(seam.postures);
+    if (postures_mislead(seam)) entry["postures_mislead"] = true;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+Json regimes_json(const std::vector<RegimeGap>& regimes) {
+  Json list = Json::array();
+  for (const RegimeGap& row : regimes) {
+    Json gaps = Json::array();
+    for (const double gap : row.gap) gaps.push_back(gap < 0.0 ? Json() : number(gap));
+    list.push_back({{"place", row.place}, {"by", row.word}, {"gap", gaps}});
+  }
+  return list;
+}
+
+Json gaps_json(const Diagnosis& diagnosis) {
+  Json channels = Json::object();
+  for (const auto& [name, gap] : diagnosis.per_channel) {
+    channels[name] = gap_json(gap);
+    const auto growth = diagnosis.growth.find(name);
+    if (growth != diagnosis.growth.end()) channels[name]["growth"] = number(growth->second);
+  }
+  return {{"train", gap_json(diagnosis.train)},
+          {"test", gap_json(diagnosis.test)},
+          {"per_channel", channels}};
+}
+
+const char* search_end_name(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::kRounds:
+      return "rounds";
+    case SearchEnd::kFull:
+      return "full";
+    case SearchEnd::kNoMore:
+      break;
+  }
+  return "no_more";
+}
+
+/// Levels by which the page chooses its words.
+Json criteria_json(const Answer& answer) {
+  return {{"real_gap", kRealGap},
+          {"faint_gap", kFaintGap},
+          {"least_gap", least_gap(!answer.effects.empty())},
+          {"even_odds", kEvenOdds},
+          {"sure", kSure}};
+}
+
 }  // namespace
 
-std::string report_json(const Answer& answer, const Question& question, double runtime) {
+std::string report_json(const Answer& answer, const Question& question, double runtime,
+                        const OutputFiles& figures) {
   Json report;
   report["verdict"] = verdict_name(answer.verdict);
   report["where"] = where_json(answer);
@@ -233,43 +316,35 @@ std::string report_json(const Answer& answer, const Question& question, double r
                          {"lack", refused->lack}};
   }
   if (!answer.asked.empty()) report["asked"] = answer.asked;
-  report["remaining"] = {{"share", number(answer.remaining.share)},
-                         {"description", answer.remaining.description},
-                         {"dependences", dependences_json(answer)}};
-  Json channels = Json::object();
-  for (const auto& [name, gap] : answer.diagnosis.per_channel) {
-    channels[name] = gap_json(gap);
-    const auto growth = answer.diagnosis.growth.find(name);
-    if (growth != answer.diagnosis.growth.end()) channels[name]["growth"] = number(growth->second);
-  }
-  report["gap"] = {{"train", gap_json(answer.diagnosis.train)},
-                   {"test", gap_json(answer.diagnosis.test)},
-                   {"per_channel", channels}};
+  report["remaining"] = {
+      {"share", number(answer.remaining.share)},
+      {"description", answer.remaining.description},
+      {"dependences", dependences_json(telling_dependences_of_rest(answer), "rest", figures)},
+      {"certain", answer.remaining.certain}};
+  report["gap"] = gaps_json(answer.diagnosis);
   report["not_visible"] = visibilities_json(answer.detectability.not_visible);
   report["visible"] = visibilities_json(answer.detectability.visible);
   report["alike"] = Json::array();
   for (const auto& group : answer.detectability.alike)
     report["alike"].push_back(visibilities_json(group));
-  report["seams"] = Json::array();
-  for (const SeamGap& seam : answer.diagnosis.seams) {
-    Json entry = {{"place", seam.place}, {"channel", seam.channel}};
-    if (seam.commands >= 0.0) entry["commands"] = number(seam.commands);
-    if (seam.voltages >= 0.0) entry["voltages"] = number(seam.voltages);
-    if (seam.positions >= 0.0) entry["positions"] = number(seam.positions);
-    if (seam.postures >= 0.0) entry["postures"] = number(seam.postures);
-    report["seams"].push_back(entry);
-  }
-  report["regimes"] = Json::array();
-  for (const RegimeGap& row : answer.diagnosis.regimes) {
-    Json gaps = Json::array();
-    for (const double gap : row.gap) gaps.push_back(gap < 0.0 ? Json() : number(gap));
-    report["regimes"].push_back({{"place", row.place}, {"by", row.word}, {"gap", gaps}});
-  }
+  report["seams"] = seams_json(answer.diagnosis.seams);
+  report["regimes"] = regimes_json(answer.diagnosis.regimes);
   report["model"] = "model.yaml";
   report["question"] = question_json(question);
   report["seed"] = question.seed;
   report["runtime_s"] = number(runtime);
+  report["search_end"] = search_end_name(answer.search.end);
+  report["one_sided"] = one_sided_json(answer.diagnosis.one_sided);
+  report["dependences"] = dependences_json(telling_dependences_of_gaps(answer), "gap", figures);
+  report["criteria"] = criteria_json(answer);
+  report["figures"] = figures_of(figures);
   return report.dump(2) + "\n";
+}
+
+OutputFiles report_files(const Answer& answer, const Question& question, double runtime) {
+  OutputFiles files = discovery_figures(answer);
+  files["report.json"] = report_json(answer, question, runtime, files);
+  return files;
 }
 
 }  // namespace discovery

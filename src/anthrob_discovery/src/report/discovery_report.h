@@ -2,19 +2,22 @@
 
 #include <string>
 
+#include "anthrob_core/files.h"
 #include "conclusion/answer.h"
 #include "question/question.h"
 
 namespace anthrob {
 namespace discovery {
 
-/// report.json, for scripts (docs/files.md).
+/// report.json, for scripts (docs/files.md) and for the page.
 /// @param runtime of the search [s]
-std::string report_json(const Answer& answer, const Question& question, double runtime);
+/// @param figures of the report, which it names
+std::string report_json(const Answer& answer, const Question& question, double runtime,
+                        const OutputFiles& figures = {});
 
-/// report.html: one self-contained page, the answer first.
+/// report.json and figures/*.svg: what the page, templates/discovery.html.j2, is made from.
 /// @param runtime of the search [s]
-std::string report_html(const Answer& answer, const Question& question, double runtime);
+OutputFiles report_files(const Answer& answer, const Question& question, double runtime);
 
 }  // namespace discovery
 }  // namespace anthrob

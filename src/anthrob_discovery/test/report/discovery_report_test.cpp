@@ -15,6 +15,7 @@
 #include "anthrob_sim/model/robot_model.h"
 #include "diagnosis/examples.h"
 #include "experiment/evaluator.h"
+#include "rendered_page.h"
 #include "report/discovery_summary.h"
 #include "report/model_text.h"
 #include "report/number_text.h"
@@ -25,6 +26,11 @@ namespace discovery {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The page as users see it: spaces and ends of lines are one space.
+std::string report_html(const Answer& answer, const Question& question, double runtime) {
+  return rendered_page("discovery", report_files(answer, question, runtime), "report.json");
+}
 
 bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
