@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""discover.launch with files named as seen from where it was started: a driven axis with dry friction."""
+"""anthrob_discover with files named as seen from where it was started: a driven axis with dry friction."""
 import json
 import math
 import os
@@ -9,7 +9,6 @@ import tempfile
 import unittest
 
 import rostest
-from free_port import free_port
 
 MASS, VISCOUS, COULOMB = 95.1089, 203.5, 20.4  # of config/driven_axis, and what its model lacks
 
@@ -45,27 +44,25 @@ class Discover(unittest.TestCase):
 
     def discover(self, *arguments):
         package = subprocess.check_output(['rospack', 'find', 'anthrob_bringup'], text=True).strip()
-        port = free_port()
-        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + port, PWD=self.folder)
-        done = subprocess.run(
-            ['roslaunch', '-p', port, 'anthrob_bringup', 'discover.launch',
-             'model:=%s/config/driven_axis/model_I.yaml' % package, 'train:=one', 'test:=two', 'out:=found', 'jobs:=2',
-             'effects:=joint_coulomb,joint_offset_torque', *arguments],
-            cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
-        return done.stdout
+        return subprocess.run(
+            ['rosrun', 'anthrob_calib', 'anthrob_discover', '--model', package + '/config/driven_axis/model_I.yaml',
+             '--train', 'one', '--test', 'two', '--out', 'found', '--jobs', '2',
+             '--effects', 'joint_coulomb,joint_offset_torque', *arguments],
+            cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
 
     def test_from_a_folder_with_a_space(self):
-        said = self.discover()
-        report = os.path.join(self.folder, 'found', 'report.json')
-        self.assertTrue(os.path.exists(report), said)
-        with open(report) as file:
+        done = self.discover()
+        self.assertEqual(done.returncode, 0, done.stdout)
+        with open(os.path.join(self.folder, 'found', 'report.json')) as file:
             answer = json.load(file)
-        self.assertEqual(answer['effects'][0]['id'], 'joint_coulomb', said)
+        self.assertEqual(answer['effects'][0]['id'], 'joint_coulomb', done.stdout)
 
-    def test_options_reach_the_program(self):
-        for option, complaint in [('calibration:=nowhere.yaml', 'nowhere.yaml: '), ('seed:=many', '--seed'),
-                                  ('close_the_loop:=no_robot.yaml', 'no_robot.yaml: ')]:
-            self.assertIn(complaint, self.discover(option))
+    def test_wrong_options_are_refused(self):
+        for option, value, complaint in [('--calibration', 'nowhere.yaml', 'nowhere.yaml: '), ('--seed', 'many', '--seed'),
+                                         ('--close-the-loop', 'no_robot.yaml', 'no_robot.yaml: ')]:
+            done = self.discover(option, value)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn(complaint, done.stdout)
 
 
 if __name__ == '__main__':

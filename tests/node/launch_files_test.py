@@ -79,12 +79,9 @@ class LaunchFiles(unittest.TestCase):
                 self.assertTrue(load('computed_force.launch', 'rate:=0', other).nodes)
 
     def test_names_that_are_numbers(self):
-        given = dict(model='m', train='a', test='b', out='c')
-        for name in 'repeat', 'effects', 'calibration', 'close_the_loop':
-            node, = load('discover.launch', *['%s:=%s' % pair for pair in {**given, name: '0'}.items()]).nodes
-            self.assertIn('--%s 0' % name.replace('_', '-'), node.args)
-        recorder = load('record.launch', 'protocol:=1', 'out:=/tmp/1').params['/anthrob/recorder/protocol']
-        self.assertTrue(recorder.value.endswith('/record_1.yaml'), recorder.value)
+        for protocol in '1', '01', '1.50', 'true':
+            recorder = load('record.launch', 'protocol:=' + protocol, 'out:=/tmp/1').params['/anthrob/recorder/protocol']
+            self.assertTrue(recorder.value.endswith('/record_%s.yaml' % protocol), recorder.value)
         for name in 'record.launch', 'record_zero_gravity.launch':
             params = load(name, 'protocol:=1', 'model:=2', 'out:=/tmp/1').params
             self.assertTrue(params['/anthrob/recorder/robot_model'].value.endswith('/model_2.yaml'))
