@@ -5,6 +5,9 @@ import glob
 import os
 import re
 import shutil
+import signal
+import subprocess
+import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
@@ -77,6 +80,56 @@ class LaunchFiles(unittest.TestCase):
         for other in 'lock_step:=true', 'sim:=false':
             with self.subTest('rate:=0 ' + other):
                 self.assertTrue(load('computed_force.launch', 'rate:=0', other).nodes)
+
+    def test_what_has_an_end_ends_its_launch(self):
+        """And not as a process that has died."""
+        for file, name in ('demo.launch', 'posture_player'), ('record.launch', 'recorder'), ('play.launch', 'player'), \
+                ('record_zero_gravity.launch', 'recorder'):
+            with self.subTest(file):
+                nodes = load(file, 'out:=/tmp/1', 'bag:=/tmp/1', 'protocol:=1').nodes
+                node, = [node for node in nodes if node.launch_prefix]
+                self.assertEqual((node.name, node.required), (name, True))
+                self.assertTrue(os.access(node.launch_prefix, os.X_OK), node.launch_prefix)
+
+    def last_node(self):
+        return next(node.launch_prefix for node in load('play.launch', 'bag:=/tmp/1').nodes if node.launch_prefix)
+
+    def test_another_parent_than_roslaunch_is_left_alone(self):
+        for status in 0, 3:
+            self.assertEqual(subprocess.call([self.last_node(), 'sh', '-c', 'exit %d' % status], timeout=20), status)
+
+    def run_under_roslaunch(self, program, meanwhile=lambda node: None):
+        """The program as last node of something called roslaunch, which says its signals and the node's status. @return what it said"""
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        with open(os.path.join(folder, 'roslaunch'), 'w') as file:
+            file.write("""import os, signal, subprocess, sys, time
+heard = []
+signal.signal(signal.SIGINT, lambda *_: heard.append(True))
+node = subprocess.Popen(sys.argv[1:], start_new_session=True)
+while node.poll() is None:
+    if heard:
+        print('heard', flush=True)
+        os.killpg(node.pid, signal.SIGINT)
+        heard.clear()
+    time.sleep(0.05)
+print('status', node.returncode)
+""")
+        launch = subprocess.Popen([sys.executable, file.name, self.last_node(), 'sh', '-c', program], stdout=subprocess.PIPE, text=True)
+        meanwhile(launch)
+        return launch.communicate(timeout=30)[0]
+
+    def test_the_last_node_ends_its_launch_if_it_did_not_fail(self):
+        self.assertEqual(self.run_under_roslaunch('exit 0'), 'heard\nstatus 0\n')
+        self.assertEqual(self.run_under_roslaunch('exit 3'), 'status 3\n')
+
+    def test_an_interrupted_last_node_has_time_to_finish(self):
+        def interrupt(launch):
+            self.assertEqual(launch.stdout.readline(), 'up\n')
+            launch.send_signal(signal.SIGINT)
+        program = 'trap "sleep 0.5; echo finished; exit %d" INT; echo up; while :; do sleep 0.1; done'
+        for status in 0, 130:
+            self.assertEqual(self.run_under_roslaunch(program % status, interrupt), 'heard\nfinished\nstatus %d\n' % status)
 
     def test_names_that_are_numbers(self):
         for protocol in '1', '01', '1.50', 'true':

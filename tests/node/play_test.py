@@ -46,13 +46,19 @@ class Play(unittest.TestCase):
         write_recording(self.bag)
         self.addCleanup(rospy.set_param, '/use_sim_time', False)
 
-    def launch(self):
+    def launch(self, *asked):
         outside = {key: value for key, value in os.environ.items() if key != 'ROS_NAMESPACE'}
-        launch = subprocess.Popen(['roslaunch', 'anthrob_bringup', 'play.launch', 'bag:=' + self.bag, 'rviz:=false'], env=outside,
+        launch = subprocess.Popen(['roslaunch', 'anthrob_bringup', 'play.launch', 'bag:=' + self.bag, 'rviz:=false', *asked], env=outside,
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.addCleanup(launch.communicate)
         self.addCleanup(launch.send_signal, signal.SIGINT)
         return launch
+
+    def test_ends_with_the_recording(self):
+        launch = self.launch('loop:=false')
+        said, _ = launch.communicate(timeout=60)
+        self.assertEqual(launch.returncode, 0)
+        self.assertNotIn('died', said)
 
     def test_joints_and_tendons_are_where_they_were(self):
         turned, drawn, commanded, stamps = [], [], [], []

@@ -79,6 +79,8 @@ class Recorder(unittest.TestCase):
         whole, parts = self.path('whole'), self.path('parts')
         output = self.record(whole)
         self.assertIn('all recorded', output)
+        self.assertNotIn('REQUIRED process', output)
+        self.assertNotIn('has died', output)
         complete = sorted(os.listdir(whole))
         self.assertEqual(complete, ['E1_run1.bag', 'E1_run1.yaml', 'E7_run1.bag', 'E7_run1.yaml', 'samples.csv',
                                     'session.yaml'])
@@ -145,7 +147,9 @@ class Recorder(unittest.TestCase):
                 (self.path('a'), dict(protocol='dance'), 'expected equilibria, trajectories or zero_gravity'),
                 (self.path('a'), dict(postures='nothing.yaml'), 'nothing.yaml'),
                 ('/proc/nowhere/out', {}, 'cannot be created')]:
-            lines = [line for line in self.record(out, **values).splitlines() if 'FATAL' in line]
+            said = self.record(out, **values)
+            self.assertRegex(said, r'REQUIRED process \[anthrob/recorder-\d+\] has died!\n.*exit code 2')
+            lines = [line for line in said.splitlines() if 'FATAL' in line]
             self.assertEqual(len(lines), 1, lines)
             self.assertIn(expected, lines[0])
 
