@@ -60,7 +60,7 @@ class PackageFiles(unittest.TestCase):
         self.check('.py', r'^(?:import|from) (\w+)', lambda name: MODULES.get(name, key(name)))
 
     def test_what_is_started(self):
-        self.check('.launch', r'pkg="(\w+)"', lambda name: name)
+        self.check(('.launch', '.xml'), r'<node [^>]*pkg="(\w+)"', lambda name: name)
 
 
 if __name__ == '__main__':

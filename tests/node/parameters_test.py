@@ -58,7 +58,9 @@ class Parameters(unittest.TestCase):
     def test_launch_files_give_what_nodes_know(self):
         known = {(package, program): keys_of(package, program) for package in NODES for program in NODES[package]}
         seen = set()
-        for file in glob.glob(os.path.join(BRINGUP, 'launch', '*.launch')):
+        for file in glob.glob(os.path.join(BRINGUP, 'launch', '**', '*.*'), recursive=True):
+            if not file.endswith(('.launch', '.xml')):
+                continue
             for node in ElementTree.parse(file).iter('node'):
                 kind = (node.get('pkg'), node.get('type'))
                 if kind in known:
@@ -96,29 +98,37 @@ class Parameters(unittest.TestCase):
     def test_simulator(self):
         self.check('anthrob_sim', 'anthrob_simulator', [('model', os.path.join(CONFIG, 'model_I.yaml'))],
                    [('auto_enable', 'no'), ('auto_enable', '0'), ('paused', '1'), ('rate', 'fast'), ('rate', '.nan'),
-                    ('state_rate', '[500]'), ('step', '1 ms'), ('step', '0.0'), ('command_timeout', '.inf'), ('model', '7')])
+                    ('state_rate', '[500]'), ('step', '1 ms'), ('step', '0.0'), ('command_timeout', '.inf'), ('model', '7'), ('mocap', 'cameras'), ('mocap', "''")])
 
     def test_driver(self):
         self.check('anthrob_driver', 'anthrob_driver', [('hardware', os.path.join(CONFIG, 'hardware.yaml'))],
                    [('rate', 'fast'), ('realtime', '1'), ('command_timeout', '.nan'), ('check_stamps', '1'),
                     ('first_step', '.nan'),
+                    ('emulated', 'yes'), ('homed', '1'), ('homed', 'true'),
                     # Before the bus is opened: no interface is needed to be told.
                     ('model', os.path.join(CONFIG, 'model_I_tier1.yaml'))])
+
+    def test_emulated_units_stay_off_the_bus_of_a_robot(self):
+        done = run('anthrob_driver', 'anthrob_driver', ('hardware', os.path.join(CONFIG, 'hardware.yaml')), ('can', 'can0'),
+                   ('emulated', 'true'))
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn('parameter ~can: can0: expected a virtual interface', done.stdout)
 
     def test_controller_and_recorder(self):
         model = ('model', os.path.join(CONFIG, 'model_I_tier1.yaml'))
         self.check('anthrob_control', 'anthrob_computed_force',
                    [model, ('settings', os.path.join(CONFIG, 'control_tier1.yaml'))],
-                   [('lock_step', '1'), ('steps', '2.5'), ('steps', '0')])
+                   [('lock_step', '1'), ('steps', '2.5'), ('steps', '0'), ('simulator_rate', '0'), ('simulator_rate', '1.5'),
+                    ('simulator_rate', '-1'), ('simulator_rate', '.nan'), ('simulator_rate', 'fast')])
         self.check('anthrob_recorder', 'anthrob_recorder',
                    [model, ('protocol', os.path.join(CONFIG, 'record_tier1_equilibria.yaml')), ('out', '/nowhere')],
-                   [('out', 'relative'), ('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
+                   [('out', 'relative'), ('protocol', "''"), ('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
 
     def test_player(self):
         self.check('anthrob_control', 'anthrob_posture_player',
                    [('model', os.path.join(CONFIG, 'model_I.yaml')),
                     ('postures', os.path.join(CONFIG, 'demo_postures.yaml'))],
-                   [('approach_speed', 'slow'), ('approach_speed', '-1.0'), ('back_end', '1')])
+                   [('simulator_rate', '0'), ('simulator_rate', '1.5'), ('approach_speed', 'slow'), ('approach_speed', '-1.0'), ('back_end', '1')])
 
     def test_motion_capture(self):
         self.check('anthrob_mocap', 'anthrob_mocap', [],

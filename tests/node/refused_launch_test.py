@@ -14,6 +14,7 @@ import rosnode
 import rosservice
 import rospy
 import rostest
+from free_port import free_port
 from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
 from geometry_msgs.msg import Quaternion, Vector3
 from sensor_msgs.msg import JointState
@@ -124,6 +125,26 @@ class RefusedLaunch(unittest.TestCase):
                     self.assertFalse(rospy.get_param('/use_sim_time'))
         finally:
             robot.close()
+
+    def test_a_node_refuses_what_cannot_be_meant_and_ends_the_launch(self):
+        port = free_port()  # of a master on which no robot runs
+        alone = {key: value for key, value in os.environ.items() if key != 'ROS_NAMESPACE'}
+        alone['ROS_MASTER_URI'] = 'http://localhost:' + port
+        late = r': expected above 0 and at most 1, because faster than real time measurements come too late'
+        with tempfile.TemporaryDirectory() as folder:
+            bag = 'bag:=' + folder + '/demo.bag'
+            for arguments, expected in (
+                    (['demo.launch', bag, 'mocap:=cameras'], "parameter ~mocap: 'cameras': expected virtual or none"),
+                    (['demo.launch', bag, 'rate:=1.5'], r'parameter ~simulator_rate: 1\.5' + late),
+                    (['computed_force.launch', 'rate:=0'], 'parameter ~simulator_rate: 0' + late),
+                    (['robot.launch', 'backend:=emulated', 'can:=can0'], '~can: can0: expected a virtual|--can: can0: expected vcan0'),
+                    (['robot.launch', 'homed:=true'], 'parameter ~homed: true: expected false, since a robot finds its zero by home'),
+                    (['record.launch', 'out:=' + folder + '/out'], 'parameter ~protocol: missing; expected a protocol file')):
+                with self.subTest(' '.join(arguments)):
+                    said = subprocess.run(['roslaunch', '-p', port, 'anthrob_bringup'] + arguments, env=alone, timeout=40,
+                                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+                    self.assertRegex(said, expected)
+                    self.assertRegex(said, r'REQUIRED process \[.*\] has died!\n.*exit code 2')
 
     def test_ends_no_node_of_the_same_name(self):
         outside = {key: value for key, value in os.environ.items() if key != 'ROS_NAMESPACE'}

@@ -233,6 +233,9 @@ int main(int argc, char** argv) {
       {"settings", "path of the controller's settings, such as control.yaml (required)"},
       {"lock_step", "true: the controller steps the simulator (default: false)"},
       {"steps", "with lock_step: simulation steps per control period (default: 5)"},
+      {"simulator_rate",
+       "without lock_step, real-time factor of the simulator that is commanded, only checked: "
+       "above 0 and at most 1, since otherwise measurements come too late (default: 1)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =
@@ -243,6 +246,10 @@ int main(int argc, char** argv) {
     options.period = 1.0 / control.rate;
     anthrob::take(settings, "lock_step", anthrob::truth_of, options.lock_step);
     anthrob::take(settings, "steps", anthrob::positive_whole_number_of, options.steps);
+    double simulator_rate = 1.0;
+    if (!options.lock_step) {
+      anthrob::take(settings, "simulator_rate", anthrob::real_time_factor_of, simulator_rate);
+    }
     ComputedForceNode(nh, model, control, options).run();
     return 0;
   });

@@ -72,6 +72,8 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
       anthrob::required(settings, "postures", "a posture file"), *model);
   double speed = anthrob::Approach::kSpeed;
   anthrob::take(settings, "approach_speed", anthrob::positive_number_of, speed);
+  double simulator_rate = 1.0;
+  anthrob::take(settings, "simulator_rate", anthrob::real_time_factor_of, simulator_rate);
   const auto references = sequence.references(model);
   anthrob::Approach approach(model, speed);
   const std::string first =
@@ -130,6 +132,9 @@ int main(int argc, char** argv) {
       {"model", "path of a model file (required)"},
       {"postures", "path of a posture file (required)"},
       {"approach_speed", "[rad/s] of the motors on the way to the first posture (default: 1)"},
+      {"simulator_rate",
+       "real-time factor of the simulator that is commanded, only checked: above 0 and at most 1, "
+       "since otherwise measurements come too late (default: 1)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     return play(nh, settings) ? 0 : 130;

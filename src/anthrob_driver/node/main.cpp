@@ -7,6 +7,33 @@
 #include "anthrob_ros/single_backend.h"
 #include "driver_node.h"
 
+namespace {
+
+bool is_virtual(const std::string& can) {
+  return can.rfind("vcan", 0) == 0;
+}
+
+/// What is only true of emulated ECUs is not said of a robot's, and they stay off its bus.
+/// @throws anthrob::BadInput
+void check_kind_of_ecus(const ros::NodeHandle& settings, const std::string& can) {
+  using namespace anthrob;
+  bool emulated = false, homed = false;
+  take(settings, "emulated", truth_of, emulated);
+  take(settings, "homed", truth_of, homed);
+  if (emulated && !is_virtual(can)) {
+    throw BadInput("parameter ~can: " + can +
+                   ": expected a virtual interface, vcan0 or the like, since emulated ECUs would "
+                   "disturb a robot on this bus");
+  }
+  if (homed && !emulated) {
+    throw BadInput(
+        "parameter ~homed: true: expected false, since a robot finds its zero by home; only "
+        "emulated ECUs can know it from the start");
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "driver";
@@ -18,6 +45,9 @@ int main(int argc, char** argv) {
        "path of a model; refused unless its muscles, gains and limits are those of the model that "
        "hardware.yaml names (default: that model)"},
       {"can", "CAN interface (default: can0)"},
+      {"emulated",
+       "whether the ECUs are emulated; then ~can must be a virtual interface (default: false)"},
+      {"homed", "whether the ECUs know their zero from the start; only emulated (default: false)"},
       {"hand", "whether the hand is attached (default: false)"},
       {"rate", "[Hz] of bus cycles and published states, 100 to 1000 (default: 200)"},
       {"command_timeout", "[s] without a fresh command after which the motors stop (default: 0.5)"},
@@ -40,11 +70,11 @@ int main(int argc, char** argv) {
     const std::string file = required(settings, "hardware", "the path of hardware.yaml");
     std::string can = "can0";
     take(settings, "can", text_of, can);
+    check_kind_of_ecus(settings, can);
     bool hand = false;
     take(settings, "hand", truth_of, hand);
-    const bool in_memory = can.rfind("vcan", 0) == 0;
     DriverThread::Options options;
-    options.driver.first_step = in_memory ? 0.0 : 0.5;
+    options.driver.first_step = is_virtual(can) ? 0.0 : 0.5;
     take(settings, "rate", number_of, options.driver.rate);
     take(settings, "command_timeout", number_of, options.driver.command_timeout);
     take(settings, "first_step", number_of, options.driver.first_step);
@@ -52,7 +82,7 @@ int main(int argc, char** argv) {
     take(settings, "check_stamps", truth_of, check_stamps);
     take(settings, "realtime", truth_of, options.realtime);
     take(settings, "pace", number_of, options.pace);
-    if (!(options.pace > 0.0 && options.pace <= 1.0) || (options.pace < 1.0 && !in_memory)) {
+    if (!(options.pace > 0.0 && options.pace <= 1.0) || (options.pace < 1.0 && !is_virtual(can))) {
       throw BadInput("parameter ~pace: " + std::to_string(options.pace) + " with ~can " + can +
                      ": expected 1, or a number in (0, 1] on a vcan");
     }

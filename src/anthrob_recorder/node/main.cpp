@@ -51,8 +51,9 @@ int main(int argc, char** argv) {
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =
         anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
-    const auto protocol =
-        anthrob::Protocol::load(anthrob::required(settings, "protocol", "a protocol file"), model);
+    const auto protocol = anthrob::Protocol::load(
+        anthrob::required(settings, "protocol", "a protocol file (launch files: protocol:=NAME)"),
+        model);
     const std::string folder = anthrob::required(settings, "out", "a folder to record into");
     if (!std::filesystem::path(folder).is_absolute()) {
       // roslaunch starts nodes in a folder of its own.

@@ -53,6 +53,16 @@ int positive_whole_number_of(const std::string& key, Value value) {
   return number;
 }
 
+double real_time_factor_of(const std::string& key, Value value) {
+  const double factor = number_of(key, value);
+  if (!(factor > 0.0 && factor <= 1.0)) {
+    refuse(key, value,
+           "above 0 and at most 1, because faster than real time measurements come too late for a "
+           "controller that does not step the simulator itself");
+  }
+  return factor;
+}
+
 bool truth_of(const std::string& key, Value value) {
   if (value.getType() != Value::TypeBoolean) refuse(key, value, "true or false");
   return static_cast<bool&>(value);

@@ -49,6 +49,18 @@ TEST(Parameters, OutOfRangeAreRefused) {
             "parameter ~k: 0: expected a whole number >= 1");
 }
 
+TEST(Parameters, FasterThanRealTimeMeasurementsComeTooLate) {
+  EXPECT_EQ(real_time_factor_of("k", Value(1)), 1.0);
+  EXPECT_EQ(real_time_factor_of("k", Value(0.2)), 0.2);
+  for (const double wrong : {0.0, -1.0, 1.5}) {
+    EXPECT_NE(refusal(real_time_factor_of, Value(wrong))
+                  .find(": expected above 0 and at most 1, because faster than real time"),
+              std::string::npos)
+        << wrong;
+  }
+  EXPECT_NE(refusal(real_time_factor_of, Value(std::nan(""))), "");
+}
+
 TEST(Parameters, ThatAreNotFiniteAreRefused) {
   EXPECT_EQ(refusal(number_of, Value(HUGE_VAL)), "parameter ~k: inf: expected a finite number");
   EXPECT_EQ(refusal(number_of, Value(-HUGE_VAL)), "parameter ~k: -inf: expected a finite number");

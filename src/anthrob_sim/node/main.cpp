@@ -11,6 +11,15 @@ namespace {
 /// Real-time factor below which one cycle takes many seconds.
 constexpr double kSlowest = 1e-3;
 
+/// @return whether the word says that motion capture measures the ball joints
+bool measured_by_cameras(const std::string& key, const XmlRpc::XmlRpcValue& value) {
+  const std::string word = anthrob::text_of(key, value);
+  if (word == "virtual") return true;
+  if (word == "none") return false;
+  throw anthrob::BadInput("parameter ~" + key + ": '" + word +
+                          "': expected virtual or none (launch files: true or false, too)");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -25,6 +34,9 @@ int main(int argc, char** argv) {
       {"rate", "real-time factor, 0: as fast as possible (default: 1)"},
       {"state_rate", "rate of states and clock [Hz of simulated time], at least 1 (default: 500)"},
       {"paused", "start paused: sim/step advances time, sim/pause lets it run (default: false)"},
+      {"mocap",
+       "virtual: cameras measure the ball joints, and the simulator's own go to "
+       "sim/spherical_joint_states; none: they do not (default: none)"},
       {"auto_enable", "enable the motors at the start (default: true)"},
       {"command_timeout",
        "motors stop after this time without commands [s], 0: never (default: 0.5)"},
@@ -48,6 +60,7 @@ int main(int argc, char** argv) {
     }
     take(settings, "state_rate", number_of, options.state_rate);
     take(settings, "paused", truth_of, options.paused);
+    take(settings, "mocap", measured_by_cameras, options.motion_capture);
     options.supervisor.auto_enable = true;
     take(settings, "auto_enable", truth_of, options.supervisor.auto_enable);
     take(settings, "command_timeout", nonnegative_number_of, options.supervisor.command_timeout);

@@ -34,6 +34,8 @@ class SimulatorNode {
     double marker_rate = 25.0;  ///< [Hz of wall time]
     double tf_rate = 100.0;     ///< [Hz of simulated time]
     bool paused = false;
+    /// Cameras measure the ball joints: their own positions go to sim/ then.
+    bool motion_capture = false;
     ecu::Supervisor::Options supervisor;
   };
 

@@ -13,6 +13,8 @@ double number_of(const std::string& key, XmlRpc::XmlRpcValue value);
 double positive_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
 double nonnegative_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
 int positive_whole_number_of(const std::string& key, XmlRpc::XmlRpcValue value);
+/// Of a simulator that a node commands without stepping it: above 0 and at most 1.
+double real_time_factor_of(const std::string& key, XmlRpc::XmlRpcValue value);
 bool truth_of(const std::string& key, XmlRpc::XmlRpcValue value);
 std::string text_of(const std::string& key, XmlRpc::XmlRpcValue value);
 
