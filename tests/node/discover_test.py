@@ -45,7 +45,7 @@ class Discover(unittest.TestCase):
     def discover(self, *arguments):
         package = subprocess.check_output(['rospack', 'find', 'anthrob_bringup'], text=True).strip()
         return subprocess.run(
-            ['rosrun', 'anthrob_calib', 'anthrob_discover', '--model', package + '/config/driven_axis/model_I.yaml',
+            ['rosrun', 'anthrob_discovery', 'anthrob_discover', '--model', package + '/config/driven_axis/model_I.yaml',
              '--train', 'one', '--test', 'two', '--out', 'found', '--jobs', '2',
              '--effects', 'joint_coulomb,joint_offset_torque', *arguments],
             cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)

@@ -19,7 +19,7 @@ KEYS = {
     'rosbag': 'rosbag_storage', 'tbb': 'tbb', 'tf2_ros': 'tf2_ros', 'unsupported': 'eigen', 'urdf_model': 'liburdfdom-headers-dev',
     'urdf_parser': 'liburdfdom-dev', 'xmlrpcpp': 'roscpp', 'yaml-cpp': 'yaml-cpp',
     **dict.fromkeys(('benchmark', 'dlfcn.h', 'elf.h', 'fcntl.h', 'link.h', 'linux', 'malloc.h', 'mpi.h', 'mujoco', 'net', 'pagmo', 'pthread.h',
-                     'sched.h', 'signal.h', 'stdlib.h', 'sys', 'unistd.h'))}
+                     'sched.h', 'signal.h', 'spawn.h', 'stdlib.h', 'sys', 'unistd.h'))}
 MODULES = {'rosbag': 'rosbag', 'roslaunch': 'roslaunch', 'roslib': 'roslib', 'rospy': 'rospy', 'rostest': 'rostest', 'yaml': 'python3-yaml'}
 
 
