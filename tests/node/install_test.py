@@ -64,7 +64,7 @@ class Install(unittest.TestCase):
 
     def run_installed(self, *command):
         process = self.start(*command)
-        text, _ = process.communicate(timeout=120)
+        text, _ = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 0, ' '.join(command) + ': ' + text)
         return text
 
