@@ -143,12 +143,12 @@ class Recorder(unittest.TestCase):
         self.assertEqual(len(samples), len(complete))
 
     def test_bad_input_is_one_line(self):
-        for out, values, expected in [
-                (self.path('a'), dict(protocol='dance'), 'expected equilibria, trajectories or zero_gravity'),
-                (self.path('a'), dict(postures='nothing.yaml'), 'nothing.yaml'),
-                ('/proc/nowhere/out', {}, 'cannot be created')]:
+        for out, values, expected, status in [
+                (self.path('a'), dict(protocol='dance'), 'expected equilibria, trajectories or zero_gravity', 2),
+                (self.path('a'), dict(postures='nothing.yaml'), 'nothing.yaml', 2),
+                ('/proc/nowhere/out', {}, 'cannot be created', 1)]:
             said = self.record(out, **values)
-            self.assertRegex(said, r'REQUIRED process \[anthrob/recorder-\d+\] has died!\n.*exit code 2')
+            self.assertRegex(said, r'REQUIRED process \[anthrob/recorder-\d+\] has died!\n.*exit code %d' % status)
             lines = [line for line in said.splitlines() if 'FATAL' in line]
             self.assertEqual(len(lines), 1, lines)
             self.assertIn(expected, lines[0])
