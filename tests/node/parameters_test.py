@@ -122,7 +122,7 @@ class Parameters(unittest.TestCase):
                     ('simulator_rate', '-1'), ('simulator_rate', '.nan'), ('simulator_rate', 'fast')])
         self.check('anthrob_recorder', 'anthrob_recorder',
                    [model, ('protocol', os.path.join(CONFIG, 'record_tier1_equilibria.yaml')), ('out', '/nowhere')],
-                   [('out', 'relative'), ('protocol', "''"), ('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
+                   [('out', 'relative'), ('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
 
     def test_player(self):
         self.check('anthrob_control', 'anthrob_posture_player',
