@@ -69,7 +69,7 @@ class Robot:
 class RefusedLaunch(unittest.TestCase):
 
     def launch(self, arguments, environment):
-        return subprocess.run(['roslaunch', 'anthrob_bringup'] + arguments, env=environment, timeout=40,
+        return subprocess.run(['roslaunch', 'anthrob_bringup'] + arguments, env=environment, timeout=120,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
 
     @contextlib.contextmanager
@@ -142,7 +142,7 @@ class RefusedLaunch(unittest.TestCase):
                     (['robot.launch', 'homed:=true'], 'parameter ~homed: true: expected false, since a robot finds its zero by home'),
                     (['record.launch', 'out:=' + folder + '/out'], 'parameter ~protocol: missing; expected a protocol file')):
                 with self.subTest(' '.join(arguments)):
-                    said = subprocess.run(['roslaunch', '-p', port, 'anthrob_bringup'] + arguments, env=alone, timeout=40,
+                    said = subprocess.run(['roslaunch', '-p', port, 'anthrob_bringup'] + arguments, env=alone, timeout=120,
                                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
                     self.assertRegex(said, expected)
                     self.assertRegex(said, r'REQUIRED process \[.*\] has died!\n.*exit code 2')
