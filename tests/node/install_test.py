@@ -85,7 +85,8 @@ class Install(unittest.TestCase):
         self.run_installed('rosrun', 'anthrob_virtual_robot', 'anthrob_score', '--help')
 
     def test_programs_find_their_libraries(self):
-        programs = [name for name in glob.glob(self.space + '/lib/anthrob_*/*') if not name.endswith(('/anthrob_score', '/anthrob_page'))]
+        # Scripts link nothing.
+        programs = [name for name in glob.glob(self.space + '/lib/anthrob_*/*') if open(name, 'rb').read(4) == b'\x7fELF']
         self.assertGreater(len(programs), 20)
         found = self.run_installed('ldd', *programs)
         self.assertNotIn('not found', found)
