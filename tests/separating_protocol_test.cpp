@@ -122,14 +122,14 @@ TEST_F(Protocols, OfAPlannedRecordingAreTakenByTheRecorder) {
   SeparatingRecording made;
   made.rest = {1.0, 1.0};
   made.targets = {{"a", {4.0, 0.5}}, {"b", {0.5, 4.0}}, {"c", {3.0, 3.0}}};
-  const Dataset recording =
-      discovery::simulated_recording(evaluator.build(named), separating_commands(model, made), 1);
-  const Experiments experiments = {discovery::make_experiment(model, recording)};
+  const Dataset recording = discovery::simulated_recording(
+      evaluator.build(named), separating_commands(model, made, {}), 1, {});
+  const Experiments experiments = {discovery::make_experiment(model, recording, {})};
   Scales scales;
   for (const auto& channel : discovery::channels_of(experiments))
     scales[channel.name()].floor = 0.01;
   const SeparatingRecording plan =
-      plan_separation(evaluator, named, rival, recording, scales, 0.02);
+      plan_separation(evaluator, named, rival, recording, scales, 0.02, {});
   ASSERT_FALSE(plan.targets.empty());
   ASSERT_GT(plan.distance(), 0.0);
   expect_kept(plan, model, read_back(plan, evaluator.model()));

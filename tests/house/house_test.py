@@ -42,6 +42,9 @@ class House(unittest.TestCase):
     def test_stages_of_discovery_return_values(self):
         self.expect_kept(rules.filled_in(TOP))
 
+    def test_numbers_that_decide_stand_in_options(self):
+        self.expect_kept(rules.scattered_numbers(TOP))
+
     def test_packages_name_what_they_include(self):
         self.expect_kept(rules.packages_point_one_way(TOP))
 
@@ -107,7 +110,7 @@ class Breaches(unittest.TestCase):
         self.expect(rules.filled_in(self.folder.name), 'src/anthrob_discovery/src/a.h:1')
 
     def test_a_number_beside_the_code(self):
-        self.write('src/anthrob_discovery/src/options.h', 'constexpr double kHome = 3.0;\n')
+        self.write('src/anthrob_discovery/src/options/fit.h', 'constexpr double kHome = 3.0;\n')
         self.write('src/anthrob_discovery/src/a.cpp', '\nconstexpr double kOwn = 2.0;\n')
         self.expect(rules.scattered_numbers(self.folder.name), 'src/anthrob_discovery/src/a.cpp:2')
 

@@ -1,5 +1,6 @@
 #include "discover.h"
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,14 +30,17 @@ void say_remarks(const Admission& admission, const Observer& observer) {
 }  // namespace
 
 Answer discover(const Evaluator& evaluator, const Question& question, const Observer& observer) {
+  const Options& options = question.options;
+  if (const auto invalid = invalid_option(options)) throw std::invalid_argument(*invalid);
   // A wrong effect is told at once.
   std::vector<Candidate> candidates = list_candidates(evaluator, question.effects);
 
   const Admission admission = admit(evaluator, question);
   const Measurement measurement = describe(admission);
-  const Scales scales =
-      measure_scales(evaluator, admission.train, admission.repeats, admission.lags);
-  const auto variables = measured_variables(admission.train, admission.question.train);
+  const Scales scales = measure_scales(evaluator, admission.train, admission.repeats,
+                                       admission.lags, options.experiment);
+  const auto variables =
+      measured_variables(admission.train, admission.question.train, options.experiment);
   const Hypotheses hypotheses = pose(evaluator, std::move(candidates), admission, scales);
   say_remarks(admission, observer);
 
@@ -44,8 +48,8 @@ Answer discover(const Evaluator& evaluator, const Question& question, const Obse
   const Fitted& base = baseline.recalibrated.fit;
 
   observer.stage("screening " + std::to_string(hypotheses.candidates.size()) + " candidates");
-  Screening screening(hypotheses.scan, base, hypotheses.candidates, admission.quick,
-                      admission.slow);
+  Screening screening(hypotheses.scan, base, hypotheses.candidates, admission.quick, admission.slow,
+                      options.hypotheses.screening);
   std::vector<Score> scores = screening.scores(base);
 
   observer.stage("checking which effects these recordings can show");

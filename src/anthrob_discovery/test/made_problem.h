@@ -22,9 +22,10 @@ struct MadeProblem {
       : evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml", nuisances,
                   MadeExperiment::kStep, 1),
         hypotheses(evaluator, list_candidates(evaluator, effects),
-                   ModelFit(evaluator, {learned_from}, ones(*learned_from), coarse_step),
-                   ModelFit(evaluator, {held_out}, ones(*held_out)),
-                   ModelFit(evaluator, {learned_from}, ones(*learned_from), coarse_step), {}, 1) {}
+                   ModelFit(evaluator, {learned_from}, ones(*learned_from), {}, coarse_step),
+                   ModelFit(evaluator, {held_out}, ones(*held_out), {}),
+                   ModelFit(evaluator, {learned_from}, ones(*learned_from), {}, coarse_step), {},
+                   {}, 1) {}
 
   std::size_t index(const std::string& place, const std::string& id) const {
     for (std::size_t c = 0; c < candidates.size(); ++c) {

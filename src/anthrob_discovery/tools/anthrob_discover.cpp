@@ -105,7 +105,8 @@ void keep_inputs(const Arguments& a) {
         read.push_back((has_slash ? folder.parent_path() : folder).string());
       }
     }
-    for (const std::string& name : discovery::loop_recordings()) written.push_back(name);
+    for (const std::string& name : discovery::loop_recordings(a.question.options.loop))
+      written.push_back(name);
   }
   require_kept(a.out, written, read);
   require_writable(a.out);
@@ -150,7 +151,7 @@ void write_answer(const discovery::Answer& answer, const discovery::Evaluator& e
   for (const std::string& name : save_from(a.test.size(), question.test, a.out)) {
     made.push_back(name);
   }
-  if (!a.robot_file.empty()) discovery::remove_other_recordings(a.out, made);
+  if (!a.robot_file.empty()) discovery::remove_other_recordings(a.out, made, question.options.loop);
 }
 
 int run(const CLI::App& app, Arguments& a) {

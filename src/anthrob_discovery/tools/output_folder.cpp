@@ -9,9 +9,10 @@
 namespace anthrob {
 namespace discovery {
 
-void remove_other_recordings(const std::string& folder, const std::vector<std::string>& made) {
+void remove_other_recordings(const std::string& folder, const std::vector<std::string>& made,
+                             const LoopOptions& options) {
   namespace fs = std::filesystem;
-  for (const std::string& name : loop_recordings()) {
+  for (const std::string& name : loop_recordings(options)) {
     const fs::path recording = fs::path(folder) / name;
     const bool is_old = std::find(made.begin(), made.end(), name) == made.end();
     if (!is_old || !fs::exists(recording / "meta.yaml")) continue;

@@ -19,13 +19,6 @@ namespace discovery {
 
 namespace {
 
-constexpr double kShortest = 2.0;         // [s] of all training or all held-out recordings
-constexpr double kFinestBin = 0.02;       // [s]
-constexpr double kAxisBin = 0.025;        // [s]
-constexpr double kMostDifferences = 4e5;  // of the training recordings
-constexpr double kQuickLook = 20.0;       // [s]
-constexpr double kSlowLook = 120.0;       // [s]
-
 /// Recordings of one option, by their lengths.
 struct Length {
   double seconds = 0.0;
@@ -33,41 +26,44 @@ struct Length {
 };
 
 /// @param option that named them
-Length refuse_shortness(const std::vector<Dataset>& recordings, const std::string& option) {
+Length refuse_shortness(const std::vector<Dataset>& recordings, const std::string& option,
+                        const Options& options) {
   Length length;
   for (const Dataset& recording : recordings) {
     const double own = seconds(recording.end() - recording.begin());
     length.seconds += own;
-    length.blocks += Judge::blocks_of(own);
+    length.blocks += Judge::blocks_of(own, options.judgement);
   }
-  if (length.seconds < kShortest) {
+  if (length.seconds < options.admission.shortest) {
     throw BadInput(recordings.front().folder + ": too short: the " + option + " recordings are " +
                    significant(length.seconds, 6) + " s long in all; expected at least " +
-                   short_number(kShortest) + " s");
+                   short_number(options.admission.shortest) + " s");
   }
   return length;
 }
 
 /// What is named must gain over blocks of training and held-out recordings together.
 void refuse_too_few_blocks(const Question& question, const Length& train, const Length& test) {
-  if (train.blocks + test.blocks >= Judge::kFewestBlocks) return;
+  const JudgementOptions& judgement = question.options.judgement;
+  if (train.blocks + test.blocks >= judgement.fewest_blocks) return;
   throw BadInput(question.test.front().folder + ": too short: the --train recordings are " +
                  significant(train.seconds, 6) + " s and the --test recordings " +
                  significant(test.seconds, 6) + " s long, together " +
                  std::to_string(train.blocks + test.blocks) + " blocks of " +
-                 short_number(Judge::kBlock) + " s; expected at least " +
-                 std::to_string(Judge::kFewestBlocks) + " blocks (" +
-                 short_number(Judge::kFewestBlocks * Judge::kBlock) +
+                 short_number(judgement.block) + " s; expected at least " +
+                 std::to_string(judgement.fewest_blocks) + " blocks (" +
+                 short_number(judgement.fewest_blocks * judgement.block) +
                  " s), because nothing can be named by fewer");
 }
 
 /// Of one side alone, the other one may make up for it.
 void remark_on_few_blocks(const Length& length, const std::string& option,
-                          std::vector<std::string>& remarks) {
-  if (length.blocks >= Judge::kFewestBlocks) return;
+                          const JudgementOptions& judgement, std::vector<std::string>& remarks) {
+  if (length.blocks >= judgement.fewest_blocks) return;
   remarks.push_back("the " + option + " recordings are only " + significant(length.seconds, 6) +
                     " s long in all, which is too short to say how certain a gap is there; " +
-                    short_number(Judge::kFewestBlocks * Judge::kBlock) + " s or more would do");
+                    short_number(judgement.fewest_blocks * judgement.block) +
+                    " s or more would do");
 }
 
 void append(const std::vector<std::string>& more, std::vector<std::string>& remarks) {
@@ -79,7 +75,7 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
   std::vector<std::string> remarks;
   for (const Dataset& test : question.test) {
     for (const Dataset& train : question.train) {
-      if (!have_same_commands(robot, train, test)) continue;
+      if (!have_same_commands(robot, train, test, question.options.admission.repeats)) continue;
       remarks.push_back(test.folder + ": has the same commands as " + train.folder +
                         ", which is fitted; another motion would judge better");
     }
@@ -91,59 +87,65 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
 
 Admission admit(const Evaluator& evaluator, const Question& asked) {
   const RobotModel& robot = *evaluator.model();
+  const Options& options = asked.options;
   if (asked.train.empty()) throw BadInput("--train: expected at least one recording");
   if (asked.test.empty()) {
     throw BadInput("--test: expected at least one recording to judge by, which is not fitted");
   }
   for (const auto* group : {&asked.train, &asked.test, &asked.repeats}) {
-    for (const Dataset& recording : *group) refuse_nonsense(robot, recording);
+    for (const Dataset& recording : *group)
+      refuse_nonsense(robot, recording, options.admission.soundness);
   }
-  const Length length = refuse_shortness(asked.train, "--train");
-  const Length held_out = refuse_shortness(asked.test, "--test");
+  const Length length = refuse_shortness(asked.train, "--train", options);
+  const Length held_out = refuse_shortness(asked.test, "--test", options);
   refuse_too_few_blocks(asked, length, held_out);
-  refuse_stillness(robot, asked.train);
-  refuse_stillness(robot, asked.test);
+  refuse_stillness(robot, asked.train, options.admission.movement);
+  refuse_stillness(robot, asked.test, options.admission.movement);
   refuse_copies(asked);
 
   Admission admitted;
   admitted.question = asked;
   admitted.remarks = remarks_on(robot, asked);
-  remark_on_few_blocks(length, "--train", admitted.remarks);
-  remark_on_few_blocks(held_out, "--test", admitted.remarks);
+  remark_on_few_blocks(length, "--train", options.judgement, admitted.remarks);
+  remark_on_few_blocks(held_out, "--test", options.judgement, admitted.remarks);
   append(leave_out_frozen(robot, admitted.question), admitted.remarks);
   const Question& question = admitted.question;
   std::vector<double> late;  // [s]
   for (const Dataset& repeat : question.repeats) {
-    late.push_back(lateness_of_repeat(robot, question.train.front(), repeat));
+    late.push_back(
+        lateness_of_repeat(robot, question.train.front(), repeat, options.admission.repeats));
   }
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) {
-      append(remarks_on_stamps(recording), admitted.remarks);
-      append(remarks_on_clocks(robot, recording), admitted.remarks);
+      append(remarks_on_stamps(recording, options.admission.soundness), admitted.remarks);
+      append(remarks_on_clocks(robot, recording, options.admission), admitted.remarks);
     }
   }
 
-  ExperimentOptions options;
-  options.bin = robot.muscles.empty() ? kAxisBin : kFinestBin;
+  ReplayScope scope;
+  scope.bin = robot.muscles.empty() ? options.admission.axis_bin : options.admission.finest_bin;
   const double channels = 4.0 * static_cast<double>(robot.muscles.size()) + 4.0;
-  options.bin *=
-      std::max(1.0, std::ceil(length.seconds / options.bin * channels / kMostDifferences));
+  scope.bin *= std::max(
+      1.0, std::ceil(length.seconds / scope.bin * channels / options.admission.most_differences));
   const auto make = [&](const std::vector<Dataset>& recordings, Experiments& experiments) {
     for (const Dataset& recording : recordings) {
-      experiments.push_back(make_experiment(robot, recording, options));
+      experiments.push_back(make_experiment(robot, recording, options.experiment, scope));
     }
   };
   make(question.train, admitted.train);
   make(question.test, admitted.test);
   make(question.repeats, admitted.repeats);
-  append(remarks_on_channels(admitted.train, admitted.test), admitted.remarks);
+  append(remarks_on_channels(admitted.train, admitted.test, options.admission), admitted.remarks);
   // Whole steps of the simulation make a bin a little longer or shorter than was asked for.
   const double bin = admitted.train.front()->bin();
   for (const double seconds : late) admitted.lags.push_back(std::lround(seconds / bin));
   // A driven axis is simulated fast enough for the longer look.
-  admitted.quick = excerpt(robot, question.train, admitted.train,
-                           robot.muscles.empty() ? kSlowLook : kQuickLook);
-  admitted.slow = excerpt(robot, question.train, admitted.train, kSlowLook);
+  admitted.quick =
+      excerpt(robot, question.train, admitted.train,
+              robot.muscles.empty() ? options.admission.slow_look : options.admission.quick_look,
+              options.experiment);
+  admitted.slow = excerpt(robot, question.train, admitted.train, options.admission.slow_look,
+                          options.experiment);
   return admitted;
 }
 

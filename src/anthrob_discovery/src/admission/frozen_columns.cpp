@@ -13,16 +13,11 @@ namespace discovery {
 
 namespace {
 
-constexpr std::size_t kFewestValues = 20;  // fewer equal ones may be chance
-constexpr double kLeastTurn = 0.1;         // [rad] for which a motor does not stick
-constexpr double kShareOfWidest = 0.25;    // of the largest range of all muscles
-constexpr double kLeastJoint = 0.02;       // [rad] or [m]
-constexpr double kFewestCounts = 10.0;     // coarser sensors may well stay at one count
-
 /// One recording, and what moves in it.
 class Witness {
  public:
-  Witness(const RobotModel& robot, const Dataset& recording) : robot_(robot), data_(recording) {
+  Witness(const RobotModel& robot, const Dataset& recording, const AdmissionOptions& options)
+      : robot_(robot), data_(recording), options_(options) {
     for (const MuscleModel& muscle : robot.muscles) {
       widest_turn_ = std::max(widest_turn_, range_of(series(muscle, "position")));
       if (!holds_position(muscle)) continue;
@@ -34,7 +29,7 @@ class Witness {
   /// Whether a column has one value only, and should not.
   bool is_frozen(const MuscleModel& muscle, const std::string& quantity) const {
     const Series own = series(muscle, quantity);
-    return own.values.size() >= kFewestValues && range_of(own) == 0.0 &&
+    return own.values.size() >= options_.frozen.fewest_values && range_of(own) == 0.0 &&
            must_move(muscle, quantity) && others_move(muscle, quantity);
   }
   bool is_zero(const MuscleModel& muscle, const std::string& quantity) const {
@@ -59,8 +54,9 @@ class Witness {
   }
 
   bool must_move(const MuscleModel& muscle, const std::string& quantity) const {
-    const auto is_wide = [](double range, double widest) {
-      return range >= std::max(kLeastTurn, kShareOfWidest * widest);
+    const auto is_wide = [this](double range, double widest) {
+      return range >=
+             std::max(options_.frozen.least_turn, options_.frozen.share_of_widest * widest);
     };
     const Series reference = series(muscle, "reference");
     if (!reference.empty()) {
@@ -74,14 +70,18 @@ class Witness {
            std::any_of(robot_.muscles.begin(), robot_.muscles.end(), [&](const auto& other) {
              if (other.name == muscle.name) return false;
              const Series own = series(other, quantity);
-             return !own.empty() && moves(own, kFewestCounts * resolution_of(own.values));
+             return !own.empty() &&
+                    moves(own, options_.frozen.fewest_counts * resolution_of(own.values),
+                          options_.movement);
            });
   }
 
   bool any_joint_moves() const {
     for (const JointModel& joint : robot_.skeleton->joints) {
       for (const char* quantity : {"/position", "/x", "/y", "/z"}) {
-        if (moves(data_.series(joint.name + quantity), kLeastJoint)) return true;
+        if (moves(data_.series(joint.name + quantity), options_.frozen.least_joint,
+                  options_.movement))
+          return true;
       }
     }
     return false;
@@ -89,13 +89,15 @@ class Witness {
 
   const RobotModel& robot_;
   const Dataset& data_;
+  const AdmissionOptions& options_;
   double widest_reference_ = 0.0, widest_turn_ = 0.0;  ///< [rad]
   bool joint_moves_ = false;
 };
 
 std::set<std::string> frozen_columns(const RobotModel& robot, const Dataset& recording,
+                                     const AdmissionOptions& options,
                                      std::vector<std::string>& remarks) {
-  const Witness witness(robot, recording);
+  const Witness witness(robot, recording, options);
   std::set<std::string> frozen;
   for (const MuscleModel& muscle : robot.muscles) {
     for (const char* quantity : {"position", "current", "voltage", "force"}) {
@@ -115,8 +117,12 @@ std::set<std::string> frozen_columns(const RobotModel& robot, const Dataset& rec
   for (const JointModel& joint : robot.skeleton->joints) {
     const std::string column = joint.name + "/effort";
     const Series effort = recording.series(column);
-    if (!joint.driven || effort.values.size() < kFewestValues || range_of(effort) > 0.0) continue;
-    if (!moves(recording.series(joint.name + "/position"), kLeastJoint)) continue;
+    if (!joint.driven || effort.values.size() < options.frozen.fewest_values ||
+        range_of(effort) > 0.0)
+      continue;
+    if (!moves(recording.series(joint.name + "/position"), options.frozen.least_joint,
+               options.movement))
+      continue;
     frozen.insert(column);
     remarks.push_back(recording.folder + ": " + column +
                       " never changes, though the joint was moved: left out");
@@ -139,7 +145,8 @@ std::vector<std::string> leave_out_frozen(const RobotModel& robot, Question& que
   std::set<std::string> of_repeats;
   for (auto* group : {&question.train, &question.test, &question.repeats}) {
     for (Dataset& recording : *group) {
-      const std::set<std::string> frozen = frozen_columns(robot, recording, remarks);
+      const std::set<std::string> frozen =
+          frozen_columns(robot, recording, question.options.admission, remarks);
       empty(frozen, recording);
       const bool is_first = group == &question.train && &recording == &group->front();
       if (is_first || group == &question.repeats) of_repeats.insert(frozen.begin(), frozen.end());

@@ -11,25 +11,23 @@ namespace discovery {
 
 namespace {
 
-constexpr double kLeastTurn = 0.02;       // [rad] of a motor
-constexpr double kLeastFollowed = 0.01;   // [rad] of a reference that the motor follows
-constexpr double kLeastForce = 0.5;       // [N]
-constexpr double kLeastDriven = 1e-5;     // [rad] or [m] of a driven axis
-constexpr double kBeyondNoise = 2.0;      // standard deviations of the means
-constexpr std::size_t kMeans = 200;       // at least, where there are so many values
-constexpr std::size_t kMostInAMean = 16;  // values; more would hide motion
-
 /// Whether a muscle moves, or its motor at least tries to.
-bool muscle_moves(const Dataset& recording, const std::string& muscle) {
+bool muscle_moves(const Dataset& recording, const std::string& muscle,
+                  const MovementOptions& options) {
   const auto series = [&](const char* quantity) { return recording.series(muscle + quantity); };
   const Series position = series("/position");
-  if (moves(position, kLeastTurn) || moves(series("/force"), kLeastForce)) return true;
+  const auto shows = [&](const Series& values, double least) {
+    return moves(values, least, options);
+  };
+  if (shows(position, options.least_turn) || shows(series("/force"), options.least_force)) {
+    return true;
+  }
   const double asked = range_of(series("/reference"));
-  if (position.empty()) return asked > kLeastTurn;
+  if (position.empty()) return asked > options.least_turn;
   // The motor may not have followed: it was disabled, or what was measured stood still.
-  if (asked <= kLeastFollowed) return false;
-  return moves(position, 0.0) || moves(series("/force"), 0.0) || moves(series("/voltage"), 0.0) ||
-         moves(series("/current"), 0.0);
+  if (asked <= options.least_followed) return false;
+  return shows(position, 0.0) || shows(series("/force"), 0.0) || shows(series("/voltage"), 0.0) ||
+         shows(series("/current"), 0.0);
 }
 
 }  // namespace
@@ -40,14 +38,14 @@ double range_of(const Series& series) {
   return *high - *low;
 }
 
-bool moves(const Series& series, double least) {
+bool moves(const Series& series, double least, const MovementOptions& options) {
   if (series.empty()) return false;
   const auto size = static_cast<Eigen::Index>(series.values.size());
   const Eigen::Map<const Eigen::VectorXd> values(series.values.data(), size);
   // From the first value on, so that a small motion far from zero keeps its digits.
   const Eigen::VectorXd own = values.array() - values[0];
-  const auto in_a_mean =
-      static_cast<Eigen::Index>(std::clamp<std::size_t>(own.size() / kMeans, 1, kMostInAMean));
+  const auto in_a_mean = static_cast<Eigen::Index>(
+      std::clamp<std::size_t>(own.size() / options.means, 1, options.most_in_a_mean));
   Eigen::ArrayXd means(size / in_a_mean);
   for (Eigen::Index i = 0; i < means.size(); ++i) {
     means[i] = own.segment(i * in_a_mean, in_a_mean).mean();
@@ -55,16 +53,20 @@ bool moves(const Series& series, double least) {
   if (!(means.maxCoeff() - means.minCoeff() > least)) return false;
   const double spread = std::sqrt((means - means.mean()).square().mean());
   const double noise = white_noise(own.cast<float>()) / std::sqrt(static_cast<double>(in_a_mean));
-  return spread > kBeyondNoise * noise;
+  return spread > options.beyond_noise * noise;
 }
 
-void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recordings) {
+void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recordings,
+                      const MovementOptions& options) {
   for (const Dataset& recording : recordings) {
     for (const MuscleModel& muscle : robot.muscles) {
-      if (muscle_moves(recording, muscle.name)) return;
+      if (muscle_moves(recording, muscle.name, options)) return;
     }
     for (const JointModel& joint : robot.skeleton->joints) {
-      if (joint.driven && moves(recording.series(joint.name + "/position"), kLeastDriven)) return;
+      if (joint.driven &&
+          moves(recording.series(joint.name + "/position"), options.least_driven, options)) {
+        return;
+      }
     }
   }
   const std::string name = recordings.front().folder;

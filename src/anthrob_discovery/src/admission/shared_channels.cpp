@@ -21,18 +21,18 @@ std::vector<std::string> names_of(const Experiments& experiments) {
 }
 
 /// "a, b, c, ..."
-std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 4;
+std::string some_of(const std::vector<std::string>& names, std::size_t most) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) {
     text += (i == 0 ? "" : ", ") + names[i];
   }
-  return text + (names.size() > kMost ? ", ..." : "");
+  return text + (names.size() > most ? ", ..." : "");
 }
 
 }  // namespace
 
-std::vector<std::string> remarks_on_channels(const Experiments& train, const Experiments& test) {
+std::vector<std::string> remarks_on_channels(const Experiments& train, const Experiments& test,
+                                             const AdmissionOptions& options) {
   const std::vector<std::string> learned = names_of(train), held_out = names_of(test);
   std::vector<std::string> remarks;
   const auto remark = [&](const std::vector<std::string>& names,
@@ -49,7 +49,8 @@ std::vector<std::string> remarks_on_channels(const Experiments& train, const Exp
   throw BadInput(test.front()->name() +
                  ": the held-out recordings measure none of the channels of the training "
                  "recordings (" +
-                 some_of(learned) + "), only others (" + some_of(held_out) +
+                 some_of(learned, options.names_listed) + "), only others (" +
+                 some_of(held_out, options.names_listed) +
                  "); expected the same measured columns in --train and --test");
 }
 

@@ -15,19 +15,15 @@ namespace discovery {
 
 namespace {
 
-constexpr double kRepeatedRows = 0.02;  // share that deserves a remark
-constexpr std::size_t kStretch = 50;    // rows
-constexpr std::size_t kDistinct = 25;   // of them; where less happens, two recordings may agree
-constexpr double kShared = 0.1;         // of the stretches of the shorter recording
-
-void refuse_other_clocks(const Dataset& recording) {
+void refuse_other_clocks(const Dataset& recording, const SoundnessOptions& options) {
   for (const Table& table : recording.tables) {
     if (table.t.empty()) continue;
     const double late = seconds(table.t.front() - recording.begin());
     const double length = seconds(recording.end() - recording.begin());
     const double covered = seconds(table.t.back() - table.t.front());
-    if (length > 0.0 && table.t.size() > 2 && (late > 0.5 * length || covered < 0.3 * length) &&
-        table.name != "commands") {
+    const bool elsewhere =
+        late > options.latest_begin * length || covered < options.least_covered * length;
+    if (length > 0.0 && table.t.size() > 2 && elsewhere && table.name != "commands") {
       throw BadInput(recording.folder + "/" + table.name +
                      ".csv: not synchronised with the other files: it covers " +
                      significant(covered, 6) + " s, from " + significant(late, 6) +
@@ -52,14 +48,15 @@ std::vector<std::uint64_t> rows_of(const Table& table) {
 using Stretches = std::unordered_set<std::uint64_t>;
 
 /// Everything in which so much happens that no other recording has the same.
-Stretches stretches_of(const Table& table) {
+Stretches stretches_of(const Table& table, const SoundnessOptions& options) {
   Stretches stretches;
   const std::vector<std::uint64_t> rows = rows_of(table);
-  for (std::size_t i = 0; i + kStretch <= rows.size(); ++i) {
+  for (std::size_t i = 0; i + options.stretch <= rows.size(); ++i) {
     const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i);
-    const std::unordered_set<std::uint64_t> distinct(begin, begin + kStretch);
-    if (distinct.size() < kDistinct) continue;
-    stretches.insert(resume::Fingerprint().add(&*begin, kStretch * sizeof(*begin)).value());
+    const std::unordered_set<std::uint64_t> distinct(
+        begin, begin + static_cast<std::ptrdiff_t>(options.stretch));
+    if (distinct.size() < options.distinct) continue;
+    stretches.insert(resume::Fingerprint().add(&*begin, options.stretch * sizeof(*begin)).value());
   }
   return stretches;
 }
@@ -67,11 +64,11 @@ Stretches stretches_of(const Table& table) {
 /// By table, of what was measured.
 using Contents = std::map<std::string, Stretches>;
 
-Contents contents_of(const Dataset& recording) {
+Contents contents_of(const Dataset& recording, const SoundnessOptions& options) {
   Contents contents;
   for (const Table& table : recording.tables) {
     Stretches stretches;
-    if (table.name != "commands") stretches = stretches_of(table);
+    if (table.name != "commands") stretches = stretches_of(table, options);
     if (!stretches.empty()) contents[table.name] = std::move(stretches);
   }
   return contents;
@@ -101,7 +98,8 @@ double shared(const Contents& one, const Contents& two) {
 
 }  // namespace
 
-void refuse_nonsense(const RobotModel& robot, const Dataset& recording) {
+void refuse_nonsense(const RobotModel& robot, const Dataset& recording,
+                     const SoundnessOptions& options) {
   for (const Table& table : recording.tables) {
     for (std::size_t i = 1; i < table.t.size(); ++i) {
       if (table.t[i] >= table.t[i - 1]) continue;
@@ -110,16 +108,17 @@ void refuse_nonsense(const RobotModel& robot, const Dataset& recording) {
   }
   refuse_no_numbers(recording);
   refuse_implausible_values(robot, recording);
-  refuse_other_clocks(recording);
+  refuse_other_clocks(recording, options);
 }
 
-std::vector<std::string> remarks_on_stamps(const Dataset& recording) {
+std::vector<std::string> remarks_on_stamps(const Dataset& recording,
+                                           const SoundnessOptions& options) {
   std::vector<std::string> remarks;
   for (const Table& table : recording.tables) {
     std::size_t repeated = 0;
     for (std::size_t i = 1; i < table.t.size(); ++i) repeated += table.t[i] == table.t[i - 1];
     const double share = static_cast<double>(repeated) / static_cast<double>(table.t.size() + 1);
-    if (share < kRepeatedRows) continue;
+    if (share < options.repeated_rows) continue;
     remarks.push_back(recording.folder + "/" + table.name + ".csv: " + short_number(100.0 * share) +
                       " % of its rows have the time of the row before: their stamps are wrong");
   }
@@ -127,6 +126,7 @@ std::vector<std::string> remarks_on_stamps(const Dataset& recording) {
 }
 
 void refuse_copies(const Question& question) {
+  const SoundnessOptions& options = question.options.admission.soundness;
   struct Known {
     std::string folder;
     std::uint64_t content;
@@ -135,11 +135,12 @@ void refuse_copies(const Question& question) {
   std::vector<Known> known;
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) {
-      Known own{recording.folder, resume::content_fingerprint(recording), contents_of(recording)};
+      Known own{recording.folder, resume::content_fingerprint(recording),
+                contents_of(recording, options)};
       for (const Known& other : known) {
         const bool same = own.content == other.content;
         const double share = same ? 1.0 : shared(own.contents, other.contents);
-        if (share < kShared) continue;
+        if (share < options.copied) continue;
         const std::string how = same ? ": the same recording as "
                                      : ": " + short_number(100.0 * share) +
                                            " % of the shorter one are the same measurements as in ";

@@ -12,10 +12,12 @@ namespace discovery {
 /// Refuses time that runs backwards, files that do not share a clock, and numbers that nobody can
 /// have measured (recordings/plausible_values.h).
 /// @throws BadInput with file, row and column
-void refuse_nonsense(const RobotModel& robot, const Dataset& recording);
+void refuse_nonsense(const RobotModel& robot, const Dataset& recording,
+                     const SoundnessOptions& options);
 
 /// Says where many rows have the time of the row before.
-std::vector<std::string> remarks_on_stamps(const Dataset& recording);
+std::vector<std::string> remarks_on_stamps(const Dataset& recording,
+                                           const SoundnessOptions& options);
 
 /// Recordings that are fitted cannot judge, and a copy of a recording shows no noise: refuses
 /// recordings that were given twice, whole or in part.

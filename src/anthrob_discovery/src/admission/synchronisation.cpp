@@ -16,35 +16,22 @@ namespace discovery {
 
 namespace {
 
-constexpr double kBin = 0.05;         // [s] lags are multiples of it: 0.1 s may explain far less
-constexpr double kLongestLag = 5.0;   // [s]
-constexpr double kShareOfTime = 0.3;  // of the recording, by which it may be shifted
-constexpr double kFold = 1.0;         // [s] fitted and judged in turn
-constexpr double kRidge = 1e-3;       // of the diagonal; rates of antagonists are much alike
-constexpr double kMostWork = 4e7;     // products for one lag
-constexpr int kMostBins = 6000;
-constexpr double kLeastTurn = 0.02;  // [rad] or [m]
-constexpr double kLeastForce = 0.5;  // [N]
-
-constexpr double kPlausible = 0.25;  // [s] lag of real sensors, and a little more
-constexpr double kLate = 0.5;        // [s] beyond doubt
-constexpr double kExplains = 0.6;    // least share of the squares at the other lag
-constexpr double kClearly = 0.3;     // more than at a plausible lag
-constexpr double kFewMovements = 2.5, kSeveralMovements = 4.0;
-
 /// Rates of several quantities, one column each, by bin of time; in units of their root mean
 /// square.
 struct Rates {
-  explicit Rates(Eigen::Index bins) : values(bins, 0), known(static_cast<std::size_t>(bins), 1) {}
+  /// @param width of a bin [s]
+  Rates(Eigen::Index bins, double width)
+      : values(bins, 0), known(static_cast<std::size_t>(bins), 1), bin_width(width) {}
 
   Eigen::MatrixXd values;
   std::vector<char> known;  ///< whether all of them are
+  double bin_width;         ///< [s]
 
   void add(const Series& series) {
     const Eigen::Index bins = values.rows();
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(bins), count = sum;
     for (std::size_t i = 0; i < series.t.size(); ++i) {
-      const auto bin = static_cast<Eigen::Index>(series.t[i] / kBin + 1e-9);
+      const auto bin = static_cast<Eigen::Index>(series.t[i] / bin_width + 1e-9);
       if (bin >= bins) break;
       sum[bin] += series.values[i] - series.values.front();
       count[bin] += 1.0;
@@ -71,10 +58,11 @@ struct Half {
   double squares = 0.0;
 };
 
-Half half_of(const Rates& muscles, const Rates& joints, Eigen::Index lag, int which) {
+Half half_of(const Rates& muscles, const Rates& joints, Eigen::Index lag, int which,
+             const ClockOptions& options) {
   std::vector<Eigen::Index> rows, late;
   for (Eigen::Index b = 0; b < muscles.values.rows(); ++b) {
-    const auto fold = static_cast<int>(static_cast<double>(b) * kBin / kFold + 1e-9);
+    const auto fold = static_cast<int>(static_cast<double>(b) * options.bin / options.fold + 1e-9);
     if (fold % 2 != which || b + lag < 0 || b + lag >= joints.values.rows()) continue;
     if (!muscles.known[static_cast<std::size_t>(b)] ||
         !joints.known[static_cast<std::size_t>(b + lag)]) {
@@ -89,21 +77,23 @@ Half half_of(const Rates& muscles, const Rates& joints, Eigen::Index lag, int wh
 }
 
 /// Squares that a regression to one half leaves in the other.
-double left_of(const Half& half, const Half& other) {
+double left_of(const Half& half, const Half& other, const ClockOptions& options) {
   Eigen::MatrixXd gram = half.gram;
-  gram.diagonal() = (1.0 + kRidge) * gram.diagonal().array() + 1e-9;
+  gram.diagonal() = (1.0 + options.ridge) * gram.diagonal().array() + 1e-9;
   const Eigen::MatrixXd weights = gram.ldlt().solve(half.cross);
   return other.squares - 2.0 * weights.cwiseProduct(other.cross).sum() +
          weights.cwiseProduct(other.gram * weights).sum();
 }
 
 /// @param lag by how many bins joints are late
-std::optional<double> explained(const Rates& muscles, const Rates& joints, Eigen::Index lag) {
-  const Half even = half_of(muscles, joints, lag, 0), odd = half_of(muscles, joints, lag, 1);
+std::optional<double> explained(const Rates& muscles, const Rates& joints, Eigen::Index lag,
+                                const ClockOptions& options) {
+  const Half even = half_of(muscles, joints, lag, 0, options),
+             odd = half_of(muscles, joints, lag, 1, options);
   if (even.gram.size() == 0 || odd.gram.size() == 0) return {};
   const double squares = even.squares + odd.squares;
   if (!(squares > 0.0)) return {};
-  return 1.0 - (left_of(even, odd) + left_of(odd, even)) / squares;
+  return 1.0 - (left_of(even, odd, options) + left_of(odd, even, options)) / squares;
 }
 
 /// Number of seconds over which the squares of the joints' velocities are spread.
@@ -111,7 +101,7 @@ double movements(const Rates& joints) {
   std::map<int, double> power;
   for (Eigen::Index b = 0; b < joints.values.rows(); ++b) {
     if (!joints.known[static_cast<std::size_t>(b)]) continue;
-    power[static_cast<int>(static_cast<double>(b) * kBin + 1e-9)] +=
+    power[static_cast<int>(static_cast<double>(b) * joints.bin_width + 1e-9)] +=
         joints.values.row(b).squaredNorm();
   }
   double sum = 0.0, squares = 0.0;
@@ -139,10 +129,11 @@ Fit best_of(const std::vector<Fit>& fits, double from, double to) {
 /// Series of the joints that move, by the table that they are in. Tables with muscles have their
 /// clock.
 std::map<std::string, std::vector<Series>> moving_joints(const RobotModel& robot,
-                                                         const Dataset& recording) {
+                                                         const Dataset& recording,
+                                                         const AdmissionOptions& options) {
   std::map<std::string, std::vector<Series>> moving;
   const auto add = [&](const std::string& column, const Series& series) {
-    if (!moves(series, kLeastTurn)) return;
+    if (!moves(series, options.clocks.least_turn, options.movement)) return;
     for (const Table& table : recording.tables) {
       if (table.name == "commands" || !table.find(column)) continue;
       const bool has_muscles =
@@ -164,14 +155,15 @@ std::map<std::string, std::vector<Series>> moving_joints(const RobotModel& robot
 }
 
 /// Positions and forces of the muscles of which both are measured.
-std::vector<Series> moving_muscles(const RobotModel& robot, const Dataset& recording) {
+std::vector<Series> moving_muscles(const RobotModel& robot, const Dataset& recording,
+                                   const AdmissionOptions& options) {
   std::vector<Series> moving;
   for (const MuscleModel& muscle : robot.muscles) {
     const Series position = recording.series(muscle.name + "/position"),
                  force = recording.series(muscle.name + "/force");
     if (position.empty() || force.empty()) continue;
-    if (moves(position, kLeastTurn)) moving.push_back(position);
-    if (moves(force, kLeastForce)) moving.push_back(force);
+    if (moves(position, options.clocks.least_turn, options.movement)) moving.push_back(position);
+    if (moves(force, options.clocks.least_force, options.movement)) moving.push_back(force);
   }
   return moving;
 }
@@ -181,50 +173,54 @@ struct Suspicion {
   bool certain = false;
 };
 
-Suspicion suspicion_of(const Rates& muscles, const Rates& joints, double length) {
+Suspicion suspicion_of(const Rates& muscles, const Rates& joints, double length,
+                       const ClockOptions& options) {
   const double spread = movements(joints);
-  if (spread < kFewMovements) return {};
-  const auto reach =
-      static_cast<Eigen::Index>(std::min(kLongestLag, kShareOfTime * length) / kBin + 1e-9);
+  if (spread < options.few_movements) return {};
+  const auto reach = static_cast<Eigen::Index>(
+      std::min(options.longest_lag, options.share_of_time * length) / options.bin + 1e-9);
   std::vector<Fit> fits;
   for (Eigen::Index lag = -reach; lag <= reach; ++lag) {
-    const auto share = explained(muscles, joints, lag);
-    if (share) fits.push_back({static_cast<double>(lag) * kBin, *share});
+    const auto share = explained(muscles, joints, lag, options);
+    if (share) fits.push_back({static_cast<double>(lag) * options.bin, *share});
   }
   const auto clearly_better = [&](double bound) {
     const double near = best_of(fits, -1.0, bound).share;
-    const double far = best_of(fits, bound, kLongestLag).share;
-    return near > -1e300 && far >= kExplains && far - std::max(0.0, near) >= kClearly;
+    const double far = best_of(fits, bound, options.longest_lag).share;
+    return near > -1e300 && far >= options.explains && far - std::max(0.0, near) >= options.clearly;
   };
-  if (!clearly_better(kPlausible)) return {};
-  const Fit best = best_of(fits, kPlausible, kLongestLag);
+  if (!clearly_better(options.plausible)) return {};
+  const Fit best = best_of(fits, options.plausible, options.longest_lag);
   char text[250];
   std::snprintf(text, sizeof(text),
                 "joints seem to be stamped %.1f s too %s: with that shift, motor positions and "
                 "forces explain %.0f %% of their motion, without it only %.0f %%",
                 std::abs(best.lag), best.lag > 0.0 ? "late" : "early", 100.0 * best.share,
-                100.0 * std::max(0.0, best_of(fits, -1.0, kPlausible).share));
-  return {text, spread >= kSeveralMovements && clearly_better(kLate)};
+                100.0 * std::max(0.0, best_of(fits, -1.0, options.plausible).share));
+  return {text, spread >= options.several_movements && clearly_better(options.late)};
 }
 
 }  // namespace
 
-std::vector<std::string> remarks_on_clocks(const RobotModel& robot, const Dataset& recording) {
-  const std::vector<Series> acting = moving_muscles(robot, recording);
+std::vector<std::string> remarks_on_clocks(const RobotModel& robot, const Dataset& recording,
+                                           const AdmissionOptions& options) {
+  const std::vector<Series> acting = moving_muscles(robot, recording, options);
   if (acting.empty()) return {};
-  const auto moving = moving_joints(robot, recording);
+  const auto moving = moving_joints(robot, recording, options);
   const double length = seconds(recording.end() - recording.begin());
-  const double work = kMostWork / static_cast<double>(acting.size() * acting.size());
-  const auto bins = static_cast<Eigen::Index>(
-      std::min({std::floor(length / kBin) + 1.0, work, static_cast<double>(kMostBins)}));
+  const double work = options.clocks.most_work / static_cast<double>(acting.size() * acting.size());
+  const auto bins =
+      static_cast<Eigen::Index>(std::min({std::floor(length / options.clocks.bin) + 1.0, work,
+                                          static_cast<double>(options.clocks.most_bins)}));
   if (bins < 3) return {};
-  Rates muscles(bins);
+  Rates muscles(bins, options.clocks.bin);
   for (const Series& series : acting) muscles.add(series);
   std::vector<std::string> remarks;
   for (const auto& [table, series] : moving) {
-    Rates joints(bins);
+    Rates joints(bins, options.clocks.bin);
     for (const Series& own : series) joints.add(own);
-    const Suspicion suspicion = suspicion_of(muscles, joints, static_cast<double>(bins) * kBin);
+    const Suspicion suspicion = suspicion_of(
+        muscles, joints, static_cast<double>(bins) * options.clocks.bin, options.clocks);
     if (suspicion.text.empty()) continue;
     const std::string line = recording.folder + "/" + table +
                              ".csv: not synchronised with the other files: " + suspicion.text +

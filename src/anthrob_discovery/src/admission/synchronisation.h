@@ -5,6 +5,7 @@
 
 #include "anthrob_recording/dataset.h"
 #include "anthrob_sim/model/robot_model.h"
+#include "options/admission.h"
 
 namespace anthrob {
 namespace discovery {
@@ -21,7 +22,8 @@ namespace discovery {
 /// may be up to 0.2 s), or where there were fewer movements. Recordings without forces or motor
 /// positions are not examined.
 /// @return remarks   @throws BadInput with one line
-std::vector<std::string> remarks_on_clocks(const RobotModel& robot, const Dataset& recording);
+std::vector<std::string> remarks_on_clocks(const RobotModel& robot, const Dataset& recording,
+                                           const AdmissionOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

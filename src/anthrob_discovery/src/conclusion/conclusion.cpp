@@ -14,9 +14,9 @@ FoundEffect with_separation(FoundEffect effect, const NamedEffect& named,
                             const Scales& scales) {
   effect.separating_experiment = how_to_separate(effect);
   if (!named.contest) return effect;
-  effect.separating_recording =
-      plan_separation(hypotheses.evaluator, named.contest->named, named.contest->rival,
-                      admission.question.train.front(), scales, admission.train.front()->bin());
+  effect.separating_recording = plan_separation(
+      hypotheses.evaluator, named.contest->named, named.contest->rival,
+      admission.question.train.front(), scales, admission.train.front()->bin(), hypotheses.options);
   return effect;
 }
 
@@ -29,15 +29,16 @@ void append(const std::vector<std::string>& more, std::vector<std::string>& rema
 Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const Scales& scales,
                 const std::vector<MeasuredVariable>& variables, const Baseline& baseline,
                 const SearchResult& found, const Diagnosis& diagnosis) {
+  const Options& options = hypotheses.options;
   const auto sizes = measure_sizes(hypotheses, variables, found, admission.question.seed);
   Answer answer;
-  answer.verdict = verdict_on(!found.named.empty(), diagnosis);
+  answer.verdict = verdict_on(!found.named.empty(), diagnosis, options.conclusion);
   for (std::size_t e = 0; e < found.named.size(); ++e) {
     FoundEffect effect{found.named[e].found, sizes[e], {}, {}};
-    answer.effects.push_back(
-        with_separation(trusted(std::move(effect)), found.named[e], hypotheses, admission, scales));
+    answer.effects.push_back(with_separation(trusted(std::move(effect), options.judgement.trust),
+                                             found.named[e], hypotheses, admission, scales));
   }
-  answer.remaining = remaining_of(diagnosis);
+  answer.remaining = remaining_of(diagnosis, options);
   answer.given = baseline.given;
   answer.recalibrated = found.recalibrated.fit.variant;
   answer.extended = found.extended.fit.variant;

@@ -25,7 +25,7 @@ FoundParameter fitted_parameter(const Hypotheses& hypotheses, const Fitted& fit,
                                 const EffectParameter& p, double value, const Interval& range) {
   const Unknown& u = fit.unknowns[i];
   FoundParameter found{p.name, p.unit, value, value, value, false, false};
-  const bool flat = is_flat(fit, i);
+  const bool flat = is_flat(fit, i, hypotheses.options.fit.intervals);
   std::tie(found.low, found.high) = flat ? flat_range(hypotheses.train, fit, i) : range;
   const bool spans = found.low <= u.lower && found.high >= u.upper;
   found.at_bound = spans && is_at_end(value, u);
@@ -46,7 +46,9 @@ std::vector<std::vector<FoundParameter>> measure_sizes(
   // The last steps have blurred them: what depends on nothing must not seem to.
   Fitted fit = search.extended.fit;
   hypotheses.train.renew_effects(fit);
-  const auto ranges = bootstrap_intervals(fit, hypotheses.train.experiments(), variables, seed);
+  const auto ranges =
+      bootstrap_intervals(fit, hypotheses.train.experiments(), variables, seed,
+                          hypotheses.options.fit, hypotheses.options.judgement.block);
   for (std::size_t e = 0; e < search.named.size(); ++e) {
     const Candidate& candidate = hypotheses.candidates[search.named[e].candidate];
     for (const EffectParameter& p : candidate.parameters) {

@@ -9,23 +9,25 @@ namespace discovery {
 
 namespace {
 
-constexpr double kMostRemains = 0.45;  ///< largest share of the squared gap left by an answer
-
 /// Whether the channel of a dependence has a gap larger than a wrong noise estimate may cause.
-bool is_real(const Dependence& dependence, const std::map<std::string, double>& left) {
+bool is_real(const Dependence& dependence, const std::map<std::string, double>& left,
+             const Options& options) {
   return std::any_of(left.begin(), left.end(), [&](const auto& channel) {
-    return dependence.channel.rfind(channel.first, 0) == 0 && channel.second > kRealGap;
+    return dependence.channel.rfind(channel.first, 0) == 0 &&
+           channel.second > options.judgement.real_gap;
   });
 }
 
 /// How much of the squared gap a dependence explains. A gap that depends on nothing is
 /// underestimated noise, not a missing effect.
-double explained(const Dependence& dependence, const std::map<std::string, double>& left) {
+double explained(const Dependence& dependence, const std::map<std::string, double>& left,
+                 const Options& options) {
   const double share = std::max(dependence.predicted(), dependence.constant);
   double most = 0.0;
   for (const auto& [name, gap] : left) {
-    if (dependence.channel.rfind(name, 0) != 0 || share < Dependence::kTelling) continue;
-    most = std::max(most, share * excess(gap, kRealGap));
+    if (dependence.channel.rfind(name, 0) != 0 || share < options.diagnosis.dependence.telling)
+      continue;
+    most = std::max(most, share * excess(gap, options.judgement.real_gap));
   }
   return most;
 }
@@ -44,23 +46,23 @@ std::string verdict_name(Verdict verdict) {
   return {};
 }
 
-Verdict verdict_on(bool any_effect, const Diagnosis& diagnosis) {
+Verdict verdict_on(bool any_effect, const Diagnosis& diagnosis, const ConclusionOptions& options) {
   if (!any_effect) {
     const bool any = diagnosis.certain || !diagnosis.one_sided.empty();
     return any ? Verdict::kUnexplained : Verdict::kNoMissingEffect;
   }
-  const bool most_remains = diagnosis.certain && diagnosis.remaining_share > kMostRemains;
+  const bool most_remains = diagnosis.certain && diagnosis.remaining_share > options.most_remains;
   return most_remains ? Verdict::kUnexplained : Verdict::kEffectsFound;
 }
 
-FoundEffect trusted(FoundEffect effect) {
-  const double trust = trust_in(effect);
+FoundEffect trusted(FoundEffect effect, const TrustOptions& options) {
+  const double trust = trust_in(effect, options);
   effect.probability *= trust;
   for (Rival& rival : effect.rivals) rival.probability *= trust;
   return effect;
 }
 
-Remaining remaining_of(const Diagnosis& diagnosis) {
+Remaining remaining_of(const Diagnosis& diagnosis, const Options& options) {
   const auto& left = diagnosis.learned;
   Remaining rest;
   rest.share = diagnosis.remaining_share;
@@ -68,13 +70,14 @@ Remaining remaining_of(const Diagnosis& diagnosis) {
   if (rest.certain) {
     std::copy_if(diagnosis.remaining.begin(), diagnosis.remaining.end(),
                  std::back_inserter(rest.dependences),
-                 [&](const Dependence& d) { return is_real(d, left); });
+                 [&](const Dependence& d) { return is_real(d, left, options); });
   }
   std::stable_sort(rest.dependences.begin(), rest.dependences.end(),
                    [&](const Dependence& a, const Dependence& b) {
-                     return explained(a, left) > explained(b, left);
+                     return explained(a, left, options) > explained(b, left, options);
                    });
-  const bool any = !rest.dependences.empty() && explained(rest.dependences.front(), left) > 0.0;
+  const bool any =
+      !rest.dependences.empty() && explained(rest.dependences.front(), left, options) > 0.0;
   const Dependence* cause = any ? &rest.dependences.front() : nullptr;
   if (!rest.certain && !diagnosis.one_sided.empty()) {
     rest.description = diagnosis.one_sided.front().channel +

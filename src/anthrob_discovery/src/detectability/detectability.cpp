@@ -15,27 +15,24 @@ namespace discovery {
 
 namespace {
 
-constexpr double kMostly = 1.645;   ///< standard deviations: nineteen times out of twenty
-constexpr int kRounds = 3;          ///< in which a size is made larger
-constexpr double kEnough = 0.9;     ///< of what is needed
-constexpr double kMostDoses = 5.0;  ///< [typical sizes] larger ones are unrealistic
-
-/// Gap at which each channel is above kFaintGap nineteen times out of twenty [floors].
-std::map<std::string, double> mostly_looked_at(const Judge& train, const Judge& test) {
+/// Gap at which each channel is mostly above `faint_gap` [floors].
+/// @param mostly standard deviations
+std::map<std::string, double> mostly_looked_at(const Judge& train, const Judge& test,
+                                               double mostly) {
   const auto learned = train.chance_of_gaps();
   std::map<std::string, double> levels;
   for (const auto& [name, held_out] : test.chance_of_gaps()) {
     const auto found = learned.find(name);
     if (found == learned.end()) continue;
-    levels[name] = kFaintGap * (1.0 + kMostly * std::max(held_out, found->second));
+    levels[name] = train.options().faint_gap * (1.0 + mostly * std::max(held_out, found->second));
   }
   return levels;
 }
 
 /// Evidence E scatters by sqrt(2 E).
-/// @return expected evidence that is enough nineteen times out of twenty [nat]
-double mostly_enough(double evidence) {
-  const double root = kMostly / std::sqrt(2.0) + std::sqrt(0.5 * kMostly * kMostly + evidence);
+/// @return expected evidence that is mostly enough [nat]
+double mostly_enough(double evidence, double mostly) {
+  const double root = mostly / std::sqrt(2.0) + std::sqrt(0.5 * mostly * mostly + evidence);
   return root * root;
 }
 
@@ -48,6 +45,7 @@ class Finder {
         base_(base),
         train_(hypotheses.train_judge),
         test_(hypotheses.test_judge),
+        options_(hypotheses.options.detectability),
         held_out_(total_duration(hypotheses.test.experiments())) {}
 
   Detectability find(const Screening& screening, std::vector<Score> scores) const;
@@ -69,14 +67,16 @@ class Finder {
   const ModelFit& fit_;
   const Fitted& base_;
   const Judge &train_, &test_;
-  double held_out_;  ///< length of the held-out recordings [s]
+  const DetectabilityOptions& options_;
+  double mostly_ = 1.645;  ///< standard deviations within which the probability lies
+  double held_out_;        ///< length of the held-out recordings [s]
 };
 
 Detectability Finder::find(const Screening& screening, std::vector<Score> scores) const {
   std::sort(scores.begin(), scores.end(),
             [](const Score& a, const Score& b) { return a.candidate < b.candidate; });
   std::vector<double> doses =
-      screening.doses_to_a_gap(base_, scores, train_, mostly_looked_at(train_, test_));
+      screening.doses_to_a_gap(base_, scores, train_, mostly_looked_at(train_, test_, mostly_));
   for (std::size_t s = 0; s < scores.size(); ++s) {
     doses[s] = std::max(doses[s], doses_for_evidence(scores[s]));
   }
@@ -95,7 +95,8 @@ Detectability Finder::find(const Screening& screening, std::vector<Score> scores
 }
 
 double Finder::doses_for_evidence(const Score& score) const {
-  const double evidence = mostly_enough(needed_evidence(candidates_.size()));
+  const double evidence =
+      mostly_enough(needed_evidence(candidates_.size(), train_.options().merit), mostly_);
   return score.uncertainty * std::sqrt(2.0 * evidence * score.seconds / held_out_);
 }
 
@@ -117,10 +118,10 @@ double Finder::checked(const LikelihoodProfile& profile, const Score& score, dou
   const double deviations = doses / score.uncertainty;
   const double needed =
       0.5 * deviations * deviations * total_duration(fit_.experiments()) / score.seconds;
-  for (int round = 0; round < kRounds && is_met(score, doses); ++round) {
+  for (int round = 0; round < options_.rounds && is_met(score, doses); ++round) {
     const auto rise = profile.rise(candidates_[score.candidate], score.size, doses, needed);
     if (!rise || *rise <= 0.0) return HUGE_VAL;
-    if (*rise > kEnough * needed) return doses;
+    if (*rise > options_.enough * needed) return doses;
     doses *= std::sqrt(needed / *rise);
   }
   return doses;
@@ -137,7 +138,7 @@ bool Finder::is_met(const Score& score, double doses) const {
   const Candidate& candidate = candidates_[score.candidate];
   const EffectParameter& size = *candidate.sizes()[score.size];
   const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
-  return doses <= kMostDoses && visibility_of(score, doses).smallest_visible <= largest;
+  return doses <= options_.most_doses && visibility_of(score, doses).smallest_visible <= largest;
 }
 
 /// How much of an effect may be taken for an ordinary parameter that is the same quantity.

@@ -12,11 +12,7 @@ namespace discovery {
 
 namespace {
 
-constexpr std::size_t kSteps = 9;   ///< of a curve
-constexpr std::size_t kLevels = 3;  ///< of a second quantity
-constexpr double kStill = 0.02;     ///< [largest speed] below it, the sign of a speed means nothing
-constexpr double kBetter = 0.02;    ///< share by which a quantity must predict more than another
-constexpr bool kShown = true;       ///< the half of the blocks whose curves are shown
+const bool kShown = true;  ///< the half of the blocks whose curves are shown
 
 /// A bin of a channel: experiment, and number of its bin.
 using Bin = std::pair<std::size_t, std::size_t>;
@@ -25,7 +21,9 @@ using Bin = std::pair<std::size_t, std::size_t>;
 class ChannelBins {
  public:
   ChannelBins(const Experiments& experiments, const Channel& channel,
-              const Eigen::VectorXf& residual, const Eigen::VectorXf& whitener) {
+              const Eigen::VectorXf& residual, const Eigen::VectorXf& whitener,
+              const DependenceOptions& options, double block_seconds)
+      : options_(options) {
     std::size_t offset = 0, before = 0;
     for (std::size_t e = 0; e < experiments.size(); ++e) {
       const Experiment& experiment = *experiments[e];
@@ -35,7 +33,7 @@ class ChannelBins {
         if (!(whitener[i] > 0.0f)) continue;
         bins_.emplace_back(e, b);
         residual_.y.push_back(static_cast<double>(residual[i] / whitener[i]));
-        const auto block = static_cast<std::size_t>(experiment.bin_time(b) / Judge::kBlock);
+        const auto block = static_cast<std::size_t>(experiment.bin_time(b) / block_seconds);
         // Numbered on from experiment to experiment, so that odd ones begin every other.
         residual_.block.push_back(before + block + e % 2);
       }
@@ -45,7 +43,7 @@ class ChannelBins {
     }
   }
 
-  bool are_enough() const { return bins_.size() >= 10 * kSteps; }
+  bool are_enough() const { return bins_.size() >= options_.bins_per_step * options_.steps; }
   const ChannelResidual& residual() const { return residual_; }
 
   std::vector<double> values_of(const MeasuredVariable& variable) const {
@@ -59,14 +57,15 @@ class ChannelBins {
     if (!variable.sign) return equal_steps(x, most);
     double largest = 0.0;
     for (const double value : x) largest = std::max(largest, std::abs(value));
-    return sign_steps(x, kStill * largest);
+    return sign_steps(x, options_.still * largest);
   }
 
   /// Over a variable, in some of the cells.
   Dependence::Curve curve(const MeasuredVariable& variable, const Steps& cells, std::size_t first,
                           std::size_t last, std::size_t stride = 1) const {
-    const StepMeans means = means_of(residual_, cells, kShown);
-    const auto centres = centres_of(values_of(variable), residual_, cells, kShown);
+    const StepMeans means = means_of(residual_, cells, kShown, options_.fewest_bins);
+    const auto centres =
+        centres_of(values_of(variable), residual_, cells, kShown, options_.fewest_bins);
     Dependence::Curve curve;
     for (std::size_t k = first; k < last; k += stride) {
       if (!means.has(k)) continue;
@@ -78,6 +77,7 @@ class ChannelBins {
   }
 
  private:
+  const DependenceOptions& options_;
   std::vector<Bin> bins_;
   ChannelResidual residual_;
 };
@@ -99,19 +99,21 @@ std::vector<const MeasuredVariable*> that_may_explain(
 /// without it.
 std::optional<Dependence::Second> second_of(const ChannelBins& bins, const MeasuredVariable& first,
                                             double share,
-                                            const std::vector<const MeasuredVariable*>& others) {
-  const Steps steps = bins.steps_of(first, kSteps);
+                                            const std::vector<const MeasuredVariable*>& others,
+                                            const DependenceOptions& options) {
+  const Steps steps = bins.steps_of(first, options.steps);
   std::optional<Dependence::Second> best;
-  double least = share + Dependence::kTelling;
+  double least = share + options.telling;
   for (const MeasuredVariable* other : others) {
     if (other == &first) continue;
-    const Steps levels = bins.steps_of(*other, kLevels);
+    const Steps levels = bins.steps_of(*other, options.levels);
     const Steps cells = crossed(steps, levels);
-    const double both = predicted(bins.residual(), cells, &steps).steps;
+    const double both = predicted(bins.residual(), cells, options.fewest_bins, &steps).steps;
     if (both <= least) continue;
-    least = both + kBetter;
+    least = both + options.better;
     best = Dependence::Second{other->name, other->unit, other->word, both, {}};
-    const auto centres = centres_of(bins.values_of(*other), bins.residual(), levels, kShown);
+    const auto centres =
+        centres_of(bins.values_of(*other), bins.residual(), levels, kShown, options.fewest_bins);
     for (std::size_t level = 0; level < levels.count; ++level) {
       Dependence::Branch branch;
       static_cast<Dependence::Curve&>(branch) =
@@ -128,7 +130,8 @@ std::string quantity(const std::string& word, const std::string& variable) {
 }
 
 Dependence dependence_of(const Channel& channel, const ChannelBins& bins,
-                         const std::vector<const MeasuredVariable*>& variables) {
+                         const std::vector<const MeasuredVariable*>& variables,
+                         const DependenceOptions& options) {
   Dependence best;
   best.channel = channel.name();
   best.unit = channel.unit;
@@ -138,10 +141,10 @@ Dependence dependence_of(const Channel& channel, const ChannelBins& bins,
   if (!bins.are_enough()) return best;
   const MeasuredVariable* first = nullptr;
   for (const MeasuredVariable* variable : variables) {
-    const Steps steps = bins.steps_of(*variable, kSteps);
-    const Predicted shares = predicted(bins.residual(), steps);
+    const Steps steps = bins.steps_of(*variable, options.steps);
+    const Predicted shares = predicted(bins.residual(), steps, options.fewest_bins);
     best.constant = shares.constant;
-    if (shares.steps <= best.share + kBetter) continue;
+    if (shares.steps <= best.share + options.better) continue;
     first = variable;
     best.share = shares.steps;
     best.variable = variable->name;
@@ -149,8 +152,8 @@ Dependence dependence_of(const Channel& channel, const ChannelBins& bins,
     best.word = variable->word;
     best.curve = bins.curve(*variable, steps, 0, steps.count);
   }
-  if (best.share > Dependence::kTelling) {
-    best.second = second_of(bins, *first, best.share, variables);
+  if (best.share > options.telling) {
+    best.second = second_of(bins, *first, best.share, variables, options);
   }
   return best;
 }
@@ -165,11 +168,13 @@ std::string Dependence::on_what() const {
 std::vector<Dependence> find_dependences(const Experiments& experiments,
                                          const std::vector<MeasuredVariable>& variables,
                                          const Eigen::VectorXf& residual,
-                                         const Eigen::VectorXf& whitener) {
+                                         const Eigen::VectorXf& whitener,
+                                         const DependenceOptions& options, double block) {
   std::vector<Dependence> found;
   for (const Channel& channel : channels_of(experiments)) {
-    found.push_back(dependence_of(channel, ChannelBins(experiments, channel, residual, whitener),
-                                  that_may_explain(channel, variables)));
+    found.push_back(dependence_of(
+        channel, ChannelBins(experiments, channel, residual, whitener, options, block),
+        that_may_explain(channel, variables), options));
   }
   return found;
 }

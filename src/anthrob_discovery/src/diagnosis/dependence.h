@@ -6,6 +6,7 @@
 
 #include "experiment/measured_variable.h"
 #include "experiment/noise_floor.h"
+#include "options/diagnosis.h"
 
 namespace anthrob {
 namespace discovery {
@@ -13,8 +14,6 @@ namespace discovery {
 /// What the residual of one channel depends on: the measured quantity that predicts it best, and
 /// the curve; and a second quantity with which that curve changes, if there is one.
 struct Dependence {
-  static constexpr double kTelling = 0.05;  ///< a smaller share says nothing
-
   /// Residual over a variable.
   struct Curve {
     std::vector<double> at;           ///< [unit of the variable]
@@ -53,11 +52,12 @@ struct Dependence {
 /// steps fitted on one half of the blocks and judged on the other. Where a quantity predicts
 /// something, the others are tried as a second one, whose low, middle and high values have curves
 /// of their own.
-/// @param residual in units of sigma, as whitened by `whitener`
+/// @param residual in units of sigma, as whitened by `whitener`   @param block of time [s]
 std::vector<Dependence> find_dependences(const Experiments& experiments,
                                          const std::vector<MeasuredVariable>& variables,
                                          const Eigen::VectorXf& residual,
-                                         const Eigen::VectorXf& whitener);
+                                         const Eigen::VectorXf& whitener,
+                                         const DependenceOptions& options, double block);
 
 }  // namespace discovery
 }  // namespace anthrob

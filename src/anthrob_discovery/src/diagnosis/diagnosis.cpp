@@ -10,8 +10,8 @@
 namespace anthrob {
 namespace discovery {
 
-double least_gap(bool any_effect) {
-  return any_effect ? kFaintGap : kRealGap;
+double least_gap(bool any_effect, const JudgementOptions& options) {
+  return any_effect ? options.faint_gap : options.real_gap;
 }
 
 namespace {
@@ -38,22 +38,22 @@ GapComparison compare_gaps(const Hypotheses& hypotheses, const Baseline& baselin
   gaps.one_sided = one_sided_gaps(train, last.fit.residual, test, last.test);
   Gaps left(train, test, hypotheses.candidates.size());
   left.begin(first.test);
-  const double least = least_gap(!found.named.empty()), whole = left.first_excess(least);
+  const double least = least_gap(!found.named.empty(), hypotheses.options.judgement),
+               whole = left.first_excess(least);
   gaps.remaining_share = whole > 0.0 ? left.excess_of(last.test, least) / whole : 0.0;
   gaps.certain = left.certain(last);
   return gaps;
 }
 
 /// What speaks against the recordings or the floors.
-std::vector<std::string> remarks_on(const GapComparison& gaps, bool has_repeats) {
-  constexpr double kTooGood = 0.3;  // [floors] rounding of the coarsest sensors alone leaves more
+std::vector<std::string> remarks_on(const GapComparison& gaps, bool has_repeats, double too_good) {
   std::vector<std::string> remarks;
   for (const OneSidedGap& gap : gaps.one_sided) remarks.push_back(remark_on(gap));
   for (const auto& [channel, gap] : gaps.learned) {
     const auto held_out = gaps.per_channel.find(channel);
     if (held_out == gaps.per_channel.end()) continue;
     const double least = std::min(gap, held_out->second.after);
-    if (least > kTooGood) continue;
+    if (least > too_good) continue;
     remarks.push_back(
         channel + ": a gap of only " + short_number(least) +
         " floors: the floor is too high and hides what may be missing; " +
@@ -66,21 +66,26 @@ std::vector<std::string> remarks_on(const GapComparison& gaps, bool has_repeats)
 GapLocation locate_gap(const Hypotheses& hypotheses, const Admission& admission,
                        const Scales& scales, std::vector<MeasuredVariable> variables,
                        const SearchResult& found) {
+  const DiagnosisOptions& options = hypotheses.options.diagnosis;
+  const double block = hypotheses.options.judgement.block;
   const Experiments& train = admission.train;
   const Eigen::VectorXf &whitening = hypotheses.train.whitening(),
                         &recalibrated = found.recalibrated.fit.residual;
   const Variant& variant = found.recalibrated.fit.variant;
-  for (MeasuredVariable& angle :
-       wrap_angles(hypotheses.evaluator, admission.question.train, train, variant)) {
+  for (MeasuredVariable& angle : wrap_angles(hypotheses.evaluator, admission.question.train, train,
+                                             variant, hypotheses.options)) {
     variables.push_back(std::move(angle));
   }
   GapLocation location;
   location.regimes = regime_gaps(train, variables, recalibrated, whitening, scales);
-  location.dependences = find_dependences(train, variables, recalibrated, whitening);
-  location.remaining = find_dependences(train, variables, found.extended.fit.residual, whitening);
+  location.dependences =
+      find_dependences(train, variables, recalibrated, whitening, options.dependence, block);
+  location.remaining = find_dependences(train, variables, found.extended.fit.residual, whitening,
+                                        options.dependence, block);
   location.seams = seam_gaps(hypotheses.evaluator, admission, scales, variant);
-  location.where = locate(hypotheses.train_judge, recalibrated, least_gap(!found.named.empty()),
-                          scales, location.seams, location.dependences);
+  location.where = locate(hypotheses.train_judge, recalibrated,
+                          least_gap(!found.named.empty(), hypotheses.options.judgement), scales,
+                          location.seams, location.dependences, options);
   return location;
 }
 
@@ -91,10 +96,11 @@ Diagnosis diagnose(const Hypotheses& hypotheses, const Admission& admission, con
                    const SearchResult& found, const Observer& observer) {
   const GapComparison gaps = compare_gaps(hypotheses, baseline, found);
   observer.stage("locating the gap");
-  return {gaps, locate_gap(hypotheses, admission, scales, variables, found),
-          examples_of(*admission.test.front(), hypotheses.test.whitening(), found.recalibrated.test,
-                      found.extended.test, gaps.per_channel),
-          remarks_on(gaps, !admission.question.repeats.empty())};
+  return {
+      gaps, locate_gap(hypotheses, admission, scales, variables, found),
+      examples_of(*admission.test.front(), hypotheses.test.whitening(), found.recalibrated.test,
+                  found.extended.test, gaps.per_channel, hypotheses.options.diagnosis.examples),
+      remarks_on(gaps, !admission.question.repeats.empty(), hypotheses.options.diagnosis.too_good)};
 }
 
 }  // namespace discovery

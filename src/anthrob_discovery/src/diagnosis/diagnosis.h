@@ -48,7 +48,7 @@ struct Diagnosis : GapComparison, GapLocation {
 
 /// Gaps smaller than this are not located or counted [floors]; a gap that was worth naming an
 /// effect for counts.
-double least_gap(bool any_effect);
+double least_gap(bool any_effect, const JudgementOptions& options);
 
 /// Where recordings and models disagree ("Where" in docs/discovery_method.md).
 Diagnosis diagnose(const Hypotheses& hypotheses, const Admission& admission, const Scales& scales,

@@ -8,8 +8,6 @@ namespace discovery {
 
 namespace {
 
-constexpr std::size_t kMost = 3;
-
 /// Largest change first; among unchanged channels, the largest gap.
 std::vector<std::string> by_change(const std::map<std::string, Gap>& gaps) {
   std::vector<std::pair<double, std::string>> order;
@@ -49,9 +47,9 @@ std::string label_of(const Channel& channel) {
 
 std::vector<Example> examples_of(const Experiment& experiment, const Eigen::VectorXf& whitener,
                                  const Eigen::VectorXf& recalibrated, const Eigen::VectorXf& after,
-                                 const std::map<std::string, Gap>& gaps) {
+                                 const std::map<std::string, Gap>& gaps, std::size_t most) {
   std::vector<std::string> names = by_change(gaps);
-  if (names.size() > kMost) names.resize(kMost);
+  if (names.size() > most) names.resize(most);
   std::vector<Example> examples;
   for (const std::string& name : names) {
     const Channel* channel = most_changed(experiment, name, recalibrated, after);

@@ -18,10 +18,10 @@ struct Example {
 
 /// The channels of a held-out recording that changed most, for figures.
 /// @param whitener of the residuals, of which this experiment's come first
-/// @param gaps by channel
+/// @param gaps by channel   @param most so many channels
 std::vector<Example> examples_of(const Experiment& experiment, const Eigen::VectorXf& whitener,
                                  const Eigen::VectorXf& recalibrated, const Eigen::VectorXf& after,
-                                 const std::map<std::string, Gap>& gaps);
+                                 const std::map<std::string, Gap>& gaps, std::size_t most);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "admission/admission.h"
 #include "experiment/noise_floor.h"
 
@@ -11,13 +15,13 @@ namespace discovery {
 /// seam, a gap that stays arises behind it.
 struct SeamGap {
   std::string place, channel;
-  bool of_joint = false;    ///< place is a joint, else a muscle
-  double commands = -1.0;   ///< the whole chain replayed from its commands
-  double voltages = -1.0;   ///< from measured voltages on: without controllers
-  double positions = -1.0;  ///< measured motor positions imposed: without motors
-  /// Measured joint positions imposed as well: tendons and springs alone. Only of forces. -1, here
-  /// and above: not compared.
-  double postures = -1.0;
+  bool of_joint = false;  ///< place is a joint, else a muscle
+  // Nothing: not compared.
+  std::optional<double> commands;   ///< the whole chain replayed from its commands
+  std::optional<double> voltages;   ///< from measured voltages on: without controllers
+  std::optional<double> positions;  ///< measured motor positions imposed: without motors
+  /// Measured joint positions imposed as well: tendons and springs alone. Only of forces.
+  std::optional<double> postures;
 };
 
 /// Replays the training recordings four times, fed with measured values at one point (seam) of the
@@ -27,10 +31,10 @@ std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Admission& admi
 
 /// Whether measured postures make a force so much worse that their own errors must be in it. Up to
 /// twice as bad is natural: an imposed posture does not give way to a wrong force.
-bool postures_mislead(const SeamGap& gap);
+bool postures_mislead(const SeamGap& gap, const SeamOptions& options);
 
 /// The part of the chain to which the gaps of a channel point, in words.
-std::string subsystem_of(const SeamGap& gap);
+std::string subsystem_of(const SeamGap& gap, const SeamOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -8,8 +8,6 @@ namespace discovery {
 
 namespace {
 
-constexpr double kFew = 2.0;  ///< fewest bins of a mean
-
 Steps between(const std::vector<double>& x, const std::vector<double>& edges) {
   Steps steps;
   steps.count = edges.size() + 1;
@@ -20,12 +18,12 @@ Steps between(const std::vector<double>& x, const std::vector<double>& edges) {
   return steps;
 }
 
-Predicted predicted(const ChannelResidual& residual, const Steps& steps, const Steps* wider,
-                    bool odd) {
-  const StepMeans means = means_of(residual, steps, !odd);
-  const StepMeans wide = wider ? means_of(residual, *wider, !odd) : StepMeans{};
+Predicted predicted(const ChannelResidual& residual, const Steps& steps, double fewest,
+                    const Steps* wider, bool odd) {
+  const StepMeans means = means_of(residual, steps, !odd, fewest);
+  const StepMeans wide = wider ? means_of(residual, *wider, !odd, fewest) : StepMeans{};
   const StepMeans all =
-      means_of(residual, {std::vector<std::size_t>(residual.y.size(), 0), 1}, !odd);
+      means_of(residual, {std::vector<std::size_t>(residual.y.size(), 0), 1}, !odd, fewest);
   double by_constant = 0.0, by_steps = 0.0, whole = 0.0;
   for (std::size_t i = 0; i < residual.y.size(); ++i) {
     if (residual.is_odd(i) != odd) continue;
@@ -95,11 +93,12 @@ Steps crossed(const Steps& one, const Steps& other) {
 }
 
 bool StepMeans::has(std::size_t step) const {
-  return count[step] >= kFew;
+  return count[step] >= fewest;
 }
 
-StepMeans means_of(const ChannelResidual& residual, const Steps& steps, bool odd) {
+StepMeans means_of(const ChannelResidual& residual, const Steps& steps, bool odd, double fewest) {
   StepMeans means;
+  means.fewest = fewest;
   means.count.assign(steps.count, 0.0);
   means.mean = means.error = means.count;
   for (std::size_t i = 0; i < residual.y.size(); ++i) {
@@ -115,13 +114,14 @@ StepMeans means_of(const ChannelResidual& residual, const Steps& steps, bool odd
 }
 
 std::vector<double> centres_of(const std::vector<double>& x, const ChannelResidual& residual,
-                               const Steps& steps, bool odd) {
-  return means_of({x, residual.block}, steps, odd).mean;
+                               const Steps& steps, bool odd, double fewest) {
+  return means_of({x, residual.block}, steps, odd, fewest).mean;
 }
 
-Predicted predicted(const ChannelResidual& residual, const Steps& steps, const Steps* wider) {
-  const Predicted odd = predicted(residual, steps, wider, true),
-                  even = predicted(residual, steps, wider, false);
+Predicted predicted(const ChannelResidual& residual, const Steps& steps, double fewest,
+                    const Steps* wider) {
+  const Predicted odd = predicted(residual, steps, fewest, wider, true),
+                  even = predicted(residual, steps, fewest, wider, false);
   return {0.5 * (odd.constant + even.constant), 0.5 * (odd.steps + even.steps)};
 }
 

@@ -30,6 +30,7 @@ struct ChannelResidual {
 
 /// Means of one half of the blocks, by step.
 struct StepMeans {
+  double fewest = 1.0;        ///< bins of a mean
   std::vector<double> count;  ///< bins
   /// Residual, and its standard error over blocks, within which residuals are correlated [its
   /// unit].
@@ -39,11 +40,11 @@ struct StepMeans {
   bool has(std::size_t step) const;
 };
 
-/// @param odd which half
-StepMeans means_of(const ChannelResidual& residual, const Steps& steps, bool odd);
+/// @param odd which half   @param fewest bins of a mean
+StepMeans means_of(const ChannelResidual& residual, const Steps& steps, bool odd, double fewest);
 /// Means of a variable, by step, over the same bins.
 std::vector<double> centres_of(const std::vector<double>& x, const ChannelResidual& residual,
-                               const Steps& steps, bool odd);
+                               const Steps& steps, bool odd, double fewest);
 
 /// Shares of the squares of one half of the blocks that means of the other half predict, averaged
 /// over both halves.
@@ -53,7 +54,7 @@ struct Predicted {
 };
 
 /// @param wider steps whose means predict where a step has too few bins; nullptr: nothing does
-Predicted predicted(const ChannelResidual& residual, const Steps& steps,
+Predicted predicted(const ChannelResidual& residual, const Steps& steps, double fewest,
                     const Steps* wider = nullptr);
 
 }  // namespace discovery

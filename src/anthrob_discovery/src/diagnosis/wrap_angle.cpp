@@ -12,8 +12,6 @@ namespace discovery {
 
 namespace {
 
-constexpr double kChanges = 0.05;  ///< [rad]
-
 double wrap_angle(const Muscle& muscle) {
   double turning = 0.0;
   for (const auto& obstacle : muscle.path().obstacles()) turning += obstacle.turning;
@@ -22,8 +20,9 @@ double wrap_angle(const Muscle& muscle) {
 
 /// @param values by muscle and bin, filled in
 void follow(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
-            const Experiment& experiment, std::vector<std::vector<double>>& values) {
-  const Replay input(model, with_smooth_postures(*model, recording), ReplayMode::kPosture);
+            const Experiment& experiment, const PostureNoiseOptions& options,
+            std::vector<std::vector<double>>& values) {
+  const Replay input(model, with_smooth_postures(*model, recording, options), ReplayMode::kPosture);
   Simulation sim(model);
   input.start(sim);
   Replay::Run run(input, sim);
@@ -41,19 +40,20 @@ void follow(const std::shared_ptr<const RobotModel>& model, const Dataset& recor
   }
 }
 
-bool changes(const MeasuredVariable& variable) {
+bool changes(const MeasuredVariable& variable, double least) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto& values : variable.values) {
     for (const double value : values) low = std::min(low, value), high = std::max(high, value);
   }
-  return high - low > kChanges;
+  return high - low > least;
 }
 
 }  // namespace
 
 std::vector<MeasuredVariable> wrap_angles(const Evaluator& evaluator,
                                           const std::vector<Dataset>& recordings,
-                                          const Experiments& experiments, const Variant& variant) {
+                                          const Experiments& experiments, const Variant& variant,
+                                          const Options& options) {
   std::vector<MeasuredVariable> variables;
   for (const MuscleModel& muscle : evaluator.model()->muscles) {
     variables.push_back({muscle.name + "/wrap_angle", "wrap angle", {}, false, "rad"});
@@ -64,7 +64,7 @@ std::vector<MeasuredVariable> wrap_angles(const Evaluator& evaluator,
     std::vector<std::vector<std::vector<double>>> values(
         experiments.size(), std::vector<std::vector<double>>(variables.size()));
     evaluator.side_by_side(experiments.size(), [&](std::size_t e) {
-      follow(model, recordings[e], *experiments[e], values[e]);
+      follow(model, recordings[e], *experiments[e], options.experiment.postures, values[e]);
     });
     for (std::size_t m = 0; m < variables.size(); ++m) {
       for (auto& own : values) variables[m].values.push_back(std::move(own[m]));
@@ -75,7 +75,9 @@ std::vector<MeasuredVariable> wrap_angles(const Evaluator& evaluator,
     return {};
   }
   variables.erase(std::remove_if(variables.begin(), variables.end(),
-                                 [](const MeasuredVariable& v) { return !changes(v); }),
+                                 [&](const MeasuredVariable& v) {
+                                   return !changes(v, options.diagnosis.dependence.wrap_angle);
+                                 }),
                   variables.end());
   return variables;
 }

@@ -4,6 +4,7 @@
 
 #include "experiment/evaluator.h"
 #include "experiment/measured_variable.h"
+#include "options/options.h"
 
 namespace anthrob {
 namespace discovery {
@@ -13,7 +14,8 @@ namespace discovery {
 /// changes. Empty if a joint was not measured.
 std::vector<MeasuredVariable> wrap_angles(const Evaluator& evaluator,
                                           const std::vector<Dataset>& recordings,
-                                          const Experiments& experiments, const Variant& variant);
+                                          const Experiments& experiments, const Variant& variant,
+                                          const Options& options);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -12,15 +12,14 @@ namespace discovery {
 
 namespace {
 
-constexpr double kMostPeriods = 3.5;  ///< [sampling periods] longest distance of two samples
-
 /// Position and velocity at `time` by a parabola through the samples around it.
-std::pair<double, double> motion_at(const Series& series, double time, double half_width) {
+std::pair<double, double> motion_at(const Series& series, double time, const AxisOptions& options) {
+  const double half_width = options.smoothing;
   const auto first = std::lower_bound(series.t.begin(), series.t.end(), time - half_width);
   const auto last = std::upper_bound(series.t.begin(), series.t.end(), time + half_width);
   auto from = first - series.t.begin(), to = last - series.t.begin();
   const auto size = static_cast<std::ptrdiff_t>(series.t.size());
-  while (to - from < 4 && (from > 0 || to < size)) {
+  while (to - from < options.fewest_samples && (from > 0 || to < size)) {
     if (from > 0) --from;
     if (to < size) ++to;
   }
@@ -38,7 +37,8 @@ std::pair<double, double> motion_at(const Series& series, double time, double ha
 }
 
 /// Where positions are missing longer than a parabola may bridge: begin and end of each hole [s].
-std::vector<std::pair<double, double>> holes_of(const Series& series, double end) {
+std::vector<std::pair<double, double>> holes_of(const Series& series, double end,
+                                                const AxisOptions& options) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < series.t.size(); ++i) {
     periods.push_back(series.t[i] - series.t[i - 1]);
@@ -46,7 +46,7 @@ std::vector<std::pair<double, double>> holes_of(const Series& series, double end
   if (periods.empty()) return {{0.0, end}};
   const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
   std::nth_element(periods.begin(), middle, periods.end());
-  const double longest = std::max(2.0 * AxisExperiment::kSmoothing, kMostPeriods * *middle);
+  const double longest = std::max(2.0 * options.smoothing, options.most_periods * *middle);
   std::vector<std::pair<double, double>> holes;
   const auto add = [&](double from, double to) {
     if (to - from > longest) holes.emplace_back(from, to);
@@ -60,25 +60,26 @@ std::vector<std::pair<double, double>> holes_of(const Series& series, double end
 }  // namespace
 
 AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording,
-                               const ExperimentOptions& options)
-    : step_(model.step) {
+                               const AxisOptions& options, const ReplayScope& scope)
+    : options_(options), step_(model.step) {
   name_ = recording.folder;
-  steps_per_bin_ = static_cast<std::size_t>(std::lround(options.bin / step_));
+  steps_per_bin_ = static_cast<std::size_t>(std::lround(scope.bin / step_));
   if (steps_per_bin_ == 0) {
     throw BadInput("--dt " + std::to_string(step_) + ": expected a step of at most " +
-                   std::to_string(options.bin) +
+                   std::to_string(scope.bin) +
                    " s, the length of the bins in which a driven axis is compared");
   }
   bin_ = static_cast<double>(steps_per_bin_) * step_;
   const auto& joints = model.skeleton->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (joints[j].driven) add_axis(static_cast<int>(j), joints[j], recording, options.seconds);
+    if (joints[j].driven) add_axis(static_cast<int>(j), joints[j], recording, scope.seconds);
   }
   fingerprint_ =
       resume::Fingerprint().add(recording).add(bin_).add(static_cast<std::uint64_t>(bins_)).value();
-  if (bins_ < 10) {
-    throw BadInput(recording.folder + ": too short: expected at least ten bins of " +
-                   std::to_string(bin_) + " s");
+  if (bins_ < options_.fewest_bins) {
+    throw BadInput(recording.folder + ": too short: expected at least " +
+                   std::to_string(options_.fewest_bins) + " bins of " + std::to_string(bin_) +
+                   " s");
   }
   measure_inertia(model);
 }
@@ -106,7 +107,7 @@ void AxisExperiment::add_axis(int index, const JointModel& joint, const Dataset&
                    "/effort' is missing: expected the measured effort of a driven joint");
   }
   for (std::size_t edge = 0; edge <= bins_; ++edge) {
-    const auto [q, u] = motion_at(position, static_cast<double>(edge) * bin_, kSmoothing);
+    const auto [q, u] = motion_at(position, static_cast<double>(edge) * bin_, options_);
     axis.position.push_back(q);
     axis.velocity.push_back(u);
   }
@@ -114,10 +115,10 @@ void AxisExperiment::add_axis(int index, const JointModel& joint, const Dataset&
   channels_.push_back({joint.name, "effort", hinge ? "Nm" : "N", 0, present_.size(), bins_});
   present_.insert(present_.end(), bins_, 1);
   // A bin needs the motion at its begin and at its end, each from the samples around it.
-  for (const auto& [from, to] : holes_of(position, length)) {
+  for (const auto& [from, to] : holes_of(position, length, options_)) {
     for (std::size_t b = 0; b < bins_; ++b) {
-      const double begin = static_cast<double>(b) * bin_ - kSmoothing;
-      const bool outside = begin >= to || begin + bin_ + 2.0 * kSmoothing <= from;
+      const double begin = static_cast<double>(b) * bin_ - options_.smoothing;
+      const bool outside = begin >= to || begin + bin_ + 2.0 * options_.smoothing <= from;
       if (!outside) present_[channels_.back().offset + b] = 0;
     }
   }

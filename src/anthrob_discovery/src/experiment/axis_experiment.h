@@ -13,14 +13,12 @@ namespace discovery {
 /// is the effort that the model is missing [N or Nm].
 ///
 /// Positions and velocities at the edges of bins come from parabolas through the measured positions
-/// within +-kSmoothing. Bins next to a hole in the positions longer than 3.5 sampling periods, and
-/// than 2 kSmoothing, are not compared.
+/// around them (AxisOptions). Bins next to a hole in the positions that no parabola may bridge are
+/// not compared.
 class AxisExperiment final : public Experiment {
  public:
-  static constexpr double kSmoothing = 0.006;  ///< [s]
-
-  AxisExperiment(const RobotModel& model, const Dataset& recording,
-                 const ExperimentOptions& options);
+  AxisExperiment(const RobotModel& model, const Dataset& recording, const AxisOptions& options,
+                 const ReplayScope& scope);
 
   void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
                float* out) const override;
@@ -40,6 +38,7 @@ class AxisExperiment final : public Experiment {
   /// Gives the simulation the measured motion at the edge of a bin.
   void place(Simulation& sim, std::size_t edge) const;
 
+  AxisOptions options_;
   double step_;
   std::size_t bins_, steps_per_bin_;
   std::vector<Axis> axes_;

@@ -51,15 +51,16 @@ ReplayMode mode_of(const RobotModel& model, const Dataset& recording) {
 }
 
 ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recording,
-                                 const ExperimentOptions& options)
-    : mode_(options.mode.value_or(mode_of(model, recording))),
+                                 const ExperimentOptions& options, const ReplayScope& scope)
+    : cut_off_(options.cut_off),
+      mode_(scope.mode.value_or(mode_of(model, recording))),
       input_(std::make_shared<RobotModel>(model), recording, mode_) {
   name_ = recording.folder;
-  bin_ = options.bin;
+  bin_ = scope.bin;
   duration_ = input_.duration();
   bins_ = bin_of(duration_) + 1;
-  if (options.seconds < duration_) {
-    bins_ = std::max<std::size_t>(1, bin_of(options.seconds));
+  if (scope.seconds < duration_) {
+    bins_ = std::max<std::size_t>(1, bin_of(scope.seconds));
     duration_ = static_cast<double>(bins_) * bin_;
   }
   fingerprint_ = resume::Fingerprint()
@@ -151,7 +152,7 @@ void ChainExperiment::add(Reader reader, const Series& series, const Channel& ch
   channels_.back().rows = sampling.rows_per_bin();
   channels_.back().digits = step_of_digits(series.values);
   if (reader.kind == Reader::kForce) {
-    reader.noise = cut_off_noise(series, channels_.back().resolution);
+    reader.noise = cut_off_noise(series, channels_.back().resolution, cut_off_);
   }
   for (const double share : sampling.per_bin) present_.push_back(share > 0.0);
   sampling.readers.push_back(std::move(reader));

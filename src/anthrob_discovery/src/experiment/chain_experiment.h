@@ -14,7 +14,7 @@ ReplayMode mode_of(const RobotModel& model, const Dataset& recording);
 class ChainExperiment final : public Experiment {
  public:
   ChainExperiment(const RobotModel& model, const Dataset& recording,
-                  const ExperimentOptions& options);
+                  const ExperimentOptions& options, const ReplayScope& scope);
 
   void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
                float* out) const override;
@@ -52,6 +52,7 @@ class ChainExperiment final : public Experiment {
                   float* out) const;
   static void read(const Simulation& sim, const Sampling& sampling, std::vector<double>& values);
 
+  CutOffOptions cut_off_;
   ReplayMode mode_;
   Replay input_;
   std::size_t bins_;

@@ -5,24 +5,20 @@
 namespace anthrob {
 namespace discovery {
 
-namespace {
-
-/// Shortest part of a recording: settling takes longer than simulating a shorter one.
-constexpr double kShortest = 2.0;  // [s]
-
-}  // namespace
+namespace {}  // namespace
 
 Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
-                const Experiments& whole, double seconds) {
+                const Experiments& whole, double seconds, const ExperimentOptions& options) {
   Excerpt part;
   std::size_t offset = 0;
   for (std::size_t e = 0; e < whole.size(); ++e) {
-    if (e > 0 && seconds < kShortest) break;
-    ExperimentOptions options;
-    options.bin = whole[e]->bin();
-    options.seconds = std::max(kShortest, seconds / static_cast<double>(whole.size() - e));
-    part.experiments.push_back(options.seconds < whole[e]->duration()
-                                   ? make_experiment(model, recordings[e], options)
+    if (e > 0 && seconds < options.shortest_excerpt) break;
+    ReplayScope scope;
+    scope.bin = whole[e]->bin();
+    scope.seconds =
+        std::max(options.shortest_excerpt, seconds / static_cast<double>(whole.size() - e));
+    part.experiments.push_back(scope.seconds < whole[e]->duration()
+                                   ? make_experiment(model, recordings[e], options, scope)
                                    : whole[e]);
     const Experiment& own = *part.experiments.back();
     for (std::size_t c = 0; c < own.channels().size(); ++c) {

@@ -24,7 +24,7 @@ struct Excerpt {
 /// Takes about the same length of every recording.
 /// @param whole the recordings as experiments, in the same order   @param seconds in all
 Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
-                const Experiments& whole, double seconds);
+                const Experiments& whole, double seconds, const ExperimentOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

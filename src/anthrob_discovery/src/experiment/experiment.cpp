@@ -9,9 +9,10 @@ namespace anthrob {
 namespace discovery {
 
 std::shared_ptr<const Experiment> make_experiment(const RobotModel& model, const Dataset& recording,
-                                                  const ExperimentOptions& options) {
+                                                  const ExperimentOptions& options,
+                                                  const ReplayScope& scope) {
   if (!model.muscles.empty()) {
-    return std::make_shared<ChainExperiment>(model, recording, options);
+    return std::make_shared<ChainExperiment>(model, recording, options, scope);
   }
   const auto& joints = model.skeleton->joints;
   const bool driven = std::any_of(joints.begin(), joints.end(),
@@ -20,7 +21,7 @@ std::shared_ptr<const Experiment> make_experiment(const RobotModel& model, const
     throw BadInput(model.file +
                    ": nothing to compare: expected muscles, or a joint with `driven: true`");
   }
-  return std::make_shared<AxisExperiment>(model, recording, options);
+  return std::make_shared<AxisExperiment>(model, recording, options.axis, scope);
 }
 
 double total_duration(const Experiments& experiments) {

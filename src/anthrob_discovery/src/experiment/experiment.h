@@ -10,6 +10,7 @@
 
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/replay/replay.h"
+#include "options/experiment.h"
 
 namespace anthrob {
 namespace discovery {
@@ -72,8 +73,8 @@ std::vector<Channel> channels_of(const Experiments& experiments);
 /// The same channel in one experiment; null if it is not there.
 const Channel* find_channel(const Experiment& experiment, const Channel& channel);
 
-/// What a recording is replayed with.
-struct ExperimentOptions {
+/// What of a recording is replayed, and how finely it is compared.
+struct ReplayScope {
   double bin = 0.02;  ///< [s]
   /// Which quantity is fed with measured values; by default the earliest recorded input of the
   /// chain.
@@ -85,7 +86,8 @@ struct ExperimentOptions {
 /// joints are driven from outside are compared bin by bin instead (see axis_experiment.h).
 /// @throws BadInput if there is nothing to replay or to compare
 std::shared_ptr<const Experiment> make_experiment(const RobotModel& model, const Dataset& recording,
-                                                  const ExperimentOptions& options = {});
+                                                  const ExperimentOptions& options,
+                                                  const ReplayScope& scope = {});
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -40,12 +40,11 @@ std::string unit_of(const std::string& column, const Experiments& experiments) {
   return "";
 }
 
-std::vector<double> rate_of(const std::vector<double>& values, double bin) {
+std::vector<double> rate_of(const std::vector<double>& values, double bin, std::size_t reach) {
   std::vector<double> rate(values.size(), 0.0);
-  constexpr std::size_t kReach = 2;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::size_t a = i < kReach ? 0 : i - kReach;
-    const std::size_t b = std::min(values.size() - 1, i + kReach);
+    const std::size_t a = i < reach ? 0 : i - reach;
+    const std::size_t b = std::min(values.size() - 1, i + reach);
     if (b > a) rate[i] = (values[b] - values[a]) / (bin * static_cast<double>(b - a));
   }
   return rate;
@@ -54,7 +53,8 @@ std::vector<double> rate_of(const std::vector<double>& values, double bin) {
 }  // namespace
 
 std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
-                                                 const std::vector<Dataset>& recordings) {
+                                                 const std::vector<Dataset>& recordings,
+                                                 const ExperimentOptions& options) {
   std::vector<MeasuredVariable> variables;
   MeasuredVariable time{"time", "time", {}, false, "s"};
   for (const auto& experiment : experiments) {
@@ -85,7 +85,8 @@ std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
         MeasuredVariable speed{column.name, "speed", {}, false, rate_unit},
             sign{column.name, "sign of velocity", {}, true, ""};
         for (std::size_t e = 0; e < experiments.size(); ++e) {
-          speed.values.push_back(rate_of(variable.values[e], experiments[e]->bin()));
+          speed.values.push_back(
+              rate_of(variable.values[e], experiments[e]->bin(), options.rate_reach));
         }
         sign.values = speed.values;
         variables.push_back(speed);

@@ -22,7 +22,8 @@ struct MeasuredVariable {
 /// Time, and the quantities that may explain a residual: columns that all recordings have, and
 /// speeds derived from positions.
 std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
-                                                 const std::vector<Dataset>& recordings);
+                                                 const std::vector<Dataset>& recordings,
+                                                 const ExperimentOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -115,9 +115,8 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
 }  // namespace
 
 double ChannelScale::sigma(double rows_of_recording) const {
-  constexpr double kAlike = 1.1;  // what gaps and the end of a recording change
   const double fewer = rows / rows_of_recording;
-  return std::hypot(fewer > kAlike ? floor * std::sqrt(fewer) : floor, numerics, counts);
+  return std::hypot(fewer > fewer_rows ? floor * std::sqrt(fewer) : floor, numerics, counts);
 }
 
 double correlation_length(const Eigen::VectorXf& series) {
@@ -136,7 +135,8 @@ double correlation_length(const Eigen::VectorXf& series) {
 }
 
 Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
-                      const Experiments& repeats, const std::vector<long>& lags) {
+                      const Experiments& repeats, const std::vector<long>& lags,
+                      const ExperimentOptions& options) {
   Variant half{};
   half.step = 0.5 * evaluator.model()->step;
   const Variant counting = with_counts(*evaluator.model(), train);
@@ -152,6 +152,7 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
   for_each_channel(
       train, [&](const Experiment& experiment, const Channel& channel, Eigen::Index offset) {
         scales[channel.name()].unit = channel.unit;
+        scales[channel.name()].fewer_rows = options.fewer_rows;
         const auto own = measured(experiment, channel, both[0], offset);
         const double sigma = white_noise(own);
         noise[channel.name()].squares += sigma * sigma * static_cast<double>(own.size());

@@ -22,6 +22,7 @@ struct ChannelScale {
   double counts = 0.0;  ///< rms difference from one whose controllers see the counts of the sensors
   double inflation = 1.0;  ///< bins that count as one because noise is correlated; >= 1
   double rows = 1.0;       ///< measurements in a bin where the floor was measured
+  double fewer_rows = ExperimentOptions{}.fewer_rows;
 
   double sigma() const { return sigma(rows); }
   /// Of a recording with fewer measurements in a bin, which averages less of the noise. One with
@@ -38,7 +39,8 @@ using Scales = std::map<std::string, ChannelScale>;
 /// @param lags by how many bins each repeat is behind it; empty: they start together
 /// @throws BadInput if a repeat has other columns than the first recording
 Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
-                      const Experiments& repeats, const std::vector<long>& lags = {});
+                      const Experiments& repeats, const std::vector<long>& lags,
+                      const ExperimentOptions& options);
 
 /// Factors that turn differences into numbers of standard deviations; 0 where nothing was measured.
 /// @param independent divides by the square root of ChannelScale::inflation too, so that squares

@@ -15,11 +15,6 @@ namespace discovery {
 
 namespace {
 
-constexpr std::size_t kReach = 3;    ///< rows of a parabola before and after its own
-constexpr std::size_t kFewest = 5;   ///< fewest rows of a parabola
-constexpr double kLongestGap = 2.0;  ///< [usual row intervals] longest gap that a parabola bridges
-constexpr std::uint64_t kStream = 91;  ///< of random numbers
-
 using Change = std::function<std::vector<double>(const Series&)>;
 
 double usual_period(const std::vector<double>& t) {
@@ -46,16 +41,17 @@ double parabola(const Series& series, std::size_t row, std::size_t from, std::si
   return powers.colPivHouseholderQr().solve(values)[0];
 }
 
-std::vector<double> smoothed(const Series& series) {
+std::vector<double> smoothed(const Series& series, const PostureNoiseOptions& options) {
   std::vector<double> smooth = series.values;
   const std::size_t n = series.t.size();
-  const double period = usual_period(series.t), gap = kLongestGap * period;
+  const double period = usual_period(series.t), gap = options.longest_gap * period;
   if (!(period > 0.0)) return smooth;
   for (std::size_t row = 0; row < n; ++row) {
     std::size_t from = row, to = row + 1;
-    while (from > 0 && row - from < kReach && series.t[from] - series.t[from - 1] <= gap) --from;
-    while (to < n && to - row <= kReach && series.t[to] - series.t[to - 1] <= gap) ++to;
-    if (to - from >= kFewest) smooth[row] = parabola(series, row, from, to, period);
+    while (from > 0 && row - from < options.reach && series.t[from] - series.t[from - 1] <= gap)
+      --from;
+    while (to < n && to - row <= options.reach && series.t[to] - series.t[to - 1] <= gap) ++to;
+    if (to - from >= options.fewest) smooth[row] = parabola(series, row, from, to, period);
   }
   return smooth;
 }
@@ -98,13 +94,14 @@ Dataset changed(const RobotModel& robot, Dataset recording, const Change& change
 
 }  // namespace
 
-Dataset with_smooth_postures(const RobotModel& robot, const Dataset& recording) {
-  return changed(robot, recording, smoothed);
+Dataset with_smooth_postures(const RobotModel& robot, const Dataset& recording,
+                             const PostureNoiseOptions& options) {
+  return changed(robot, recording, [&](const Series& series) { return smoothed(series, options); });
 }
 
 Dataset with_noisier_postures(const RobotModel& robot, const Dataset& recording,
                               std::uint64_t seed) {
-  const CounterRandom random(seed, kStream);
+  const CounterRandom random(seed, 91);
   std::uint64_t index = 0;
   return changed(robot, recording, [&](const Series& series) {
     std::vector<double> values = series.values;

@@ -8,10 +8,13 @@ namespace discovery {
 
 namespace {
 
-std::array<double, kLevels> gaps_of(const std::string& place, const Regime& regime,
-                                    const Experiments& experiments, const Eigen::VectorXf& residual,
-                                    const Eigen::VectorXf& whitener, const Scales& scales) {
-  std::array<double, kLevels> square{}, count{}, gap{};
+std::array<std::optional<double>, kLevels> gaps_of(const std::string& place, const Regime& regime,
+                                                   const Experiments& experiments,
+                                                   const Eigen::VectorXf& residual,
+                                                   const Eigen::VectorXf& whitener,
+                                                   const Scales& scales) {
+  std::array<double, kLevels> square{}, count{};
+  std::array<std::optional<double>, kLevels> gap{};
   std::size_t offset = 0;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const Channel& channel : experiments[e]->channels()) {
@@ -29,7 +32,7 @@ std::array<double, kLevels> gaps_of(const std::string& place, const Regime& regi
     offset += experiments[e]->size();
   }
   for (std::size_t k = 0; k < gap.size(); ++k) {
-    gap[k] = count[k] > 0.0 ? std::sqrt(square[k] / count[k]) : -1.0;
+    if (count[k] > 0.0) gap[k] = std::sqrt(square[k] / count[k]);
   }
   return gap;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace discovery {
 
 /// Levels of a measured quantity: low, middle and high, with about equally many bins each. A value
 /// that most bins have is in the middle.
-constexpr int kLevels = 3;
+enum Level { kLow, kMiddle, kHigh, kLevels };
 
 /// A quantity that says how a place is used, and its level at every bin.
 struct Regime {
@@ -29,7 +30,8 @@ std::vector<Regime> regimes_of(const std::string& place,
 /// The gap of a place, all its channels together, at the levels of one regime.
 struct RegimeGap {
   std::string place, word;
-  std::array<double, kLevels> gap;  ///< rms [standard deviations of the floor]; -1: no such bins
+  /// Root mean squares [standard deviations of the floor]; nothing where there are no such bins.
+  std::array<std::optional<double>, kLevels> gap;
 };
 
 /// Rows of the heat map: for each place one row for each of its regimes, for the angle by which its

@@ -10,8 +10,6 @@ namespace discovery {
 
 namespace {
 
-constexpr double kPeriod = 0.005;  ///< [s]
-
 /// Columns of one table and where their values come from.
 struct Sheet {
   Table table;
@@ -78,7 +76,7 @@ Sheet ball_sheet(const RobotModel& robot) {
 }  // namespace
 
 Dataset simulated_recording(const std::shared_ptr<const RobotModel>& robot, const Dataset& commands,
-                            std::uint64_t seed) {
+                            std::uint64_t seed, const ExperimentOptions& options) {
   const Replay input(robot, commands, ReplayMode::kReference);
   auto own = std::make_shared<RobotModel>(*robot);
   own->sensors.seed = seed;
@@ -87,7 +85,8 @@ Dataset simulated_recording(const std::shared_ptr<const RobotModel>& robot, cons
   Replay::Run run(input, sim);
   std::vector<Sheet> sheets = {muscle_sheet(*robot), joint_sheet(*robot), ball_sheet(*robot)};
   const auto steps = static_cast<std::int64_t>(std::llround(input.duration() / robot->step));
-  const auto every = std::max<std::int64_t>(1, std::llround(kPeriod / robot->step));
+  const auto every =
+      std::max<std::int64_t>(1, std::llround(options.recording_period / robot->step));
   for (std::int64_t k = 0; k <= steps; ++k) {
     const double time = static_cast<double>(k) * robot->step;
     if (k % every == 0) {

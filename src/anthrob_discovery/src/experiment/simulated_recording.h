@@ -5,6 +5,7 @@
 
 #include "anthrob_recording/dataset.h"
 #include "anthrob_sim/model/robot_model.h"
+#include "options/experiment.h"
 
 namespace anthrob {
 namespace discovery {
@@ -13,7 +14,7 @@ namespace discovery {
 /// joints and spherical joints at 200 rows per second, together with the commands.
 /// @param seed of the sensors' noise   @throws NumericalFailure
 Dataset simulated_recording(const std::shared_ptr<const RobotModel>& robot, const Dataset& commands,
-                            std::uint64_t seed);
+                            std::uint64_t seed, const ExperimentOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -14,11 +14,6 @@ namespace discovery {
 
 namespace {
 
-/// Standard deviation of the difference between the true law and the catalogue's of the same name,
-/// as a share of what the law does.
-constexpr double kOtherLaw = 0.05;
-constexpr std::size_t kFewBlocks = 5;  ///< of time, too few to estimate the noise
-
 /// Normal equations of some rows.
 struct Block {
   Eigen::MatrixXd information;
@@ -28,12 +23,14 @@ struct Block {
       : information(Eigen::MatrixXd::Zero(n, n)), gradient(Eigen::VectorXd::Zero(n)) {}
 };
 
-std::vector<Block> blocks_of_time(const Fitted& fitted, const Experiments& experiments) {
+/// @param seconds length of a block
+std::vector<Block> blocks_of_time(const Fitted& fitted, const Experiments& experiments,
+                                  double seconds) {
   std::vector<Block> blocks;
   std::size_t offset = 0;
   for (const auto& experiment : experiments) {
     const std::size_t per_block =
-        std::max<std::size_t>(1, static_cast<std::size_t>(Judge::kBlock / experiment->bin()));
+        std::max<std::size_t>(1, static_cast<std::size_t>(seconds / experiment->bin()));
     const std::size_t bins = experiment->channels().front().count;
     // A shorter rest belongs to the last block.
     const std::size_t own = std::max<std::size_t>(1, (bins + per_block / 2) / per_block);
@@ -92,8 +89,7 @@ std::vector<Block> blocks_of_regimes(const Fitted& fitted, const Experiments& ex
 /// Half of the 95 % interval of each unknown, in its unit, by resampling blocks. What resampling
 /// finds may lie beside the fit itself, which is not linear: that counts on both sides.
 std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blocks,
-                             std::uint64_t seed) {
-  constexpr int kDraws = 400;
+                             std::uint64_t seed, const IntervalOptions& options) {
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   const Eigen::VectorXd x = fitted.scaled(), precision = fitted.precision();
   const Eigen::VectorXd prior = precision.cwiseProduct(x - fitted.expected());
@@ -101,7 +97,7 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
   const CounterRandom random(seed, 78);
   std::uint64_t index = 0;
   std::vector<std::vector<double>> draws(static_cast<std::size_t>(n));
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (int draw = 0; draw < options.draws; ++draw) {
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
     Eigen::VectorXd gradient = prior;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -127,8 +123,8 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
     auto& values = draws[static_cast<std::size_t>(i)];
     std::sort(values.begin(), values.end());
     const double at = x[i] * fitted.unknowns[static_cast<std::size_t>(i)].scale;
-    const double low = values[static_cast<std::size_t>(0.025 * kDraws)];
-    const double high = values[static_cast<std::size_t>(0.975 * kDraws)];
+    const double low = values[static_cast<std::size_t>(0.025 * options.draws)];
+    const double high = values[static_cast<std::size_t>(0.975 * options.draws)];
     reach.push_back(widen * std::max({0.0, at - low, high - at}));
   }
   return reach;
@@ -136,10 +132,10 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
 
 /// The same if there were nothing but the floor's noise. Ordinary parameters that cannot move, held
 /// or at a bound, take nothing from the others.
-std::vector<double> reach_of_noise(const Fitted& fitted) {
+std::vector<double> reach_of_noise(const Fitted& fitted, double at_bound) {
   std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
-    if (fitted.at_bound(i) && fitted.unknowns[i].effect < 0) continue;
+    if (fitted.at_bound(i, at_bound) && fitted.unknowns[i].effect < 0) continue;
     free.push_back(static_cast<Eigen::Index>(i));
   }
   std::vector<double> reach(fitted.unknowns.size(), 0.0);
@@ -172,11 +168,12 @@ double response_to(const Fitted& fitted, int effect) {
 /// By how much another law of the same name may move an effect's parameters: little where the
 /// effect stands alone, much where ordinary parameters imitate most of it and the rest is read off
 /// details.
-std::vector<double> reach_of_other_law(const Fitted& fitted, const std::vector<double>& noise) {
+std::vector<double> reach_of_other_law(const Fitted& fitted, const std::vector<double>& noise,
+                                       const IntervalOptions& options) {
   std::vector<double> reach(noise.size(), 0.0);
   for (std::size_t i = 0; i < reach.size(); ++i) {
     const int effect = fitted.unknowns[i].effect;
-    if (effect >= 0) reach[i] = kOtherLaw * response_to(fitted, effect) * noise[i];
+    if (effect >= 0) reach[i] = options.other_law * response_to(fitted, effect) * noise[i];
   }
   return reach;
 }
@@ -185,15 +182,17 @@ std::vector<double> reach_of_other_law(const Fitted& fitted, const std::vector<d
 
 std::vector<std::pair<double, double>> bootstrap_intervals(
     const Fitted& fitted, const Experiments& experiments,
-    const std::vector<MeasuredVariable>& variables, std::uint64_t seed) {
+    const std::vector<MeasuredVariable>& variables, std::uint64_t seed, const FitOptions& fit,
+    double block) {
   if (fitted.unknowns.empty()) return {};
-  const std::vector<Block> blocks = blocks_of_time(fitted, experiments);
-  std::vector<double> time = resample(fitted, blocks, seed);
+  const IntervalOptions& options = fit.intervals;
+  const std::vector<Block> blocks = blocks_of_time(fitted, experiments, block);
+  std::vector<double> time = resample(fitted, blocks, seed, options);
   const std::vector<double> regimes =
-      resample(fitted, blocks_of_regimes(fitted, experiments, variables), seed);
-  const std::vector<double> noise = reach_of_noise(fitted);
-  const std::vector<double> other_law = reach_of_other_law(fitted, noise);
-  for (std::size_t i = 0; blocks.size() < kFewBlocks && i < time.size(); ++i) {
+      resample(fitted, blocks_of_regimes(fitted, experiments, variables), seed, options);
+  const std::vector<double> noise = reach_of_noise(fitted, fit.convergence.at_bound);
+  const std::vector<double> other_law = reach_of_other_law(fitted, noise, options);
+  for (std::size_t i = 0; blocks.size() < options.few_blocks && i < time.size(); ++i) {
     time[i] = std::max(time[i], noise[i]);
   }
   std::vector<std::pair<double, double>> intervals;

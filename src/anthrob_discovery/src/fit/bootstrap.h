@@ -22,7 +22,8 @@ namespace discovery {
 /// parameters imitate nearly all of an effect.
 std::vector<std::pair<double, double>> bootstrap_intervals(
     const Fitted& fitted, const Experiments& experiments,
-    const std::vector<MeasuredVariable>& variables, std::uint64_t seed);
+    const std::vector<MeasuredVariable>& variables, std::uint64_t seed, const FitOptions& options,
+    double block);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -12,24 +12,11 @@ namespace discovery {
 
 namespace {
 
-constexpr int kRough = 8;           ///< iterations by the first slopes
-constexpr int kPolish = 8;          ///< iterations by the same slopes
-constexpr int kSurveys = 4;         ///< how often sensitivities are simulated again
-constexpr double kSettled = 5e-4;   ///< share of the cost
-constexpr double kAtTheEnd = 5e-4;  ///< share of the cost
-constexpr int kFinishing = 5;       ///< rounds of exact slopes
-constexpr double kClearGap = 2.5;   ///< of all channels together, in floors
-constexpr double kRoughlySettled = 0.01;
-constexpr double kHopeless = 4.0 / 3.0;  ///< times what rough steps should reach
-/// Times the cost of a fit from elsewhere: one begun anew that is still above it does not pass it.
-constexpr double kFallsBehind = 1.02;
-/// Multiples of the sizes of effects from which a fit that clearly misses is begun anew.
-constexpr double kOtherSizes[] = {0.6, 0.8, 1.0, 1.25, 1.6};
-
 /// Whether a fit might come down to a rival's cost if each of the rounds there are gained as much
 /// as the last one.
-bool might_reach(double rival, const Fitted& fitted, double gain) {
-  return fitted.cost - (kSurveys + kFinishing) * gain <= rival;
+bool might_reach(double rival, const Fitted& fitted, double gain,
+                 const ConvergenceOptions& options) {
+  return fitted.cost - (options.rounds + options.finishing_rounds) * gain <= rival;
 }
 
 /// A fit's variant with other sizes of its effects, and shapes as they were expected or of the
@@ -48,25 +35,25 @@ Variant resized(const Fitted& fitted, double factor, bool plain) {
 }  // namespace
 
 bool Convergence::clearly_misses(const Fitted& fitted) const {
-  return judge_.gap(fitted.residual) > kClearGap;
+  return judge_.gap(fitted.residual) > options().clear_gap;
 }
 
 double Convergence::left_open(const Fitted& fitted) const {
-  return (clearly_misses(fitted) ? kRoughlySettled : kAtTheEnd) * fitted.cost;
+  return (clearly_misses(fitted) ? options().roughly_settled : options().at_the_end) * fitted.cost;
 }
 
 /// Polishes as long as that reduces the cost. If an effect is clearly missing, the last steps of
 /// the model without it are not worth their time.
 bool Convergence::converge(Fitted& fitted, double rival, double level) const {
   std::optional<ModelFit::Surveyed> surveyed;
-  for (int k = 0; k < kSurveys; ++k) {
+  for (int k = 0; k < options().rounds; ++k) {
     const bool clear = clearly_misses(fitted);
     const double before = fitted.cost;
-    fit_.polish(fitted, kPolish, clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides,
-                &surveyed);
+    fit_.polish(fitted, options().polish,
+                clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides, &surveyed);
     const double gain = before - fitted.cost;
-    if (fitted.cost > level || !might_reach(rival, fitted, gain)) return false;
-    if (gain < (clear ? kRoughlySettled : kSettled) * before) break;
+    if (fitted.cost > level || !might_reach(rival, fitted, gain, options())) return false;
+    if (gain < (clear ? options().roughly_settled : options().settled) * before) break;
   }
   return true;
 }
@@ -74,7 +61,7 @@ bool Convergence::converge(Fitted& fitted, double rival, double level) const {
 Fitted Convergence::rough(const Variant& variant, std::vector<Unknown> unknowns,
                           Bends bends) const {
   Fitted fitted = fit_.start(variant, std::move(unknowns), std::move(bends));
-  fit_.improve(fitted, kRough);
+  fit_.improve(fitted, options().rough);
   return fitted;
 }
 
@@ -85,9 +72,9 @@ Fitted Convergence::converged(const Variant& variant, std::vector<Unknown> unkno
 }
 
 bool Convergence::converge_within_reach(Fitted& fitted, double level) const {
-  fit_.improve(fitted, kRough);
-  if (fitted.cost > kHopeless * level) return false;
-  fit_.polish(fitted, kPolish, ModelFit::Slopes::kOneSide);
+  fit_.improve(fitted, options().rough);
+  if (fitted.cost > options().hopeless * level) return false;
+  fit_.polish(fitted, options().polish, ModelFit::Slopes::kOneSide);
   // Too far above the level for better sensitivities to help.
   if (fitted.cost > level) return false;
   converge(fitted);
@@ -102,7 +89,7 @@ std::optional<Fitted> Convergence::to_the_end_within_reach(const Fitted& fitted,
                                                            double rival) const {
   std::optional<Fitted> best = roughly_from_given(fitted);
   if (std::min(fitted.cost, best ? best->cost : HUGE_VAL) > level) return std::nullopt;
-  bool near = best && converge(*best, rival, kFallsBehind * fitted.cost);
+  bool near = best && converge(*best, rival, options().falls_behind * fitted.cost);
   if (!best || best->cost >= fitted.cost) {
     best = fitted;
     near = converge(*best, rival);
@@ -119,7 +106,8 @@ bool Convergence::begin_anew(Fitted& fitted) const {
   if (fitted.variant.effects.empty() || !clearly_misses(fitted)) return false;
   std::vector<Variant> others;
   for (const bool plain : {true, false}) {
-    for (const double factor : kOtherSizes) others.push_back(resized(fitted, factor, plain));
+    for (const double factor : options().other_sizes)
+      others.push_back(resized(fitted, factor, plain));
   }
   const std::vector<Eigen::VectorXf> residuals = fit_.residuals(others);
   double least = fitted.residual.squaredNorm();
@@ -152,13 +140,13 @@ std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) cons
 /// residual.
 void Convergence::finish(Fitted& fitted, double rival) const {
   std::optional<ModelFit::Surveyed> surveyed;
-  for (int k = 0; k < kFinishing && !clearly_misses(fitted); ++k) {
-    const bool left = judge_.gap(fitted.residual) > kFaintGap;
+  for (int k = 0; k < options().finishing_rounds && !clearly_misses(fitted); ++k) {
+    const bool left = judge_.gap(fitted.residual) > judge_.options().faint_gap;
     const auto slopes = left ? ModelFit::Slopes::kExactToBothSides : ModelFit::Slopes::kExact;
     const double before = fitted.cost;
-    fit_.polish(fitted, kPolish, slopes, &surveyed);
+    fit_.polish(fitted, options().polish, slopes, &surveyed);
     const double gain = before - fitted.cost;
-    if (gain < kAtTheEnd * before || !might_reach(rival, fitted, gain)) break;
+    if (gain < options().at_the_end * before || !might_reach(rival, fitted, gain, options())) break;
   }
 }
 

@@ -40,6 +40,7 @@ class Convergence {
   double left_open(const Fitted& fitted) const;
 
  private:
+  const ConvergenceOptions& options() const { return fit_.options().convergence; }
   /// @return whether the cost came below a level, and further rounds might bring it to the rival's
   bool converge(Fitted& fitted, double rival = HUGE_VAL, double level = HUGE_VAL) const;
   bool clearly_misses(const Fitted& fitted) const;

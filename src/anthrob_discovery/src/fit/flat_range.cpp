@@ -7,22 +7,19 @@ namespace discovery {
 
 namespace {
 
-constexpr double kRise = 1.92;    ///< [nat]
-constexpr double kExact = 1e-3;   ///< [range]
-constexpr double kNothing = 1.0;  ///< [standard deviations] over the whole range
-
 /// Where the misfit has risen between the fit and a bound; the bound if it does not. Expectations,
 /// which no recording shows, do not count.
 double edge(const ModelFit& fit, const Fitted& fitted, const Unknown& unknown, double bound) {
+  const double rise = 1.92;
   const auto stays = [&](double value) {
     Fitted moved = fitted;
     Variant variant = fitted.variant;
     unknown.write(value, variant);
-    return fit.move(moved, variant) && moved.misfit() - fitted.misfit() < kRise;
+    return fit.move(moved, variant) && moved.misfit() - fitted.misfit() < rise;
   };
   if (stays(bound)) return bound;
   double inside = unknown.read(fitted.variant), outside = bound;
-  const double exact = kExact * (unknown.upper - unknown.lower);
+  const double exact = fit.options().intervals.exact * (unknown.upper - unknown.lower);
   while (std::abs(outside - inside) > exact) {
     const double middle = 0.5 * (inside + outside);
     (stays(middle) ? inside : outside) = middle;
@@ -32,10 +29,10 @@ double edge(const ModelFit& fit, const Fitted& fitted, const Unknown& unknown, d
 
 }  // namespace
 
-bool is_flat(const Fitted& fitted, std::size_t unknown) {
+bool is_flat(const Fitted& fitted, std::size_t unknown, const IntervalOptions& options) {
   const Unknown& u = fitted.unknowns[unknown];
   const double slope = fitted.sensitivity.col(static_cast<Eigen::Index>(unknown)).norm();
-  return slope * (u.upper - u.lower) / u.scale < kNothing;
+  return slope * (u.upper - u.lower) / u.scale < options.nothing;
 }
 
 std::pair<double, double> flat_range(const ModelFit& fit, const Fitted& fitted,

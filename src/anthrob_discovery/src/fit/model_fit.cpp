@@ -13,29 +13,6 @@ namespace discovery {
 
 namespace {
 
-constexpr double kPolished = 5e-4;  ///< relative gain that is not worth another iteration
-constexpr double kFinished = 1e-4;  ///< the same where slopes are exact
-constexpr double kAtBound = 1e-3;   ///< [scales]
-constexpr double kKept = 0.5;  ///< share of the predicted gain at which a step is linear enough
-/// How to step: damping, as a share of the information, and the share of that step that is taken.
-struct Way {
-  double damping, length;
-  bool last_resort;
-};
-/// The first reaches the minimum of valleys that are flat along combined changes of unknowns.
-constexpr Way kWays[] = {{1e-7, 1.0, false}, {1e-4, 1.0, false}, {1.0, 1.0, false},
-                         {1e-4, 0.5, true},  {1e-4, 0.25, true}, {10.0, 1.0, true},
-                         {100.0, 1.0, true}};
-constexpr std::size_t kLastFullWay = 2;
-// Steps of difference quotients [scales]. Those to both sides average over friction that sticks a
-// little earlier or later, but stay where the valley is straight: in three cases whole scales
-// took 1.5 to 3 times as many rounds to a minimum within 0.02 % of the same cost, or a higher one.
-constexpr double kOneSide = 0.5;
-constexpr double kBothSides = 0.35;
-constexpr double kBothSidesOfEffect = 1.0;  ///< polishing has made its scale small
-
-constexpr double kHardlyMoved = 0.1;  ///< [scales]
-
 bool is_exact(ModelFit::Slopes slopes) {
   return slopes == ModelFit::Slopes::kExact || slopes == ModelFit::Slopes::kExactToBothSides;
 }
@@ -47,13 +24,14 @@ std::vector<std::size_t> all_of(const Fitted& fitted) {
 }
 
 /// Effects, whose scales change, and the ordinary parameters that have moved.
-/// @param from where the unknowns were
-std::vector<std::size_t> moved_since(const std::vector<double>& from, const Fitted& fitted) {
+/// @param from where the unknowns were   @param hardly such a step is none [scales]
+std::vector<std::size_t> moved_since(const std::vector<double>& from, const Fitted& fitted,
+                                     double hardly) {
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
     const Unknown& u = fitted.unknowns[i];
     const double way = std::abs(u.read(fitted.variant) - from[i]);
-    if (u.effect >= 0 || way > kHardlyMoved * u.scale) moved.push_back(i);
+    if (u.effect >= 0 || way > hardly * u.scale) moved.push_back(i);
   }
   return moved;
 }
@@ -122,9 +100,9 @@ Eigen::VectorXd Fitted::precision() const {
   return p;
 }
 
-bool Fitted::at_bound(std::size_t unknown) const {
+bool Fitted::at_bound(std::size_t unknown, double share_of_scale) const {
   const Unknown& u = unknowns[unknown];
-  const double value = u.read(variant), margin = kAtBound * u.scale;
+  const double value = u.read(variant), margin = share_of_scale * u.scale;
   return value <= u.lower + margin || value >= u.upper - margin;
 }
 
@@ -147,11 +125,11 @@ std::vector<Unknown> nuisance_unknowns(const Evaluator& evaluator) {
 }
 
 ModelFit ModelFit::part(const Excerpt& excerpt) const {
-  return ModelFit(evaluator_, excerpt.experiments, excerpt.of(whitener_), coarse_);
+  return ModelFit(evaluator_, excerpt.experiments, excerpt.of(whitener_), options_, coarse_);
 }
 
 ModelFit ModelFit::weighted(const Eigen::VectorXf& factor) const {
-  return ModelFit(evaluator_, experiments_, whitener_.cwiseProduct(factor), coarse_);
+  return ModelFit(evaluator_, experiments_, whitener_.cwiseProduct(factor), options_, coarse_);
 }
 
 std::vector<Eigen::VectorXf> ModelFit::residuals(const std::vector<Variant>& variants) const {
@@ -212,8 +190,9 @@ double ModelFit::cost_of(const Fitted& fitted, const Variant& variant,
 }
 
 void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
-  SlopeSteps steps(fitted);
-  for (std::size_t i = from; i < fitted.unknowns.size(); ++i) steps.add_one_side(i, kOneSide);
+  SlopeSteps steps(fitted, options_.slopes);
+  for (std::size_t i = from; i < fitted.unknowns.size(); ++i)
+    steps.add_one_side(i, options_.slopes.one_side);
   const auto changes = exact_changes(fitted.residual, steps.variants());
   fitted.sensitivity.conservativeResize(fitted.residual.size(),
                                         static_cast<Eigen::Index>(fitted.unknowns.size()));
@@ -223,11 +202,12 @@ void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
 void ModelFit::survey(Fitted& fitted, Slopes slopes, const std::vector<std::size_t>& which) const {
   if (which.empty()) return;
   fitted.bends.resize(fitted.unknowns.size());
-  SlopeSteps steps(fitted);
+  SlopeSteps steps(fitted, options_.slopes);
   for (const std::size_t i : which) {
-    const double step = fitted.unknowns[i].effect < 0 ? kBothSides : kBothSidesOfEffect;
+    const double step = fitted.unknowns[i].effect < 0 ? options_.slopes.both_sides
+                                                      : options_.slopes.both_sides_of_effect;
     if (slopes == Slopes::kOneSide) {
-      steps.add_one_side(i, kOneSide);
+      steps.add_one_side(i, options_.slopes.one_side);
     } else if (fitted.bends[i] && slopes != Slopes::kExactToBothSides) {
       steps.add_one_side(i, step);
     } else {
@@ -293,18 +273,20 @@ void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes,
     // Close to the minimum, small changes are more exact than large ones.
     if (u.effect < 0) continue;
     const double size = u.read(fitted.variant) - u.neutral.value_or(0.0);
-    u.scale = std::max({0.1 * u.scale, 0.05 * std::abs(size), u.finest});
+    u.scale = std::max({options_.convergence.narrower * u.scale,
+                        options_.convergence.scale_of_size * std::abs(size), u.finest});
   }
   const bool again = before && *before && (*before)->slopes == slopes;
   const std::vector<std::size_t> which =
-      again ? moved_since((*before)->at, fitted) : all_of(fitted);
+      again ? moved_since((*before)->at, fitted, options_.slopes.hardly_moved) : all_of(fitted);
   survey(fitted, slopes, which);
   if (before) {
     if (!again) *before = Surveyed{slopes, std::vector<double>(fitted.unknowns.size())};
     for (const std::size_t i : which) (*before)->at[i] = fitted.unknowns[i].read(fitted.variant);
   }
   const Eigen::VectorXd start = fitted.scaled();
-  improve(fitted, iterations, is_exact(slopes) ? kFinished : kPolished);
+  improve(fitted, iterations,
+          is_exact(slopes) ? options_.convergence.finished : options_.convergence.polished);
   stride(fitted, fitted.scaled() - start);
 }
 
@@ -331,6 +313,10 @@ ModelFit::Trial ModelFit::try_step(const Fitted& fitted, const Eigen::VectorXd& 
   return trial;
 }
 
+void ModelFit::improve(Fitted& fitted, int iterations) const {
+  improve(fitted, iterations, options_.convergence.enough);
+}
+
 void ModelFit::improve(Fitted& fitted, int iterations, double enough, double rival) const {
   const auto n = static_cast<Eigen::Index>(fitted.unknowns.size());
   if (n == 0) return;
@@ -338,7 +324,8 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough, double riv
   while (first_effect < fitted.unknowns.size() && fitted.unknowns[first_effect].nuisance >= 0) {
     ++first_effect;
   }
-  std::size_t lightest = 0;  // of the ways that may lead on
+  const std::size_t full_steps = options_.damping.full_steps.size();
+  std::size_t lightest = 0;  // damping that may lead on
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const Eigen::MatrixXd information =
         (fitted.sensitivity.transpose() * fitted.sensitivity).cast<double>();
@@ -352,8 +339,12 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough, double riv
     Trial best;
     best.cost = fitted.cost;
     std::size_t taken = 0;
-    for (std::size_t w = lightest; w < std::size(kWays); ++w) {
-      const auto& [damping, length, last_resort] = kWays[w];
+    for (std::size_t w = lightest; w < full_steps + options_.damping.last_resort.size(); ++w) {
+      const bool last_resort = w >= full_steps;
+      const double damping = last_resort ? options_.damping.last_resort[w - full_steps]
+                                         : options_.damping.full_steps[w];
+      const double length =
+          last_resort ? options_.damping.last_resort_lengths[w - full_steps] : 1.0;
       if (last_resort && best.step.size() > 0) break;
       Eigen::MatrixXd system = information;
       system.diagonal() += precision;
@@ -363,7 +354,7 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough, double riv
       Trial trial = try_step(fitted, step);
       const double promised =
           -(gradient.dot(step) + 0.5 * step.dot(information * step + precision.cwiseProduct(step)));
-      const bool kept = fitted.cost - trial.cost > kKept * promised;
+      const bool kept = fitted.cost - trial.cost > options_.damping.linear_enough * promised;
       if (trial.cost < best.cost) {
         best = std::move(trial);
         taken = w;
@@ -371,8 +362,8 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough, double riv
       if (kept) break;
     }
     if (best.step.size() == 0) break;
-    // Where a light way led nowhere, so it does from the next point; but one is tried again.
-    lightest = std::clamp<std::size_t>(taken, 1, kLastFullWay) - 1;
+    // Where a light damping led nowhere, so it does from the next point; but one is tried again.
+    lightest = std::clamp<std::size_t>(taken, 1, full_steps - 1) - 1;
     const double gain = fitted.cost - best.cost;
     // New slopes after the first iteration may bring more than it did.
     const bool hopeless = iteration > 0 && best.cost - (iterations - iteration - 1) * gain > rival;

@@ -12,6 +12,7 @@
 #include "experiment/evaluator.h"
 #include "experiment/excerpt.h"
 #include "experiment/noise_floor.h"
+#include "options/fit.h"
 
 namespace anthrob {
 namespace discovery {
@@ -59,7 +60,8 @@ struct Fitted {
   Eigen::VectorXd lower_room() const;  ///< distances to their lower bounds, <= 0, in the same units
   Eigen::VectorXd upper_room() const;  ///< distances to their upper bounds, >= 0
   Eigen::VectorXd precision() const;   ///< 1 / spread^2 in these units; 0 without spread
-  bool at_bound(std::size_t unknown) const;
+  /// @param share_of_scale nearer to a bound is at it [scales]
+  bool at_bound(std::size_t unknown, double share_of_scale) const;
 };
 
 /// Unknowns of the ordinary parameters: within their ranges, expected where the model has them.
@@ -73,10 +75,11 @@ class ModelFit {
   /// @param coarse longer step for simulations of which only differences are used, as in changes()
   /// [s]; 0: the usual step
   ModelFit(const Evaluator& evaluator, Experiments experiments, Eigen::VectorXf whitener,
-           double coarse = 0.0)
+           const FitOptions& options, double coarse = 0.0)
       : evaluator_(evaluator),
         experiments_(std::move(experiments)),
         whitener_(std::move(whitener)),
+        options_(options),
         coarse_(coarse) {}
 
   /// Starts from a variant and its unknowns, and simulates all sensitivities.
@@ -84,10 +87,11 @@ class ModelFit {
   /// @throws NotSimulated
   Fitted start(const Variant& variant, std::vector<Unknown> unknowns, Bends bends = {}) const;
   /// Iterates until nothing is gained any more.
+  void improve(Fitted& fitted, int iterations) const;
   /// @param enough stops at a smaller relative reduction of the cost
   /// @param rival the cost of another fit: stops when the iterations left would not reach it, if
   /// each of them gained as much as the last one
-  void improve(Fitted& fitted, int iterations, double enough = 3e-3, double rival = HUGE_VAL) const;
+  void improve(Fitted& fitted, int iterations, double enough, double rival = HUGE_VAL) const;
   /// Moves to another variant with the same unknowns; sensitivities stay. @return whether it could
   /// be simulated
   bool move(Fitted& fitted, const Variant& variant) const;
@@ -130,6 +134,7 @@ class ModelFit {
   void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const {
     evaluator_.side_by_side(count, work);
   }
+  const FitOptions& options() const { return options_; }
   const Experiments& experiments() const { return experiments_; }
   const Eigen::VectorXf& whitening() const { return whitener_; }
   double coarse_step() const { return coarse_; }  ///< of changes() [s]; 0: the usual one
@@ -160,6 +165,7 @@ class ModelFit {
   const Evaluator& evaluator_;
   Experiments experiments_;
   Eigen::VectorXf whitener_;
+  FitOptions options_;
   double coarse_;
 };
 

@@ -25,14 +25,14 @@ std::vector<std::vector<double>> other_phases(const Candidate& candidate,
 
 std::optional<EffectInstance> better_phase(const ModelFit& fit, const Candidate& candidate,
                                            const Fitted& fitted) {
-  constexpr int kPhases = 8;
+  const int phases = fit.options().phases;
   const auto sizes = candidate.sizes();
   const EffectInstance& now = fitted.variant.effects.back();
   const double a = now.parameters.at(sizes[0]->name) - sizes[0]->neutral,
                b = now.parameters.at(sizes[1]->name) - sizes[1]->neutral;
   std::vector<Variant> variants;
-  for (int k = 1; k < kPhases; ++k) {
-    const double turn = 2.0 * M_PI * k / kPhases, c = std::cos(turn), s = std::sin(turn);
+  for (int k = 1; k < phases; ++k) {
+    const double turn = 2.0 * M_PI * k / phases, c = std::cos(turn), s = std::sin(turn);
     variants.push_back(fitted.variant);
     const double turned[] = {a * c - b * s, a * s + b * c};
     for (int i = 0; i < 2; ++i) {

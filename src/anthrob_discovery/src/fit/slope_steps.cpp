@@ -9,16 +9,14 @@ namespace discovery {
 
 namespace {
 
-constexpr float kSmooth = 0.1f;  ///< share of the changes in which both sides differ
-
 /// How the residual bends between two sides; null if that is not smooth, or if the sides are not
 /// equally long because of a bound.
 std::shared_ptr<const Eigen::VectorXf> smooth_bend(const Eigen::VectorXf& one, float length,
-                                                   const Eigen::VectorXf& other,
-                                                   float other_length) {
+                                                   const Eigen::VectorXf& other, float other_length,
+                                                   float smooth) {
   if (std::abs(length + other_length) > 1e-3f * std::abs(length)) return nullptr;
   const Eigen::VectorXf sum = one + other;
-  if (!(sum.norm() < kSmooth * (one.norm() + other.norm()))) return nullptr;
+  if (!(sum.norm() < smooth * (one.norm() + other.norm()))) return nullptr;
   return std::make_shared<const Eigen::VectorXf>(sum / (2.0f * length * length));
 }
 
@@ -65,7 +63,8 @@ void SlopeSteps::take_slopes(const std::vector<Eigen::VectorXf>& changes, Fitted
     if (count == 1) {
       if (bend) column -= lengths_[first] * *bend;
     } else if (simulated == 2 && fitted.unknowns[unknown].effect < 0) {
-      bend = smooth_bend(changes[first], lengths_[first], changes[first + 1], lengths_[first + 1]);
+      bend = smooth_bend(changes[first], lengths_[first], changes[first + 1], lengths_[first + 1],
+                         static_cast<float>(smooth_));
     }
   }
 }

@@ -12,7 +12,8 @@ namespace discovery {
 /// Steps along single unknowns, which tell how the residual changes with them.
 class SlopeSteps {
  public:
-  explicit SlopeSteps(const Fitted& fitted) : fitted_(fitted) {}
+  SlopeSteps(const Fitted& fitted, const SlopeOptions& options)
+      : fitted_(fitted), smooth_(options.smooth) {}
 
   /// A step to one side; to the other one if there is no room on the first.
   /// @param length [scales], shorter at bounds
@@ -33,6 +34,7 @@ class SlopeSteps {
   void add(std::size_t unknown, double length);
 
   const Fitted& fitted_;
+  double smooth_;
   std::vector<Along> unknowns_;
   std::vector<Variant> variants_;
   std::vector<float> lengths_;  ///< [scales], with their signs

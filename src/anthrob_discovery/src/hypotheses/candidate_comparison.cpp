@@ -13,21 +13,8 @@ namespace discovery {
 
 namespace {
 
-/// Largest size that is tried: bounds may be infinite.
-constexpr double kLargest = 100.0;   // [doses]
-constexpr double kMostOfIt = 0.75;   ///< of a gain
-constexpr double kAllOfIt = 0.98;    ///< of a gain, apart from what the shape of a law makes
-constexpr int kFirstIterations = 2;  ///< after which only the best are fitted on
-constexpr int kIterations = 6;
-constexpr double kTelling = 2.0;  ///< [nat] a smaller gain of an iteration decides nothing
-
-/// The least relative gain of an iteration that may matter, however long the recordings are.
-double telling(const Fitted& fitted) {
-  return std::min(3e-3, kTelling / fitted.cost);
-}
-
 std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstance& start,
-                                 int effect) {
+                                 int effect, const UnknownOptions& options) {
   std::vector<Unknown> unknowns;
   for (const EffectParameter& p : candidate.parameters) {
     if (p.kind == EffectParameter::kGiven) continue;
@@ -36,22 +23,23 @@ std::vector<Unknown> unknowns_of(const Candidate& candidate, const EffectInstanc
     Unknown u;
     u.effect = effect;
     u.parameter = p.name;
-    u.lower = std::max(p.bounds.lo, value - kLargest * dose);
-    u.upper = std::min(p.bounds.hi, value + kLargest * dose);
-    if (p.bounds.lo_open) u.lower += 1e-3 * dose;
-    if (p.bounds.hi_open) u.upper -= 1e-3 * dose;
+    u.lower = std::max(p.bounds.lo, value - options.largest * dose);
+    u.upper = std::min(p.bounds.hi, value + options.largest * dose);
+    if (p.bounds.lo_open) u.lower += options.inside * dose;
+    if (p.bounds.hi_open) u.upper -= options.inside * dose;
     if (p.kind == EffectParameter::kSize) {
       u.neutral = p.neutral;
-      u.scale = std::max(0.2 * std::abs(value - p.neutral), 0.03 * dose);
-      u.finest = 0.003 * dose;
+      u.scale =
+          std::max(options.scale_of_size * std::abs(value - p.neutral), options.least_scale * dose);
+      u.finest = options.finest_scale * dose;
     } else {
       // With an unknown sign, nothing can be expected.
       const bool either = p.bounds.lo < 0.0 && p.bounds.hi > 0.0;
-      u.scale = 0.3 * dose;
-      u.finest = 0.03 * dose;
+      u.scale = options.scale_of_shape * dose;
+      u.finest = options.finest_of_shape * dose;
       u.expected = either ? p.neutral : p.typical;
       u.plain = p.neutral;
-      u.spread = (either ? 3.0 : 1.5) * dose;
+      u.spread = (either ? options.spread_of_either_sign : options.spread_of_shape) * dose;
     }
     unknowns.push_back(u);
   }
@@ -71,11 +59,13 @@ bool is_nested_in(const Candidate& part, const Candidate& whole) {
          part.sizes().size() < whole.sizes().size();
 }
 
-double share_of_simpler(const Candidate& part, const Candidate& whole) {
-  if (is_nested_in(part, whole)) return kMostOfIt;
+double share_of_simpler(const Candidate& part, const Candidate& whole,
+                        const ComparisonOptions& options) {
+  if (is_nested_in(part, whole)) return options.most_of_it;
   const EffectInfo &a = part.effect->info(), &b = whole.effect->info();
   const bool everywhere = dynamic_cast<const PathEffect*>(part.effect) != nullptr;
-  return everywhere && a.id == b.id && contains(part.place, whole.place) ? kAllOfIt : 1.0;
+  return everywhere && a.id == b.id && contains(part.place, whole.place) ? double{options.all_of_it}
+                                                                         : 1.0;
 }
 
 FittedCandidate CandidateComparison::fit(const Fitted& base, std::size_t index,
@@ -83,8 +73,13 @@ FittedCandidate CandidateComparison::fit(const Fitted& base, std::size_t index,
   FittedCandidate named;
   named.candidate = index;
   named.fit = begin(base, {{index, start}});
-  train_.improve(named.fit, kFirstIterations);
+  train_.improve(named.fit, options_.comparison.first_iterations);
   return named;
+}
+
+double CandidateComparison::least_gain(const Fitted& fitted) const {
+  return std::min<double>(train_.options().convergence.enough,
+                          options_.comparison.telling_gain / fitted.cost);
 }
 
 Fitted CandidateComparison::begin(const Fitted& base, const std::vector<Start>& starts) const {
@@ -95,7 +90,7 @@ Fitted CandidateComparison::begin(const Fitted& base, const std::vector<Start>& 
     const Candidate& candidate = candidates_[index];
     const auto effect = static_cast<int>(variant.effects.size());
     variant.effects.push_back(start);
-    const std::vector<Unknown> its = unknowns_of(candidate, start, effect);
+    const std::vector<Unknown> its = unknowns_of(candidate, start, effect, options_.unknowns);
     more.insert(more.end(), its.begin(), its.end());
     for (const int nuisance : candidate.same_as) {
       for (Unknown& u : from.unknowns) {
@@ -115,7 +110,7 @@ Tested CandidateComparison::together(const Tested& base, const std::vector<Score
   }
   Tested all;
   all.fit = begin(base.fit, starts);
-  train_.improve(all.fit, kIterations, telling(all.fit));
+  train_.improve(all.fit, options_.comparison.iterations, least_gain(all.fit));
   all.test = test_.residual(all.fit.variant);
   return all;
 }
@@ -125,7 +120,8 @@ CandidateComparison::Odds CandidateComparison::odds(const Eigen::VectorXf& one_t
   const bool other_is_better = other_test.squaredNorm() < one_test.squaredNorm();
   const Eigen::MatrixXd scores =
       test_judge_.block_scores({one_test, other_test}, other_is_better ? 1 : 0);
-  return {model_probabilities(scores, {0.0, 0.0}, seed_)[0], (scores.row(0) - scores.row(1)).sum()};
+  return {model_probabilities(scores, {0.0, 0.0}, seed_, test_judge_.options())[0],
+          (scores.row(0) - scores.row(1)).sum()};
 }
 
 void CandidateComparison::judge(const Tested& base, ShortList& list) const {
@@ -156,13 +152,15 @@ void CandidateComparison::judge(const Tested& base, ShortList& list) const {
     handicap.push_back(0.5 * more * std::log(static_cast<double>(all.cols())) +
                        std::log(static_cast<double>(candidates_.size())));
   }
-  const std::vector<double> probability = model_probabilities(all, handicap, seed_);
+  const std::vector<double> probability =
+      model_probabilities(all, handicap, seed_, test_judge_.options());
   list.none = probability[0];
   for (std::size_t i = 0; i < list.entries.size(); ++i) {
     FittedCandidate& named = list.entries[i];
     const auto row = static_cast<Eigen::Index>(i + 1);
     named.evidence = (on_test.row(row) - on_test.row(0)).sum();
-    named.significance = block_significance((all.row(row) - all.row(0)).transpose());
+    named.significance =
+        block_significance((all.row(row) - all.row(0)).transpose(), test_judge_.options());
     named.probability = probability[i + 1];
   }
   std::stable_sort(list.entries.begin(), list.entries.end(),
@@ -176,7 +174,7 @@ void CandidateComparison::follow(const Tested& base, ShortList& list) const {
     FittedCandidate& named = list.entries[i];
     try {
       FittedCandidate other = fit(base.fit, named.candidate, named.fit.variant.effects.back());
-      train_.improve(other.fit, kIterations, telling(other.fit));
+      train_.improve(other.fit, options_.comparison.iterations, least_gain(other.fit));
       if (other.fit.cost >= named.fit.cost) return;
       other.test = test_.residual(other.fit.variant);
       if (other.test.size() > 0) named = std::move(other);
@@ -194,7 +192,7 @@ void CandidateComparison::turn_to_better_phase(const Fitted& base, FittedCandida
   if (!turned) return;
   try {
     FittedCandidate other = fit(base, named.candidate, *turned);
-    train_.improve(other.fit, kIterations, telling(other.fit));
+    train_.improve(other.fit, options_.comparison.iterations, least_gain(other.fit));
     if (other.fit.cost < named.fit.cost) named = std::move(other);
   } catch (const NotSimulated&) {
     // Stays where it is.
@@ -207,7 +205,7 @@ void CandidateComparison::prefer_simpler(const Fitted& base, ShortList& list) co
   const Candidate& whole = candidates_[best.candidate];
   for (std::size_t i = 1; i < list.entries.size(); ++i) {
     const FittedCandidate& other = list.entries[i];
-    const double share = share_of_simpler(candidates_[other.candidate], whole);
+    const double share = share_of_simpler(candidates_[other.candidate], whole, options_.comparison);
     const double gain = base.cost - other.fit.cost;
     if (share == 1.0 || gain < share * (base.cost - best.fit.cost) || other.evidence <= 0.0) {
       continue;
@@ -222,7 +220,8 @@ void CandidateComparison::prefer_simpler(const Fitted& base, ShortList& list) co
 }
 
 ShortList CandidateComparison::weigh(const Tested& base, const std::vector<Score>& scores) const {
-  const std::vector<Score> tried = Trials(scan_, candidates_).best(base.fit, scores);
+  const std::vector<Score> tried =
+      Trials(scan_, candidates_, options_.trials).best(base.fit, scores);
   std::vector<std::optional<FittedCandidate>> fitted(tried.size());
   train_.side_by_side(tried.size(), [&](std::size_t i) {
     try {
@@ -239,9 +238,10 @@ ShortList CandidateComparison::weigh(const Tested& base, const std::vector<Score
   std::stable_sort(
       list.entries.begin(), list.entries.end(),
       [](const FittedCandidate& a, const FittedCandidate& b) { return a.fit.cost < b.fit.cost; });
-  if (list.entries.size() > kJudged) list.entries.resize(kJudged);
+  if (list.entries.size() > options_.comparison.judged)
+    list.entries.resize(options_.comparison.judged);
   const auto fit_on = [&](FittedCandidate& named, double rival) {
-    train_.improve(named.fit, kIterations, telling(named.fit), rival);
+    train_.improve(named.fit, options_.comparison.iterations, least_gain(named.fit), rival);
     turn_to_better_phase(base.fit, named);
     named.test = test_.residual(named.fit.variant);
   };

@@ -5,6 +5,7 @@
 
 #include "hypotheses/screening.h"
 #include "judgement/judge.h"
+#include "options/hypotheses.h"
 
 namespace anthrob {
 namespace discovery {
@@ -38,26 +39,26 @@ bool is_nested_in(const Candidate& part, const Candidate& whole);
 /// The share of the gain of `whole` that `part` must bring alone to be named first because it is
 /// simpler: a law of fewer sizes at the same place (a later round decides whether more is needed),
 /// or the same law everywhere on a muscle instead of at one point of it. 1: `part` is not simpler.
-double share_of_simpler(const Candidate& part, const Candidate& whole);
+double share_of_simpler(const Candidate& part, const Candidate& whole,
+                        const ComparisonOptions& options);
 
 /// Makes the short list: simulates the best candidates of the screening at several sizes, fits the
 /// best of those, and judges them on training and held-out recordings (steps 5 and 6 of
 /// docs/discovery_method.md).
 class CandidateComparison {
  public:
-  static constexpr std::size_t kJudged =
-      5;  ///< of those that are fitted roughly, how many are fitted further and judged
-
   /// @param scan as `train`, for trials of many sizes
   CandidateComparison(const ModelFit& train, const ModelFit& test, const ModelFit& scan,
                       const Judge& train_judge, const Judge& test_judge,
-                      const std::vector<Candidate>& candidates, std::uint64_t seed)
+                      const std::vector<Candidate>& candidates, const HypothesisOptions& options,
+                      std::uint64_t seed)
       : train_(train),
         test_(test),
         scan_(scan),
         train_judge_(train_judge),
         test_judge_(test_judge),
         candidates_(candidates),
+        options_(options),
         seed_(seed) {}
 
   /// @param base fitted without them
@@ -81,6 +82,8 @@ class CandidateComparison {
  private:
   using Start = std::pair<std::size_t, EffectInstance>;  ///< a candidate and its parameters
 
+  /// The least relative gain of an iteration that may matter, however long the recordings are.
+  double least_gain(const Fitted& fitted) const;
   Fitted begin(const Fitted& base, const std::vector<Start>& starts) const;
   FittedCandidate fit(const Fitted& base, std::size_t candidate, const EffectInstance& start) const;
   void prefer_simpler(const Fitted& base, ShortList& list) const;
@@ -89,6 +92,7 @@ class CandidateComparison {
   const ModelFit &train_, &test_, &scan_;
   const Judge &train_judge_, &test_judge_;
   const std::vector<Candidate>& candidates_;
+  HypothesisOptions options_;
   std::uint64_t seed_;
 };
 

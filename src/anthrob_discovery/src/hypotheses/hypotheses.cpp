@@ -8,11 +8,11 @@ namespace discovery {
 
 namespace {
 
-constexpr LongerStep kOfFits = {2.0, 3.0}, kOfScans = {4.0, 20.0};
-
 /// Where the step for scans is too long, that of fits is used.
-double scanning_step(const Evaluator& evaluator, const ModelFit& train, const Scales& scales) {
-  const double step = coarse_step(evaluator, train.experiments(), scales, kOfScans);
+double scanning_step(const Evaluator& evaluator, const ModelFit& train, const Scales& scales,
+                     const Options& options) {
+  const double step = coarse_step(evaluator, train.experiments(), scales, options.hypotheses.scans,
+                                  options.judgement);
   return step > 0.0 ? step : train.coarse_step();
 }
 
@@ -20,16 +20,18 @@ double scanning_step(const Evaluator& evaluator, const ModelFit& train, const Sc
 
 Hypotheses::Hypotheses(const Evaluator& the_evaluator, std::vector<Candidate> the_candidates,
                        ModelFit the_train, ModelFit the_test, ModelFit the_scan,
-                       const Scales& scales, std::uint64_t seed)
+                       const Scales& scales, const Options& the_options, std::uint64_t seed)
     : evaluator(the_evaluator),
+      options(the_options),
       candidates(std::move(the_candidates)),
       train(std::move(the_train)),
       test(std::move(the_test)),
       scan(std::move(the_scan)),
-      train_judge(train.experiments(), train.whitening(), scales),
-      test_judge(test.experiments(), test.whitening(), scales),
+      train_judge(train.experiments(), train.whitening(), scales, options.judgement),
+      test_judge(test.experiments(), test.whitening(), scales, options.judgement),
       convergence(evaluator, train, train_judge),
-      comparison(train, test, scan, train_judge, test_judge, candidates, seed) {}
+      comparison(train, test, scan, train_judge, test_judge, candidates, options.hypotheses, seed) {
+}
 
 Tested Hypotheses::tested(Fitted fit) const {
   Eigen::VectorXf residual = test.residual(fit.variant);
@@ -43,13 +45,15 @@ std::optional<Fitted> Hypotheses::without(std::size_t effect, std::size_t candid
 
 Hypotheses pose(const Evaluator& evaluator, std::vector<Candidate> candidates,
                 const Admission& admission, const Scales& scales) {
-  ModelFit train(evaluator, admission.train, whitener(admission.train, scales, true),
-                 coarse_step(evaluator, admission.train, scales, kOfFits));
-  ModelFit test(evaluator, admission.test, whitener(admission.test, scales, true));
-  ModelFit scan(evaluator, admission.train, train.whitening(),
-                scanning_step(evaluator, train, scales));
+  const Options& options = admission.question.options;
+  ModelFit train(
+      evaluator, admission.train, whitener(admission.train, scales, true), options.fit,
+      coarse_step(evaluator, admission.train, scales, options.hypotheses.fits, options.judgement));
+  ModelFit test(evaluator, admission.test, whitener(admission.test, scales, true), options.fit);
+  ModelFit scan(evaluator, admission.train, train.whitening(), options.fit,
+                scanning_step(evaluator, train, scales, options));
   return Hypotheses(evaluator, std::move(candidates), std::move(train), std::move(test),
-                    std::move(scan), scales, admission.question.seed);
+                    std::move(scan), scales, options, admission.question.seed);
 }
 
 }  // namespace discovery

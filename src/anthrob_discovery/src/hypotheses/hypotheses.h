@@ -23,7 +23,8 @@ struct Hypotheses {
   /// training recordings with differences by a longer step, for trials of many sizes
   /// @param scales noise floors by channel   @param seed of resampling
   Hypotheses(const Evaluator& evaluator, std::vector<Candidate> candidates, ModelFit train,
-             ModelFit test, ModelFit scan, const Scales& scales, std::uint64_t seed);
+             ModelFit test, ModelFit scan, const Scales& scales, const Options& options,
+             std::uint64_t seed);
   Hypotheses(const Hypotheses&) = delete;
   Hypotheses& operator=(const Hypotheses&) = delete;
 
@@ -33,6 +34,7 @@ struct Hypotheses {
   std::optional<Fitted> without(std::size_t effect, std::size_t candidate, const Fitted& fit) const;
 
   const Evaluator& evaluator;
+  const Options options;
   const std::vector<Candidate> candidates;
   const ModelFit train, test;
   const ModelFit scan;

@@ -15,16 +15,12 @@ namespace discovery {
 
 namespace {
 
-constexpr double kFaint = 9.0;  ///< squared change by a dose, below which it is lost in the noise
-constexpr double kVisible = 1e-4;  ///< share of that square that ordinary parameters leave
-constexpr double kAlike = 0.95;    ///< correlation
-constexpr double kImitated = 0.1;  ///< share of that square below which doses have two sides
-
 /// Unknowns that can still move.
-std::vector<Eigen::Index> free_unknowns(const Fitted& base) {
+std::vector<Eigen::Index> free_unknowns(const Fitted& base, const FitOptions& options) {
   std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < base.unknowns.size(); ++i) {
-    if (!base.at_bound(i)) free.push_back(static_cast<Eigen::Index>(i));
+    if (!base.at_bound(i, options.convergence.at_bound))
+      free.push_back(static_cast<Eigen::Index>(i));
   }
   return free;
 }
@@ -39,8 +35,8 @@ std::vector<Eigen::Index> all_unknowns(const Fitted& base) {
 
 Screening::Screening(const ModelFit& fit, const Fitted& base,
                      const std::vector<Candidate>& candidates, const Excerpt& quick,
-                     const Excerpt& slow)
-    : candidates_(candidates) {
+                     const Excerpt& slow, const ScreeningOptions& options)
+    : candidates_(candidates), options_(options) {
   std::vector<std::size_t> few, many;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     (candidates[c].effect->info().slow ? few : many).push_back(c);
@@ -56,21 +52,29 @@ Screening::Screening(const ModelFit& fit, const Fitted& base,
   if (!few.empty()) add_look(fit, base, slow, std::move(few));
 }
 
+std::optional<std::size_t> Screening::Look::index_of(std::size_t candidate) const {
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (candidates[k] == candidate && !moved[k]) return k;
+  }
+  return std::nullopt;
+}
+
 std::vector<std::size_t> Screening::take_faint(Look& look) const {
   std::vector<std::size_t> faint;
   for (std::size_t k = 0; k < look.candidates.size(); ++k) {
     const auto from = static_cast<Eigen::Index>(look.first_column[k]);
     const auto count = static_cast<Eigen::Index>(look.first_column[k + 1]) - from;
-    if (look.responses.middleCols(from, count).squaredNorm() > kFaint) continue;
+    if (look.responses.middleCols(from, count).squaredNorm() > options_.faint) continue;
     faint.push_back(look.candidates[k]);
-    look.candidates[k] = kMoved;
+    look.moved[k] = 1;
   }
   return faint;
 }
 
 void Screening::add_look(const ModelFit& fit, const Fitted& base, const Excerpt& excerpt,
                          std::vector<std::size_t> candidates) {
-  Look look{fit.part(excerpt), excerpt, std::move(candidates), {}, {}, {}};
+  Look look{fit.part(excerpt), excerpt, std::move(candidates), {}, {}, {}, {}};
+  look.moved.assign(look.candidates.size(), 0);
   std::vector<std::size_t> all;
   for (std::size_t k = 0; k < look.candidates.size(); ++k) {
     look.first_column.push_back(look.columns.size());
@@ -94,7 +98,7 @@ void Screening::simulate(Look& look, const Fitted& base, const std::vector<std::
   std::vector<Variant> doses;
   std::vector<std::size_t> columns;
   for (const std::size_t k : which) {
-    if (look.candidates[k] == kMoved) continue;
+    if (look.moved[k]) continue;
     for (std::size_t i = look.first_column[k]; i < look.first_column[k + 1]; ++i) {
       Variant variant = base.variant;
       variant.effects.push_back(candidates_[look.candidates[k]].dose(*look.columns[i].size));
@@ -121,11 +125,11 @@ void Screening::take_both_sides(Look& look, const Fitted& base,
   std::vector<Variant> doses;
   std::vector<std::size_t> columns;
   for (const std::size_t k : which) {
-    if (look.candidates[k] == kMoved) continue;
+    if (look.moved[k]) continue;
     for (std::size_t i = look.first_column[k]; i < look.first_column[k + 1]; ++i) {
       const auto c = static_cast<Eigen::Index>(i);
       const double whole = look.responses.col(c).cast<double>().squaredNorm();
-      const bool imitated = whole > kFaint && p.left(c, whole) < kImitated * whole;
+      const bool imitated = whole > options_.faint && p.left(c, whole) < options_.imitated * whole;
       if (!imitated || look.columns[i].lower > -1.0) continue;
       std::vector<double> amount(look.first_column[k + 1] - look.first_column[k], 0.0);
       amount[i - look.first_column[k]] = -1.0;
@@ -148,10 +152,7 @@ void Screening::renew(const Fitted& base, const std::vector<Score>& best, std::s
   for (Look& look : looks_) {
     std::vector<std::size_t> which;
     for (std::size_t s = 0; s < best.size() && s < count; ++s) {
-      const auto found =
-          std::find(look.candidates.begin(), look.candidates.end(), best[s].candidate);
-      if (found == look.candidates.end()) continue;
-      which.push_back(static_cast<std::size_t>(found - look.candidates.begin()));
+      if (const auto k = look.index_of(best[s].candidate)) which.push_back(*k);
     }
     if (!which.empty()) simulate(look, base, which);
   }
@@ -189,7 +190,7 @@ double Screening::share_of_whole(const Look& look, const Fitted& base) {
 Screening::Projection Screening::project_whole(const Look& look, const Fitted& base) const {
   Projection p = project(look, base, all_unknowns(base), share_of_whole(look, base));
   for (std::size_t k = 0; k < look.candidates.size(); ++k) {
-    if (look.candidates[k] == kMoved) continue;
+    if (look.moved[k]) continue;
     for (const int nuisance : candidates_[look.candidates[k]].same_as) {
       for (std::size_t i = 0; i < base.unknowns.size(); ++i) {
         if (base.unknowns[i].nuisance != nuisance) continue;
@@ -214,10 +215,10 @@ void Screening::Projection::hold(Eigen::Index unknown, Eigen::Index response) {
 }
 
 void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& scores) const {
-  const Projection p = project(look, base, free_unknowns(base), 1.0),
+  const Projection p = project(look, base, free_unknowns(base, look.fit.options()), 1.0),
                    in_all = project_whole(look, base);
   for (std::size_t k = 0; k < look.candidates.size(); ++k) {
-    if (look.candidates[k] == kMoved) continue;
+    if (look.moved[k]) continue;
     Score score;
     score.candidate = look.candidates[k];
     score.seconds = look.excerpt.duration();
@@ -232,13 +233,16 @@ void Screening::score(const Look& look, const Fitted& base, std::vector<Score>& 
     Eigen::VectorXd lower(count), upper(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const Column& column = look.columns[static_cast<std::size_t>(from + i)];
-      // At most a hundredth of the change is left: ordinary parameters can do the same.
-      const bool visible = column.simulated && h(i, i) > kVisible * whole[i] && h(i, i) > 1e-6;
-      lower[i] = visible ? std::max(column.lower, -100.0) : 0.0;
-      upper[i] = visible ? std::min(column.upper, 100.0) : 0.0;
+      // Where hardly anything of the change is left, ordinary parameters can do the same.
+      const auto shows_in = [&](double left) {
+        return column.simulated && left > options_.visible * whole[i] &&
+               left > options_.least_square;
+      };
+      const bool visible = shows_in(h(i, i));
+      lower[i] = visible ? std::max(column.lower, -options_.largest) : 0.0;
+      upper[i] = visible ? std::min(column.upper, options_.largest) : 0.0;
       const double left = in_all.left(from + i, whole[i]);
-      const bool shows = column.simulated && left > kVisible * whole[i] && left > 1e-6;
-      if (shows && 1.0 / std::sqrt(left) < score.uncertainty) {
+      if (shows_in(left) && 1.0 / std::sqrt(left) < score.uncertainty) {
         score.uncertainty = 1.0 / std::sqrt(left);
         score.size = static_cast<std::size_t>(i);
       }
@@ -265,12 +269,10 @@ std::vector<double> Screening::doses_to_a_gap(const Fitted& base, const std::vec
     const double share = share_of_whole(look, base);
     whole.setZero();
     for (std::size_t s = 0; s < scores.size(); ++s) {
-      const auto found =
-          std::find(look.candidates.begin(), look.candidates.end(), scores[s].candidate);
-      if (found == look.candidates.end()) continue;
-      const auto k = static_cast<std::size_t>(found - look.candidates.begin());
+      const auto k = look.index_of(scores[s].candidate);
+      if (!k) continue;
       whole(look.excerpt.rows) =
-          left.col(static_cast<Eigen::Index>(look.first_column[k] + scores[s].size));
+          left.col(static_cast<Eigen::Index>(look.first_column[*k] + scores[s].size));
       for (const auto& [name, change] : judge.channel_gaps(whole)) {
         // The gap that is there now may be due to the effect itself.
         const double floor = std::min(1.0, now.at(name));
@@ -297,13 +299,13 @@ std::vector<std::vector<std::size_t>> Screening::alike(const Fitted& base) const
       const auto i = static_cast<Eigen::Index>(look.first_column[k]);
       const bool alone = look.first_column[k + 1] - look.first_column[k] == 1;
       // An effect of several sizes has more than one shape of response.
-      if (look.candidates[k] == kMoved || !alone || !(gram(i, i) > kFaint) ||
-          gram(i, i) < kVisible * whole[i]) {
+      if (look.moved[k] || !alone || !(gram(i, i) > options_.faint) ||
+          gram(i, i) < options_.visible * whole[i]) {
         continue;
       }
       const auto leader = std::find_if(leaders.begin(), leaders.end(), [&](const auto& other) {
         const Eigen::Index o = other.second;
-        return std::abs(gram(i, o)) > kAlike * std::sqrt(gram(i, i) * gram(o, o));
+        return std::abs(gram(i, o)) > options_.alike * std::sqrt(gram(i, i) * gram(o, o));
       });
       if (leader == leaders.end()) {
         leaders.emplace_back(groups.size(), i);

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "experiment/excerpt.h"
 #include "fit/candidate.h"
 #include "fit/model_fit.h"
 #include "judgement/judge.h"
+#include "options/hypotheses.h"
 
 namespace anthrob {
 namespace discovery {
@@ -36,7 +39,7 @@ class Screening {
   /// Simulates a dose of each size of each candidate on top of a fitted variant.
   /// @param quick, slow the parts of the recordings of `fit` that are simulated
   Screening(const ModelFit& fit, const Fitted& base, const std::vector<Candidate>& candidates,
-            const Excerpt& quick, const Excerpt& slow);
+            const Excerpt& quick, const Excerpt& slow, const ScreeningOptions& options);
 
   /// Scores of all candidates, largest gain first. `base` may differ from the one for which the
   /// doses were simulated.
@@ -64,13 +67,15 @@ class Screening {
   struct Look {
     ModelFit fit;
     const Excerpt& excerpt;
-    std::vector<std::size_t> candidates;    ///< kMoved: looked at elsewhere
+    std::vector<std::size_t> candidates;
+    std::vector<char> moved;                ///< looked at elsewhere
     std::vector<std::size_t> first_column;  ///< of each, and the number of columns
     std::vector<Column> columns;
     Eigen::MatrixXf responses;
-  };
 
-  static constexpr std::size_t kMoved = static_cast<std::size_t>(-1);
+    /// Where a candidate is among them; nothing if it is not looked at here.
+    std::optional<std::size_t> index_of(std::size_t candidate) const;
+  };
 
   void add_look(const ModelFit& fit, const Fitted& base, const Excerpt& excerpt,
                 std::vector<std::size_t> candidates);
@@ -107,6 +112,7 @@ class Screening {
   void score(const Look& look, const Fitted& base, std::vector<Score>& scores) const;
 
   const std::vector<Candidate>& candidates_;
+  ScreeningOptions options_;
   std::vector<Look> looks_;
 };
 

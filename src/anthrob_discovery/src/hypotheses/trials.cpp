@@ -16,16 +16,6 @@ namespace {
 
 using Amount = std::vector<double>;  // of each size, in doses
 
-constexpr double kSuggested[] = {0.5, 1.0};    ///< shares of what the screening suggests
-constexpr double kDoses[] = {1.0, 3.0, 10.0};  ///< whatever it suggests
-constexpr double kBetween[] = {0.25, 0.5, 0.75};
-/// A law that does less than this share of what it would do in proportion to the dose begins later.
-constexpr double kBegun = 0.3;
-constexpr double kUnasked = 5.0;  ///< [doses] where the screening suggests nothing
-
-/// Indices of these amounts among those that are tried.
-constexpr std::size_t kAsSuggested = 1, kTheDose = 2;
-
 double largest(const Amount& amount) {
   double size = 0.0;
   for (const double a : amount) size = std::max(size, std::abs(a));
@@ -34,14 +24,14 @@ double largest(const Amount& amount) {
 
 /// The dose itself is among them: a surface that is too small to touch does nothing. So are
 /// multiples of it: a strong effect need not look like a weak one.
-std::vector<Amount> sizes_to_try(const Amount& suggested) {
+std::vector<Amount> sizes_to_try(const Amount& suggested, const TrialOptions& options) {
   std::vector<Amount> sizes;
   const double whole = std::max(largest(suggested), 1e-300);  // sizes keep their ratio
-  for (const double share : kSuggested) {
+  for (const double share : options.suggested) {
     sizes.push_back(suggested);
     for (double& a : sizes.back()) a *= share;
   }
-  for (const double doses : kDoses) {
+  for (const double doses : options.doses) {
     sizes.push_back(suggested);
     for (double& a : sizes.back()) a = std::copysign(doses, a) * (std::abs(a) / whole);
   }
@@ -63,13 +53,13 @@ std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
 }
 
 std::vector<Score> Trials::most_promising(const std::vector<Score>& scores,
-                                          const std::vector<Candidate>& candidates) {
+                                          const std::vector<Candidate>& candidates) const {
   std::vector<const Effect*> kinds;
   for (std::size_t s = 0; s < scores.size() && scores[s].gain > 0.0; ++s) {
     kinds.push_back(candidates[scores[s].candidate].effect);
   }
   std::vector<Score> tried;
-  for (const std::size_t s : best_of_kinds(kinds, kTriedOfAKind, kTried)) {
+  for (const std::size_t s : best_of_kinds(kinds, options_.tried_of_a_kind, options_.tried)) {
     tried.push_back(scores[s]);
   }
   return tried;
@@ -79,7 +69,7 @@ std::vector<Score> Trials::most_promising(const std::vector<Score>& scores,
 /// nothing, or to make it worse, may help at a larger size.
 void Trials::add_place_of_first(const std::vector<Score>& scores,
                                 const std::vector<Candidate>& candidates,
-                                std::vector<Score>& tried) {
+                                std::vector<Score>& tried) const {
   if (tried.empty()) return;
   const std::string place = candidates[tried.front().candidate].owner();
   for (const Score& score : scores) {
@@ -90,7 +80,7 @@ void Trials::add_place_of_first(const std::vector<Score>& scores,
     if (is_in) continue;
     tried.push_back(score);
     Amount& amount = tried.back().amount;
-    if (largest(amount) == 0.0) std::fill(amount.begin(), amount.end(), kUnasked);
+    if (largest(amount) == 0.0) std::fill(amount.begin(), amount.end(), options_.unasked);
   }
 }
 
@@ -127,19 +117,22 @@ std::vector<Trials::Trial> Trials::simulate(const Fitted& base, const std::vecto
 std::vector<double> Trials::choose_sizes(const Fitted& base, std::vector<Score>& tried) const {
   std::vector<Trial> trials;
   for (std::size_t s = 0; s < tried.size(); ++s) {
-    for (Amount& amount : sizes_to_try(tried[s].amount)) trials.push_back({s, std::move(amount)});
+    for (Amount& amount : sizes_to_try(tried[s].amount, options_))
+      trials.push_back({s, std::move(amount)});
   }
   trials = simulate(base, tried, std::move(trials));
 
+  const std::size_t as_suggested = options_.suggested.size() - 1,
+                    the_dose = options_.suggested.size();
   // A law that does nothing up to a size begins somewhere between it and the dose. Where two sizes
   // make up an amplitude and a phase, a small dose may suggest the wrong phase for a large one.
   std::vector<Trial> more;
   const std::size_t sizes = tried.empty() ? 1 : trials.size() / tried.size();
   for (std::size_t i = 0; i < trials.size(); i += sizes) {
-    const Trial &some = trials[i + kAsSuggested], &dose = trials[i + kTheDose];
+    const Trial &some = trials[i + as_suggested], &dose = trials[i + the_dose];
     const double share = largest(some.amount);
-    if (share >= 1.0 || some.changed > kBegun * share * dose.changed) continue;
-    for (const double way : kBetween) {
+    if (share >= 1.0 || some.changed > options_.begun * share * dose.changed) continue;
+    for (const double way : options_.between) {
       Trial trial{some.owner, some.amount};
       for (std::size_t k = 0; k < trial.amount.size(); ++k) {
         trial.amount[k] += way * (dose.amount[k] - some.amount[k]);
@@ -150,7 +143,7 @@ std::vector<double> Trials::choose_sizes(const Fitted& base, std::vector<Score>&
   for (std::size_t i = 0; i < trials.size(); ++i) {
     // Half of the suggested amount says nothing more about the phase.
     const Candidate& candidate = candidates_[tried[trials[i].owner].candidate];
-    if (i % sizes < kAsSuggested || !has_phase(candidate)) continue;
+    if (i % sizes < as_suggested || !has_phase(candidate)) continue;
     for (Amount& amount : other_phases(candidate, trials[i].amount)) {
       more.push_back({trials[i].owner, std::move(amount)});
     }
@@ -184,7 +177,7 @@ std::vector<Score> Trials::best(const Fitted& base, const std::vector<Score>& sc
   std::vector<const Effect*> kinds;
   for (const std::size_t s : order) kinds.push_back(effect(s));
   std::vector<Score> best;
-  for (const std::size_t k : best_of_kinds(kinds, kKeptOfAKind, kKept)) {
+  for (const std::size_t k : best_of_kinds(kinds, options_.kept_of_a_kind, options_.kept)) {
     best.push_back(std::move(tried[order[k]]));
   }
   return best;

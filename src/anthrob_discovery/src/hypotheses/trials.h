@@ -4,6 +4,7 @@
 
 #include "fit/model_fit.h"
 #include "hypotheses/screening.h"
+#include "options/hypotheses.h"
 
 namespace anthrob {
 namespace discovery {
@@ -19,11 +20,8 @@ std::vector<std::size_t> best_of_kinds(const std::vector<const Effect*>& kinds,
 /// can imitate is subtracted in linear approximation.
 class Trials {
  public:
-  static constexpr std::size_t kTried = 30, kTriedOfAKind = 6;
-  static constexpr std::size_t kKept = 8, kKeptOfAKind = 3;
-
-  Trials(const ModelFit& fit, const std::vector<Candidate>& candidates)
-      : fit_(fit), candidates_(candidates) {}
+  Trials(const ModelFit& fit, const std::vector<Candidate>& candidates, const TrialOptions& options)
+      : fit_(fit), candidates_(candidates), options_(options) {}
 
   /// Tries the best candidates of the screening and every effect of the muscle, joint or motor of
   /// the first one. @return those that leave least, best first, each at its best size
@@ -42,16 +40,17 @@ class Trials {
     double changed = 0.0;  ///< norm of the change of the residual
   };
 
-  static std::vector<Score> most_promising(const std::vector<Score>& scores,
-                                           const std::vector<Candidate>& candidates);
-  static void add_place_of_first(const std::vector<Score>& scores,
-                                 const std::vector<Candidate>& candidates,
-                                 std::vector<Score>& tried);
+  std::vector<Score> most_promising(const std::vector<Score>& scores,
+                                    const std::vector<Candidate>& candidates) const;
+  void add_place_of_first(const std::vector<Score>& scores,
+                          const std::vector<Candidate>& candidates,
+                          std::vector<Score>& tried) const;
   std::vector<Trial> simulate(const Fitted& base, const std::vector<Score>& tried,
                               std::vector<Trial> trials) const;
 
   const ModelFit& fit_;
   const std::vector<Candidate>& candidates_;
+  TrialOptions options_;
 };
 
 }  // namespace discovery

@@ -11,11 +11,9 @@ namespace discovery {
 
 namespace {
 
-constexpr double kTelling = 1.0;  ///< a smaller gain of a block says nothing [nat]
-
-/// 0 if there are fewer than three.
-double mean_over_its_error(const std::vector<double>& values) {
-  if (values.size() < Judge::kFewestBlocks) return 0.0;
+/// 0 if there are too few.
+double mean_over_its_error(const std::vector<double>& values, std::size_t fewest) {
+  if (values.size() < fewest) return 0.0;
   const auto n = static_cast<double>(values.size());
   const Eigen::Map<const Eigen::ArrayXd> value(values.data(),
                                                static_cast<Eigen::Index>(values.size()));
@@ -26,15 +24,16 @@ double mean_over_its_error(const std::vector<double>& values) {
 
 }  // namespace
 
-std::size_t Judge::blocks_of(double duration) {
-  return static_cast<std::size_t>(std::max(1L, std::lround(duration / kBlock)));
+std::size_t Judge::blocks_of(double duration, const JudgementOptions& options) {
+  return static_cast<std::size_t>(std::max(1L, std::lround(duration / options.block)));
 }
 
-Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales)
-    : whitener_(whitener) {
+Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales,
+             const JudgementOptions& options)
+    : whitener_(whitener), options_(options) {
   std::size_t offset = 0;
   for (const auto& experiment : experiments) {
-    const std::size_t own = blocks_of(experiment->duration());
+    const std::size_t own = blocks_of(experiment->duration(), options);
     for (const Channel& channel : experiment->channels()) {
       const auto scale = scales.find(channel.name());
       Run run{channel.name(),
@@ -43,7 +42,7 @@ Judge::Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, co
               scale == scales.end() ? 1.0 : scale->second.inflation,
               {}};
       for (std::size_t b = 0; b < channel.count; ++b) {
-        const auto block = static_cast<std::size_t>(experiment->bin_time(b) / kBlock);
+        const auto block = static_cast<std::size_t>(experiment->bin_time(b) / options.block);
         run.block.push_back(blocks_ + std::min(block, own - 1));
       }
       runs_.push_back(std::move(run));
@@ -159,7 +158,7 @@ std::map<std::string, std::vector<double>> Judge::mean_squares(
     for (Eigen::Index block = 0; block < count; ++block) {
       if (sum.second[block] > 0.0) of_blocks.push_back(sum.first[block] / sum.second[block]);
     }
-    if (of_blocks.size() >= kFewestBlocks) means[name] = std::move(of_blocks);
+    if (of_blocks.size() >= options_.fewest_blocks) means[name] = std::move(of_blocks);
   }
   return means;
 }
@@ -170,7 +169,7 @@ std::map<std::string, double> Judge::excess_significance(const Eigen::VectorXf& 
   for (const auto& [name, squares] : mean_squares(residual)) {
     std::vector<double> excesses = squares;
     for (double& excess : excesses) excess -= gap * gap;
-    significance[name] = mean_over_its_error(excesses);
+    significance[name] = mean_over_its_error(excesses, options_.fewest_blocks);
   }
   return significance;
 }
@@ -182,13 +181,14 @@ std::map<std::string, double> Judge::growth_significance(const Eigen::VectorXf& 
   for (const auto& [name, squares] : mean_squares(after)) {
     std::vector<double> growths = squares;
     for (std::size_t i = 0; i < growths.size(); ++i) growths[i] -= earlier.at(name)[i];
-    significance[name] = mean_over_its_error(growths);
+    significance[name] = mean_over_its_error(growths, options_.fewest_blocks);
   }
   return significance;
 }
 
 bool certain_gap(const Judge& train, const Eigen::VectorXf& learned, const Judge& test,
                  const Eigen::VectorXf& held_out, double gap) {
+  const JudgementOptions& options = train.options();
   const auto in = [](const std::map<std::string, double>& channels, const std::string& name) {
     const auto found = channels.find(name);
     return found == channels.end() ? 0.0 : found->second;
@@ -199,20 +199,20 @@ bool certain_gap(const Judge& train, const Eigen::VectorXf& learned, const Judge
   for (const auto& [name, other] : test.channel_gaps(held_out)) {
     const double least = std::min(other, in(gaps, name));
     const double significance = (in(sure, name) + in(sure_of_held_out, name)) / M_SQRT2;
-    if (least > kCertainGap || (least > gap && significance > kSure)) return true;
+    if (least > options.certain_gap || (least > gap && significance > options.sure)) return true;
   }
   return false;
 }
 
 std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
-                                        const std::vector<double>& handicap, std::uint64_t seed) {
-  constexpr int kDraws = 2000;
+                                        const std::vector<double>& handicap, std::uint64_t seed,
+                                        const JudgementOptions& options) {
   const Eigen::Index models = scores.rows(), blocks = scores.cols();
   std::vector<double> probability(static_cast<std::size_t>(models), 0.0);
   const CounterRandom random(seed, 77);
   Eigen::VectorXd weight(blocks);
   std::uint64_t index = 0;
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (int draw = 0; draw < options.draws; ++draw) {
     // Dirichlet(1, ..., 1) times the number of blocks.
     for (Eigen::Index b = 0; b < blocks; ++b) weight[b] = -std::log(random.uniform(index++));
     weight *= static_cast<double>(blocks) / weight.sum();
@@ -220,21 +220,22 @@ std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
     for (Eigen::Index m = 0; m < models; ++m) total[m] -= handicap[static_cast<std::size_t>(m)];
     const Eigen::VectorXd share = (total.array() - total.maxCoeff()).exp();
     for (Eigen::Index m = 0; m < models; ++m) {
-      probability[static_cast<std::size_t>(m)] += share[m] / share.sum() / kDraws;
+      probability[static_cast<std::size_t>(m)] += share[m] / share.sum() / options.draws;
     }
   }
   for (double& p : probability) p = std::min(p, 1.0);  // not for rounding above it
   return probability;
 }
 
-double block_significance(const Eigen::VectorXd& gains) {
+double block_significance(const Eigen::VectorXd& gains, const JudgementOptions& options) {
   std::vector<double> telling, sizes;
   for (const double gain : gains) {
-    if (!(std::abs(gain) > kTelling)) continue;
+    if (!(std::abs(gain) > options.telling_gain)) continue;
     telling.push_back(gain);
     sizes.push_back(std::asinh(gain));
   }
-  return std::max(mean_over_its_error(telling), mean_over_its_error(sizes));
+  return std::max(mean_over_its_error(telling, options.fewest_blocks),
+                  mean_over_its_error(sizes, options.fewest_blocks));
 }
 
 }  // namespace discovery

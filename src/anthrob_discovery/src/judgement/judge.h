@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/noise_floor.h"
+#include "options/judgement.h"
 
 namespace anthrob {
 namespace discovery {
@@ -16,16 +17,16 @@ namespace discovery {
 /// Bins count less where what the best model leaves is correlated.
 class Judge {
  public:
-  static constexpr double kBlock = 2.0;  ///< [s] longer than residuals are correlated
-  /// The fewest whose scatter says how certain a gain or a gap is.
-  static constexpr std::size_t kFewestBlocks = 3;
   /// Blocks of a recording; a rest shorter than half a block belongs to the last one.
   /// @param duration [s]
-  static std::size_t blocks_of(double duration);
+  static std::size_t blocks_of(double duration, const JudgementOptions& options);
 
   /// @param whitener with which the residuals were whitened
   /// @param scales scales of the channels if the whitener includes their inflation; else empty
-  Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales);
+  Judge(const Experiments& experiments, const Eigen::VectorXf& whitener, const Scales& scales,
+        const JudgementOptions& options);
+
+  const JudgementOptions& options() const { return options_; }
 
   std::size_t block_count() const { return blocks_; }
 
@@ -67,6 +68,7 @@ class Judge {
   std::map<std::string, std::vector<double>> mean_squares(const Eigen::VectorXf& residual) const;
 
   const Eigen::VectorXf& whitener_;
+  JudgementOptions options_;
   std::vector<Run> runs_;
   std::size_t blocks_ = 0;
 };
@@ -81,14 +83,15 @@ bool certain_gap(const Judge& train, const Eigen::VectorXf& learned, const Judge
 /// Bayesian bootstrap (pseudo-BMA+, Yao et al. 2018). Deterministic by seed.
 /// @param scores one row a model   @param handicap subtracted from each model's total [nat]
 std::vector<double> model_probabilities(const Eigen::MatrixXd& scores,
-                                        const std::vector<double>& handicap, std::uint64_t seed);
+                                        const std::vector<double>& handicap, std::uint64_t seed,
+                                        const JudgementOptions& options);
 
 /// Mean gain of the blocks over its standard error, computed for the gains and for asinh(gain); the
 /// larger of the two is returned. asinh avoids calling an effect doubtful because it gains ten nat
 /// in one block and a thousand in the next, or because it gains much in some blocks and costs
 /// little in others. Blocks with a gain between -1 and 1 nat are left out, because an effect may
 /// show only now and then. 0 if fewer than three blocks are left.
-double block_significance(const Eigen::VectorXd& gains);
+double block_significance(const Eigen::VectorXd& gains, const JudgementOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

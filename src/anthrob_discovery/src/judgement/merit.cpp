@@ -7,13 +7,6 @@ namespace discovery {
 
 namespace {
 
-constexpr double kSignificance = 3.0;       ///< standard errors over blocks
-constexpr double kFaintSignificance = 6.0;  ///< where no gap is above kRealGap
-constexpr double kShareOfPresent = 0.1;
-constexpr double kShareOfFirst = 0.03;
-/// A smaller share of the first gap may be what the shape of the first law leaves.
-constexpr double kSmallSignificance = 8.0;
-
 template <typename... Values>
 std::string words(const char* format, Values... values) {
   char text[200];
@@ -23,7 +16,7 @@ std::string words(const char* format, Values... values) {
 
 }  // namespace
 
-std::string lack(const Merit& merit) {
+std::optional<std::string> lack(const Merit& merit, const MeritOptions& options) {
   if (merit.probability <= merit.none) {
     return words(
         "it is no more probable than that none of the fitted candidates is right "
@@ -36,25 +29,26 @@ std::string lack(const Merit& merit) {
     return words("it gains only %.1f nat on held-out recordings; more than %.1f are required",
                  merit.evidence, merit.needed_evidence);
   }
-  const double needed = merit.only_faint_gaps ? kFaintSignificance : kSignificance;
+  const double needed = merit.only_faint_gaps ? options.faint_significance : options.significance;
   if (merit.significance <= needed) {
     return words("its gain is only %.2f standard errors; more than %.0f are required",
                  merit.significance, needed);
   }
   if (merit.share <= 0.0) return "it does not reduce the squared gap on held-out recordings";
-  if (merit.share <= kShareOfPresent) {
+  if (merit.share <= options.share_of_present) {
     return words(
         "it removes only %.1f %% of the squared gap on held-out recordings; more than %.0f %% are "
         "required",
-        100.0 * merit.share, 100.0 * kShareOfPresent);
+        100.0 * merit.share, 100.0 * options.share_of_present);
   }
-  if (merit.share_of_first <= kShareOfFirst && merit.significance <= kSmallSignificance) {
+  if (merit.share_of_first <= options.share_of_first &&
+      merit.significance <= options.small_significance) {
     return words(
         "it removes only %.1f %% of the initial squared gap, which may be what earlier effects "
         "leave; its gain is %.2f standard errors, and for so little, more than %.0f are required",
-        100.0 * merit.share_of_first, merit.significance, kSmallSignificance);
+        100.0 * merit.share_of_first, merit.significance, options.small_significance);
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace discovery

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "options/judgement.h"
 
 namespace anthrob {
 namespace discovery {
@@ -13,13 +16,13 @@ struct Merit {
   double evidence = 0.0;                 ///< gain in held-out log score [nat]
   double needed_evidence = 0.0;          ///< needed_evidence() [nat]
   double significance = 0.0;             ///< of the gain over blocks [standard errors]
-  bool only_faint_gaps = false;          ///< no channel is above kRealGap
-  double share = 0.0;           ///< share of the squared gaps above kFaintGap that it removes
+  bool only_faint_gaps = false;          ///< no channel is above JudgementOptions::real_gap
+  double share = 0.0;           ///< share of the squared gaps above `faint_gap` that it removes
   double share_of_first = 0.0;  ///< the same, in units of the squared gaps at the start
 };
 
-/// Empty if the effect is to be named; else the first criterion that it misses, in words.
-std::string lack(const Merit& merit);
+/// The first criterion that an effect misses, in words; nothing if it is to be named.
+std::optional<std::string> lack(const Merit& merit, const MeritOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

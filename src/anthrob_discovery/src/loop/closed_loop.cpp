@@ -12,18 +12,12 @@ namespace discovery {
 
 namespace {
 
-constexpr int kMostRecordings = 2;
-/// A rival less probable than this is settled.
-constexpr double kRival = 0.05;
-/// A recording that is expected to tell less is not worth making [nat].
-constexpr double kTells = 3.0;
-
 /// The first effect whose rival a recording can decide; null: none.
-const FoundEffect* undecided(const Answer& answer) {
+const FoundEffect* undecided(const Answer& answer, const LoopOptions& options) {
   const auto it =
-      std::find_if(answer.effects.begin(), answer.effects.end(), [](const FoundEffect& effect) {
-        return !effect.rivals.empty() && effect.rivals.front().probability > kRival &&
-               effect.separating_recording.distance() > kTells;
+      std::find_if(answer.effects.begin(), answer.effects.end(), [&](const FoundEffect& effect) {
+        return !effect.rivals.empty() && effect.rivals.front().probability > options.rival &&
+               effect.separating_recording.distance() > options.tells;
       });
   return it == answer.effects.end() ? nullptr : &*it;
 }
@@ -69,19 +63,21 @@ void require_same_robot(const RobotModel& examined, const RobotModel& robot) {
 Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
                           const std::shared_ptr<const RobotModel>& robot,
                           const Observer& observer) {
+  const LoopOptions options = question.options.loop;
   require_same_robot(*evaluator.model(), *robot);
   Answer answer = discover(evaluator, question, observer);
   std::vector<std::string> asked;
-  for (int number = 1; number <= kMostRecordings; ++number) {
-    const FoundEffect* effect = undecided(answer);
+  for (int number = 1; number <= options.most_recordings; ++number) {
+    const FoundEffect* effect = undecided(answer, options);
     if (effect == nullptr) break;
     asked.push_back(sentence(*effect, number));
     observer.say(asked.back());
     const auto record = [&](std::size_t first, const std::string& name) {
-      const Dataset commands =
-          separating_commands(*evaluator.model(), effect->separating_recording, first, 2);
+      const Dataset commands = separating_commands(*evaluator.model(), effect->separating_recording,
+                                                   question.options.separation, first, 2);
       Dataset recording = simulated_recording(
-          robot, commands, question.seed + 2 * static_cast<std::uint64_t>(number) + first);
+          robot, commands, question.seed + 2 * static_cast<std::uint64_t>(number) + first,
+          question.options.experiment);
       recording.folder = name_of(number, name);
       return recording;
     };
@@ -104,9 +100,9 @@ Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
   return answer;
 }
 
-std::vector<std::string> loop_recordings() {
+std::vector<std::string> loop_recordings(const LoopOptions& options) {
   std::vector<std::string> names;
-  for (int number = 1; number <= kMostRecordings; ++number) {
+  for (int number = 1; number <= options.most_recordings; ++number) {
     for (const char* group : {"train", "test"}) names.push_back(name_of(number, group));
   }
   return names;

@@ -18,7 +18,7 @@ Answer discover_in_a_loop(const Evaluator& evaluator, Question& question,
                           const Observer& observer = {});
 
 /// Names of the folders in which the recordings of a loop are saved: "separating_1_train", ...
-std::vector<std::string> loop_recordings();
+std::vector<std::string> loop_recordings(const LoopOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

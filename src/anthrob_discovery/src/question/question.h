@@ -6,6 +6,7 @@
 
 #include "anthrob_core/parameter_list.h"
 #include "anthrob_recording/dataset.h"
+#include "options/options.h"
 
 namespace anthrob {
 namespace discovery {
@@ -20,6 +21,7 @@ struct Question {
   int jobs = 1;
   std::uint64_t seed = 1;
   double step = 0.001;  ///< of the simulation [s]
+  Options options;
   // For the report only:
   std::string calibration_file;         ///< that lists the nuisances; empty: none
   std::string simulated_robot_file;     ///< of --close-the-loop; empty: the loop stays open

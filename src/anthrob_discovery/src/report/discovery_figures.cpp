@@ -11,8 +11,6 @@ namespace discovery {
 
 namespace {
 
-constexpr std::size_t kCurvesShown = 3;
-
 /// "0.05 Nm", not to be broken between lines; without unit where there is none.
 std::string with_unit(double value, const std::string& unit) {
   return short_number(value) + (unit == "1" || unit.empty() ? "" : "\u00a0" + unit);
@@ -62,22 +60,23 @@ std::string file_of(const std::string& kind, std::size_t index) {
 }
 
 void add_curves(const std::vector<Dependence>& dependences, const std::string& kind,
-                OutputFiles& files) {
-  for (std::size_t i = 0; i < std::min(dependences.size(), kCurvesShown); ++i) {
+                std::size_t most, OutputFiles& files) {
+  for (std::size_t i = 0; i < std::min(dependences.size(), most); ++i) {
     files[file_of(kind, i)] = dependence_figure(dependences[i]);
   }
 }
 
 }  // namespace
 
-OutputFiles discovery_figures(const Answer& answer) {
+OutputFiles discovery_figures(const Answer& answer, const DiagnosisOptions& options) {
   OutputFiles files;
   const std::vector<Example>& examples = answer.diagnosis.examples;
   for (std::size_t i = 0; i < examples.size(); ++i) {
     files[file_of("example", i)] = example_figure(examples[i], !answer.effects.empty());
   }
-  add_curves(telling_dependences_of_gaps(answer), "gap", files);
-  add_curves(telling_dependences_of_rest(answer), "rest", files);
+  add_curves(telling_dependences_of_gaps(answer, options.dependence), "gap", options.curves, files);
+  add_curves(telling_dependences_of_rest(answer, options.dependence), "rest", options.curves,
+             files);
   return files;
 }
 
@@ -86,10 +85,11 @@ const std::set<std::string>& kinds_of_figures() {
   return kinds;
 }
 
-std::vector<Dependence> telling_dependences_of_gaps(const Answer& answer) {
+std::vector<Dependence> telling_dependences_of_gaps(const Answer& answer,
+                                                    const DependenceOptions& options) {
   std::vector<std::pair<double, const Dependence*>> found;
   for (const Dependence& d : answer.diagnosis.dependences) {
-    if (d.share <= Dependence::kTelling) continue;
+    if (d.share <= options.telling) continue;
     for (const Place& place : answer.diagnosis.where) {
       if (d.channel.rfind(place.place + "/" + place.channel, 0) != 0) continue;
       found.emplace_back(place.share * d.predicted(), &d);
@@ -103,10 +103,11 @@ std::vector<Dependence> telling_dependences_of_gaps(const Answer& answer) {
   return ordered;
 }
 
-std::vector<Dependence> telling_dependences_of_rest(const Answer& answer) {
+std::vector<Dependence> telling_dependences_of_rest(const Answer& answer,
+                                                    const DependenceOptions& options) {
   std::vector<Dependence> telling;
   for (const Dependence& d : answer.remaining.dependences) {
-    if (!d.variable.empty() && d.share > Dependence::kTelling) telling.push_back(d);
+    if (!d.variable.empty() && d.share > options.telling) telling.push_back(d);
   }
   return telling;
 }

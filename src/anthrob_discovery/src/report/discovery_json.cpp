@@ -8,6 +8,7 @@
 #include "report/discovery_figures.h"
 #include "report/discovery_report.h"
 #include "report/discovery_summary.h"
+#include "report/options_json.h"
 #include "report/separating_files.h"
 #include "separation/separating_experiment.h"
 
@@ -21,6 +22,10 @@ using Json = nlohmann::ordered_json;
 /// Not a number is never written.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
 }
 
 Json gap_json(const Gap& gap) {
@@ -231,16 +236,16 @@ Json one_sided_json(const std::vector<OneSidedGap>& gaps) {
   return list;
 }
 
-/// With -1, what was not compared is left out.
-Json seams_json(const std::vector<SeamGap>& seams) {
+/// What was not compared is left out.
+Json seams_json(const std::vector<SeamGap>& seams, const SeamOptions& options) {
   Json list = Json::array();
   for (const SeamGap& seam : seams) {
     Json entry = {{"place", seam.place}, {"channel", seam.channel}};
-    if (seam.commands >= 0.0) entry["commands"] = number(seam.commands);
-    if (seam.voltages >= 0.0) entry["voltages"] = number(seam.voltages);
-    if (seam.positions >= 0.0) entry["positions"] = number(seam.positions);
-    if (seam.postures >= 0.0) entry["postures"] = number(seam.postures);
-    if (postures_mislead(seam)) entry["postures_mislead"] = true;
+    if (seam.commands) entry["commands"] = number(seam.commands);
+    if (seam.voltages) entry["voltages"] = number(seam.voltages);
+    if (seam.positions) entry["positions"] = number(seam.positions);
+    if (seam.postures) entry["postures"] = number(seam.postures);
+    if (postures_mislead(seam, options)) entry["postures_mislead"] = true;
     list.push_back(entry);
   }
   return list;
@@ -250,7 +255,7 @@ Json regimes_json(const std::vector<RegimeGap>& regimes) {
   Json list = Json::array();
   for (const RegimeGap& row : regimes) {
     Json gaps = Json::array();
-    for (const double gap : row.gap) gaps.push_back(gap < 0.0 ? Json() : number(gap));
+    for (const std::optional<double>& gap : row.gap) gaps.push_back(number(gap));
     list.push_back({{"place", row.place}, {"by", row.word}, {"gap", gaps}});
   }
   return list;
@@ -281,18 +286,19 @@ const char* search_end_name(SearchEnd end) {
 }
 
 /// Levels by which the page chooses its words.
-Json criteria_json(const Answer& answer) {
-  return {{"real_gap", kRealGap},
-          {"faint_gap", kFaintGap},
-          {"least_gap", least_gap(!answer.effects.empty())},
-          {"even_odds", kEvenOdds},
-          {"sure", kSure}};
+Json criteria_json(const Answer& answer, const JudgementOptions& options) {
+  return {{"real_gap", options.real_gap},
+          {"faint_gap", options.faint_gap},
+          {"least_gap", least_gap(!answer.effects.empty(), options)},
+          {"even_odds", options.trust.even_odds.value},
+          {"sure", options.sure}};
 }
 
 }  // namespace
 
 std::string report_json(const Answer& answer, const Question& question, double runtime,
                         const OutputFiles& figures) {
+  const Options& options = question.options;
   Json report;
   report["verdict"] = verdict_name(answer.verdict);
   report["where"] = where_json(answer);
@@ -316,18 +322,19 @@ std::string report_json(const Answer& answer, const Question& question, double r
                          {"lack", refused->lack}};
   }
   if (!answer.asked.empty()) report["asked"] = answer.asked;
-  report["remaining"] = {
-      {"share", number(answer.remaining.share)},
-      {"description", answer.remaining.description},
-      {"dependences", dependences_json(telling_dependences_of_rest(answer), "rest", figures)},
-      {"certain", answer.remaining.certain}};
+  report["remaining"] = {{"share", number(answer.remaining.share)},
+                         {"description", answer.remaining.description},
+                         {"dependences", dependences_json(telling_dependences_of_rest(
+                                                              answer, options.diagnosis.dependence),
+                                                          "rest", figures)},
+                         {"certain", answer.remaining.certain}};
   report["gap"] = gaps_json(answer.diagnosis);
   report["not_visible"] = visibilities_json(answer.detectability.not_visible);
   report["visible"] = visibilities_json(answer.detectability.visible);
   report["alike"] = Json::array();
   for (const auto& group : answer.detectability.alike)
     report["alike"].push_back(visibilities_json(group));
-  report["seams"] = seams_json(answer.diagnosis.seams);
+  report["seams"] = seams_json(answer.diagnosis.seams, options.diagnosis.seams);
   report["regimes"] = regimes_json(answer.diagnosis.regimes);
   report["model"] = "model.yaml";
   report["question"] = question_json(question);
@@ -335,14 +342,16 @@ std::string report_json(const Answer& answer, const Question& question, double r
   report["runtime_s"] = number(runtime);
   report["search_end"] = search_end_name(answer.search.end);
   report["one_sided"] = one_sided_json(answer.diagnosis.one_sided);
-  report["dependences"] = dependences_json(telling_dependences_of_gaps(answer), "gap", figures);
-  report["criteria"] = criteria_json(answer);
+  report["dependences"] = dependences_json(
+      telling_dependences_of_gaps(answer, options.diagnosis.dependence), "gap", figures);
+  report["criteria"] = criteria_json(answer, options.judgement);
+  report["options"] = options_json(options);
   report["figures"] = figures_of(figures);
   return report.dump(2) + "\n";
 }
 
 OutputFiles report_files(const Answer& answer, const Question& question, double runtime) {
-  OutputFiles files = discovery_figures(answer);
+  OutputFiles files = discovery_figures(answer, question.options.diagnosis);
   files["report.json"] = report_json(answer, question, runtime, files);
   return files;
 }

@@ -24,10 +24,10 @@ namespace {
 std::string told_apart(double number, const FoundParameter& p) {
   const double width = p.high - p.low, most = std::max(std::abs(p.low), std::abs(p.high));
   if (!p.has_interval() || !(width > 0.0) || !std::isfinite(width)) return short_number(number);
-  constexpr int kMostDigits = 9;
+  const int most_digits = 9;
   const double first = std::floor(std::log10(most));  // decade of the first digit
   int digits = 3;
-  while (digits < kMostDigits && std::pow(10.0, first + 1 - digits) > 0.5 * width) ++digits;
+  while (digits < most_digits && std::pow(10.0, first + 1 - digits) > 0.5 * width) ++digits;
   if (digits == 3) return short_number(number);
   const bool is_whole = std::abs(number) >= std::pow(10.0, digits) && std::abs(number) < 1e7;
   char text[32];

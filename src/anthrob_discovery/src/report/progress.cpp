@@ -5,16 +5,11 @@
 namespace anthrob {
 namespace discovery {
 
-namespace {
-
-constexpr std::size_t kLongBatch = 10;  ///< shorter ones are not shown: some run side by side
-
-}  // namespace
-
 std::string progress_text(double elapsed, std::size_t simulated, const Batch& batch) {
   char text[120];
   int length = std::snprintf(text, sizeof(text), "%.0f s, %zu simulations", elapsed, simulated);
-  if (batch.size >= kLongBatch && batch.done > 0 && batch.done < batch.size) {
+  // Shorter ones are not shown: some run side by side.
+  if (batch.size >= 10 && batch.done > 0 && batch.done < batch.size) {
     const double left = batch.elapsed * static_cast<double>(batch.size - batch.done) /
                         static_cast<double>(batch.done);
     std::snprintf(text + length, sizeof(text) - static_cast<std::size_t>(length),

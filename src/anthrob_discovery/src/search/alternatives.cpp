@@ -20,7 +20,7 @@ std::vector<Alternative> find_alternatives(const Hypotheses& hypotheses, const W
         observer.stage("checking whether " + alone.name() + " alone can replace " +
                        candidates[a.candidate].name() + " and " + candidates[b.candidate].name());
         const auto instead = common.instead(law, model.base, {a, b});
-        if (!instead || instead->odds.probability < kMentioned) continue;
+        if (!instead || instead->odds.probability < hypotheses.options.search.mentioned) continue;
         const std::string& id = alone.effect->info().id;
         alternatives.push_back({id,
                                 alone.effect->info().name,

@@ -10,17 +10,14 @@
 namespace anthrob {
 namespace discovery {
 
-namespace {
-constexpr double kNeeded = 3.0;  // [nat], held out; no penalty, since only one law is tried
-constexpr double kClearly = 0.9;
-}  // namespace
+namespace {}  // namespace
 
-bool CommonLaw::Instead::is_better() const {
-  return odds.evidence > kNeeded && odds.probability > 0.5;
+bool CommonLaw::Instead::is_better(const CommonLawOptions& options) const {
+  return odds.evidence > options.evidence && odds.probability > 0.5;
 }
 
-bool CommonLaw::Instead::is_clearly_better() const {
-  return is_better() && odds.probability >= kClearly;
+bool CommonLaw::Instead::is_clearly_better(const CommonLawOptions& options) const {
+  return is_better(options) && odds.probability >= options.probability;
 }
 
 bool CommonLaw::may_be(std::size_t law, std::size_t one, std::size_t other) const {
@@ -67,13 +64,14 @@ std::optional<CommonLaw::Instead> CommonLaw::instead(std::size_t law, const Test
   if (list.entries.empty()) return std::nullopt;
   const Fitted& rough = list.entries.front().fit;
   const double gained = base.fit.cost - with.fit.cost;
-  if (rough.cost - with.fit.cost > kOutOfReach * gained) return std::nullopt;
+  if (rough.cost - with.fit.cost > hypotheses_.options.search.out_of_reach * gained)
+    return std::nullopt;
   Tested alone = hypotheses_.tested(
       *hypotheses_.convergence.to_the_end_within_reach(rough, HUGE_VAL, with.fit.cost));
   if (alone.test.size() == 0) return std::nullopt;
   CandidateComparison::Odds odds = hypotheses_.comparison.odds(alone.test, with.test);
-  odds.probability =
-      allowing_for_scatter(odds.probability, hypotheses_.convergence, base, alone, with);
+  odds.probability = allowing_for_scatter(odds.probability, hypotheses_.convergence, base, alone,
+                                          with, hypotheses_.options.search.scatter);
   const double gain = base.fit.cost - alone.fit.cost;
   return Instead{std::move(alone), odds, gain, base.test};
 }

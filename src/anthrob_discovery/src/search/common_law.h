@@ -34,9 +34,9 @@ class CommonLaw {
     double gained;
     Eigen::VectorXf without;  ///< held-out residual of the model without any of them
 
-    bool is_better() const;
+    bool is_better(const CommonLawOptions& options) const;
     /// Whether it is so much better that it is named instead of them.
-    bool is_clearly_better() const;
+    bool is_clearly_better(const CommonLawOptions& options) const;
   };
   /// Fits a candidate to the end in place of some effects; it becomes the last effect of the fit.
   /// @param with the fit to the end with all those effects   @param parts the effects that are

@@ -9,14 +9,7 @@
 namespace anthrob {
 namespace discovery {
 
-namespace {
-
-constexpr double kComesNear = 0.5;   ///< share of the first one's gain
-constexpr double kLagsBehind = 0.4;  ///< a fit that lacks this share after rough steps is out
-/// So is one that lacks a smaller share, and has so much of the first one's cost in addition.
-constexpr double kBehind = 0.1, kFarAbove = 0.5;
-
-}  // namespace
+namespace {}  // namespace
 
 bool FinalComparison::may_challenge(const Candidate& other, const Candidate& first,
                                     Challenger kind) const {
@@ -60,12 +53,13 @@ double FinalComparison::share_of_better(const Tested& base, const ShortList& end
   if (end.entries.size() == 1) return 1.0;
   const FittedCandidate &better = end.entries[0], &other = end.entries[1];
   const double by_blocks = better.probability / (better.probability + other.probability);
-  return allowing_for_scatter(by_blocks, hypotheses_.convergence, base, better, other);
+  return allowing_for_scatter(by_blocks, hypotheses_.convergence, base, better, other,
+                              hypotheses_.options.search.scatter);
 }
 
 void FinalComparison::decide(const Tested& base, ShortList& list) const {
   FittedCandidate& first = list.entries.front();
-  const double level = base.fit.cost - kComesNear * (base.fit.cost - first.fit.cost);
+  const double level = base.fit.cost - options().comes_near * (base.fit.cost - first.fit.cost);
   finish(first, HUGE_VAL, HUGE_VAL);
   compare(base, Challenger::kOtherLaw, level, list);
   compare(base, Challenger::kOtherPlace, level, list);
@@ -84,7 +78,8 @@ void FinalComparison::compare(const Tested& base, Challenger kind, double level,
     const double gain = base.fit.cost - least;
     const double reach =
         kind == Challenger::kOtherLaw
-            ? least + std::min(kLagsBehind * gain, std::max(kFarAbove * least, kBehind * gain))
+            ? least + std::min(options().lags_behind * gain,
+                               std::max(options().far_above * least, options().behind * gain))
             : HUGE_VAL;
     if (finish(other, reach, least)) {
       end.entries.push_back(std::move(other));
@@ -92,7 +87,8 @@ void FinalComparison::compare(const Tested& base, Challenger kind, double level,
   }
   hypotheses_.comparison.judge(base, end);
   const bool kept = end.entries[0].candidate == list.entries.front().candidate;
-  if (index == 0 || (!kept && !lack(gaps_.merit_of(end, base)).empty())) {
+  if (index == 0 ||
+      (!kept && lack(gaps_.merit_of(end, base), hypotheses_.options.judgement.merit))) {
     FittedCandidate& first = kept ? end.entries[0] : end.entries[1];
     first.probability = list.entries.front().probability;
     list.entries.front() = std::move(first);

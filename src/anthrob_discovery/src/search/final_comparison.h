@@ -28,6 +28,9 @@ class FinalComparison {
   void decide(const Tested& base, ShortList& list) const;
 
  private:
+  const FinalComparisonOptions& options() const {
+    return hypotheses_.options.search.final_comparison;
+  }
   enum class Challenger { kOtherLaw, kOtherPlace };
   /// Compares the first of the list, which is fitted to the end, with a challenger.
   /// @param level cost below which a rough fit comes near

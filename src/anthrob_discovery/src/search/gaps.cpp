@@ -17,7 +17,7 @@ bool Gaps::any(const Tested& tested, double least) const {
 }
 
 bool Gaps::certain(const Tested& tested) const {
-  return certain_gap(train_, tested.fit.residual, test_, tested.test, kRealGap);
+  return certain_gap(train_, tested.fit.residual, test_, tested.test, train_.options().real_gap);
 }
 
 double Gaps::excess_of(const Eigen::VectorXf& held_out, double least) const {
@@ -28,16 +28,18 @@ double Gaps::excess_of(const Eigen::VectorXf& held_out, double least) const {
 
 Merit Gaps::merit_of(const ShortList& list, const Tested& base) const {
   const FittedCandidate& best = list.entries.front();
-  const double before = excess_of(base.test, kFaintGap), first = first_excess(kFaintGap);
-  const double gained = before - excess_of(best.test, kFaintGap);
+  const JudgementOptions& options = test_.options();
+  const double before = excess_of(base.test, options.faint_gap),
+               first = first_excess(options.faint_gap);
+  const double gained = before - excess_of(best.test, options.faint_gap);
   Merit merit;
   merit.probability = best.probability;
   merit.none = list.none;
   merit.learned = base.fit.cost - best.fit.cost;
   merit.evidence = best.evidence;
-  merit.needed_evidence = needed_evidence(candidates_);
+  merit.needed_evidence = needed_evidence(candidates_, options.merit);
   merit.significance = best.significance;
-  merit.only_faint_gaps = !any(base, kRealGap);
+  merit.only_faint_gaps = !any(base, options.real_gap);
   if (before > 0.0) merit.share = gained / before;
   if (first > 0.0) merit.share_of_first = gained / first;
   return merit;

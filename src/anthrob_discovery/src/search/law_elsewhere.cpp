@@ -10,12 +10,7 @@
 namespace anthrob {
 namespace discovery {
 
-namespace {
-
-constexpr std::size_t kFewest = 2;
-constexpr int kIterations = 6;  ///< of a model without one of them
-
-}  // namespace
+namespace {}  // namespace
 
 const Effect* LawElsewhere::repeated(const ShortList& list,
                                      const std::vector<std::size_t>& named) const {
@@ -61,7 +56,8 @@ std::vector<Score> LawElsewhere::best_places(std::vector<Score> tried, const Fit
                              [](const Score& score) { return !(score.gain > 0.0); }),
               tried.end());
   const std::vector<double> left =
-      Trials(hypotheses_.scan, hypotheses_.candidates).choose_sizes(base, tried);
+      Trials(hypotheses_.scan, hypotheses_.candidates, hypotheses_.options.hypotheses.trials)
+          .choose_sizes(base, tried);
   std::map<std::string, std::size_t> best;
   for (std::size_t i = 0; i < tried.size(); ++i) {
     if (left[i] >= base.cost) continue;
@@ -85,7 +81,7 @@ std::optional<LawElsewhere::Part> LawElsewhere::part(std::size_t effect, std::si
                                                      const Tested& all) const {
   std::optional<Fitted> without = hypotheses_.without(effect, candidate, all.fit);
   if (!without) return std::nullopt;
-  hypotheses_.train.improve(*without, kIterations);
+  hypotheses_.train.improve(*without, hypotheses_.options.search.law_elsewhere.iterations);
   Part part;
   part.without = hypotheses_.tested(std::move(*without));
   if (part.without.test.size() == 0) return std::nullopt;
@@ -101,7 +97,7 @@ std::optional<LawElsewhere::Everywhere> LawElsewhere::fit(const Effect* law,
                                                           const Tested& base,
                                                           std::size_t most) const {
   const std::vector<Score> places = best_places(asked(law, named, base.fit), base.fit, most);
-  if (places.size() < kFewest) return std::nullopt;
+  if (places.size() < hypotheses_.options.search.law_elsewhere.fewest) return std::nullopt;
   Everywhere all;
   try {
     all.fit = hypotheses_.comparison.together(base, places);
@@ -120,7 +116,7 @@ std::optional<LawElsewhere::Everywhere> LawElsewhere::fit(const Effect* law,
       all.fit = std::move(its->without);
     }
   }
-  if (all.parts.size() < kFewest) return std::nullopt;
+  if (all.parts.size() < hypotheses_.options.search.law_elsewhere.fewest) return std::nullopt;
   return all;
 }
 

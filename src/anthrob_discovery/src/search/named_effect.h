@@ -40,21 +40,23 @@ void measure_what_is_left(const Judge& judge, const Eigen::VectorXf& first,
                           const Eigen::VectorXf& left, std::vector<NamedEffect>& effects);
 
 /// Name of a fitted shape parameter that may have either sign and is at the end of its range
-/// (kNearLimit); empty: none.
-std::string limit_of(const Candidate& candidate, const EffectInstance& instance);
+/// (TrustOptions::near_limit); nothing if there is none.
+std::optional<std::string> limit_of(const Candidate& candidate, const EffectInstance& instance,
+                                    const TrustOptions& options);
 
-/// Charges every spoilt channel (kSpoilt) to the effect that raised it most when it was named.
-/// Stores for each effect the worst channel that it is charged with, and by how much all of these
-/// are worse, as a share of what the effect explains. What none raised is charged to none.
+/// Charges every spoilt channel (TrustOptions::spoilt) to the effect that raised it most when it
+/// was named. Stores for each effect the worst channel that it is charged with, and by how much all
+/// of these are worse, as a share of what the effect explains. What none raised is charged to none.
 /// @param first, left held-out residuals without any of the effects and with all of them
 /// @return whether any effect is charged
 bool charge_spoilt_channels(const Judge& judge, const Eigen::VectorXf& first,
                             const Eigen::VectorXf& left, std::vector<NamedEffect>& effects);
 
 /// Of the effects whose probability, with that of their rivals and lowered by trust_in(), is below
-/// kImprobable: the one that gained least. Null: there is none.
+/// TrustOptions::improbable: the one that gained least. Null: there is none.
 /// @param left_counts whether what a law leaves of the gap speaks against it
-const NamedEffect* least_of_improbable(const std::vector<NamedEffect>& effects, bool left_counts);
+const NamedEffect* least_of_improbable(const std::vector<NamedEffect>& effects, bool left_counts,
+                                       const TrustOptions& options);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -24,7 +24,8 @@ double take_out(const Candidate& law, NamedLaw& effect) {
 
 }  // namespace
 
-NamedLaw named_law(const ShortList& list, const std::vector<Candidate>& candidates) {
+NamedLaw named_law(const ShortList& list, const std::vector<Candidate>& candidates,
+                   double mentioned) {
   const FittedCandidate& best = list.entries.front();
   const EffectInfo& info = candidates[best.candidate].effect->info();
   NamedLaw effect;
@@ -35,7 +36,7 @@ NamedLaw named_law(const ShortList& list, const std::vector<Candidate>& candidat
   effect.evidence = best.evidence;
   for (std::size_t i = 1; i < list.entries.size(); ++i) {
     const FittedCandidate& other = list.entries[i];
-    if (other.probability < kMentioned) continue;
+    if (other.probability < mentioned) continue;
     const Candidate& rival = candidates[other.candidate];
     const EffectInfo& its = rival.effect->info();
     effect.rivals.push_back({its.id, its.name, rival.place, other.probability, other.evidence});
@@ -44,15 +45,15 @@ NamedLaw named_law(const ShortList& list, const std::vector<Candidate>& candidat
 }
 
 Replaced name_instead(const Candidate& fuller, const CandidateComparison::Odds& odds,
-                      NamedLaw effect) {
+                      NamedLaw effect, double mentioned) {
   const double both = effect.probability + take_out(fuller, effect);
   const Rival simpler = {effect.id, effect.name, effect.place, (1.0 - odds.probability) * both,
                          effect.evidence};
   auto& rivals = effect.rivals;
   const auto less = [&](const Rival& r) { return r.probability <= simpler.probability; };
   const auto at = std::find_if(rivals.begin(), rivals.end(), less);
-  const bool is_first = simpler.probability >= kMentioned && at == rivals.begin();
-  if (simpler.probability >= kMentioned) rivals.insert(at, simpler);
+  const bool is_first = simpler.probability >= mentioned && at == rivals.begin();
+  if (simpler.probability >= mentioned) rivals.insert(at, simpler);
   effect.id = fuller.effect->info().id;
   effect.name = fuller.effect->info().name;
   effect.place = fuller.place;
@@ -74,10 +75,10 @@ std::string how_to_separate(const NamedLaw& effect) {
   return effect.rivals.empty() ? "" : separating_experiment(effect.id, effect.rivals.front().id);
 }
 
-double trust_in(const NamedLaw& effect, bool left_counts) {
-  const double of_shape = effect.at_limit.empty() ? 1.0 : kAtLimit;
-  const double of_channels = kEvenOddsSpoilt / (kEvenOddsSpoilt + effect.spoilt);
-  const double of_left = left_counts ? kEvenOdds / (kEvenOdds + effect.left) : 1.0;
+double trust_in(const NamedLaw& effect, const TrustOptions& options, bool left_counts) {
+  const double of_shape = effect.at_limit.empty() ? 1.0 : double{options.at_limit};
+  const double of_channels = options.even_odds_spoilt / (options.even_odds_spoilt + effect.spoilt);
+  const double of_left = left_counts ? options.even_odds / (options.even_odds + effect.left) : 1.0;
   return of_shape * of_channels * of_left;
 }
 

@@ -35,10 +35,10 @@ struct Contest {
   Variant named, rival;
 };
 
-constexpr double kMentioned = 0.02;  ///< least probability of a rival
-
 /// The first of a short list, with the others as its rivals.
-NamedLaw named_law(const ShortList& list, const std::vector<Candidate>& candidates);
+/// @param mentioned least probability of a rival
+NamedLaw named_law(const ShortList& list, const std::vector<Candidate>& candidates,
+                   double mentioned);
 
 /// An effect replaced by a law that does better: one that says more at the same place, or the same
 /// law everywhere. The replaced law becomes its rival. The two share what both had, the new law as
@@ -47,9 +47,9 @@ struct Replaced {
   NamedLaw effect;
   bool is_first_rival = false;  ///< of the replaced law: then a recording may tell the two apart
 };
-/// @param odds against the other
+/// @param odds against the other   @param mentioned least probability of a rival
 Replaced name_instead(const Candidate& fuller, const CandidateComparison::Odds& odds,
-                      NamedLaw effect);
+                      NamedLaw effect, double mentioned);
 
 /// The law that says more is not clearly better: the simpler law stays named, and the other one
 /// becomes its first rival, with the same probability.
@@ -62,7 +62,7 @@ std::string how_to_separate(const NamedLaw& effect);
 /// Factor for the probability of an effect: it is lower the more of the gap the law leaves, if its
 /// shape ends at a limit, and if it spoils a channel.
 /// @param left_counts whether what the law leaves matters
-double trust_in(const NamedLaw& effect, bool left_counts = true);
+double trust_in(const NamedLaw& effect, const TrustOptions& options, bool left_counts = true);
 
 }  // namespace discovery
 }  // namespace anthrob

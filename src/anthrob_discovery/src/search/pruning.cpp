@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "search/named_law.h"
 #include "fit/channel_guard.h"
 #include "judgement/criteria.h"
 #include "search/backward_elimination.h"
+#include "search/named_law.h"
 
 namespace anthrob {
 namespace discovery {
@@ -36,8 +36,10 @@ void Pruning::drop_superfluous(std::size_t newest) {
 }
 
 bool Pruning::drop_improbable() {
+  const TrustOptions& trust = hypotheses_.options.judgement.trust;
   // Where the search was full, the gap that a law leaves may be due to effects without a place.
-  const bool left_counts = model_.has_room() || !model_.gaps.any(model_.base, kFaintGap);
+  const bool left_counts =
+      model_.has_room() || !model_.gaps.any(model_.base, hypotheses_.options.judgement.faint_gap);
   for (bool any = false;; any = true) {
     measure_what_is_left(hypotheses_.test_judge, model_.recalibrated.test, model_.base.test,
                          model_.named);
@@ -46,7 +48,7 @@ bool Pruning::drop_improbable() {
     if (model_.charge_for_spoilt_channels(model_.base)) {
       model_.charge_for_spoilt_channels(spared());
     }
-    const NamedEffect* const improbable = least_of_improbable(model_.named, left_counts);
+    const NamedEffect* const improbable = least_of_improbable(model_.named, left_counts, trust);
     if (!improbable) return any;
     const auto e = static_cast<std::size_t>(improbable - model_.named.data());
     const Candidate& candidate = hypotheses_.candidates[improbable->candidate];
@@ -59,8 +61,8 @@ bool Pruning::drop_improbable() {
     model_.given_up.insert(improbable->candidate);
     const NamedLaw& found = improbable->found;
     model_.record.improbable.push_back(
-        {found.id, found.name, found.place, found.probability * trust_in(found), found.evidence,
-         found.shows_in, found.left, found.at_limit, found.spoils, found.spoilt});
+        {found.id, found.name, found.place, found.probability * trust_in(found, trust),
+         found.evidence, found.shows_in, found.left, found.at_limit, found.spoils, found.spoilt});
     model_.forget_refusals(candidate);
     model_.record.dropped.clear();  // they were not needed beside this one only
     model_.remove(e, std::move(base));

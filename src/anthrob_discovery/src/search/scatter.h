@@ -11,10 +11,10 @@ namespace discovery {
 /// decides nothing, however many blocks agree.
 /// @param by_blocks probability of one law against the other, from the blocks of the recordings
 /// @param base fitted without them
-/// @param one, other fitted to the end
+/// @param one, other fitted to the end   @param least scatter, as a share of the better one's gain
 /// @return the same, but no nearer to 0 or 1 than Phi(lead / scatter); this moves it at most to 0.5
 double allowing_for_scatter(double by_blocks, const Convergence& convergence, const Tested& base,
-                            const Tested& one, const Tested& other);
+                            const Tested& one, const Tested& other, double least);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -17,12 +17,7 @@
 namespace anthrob {
 namespace discovery {
 
-namespace {
-
-constexpr std::size_t kRenewed = 60;  ///< candidates whose doses are simulated again later
-constexpr int kMostRounds = 2;        ///< for each effect that may be named
-
-}  // namespace
+namespace {}  // namespace
 
 void Search::run(std::vector<Score> scores) {
   add_effects(std::move(scores));
@@ -34,8 +29,9 @@ void Search::add_effects(std::vector<Score> scores) {
   std::size_t looked_again = SIZE_MAX;  // with so many effects accepted
   model_.record.end = SearchEnd::kNoMore;
   // Dropped effects make room for others, but rounds are limited.
-  for (; model_.has_room() && model_.gaps.any(model_.base, kFaintGap); ++rounds_) {
-    if (rounds_ >= kMostRounds * most_effects_) {
+  for (; model_.has_room() && model_.gaps.any(model_.base, hypotheses_.options.judgement.faint_gap);
+       ++rounds_) {
+    if (rounds_ >= options().rounds_per_effect * most_effects_) {
       model_.record.end = SearchEnd::kRounds;
       break;
     }
@@ -79,7 +75,7 @@ void Search::add_effects(std::vector<Score> scores) {
 }
 
 std::vector<Score> Search::new_scores() {
-  screening_.renew(model_.base.fit, screening_.scores(model_.base.fit), kRenewed);
+  screening_.renew(model_.base.fit, screening_.scores(model_.base.fit), options().renewed);
   return screening_.scores(model_.base.fit);
 }
 
@@ -100,7 +96,7 @@ bool Search::base_moves_on(const ShortList& list) {
   Tested& base = model_.base;
   std::optional<Fitted> moved = hypotheses_.without(model_.named.size(), best.candidate, best.fit);
   if (!moved) return false;
-  const double reach = best.fit.cost + kOutOfReach * (base.fit.cost - best.fit.cost);
+  const double reach = best.fit.cost + options().out_of_reach * (base.fit.cost - best.fit.cost);
   if (!hypotheses_.convergence.converge_within_reach(*moved, reach)) return false;
   if (moved->cost >= base.fit.cost) return false;
   Tested there = hypotheses_.tested(std::move(*moved));
@@ -111,13 +107,14 @@ bool Search::base_moves_on(const ShortList& list) {
 
 /// If the first of the list does not, the answer tells what it lacks.
 bool Search::earns_its_place(const ShortList& list) {
-  const std::string lacking = lack(model_.gaps.merit_of(list, model_.base));
-  if (lacking.empty()) return true;
+  const std::optional<std::string> lacking =
+      lack(model_.gaps.merit_of(list, model_.base), hypotheses_.options.judgement.merit);
+  if (!lacking) return true;
   const FittedCandidate& best = list.entries.front();
   const Candidate& candidate = hypotheses_.candidates[best.candidate];
   model_.record.refused = Refused{candidate.effect->info().id, candidate.place, best.probability,
-                                  best.evidence, lacking};
-  observer_.say("  not named: " + lacking);
+                                  best.evidence, *lacking};
+  observer_.say("  not named: " + *lacking);
   return false;
 }
 
@@ -130,7 +127,7 @@ void Search::accept(ShortList& list) {
   FinalComparison(hypotheses_, model_.gaps).decide(model_.base, list);
   const FittedCandidate& best = list.entries.front();
   NamedEffect effect;
-  effect.found = named_law(list, hypotheses_.candidates);
+  effect.found = named_law(list, hypotheses_.candidates, options().mentioned);
   effect.contest = first_contest(list);
   effect.candidate = best.candidate;
   effect.gained = model_.base.fit.cost - best.fit.cost;
@@ -156,7 +153,8 @@ bool Search::accept_elsewhere(const ShortList& list) {
   hypotheses_.comparison.judge(base, both);
   const FittedCandidate& first = both.entries.front();
   const bool is_first = first.fit.variant.effects.size() == all->fit.fit.variant.effects.size();
-  if (!is_first || !lack(model_.gaps.merit_of(both, base)).empty()) return false;
+  if (!is_first || lack(model_.gaps.merit_of(both, base), hypotheses_.options.judgement.merit))
+    return false;
   name_parts(*all, first.probability);
   Tested end = hypotheses_.tested(hypotheses_.convergence.to_the_end(all->fit.fit));
   base = end.test.size() > 0 ? std::move(end) : all->fit;
@@ -171,7 +169,7 @@ void Search::name_parts(const LawElsewhere::Everywhere& all, double probability)
     const FittedCandidate& with = part.alone.entries.front();
     const Candidate& candidate = hypotheses_.candidates[with.candidate];
     NamedEffect effect;
-    effect.found = named_law(part.alone, hypotheses_.candidates);
+    effect.found = named_law(part.alone, hypotheses_.candidates, options().mentioned);
     effect.found.probability = probability;
     effect.candidate = with.candidate;
     effect.gained = part.without.fit.cost - with.fit.cost;
@@ -199,7 +197,7 @@ void Search::unite() {
   const Candidate& candidate = hypotheses_.candidates[*everywhere];
   observer_.stage("checking whether one law explains them all: " + candidate.name());
   const auto instead = common.instead(*everywhere, model_.base, parts);
-  if (!instead || !instead->is_clearly_better()) return;
+  if (!instead || !instead->is_clearly_better(options().common_law)) return;
   observer_.say("  named instead of them: " + candidate.name());
   const Variant apart = model_.base.fit.variant;
   NamedEffect united = named[parts.front().effect];
@@ -210,7 +208,8 @@ void Search::unite() {
     model_.remove(part->effect, instead->tested);
   }
   note_what_it_changes(hypotheses_.test_judge, instead->without, model_.base.test, united);
-  Replaced replaced = name_instead(candidate, instead->odds, std::move(united.found));
+  Replaced replaced =
+      name_instead(candidate, instead->odds, std::move(united.found), options().mentioned);
   united.found = std::move(replaced.effect);
   united.contest.reset();
   if (replaced.is_first_rival) united.contest = Contest{model_.base.fit.variant, apart};
@@ -232,8 +231,8 @@ bool Search::fill_out() {
     const std::string name = hypotheses_.candidates[effect.candidate].name();
     observer_.stage("checking whether " + candidate.name() + " does better than " + name);
     const auto instead = common.instead(*fuller, base, {{e, effect.candidate}});
-    if (!instead || !instead->is_better()) continue;
-    if (!instead->is_clearly_better()) {
+    if (!instead || !instead->is_better(options().common_law)) continue;
+    if (!instead->is_clearly_better(options().common_law)) {
       effect.found = leave_open(candidate, instead->odds, std::move(effect.found));
       effect.contest = Contest{base.fit.variant, instead->tested.fit.variant};
       continue;
@@ -241,7 +240,8 @@ bool Search::fill_out() {
     std::optional<Fitted> there = with_last_effect_at(hypotheses_.train, instead->tested.fit, e);
     if (!there) continue;
     observer_.say("  named instead of it: " + candidate.name());
-    Replaced replaced = name_instead(candidate, instead->odds, std::move(effect.found));
+    Replaced replaced =
+        name_instead(candidate, instead->odds, std::move(effect.found), options().mentioned);
     effect.found = std::move(replaced.effect);
     effect.contest.reset();
     if (replaced.is_first_rival) effect.contest = Contest{there->variant, base.fit.variant};
@@ -277,9 +277,9 @@ std::optional<std::size_t> Search::fuller_than(std::size_t simple, const Evidenc
   return fuller;
 }
 
-std::optional<Contest> Search::first_contest(const ShortList& list) {
+std::optional<Contest> Search::first_contest(const ShortList& list) const {
   for (std::size_t i = 1; i < list.entries.size(); ++i) {
-    if (list.entries[i].probability < kMentioned) continue;
+    if (list.entries[i].probability < options().mentioned) continue;
     return Contest{list.entries.front().fit.variant, list.entries[i].fit.variant};
   }
   return std::nullopt;

@@ -40,6 +40,7 @@ class Search {
   void run(std::vector<Score> scores);
 
  private:
+  const SearchOptions& options() const { return hypotheses_.options.search; }
   void add_effects(std::vector<Score> scores);
   /// Replaces a named law by one that says more at its place, if that one did better in the round
   /// in which the simple one was named, and clearly does now.
@@ -57,7 +58,7 @@ class Search {
   bool accept_elsewhere(const ShortList& list);
   void name_parts(const LawElsewhere::Everywhere& all, double probability);
   void unite();
-  static std::optional<Contest> first_contest(const ShortList& list);
+  std::optional<Contest> first_contest(const ShortList& list) const;
   /// What held-out recordings say of the candidates of a list [nat].
   using Evidence = std::map<std::size_t, double>;
   static Evidence evidence_of(const ShortList& list);

@@ -66,7 +66,9 @@ bool WorkingModel::charge_for_spoilt_channels(const Tested& with_all) {
 void WorkingModel::note_limits() {
   for (std::size_t e = 0; e < named.size(); ++e) {
     named[e].found.at_limit =
-        limit_of(hypotheses_.candidates[named[e].candidate], base.fit.variant.effects[e]);
+        limit_of(hypotheses_.candidates[named[e].candidate], base.fit.variant.effects[e],
+                 hypotheses_.options.judgement.trust)
+            .value_or("");
   }
 }
 

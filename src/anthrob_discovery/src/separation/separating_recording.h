@@ -5,6 +5,7 @@
 
 #include "experiment/evaluator.h"
 #include "experiment/noise_floor.h"
+#include "options/options.h"
 
 namespace anthrob {
 namespace discovery {
@@ -24,18 +25,19 @@ struct SeparatingRecording {
 };
 
 /// Simulates both explanations on the way to postures of a recording: to the postures themselves,
-/// to the same with all spindles wound in 0.35 rad further, and a tenth of the way. Keeps the six
-/// targets in which the explanations differ most. Empty if the robot has no muscles, if the
+/// to the same with all spindles wound in further, and a little of the way. Keeps the targets in
+/// which the explanations differ most. Empty if the robot has no muscles, if the
 /// recording has no references or not all of them are positions, or if one of the two cannot be
 /// simulated.
 /// @param scales noise floors by channel, for bins of length `bin` [s]   @throws Interrupted
 SeparatingRecording plan_separation(const Evaluator& evaluator, const Variant& named,
                                     const Variant& rival, const Dataset& recording,
-                                    const Scales& scales, double bin);
+                                    const Scales& scales, double bin, const Options& options);
 
 /// The commands of such a protocol, to every `stride`-th target beginning with `first`.
 Dataset separating_commands(const RobotModel& model, const SeparatingRecording& plan,
-                            std::size_t first = 0, std::size_t stride = 1);
+                            const SeparationOptions& options, std::size_t first = 0,
+                            std::size_t stride = 1);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -156,17 +156,17 @@ TEST(Repeats, AreLaidOverTheFirstRecordingByTheirCommands) {
   const Arm arm;
   const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
   const auto floor_of = [&](const Dataset& first, const Dataset& repeat, bool aligned) {
-    const double late = lateness_of_repeat(*arm.plain, first, repeat);
-    const Experiments train = {make_experiment(*arm.plain, first)},
-                      repeats = {make_experiment(*arm.plain, repeat)};
+    const double late = lateness_of_repeat(*arm.plain, first, repeat, {});
+    const Experiments train = {make_experiment(*arm.plain, first, {})},
+                      repeats = {make_experiment(*arm.plain, repeat, {})};
     const std::vector<long> lags = {std::lround(late / train[0]->bin())};
-    return measure_scales(evaluator, train, repeats, aligned ? lags : std::vector<long>())
+    return measure_scales(evaluator, train, repeats, aligned ? lags : std::vector<long>(), {})
         .at("elbow/position")
         .floor;
   };
   const Dataset first = recorded_after(0, 1), repeat = recorded_after(0, 3),
                 late = recorded_after(300000000, 3);
-  EXPECT_EQ(lateness_of_repeat(*arm.plain, first, repeat), 0.0);
+  EXPECT_EQ(lateness_of_repeat(*arm.plain, first, repeat, {}), 0.0);
   const double floor = floor_of(first, repeat, true);
   EXPECT_EQ(floor_of(first, repeat, false), floor);
   EXPECT_NEAR(floor_of(first, late, true), floor, 0.1 * floor);
@@ -185,8 +185,8 @@ TEST(Repeats, OfAnAxisAreLaidOverItsMotion) {
   const Question axis = axis_question(20.4, 0.0);
   const Dataset first = axis.train[0], again = axis_recording(20.0, 0.0, 1);
   const auto robot = load_robot_model(axis.model_file);
-  EXPECT_EQ(lateness_of_repeat(*robot, first, again), 0.0);
-  EXPECT_NEAR(lateness_of_repeat(*robot, first, begun_earlier(again, 400000000)), 0.4, 0.03);
+  EXPECT_EQ(lateness_of_repeat(*robot, first, again, {}), 0.0);
+  EXPECT_NEAR(lateness_of_repeat(*robot, first, begun_earlier(again, 400000000), {}), 0.4, 0.03);
   // Bins are of whole steps: here of 0.03 s, not of 0.025.
   Question question = axis;
   question.repeats = {begun_earlier(again, 400000000)};
@@ -200,7 +200,7 @@ TEST(Repeats, MayLackAMessageAndNotBePlayedAtAnotherSpeed) {
   const Dataset first = arm.record({}, 1, 1), repeat = arm.record({}, 1, 3);
   const auto refusal_of = [&](const Dataset& other) -> std::string {
     try {
-      lateness_of_repeat(*arm.plain, first, other);
+      lateness_of_repeat(*arm.plain, first, other, {});
     } catch (const BadInput& error) {
       return error.what();
     }
@@ -229,7 +229,7 @@ TEST(Repeats, HaveTheSameModes) {
   Dataset first = arm.record({}, 1, 1), repeat = arm.record({}, 1, 3);
   const auto refusal_of_repeat = [&]() -> std::string {
     try {
-      lateness_of_repeat(*arm.plain, first, repeat);
+      lateness_of_repeat(*arm.plain, first, repeat, {});
     } catch (const BadInput& error) {
       return error.what();
     }
@@ -298,10 +298,10 @@ TEST(AxisExperiment, WhereNoPositionIsMeasuredNothingIsCompared) {
     }
   });
   const auto robot = load_robot_model(axis.model_file);
-  ExperimentOptions options;
-  options.bin = 0.025;
-  const auto whole = make_experiment(*robot, axis.train[0], options),
-             part = make_experiment(*robot, holed, options);
+  ReplayScope scope;
+  scope.bin = 0.025;
+  const auto whole = make_experiment(*robot, axis.train[0], {}, scope),
+             part = make_experiment(*robot, holed, {}, scope);
   const Evaluator evaluator(axis.model_file, {}, 0.001, 1);
   const Differences expected = evaluator.compare({Variant{}}, {whole}).front(),
                     differences = evaluator.compare({Variant{}}, {part}).front();
@@ -435,7 +435,7 @@ TEST(MeasureScales, CountsOfAnEncoderReachTheVoltagesOfItsController) {
   const Dataset fine = arm.record({}, 1, 1), coarse = round_motors(fine, "position", kCount);
   const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
   const auto scales_of = [&](const Dataset& data) {
-    return measure_scales(evaluator, {make_experiment(*arm.plain, data)}, {});
+    return measure_scales(evaluator, {make_experiment(*arm.plain, data, {})}, {}, {}, {});
   };
   const std::string voltage = "biceps_brachii/voltage";
   EXPECT_EQ(scales_of(fine).at(voltage).counts, 0.0);
@@ -474,9 +474,9 @@ TEST(Floors, OfARecordingWithFewerRowsAreHigher) {
   const Arm arm;
   const Dataset whole = arm.record({}, 1, 1);
   const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
-  const auto fast = make_experiment(*arm.plain, whole),
-             slow = make_experiment(*arm.plain, thinned(whole, 4));  // one row a bin
-  const Scales scales = measure_scales(evaluator, {fast}, {});
+  const auto fast = make_experiment(*arm.plain, whole, {}),
+             slow = make_experiment(*arm.plain, thinned(whole, 4), {});  // one row a bin
+  const Scales scales = measure_scales(evaluator, {fast}, {}, {}, {});
   const auto gap = [&](const std::shared_ptr<const Experiment>& experiment, const Scales& floors) {
     const Differences differences = evaluator.compare({Variant{}}, {experiment}).front();
     const Eigen::VectorXf w = whitener({experiment}, floors, false);
@@ -486,7 +486,7 @@ TEST(Floors, OfARecordingWithFewerRowsAreHigher) {
   EXPECT_NEAR(gap(fast, scales), 1.0, 0.1);
   EXPECT_NEAR(gap(slow, scales), 1.0, 0.1);  // 2 if all had the same floor
   // The other way round: slow noise would be in the means of many rows, too.
-  EXPECT_LT(gap(fast, measure_scales(evaluator, {slow}, {})), 0.7);
+  EXPECT_LT(gap(fast, measure_scales(evaluator, {slow}, {}, {}, {})), 0.7);
 }
 
 TEST(Floors, HoldWhatFilesRound) {
@@ -510,7 +510,7 @@ TEST(Floors, HoldWhatFilesRound) {
   }
   const double rounded = std::sqrt(squares / count);
   const auto digits_of = [&](const Dataset& data) {
-    for (const Channel& channel : make_experiment(*arm.plain, data)->channels()) {
+    for (const Channel& channel : make_experiment(*arm.plain, data, {})->channels()) {
       if (channel.name() == "biceps_brachii/position") return channel.digits;
     }
     return -1.0;
@@ -521,28 +521,28 @@ TEST(Floors, HoldWhatFilesRound) {
   const auto exact = std::make_shared<MadeExperiment>([](double, double, double) { return 0.0; },
                                                       [](double, double, double) { return 0.0; });
   exact->set_step_of_digits(0.5);
-  EXPECT_NEAR(measure_scales(evaluator, {exact}, {}).at("elbow/position").floor,
+  EXPECT_NEAR(measure_scales(evaluator, {exact}, {}, {}, {}).at("elbow/position").floor,
               0.5 / std::sqrt(12.0), 1e-9);
 }
 
 TEST(CoarseStep, TellsTheSameChanges) {
   const Arm arm;
   const std::vector<Dataset> recordings = {arm.record({}, 1, 1)};
-  const Experiments train = {make_experiment(*arm.plain, recordings.front())};
+  const Experiments train = {make_experiment(*arm.plain, recordings.front(), {})};
   const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
-  const Scales scales = measure_scales(evaluator, train, {});
+  const Scales scales = measure_scales(evaluator, train, {}, {}, {});
   const Eigen::VectorXf factors = whitener(train, scales, false);
-  const ModelFit fine(evaluator, train, factors);
+  const ModelFit fine(evaluator, train, factors, {});
   const Variant base{};
   const Eigen::VectorXf residual = fine.residual(base);
   const struct {
-    LongerStep longer;
+    LongerStepOptions longer;
     float scaled, otherwise;  // shares of the change by which it may be off
   } steps[] = {{{2.0, 3.0}, 0.03f, 0.2f}, {{4.0, 20.0}, 0.2f, 0.6f}};
   for (const auto& [longer, scaled, otherwise] : steps) {
-    const double step = coarse_step(evaluator, train, scales, longer);
+    const double step = coarse_step(evaluator, train, scales, longer, {});
     EXPECT_EQ(step, 0.001 * longer.times);
-    const ModelFit coarse(evaluator, train, factors, step);
+    const ModelFit coarse(evaluator, train, factors, {}, step);
     for (const EffectInstance& effect :
          {EffectInstance{"joint_viscous", "elbow", {{"damping", 0.02}}},
           EffectInstance{"force_sensor_offset", "brachialis", {{"offset", 1.0}}},
@@ -564,11 +564,11 @@ TEST(CoarseStep, TellsTheSameChanges) {
 TEST(CoarseStep, IsNotUsedWhereItsErrorIsLarger) {
   const Arm arm;
   const std::vector<Dataset> recordings = {arm.record({}, 1, 1)};
-  const Experiments train = {make_experiment(*arm.plain, recordings.front())};
+  const Experiments train = {make_experiment(*arm.plain, recordings.front(), {})};
   const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
-  const Scales scales = measure_scales(evaluator, train, {});
-  EXPECT_EQ(coarse_step(evaluator, train, scales, {4.0, 1e3}), 0.004);
-  EXPECT_EQ(coarse_step(evaluator, train, scales, {4.0, 1e-3}), 0.0);
+  const Scales scales = measure_scales(evaluator, train, {}, {}, {});
+  EXPECT_EQ(coarse_step(evaluator, train, scales, {4.0, 1e3}, {}), 0.004);
+  EXPECT_EQ(coarse_step(evaluator, train, scales, {4.0, 1e-3}, {}), 0.0);
 }
 
 }  // namespace

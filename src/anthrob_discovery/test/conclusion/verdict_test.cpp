@@ -26,9 +26,9 @@ void judge(const std::map<std::string, double>& left, bool certain, Answer& answ
   diagnosis.certain = certain;
   diagnosis.remaining_share = answer.remaining.share;
   diagnosis.remaining = answer.remaining.dependences;
-  answer.verdict = verdict_on(!answer.effects.empty(), diagnosis);
-  for (FoundEffect& effect : answer.effects) effect = trusted(effect);
-  answer.remaining = remaining_of(diagnosis);
+  answer.verdict = verdict_on(!answer.effects.empty(), diagnosis, {});
+  for (FoundEffect& effect : answer.effects) effect = trusted(effect, {});
+  answer.remaining = remaining_of(diagnosis, {});
 }
 
 Dependence dependence(const std::string& channel, const std::string& word, double share) {
@@ -93,9 +93,9 @@ TEST(Verdict, ALawThatEndsAtTheLimitOfItsShapeIsUnlikely) {
 TEST(Verdict, ALawThatSpoilsChannelsIsUnlikelyAsFarAsItExplainsLittle) {
   Answer answer = named(0.9, 0.0);
   answer.effects[0].spoilt = 0.02;
-  EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], false), 0.5);
+  EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], {}, false), 0.5);
   answer.effects[0].spoilt = 0.18;
-  EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], false), 0.1);
+  EXPECT_DOUBLE_EQ(trust_in(answer.effects[0], {}, false), 0.1);
   answer.effects[0].left = 0.05;
   judge({{"elbow/position", 1.2}}, false, answer);
   EXPECT_DOUBLE_EQ(answer.effects[0].probability, 0.9 * 0.5 * 0.1);
@@ -105,23 +105,23 @@ TEST(LimitOf, IsAFittedShapeThatCouldHaveGoneEitherWay) {
   Candidate surface{find_effect("wrapping_surface"), "brachialis/2", {}, {}};
   surface.parameters = surface.effect->info().parameters;
   EffectInstance instance = surface.dose(*surface.sizes().front());
-  EXPECT_EQ(limit_of(surface, instance), "");
+  EXPECT_EQ(limit_of(surface, instance, {}), std::nullopt);
   instance.parameters["offset_u"] = -0.0478;
-  EXPECT_EQ(limit_of(surface, instance), "offset_u");
+  EXPECT_EQ(limit_of(surface, instance, {}), "offset_u");
   instance.parameters["offset_u"] = -0.0465;
-  EXPECT_EQ(limit_of(surface, instance), "");
+  EXPECT_EQ(limit_of(surface, instance, {}), std::nullopt);
   // Sizes that the range cuts off are larger than was thought; shapes that begin at an end are
   // none.
   Candidate friction{find_effect("joint_coulomb"), "elbow", {}, {}};
   friction.parameters = friction.effect->info().parameters;
   instance = friction.neutral();
   instance.parameters["static_ratio"] = 1.0;
-  EXPECT_EQ(limit_of(friction, instance), "");
+  EXPECT_EQ(limit_of(friction, instance, {}), std::nullopt);
   Candidate offset{find_effect("force_sensor_offset"), "brachialis", {}, {}};
   offset.parameters = offset.effect->info().parameters;
   instance = offset.neutral();
   instance.parameters["offset"] = 50.0;
-  EXPECT_EQ(limit_of(offset, instance), "");
+  EXPECT_EQ(limit_of(offset, instance, {}), std::nullopt);
 }
 
 TEST(Verdict, NamesThatLeaveMostOfTheGapAreNoAnswer) {
@@ -167,16 +167,16 @@ TEST(Verdict, AnOffsetDependsOnNothing) {
 TEST(Regime, OfAConstantToldApartFromWhatElseAGapDependsOn) {
   std::vector<Dependence> gap = {dependence("biceps_brachii/force", "load", 0.9),
                                  dependence("elbow/position", "posture", 0.3)};
-  EXPECT_EQ(regime_of("elbow/position", gap), "posture of elbow/position");
+  EXPECT_EQ(regime_of("elbow/position", gap, 0.05), "posture of elbow/position");
   gap[1].constant = 0.2;
-  EXPECT_EQ(regime_of("elbow/position", gap), "posture of elbow/position");
+  EXPECT_EQ(regime_of("elbow/position", gap, 0.05), "posture of elbow/position");
   gap[1].constant = 0.6;
-  EXPECT_EQ(regime_of("elbow/position", gap),
+  EXPECT_EQ(regime_of("elbow/position", gap, 0.05),
             "mostly off by a constant; the rest: posture of elbow/position");
   gap[1].share = 0.04;
-  EXPECT_EQ(regime_of("elbow/position", gap), "nothing: off by a constant");
+  EXPECT_EQ(regime_of("elbow/position", gap, 0.05), "nothing: off by a constant");
   gap[1].constant = 0.04;
-  EXPECT_EQ(regime_of("elbow/position", gap), "");
+  EXPECT_EQ(regime_of("elbow/position", gap, 0.05), "");
 }
 
 TEST(Verdict, TellsWhatTheRestDependsOn) {

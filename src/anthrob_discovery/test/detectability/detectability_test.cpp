@@ -59,8 +59,9 @@ struct TiltProblem {
                   {{"joints.shoulder.friction.viscous", "Nms/rad", kDamping, -10.0, 10.0, 0.01}},
                   kStep, 1),
         fit(evaluator, {std::make_shared<Tilted>(cubic, constant, large)},
-            Eigen::VectorXf::Ones(Tilted::kChannels * kBins), coarse),
-        hypotheses(evaluator, list_candidates(evaluator, {"gravity_tilt"}), fit, fit, fit, {}, 1),
+            Eigen::VectorXf::Ones(Tilted::kChannels * kBins), {}, coarse),
+        hypotheses(evaluator, list_candidates(evaluator, {"gravity_tilt"}), fit, fit, fit, {}, {},
+                   1),
         base(fit.start(Variant{{kDamping}}, nuisance_unknowns(evaluator))) {
     for (Eigen::Index b = 0; b < base.residual.size(); ++b) {
       if (b % static_cast<Eigen::Index>(kBins) < static_cast<Eigen::Index>(kBins / 2)) {
@@ -75,7 +76,7 @@ struct TiltProblem {
   }
   /// Of a tilt about x [rad], and in which list it is.
   std::pair<double, bool> smallest_visible() const {
-    const Screening screening(fit, base, candidates, half, half);
+    const Screening screening(fit, base, candidates, half, half, {});
     const Detectability found = detect(hypotheses, base, screening, screening.scores(base));
     const bool shows = found.visible.size() == 1;
     const auto& list = shows ? found.visible : found.not_visible;

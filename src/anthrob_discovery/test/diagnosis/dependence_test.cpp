@@ -51,7 +51,7 @@ Dependence dependence_of(const std::vector<MeasuredVariable>& variables, const O
     residual[static_cast<Eigen::Index>(b)] = static_cast<float>(law(b) + random.normal(b));
   }
   return find_dependences({std::make_shared<Swing>()}, variables, residual,
-                          Eigen::VectorXf::Ones(kBins))
+                          Eigen::VectorXf::Ones(kBins), {}, 2.0)
       .at(0);
 }
 
@@ -62,12 +62,12 @@ TEST(Dependence, IsBeyondWhatAConstantDoes) {
   };
   const Dependence flat = of(2.0, 0.0), sloped = of(2.0, 2.0), noise = of(0.0, 0.0);
   EXPECT_NEAR(flat.constant, 0.8, 0.03);  // 4 of 4 + 1
-  EXPECT_LT(flat.share, Dependence::kTelling);
+  EXPECT_LT(flat.share, DependenceOptions{}.telling);
   EXPECT_EQ(sloped.word, "speed");
   EXPECT_NEAR(sloped.constant, 4.0 / 7.0, 0.03);
   EXPECT_NEAR(sloped.share, 2.0 / 7.0, 0.03);
-  EXPECT_LT(noise.constant, Dependence::kTelling);
-  EXPECT_LT(noise.share, Dependence::kTelling);
+  EXPECT_LT(noise.constant, DependenceOptions{}.telling);
+  EXPECT_LT(noise.share, DependenceOptions{}.telling);
 }
 
 TEST(Dependence, ExplainsNoMoreThanAllThereIs) {
@@ -151,9 +151,10 @@ TEST(StepMeans, HaveErrorsOverBlocksNotOverBins) {
   apart.block = together.block;
   const Steps one{std::vector<std::size_t>(40000, 0), 1};
   const double blocks = 200.0, bins = 20000.0;  // in a half
-  EXPECT_NEAR(means_of(together, one, true).error[0], 1.0 / std::sqrt(blocks),
+  EXPECT_NEAR(means_of(together, one, true, 2.0).error[0], 1.0 / std::sqrt(blocks),
               0.15 / std::sqrt(blocks));
-  EXPECT_NEAR(means_of(apart, one, true).error[0], 1.0 / std::sqrt(bins), 0.15 / std::sqrt(bins));
+  EXPECT_NEAR(means_of(apart, one, true, 2.0).error[0], 1.0 / std::sqrt(bins),
+              0.15 / std::sqrt(bins));
 }
 
 }  // namespace

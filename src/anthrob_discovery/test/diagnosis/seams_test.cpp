@@ -17,34 +17,30 @@ namespace discovery {
 namespace {
 
 TEST(Seams, AGapThatGoesWithTheMotorsIsTheirsHoweverTheRobotWasDriven) {
-  const auto part = [](double commands, double voltages, double positions) {
-    SeamGap gap{"biceps_brachii", "force"};
-    gap.commands = commands;
-    gap.voltages = voltages;
-    gap.positions = positions;
-    return subsystem_of(gap);
+  const auto part = [](std::optional<double> commands, double voltages, double positions) {
+    const SeamGap gap{"biceps_brachii", "force", false, commands, voltages, positions, {}};
+    return subsystem_of(gap, {});
   };
   EXPECT_EQ(part(5.0, 5.0, 0.8), "power stage, motor or gear");
-  EXPECT_EQ(part(-1.0, 5.0, 0.8), "power stage, motor or gear");
+  EXPECT_EQ(part(std::nullopt, 5.0, 0.8), "power stage, motor or gear");
   EXPECT_EQ(part(5.0, 1.0, 0.8), "controller");
-  EXPECT_EQ(part(-1.0, 5.0, 4.8), "spindle, tendon, spring, path or force sensor");
+  EXPECT_EQ(part(std::nullopt, 5.0, 4.8), "spindle, tendon, spring, path or force sensor");
   // Noise is no gap.
   EXPECT_EQ(part(1.6, 1.6, 1.0), "power stage, motor or gear");
 }
 
 TEST(Seams, AForceThatIsRightInTheMeasuredPostureIsWrongByThePosture) {
-  SeamGap gap{"biceps_brachii", "force", false, 4.0, 5.0, 4.0};
-  gap.postures = 3.5;
-  EXPECT_EQ(subsystem_of(gap), "spindle, tendon, spring, length of the path or force sensor");
+  SeamGap gap{"biceps_brachii", "force", false, 4.0, 5.0, 4.0, 3.5};
+  EXPECT_EQ(subsystem_of(gap, {}), "spindle, tendon, spring, length of the path or force sensor");
   gap.postures = 1.2;
-  EXPECT_EQ(subsystem_of(gap), "friction along the path, skeleton, joints or their sensors");
-  gap = {"biceps_brachii", "force", false, 3.0, -1.0, 20.0, 4.0};  // an arm that ran away
-  EXPECT_EQ(subsystem_of(gap), "spindle, tendon, spring, length of the path or force sensor");
+  EXPECT_EQ(subsystem_of(gap, {}), "friction along the path, skeleton, joints or their sensors");
+  gap = {"biceps_brachii", "force", false, 3.0, std::nullopt, 20.0, 4.0};  // an arm that ran away
+  EXPECT_EQ(subsystem_of(gap, {}), "spindle, tendon, spring, length of the path or force sensor");
   gap.postures = 6.5;  // errors of the postures must be in it
-  EXPECT_EQ(subsystem_of(gap), "spindle, tendon, spring, path or force sensor");
+  EXPECT_EQ(subsystem_of(gap, {}), "spindle, tendon, spring, path or force sensor");
   gap = {"biceps_brachii", "force", false, 4.0, 5.0, 4.0, 1.2};
   gap.positions = 0.9;  // right whatever the posture: then it is right there, too
-  EXPECT_EQ(subsystem_of(gap), "power stage, motor or gear");
+  EXPECT_EQ(subsystem_of(gap, {}), "power stage, motor or gear");
 }
 
 /// Of the force of one muscle, of an arm with an effect that its model lacks.
@@ -55,7 +51,7 @@ SeamGap gap_of(const EffectInstance& effect, const std::string& muscle) {
   question.train = {arm.record({effect}, 1, 1)};
   question.test = {arm.record({effect}, 2, 2)};
   const Admission recordings = admit(evaluator, question);
-  const Scales scales = measure_scales(evaluator, recordings.train, {});
+  const Scales scales = measure_scales(evaluator, recordings.train, {}, {}, {});
   for (const SeamGap& gap : seam_gaps(evaluator, recordings, scales, {})) {
     if (gap.place == muscle && gap.channel == "force") return gap;
   }
@@ -65,24 +61,24 @@ SeamGap gap_of(const EffectInstance& effect, const std::string& muscle) {
 TEST(Seams, AJointThatResistsIsCutOffByTheMeasuredPosture) {
   const SeamGap gap = gap_of({"joint_viscous", "elbow", {{"damping", 0.3}}}, "brachialis");
   EXPECT_GT(gap.positions, 3.0);
-  EXPECT_LT(gap.postures, 0.3 * gap.positions);
-  EXPECT_EQ(subsystem_of(gap), "friction along the path, skeleton, joints or their sensors");
+  EXPECT_LT(*gap.postures, 0.3 * *gap.positions);
+  EXPECT_EQ(subsystem_of(gap, {}), "friction along the path, skeleton, joints or their sensors");
 }
 
 TEST(Seams, ATendonThatGivesIsNot) {
   const SeamGap gap =
       gap_of({"tendon_elasticity", "brachialis", {{"compliance", 2e-4}}}, "brachialis");
   EXPECT_GT(gap.positions, 3.0);
-  EXPECT_GT(gap.postures, 0.5 * gap.positions);
-  EXPECT_EQ(subsystem_of(gap), "spindle, tendon, spring, length of the path or force sensor");
+  EXPECT_GT(*gap.postures, 0.5 * *gap.positions);
+  EXPECT_EQ(subsystem_of(gap, {}), "spindle, tendon, spring, length of the path or force sensor");
 }
 
 TEST(WrapAngles, AreThoseOfTheMeasuredPosture) {
   const Arm arm;
   const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 1e-3, 1);
   const std::vector<Dataset> recordings = {arm.record({}, 1, 1)};
-  const Experiments experiments = {make_experiment(*arm.plain, recordings[0])};
-  const auto angles = wrap_angles(evaluator, recordings, experiments, {});
+  const Experiments experiments = {make_experiment(*arm.plain, recordings[0], {})};
+  const auto angles = wrap_angles(evaluator, recordings, experiments, {}, {});
   EXPECT_GE(angles.size(), 8u);
   Simulation placed(arm.plain);
   for (const double share : {0.2, 0.5, 0.9}) {
@@ -109,7 +105,7 @@ TEST(WrapAngles, AreThoseOfTheMeasuredPosture) {
   for (Table& table : blind.tables) {  // nobody measured the shoulder
     if (table.name == "spherical_joints") table.columns.clear();
   }
-  EXPECT_TRUE(wrap_angles(evaluator, {blind}, experiments, {}).empty());
+  EXPECT_TRUE(wrap_angles(evaluator, {blind}, experiments, {}, {}).empty());
 }
 
 /// Rows of an arm at 50 Hz: the elbow's position and the shoulder's orientation about z.
@@ -144,7 +140,7 @@ TEST(PostureNoise, AParabolaStaysAndNoiseShrinks) {
     noisy.push_back(curve.back() + kSigma * random.normal(i));
   }
   const auto elbow = [&](const Dataset& recording) {
-    return with_smooth_postures(*arm.plain, recording).series("elbow/position").values;
+    return with_smooth_postures(*arm.plain, recording, {}).series("elbow/position").values;
   };
   const std::vector<double> still(kRows, 0.1);
   const auto same = elbow(posture(curve, still)), smooth = elbow(posture(noisy, still));
@@ -178,7 +174,7 @@ TEST(PostureNoise, NothingIsBridgedAndSignsDoNotMatter) {
     double& value = recording.tables[0].column(number).values[7];
     value = -value;
   }
-  const Dataset smooth = with_smooth_postures(*arm.plain, recording);
+  const Dataset smooth = with_smooth_postures(*arm.plain, recording, {});
   const std::vector<double> elbow = smooth.series("elbow/position").values;
   for (std::size_t i = 0; i < 40; ++i) EXPECT_NEAR(elbow[i], jump[i], 1e-9) << i;
   const std::vector<double> w = smooth.series("shoulder/w").values,

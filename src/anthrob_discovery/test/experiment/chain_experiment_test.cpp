@@ -17,7 +17,7 @@ namespace {
 TEST(ChainExperiment, DifferencesAreNoiseOnlyWhereTheModelIsRight) {
   const Arm arm;
   const Dataset data = arm.record({}, 1, 1);
-  const ChainExperiment experiment(*arm.plain, data, {});
+  const ChainExperiment experiment(*arm.plain, data, {}, {});
   std::vector<float> differences(experiment.size());
   Starts starts;
   experiment.compare(arm.plain, starts, differences.data());
@@ -45,8 +45,8 @@ TEST(ChainExperiment, RecordingsThatStartAlikeSettleOnce) {
       {"see_hysteresis", "biceps_brachii", {{"share", 0.1}}},
       {"winding_heating", "teres_major", {{"thermal_resistance", 20.0}}}};  // they remember
   const auto model = build_robot_model(arm.config, options);
-  const ChainExperiment first(*arm.plain, arm.record({}, 1, 1), {}),
-      second(*arm.plain, arm.record({}, 1, 2), {});
+  const ChainExperiment first(*arm.plain, arm.record({}, 1, 1), {}, {}),
+      second(*arm.plain, arm.record({}, 1, 2), {}, {});
   std::vector<float> alone(second.size()), after(second.size()), ignored(first.size());
   Starts none, starts;
   second.compare(model, none, alone.data());
@@ -64,8 +64,8 @@ TEST(ChainExperiment, RecordingsThatSettleAlikeMayStandElsewhere) {
     if (column.name != "biceps_brachii/position") continue;
     for (double& value : column.values) value += kOff;
   }
-  const ChainExperiment first(*arm.plain, arm.record({}, 1, 1), {}),
-      second(*arm.plain, elsewhere, {});
+  const ChainExperiment first(*arm.plain, arm.record({}, 1, 1), {}, {}),
+      second(*arm.plain, elsewhere, {}, {});
   std::vector<float> alone(second.size()), after(second.size()), ignored(first.size());
   Starts none, starts;
   second.compare(arm.plain, none, alone.data());
@@ -84,11 +84,11 @@ TEST(Excerpt, IsTheBeginningOfTheWhole) {
   const Arm arm;
   const std::vector<Dataset> recordings = {arm.record({}, 1, 1), arm.record({}, 2, 2)};
   Experiments whole;
-  for (const Dataset& data : recordings) whole.push_back(make_experiment(*arm.plain, data));
+  for (const Dataset& data : recordings) whole.push_back(make_experiment(*arm.plain, data, {}));
   const Evaluator evaluator(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 1);
   const Differences all = evaluator.compare({Variant{}}, whole).front();
   for (const double seconds : {4.0, 11.0, 1000.0}) {
-    const Excerpt part = excerpt(*arm.plain, recordings, whole, seconds);
+    const Excerpt part = excerpt(*arm.plain, recordings, whole, seconds, {});
     EXPECT_NEAR(part.duration(), std::min(seconds, total_duration(whole)), 0.021);
     EXPECT_EQ(evaluator.compare({Variant{}}, part.experiments).front(), part.of(all)) << seconds;
   }

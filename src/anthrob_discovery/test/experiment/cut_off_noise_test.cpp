@@ -44,21 +44,21 @@ TEST(CutOffNoise, MeanIsThatOfNoiseThatIsCutOff) {
 }
 
 TEST(CutOffNoise, IsFoundWhereTendonsAreSlack) {
-  EXPECT_NEAR(cut_off_noise(readings(0.3, 0.0, 0.001, 20.0, true), 0.001), 0.3, 0.02);
-  EXPECT_NEAR(cut_off_noise(readings(0.3, 0.0, 0.06, 20.0, true), 0.06), 0.3, 0.03);
-  EXPECT_NEAR(cut_off_noise(readings(0.3, 0.01, 0.06, 20.0, true), 0.06), 0.3, 0.06);
+  EXPECT_NEAR(cut_off_noise(readings(0.3, 0.0, 0.001, 20.0, true), 0.001, {}), 0.3, 0.02);
+  EXPECT_NEAR(cut_off_noise(readings(0.3, 0.0, 0.06, 20.0, true), 0.06, {}), 0.3, 0.03);
+  EXPECT_NEAR(cut_off_noise(readings(0.3, 0.01, 0.06, 20.0, true), 0.06, {}), 0.3, 0.06);
 }
 
 TEST(CutOffNoise, IsNoneWhereNothingIsCutOff) {
-  EXPECT_EQ(cut_off_noise(readings(0.3, 0.0, 0.001, 20.0, false), 0.001), 0.0);
-  EXPECT_EQ(cut_off_noise(readings(0.0, 0.0, 0.001, 20.0, true), 0.001), 0.0);  // no noise
+  EXPECT_EQ(cut_off_noise(readings(0.3, 0.0, 0.001, 20.0, false), 0.001, {}), 0.0);
+  EXPECT_EQ(cut_off_noise(readings(0.0, 0.0, 0.001, 20.0, true), 0.001, {}), 0.0);  // no noise
   Series pulled = readings(0.3, 0.0, 0.001, 20.0, true);
   for (double& value : pulled.values) value += 10.0;
-  EXPECT_EQ(cut_off_noise(pulled, 0.001), 0.0);
+  EXPECT_EQ(cut_off_noise(pulled, 0.001, {}), 0.0);
   // A force that comes and goes within the windows is no noise.
   for (std::size_t i = 0; i < pulled.t.size(); ++i) pulled.values[i] = i / 50 % 2 ? 5.0 : 0.0;
-  EXPECT_EQ(cut_off_noise(pulled, 0.001), 0.0);
-  EXPECT_EQ(cut_off_noise({}, 0.0), 0.0);
+  EXPECT_EQ(cut_off_noise(pulled, 0.001, {}), 0.0);
+  EXPECT_EQ(cut_off_noise({}, 0.0, {}), 0.0);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Fitted fit_with(const std::function<double(std::size_t)>& residual) {
 
 double width(const Fitted& fitted) {
   const Experiments experiments = {std::make_shared<Swing>()};
-  const auto intervals = bootstrap_intervals(fitted, experiments, {speed()}, 1);
+  const auto intervals = bootstrap_intervals(fitted, experiments, {speed()}, 1, {}, 2.0);
   EXPECT_LE(intervals[0].first, 1.0);
   EXPECT_GE(intervals[0].second, 1.0);
   return intervals[0].second - intervals[0].first;
@@ -80,7 +80,7 @@ TEST(Bootstrap, OneBlockOfTimeIsAsUncertainAsItsNoise) {
     fitted.sensitivity.setOnes(static_cast<Eigen::Index>(bins), 1);
     fitted.residual.conservativeResize(static_cast<Eigen::Index>(bins));
     const Experiments experiments = {std::make_shared<Glimpse>(bins)};
-    const auto interval = bootstrap_intervals(fitted, experiments, {}, 1)[0];
+    const auto interval = bootstrap_intervals(fitted, experiments, {}, 1, {}, 2.0)[0];
     const double noise = 2.0 * 1.96 / std::sqrt(static_cast<double>(bins));
     EXPECT_GE(interval.second - interval.first, 0.999 * noise) << bins;
     EXPECT_LE(interval.second - interval.first, 1.5 * noise) << bins;
@@ -92,7 +92,7 @@ TEST(Bootstrap, NothingToBeFoundHasNoIntervals) {
   fitted.unknowns.clear();
   fitted.sensitivity.resize(kBins, 0);
   const Experiments experiments = {std::make_shared<Swing>()};
-  EXPECT_TRUE(bootstrap_intervals(fitted, experiments, {speed()}, 1).empty());
+  EXPECT_TRUE(bootstrap_intervals(fitted, experiments, {speed()}, 1, {}, 2.0).empty());
 }
 
 TEST(Bootstrap, LawThatFitsNeitherSlowNorFastIsUncertain) {
@@ -124,7 +124,7 @@ double relative_reach(float imitated) {
   }
   fitted.residual.setZero(kBins);
   const Experiments experiments = {std::make_shared<Swing>()};
-  const auto interval = bootstrap_intervals(fitted, experiments, {speed()}, 1)[1];
+  const auto interval = bootstrap_intervals(fitted, experiments, {speed()}, 1, {}, 2.0)[1];
   EXPECT_NEAR(interval.first + interval.second, 6.0, 1e-9);
   return 0.5 * (interval.second - interval.first) / 2.0;
 }
@@ -143,7 +143,7 @@ TEST(RegimeGaps, RecordingsMayLackChannels) {
   const auto rows =
       regime_gaps(experiments, {both}, residual, Eigen::VectorXf::Ones(3 * kBins), {});
   ASSERT_EQ(rows.size(), 1u);  // nothing says how the muscle was used
-  for (const double gap : rows[0].gap) EXPECT_DOUBLE_EQ(gap, 1.0);
+  for (const auto& gap : rows[0].gap) EXPECT_DOUBLE_EQ(gap.value(), 1.0);
   ASSERT_EQ(channels_of(experiments).size(), 2u);
   EXPECT_EQ(find_channel(*experiments[1], channels_of(experiments)[0]), nullptr);
 }
@@ -163,7 +163,7 @@ class LongSwing final : public Experiment {
 TEST(Judge, LastBinBelongsToTheLastBlock) {
   const Experiments experiments = {std::make_shared<LongSwing>()};
   const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
-  const Judge judge(experiments, factors, {});
+  const Judge judge(experiments, factors, {}, {});
   ASSERT_EQ(judge.block_count(), 10u);
   Eigen::VectorXf residual = Eigen::VectorXf::Zero(334);
   residual[333] = 2.0f;
@@ -175,14 +175,15 @@ TEST(Judge, LastBinBelongsToTheLastBlock) {
 TEST(Judge, ARestIsNoBlockOfItsOwn) {
   const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
   for (const auto& [duration, blocks] : {std::pair(20.0, 10u), {20.6, 10u}, {0.5, 1u}}) {
-    EXPECT_EQ(Judge({std::make_shared<LongSwing>(duration)}, factors, {}).block_count(), blocks);
+    EXPECT_EQ(Judge({std::make_shared<LongSwing>(duration)}, factors, {}, {}).block_count(),
+              blocks);
   }
 }
 
 TEST(Judge, AGapInEveryBlockIsSignificantOneInASingleBlockIsNot) {
   const Experiments experiments = {std::make_shared<LongSwing>()};
   const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
-  const Judge judge(experiments, factors, {});
+  const Judge judge(experiments, factors, {}, {});
   Eigen::VectorXf residual(334);
   for (Eigen::Index b = 0; b < 334; ++b) residual[b] = 2.0f + 0.5f * std::sin(0.1f * b);
   EXPECT_GT(judge.excess_significance(residual, 1.4).at("hinge/position"), 3.0);
@@ -196,7 +197,7 @@ TEST(Judge, AGapInEveryBlockIsSignificantOneInASingleBlockIsNot) {
 TEST(Judge, GrowthInEveryBlockIsSignificantGrowthInASingleBlockIsNot) {
   const Experiments experiments = {std::make_shared<LongSwing>()};
   const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
-  const Judge judge(experiments, factors, {});
+  const Judge judge(experiments, factors, {}, {});
   Eigen::VectorXf before(334);
   for (Eigen::Index b = 0; b < 334; ++b) before[b] = 1.0f + 0.5f * std::sin(0.1f * b);
   const auto growth = [&](const Eigen::VectorXf& after) {
@@ -218,8 +219,8 @@ TEST(Judge, CorrelatedNoiseIsDividedOutOnce) {
   const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
   ChannelScale scale;
   scale.inflation = 4.0;  // taken off by the whitener
-  const Judge plain(experiments, factors, {}),
-      inflated(experiments, factors, {{"hinge/position", scale}});
+  const Judge plain(experiments, factors, {}, {}),
+      inflated(experiments, factors, {{"hinge/position", scale}}, {});
   Eigen::VectorXf noise(334);
   for (Eigen::Index b = 0; b < 334; ++b) noise[b] = (b / 4) % 3 == 0 ? 1.2f : -0.9f;
   const Eigen::MatrixXd as_is = plain.block_scores({noise}, 0),
@@ -241,14 +242,14 @@ TEST(Judge, WhatIsMeasuredInEverySecondBinIsAsCorrelatedAsItIs) {
   const double length = correlation_length(measured);
   ASSERT_GT(length, 4.0);
   // Each independent one is worth half a nat.
-  const double sum = Judge(experiments, factors, {}).block_scores({residual}, 0).sum();
+  const double sum = Judge(experiments, factors, {}, {}).block_scores({residual}, 0).sum();
   EXPECT_NEAR(sum, -0.5 * 167.0 / length, 1e-3 * 167.0);
 }
 
 TEST(CertainGap, IsInBothAndInBlockAfterBlockOrClearlyLarge) {
   const Experiments experiments = {std::make_shared<LongSwing>()};
   const Eigen::VectorXf factors = Eigen::VectorXf::Ones(334);
-  const Judge judge(experiments, factors, {});
+  const Judge judge(experiments, factors, {}, {});
   const auto certain = [&](const Eigen::VectorXf& learned, const Eigen::VectorXf& held_out) {
     return certain_gap(judge, learned, judge, held_out, 1.4);
   };
@@ -275,9 +276,9 @@ TEST(RegimeGaps, ShowWhereThePlaceDisagrees) {
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].place, "hinge");
   EXPECT_EQ(rows[0].word, "speed");
-  EXPECT_DOUBLE_EQ(rows[0].gap[0], 2.0);
-  EXPECT_DOUBLE_EQ(rows[0].gap[1], 2.0);
-  EXPECT_GT(rows[0].gap[2], 6.0);
+  EXPECT_DOUBLE_EQ(rows[0].gap[0].value(), 2.0);
+  EXPECT_DOUBLE_EQ(rows[0].gap[1].value(), 2.0);
+  EXPECT_GT(rows[0].gap[2].value(), 6.0);
 }
 
 }  // namespace

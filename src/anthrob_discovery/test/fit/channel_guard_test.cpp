@@ -61,8 +61,8 @@ struct Case {
 
   explicit Case(const Wishes& wish)
       : experiments{std::make_shared<TwoChannels>(wish)},
-        fit(evaluator, experiments, ones()),
-        judge(experiments, fit.whitening(), {}) {
+        fit(evaluator, experiments, ones(), {}),
+        judge(experiments, fit.whitening(), {}, {}) {
     Variant none;
     none.nuisances = {0.0, 0.0};
     reference = fit.residual(none);

@@ -17,7 +17,7 @@ TEST(FlatRange, FrictionThatHoldsAJointInAnyCaseIsKnownFromBelow) {
   // noise.
   const DryElbow robot([](double dry) { return 10.0 * std::max(0.0, 0.5 - dry); });
   const Fitted held = robot.with(1.0);
-  ASSERT_TRUE(is_flat(held, 0));
+  ASSERT_TRUE(is_flat(held, 0, {}));
   const auto [low, high] = flat_range(robot.train, held, 0);
   EXPECT_EQ(high, 10.0);
   EXPECT_LT(low, 0.5);
@@ -38,7 +38,7 @@ TEST(FlatRange, ExpectationsDetermineNothing) {
 
 TEST(FlatRange, WhatChangesSomethingIsNotFlat) {
   const DryElbow robot([](double dry) { return 10.0 * (dry - 0.5); });
-  EXPECT_FALSE(is_flat(robot.with(0.5), 0));
+  EXPECT_FALSE(is_flat(robot.with(0.5), 0, {}));
 }
 
 }  // namespace

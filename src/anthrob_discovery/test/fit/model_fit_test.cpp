@@ -28,7 +28,7 @@ struct Problem {
                   {{"joints.elbow.friction.viscous", "Nms/rad", 50.0, 0.0, 100.0, 1.0}},
                   MadeExperiment::kStep, 1),
         fit(evaluator, {std::make_shared<MadeExperiment>(of_elbow(difference), of_elbow(coarse))},
-            Eigen::VectorXf::Ones(1), MadeExperiment::kCoarse) {}
+            Eigen::VectorXf::Ones(1), {}, MadeExperiment::kCoarse) {}
 
   Fitted start(double at) const {
     auto unknowns = nuisance_unknowns(evaluator);

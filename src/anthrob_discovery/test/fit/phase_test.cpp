@@ -65,10 +65,12 @@ class Cogging : public testing::Test {
 
   const Arm arm_;
   const Evaluator evaluator_{ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml", {}, 0.001, 2};
-  const Experiments experiments_ = {std::make_shared<ChainExperiment>(
-      *arm_.plain, arm_.record({cogging(kPhase)}, 1, 1), ExperimentOptions{})};
-  const ModelFit fit_{evaluator_, experiments_,
-                      Eigen::VectorXf::Ones(static_cast<Eigen::Index>(experiments_[0]->size()))};
+  const Experiments experiments_ = {
+      make_experiment(*arm_.plain, arm_.record({cogging(kPhase)}, 1, 1), {})};
+  const ModelFit fit_{evaluator_,
+                      experiments_,
+                      Eigen::VectorXf::Ones(static_cast<Eigen::Index>(experiments_[0]->size())),
+                      {}};
   const std::vector<Candidate> candidates_ = list_candidates(evaluator_, {"cogging"});
   const std::size_t candidate_ =
       static_cast<std::size_t>(std::find_if(candidates_.begin(), candidates_.end(),
@@ -97,7 +99,7 @@ TEST_F(Cogging, IsTriedInOtherPhasesThanAreSuggested) {
     const double opposite = cogging(kPhase + M_PI).parameters.at(size->name);
     suggested.amount.push_back(opposite / size->typical);
   }
-  for (const Score& best : Trials(fit_, candidates_).best(fitted({}), {suggested})) {
+  for (const Score& best : Trials(fit_, candidates_, {}).best(fitted({}), {suggested})) {
     if (best.candidate != candidate_) continue;
     const double sine = best.amount[0] * sizes[0]->typical,
                  cosine = best.amount[1] * sizes[1]->typical;

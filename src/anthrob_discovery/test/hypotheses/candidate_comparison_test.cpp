@@ -40,19 +40,20 @@ TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
   };
   const Candidate everywhere = candidate("eyelet_friction", "biceps_brachii", 1),
                   somewhere = candidate("eyelet_friction", "biceps_brachii/2", 1);
-  EXPECT_EQ(share_of_simpler(everywhere, somewhere), 0.98);
-  EXPECT_EQ(share_of_simpler(somewhere, everywhere), 1.0);
-  EXPECT_EQ(share_of_simpler(candidate("eyelet_friction", "biceps", 1), somewhere), 1.0);
-  EXPECT_EQ(share_of_simpler(candidate("eyelet_presliding", "biceps_brachii", 1), somewhere), 1.0);
+  EXPECT_EQ(share_of_simpler(everywhere, somewhere, {}), 0.98);
+  EXPECT_EQ(share_of_simpler(somewhere, everywhere, {}), 1.0);
+  EXPECT_EQ(share_of_simpler(candidate("eyelet_friction", "biceps", 1), somewhere, {}), 1.0);
+  EXPECT_EQ(share_of_simpler(candidate("eyelet_presliding", "biceps_brachii", 1), somewhere, {}),
+            1.0);
   // There, "MUSCLE" is its last segment.
   EXPECT_EQ(share_of_simpler(candidate("wrapping_surface", "biceps_brachii", 1),
-                             candidate("wrapping_surface", "biceps_brachii/2", 1)),
+                             candidate("wrapping_surface", "biceps_brachii/2", 1), {}),
             1.0);
   const Candidate coulomb = candidate("joint_coulomb", "elbow", 1),
                   asymmetric = candidate("joint_coulomb_asymmetric", "elbow", 2);
-  EXPECT_EQ(share_of_simpler(coulomb, asymmetric), 0.75);
-  EXPECT_EQ(share_of_simpler(asymmetric, coulomb), 1.0);
-  EXPECT_EQ(share_of_simpler(candidate("joint_coulomb", "shoulder", 1), asymmetric), 1.0);
+  EXPECT_EQ(share_of_simpler(coulomb, asymmetric, {}), 0.75);
+  EXPECT_EQ(share_of_simpler(asymmetric, coulomb, {}), 1.0);
+  EXPECT_EQ(share_of_simpler(candidate("joint_coulomb", "shoulder", 1), asymmetric, {}), 1.0);
 }
 
 /// Ten seconds to learn from and ten to judge by, of a robot whose shoulder's damping is free and
@@ -155,7 +156,7 @@ TEST(CandidateComparison, WithoutOrdinaryParameters) {
   const Problem problem(
       [](double elbow, double, double) { return 5.0 - 10.0 * (elbow - kElbow) / kDose; }, "");
   const Tested base = problem.hypotheses.tested(problem.train.start(Variant{}, {}));
-  EXPECT_TRUE(bootstrap_intervals(base.fit, problem.train.experiments(), {}, 1).empty());
+  EXPECT_TRUE(bootstrap_intervals(base.fit, problem.train.experiments(), {}, 1, {}, 2.0).empty());
   const ShortList list = problem.weigh(base, "elbow", 1.0);
   ASSERT_EQ(list.entries.size(), 1u);
   EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 0.5 * kDose,
@@ -460,11 +461,11 @@ TEST(Scatter, OnlyLeadsBeyondItDecide) {
   const Tested far = with_cost(base.fit.cost + 1e5), end = base;
   const auto sure = [&](double by_blocks, double lead) {
     return allowing_for_scatter(by_blocks, problem.convergence, far, end,
-                                with_cost(end.fit.cost + lead));
+                                with_cost(end.fit.cost + lead), 0.01);
   };
   const auto sure_of_other = [&](double by_blocks, double lead) {
     return allowing_for_scatter(by_blocks, problem.convergence, far, with_cost(end.fit.cost + lead),
-                                end);
+                                end, 0.01);
   };
   // 1 % of the gain: 1000 nat.
   EXPECT_NEAR(sure(0.999, 1000.0), 0.841, 1e-3);
@@ -528,7 +529,7 @@ TEST(Screening, ExpectationsCountTheLessTheMoreWasRecorded) {
   const auto uncertainty = [&](Eigen::Index bins) {
     Excerpt part{{std::make_shared<MadeExperiment>(law, law, bins, 1)}, {}};
     for (Eigen::Index b = 0; b < bins; ++b) part.rows.push_back(b);
-    const Screening screening(problem.train, base, problem.candidates, part, part);
+    const Screening screening(problem.train, base, problem.candidates, part, part, {});
     for (const Score& score : screening.scores(base)) {
       if (score.candidate == problem.index("elbow")) return score.uncertainty;
     }

@@ -281,10 +281,10 @@ TEST(Movement, IsMoreThanNoise) {
     motion.values.push_back(20.0 + std::sin(t) + error);
   }
   EXPECT_GT(range_of(noise), 1.5);
-  EXPECT_FALSE(moves(noise, 0.0));
-  EXPECT_TRUE(moves(motion, 0.5));
-  EXPECT_FALSE(moves(motion, 5.0));
-  EXPECT_FALSE(moves({}, 0.0));
+  EXPECT_FALSE(moves(noise, 0.0, {}));
+  EXPECT_TRUE(moves(motion, 0.5, {}));
+  EXPECT_FALSE(moves(motion, 5.0, {}));
+  EXPECT_FALSE(moves({}, 0.0, {}));
 }
 
 TEST(Stillness, IsNotHiddenByNoise) {

@@ -29,33 +29,33 @@ TEST(ModelProbabilities, FollowTheScoresAndTheHandicap) {
   Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(3, 20);
   scores.row(1).setConstant(1.0);
   scores.row(2).setConstant(1.0);
-  const auto even = model_probabilities(scores, {0.0, 0.0, 0.0}, 1);
+  const auto even = model_probabilities(scores, {0.0, 0.0, 0.0}, 1, {});
   EXPECT_LT(even[0], 1e-6);
   EXPECT_NEAR(even[1], 0.5, 1e-9);
-  const auto handicapped = model_probabilities(scores, {0.0, 0.0, 30.0}, 1);
+  const auto handicapped = model_probabilities(scores, {0.0, 0.0, 30.0}, 1, {});
   EXPECT_GT(handicapped[1], 0.999);
-  const auto all = model_probabilities(scores, {0.0, 60.0, 60.0}, 1);
+  const auto all = model_probabilities(scores, {0.0, 60.0, 60.0}, 1, {});
   EXPECT_GT(all[0], 0.999);
 }
 
 TEST(BlockSignificance, DoesNotDoubtGainsThatDifferInSize) {
   Eigen::VectorXd large(8), noise(200);
   large << 3.0, 2000.0, 40.0, 15.0, 9000.0, 120.0, 7.0, 300.0;
-  EXPECT_GT(block_significance(large), 5.0);
+  EXPECT_GT(block_significance(large, {}), 5.0);
   const CounterRandom random(9, 1);
   for (int i = 0; i < 200; ++i) noise[i] = 50.0 * random.normal(static_cast<std::uint64_t>(i));
-  EXPECT_LT(std::abs(block_significance(noise)), 2.5);
+  EXPECT_LT(std::abs(block_significance(noise, {})), 2.5);
   noise[17] = 1e6;  // one lucky block
-  EXPECT_LT(block_significance(noise), 2.5);
+  EXPECT_LT(block_significance(noise, {}), 2.5);
 }
 
 TEST(BlockSignificance, DoesNotDoubtGainsForSmallLossesBesideThem) {
   Eigen::VectorXd gains(24);
   for (int i = 0; i < 24; ++i) gains[i] = i % 2 == 0 ? 45.0 + i : -4.0;
-  EXPECT_GT(block_significance(gains), 4.0);
-  EXPECT_LT(block_significance(-gains), -1.0);
+  EXPECT_GT(block_significance(gains, {}), 4.0);
+  EXPECT_LT(block_significance(-gains, {}), -1.0);
   for (int i = 0; i < 24; ++i) gains[i] = i % 2 == 0 ? 45.0 : -44.0;
-  EXPECT_LT(block_significance(gains), 1.0);
+  EXPECT_LT(block_significance(gains, {}), 1.0);
 }
 
 /// Measured in 20 s, of which residuals are made up.
@@ -73,7 +73,7 @@ class Effort final : public Experiment {
 TEST(OneSidedGaps, AreCertainOnOneSideAndNotThereOnTheOther) {
   const Experiments experiments = {std::make_shared<Effort>()};
   const Eigen::VectorXf ones = Eigen::VectorXf::Ones(800);
-  const Judge judge(experiments, ones, {});
+  const Judge judge(experiments, ones, {}, {});
   const CounterRandom random(3, 1);
   Eigen::VectorXf noise(800);
   for (int i = 0; i < 800; ++i) {

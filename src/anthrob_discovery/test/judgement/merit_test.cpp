@@ -20,7 +20,7 @@ Merit earned() {
 }
 
 TEST(Merit, WhatMeetsAllConditionsLacksNothing) {
-  EXPECT_EQ(lack(earned()), "");
+  EXPECT_EQ(lack(earned(), {}), std::nullopt);
 }
 
 TEST(Merit, EachConditionAloneDenies) {
@@ -29,13 +29,14 @@ TEST(Merit, EachConditionAloneDenies) {
   evidence.evidence = 9.0;
   significance.significance = 2.9;
   share.share = share.share_of_first = 0.06;
-  EXPECT_EQ(lack(none),
+  EXPECT_EQ(lack(none, {}),
             "it is no more probable than that none of the fitted candidates is right "
             "(probability 0.95)");
-  EXPECT_EQ(lack(evidence),
+  EXPECT_EQ(lack(evidence, {}),
             "it gains only 9.0 nat on held-out recordings; more than 9.4 are required");
-  EXPECT_EQ(lack(significance), "its gain is only 2.90 standard errors; more than 3 are required");
-  EXPECT_EQ(lack(share),
+  EXPECT_EQ(lack(significance, {}),
+            "its gain is only 2.90 standard errors; more than 3 are required");
+  EXPECT_EQ(lack(share, {}),
             "it removes only 6.0 % of the squared gap on held-out recordings; more than 10 % are "
             "required");
 }
@@ -43,29 +44,29 @@ TEST(Merit, EachConditionAloneDenies) {
 TEST(Merit, WhatUndoesOnlyWhatWasLearnedIsDenied) {
   Merit merit = earned();
   merit.learned = 0.0;
-  EXPECT_EQ(lack(merit), "it does not fit the training recordings better");
+  EXPECT_EQ(lack(merit, {}), "it does not fit the training recordings better");
 }
 
 TEST(Merit, AGapThatGrowsIsSaidToGrow) {
   Merit merit = earned();
   merit.share = merit.share_of_first = -0.4;
-  EXPECT_EQ(lack(merit), "it does not reduce the squared gap on held-out recordings");
+  EXPECT_EQ(lack(merit, {}), "it does not reduce the squared gap on held-out recordings");
 }
 
 TEST(Merit, FaintGapsAskForMore) {
   Merit merit = earned();
   merit.significance = 5.0;
-  EXPECT_EQ(lack(merit), "");
+  EXPECT_EQ(lack(merit, {}), std::nullopt);
   merit.only_faint_gaps = true;
-  EXPECT_NE(lack(merit), "");
+  EXPECT_NE(lack(merit, {}), std::nullopt);
 }
 
 TEST(Merit, WhatIsSmallBesideTheFirstGapMustBeMoreCertain) {
   Merit merit = earned();
   merit.share_of_first = 0.02;
-  EXPECT_NE(lack(merit).find("2.0 % of the initial squared gap"), std::string::npos);
+  EXPECT_NE(lack(merit, {})->find("2.0 % of the initial squared gap"), std::string::npos);
   merit.significance = 8.5;
-  EXPECT_EQ(lack(merit), "");
+  EXPECT_EQ(lack(merit, {}), std::nullopt);
 }
 
 }  // namespace

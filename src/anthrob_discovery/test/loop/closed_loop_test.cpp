@@ -48,12 +48,12 @@ class Separation : public ::testing::Test {
     rival.effects = {kDamping};
     // Planned once: it takes seconds.
     static const SeparatingRecording kPlan =
-        plan_separation(evaluator, named, rival, seen, scales(), kBin);
+        plan_separation(evaluator, named, rival, seen, scales(), kBin, {});
     plan = kPlan;
   }
   Scales scales() const {
-    const Experiments train = {make_experiment(*evaluator.model(), seen)};
-    return measure_scales(evaluator, train, {});
+    const Experiments train = {make_experiment(*evaluator.model(), seen, {})};
+    return measure_scales(evaluator, train, {}, {}, {});
   }
 
   const Evaluator evaluator{kModel, {}, 0.001, 2};
@@ -72,7 +72,8 @@ TEST_F(Separation, GoesWhereTheExplanationsDiffer) {
       EXPECT_LE(target.distance, plan.targets[i - 1].distance);
     }
   }
-  const SeparatingRecording same = plan_separation(evaluator, named, named, seen, scales(), kBin);
+  const SeparatingRecording same =
+      plan_separation(evaluator, named, named, seen, scales(), kBin, {});
   EXPECT_LT(same.distance(), 1e-3 * plan.distance()) << "nothing tells a model from itself";
 }
 
@@ -82,13 +83,14 @@ TEST_F(Separation, IsPlannedForReferencesOfPositionsOnly) {
   Column& mode = table.column(evaluator.model()->muscles[2].name + "/mode");
   mode.values.assign(table.t.size(), static_cast<double>(ecu::Mode::kForce));
   mode.present.assign(table.t.size(), 1);
-  EXPECT_TRUE(plan_separation(evaluator, named, rival, by_force, scales(), kBin).targets.empty());
+  EXPECT_TRUE(
+      plan_separation(evaluator, named, rival, by_force, scales(), kBin, {}).targets.empty());
 }
 
 TEST_F(Separation, IsMadeOfEveryTargetOnce) {
   const RobotModel& model = *evaluator.model();
-  const Dataset all = separating_commands(model, plan);
-  const Dataset half = separating_commands(model, plan, 1, 2);
+  const Dataset all = separating_commands(model, plan, {});
+  const Dataset half = separating_commands(model, plan, {}, 1, 2);
   EXPECT_NEAR(seconds(all.end() - all.begin()), 6 * 5.0, 0.02);
   EXPECT_NEAR(seconds(half.end() - half.begin()), 3 * 5.0, 0.02);
   const std::string muscle = model.muscles[0].name + "/reference";
@@ -98,14 +100,13 @@ TEST_F(Separation, IsMadeOfEveryTargetOnce) {
 }
 
 TEST_F(Separation, IsMeasuredWithTheRobotsSensors) {
-  const Dataset commands = separating_commands(*evaluator.model(), plan, 0, 6);
+  const Dataset commands = separating_commands(*evaluator.model(), plan, {}, 0, 6);
   const auto robot = robot_with(kFriction);
-  const Dataset a = simulated_recording(robot, commands, 1),
-                b = simulated_recording(robot, commands, 1);
+  const Dataset a = simulated_recording(robot, commands, 1, {}),
+                b = simulated_recording(robot, commands, 1, {});
   EXPECT_EQ(a.find_table("muscles")->columns[3].values, b.find_table("muscles")->columns[3].values);
   // What was recorded is what the explanation that is true replays.
-  const ExperimentOptions options;
-  const Experiments experiments = {make_experiment(*robot, a, options)};
+  const Experiments experiments = {make_experiment(*robot, a, {})};
   const auto results = evaluator.compare({named, rival}, experiments);
   EXPECT_LT(results[0].norm(), 0.05 * results[1].norm());
 }

@@ -16,7 +16,7 @@ struct TwoNamed {
                 std::make_shared<OffsetForces>(truth, 2), {kLaw}),
         with(problem.hypotheses.tested(problem.train.start({}, {}))),
         whole(all_of(problem.train)),
-        screening(problem.train, with.fit, problem.candidates, whole, whole),
+        screening(problem.train, with.fit, problem.candidates, whole, whole, {}),
         common(problem.hypotheses, screening) {
     for (std::size_t e = 0; e < 2; ++e) {
       Score score;
@@ -44,7 +44,7 @@ TEST(CommonLaw, OneLawAtSeveralPlacesMayBeEverywhere) {
   EXPECT_FALSE(two.common.everywhere({two.parts[0], {1, all}}));
   const auto instead = two.common.instead(all, two.with, two.parts);
   ASSERT_TRUE(instead);
-  EXPECT_TRUE(instead->is_clearly_better());
+  EXPECT_TRUE(instead->is_clearly_better({}));
   const auto& effects = instead->tested.fit.variant.effects;
   ASSERT_EQ(effects.size(), 1u);
   EXPECT_EQ(effects[0].place, "all");
@@ -56,7 +56,7 @@ TEST(CommonLaw, OneLawAtSeveralPlacesMayBeEverywhere) {
 TEST(CommonLaw, WhatIsAtTwoPlacesOnlyIsNotEverywhere) {
   TwoNamed two({{"brachialis", 4.0}, {"biceps_brachii", 4.0}, {"triceps_brachii", 0.0}});
   const auto instead = two.common.instead(two.problem.index("all", kLaw), two.with, two.parts);
-  EXPECT_FALSE(instead && instead->is_better());
+  EXPECT_FALSE(instead && instead->is_better({}));
 }
 
 TEST(CommonLaw, IsNotFittedToTheEndWhereItCannotReachWhatIsNamed) {
@@ -73,7 +73,7 @@ TEST(CommonLaw, IsNotFittedToTheEndWhereItCannotReachWhatIsNamed) {
 TEST(CommonLaw, WhatDiffersFromPlaceToPlaceIsNotOneLaw) {
   TwoNamed two({{"brachialis", 6.0}, {"biceps_brachii", 2.0}, {"triceps_brachii", 0.0}});
   const auto instead = two.common.instead(two.problem.index("all", kLaw), two.with, two.parts);
-  EXPECT_FALSE(instead && instead->is_better());
+  EXPECT_FALSE(instead && instead->is_better({}));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct OneNamed {
                 std::make_shared<OffsetForces>(truth, 2), {kLaw, "force_sensor_gain"}),
         base(problem.hypotheses.tested(problem.train.start({}, {}))),
         whole(all_of(problem.train)),
-        screening(problem.train, base.fit, problem.candidates, whole, whole),
+        screening(problem.train, base.fit, problem.candidates, whole, whole, {}),
         elsewhere(problem.hypotheses, screening),
         named({problem.index(kMuscles[0], kLaw)}) {
     Score score;

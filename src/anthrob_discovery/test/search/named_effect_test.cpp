@@ -19,7 +19,7 @@ struct Held {
       std::make_shared<MadeExperiment>([](double, double, double) { return 0.0; },
                                        [](double, double, double) { return 0.0; }, kBins)};
   Eigen::VectorXf whitening = Eigen::VectorXf::Ones(kBins);
-  Judge judge{experiments, whitening, {}};
+  Judge judge{experiments, whitening, {}, {}};
 
   static Eigen::VectorXf gap(double size) {
     return Eigen::VectorXf::Constant(kBins, static_cast<float>(size));
@@ -57,15 +57,15 @@ TEST(NamedEffect, IsNotImprobableForRivalsThatDoAsWell) {
   effects[1].found.left = 0.3;
   effects[2].found.probability = 0.9;
   effects[2].gained = 100.0;
-  EXPECT_EQ(least_of_improbable(effects, true), nullptr);
+  EXPECT_EQ(least_of_improbable(effects, true, {}), nullptr);
   effects[1].found.left = 0.45;  // a tenth of it is left
-  EXPECT_EQ(least_of_improbable(effects, true), &effects[1]);
+  EXPECT_EQ(least_of_improbable(effects, true, {}), &effects[1]);
   effects[2].found.left = 0.5;
-  EXPECT_EQ(least_of_improbable(effects, true), &effects[2]);  // it does less
-  EXPECT_EQ(least_of_improbable({}, true), nullptr);
-  EXPECT_EQ(least_of_improbable(effects, false), nullptr);
+  EXPECT_EQ(least_of_improbable(effects, true, {}), &effects[2]);  // it does less
+  EXPECT_EQ(least_of_improbable({}, true, {}), nullptr);
+  EXPECT_EQ(least_of_improbable(effects, false, {}), nullptr);
   effects[1].found.spoilt = 0.2;  // of what it explains: the odds are 1 to 10
-  EXPECT_EQ(least_of_improbable(effects, false), &effects[1]);
+  EXPECT_EQ(least_of_improbable(effects, false, {}), &effects[1]);
 }
 
 TEST(NamedEffect, IsChargedWithTheChannelThatItSpoils) {

@@ -35,7 +35,7 @@ TEST(ClosedLoop, RecordingsOfAnEarlierOneGo) {
     for (const char* file : {"meta.yaml", "muscles.csv"}) std::ofstream(folder / name / file) << "";
   }
   std::ofstream(folder / "separating_2_test/notes.txt") << "mine";
-  remove_other_recordings(folder.string(), {"separating_1_train", "separating_1_test"});
+  remove_other_recordings(folder.string(), {"separating_1_train", "separating_1_test"}, {});
   EXPECT_TRUE(fs::exists(folder / "separating_1_train/muscles.csv"));
   EXPECT_FALSE(fs::exists(folder / "separating_2_train"));
   EXPECT_FALSE(fs::exists(folder / "separating_2_test/muscles.csv"));
