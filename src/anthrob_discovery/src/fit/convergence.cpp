@@ -45,12 +45,12 @@ double Convergence::left_open(const Fitted& fitted) const {
 /// Polishes as long as that reduces the cost. If an effect is clearly missing, the last steps of
 /// the model without it are not worth their time.
 bool Convergence::converge(Fitted& fitted, double rival, double level) const {
-  std::optional<ModelFit::Surveyed> surveyed;
+  std::optional<ModelFit::RefreshedJacobian> refreshed;
   for (int k = 0; k < options().rounds; ++k) {
     const bool clear = clearly_misses(fitted);
     const double before = fitted.cost;
     fit_.polish(fitted, options().polish,
-                clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides, &surveyed);
+                clear ? ModelFit::Slopes::kOneSide : ModelFit::Slopes::kBothSides, &refreshed);
     const double gain = before - fitted.cost;
     if (fitted.cost > level || !might_reach(rival, fitted, gain, options())) return false;
     if (gain < (clear ? options().roughly_settled : options().settled) * before) break;
@@ -59,8 +59,8 @@ bool Convergence::converge(Fitted& fitted, double rival, double level) const {
 }
 
 Fitted Convergence::rough(const Variant& variant, std::vector<Unknown> unknowns,
-                          Bends bends) const {
-  Fitted fitted = fit_.start(variant, std::move(unknowns), std::move(bends));
+                          Curvatures curvatures) const {
+  Fitted fitted = fit_.start(variant, std::move(unknowns), std::move(curvatures));
   fit_.improve(fitted, options().rough);
   return fitted;
 }
@@ -129,7 +129,7 @@ std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) cons
   Variant given = fitted.variant;
   given.nuisances = evaluator_.initial_nuisances();
   try {
-    return rough(given, fitted.unknowns, fitted.bends);
+    return rough(given, fitted.unknowns, fitted.curvatures);
   } catch (const NotSimulated&) {
     return std::nullopt;
   }
@@ -139,12 +139,12 @@ std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) cons
 /// those of the usual step do. Where something is left, their errors do not cancel out over the
 /// residual.
 void Convergence::finish(Fitted& fitted, double rival) const {
-  std::optional<ModelFit::Surveyed> surveyed;
+  std::optional<ModelFit::RefreshedJacobian> refreshed;
   for (int k = 0; k < options().finishing_rounds && !clearly_misses(fitted); ++k) {
     const bool left = judge_.gap(fitted.residual) > judge_.options().faint_gap;
     const auto slopes = left ? ModelFit::Slopes::kExactToBothSides : ModelFit::Slopes::kExact;
     const double before = fitted.cost;
-    fit_.polish(fitted, options().polish, slopes, &surveyed);
+    fit_.polish(fitted, options().polish, slopes, &refreshed);
     const double gain = before - fitted.cost;
     if (gain < options().at_the_end * before || !might_reach(rival, fitted, gain, options())) break;
   }

@@ -199,16 +199,17 @@ void ModelFit::simulate_sensitivity(Fitted& fitted, std::size_t from) const {
   steps.take_slopes(changes, fitted);
 }
 
-void ModelFit::survey(Fitted& fitted, Slopes slopes, const std::vector<std::size_t>& which) const {
+void ModelFit::refresh_jacobian(Fitted& fitted, Slopes slopes,
+                                const std::vector<std::size_t>& which) const {
   if (which.empty()) return;
-  fitted.bends.resize(fitted.unknowns.size());
+  fitted.curvatures.resize(fitted.unknowns.size());
   SlopeSteps steps(fitted, options_.slopes);
   for (const std::size_t i : which) {
     const double step = fitted.unknowns[i].effect < 0 ? options_.slopes.both_sides
                                                       : options_.slopes.both_sides_of_effect;
     if (slopes == Slopes::kOneSide) {
       steps.add_one_side(i, options_.slopes.one_side);
-    } else if (fitted.bends[i] && slopes != Slopes::kExactToBothSides) {
+    } else if (fitted.curvatures[i] && slopes != Slopes::kExactToBothSides) {
       steps.add_one_side(i, step);
     } else {
       steps.add_both_sides(i, step);
@@ -220,9 +221,10 @@ void ModelFit::survey(Fitted& fitted, Slopes slopes, const std::vector<std::size
   steps.take_slopes(changes, fitted);
 }
 
-Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns, Bends bends) const {
+Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns,
+                       Curvatures curvatures) const {
   Fitted fitted;
-  fitted.bends = std::move(bends);
+  fitted.curvatures = std::move(curvatures);
   fitted.variant = variant;
   fitted.unknowns = std::move(unknowns);
   fitted.residual = residual(variant);
@@ -231,7 +233,7 @@ Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns, Be
   }
   fitted.sensitivity.resize(fitted.residual.size(),
                             static_cast<Eigen::Index>(fitted.unknowns.size()));
-  survey(fitted, Slopes::kOneSide, all_of(fitted));
+  refresh_jacobian(fitted, Slopes::kOneSide, all_of(fitted));
   fitted.cost = cost_of(fitted, variant, fitted.residual);
   return fitted;
 }
@@ -264,11 +266,11 @@ void ModelFit::renew_effects(Fitted& fitted) const {
   for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
     if (fitted.unknowns[i].effect >= 0) which.push_back(i);
   }
-  survey(fitted, Slopes::kExact, which);
+  refresh_jacobian(fitted, Slopes::kExact, which);
 }
 
 void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes,
-                      std::optional<Surveyed>* before) const {
+                      std::optional<RefreshedJacobian>* before) const {
   for (Unknown& u : fitted.unknowns) {
     // Close to the minimum, small changes are more exact than large ones.
     if (u.effect < 0) continue;
@@ -279,18 +281,18 @@ void ModelFit::polish(Fitted& fitted, int iterations, Slopes slopes,
   const bool again = before && *before && (*before)->slopes == slopes;
   const std::vector<std::size_t> which =
       again ? moved_since((*before)->at, fitted, options_.slopes.hardly_moved) : all_of(fitted);
-  survey(fitted, slopes, which);
+  refresh_jacobian(fitted, slopes, which);
   if (before) {
-    if (!again) *before = Surveyed{slopes, std::vector<double>(fitted.unknowns.size())};
+    if (!again) *before = RefreshedJacobian{slopes, std::vector<double>(fitted.unknowns.size())};
     for (const std::size_t i : which) (*before)->at[i] = fitted.unknowns[i].read(fitted.variant);
   }
   const Eigen::VectorXd start = fitted.scaled();
   improve(fitted, iterations,
           is_exact(slopes) ? options_.convergence.finished : options_.convergence.polished);
-  stride(fitted, fitted.scaled() - start);
+  extend_line(fitted, fitted.scaled() - start);
 }
 
-void ModelFit::stride(Fitted& fitted, Eigen::VectorXd step) const {
+void ModelFit::extend_line(Fitted& fitted, Eigen::VectorXd step) const {
   if (step.size() == 0 || step.isZero()) return;
   for (;; step *= 2.0) {
     Trial trial = try_step(fitted, step);

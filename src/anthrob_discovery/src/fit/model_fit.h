@@ -40,9 +40,9 @@ class NotSimulated : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Of each ordinary parameter along which the residual bends smoothly: half its second derivative,
-/// in units of the scale. Null or missing if not known.
-using Bends = std::vector<std::shared_ptr<const Eigen::VectorXf>>;
+/// Of each ordinary parameter along which the residual curvatures smoothly: half its second
+/// derivative, in units of the scale. Null or missing if not known.
+using Curvatures = std::vector<std::shared_ptr<const Eigen::VectorXf>>;
 
 /// A variant of the model, its free numbers, and how well it fits.
 struct Fitted {
@@ -52,7 +52,7 @@ struct Fitted {
   Eigen::MatrixXf sensitivity;  ///< of the residual to the unknowns, each in units of its scale:
                                 ///< size of residual x unknowns
   double cost = 0.0;            ///< half the sum of squares, expectations included
-  Bends bends;                  ///< of the residual, found on the way
+  Curvatures curvatures;        ///< of the residual, found on the way
 
   double misfit() const;               ///< half the sum of squares, without expectations
   Eigen::VectorXd scaled() const;      ///< the unknowns' values in units of their scales
@@ -83,9 +83,10 @@ class ModelFit {
         coarse_(coarse) {}
 
   /// Starts from a variant and its unknowns, and simulates all sensitivities.
-  /// @param bends as other fits of these ordinary parameters have found them
+  /// @param curvatures as other fits of these ordinary parameters have found them
   /// @throws NotSimulated
-  Fitted start(const Variant& variant, std::vector<Unknown> unknowns, Bends bends = {}) const;
+  Fitted start(const Variant& variant, std::vector<Unknown> unknowns,
+               Curvatures curvatures = {}) const;
   /// Iterates until nothing is gained any more.
   void improve(Fitted& fitted, int iterations) const;
   /// @param enough stops at a smaller relative reduction of the cost
@@ -98,11 +99,11 @@ class ModelFit {
   /// How sensitivities are simulated: by a change to one side, good enough for the first steps; by
   /// changes to both sides, because friction that sticks a little earlier or later makes the cost
   /// rugged; or so with the usual step, which avoids the error of the coarse step. Where changes to
-  /// both sides have shown a smooth bend, it is taken off, and one side is enough from then on,
-  /// unless what is left is so large that all slopes matter to the last.
+  /// both sides have shown a smooth curvature, it is taken off, and one side is enough from then
+  /// on, unless what is left is so large that all slopes matter to the last.
   enum class Slopes { kOneSide, kBothSides, kExact, kExactToBothSides };
   /// What earlier rounds of polish() have simulated.
-  struct Surveyed {
+  struct RefreshedJacobian {
     Slopes slopes;
     std::vector<double> at;  ///< where each unknown was then
   };
@@ -110,7 +111,7 @@ class ModelFit {
   /// @param before of the rounds before this one, if nothing else has happened in between: then
   /// sensitivities to ordinary parameters that have hardly moved since are good enough. Is updated
   void polish(Fitted& fitted, int iterations, Slopes slopes = Slopes::kBothSides,
-              std::optional<Surveyed>* before = nullptr) const;
+              std::optional<RefreshedJacobian>* before = nullptr) const;
   /// Simulates the sensitivities to effects again, by exact slopes.
   void renew_effects(Fitted& fitted) const;
   /// The same fit with more unknowns, whose sensitivities are simulated.
@@ -150,7 +151,7 @@ class ModelFit {
   Trial try_step(const Fitted& fitted, const Eigen::VectorXd& step) const;
 
   /// Repeats a step with growing length as long as the cost falls.
-  void stride(Fitted& fitted, Eigen::VectorXd step) const;
+  void extend_line(Fitted& fitted, Eigen::VectorXd step) const;
 
   /// How the residual changes to variants, by the usual step.
   std::vector<Eigen::VectorXf> exact_changes(const Eigen::VectorXf& residual,
@@ -158,7 +159,7 @@ class ModelFit {
   /// Of the unknowns from that one on, by the usual step of the simulation.
   void simulate_sensitivity(Fitted& fitted, std::size_t from) const;
   /// Of these unknowns.
-  void survey(Fitted& fitted, Slopes slopes, const std::vector<std::size_t>& which) const;
+  void refresh_jacobian(Fitted& fitted, Slopes slopes, const std::vector<std::size_t>& which) const;
   double cost_of(const Fitted& fitted, const Variant& variant,
                  const Eigen::VectorXf& residual) const;
 

@@ -22,7 +22,7 @@ std::optional<Fitted> without_effect(const Evaluator& evaluator, const ModelFit&
     kept.push_back(static_cast<Eigen::Index>(i));
   }
   reduced.sensitivity = fitted.sensitivity(Eigen::all, kept);
-  reduced.bends = fitted.bends;
+  reduced.curvatures = fitted.curvatures;
   const std::vector<Unknown> ordinary = nuisance_unknowns(evaluator);
   for (std::size_t i = 0; i < reduced.unknowns.size(); ++i) {
     Unknown& u = reduced.unknowns[i];

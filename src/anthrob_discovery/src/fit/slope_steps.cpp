@@ -9,11 +9,11 @@ namespace discovery {
 
 namespace {
 
-/// How the residual bends between two sides; null if that is not smooth, or if the sides are not
+/// Curvature of the residual between two sides; null if that is not smooth, or if the sides are not
 /// equally long because of a bound.
-std::shared_ptr<const Eigen::VectorXf> smooth_bend(const Eigen::VectorXf& one, float length,
-                                                   const Eigen::VectorXf& other, float other_length,
-                                                   float smooth) {
+std::shared_ptr<const Eigen::VectorXf> smooth_curvature(const Eigen::VectorXf& one, float length,
+                                                        const Eigen::VectorXf& other,
+                                                        float other_length, float smooth) {
   if (std::abs(length + other_length) > 1e-3f * std::abs(length)) return nullptr;
   const Eigen::VectorXf sum = one + other;
   if (!(sum.norm() < smooth * (one.norm() + other.norm()))) return nullptr;
@@ -45,7 +45,7 @@ void SlopeSteps::add_both_sides(std::size_t unknown, double length) {
 }
 
 void SlopeSteps::take_slopes(const std::vector<Eigen::VectorXf>& changes, Fitted& fitted) const {
-  fitted.bends.resize(fitted.unknowns.size());
+  fitted.curvatures.resize(fitted.unknowns.size());
   for (const auto& [unknown, first, count] : unknowns_) {
     auto column = fitted.sensitivity.col(static_cast<Eigen::Index>(unknown));
     column.setZero();
@@ -59,12 +59,12 @@ void SlopeSteps::take_slopes(const std::vector<Eigen::VectorXf>& changes, Fitted
     }
     if (simulated == 0) continue;
     column /= length;
-    auto& bend = fitted.bends[unknown];
+    auto& curvature = fitted.curvatures[unknown];
     if (count == 1) {
-      if (bend) column -= lengths_[first] * *bend;
+      if (curvature) column -= lengths_[first] * *curvature;
     } else if (simulated == 2 && fitted.unknowns[unknown].effect < 0) {
-      bend = smooth_bend(changes[first], lengths_[first], changes[first + 1], lengths_[first + 1],
-                         static_cast<float>(smooth_));
+      curvature = smooth_curvature(changes[first], lengths_[first], changes[first + 1],
+                                   lengths_[first + 1], static_cast<float>(smooth_));
     }
   }
 }

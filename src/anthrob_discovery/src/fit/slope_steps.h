@@ -21,8 +21,8 @@ class SlopeSteps {
   void add_both_sides(std::size_t unknown, double length);
   const std::vector<Variant>& variants() const { return variants_; }
 
-  /// Takes slopes, and bends of ordinary parameters, from what the steps change. A slope to one
-  /// side is freed from the bend, if that is known; one to both sides shows the bend.
+  /// Takes slopes, and curvatures of ordinary parameters, from what the steps change. A slope to
+  /// one side is freed from the curvature, if that is known; one to both sides shows the curvature.
   /// @param changes of the residual with each of the variants; empty where it cannot be simulated
   void take_slopes(const std::vector<Eigen::VectorXf>& changes, Fitted& fitted) const;
 

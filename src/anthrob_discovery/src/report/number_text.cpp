@@ -21,7 +21,7 @@ namespace {
 
 /// Three significant digits, or as many as show the width of the interval: of 1.00592, whose
 /// neutral value is 1, three would show nothing.
-std::string told_apart(double number, const FoundParameter& p) {
+std::string separable(double number, const FoundParameter& p) {
   const double width = p.high - p.low, most = std::max(std::abs(p.low), std::abs(p.high));
   if (!p.has_interval() || !(width > 0.0) || !std::isfinite(width)) return short_number(number);
   const int most_digits = 9;
@@ -45,20 +45,20 @@ std::string end_text(const FoundParameter& p) {
 }  // namespace
 
 std::string value_text(const FoundParameter& p) {
-  return told_apart(p.value, p);
+  return separable(p.value, p);
 }
 
 std::string range_text(const FoundParameter& p) {
   if (p.known) return "taken as known";
   if (p.undetermined) return "not determined by these recordings";
   if (p.at_bound) return "at the end of its range; it may lie beyond";
-  return told_apart(p.low, p) + " to " + told_apart(p.high, p) + end_text(p);
+  return separable(p.low, p) + " to " + separable(p.high, p) + end_text(p);
 }
 
 std::string interval_text(const FoundParameter& p) {
   const std::string unit = p.unit == "1" ? "" : " " + p.unit;
   if (!p.has_interval()) return value_text(p) + unit + ", " + range_text(p);
-  return value_text(p) + " [" + told_apart(p.low, p) + ", " + told_apart(p.high, p) + "]" + unit +
+  return value_text(p) + " [" + separable(p.low, p) + ", " + separable(p.high, p) + "]" + unit +
          end_text(p);
 }
 

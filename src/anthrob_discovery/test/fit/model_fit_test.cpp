@@ -85,7 +85,7 @@ TEST(ModelFit, OneSideIsEnoughWhereTheBendIsSmooth) {
   problem.fit.move(fitted, Variant{{20.0}});
   EXPECT_EQ(simulated(ModelFit::Slopes::kBothSides), both_sides - 1);
   EXPECT_NEAR(fitted.sensitivity(0, 0), 0.4, 1e-4);
-  const Fitted anew = problem.fit.start(fitted.variant, fitted.unknowns, fitted.bends);
+  const Fitted anew = problem.fit.start(fitted.variant, fitted.unknowns, fitted.curvatures);
   EXPECT_NEAR(anew.sensitivity(0, 0), 0.4, 1e-4);
   fitted.unknowns[0].upper = 20.0;  // the other side does it as well
   EXPECT_EQ(simulated(ModelFit::Slopes::kBothSides), both_sides - 1);
@@ -150,10 +150,10 @@ TEST(ModelFit, ExactSlopesLeadOnWhereThoseOfTheCoarseStepMislead) {
 TEST(ModelFit, SensitivitiesToWhatHardlyMovedAreKeptFromRoundToRound) {
   const Problem problem([](double x) { return x * x / 100.0; });
   Fitted fitted = problem.start(10.0);
-  std::optional<ModelFit::Surveyed> surveyed;
+  std::optional<ModelFit::RefreshedJacobian> refreshed;
   const auto slope_at = [&](double x, ModelFit::Slopes slopes) {
     problem.fit.move(fitted, Variant{{x}});
-    problem.fit.polish(fitted, 0, slopes, &surveyed);
+    problem.fit.polish(fitted, 0, slopes, &refreshed);
     return fitted.sensitivity(0, 0);
   };
   EXPECT_NEAR(slope_at(10.0, ModelFit::Slopes::kBothSides), 0.2, 1e-4);
@@ -167,10 +167,10 @@ TEST(ModelFit, SensitivitiesToWhatHardlyMovedAreKeptFromRoundToRound) {
 TEST(ModelFit, SensitivitiesToEffectsAreSimulatedInEveryRound) {
   const DryElbow robot([](double dry) { return dry; });
   Fitted fitted = robot.with(2.0);
-  std::optional<ModelFit::Surveyed> surveyed;
+  std::optional<ModelFit::RefreshedJacobian> refreshed;
   for (int round = 0; round < 2; ++round) {
     fitted.sensitivity.setZero();
-    robot.train.polish(fitted, 0, ModelFit::Slopes::kBothSides, &surveyed);
+    robot.train.polish(fitted, 0, ModelFit::Slopes::kBothSides, &refreshed);
     EXPECT_GT(fitted.sensitivity(0, 0), 0.0f) << round;
   }
 }
