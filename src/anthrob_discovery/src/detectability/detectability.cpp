@@ -9,6 +9,7 @@
 #include "anthrob_sim/effects/placed_effects.h"
 #include "fit/likelihood_profile.h"
 #include "judgement/criteria.h"
+#include "judgement/quantiles.h"
 
 namespace anthrob {
 namespace discovery {
@@ -46,6 +47,7 @@ class Finder {
         train_(hypotheses.train_judge),
         test_(hypotheses.test_judge),
         options_(hypotheses.options.detectability),
+        mostly_(one_sided_deviations(options_.probability)),
         held_out_(total_duration(hypotheses.test.experiments())) {}
 
   Detectability find(const Screening& screening, std::vector<Score> scores) const;
@@ -68,8 +70,8 @@ class Finder {
   const Fitted& base_;
   const Judge &train_, &test_;
   const DetectabilityOptions& options_;
-  double mostly_ = 1.645;  ///< standard deviations within which the probability lies
-  double held_out_;        ///< length of the held-out recordings [s]
+  double mostly_;    ///< standard deviations below which a number is with that probability
+  double held_out_;  ///< length of the held-out recordings [s]
 };
 
 Detectability Finder::find(const Screening& screening, std::vector<Score> scores) const {

@@ -8,6 +8,7 @@
 #include "experiment/regimes.h"
 #include "fit/bounded_minimum.h"
 #include "judgement/judge.h"
+#include "judgement/quantiles.h"
 
 namespace anthrob {
 namespace discovery {
@@ -123,8 +124,10 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
     auto& values = draws[static_cast<std::size_t>(i)];
     std::sort(values.begin(), values.end());
     const double at = x[i] * fitted.unknowns[static_cast<std::size_t>(i)].scale;
-    const double low = values[static_cast<std::size_t>(0.025 * options.draws)];
-    const double high = values[static_cast<std::size_t>(0.975 * options.draws)];
+    const double low =
+        values[static_cast<std::size_t>(0.5 * (1.0 - options.confidence) * options.draws)];
+    const double high =
+        values[static_cast<std::size_t>(0.5 * (1.0 + options.confidence) * options.draws)];
     reach.push_back(widen * std::max({0.0, at - low, high - at}));
   }
   return reach;
@@ -132,7 +135,7 @@ std::vector<double> resample(const Fitted& fitted, const std::vector<Block>& blo
 
 /// The same if there were nothing but the floor's noise. Ordinary parameters that cannot move, held
 /// or at a bound, take nothing from the others.
-std::vector<double> reach_of_noise(const Fitted& fitted, double at_bound) {
+std::vector<double> reach_of_noise(const Fitted& fitted, double at_bound, double deviations) {
   std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < fitted.unknowns.size(); ++i) {
     if (fitted.at_bound(i, at_bound) && fitted.unknowns[i].effect < 0) continue;
@@ -148,7 +151,7 @@ std::vector<double> reach_of_noise(const Fitted& fitted, double at_bound) {
   const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(free[static_cast<std::size_t>(k)]);
-    reach[i] = 1.96 * std::sqrt(std::max(0.0, covariance(k, k))) * fitted.unknowns[i].scale;
+    reach[i] = deviations * std::sqrt(std::max(0.0, covariance(k, k))) * fitted.unknowns[i].scale;
   }
   return reach;
 }
@@ -190,7 +193,8 @@ std::vector<std::pair<double, double>> bootstrap_intervals(
   std::vector<double> time = resample(fitted, blocks, seed, options);
   const std::vector<double> regimes =
       resample(fitted, blocks_of_regimes(fitted, experiments, variables), seed, options);
-  const std::vector<double> noise = reach_of_noise(fitted, fit.convergence.at_bound);
+  const std::vector<double> noise =
+      reach_of_noise(fitted, fit.convergence.at_bound, two_sided_deviations(options.confidence));
   const std::vector<double> other_law = reach_of_other_law(fitted, noise, options);
   for (std::size_t i = 0; blocks.size() < options.few_blocks && i < time.size(); ++i) {
     time[i] = std::max(time[i], noise[i]);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "judgement/quantiles.h"
+
 namespace anthrob {
 namespace discovery {
 
@@ -10,7 +12,7 @@ namespace {
 /// Where the misfit has risen between the fit and a bound; the bound if it does not. Expectations,
 /// which no recording shows, do not count.
 double edge(const ModelFit& fit, const Fitted& fitted, const Unknown& unknown, double bound) {
-  const double rise = 1.92;
+  const double rise = rise_at_ends(fit.options().intervals.confidence);
   const auto stays = [&](double value) {
     Fitted moved = fitted;
     Variant variant = fitted.variant;

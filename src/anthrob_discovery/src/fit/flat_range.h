@@ -14,9 +14,8 @@ namespace discovery {
 bool is_flat(const Fitted& fitted, std::size_t unknown, const IntervalOptions& options);
 
 /// 95 % interval of one unknown, the others held where they are, by simulation: as far as the
-/// misfit rises by 1.92 nat, half the quantile of a chi-square of one degree of freedom. Found by
-/// bisection to 1/1000 of its range, on either side the boundary that is nearest to the fit by
-/// halving.
+/// misfit rises by rise_at_ends(). Found by bisection, on either side the boundary that is nearest
+/// to the fit by halving.
 std::pair<double, double> flat_range(const ModelFit& fit, const Fitted& fitted,
                                      std::size_t unknown);
 

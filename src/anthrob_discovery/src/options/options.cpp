@@ -59,6 +59,13 @@ std::optional<std::string> invalid_option(const Options& options) {
       !(judgement.faint_gap <= judgement.real_gap && judgement.real_gap <= judgement.certain_gap)) {
     invalid = "judgement: expected faint_gap <= real_gap <= certain_gap";
   }
+  // Nothing is certain: the quantiles of 1 are infinite.
+  if (!invalid && options.fit.intervals.confidence >= 1.0) {
+    invalid = "fit.intervals.confidence: 1: expected less than 1";
+  }
+  if (!invalid && options.detectability.probability >= 1.0) {
+    invalid = "detectability.probability: 1: expected less than 1";
+  }
   return invalid;
 }
 

@@ -71,18 +71,20 @@ TEST(Options, AsTheyAreAreValid) {
 }
 
 TEST(Options, WhatMakesNoSenseIsNamed) {
-  Options share, number, count, list, order;
+  Options share, number, count, list, order, certain;
   share.fit.guard.price = 1.5;
   number.admission.clocks.bin = std::nan("");
   count.search.renewed = 0;
   list.fit.damping.full_steps[1] = -1.0;
   order.judgement.faint_gap = 1.5;
+  certain.fit.intervals.confidence = 1.0;
   EXPECT_EQ(invalid_option(share),
             "fit.guard.price: 1.5: expected a number above 0 and not above 1");
   EXPECT_EQ(invalid_option(number)->find("admission.clocks.bin: "), 0u);
   EXPECT_EQ(invalid_option(count), "search.renewed: 0: expected at least 1");
   EXPECT_EQ(invalid_option(list), "fit.damping.full_steps: -1: expected a number above 0");
   EXPECT_EQ(invalid_option(order), "judgement: expected faint_gap <= real_gap <= certain_gap");
+  EXPECT_EQ(invalid_option(certain), "fit.intervals.confidence: 1: expected less than 1");
 }
 
 }  // namespace
