@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "judgement/criteria.h"
+#include "judgement/excess.h"
 
 namespace anthrob {
 namespace discovery {

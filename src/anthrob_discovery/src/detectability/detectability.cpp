@@ -8,7 +8,7 @@
 
 #include "anthrob_sim/effects/placed_effects.h"
 #include "fit/likelihood_profile.h"
-#include "judgement/criteria.h"
+#include "judgement/merit.h"
 #include "judgement/quantiles.h"
 
 namespace anthrob {

@@ -4,7 +4,6 @@
 
 #include "anthrob_core/text.h"
 #include "diagnosis/wrap_angle.h"
-#include "judgement/criteria.h"
 #include "search/gaps.h"
 
 namespace anthrob {

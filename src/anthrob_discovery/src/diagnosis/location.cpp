@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/seams.h"
-#include "judgement/criteria.h"
+#include "judgement/excess.h"
 
 namespace anthrob {
 namespace discovery {

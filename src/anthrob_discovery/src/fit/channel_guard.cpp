@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "judgement/criteria.h"
+#include "judgement/excess.h"
 
 namespace anthrob {
 namespace discovery {

@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "judgement/criteria.h"
-
 namespace anthrob {
 namespace discovery {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "anthrob_core/random.h"
-#include "judgement/criteria.h"
 
 namespace anthrob {
 namespace discovery {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -7,6 +10,12 @@
 
 namespace anthrob {
 namespace discovery {
+
+/// Gain in held-out log score that an effect needs to be named [nat]. It grows with the number of
+/// candidates that were searched.
+inline double needed_evidence(std::size_t candidates, const MeritOptions& options) {
+  return options.evidence + std::log(static_cast<double>(std::max<std::size_t>(1, candidates)));
+}
 
 /// The numbers by which step 7 of docs/discovery_method.md decides whether the first candidate of a
 /// short list is named.
@@ -21,7 +30,8 @@ struct Merit {
   double share_of_first = 0.0;  ///< the same, in units of the squared gaps at the start
 };
 
-/// The first criterion that an effect misses, in words; nothing if it is to be named.
+/// Decides whether an effect earns its place: the first criterion that it misses, in words; nothing
+/// if it is to be named.
 std::optional<std::string> lack(const Merit& merit, const MeritOptions& options);
 
 }  // namespace discovery

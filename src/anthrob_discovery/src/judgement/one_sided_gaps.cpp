@@ -1,7 +1,6 @@
 #include "judgement/one_sided_gaps.h"
 
 #include "anthrob_core/text.h"
-#include "judgement/criteria.h"
 
 namespace anthrob {
 namespace discovery {

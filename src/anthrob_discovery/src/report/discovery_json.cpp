@@ -4,7 +4,6 @@
 
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_recording/page.h"
-#include "judgement/criteria.h"
 #include "report/discovery_figures.h"
 #include "report/discovery_report.h"
 #include "report/discovery_summary.h"

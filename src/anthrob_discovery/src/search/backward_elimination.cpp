@@ -1,6 +1,6 @@
 #include "search/backward_elimination.h"
 
-#include "judgement/criteria.h"
+#include "judgement/merit.h"
 
 namespace anthrob {
 namespace discovery {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "judgement/criteria.h"
 #include "search/scatter.h"
 
 namespace anthrob {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "judgement/criteria.h"
+#include "judgement/excess.h"
+#include "judgement/merit.h"
 
 namespace anthrob {
 namespace discovery {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "judgement/criteria.h"
 #include "separation/separating_experiment.h"
 
 namespace anthrob {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "fit/channel_guard.h"
-#include "judgement/criteria.h"
 #include "search/backward_elimination.h"
 #include "search/named_law.h"
 

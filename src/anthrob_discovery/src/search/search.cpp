@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fit/reduction.h"
-#include "judgement/criteria.h"
+#include "judgement/merit.h"
 #include "search/alternatives.h"
 #include "search/common_law.h"
 #include "search/final_comparison.h"
@@ -16,8 +16,6 @@
 
 namespace anthrob {
 namespace discovery {
-
-namespace {}  // namespace
 
 void Search::run(std::vector<Score> scores) {
   add_effects(std::move(scores));
