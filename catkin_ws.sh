@@ -31,6 +31,7 @@ extra_packages=(
   opencv-doc                      # stereo pictures of a real checkerboard
   xvfb xauth imagemagick libgl1-mesa-dri
   user-mode-linux kmod iproute2   # CAN where the kernel has none
+  clang-tidy git                  # checks of the files that changed
 )
 
 say() { printf '\033[1m%s\033[0m\n' "$*"; }
@@ -163,7 +164,7 @@ build() {
   mkdir -p build
   say "building (log: build/build.log)"
   catkin_make -DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3 \
-    -DPython3_EXECUTABLE=/usr/bin/python3 -j"$(nproc)" \
+    -DPython3_EXECUTABLE=/usr/bin/python3 -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -j"$(nproc)" \
     -DCMAKE_COMPILE_WARNING_AS_ERROR="${ANTHROB_WERROR:-OFF}" "$@" >build/build.log 2>&1 ||
     { grep -m5 -E 'error|Error' build/build.log >&2; die "the build failed: see build/build.log"; }
   source_file devel/setup.bash
