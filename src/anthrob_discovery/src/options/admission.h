@@ -30,7 +30,7 @@ struct FrozenColumnOptions {
 struct MovementOptions {
   double least_turn = 0.02;         ///< [rad] of a motor
   double least_followed = 0.01;     ///< [rad] of a reference that the motor follows
-  double least_force = 0.5;         ///< [N]
+  double least_force = 0.5;         ///< [N] of a tendon
   double least_driven = 1e-5;       ///< [rad or m] of a driven axis
   double beyond_noise = 2.0;        ///< standard deviations of the means
   std::size_t means = 200;          ///< at least, where there are so many values
@@ -99,14 +99,14 @@ struct SoundnessOptions {
 /// Joints that were stamped by another clock than their muscles.
 struct ClockOptions {
   double bin = 0.05;          ///< [s] lags are multiples of it: 0.1 s may explain far less
-  double longest_lag = 5.0;   ///< [s]
+  double longest_lag = 5.0;   ///< [s] that is tried
   Share share_of_time = 0.3;  ///< of the recording, by which it may be shifted
   double fold = 1.0;          ///< [s] fitted and judged in turn
   Share ridge = 1e-3;         ///< of the diagonal; rates of antagonists are much alike
   double most_work = 4e7;     ///< products for one lag
   int most_bins = 6000;       ///< of a recording
-  double least_turn = 0.02;   ///< [rad or m]
-  double least_force = 0.5;   ///< [N]
+  double least_turn = 0.02;   ///< [rad or m] of a motor or joint that moves
+  double least_force = 0.5;   ///< [N] of a tendon whose force changes
   /// [s] lag of real sensors, and a little more: `mocap_delay` may be 0.2 s
   double plausible = 0.25;
   double late = 0.5;               ///< [s] beyond doubt
@@ -138,7 +138,7 @@ struct ClockOptions {
 /// How recordings are cut and what is refused or remarked.
 struct AdmissionOptions {
   double shortest = 2.0;     ///< [s] of all training or of all held-out recordings
-  double finest_bin = 0.02;  ///< [s]
+  double finest_bin = 0.02;  ///< [s] over which differences are averaged, at least
   /// [s] of driven axes: the velocity that is missing after it shows the effort
   double axis_bin = 0.025;
   double most_differences = 4e5;  ///< of the training recordings; with more, bins are longer

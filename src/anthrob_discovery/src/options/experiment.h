@@ -26,7 +26,7 @@ struct AxisOptions {
 
 /// Noise of a sensor that never reports less than zero.
 struct CutOffOptions {
-  double window = 0.2;       ///< [s]
+  double window = 0.2;       ///< [s] in which a force changes little
   std::size_t samples = 20;  ///< in a window, at least
   std::size_t windows = 5;   ///< that make an estimate
   Share least_zeros = 0.3;   ///< of the readings in a window, for which an estimate is possible

@@ -12,8 +12,8 @@ namespace discovery {
 /// earlier or later, but stay where the valley is straight: in three cases whole scales took 1.5 to
 /// 3 times as many rounds to a minimum within 0.02 % of the same cost, or a higher one.
 struct SlopeOptions {
-  double one_side = 0.5;              ///< [scales]
-  double both_sides = 0.35;           ///< [scales]
+  double one_side = 0.5;              ///< [scales] to one side
+  double both_sides = 0.35;           ///< [scales] to either side
   double both_sides_of_effect = 1.0;  ///< [scales] polishing has made its scale small
   double hardly_moved = 0.1;  ///< [scales] since slopes were simulated, which are good enough
   Share smooth = 0.1;  ///< of the changes, in which both sides of a smooth curvature differ at most

@@ -126,8 +126,8 @@ struct ComparisonOptions {
 
 /// How candidates are weighed.
 struct HypothesisOptions {
-  LongerStepOptions fits = {2.0, 3.0};
-  LongerStepOptions scans = {4.0, 20.0};
+  LongerStepOptions fits = {2.0, 3.0};    ///< of sensitivities
+  LongerStepOptions scans = {4.0, 20.0};  ///< of doses and trials, which only choose what is fitted
   ScreeningOptions screening;
   TrialOptions trials;
   UnknownOptions unknowns;

@@ -15,7 +15,7 @@ struct SeparationOptions {
   double tighter = 0.35;         ///< [rad] all spindles wound up further
   Share little = 0.1;            ///< of the way to a posture
   double leg = 2.5;              ///< [s] from command to command
-  double command_period = 0.01;  ///< [s]
+  double command_period = 0.01;  ///< [s] from row to row of the recording that is simulated
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
-#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "report/options_json.h"
 
@@ -16,44 +20,77 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void collect_names(const Json& json, std::multiset<std::string>& names) {
-  for (const auto& [name, value] : json.items()) {
-    names.insert(name);
-    if (value.is_object()) collect_names(value, names);
-  }
-}
+struct Member {
+  std::string type, name, value;
+};
 
-/// Every member that the headers declare, of groups and of numbers.
-/// @param how_often the group of a member is part of the options, by the name of its type
-std::multiset<std::string> declared_names() {
-  const std::regex member("^  ([A-Za-z:_]+(?:<double, [0-9]+>)?) ([a-z_]+)(?: = [^;]+)?;.*");
+/// The members that the headers declare, by their struct.
+std::map<std::string, std::vector<Member>> declared_members() {
+  const std::regex member("^  ([A-Za-z:_]+(?:<double, [0-9]+>)?) ([a-z_]+)(?: = ([^;]+))?;.*");
   const std::regex group("^struct ([A-Za-z]+) \\{.*");
-  std::map<std::string, std::vector<std::pair<std::string, std::string>>> members;  // by group
+  std::map<std::string, std::vector<Member>> members;
   for (const auto& file : std::filesystem::directory_iterator(ANTHROB_OPTIONS_DIR)) {
     if (file.path().extension() != ".h" || file.path().stem() == "share") continue;
     std::ifstream text(file.path());
     std::string line, present;
     for (std::smatch match; std::getline(text, line);) {
       if (std::regex_match(line, match, group)) present = match[1];
-      if (std::regex_match(line, match, member)) members[present].push_back({match[1], match[2]});
+      if (std::regex_match(line, match, member)) {
+        members[present].push_back({match[1], match[2], match[3]});
+      }
     }
   }
-  std::multiset<std::string> names;
-  const std::function<void(const std::string&)> add = [&](const std::string& type) {
-    for (const auto& [kind, name] : members.at(type)) {
-      names.insert(name);
-      if (members.count(kind)) add(kind);
-    }
-  };
-  add("Options");
-  return names;
+  return members;
 }
 
-TEST(Options, AreAllPrinted) {
-  std::multiset<std::string> printed;
-  collect_names(options_json({}), printed);
-  EXPECT_EQ(printed, declared_names());
-  EXPECT_GT(printed.size(), 200u);
+/// "{1.0, 3.0}" without its braces, part by part; nothing of an empty text.
+std::vector<std::string> elements(const std::string& list) {
+  std::istringstream text(list.empty() ? list : list.substr(1, list.size() - 2));
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(text, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+/// A literal, or the ratio of two.
+double number_in(const std::string& text) {
+  std::istringstream in(text);
+  double value = NAN, divisor = 1.0;
+  char slash = 0;
+  in >> value;
+  if (in >> slash) in >> divisor;
+  return value / divisor;
+}
+
+/// What options_json() should write, read from the text of the headers.
+class Declared {
+ public:
+  /// @param values that replace the struct's own, in order
+  Json group(const std::string& type, const std::vector<std::string>& values) const {
+    Json json;
+    std::size_t k = 0;
+    for (const Member& member : members_.at(type)) {
+      json[member.name] = value_of(member, k < values.size() ? values[k] : member.value);
+      ++k;
+    }
+    return json;
+  }
+
+ private:
+  Json value_of(const Member& member, const std::string& text) const {
+    if (members_.count(member.type)) return group(member.type, elements(text));
+    if (text.empty() || text.front() != '{') return number_in(text);
+    Json list;
+    for (const std::string& part : elements(text)) list.push_back(number_in(part));
+    return list;
+  }
+
+  std::map<std::string, std::vector<Member>> members_ = declared_members();
+};
+
+TEST(Options, AreAllPrintedAsTheHeadersDeclareThem) {
+  const Json printed = options_json({});
+  EXPECT_EQ(Json::diff(printed, Declared().group("Options", {})).dump(), "[]");
+  EXPECT_GT(printed.flatten().size(), 200u);
 }
 
 TEST(Options, ArePrintedAsTheyAre) {
