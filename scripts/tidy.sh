@@ -4,10 +4,10 @@
 # file with a test case for each file. The workspace must be built: flags are those of build/compile_commands.json.
 #
 # Changed: since ANTHROB_TIDY_BASE; without it, since the branch left origin/main; on main itself, in the last commit.
-# At most ANTHROB_TIDY_FILES files (default 20), those that changed last.
+# At most ANTHROB_TIDY_FILES files (default 12), those that changed last.
 set -u -o pipefail
 cd "$(dirname "$0")/.." || exit 1
-xml="${1:-/dev/null}" most="${ANTHROB_TIDY_FILES:-20}" out=build/tidy found=0 cases=
+xml="${1:-/dev/null}" most="${ANTHROB_TIDY_FILES:-12}" out=build/tidy found=0 cases=
 
 # Of another user's folder too, as in containers.
 git() { command git -c safe.directory='*' "$@"; }

@@ -26,6 +26,8 @@ using Value = XmlRpc::XmlRpcValue;
 
 }  // namespace
 
+// XmlRpc reads a value through a reference that is not const, so all take a copy.
+// NOLINTBEGIN(performance-unnecessary-value-param)
 double number_of(const std::string& key, Value value) {
   if (value.getType() == Value::TypeInt) return static_cast<int&>(value);
   if (value.getType() != Value::TypeDouble) refuse(key, value, "a number");
@@ -80,5 +82,7 @@ std::string required(const ros::NodeHandle& settings, const std::string& key,
   if (value.empty()) throw BadInput("parameter ~" + key + ": missing; expected " + what);
   return value;
 }
+
+// NOLINTEND(performance-unnecessary-value-param)
 
 }  // namespace anthrob
