@@ -12,6 +12,7 @@ from anthrob_msgs.srv import GoTo, GoToRequest
 from geometry_msgs.msg import Quaternion
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
+import waiting
 
 NAN = float('nan')
 # Of the demo: abducted, flexed.
@@ -41,11 +42,7 @@ class ComputedForce(unittest.TestCase):
 
     @classmethod
     def wait_for(cls, condition, what):
-        end = time.time() + cls.patience
-        while not condition():
-            if time.time() > end:
-                raise AssertionError('waited %.0f s for: %s' % (cls.patience, what))
-            time.sleep(0.05)
+        waiting.wait_for(condition, cls.patience, what)
 
     @classmethod
     def see_shoulder(cls, message):

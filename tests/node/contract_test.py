@@ -17,6 +17,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
+import waiting
+from back_end import BackEnd, all_begin_anew
 from malformed_commands import MALFORMED_COMMANDS
 
 MUSCLES = ['lateral_deltoid', 'anterior_deltoid', 'posterior_deltoid', 'supraspinatus', 'infraspinatus',
@@ -61,14 +63,11 @@ class Commander(threading.Thread):
 
 
 def wait_for(condition, what, seconds=PATIENCE):
-    end = time.time() + seconds / PACE
-    while time.time() < end:
-        if condition():
-            return
-        time.sleep(0.01)
-    raise AssertionError('waited %.1f s for: %s' % (seconds, what))
+    """Seconds are the robot's."""
+    waiting.wait_for(condition, seconds / PACE, what)
 
 
+@all_begin_anew
 class Contract(unittest.TestCase):
 
     @classmethod
@@ -78,6 +77,7 @@ class Contract(unittest.TestCase):
         cls.balls = Latest('spherical_joint_states', SphericalJointStates)
         cls.tf = Latest('/tf', TFMessage)
         cls.diagnostics = Latest('/diagnostics', DiagnosticArray)
+        cls.back_end = BackEnd()
         cls.publisher = rospy.Publisher('muscle_command', MuscleCommand, queue_size=10, tcp_nodelay=True)
         cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
         cls.services = {}
@@ -92,20 +92,38 @@ class Contract(unittest.TestCase):
         cls.commander.start()
         # Hardware is configured first.
         wait_for(lambda: cls.call('enable').success, 'the first enable', 30)
+        cls.first_gains = cls.held_of(cls.gains([], [], []))
         wait_for(lambda: cls.diagnostics.last() is not None, 'diagnostics', 30)
         if cls.diagnostics.last().status[0].name == '/anthrob: driver':
             # Units that were just switched on have no zero. A busy machine may lose one meanwhile.
-            wait_for(cls.home, 'home', 40)
+            cls.recover()
+
+    @classmethod
+    def recover(cls):
+        cls.commander.message = None
+        wait_for(cls.home, 'home', 40)
 
     @classmethod
     def home(cls):
-        return all(cls.call(name).success for name in ['clear_faults', 'enable', 'home'])
+        return cls.call('clear_faults').success and cls.reset_gains() and all(
+            cls.call(name).success for name in ['enable', 'home'])
+
+    @classmethod
+    def reset_gains(cls):
+        """A test that ended early may have left others."""
+        held = cls.held_of(cls.gains([], [], []))
+        left = [(*key, value) for key, value in cls.first_gains.items() if held[key] != value]
+        return cls.gains([c[0] for c in left], [c[1] for c in left], [c[2] for c in left]).success
+
+    @staticmethod
+    def held_of(answer):
+        return dict(zip(zip(answer.held_muscle, answer.held_gain), answer.held_value))
 
     @classmethod
     def call(cls, name):
         return cls.services[name]()
 
-    def setUp(self):
+    def start(self):
         self.commander.message = None
         self.call('disable')
         self.call('clear_faults')
@@ -116,17 +134,20 @@ class Contract(unittest.TestCase):
     def tearDown(self):
         self.commander.message = None
 
+    def wait_for(self, condition, what, seconds=PATIENCE):
+        wait_for(self.back_end.unless_lost(condition), what, seconds)
+
     def send(self, names, modes, references):
         """From now on, again and again."""
         self.commander.message = MuscleCommand(name=names, mode=modes, reference=references)
 
     def await_state(self, state):
-        wait_for(lambda: set(self.states.last().ecu_state) == {state}, 'ECU state %d everywhere' % state)
+        self.wait_for(lambda: set(self.states.last().ecu_state) == {state}, 'ECU state %d everywhere' % state)
 
     def await_value(self, field, muscle, value, delta=0.011):
         index = MUSCLES.index(muscle)
-        wait_for(lambda: abs(getattr(self.states.last(), field)[index] - value) <= delta,
-                 '%s of %s to be %g' % (field, muscle, value))
+        self.wait_for(lambda: abs(getattr(self.states.last(), field)[index] - value) <= delta,
+                      '%s of %s to be %g' % (field, muscle, value))
 
     def stays_still(self, seconds=0.3):
         end = time.time() + seconds / PACE
@@ -137,7 +158,7 @@ class Contract(unittest.TestCase):
 
     def diagnosed(self, key):
         """What the back end's last diagnostics say."""
-        wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
+        self.wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
         return {v.key: v.value for v in self.diagnostics.last().status[0].values}[key]
 
     # ---- topics ----
@@ -162,7 +183,7 @@ class Contract(unittest.TestCase):
         self.assertLess(abs((rospy.Time.now() - message.header.stamp).to_sec()), 1.0)
 
     def test_joints_and_frames(self):
-        wait_for(lambda: self.joints.last() and self.balls.last(), 'joints')
+        self.wait_for(lambda: self.joints.last() and self.balls.last(), 'joints')
         self.assertEqual(self.joints.last().name, ['elbow'])
         self.assertEqual(len(self.joints.last().position), 1)
         self.assertEqual(len(self.joints.last().velocity), 1)  # controllers want it
@@ -171,10 +192,10 @@ class Contract(unittest.TestCase):
         self.assertGreaterEqual(q.w, 0.0)
         self.assertAlmostEqual(q.w**2 + q.x**2 + q.y**2 + q.z**2, 1.0, delta=1e-6)
         frames = lambda: {(t.header.frame_id, t.child_frame_id) for m in self.tf.messages for t in m.transforms}
-        wait_for(lambda: {('base', 'humerus'), ('humerus', 'forearm')} <= frames(), 'frames of the arm')
+        self.wait_for(lambda: {('base', 'humerus'), ('humerus', 'forearm')} <= frames(), 'frames of the arm')
 
     def test_diagnostics_name_every_ecu(self):
-        wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
+        self.wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
         names = [s.name for s in self.diagnostics.last().status]
         self.assertTrue(names[0] in ('/anthrob: simulator', '/anthrob: driver'))
         for i in range(1, 7):
@@ -191,9 +212,10 @@ class Contract(unittest.TestCase):
         time.sleep(0.2 / PACE)
         self.stays_still(1.0)
         # Nor does it look as if commands were taken.
-        wait_for(lambda: self.diagnosed('last_rejection') == 'not enabled: call enable', 'the refusal in diagnostics')
+        self.wait_for(lambda: self.diagnosed('last_rejection') == 'not enabled: call enable',
+                      'the refusal in diagnostics')
         rejected = int(self.diagnosed('rejected_commands'))
-        wait_for(lambda: int(self.diagnosed('rejected_commands')) > rejected, 'more refusals in diagnostics')
+        self.wait_for(lambda: int(self.diagnosed('rejected_commands')) > rejected, 'more refusals in diagnostics')
 
     def test_home_wants_enabled_motors(self):
         self.call('disable')
@@ -206,14 +228,14 @@ class Contract(unittest.TestCase):
     def test_a_command_moves_the_arm(self):
         before = self.balls.last().orientation[0].w
         self.send(['lateral_deltoid', 'supraspinatus'], [POSITION, POSITION], [6.0, 3.0])
-        wait_for(lambda: abs(self.balls.last().orientation[0].w - before) > 1e-3, 'a turned shoulder', 30)
-        wait_for(lambda: self.states.last().position[0] > 2.0 and self.states.last().force[0] > 3.0, 'a pull', 30)
+        self.wait_for(lambda: abs(self.balls.last().orientation[0].w - before) > 1e-3, 'a turned shoulder', 30)
+        self.wait_for(lambda: self.states.last().position[0] > 2.0 and self.states.last().force[0] > 3.0, 'a pull', 30)
         state = self.states.last()
         self.assertEqual(state.reference[0], 6.0)
         self.assertEqual(state.mode[0], POSITION)
         self.assertEqual(state.ecu_state[0], MuscleStates.ENABLED)
         self.send(['lateral_deltoid', 'supraspinatus'], [POSITION, POSITION], [0.0, 0.0])
-        wait_for(lambda: abs(self.states.last().position[0]) < 0.5, 'the way back', 30)
+        self.wait_for(lambda: abs(self.states.last().position[0]) < 0.5, 'the way back', 30)
 
     def test_a_subset_leaves_the_others_alone(self):
         self.send(['biceps_brachii', 'brachialis'], [POSITION, POSITION], [0.5, 0.7])
@@ -230,21 +252,21 @@ class Contract(unittest.TestCase):
                                               (CURRENT, 0.2, 'current', 0.1), (FORCE, 8.0, 'force', 1.0)]:
             self.send(['lateral_deltoid'], [mode], [reference])
             self.await_value('mode', 'lateral_deltoid', mode, 0)
-            wait_for(lambda: abs(getattr(self.states.last(), field)[0] - reference) <= delta,
-                     '%s of %g' % (field, reference), 30)
+            self.wait_for(lambda: abs(getattr(self.states.last(), field)[0] - reference) <= delta,
+                          '%s of %g' % (field, reference), 30)
 
     def held(self, *changes):
         """All gains after these changes of (muscle, gain, value)."""
         answer = self.gains([c[0] for c in changes], [c[1] for c in changes], [c[2] for c in changes])
         self.assertTrue(answer.success, answer.message)
-        return dict(zip(zip(answer.held_muscle, answer.held_gain), answer.held_value))
+        return self.held_of(answer)
 
     def test_gains_are_changed_in_motion_and_read_back(self):
         before = self.held()
         self.assertEqual({muscle for muscle, _ in before}, set(self.states.last().name))
         self.assertEqual(len(before), 9 * len(self.states.last().name))
         self.send(['lateral_deltoid'], [POSITION], [1.0])
-        wait_for(lambda: self.states.last().position[0] > 0.5, 'motion', 30)
+        self.wait_for(lambda: self.states.last().position[0] > 0.5, 'motion', 30)
         laws = ['position_proportional', 'position_derivative', 'position_force_feedforward']
         try:
             held = self.held(*[('lateral_deltoid', gain, 0.0) for gain in laws], ('', 'force_integral', 0.75))
@@ -256,7 +278,7 @@ class Contract(unittest.TestCase):
         finally:
             after = self.held(*[key + (value,) for key, value in before.items() if key[1] in laws + ['force_integral']])
         self.assertEqual(after, before)
-        wait_for(lambda: abs(self.states.last().position[0] - 1.0) < 0.2, 'the reference', 30)
+        self.wait_for(lambda: abs(self.states.last().position[0] - 1.0) < 0.2, 'the reference', 30)
 
     def test_gains_that_are_wrong_are_refused_whole(self):
         before = self.held()
@@ -282,20 +304,20 @@ class Contract(unittest.TestCase):
             time.sleep(0.02)
             self.assertEqual(self.states.last().reference[0], 0.8)
             self.assertEqual(self.states.last().mode[0], POSITION)
-        wait_for(lambda: rejected()[0] == before + len(MALFORMED_COMMANDS), 'all rejections in diagnostics')
+        self.wait_for(lambda: rejected()[0] == before + len(MALFORMED_COMMANDS), 'all rejections in diagnostics')
         self.assertIn('FORCE -1 N', rejected()[1])
 
     def test_a_recording_moves_a_simulator_and_no_robot(self):
-        wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
+        self.wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
         robot = self.diagnostics.last().status[0].name == '/anthrob: driver'
-        wait_for(lambda: rospy.Time.now().to_sec() > 2.0, 'the third second')
+        self.wait_for(lambda: rospy.Time.now().to_sec() > 2.0, 'the third second')
         old = MuscleCommand(name=['lateral_deltoid'], mode=[VOLTAGE], reference=[0.7])
         old.header.stamp = rospy.Time(1)
         self.publisher.publish(old)
         if not robot:
             return self.await_value('reference', 'lateral_deltoid', 0.7)
         values = lambda: {v.key: v.value for v in self.diagnostics.last().status[0].values}
-        wait_for(lambda: 'a recording' in values()['last_rejection'], 'the rejection')
+        self.wait_for(lambda: 'a recording' in values()['last_rejection'], 'the rejection')
         self.assertEqual(self.states.last().reference[0], 0.0)
 
     # ---- stops ----

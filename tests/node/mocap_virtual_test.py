@@ -17,21 +17,13 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import Image, Imu
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
+from waiting import wait_for
 
 
 class Collector:
     def __init__(self, topic, kind):
         self.messages = []
         self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=10000, tcp_nodelay=True)
-
-
-def wait_for(condition, seconds, what):
-    end = time.time() + seconds
-    while time.time() < end:
-        if condition():
-            return
-        time.sleep(0.02)
-    raise AssertionError('waited %.1f s for: %s' % (seconds, what))
 
 
 def components(message):

@@ -8,17 +8,15 @@ import rospy
 import rostest
 from anthrob_msgs.msg import MuscleStates
 from std_srvs.srv import Trigger
+import waiting
+from back_end import BackEnd, all_begin_anew
 
 PACE = 1.0  # seconds of the robot in a second of the wall clock
 
 
 def wait_for(condition, what, seconds):
-    end = time.time() + seconds / PACE
-    while time.time() < end:
-        if condition():
-            return
-        time.sleep(0.01)
-    raise AssertionError('waited %.1f s for: %s' % (seconds, what))
+    """Seconds are the robot's."""
+    waiting.wait_for(condition, seconds / PACE, what)
 
 
 class Call(threading.Thread):
@@ -33,6 +31,7 @@ class Call(threading.Thread):
         self.answer = self.service()
 
 
+@all_begin_anew
 class Stops(unittest.TestCase):
 
     def receive_states(self, message):
@@ -43,15 +42,22 @@ class Stops(unittest.TestCase):
 
     def setUp(self):
         self.states = None
+        self.back_end = BackEnd()
         rospy.Subscriber('muscle_states', MuscleStates, self.receive_states, queue_size=10)
         for name in ['enable', 'home', 'clear_faults', 'disable', 'emergency_stop']:
             rospy.wait_for_service(name, 60)
         wait_for(lambda: self.states is not None, 'states', 30)
 
+    def start(self):
+        wait_for(lambda: self.call('clear_faults').success and self.call('enable').success, 'enable', 30)
+
+    def recover(self):
+        wait_for(lambda: self.call('disable').success and not any(self.states.voltage), 'rest', 30)
+
     def test_what_was_called_before_a_stop_does_not_undo_it(self):
-        wait_for(lambda: self.call('enable').success, 'enable', 30)
         home = Call('home')
-        wait_for(lambda: any(volts > 0.0 for volts in self.states.voltage), 'home to pull', 30)
+        wait_for(self.back_end.unless_lost(lambda: any(volts > 0.0 for volts in self.states.voltage)),
+                 'home to pull', 30)
         called = {name: Call(name) for name in ['clear_faults', 'enable', 'home']}
         for name, call in called.items():
             call.join(60)
