@@ -100,20 +100,18 @@ void RobotDriver::Implementation::on_frame(const ecu::Frame& frame, double now) 
   }
   if (ecu::function_of(frame) == static_cast<int>(Function::kStop)) {
     // Somebody else on the bus pressed stop.
-    findings_.add(Finding::kStopLatched, -1, now);
     if (!supervisor_.stop_latched()) {
-      obey_stop(-1);
-    } else {
-      // The latched STOP is already repeated each cycle; answering again would loop between two
-      // hosts. But no call that came before it may undo it.
-      ++halts_;
+      return stop(stopping_rule(Finding::kStopLatched, NoticedBy::kFrame), std::nullopt, now);
     }
+    // The latched STOP is already repeated each cycle; answering again would loop between two
+    // hosts. But no call that came before it may undo it.
+    findings_.add(Finding::kStopLatched, -1, now);
+    ++halts_;
     return;
   }
   if (ecu::function_of(frame) <= static_cast<int>(Function::kReference) ||
       ecu::function_of(frame) == static_cast<int>(Function::kParameterRequest)) {
-    findings_.add(Finding::kSecondHost, -1, now);
-    return stop(Finding::kSecondHost, -1);
+    return stop(stopping_rule(Finding::kSecondHost, NoticedBy::kFrame), std::nullopt, now);
   }
   if (index == kIdleNode) return;
   if (index < 0) return findings_.add(Finding::kForeignFrame, -1, now);
@@ -158,9 +156,8 @@ void RobotDriver::Implementation::cycle(double now) {
   // Commands are refused while homing, so their age must not trip the time-out.
   if (home_.running()) supervisor_.restart_watch(now);
   if (supervisor_.update(now)) {
-    findings_.add(Finding::kCommandTimeout, -1, now);
     // STOPPING is what the ECUs report then, as on the simulator.
-    stop(Finding::kCommandTimeout, -1);
+    stop(stopping_rule(Finding::kCommandTimeout, NoticedBy::kSupervisor), std::nullopt, now);
   }
   check_muscles(now);
   if (phase_ == Phase::kEnabled) continue_home(now);

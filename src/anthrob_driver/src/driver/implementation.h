@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "routine/live_gains.h"
 #include "routine/zeros.h"
 #include "stopping/stopping.h"
+#include "stopping/stopping_rules.h"
 #include "watch/bus_watch.h"
 #include "watch/muscle_watch.h"
 
@@ -65,7 +67,6 @@ class RobotDriver::Implementation {
                        std::uint8_t session = 0);
   void on_frame(const ecu::Frame& frame, double now);
   void check_bus(double now);
-  bool bus_silent() const;
   void check_ecus(double now);
   void check_muscles(double now);
   void continue_enable(double now);
@@ -77,28 +78,25 @@ class RobotDriver::Implementation {
   bool all_complete() const;
   std::string why_not_enable() const;
 
-  // Everything that stops motors ends in disable(). Besides disable() and emergency_stop() of the
-  // user these are: a finding (stop), a STOP that somebody else sent (obey_stop), and a failed home
-  // (fail_home). These three record the reason in stops().
+  // What stops the motors, and how, stands in kStoppingRules (stopping_rules.cpp). Everything ends
+  // in disable().
 
-  /// @param ecu that failed: it stays in FAULT until cleared; -1: none
+  /// Carries a rule out, whose condition holds.
+  /// @param ecu index of the ECU that it concerns
   /// @param detail which fault, which tendon; may be empty
-  void stop(Finding finding, int ecu, const std::string& detail = "");
-  /// An ECU reports that it stopped some frames before it reports why. So the motors are stopped at
-  /// once, and the stop is recorded when its reason has arrived or is overdue (name_stop).
-  void stop_for_unit(Finding finding, int ecu, double now);
-  /// @param now HUGE_VAL: record the stop now, with or without the reason
-  void name_stop(double now);
-  void halt(Finding finding, int ecu, const std::string& what);
+  void stop(const StoppingRule& rule, std::optional<int> ecu, double now,
+            const std::string& detail = "");
+  void disable_for(const StoppingRule& rule, std::optional<int> ecu, const std::string& what);
+  /// Records a stop that waits for its reason. @param now HUGE_VAL: with or without the reason
+  void explain_stop(double now);
+  void obey_emergency_stop(std::optional<int> ecu);
+  void end_home();
+  Situation situation(bool silent, double now) const;
+  void check_ecu(int ecu, bool silent, double now);
   /// Why the ECUs may not have received a stop; empty: no reason.
   std::string unconfirmed() const;
-  /// @param ecu which holds the stop; -1: a frame on the bus
-  void obey_stop(int ecu);
-  void fail_home(double now);
   /// To be called when its tendon has moved on its spindle: the zero no longer holds.
   void revoke_zero(const MuscleHardware& muscle);
-
-  static constexpr double kClearGrace = 0.15;  ///< [s] until ECUs have cleared their latches
 
   Hardware hardware_;
   Options options_;

@@ -69,7 +69,7 @@ std::string RobotDriver::Implementation::why_not_enable() const {
 RobotDriver::Outcome RobotDriver::Implementation::start_enable(double now) {
   if (phase_ == Phase::kEnabled) return last_outcome_ = {true, "already enabled"};
   if (phase_ == Phase::kEnabling) return {true, "enabling"};
-  name_stop(HUGE_VAL);
+  explain_stop(HUGE_VAL);
   const std::string reason = why_not_enable();
   if (!reason.empty()) {
     findings_.add(Finding::kEnableRefused, -1, now, reason);
@@ -125,7 +125,7 @@ RobotDriver::Outcome RobotDriver::Implementation::start_home(double now) {
 RobotDriver::Outcome RobotDriver::Implementation::clear_faults(double now) {
   const Outcome outcome = supervisor_.clear_faults();
   if (phase_ != Phase::kDisabled) return outcome;
-  name_stop(HUGE_VAL);
+  explain_stop(HUGE_VAL);
   findings_.clear();
   cleared_ = now;
   disable_repeats_ = 0;

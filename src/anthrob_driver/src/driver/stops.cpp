@@ -7,32 +7,52 @@
 namespace anthrob {
 namespace driver {
 
-void RobotDriver::Implementation::stop(Finding finding, int ecu, const std::string& detail) {
-  if (phase_ == Phase::kDisabled) return;
-  const std::string what = stopping_.reason(finding, ecu, detail);
-  halt(finding, ecu, what);
-  stopping_.record(finding, what);
+static_assert(RobotDriver::kSilence == kFirstAnswer, "one time to be heard");
+
+void RobotDriver::Implementation::stop(const StoppingRule& rule, std::optional<int> ecu, double now,
+                                       const std::string& detail) {
+  if (rule.noted == Noted::kByRule) findings_.add(rule.finding, ecu.value_or(-1), now, detail);
+  const bool was_on = phase_ != Phase::kDisabled;
+  switch (rule.reaction) {
+    case Reaction::kDisable: {
+      if (!was_on) break;
+      const std::string what = stopping_.reason(rule.finding, ecu.value_or(-1), detail);
+      disable_for(rule, ecu, what);
+      stopping_.record(rule.finding, what);
+      break;
+    }
+    case Reaction::kDisableThenExplain: {
+      if (!was_on) break;
+      explain_stop(HUGE_VAL);  // an earlier stop that still waits for its reason
+      const std::string what = stopping_.reason(rule.finding, *ecu, detail);
+      disable_for(rule, ecu, what);
+      stopping_.expect_reason(rule.finding, *ecu, what, now);
+      break;
+    }
+    case Reaction::kEmergencyStop:
+      obey_emergency_stop(ecu);
+      break;
+    case Reaction::kEndHome:
+      end_home();
+      break;
+  }
+  if (rule.concerned == Concerned::kAlwaysFault) {
+    supervisor_.fault(links_[static_cast<std::size_t>(*ecu)].own().name);
+  }
 }
 
-void RobotDriver::Implementation::stop_for_unit(Finding finding, int ecu, double now) {
-  if (phase_ == Phase::kDisabled) return;
-  name_stop(HUGE_VAL);  // record an earlier stop that still waits for its reason
-  const std::string what = stopping_.reason(finding, ecu, stopping_.fault_of(ecu));
-  halt(finding, ecu, what);
-  stopping_.expect_reason(finding, ecu, what, now);
-}
-
-void RobotDriver::Implementation::halt(Finding finding, int ecu, const std::string& what) {
+void RobotDriver::Implementation::disable_for(const StoppingRule& rule, std::optional<int> ecu,
+                                              const std::string& what) {
   home_.abort(what);
   if (phase_ == Phase::kEnabling) finish_enable(false, what);
   disable();
-  // The unit that failed must be cleared by the user; the others are only disabled.
-  if (ecu >= 0 && finding != Finding::kEcuStopped)
-    supervisor_.fault(links_[static_cast<std::size_t>(ecu)].own().name);
+  if (rule.concerned == Concerned::kFault) {
+    supervisor_.fault(links_[static_cast<std::size_t>(*ecu)].own().name);
+  }
   last_outcome_ = {false, what};
 }
 
-void RobotDriver::Implementation::name_stop(double now) {
+void RobotDriver::Implementation::explain_stop(double now) {
   const std::optional<Stopping::Explained> stop = stopping_.take_reason(now);
   if (!stop) return;
   findings_.add(stop->finding, stop->ecu, last_cycle_, stop->fault);
@@ -40,20 +60,19 @@ void RobotDriver::Implementation::name_stop(double now) {
   stopping_.record(stop->finding, stop->what, stop->remedy);
 }
 
-void RobotDriver::Implementation::obey_stop(int ecu) {
-  const bool own = ecu >= 0 && links_[static_cast<std::size_t>(ecu)].holds_own_stop();
+void RobotDriver::Implementation::obey_emergency_stop(std::optional<int> ecu) {
+  const bool own = ecu && links_[static_cast<std::size_t>(*ecu)].holds_own_stop();
   const std::string what =
-      ecu < 0 ? "a STOP frame came from elsewhere on the bus"
-      : own   ? stopping_.prefix(ecu) + "still holds an emergency stop of this driver"
-              : stopping_.prefix(ecu) + info(Finding::kStopLatched).meaning;
+      !ecu  ? "a STOP frame came from elsewhere on the bus"
+      : own ? stopping_.prefix(*ecu) + "still holds an emergency stop of this driver"
+            : stopping_.prefix(*ecu) + info(Finding::kStopLatched).meaning;
   home_.abort(what);
   emergency_stop();
   last_outcome_ = {false, what};
   stopping_.record(Finding::kStopLatched, what, own ? "clear_faults, enable" : nullptr);
 }
 
-void RobotDriver::Implementation::fail_home(double now) {
-  findings_.add(Finding::kHomeFailed, -1, now, home_.failure());
+void RobotDriver::Implementation::end_home() {
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
     if (home_.tendon_lost(m)) revoke_zero(hardware_.muscles[m]);
   }
@@ -73,63 +92,50 @@ void RobotDriver::Implementation::check_bus(double now) {
   if (too_late) findings_.add(Finding::kLateCycle, -1, now);
   watch_.cycle(now, too_late ? late : 0.0);
   Finding finding;
-  if (watch_.take_stop(finding)) stop(finding, -1);
+  if (watch_.take_stop(finding)) {
+    stop(stopping_rule(finding, NoticedBy::kBusWatch), std::nullopt, now);
+  }
 }
 
-/// Of a bus on which nobody answers, no single ECU is to blame. The first ECUs may have answered
-/// the SYNC during which it fell silent, so that they have missed one less.
-bool RobotDriver::Implementation::bus_silent() const {
-  const auto answered_once = [](const EcuLink& link) { return link.sample_time() > 0.0; };
-  const auto missed = [](const EcuLink& link) { return !link.answered_last(); };
-  const auto lost = [](const EcuLink& link) { return !link.alive(); };
-  return links_.size() > 1 && std::all_of(links_.begin(), links_.end(), answered_once) &&
-         std::all_of(links_.begin(), links_.end(), missed) &&
-         std::any_of(links_.begin(), links_.end(), lost);
+Situation RobotDriver::Implementation::situation(bool silent, double now) const {
+  Situation result;
+  result.enabled = phase_ == Phase::kEnabled;
+  result.disabled = phase_ == Phase::kDisabled;
+  result.stop_latched = supervisor_.stop_latched();
+  result.clearing = clearing(now);
+  result.bus_silent = silent;
+  result.now = now;
+  result.since_clear = now - cleared_;
+  return result;
 }
 
 void RobotDriver::Implementation::check_ecus(double now) {
-  const bool silent = bus_silent();
-  if (silent) {
-    findings_.add(Finding::kBusSilent, -1, now);
-    stop(Finding::kBusSilent, -1);
+  const bool silent = bus_silent(links_);
+  if (silent) stop(stopping_rule(Finding::kBusSilent, NoticedBy::kAllEcus), std::nullopt, now);
+  for (std::size_t e = 0; e < links_.size(); ++e) check_ecu(static_cast<int>(e), silent, now);
+  explain_stop(now);
+}
+
+void RobotDriver::Implementation::check_ecu(int ecu, bool silent, double now) {
+  EcuLink& link = links_[static_cast<std::size_t>(ecu)];
+  for (const StoppingRule& rule : kStoppingRules) {
+    // Each rule sees what those before it have done.
+    if (rule.noticed_by != NoticedBy::kEcu || !rule.holds(link, situation(silent, now))) continue;
+    if (rule.finding == Finding::kEcuRestarted) {
+      gains_.abort(ecu, link.own().name + " restarted", now);
+    }
+    const bool explains = rule.reaction == Reaction::kDisableThenExplain;
+    stop(rule, ecu, now, explains ? stopping_.fault_of(ecu) : "");
   }
-  for (std::size_t e = 0; e < links_.size(); ++e) {
-    EcuLink& link = links_[e];
-    const int index = static_cast<int>(e);
-    if (link.take_restart()) {
-      gains_.abort(index, link.own().name + " restarted", now);
-      stop(Finding::kEcuRestarted, index);
-      // While nothing runs too: its zero is lost, and the user must know before enabling.
-      supervisor_.fault(link.own().name);
+  if (!link.heard()) {
+    if (link.other_version().empty() && now - started_ > kSilence) {
+      findings_.add(Finding::kEcuSilent, ecu, now);
     }
-    if (link.take_wrong_version()) stop(Finding::kWrongVersion, index);
-    if (!link.heard()) {
-      if (link.other_version().empty() && now - started_ > kSilence)
-        findings_.add(Finding::kEcuSilent, index, now);
-      continue;
-    }
-    if (!link.alive() && (link.sample_time() > 0.0 || now - link.heard_since() > kSilence)) {
-      if (silent) continue;
-      findings_.add(Finding::kEcuLost, index, now);
-      stop(Finding::kEcuLost, index);
-      continue;
-    }
-    // Do not report again a fault that is being cleared.
-    if (link.state() == ecu::State::kFault && !(phase_ == Phase::kDisabled && clearing(now))) {
-      findings_.add(Finding::kEcuFault, index, now, stopping_.fault_of(index));
-      stop_for_unit(Finding::kEcuFault, index, now);
-    }
-    if (link.stop_latched() && !supervisor_.stop_latched() && now - cleared_ > kClearGrace) {
-      findings_.add(Finding::kStopLatched, index, now);
-      obey_stop(index);
-    }
-    if (phase_ == Phase::kEnabled && link.state() != ecu::State::kEnabled) {
-      stop_for_unit(Finding::kEcuStopped, index, now);
-    }
-    // A late enable from a queue, or from somebody else: nothing may be enabled now.
-    if (phase_ == Phase::kDisabled && link.state() == ecu::State::kEnabled) disable_repeats_ = 1;
+    return;
   }
-  name_stop(now);
+  // A late enable from a queue, or from somebody else: nothing may be enabled now.
+  const bool enabled = !is_lost(link, now) && link.state() == ecu::State::kEnabled;
+  if (phase_ == Phase::kDisabled && enabled) disable_repeats_ = 1;
 }
 
 void RobotDriver::Implementation::check_muscles(double now) {
@@ -138,14 +144,14 @@ void RobotDriver::Implementation::check_muscles(double now) {
                                         phase_ == Phase::kEnabled, home_.running());
     if (!alarm) continue;
     const MuscleHardware& wired = hardware_.muscles[m];
-    findings_.add(alarm->finding, wired.ecu, now, alarm->detail);
     if (alarm->zero_lost) revoke_zero(wired);
-    stop(alarm->finding, wired.ecu, alarm->detail);
+    stop(stopping_rule(alarm->finding, NoticedBy::kMuscleWatch), wired.ecu, now, alarm->detail);
   }
 }
 
 void RobotDriver::Implementation::continue_home(double now) {
   if (!home_.running()) return;
+  const StoppingRule& home_failed = stopping_rule(Finding::kHomeFailed, NoticedBy::kHome);
   std::vector<Home::Reading> readings;
   for (const MuscleSample& muscle : sampler_.last().muscles) {
     readings.push_back({muscle.position, muscle.force});
@@ -155,21 +161,24 @@ void RobotDriver::Implementation::continue_home(double now) {
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
     references_[m] = home_.command(m, now);
   }
-  if (home_.state() == Home::State::kFailed) return fail_home(now);
+  if (home_.state() == Home::State::kFailed)
+    return stop(home_failed, std::nullopt, now, home_.failure());
   if (home_.state() == Home::State::kReached) zeros_.start();
 }
 
 void RobotDriver::Implementation::continue_zero(const std::vector<Home::Reading>& readings,
                                                 double now) {
+  const StoppingRule& home_failed = stopping_rule(Finding::kHomeFailed, NoticedBy::kHome);
   // The tendons are held meanwhile. A zero counts once its ECU has confirmed it.
   home_.hold(readings);
-  if (home_.state() == Home::State::kFailed) return fail_home(now);
+  if (home_.state() == Home::State::kFailed)
+    return stop(home_failed, std::nullopt, now, home_.failure());
   switch (zeros_.step(now, [this](const ecu::Frame& frame) { send(frame); })) {
     case Zeros::State::kWaiting:
       return;
     case Zeros::State::kRefused:
       home_.abort(zeros_.refusal());
-      return fail_home(now);
+      return stop(home_failed, std::nullopt, now, home_.failure());
     case Zeros::State::kTaken:
       return home_.finish();
   }
