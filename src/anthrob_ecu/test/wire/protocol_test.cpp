@@ -7,7 +7,7 @@
 #include <set>
 
 #include "anthrob_ecu/parameters.h"
-#include "wire_layout.h"
+#include "wire/wire_layout.h"
 
 namespace anthrob {
 namespace ecu {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "wire_layout.h"
+#include "wire/wire_layout.h"
 
 namespace anthrob {
 namespace ecu {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bits.h"
+#include "wire/bits.h"
 
 namespace anthrob {
 namespace ecu {
