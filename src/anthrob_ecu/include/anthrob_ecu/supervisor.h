@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -102,9 +103,11 @@ class Supervisor {
   double command_age(double time) const { return commanded_ ? time - last_command_ : -1.0; }
 
  private:
-  std::string check(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
-                    const std::vector<double>& references,
-                    std::vector<MuscleReference>& accepted) const;
+  /// Why a command is refused, if it is.
+  std::optional<std::string> check(const std::vector<std::string>& names,
+                                   const std::vector<std::uint8_t>& modes,
+                                   const std::vector<double>& references,
+                                   std::vector<MuscleReference>& accepted) const;
   std::string why_stopped(int muscle) const;
   void set_zero_lost(const std::string& ecu, bool lost);
   bool handle_all(Event event);

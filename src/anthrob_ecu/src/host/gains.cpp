@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 namespace anthrob {
 namespace ecu {
@@ -12,10 +13,12 @@ bool has_gains(const MuscleChannel& muscle) {
   return muscle.takes_commands && muscle.modes[static_cast<std::size_t>(Mode::kPosition)];
 }
 
-std::string check_value(const std::string& muscle, const ParameterInfo& info, double value) {
+/// What is wrong with a value.
+std::optional<std::string> check_value(const std::string& muscle, const ParameterInfo& info,
+                                       double value) {
   // As it goes over the wire; written so that NaN is refused too.
   const float held = static_cast<float>(value);
-  if (held >= info.lowest && held <= info.highest) return "";
+  if (held >= info.lowest && held <= info.highest) return std::nullopt;
   char text[160];
   std::snprintf(text, sizeof(text), ": %s: %g: expected %g to %g %s", info.name, value,
                 static_cast<double>(info.lowest), static_cast<double>(info.highest), info.unit);
@@ -72,8 +75,7 @@ std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
         if (names[i].empty()) continue;
         return "muscle '" + names[i] + "' has no gains";
       }
-      const std::string wrong = check_value(muscles[m].name, *info, values[i]);
-      if (!wrong.empty()) return wrong;
+      if (const auto wrong = check_value(muscles[m].name, *info, values[i])) return *wrong;
       // Checked as a frame carries it, with fewer digits: by itself it may be beyond by some.
       const double value = std::clamp<double>(values[i], info->lowest, info->highest);
       wanted.push_back({{static_cast<int>(m), info->parameter}, value});

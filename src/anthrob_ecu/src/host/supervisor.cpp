@@ -46,10 +46,10 @@ bool Supervisor::stop_latched() const {
                      [](const StateMachine& machine) { return machine.stop_latched(); });
 }
 
-std::string Supervisor::check(const std::vector<std::string>& names,
-                              const std::vector<std::uint8_t>& modes,
-                              const std::vector<double>& references,
-                              std::vector<MuscleReference>& accepted) const {
+std::optional<std::string> Supervisor::check(const std::vector<std::string>& names,
+                                             const std::vector<std::uint8_t>& modes,
+                                             const std::vector<double>& references,
+                                             std::vector<MuscleReference>& accepted) const {
   if (names.empty()) return "no muscle: the command has no names";
   if (modes.size() != names.size() || references.size() != names.size()) {
     return std::to_string(names.size()) + " names, " + std::to_string(modes.size()) + " modes, " +
@@ -83,7 +83,7 @@ std::string Supervisor::check(const std::vector<std::string>& names,
     }
     accepted.push_back({static_cast<int>(muscle), static_cast<Mode>(modes[i]), reference});
   }
-  return "";
+  return std::nullopt;
 }
 
 Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
@@ -92,8 +92,7 @@ Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
                                         std::vector<MuscleReference>& accepted) {
   accepted.clear();
   std::vector<MuscleReference> checked;
-  const std::string reason = check(names, modes, references, checked);
-  if (!reason.empty()) return refuse(reason);
+  if (const auto reason = check(names, modes, references, checked)) return refuse(*reason);
   if (options_.auto_enable && timed_out_) {
     // What was disabled stays so; a latched stop or a fault refuses this event.
     for (StateMachine& machine : machines_) {
