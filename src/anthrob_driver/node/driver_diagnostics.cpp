@@ -21,7 +21,8 @@ void raise(DiagnosticStatus& status, Level level) {
 }
 
 /// All that was found since the last clear; what is recent also shows in level and message.
-void add_findings(DiagnosticStatus& status, const Findings& findings, int ecu, double now) {
+void add_findings(DiagnosticStatus& status, const Findings& findings, std::optional<int> ecu,
+                  double now) {
   for (const Findings::Entry& entry : findings.entries()) {
     if (entry.ecu != ecu) continue;
     const FindingInfo& what = info(entry.finding);
@@ -46,9 +47,8 @@ DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std:
                    : driver.phase() == Phase::kEnabling ? "enabling"
                                                         : "disabled";
   if (driver.supervisor().stop_latched()) raise(status, DiagnosticStatus::WARN);
-  const std::string trouble = driver.bus_watch().trouble();
-  if (!trouble.empty()) {
-    status.message += ": " + trouble;
+  if (const auto trouble = driver.bus_watch().trouble()) {
+    status.message += ": " + *trouble;
     raise(status, DiagnosticStatus::ERROR);
   }
   const ecu::Supervisor& supervisor = driver.supervisor();
@@ -59,11 +59,11 @@ DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std:
       key_value("command_age", text(supervisor.command_age(now))),
       key_value("last_outcome", driver.last_outcome().reason),
       key_value("stops", std::to_string(driver.stops().count())),
-      key_value("last_stop", driver.stops().last()),
+      key_value("last_stop", driver.stops().last().value_or("")),
       key_value("frames_received", std::to_string(driver.bus_watch().frames())),
       key_value("late_cycles", std::to_string(late)),
   };
-  add_findings(status, driver.findings(), -1, now);
+  add_findings(status, driver.findings(), std::nullopt, now);
   return status;
 }
 

@@ -137,7 +137,8 @@ bool DriverNode::on_home(Trigger::Request&, Trigger::Response& response) {
     return outcome.accepted;
   };
   const auto look = [](RobotDriver& driver, double, Outcome& outcome) {
-    outcome = {driver.home().failure().empty(), driver.home().failure()};
+    const auto& failure = driver.home().failure();
+    outcome = {!failure, failure.value_or("")};
     return driver.home().running();
   };
   answer(carry_out(begin, look, Commands::kRefused), response);
@@ -176,8 +177,7 @@ bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response)
       return false;
     }
     if (driver.clearing(now)) return true;
-    const std::string left = driver.not_cleared();
-    if (!left.empty()) outcome = {false, left};
+    if (const auto left = driver.not_cleared()) outcome = {false, *left};
     return false;
   };
   answer(carry_out(begin, look, Commands::kTaken), response);

@@ -89,12 +89,12 @@ int main(int argc, char** argv) {
     const Hardware hardware = load_hardware(file, hand);
     std::string model;
     take(settings, "model", text_of, model);
-    const std::string other_than_wired =
-        model.empty() ? "" : difference(hardware, load_hardware(file, hand, model));
-    if (!other_than_wired.empty()) {
+    const auto other_than_wired =
+        model.empty() ? std::nullopt : difference(hardware, load_hardware(file, hand, model));
+    if (other_than_wired) {
       throw BadInput("parameter ~model: " + model +
                      ": expected the muscles, gains and limits of the model that " + file +
-                     " names; different: " + other_than_wired);
+                     " names; different: " + *other_than_wired);
     }
     // A clock of another pace comes with the emulated units, which start when we do.
     const std::string no_time = options.pace < 1.0 ? "" : standing_clock(ros::WallDuration(5.0));

@@ -129,7 +129,7 @@ void command(DriverThread& thread, const Hardware& hardware) {
 
 std::string line(const Hardware& hardware, const Findings::Entry& entry) {
   const std::string who =
-      entry.ecu < 0 ? "" : hardware.ecus[static_cast<std::size_t>(entry.ecu)].name + ": ";
+      entry.ecu ? hardware.ecus[static_cast<std::size_t>(*entry.ecu)].name + ": " : "";
   const std::string detail = entry.detail.empty() ? "" : ": " + entry.detail;
   return "  " + who + info(entry.finding).name + " " + std::to_string(entry.count) + "x" + detail +
          "\n";

@@ -99,8 +99,8 @@ int run(const Arguments& arguments) {
   driver::Rack rack(hardware, *plant, bus, session_now());
   if (arguments.homed) rack.set_zeros();
   if (arguments.realtime) {
-    const std::string refused = driver::become_realtime(driver::Emulator::kPriority);
-    if (!refused.empty()) std::cerr << "anthrob_emulator: " << refused << "\n";
+    const auto refused = driver::become_realtime(driver::Emulator::kPriority);
+    if (refused) std::cerr << "anthrob_emulator: " << *refused << "\n";
   }
   const int ticks_per_message = std::max(1, static_cast<int>(1000.0 / arguments.rate));
   constexpr int kTicksPerClock = 2;

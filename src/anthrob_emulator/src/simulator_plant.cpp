@@ -5,6 +5,16 @@
 
 namespace anthrob {
 
+namespace {
+
+/// The simulator's answer to a name that it does not know is below 0.
+std::optional<int> found(int index) {
+  if (index < 0) return std::nullopt;
+  return index;
+}
+
+}  // namespace
+
 SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
                                const driver::Hardware& hardware)
     : simulation_(std::move(model)),
@@ -15,9 +25,9 @@ SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
         "emulated ECUs");
   }
   for (const driver::MuscleHardware& muscle : hardware.muscles) {
-    muscles_.push_back(simulation_.model().find_muscle(muscle.name));
+    muscles_.push_back(found(simulation_.model().find_muscle(muscle.name)));
     // The hand may be wired and not simulated.
-    if (muscles_.back() >= 0 || muscle.name.rfind("hand_", 0) == 0) continue;
+    if (muscles_.back() || muscle.name.rfind("hand_", 0) == 0) continue;
     throw BadInput(simulation_.model().file + ": muscles: " + muscle.name + " of " + hardware.file +
                    " is missing; expected a model of the robot that is wired there");
   }
@@ -29,37 +39,38 @@ SimulatorPlant::SimulatorPlant(std::shared_ptr<const RobotModel> model,
     }
   }
   for (const driver::JointSensor& joint : hardware.joints) {
-    joints_.push_back(simulation_.model().skeleton->find_joint(joint.joint));
+    joints_.push_back(found(simulation_.model().skeleton->find_joint(joint.joint)));
   }
   for (const driver::TouchSensor& touch : hardware.touch) {
     const auto& pads = simulation_.model().touch_pads;
     const auto pad = std::find_if(pads.begin(), pads.end(),
                                   [&](const TouchPadModel& p) { return p.name == touch.name; });
-    pads_.push_back(pad == pads.end() ? -1 : static_cast<int>(pad - pads.begin()));
+    pads_.emplace_back();
+    if (pad != pads.end()) pads_.back() = static_cast<std::size_t>(pad - pads.begin());
   }
 }
 
 driver::Plant::Muscle SimulatorPlant::muscle(std::size_t index) const {
-  if (muscles_[index] < 0) return {};
-  const ecu::Measurement reading = simulation_.reading(muscles_[index]);
+  if (!muscles_[index]) return {};
+  const ecu::Measurement reading = simulation_.reading(*muscles_[index]);
   return {reading.position, reading.current, reading.force};
 }
 
 double SimulatorPlant::joint(std::size_t joint) const {
-  const int index = joints_[joint];
-  if (index < 0) return 0.0;
-  const JointModel& model = simulation_.model().skeleton->joints[static_cast<std::size_t>(index)];
+  if (!joints_[joint]) return 0.0;
+  const JointModel& model =
+      simulation_.model().skeleton->joints[static_cast<std::size_t>(*joints_[joint])];
   return simulation_.read_positions()[model.position_offset];
 }
 
 double SimulatorPlant::touch(std::size_t pad) const {
-  if (pads_[pad] < 0) return 0.0;
-  const TouchPadModel& model = simulation_.model().touch_pads[static_cast<std::size_t>(pads_[pad])];
+  if (!pads_[pad]) return 0.0;
+  const TouchPadModel& model = simulation_.model().touch_pads[*pads_[pad]];
   return pad_force(model, simulation_.tree(), simulation_.configuration());
 }
 
 void SimulatorPlant::drive(std::size_t muscle, double voltage) {
-  if (muscles_[muscle] >= 0) simulation_.apply_voltage(muscles_[muscle], voltage);
+  if (muscles_[muscle]) simulation_.apply_voltage(*muscles_[muscle], voltage);
 }
 
 void SimulatorPlant::advance() {

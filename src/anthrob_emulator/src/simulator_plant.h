@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "anthrob_driver/emulation/plant.h"
@@ -29,9 +30,10 @@ class SimulatorPlant final : public driver::Plant {
 
  private:
   Simulation simulation_;
-  int steps_;                 ///< of the simulation in a millisecond
-  std::vector<int> muscles_;  ///< of the model, by hardware muscle; -1: none
-  std::vector<int> joints_, pads_;
+  int steps_;  ///< of the simulation in a millisecond
+  // Indices in the model, by those of the hardware; none: the model lacks it.
+  std::vector<std::optional<int>> muscles_, joints_;
+  std::vector<std::optional<std::size_t>> pads_;
 };
 
 }  // namespace anthrob

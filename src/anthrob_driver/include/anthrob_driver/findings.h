@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,13 +64,13 @@ class Findings {
  public:
   struct Entry {
     Finding finding;
-    int ecu;  ///< index; -1: does not concern a single ECU
+    std::optional<int> ecu;  ///< index of the ECU; none: does not concern a single one
     std::string detail;
     double first = 0.0, last = 0.0;  ///< [s]
     std::uint64_t count = 0;
   };
 
-  void add(Finding finding, int ecu, double time, const std::string& detail = "");
+  void add(Finding finding, std::optional<int> ecu, double time, const std::string& detail = "");
   /// Everything that was found since the last clear().
   const std::vector<Entry>& entries() const { return entries_; }
   /// Whether it was last seen at most `seconds` ago.
@@ -94,8 +95,10 @@ class StopLog {
     if (reasons_.size() > kRemembered) reasons_.pop_front();
   }
   std::uint64_t count() const { return count_; }
-  /// Empty if there was none.
-  std::string last() const { return reasons_.empty() ? "" : reasons_.back(); }
+  std::optional<std::string> last() const {
+    if (reasons_.empty()) return std::nullopt;
+    return reasons_.back();
+  }
   /// The reasons of all stops after the first `count`, as far as they are still remembered.
   std::vector<std::string> since(std::uint64_t count) const {
     const auto missed = static_cast<std::size_t>(count_ - std::min(count, count_));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,15 +83,17 @@ struct EcuHardware {
   std::uint16_t configuration = 0;  ///< checksum of all parameters
 };
 
-/// An analogue input.
+/// An analogue input. Without `ecu` it is not read: its ECU has no muscles, and so is not used.
 struct JointSensor {
   std::string joint;
-  int ecu = 0, input = 0;
+  std::optional<int> ecu;
+  int input = 0;
   LinearSensor sensor;  ///< [rad/count]
 };
 struct TouchSensor {
   std::string name;
-  int ecu = 0, input = 0;
+  std::optional<int> ecu;  ///< as a JointSensor's
+  int input = 0;
   ForceSensitiveResistor sensor;
 };
 
@@ -130,9 +133,10 @@ struct Hardware {
 /// Muscles, gains and command limits come from the model file that hardware.yaml names, the rest
 /// from hardware.yaml and the calibration file it names.
 /// @param hand whether to load the hand's muscles and touch sensors
-/// @param model model file to use instead of the one that hardware.yaml names; empty: that one
+/// @param model model file to use instead of the one that hardware.yaml names
 /// @throws BadInput with one line: file, line, key, value, what was expected
-Hardware load_hardware(const std::string& file, bool hand, const std::string& model = "");
+Hardware load_hardware(const std::string& file, bool hand,
+                       const std::optional<std::string>& model = std::nullopt);
 
 /// Recomputes the checksum; to be called after parameters of a muscle of this ECU have changed.
 void update_configuration(Hardware& hardware, int ecu);
@@ -142,8 +146,8 @@ void update_configuration(Hardware& hardware, int ecu);
 bool has_hand(const std::string& file);
 
 /// The first difference between `a` and `b` in what ECUs hold or in the limits of commands, as
-/// muscle and what differs ("NAME: missing" if `b` lacks it); empty if there is none.
-std::string difference(const Hardware& a, const Hardware& b);
+/// muscle and what differs ("NAME: missing" if `b` lacks it).
+std::optional<std::string> difference(const Hardware& a, const Hardware& b);
 
 }  // namespace driver
 }  // namespace anthrob

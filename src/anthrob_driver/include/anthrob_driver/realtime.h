@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace anthrob {
@@ -9,8 +10,8 @@ namespace driver {
 double monotonic_now();
 
 /// Gives the calling thread SCHED_FIFO with `priority` and locks the process's memory.
-/// @return empty, or what the system refused
-std::string become_realtime(int priority);
+/// @return what the system refused, if it refused anything
+std::optional<std::string> become_realtime(int priority);
 
 }  // namespace driver
 }  // namespace anthrob

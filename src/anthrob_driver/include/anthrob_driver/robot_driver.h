@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,8 +75,8 @@ class RobotDriver {
   /// Between clear_faults and the moment the ECUs have cleared too.
   bool clearing(double now) const;
   /// The first ECU that was heard and now does not answer, is in FAULT or holds an emergency stop,
-  /// and which of these; empty: none.
-  std::string not_cleared() const;
+  /// and which of these.
+  std::optional<std::string> not_cleared() const;
 
   Phase phase() const;
   const Outcome& last_outcome() const;

@@ -46,7 +46,8 @@ const FindingInfo& info(Finding finding) {
   return kFindings[static_cast<std::size_t>(finding)];
 }
 
-void Findings::add(Finding finding, int ecu, double time, const std::string& detail) {
+void Findings::add(Finding finding, std::optional<int> ecu, double time,
+                   const std::string& detail) {
   for (Entry& entry : entries_) {
     if (entry.finding != finding || entry.ecu != ecu) continue;
     entry.last = time;

@@ -31,12 +31,12 @@ std::string beside(const ConfigNode& config, const std::string& key) {
 
 class Loader {
  public:
-  Loader(const std::string& file, bool hand, const std::string& model)
+  Loader(const std::string& file, bool hand, const std::optional<std::string>& model)
       : config_(ConfigNode::load(file)),
-        model_(ConfigNode::load(model.empty() ? beside(config_, "model") : model)),
+        model_(ConfigNode::load(model ? *model : beside(config_, "model"))),
         calibration_(ConfigNode::load(beside(config_, "calibration"))),
         hand_(hand),
-        own_model_(model.empty()) {
+        own_model_(!model) {
     hardware_.file = file;
   }
 
@@ -174,7 +174,7 @@ class Loader {
       TouchSensor touch;
       touch.name = name;
       touch.ecu = find_ecu(node.text("ecu"), node);
-      touch.input = input(node, touch.ecu, name);
+      touch.input = input(node, *touch.ecu, name);
       const ConfigNode sensor = sensors.at("touch").at(name);
       touch.sensor.gain = sensor.number("gain", Bounds::positive(), "N");
       touch.sensor.threshold = sensor.number("threshold", Bounds::between(0.0, 4095.0), "count");
@@ -207,7 +207,7 @@ class Loader {
       JointSensor joint;
       joint.joint = name;
       joint.ecu = find_ecu(node.text("ecu"), node);
-      joint.input = input(node, joint.ecu, name);
+      joint.input = input(node, *joint.ecu, name);
       // A joint need not be able to reach the angle of zero counts.
       joint.sensor = load_linear(calibration_.at("joints").at(name), "rad", Bounds::any());
       hardware_.joints.push_back(joint);
@@ -269,7 +269,7 @@ class Loader {
   /// Units without muscles, such as the hand's when it is off, are not waited for.
   void finish() {
     std::vector<EcuHardware> used;
-    std::vector<int> new_index(hardware_.ecus.size(), -1);
+    std::vector<std::optional<int>> new_index(hardware_.ecus.size());
     for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
       if (hardware_.ecus[e].muscles.empty()) {
         hardware_.idle_nodes.push_back(hardware_.ecus[e].node);
@@ -279,9 +279,9 @@ class Loader {
       used.push_back(hardware_.ecus[e]);
     }
     hardware_.ecus = used;
-    for (auto& m : hardware_.muscles) m.ecu = new_index[static_cast<std::size_t>(m.ecu)];
-    for (auto& j : hardware_.joints) j.ecu = new_index[static_cast<std::size_t>(j.ecu)];
-    for (auto& t : hardware_.touch) t.ecu = new_index[static_cast<std::size_t>(t.ecu)];
+    for (auto& m : hardware_.muscles) m.ecu = *new_index[static_cast<std::size_t>(m.ecu)];
+    for (auto& j : hardware_.joints) j.ecu = new_index[static_cast<std::size_t>(*j.ecu)];
+    for (auto& t : hardware_.touch) t.ecu = new_index[static_cast<std::size_t>(*t.ecu)];
     for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
       update_configuration(hardware_, static_cast<int>(e));
     }
@@ -301,7 +301,8 @@ std::vector<ecu::MuscleChannel> Hardware::channels() const {
   return channels;
 }
 
-Hardware load_hardware(const std::string& file, bool hand, const std::string& model) {
+Hardware load_hardware(const std::string& file, bool hand,
+                       const std::optional<std::string>& model) {
   return Loader(file, hand, model).load();
 }
 
@@ -319,7 +320,7 @@ bool has_hand(const std::string& file) {
   return ConfigNode::load(file).has("hand");
 }
 
-std::string difference(const Hardware& a, const Hardware& b) {
+std::optional<std::string> difference(const Hardware& a, const Hardware& b) {
   for (std::size_t m = 0; m < std::max(a.muscles.size(), b.muscles.size()); ++m) {
     if (m >= a.muscles.size()) return b.muscles[m].name + ": an additional muscle";
     const MuscleHardware& left = a.muscles[m];
@@ -338,7 +339,7 @@ std::string difference(const Hardware& a, const Hardware& b) {
                              left.limits.highest == right.limits.highest;
     if (!same_limits) return left.name + ": other command limits";
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace driver

@@ -12,8 +12,6 @@ namespace {
 using ecu::Function;
 using ecu::Operation;
 
-constexpr int kIdleNode = -2;  // on the bus, but not used
-
 ecu::Supervisor::Options supervisor_options(const RobotDriver::Options& options) {
   if (!(options.rate >= 100.0 && options.rate <= 1000.0)) {
     throw BadInput("rate: " + std::to_string(options.rate) +
@@ -50,7 +48,7 @@ RobotDriver::Implementation::Implementation(Hardware hardware, const Options& op
       watch_(findings_, options.rate),
       supervisor_(hardware_.channels(), supervisor_options(options)),
       links_(make_links(hardware_, findings_)),
-      link_of_node_(ecu::kMaxNode + 1, -1),
+      by_node_(ecu::kMaxNode + 1),
       sampler_(hardware_),
       first_step_(hardware_, options.first_step),
       home_(hardware_),
@@ -58,10 +56,11 @@ RobotDriver::Implementation::Implementation(Hardware hardware, const Options& op
       gains_(hardware_, links_),
       stopping_(links_) {
   for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
-    link_of_node_[static_cast<std::size_t>(hardware_.ecus[e].node)] = static_cast<int>(e);
+    by_node_[static_cast<std::size_t>(hardware_.ecus[e].node)] = {Addressee::Kind::kLinked,
+                                                                  static_cast<int>(e)};
   }
   for (const int node : hardware_.idle_nodes) {
-    link_of_node_[static_cast<std::size_t>(node)] = kIdleNode;
+    by_node_[static_cast<std::size_t>(node)] = {Addressee::Kind::kIdle, std::nullopt};
   }
   for (std::size_t m = 0; m < hardware_.muscles.size(); ++m) {
     references_.push_back({static_cast<int>(m), ecu::Mode::kVoltage, 0.0});
@@ -86,15 +85,14 @@ void RobotDriver::Implementation::receive(const BusEvent& event, double now) {
 }
 
 void RobotDriver::Implementation::on_frame(const ecu::Frame& frame, double now) {
-  const int index = link_of_node_[static_cast<std::size_t>(ecu::node_of(frame))];
-  const int who = index < 0 ? -1 : index;
+  const auto [kind, index] = by_node_[static_cast<std::size_t>(ecu::node_of(frame))];
   switch (ecu::inspect(frame)) {
     case ecu::Reading::kForeign:
-      return findings_.add(Finding::kForeignFrame, who, now);
+      return findings_.add(Finding::kForeignFrame, index, now);
     case ecu::Reading::kWrongLength:
-      return findings_.add(Finding::kWrongLength, who, now);
+      return findings_.add(Finding::kWrongLength, index, now);
     case ecu::Reading::kCorrupt:
-      return findings_.add(Finding::kCorruptFrame, who, now);
+      return findings_.add(Finding::kCorruptFrame, index, now);
     case ecu::Reading::kGood:
       break;
   }
@@ -105,7 +103,7 @@ void RobotDriver::Implementation::on_frame(const ecu::Frame& frame, double now) 
     }
     // The latched STOP is already repeated each cycle; answering again would loop between two
     // hosts. But no call that came before it may undo it.
-    findings_.add(Finding::kStopLatched, -1, now);
+    findings_.add(Finding::kStopLatched, std::nullopt, now);
     ++halts_;
     return;
   }
@@ -113,11 +111,11 @@ void RobotDriver::Implementation::on_frame(const ecu::Frame& frame, double now) 
       ecu::function_of(frame) == static_cast<int>(Function::kParameterRequest)) {
     return stop(stopping_rule(Finding::kSecondHost, NoticedBy::kFrame), std::nullopt, now);
   }
-  if (index == kIdleNode) return;
-  if (index < 0) return findings_.add(Finding::kForeignFrame, -1, now);
-  EcuLink& link = links_[static_cast<std::size_t>(index)];
+  if (kind == Addressee::Kind::kIdle) return;
+  if (!index) return findings_.add(Finding::kForeignFrame, std::nullopt, now);
+  EcuLink& link = links_[static_cast<std::size_t>(*index)];
   link.receive(frame, now);
-  if (link.take_analog()) sampler_.add_analog(link, index, now, findings_);
+  if (link.take_analog()) sampler_.add_analog(link, *index, now, findings_);
 }
 
 void RobotDriver::Implementation::send(const ecu::Frame& frame) {

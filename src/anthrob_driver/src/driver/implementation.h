@@ -42,7 +42,7 @@ class RobotDriver::Implementation {
   Outcome clear_faults(double now);
 
   bool clearing(double now) const;
-  std::string not_cleared() const;
+  std::optional<std::string> not_cleared() const;
 
   Phase phase() const { return phase_; }
   const Outcome& last_outcome() const { return last_outcome_; }
@@ -76,7 +76,7 @@ class RobotDriver::Implementation {
   void send_cycle(double now);
   void send_parameters(double now);
   bool all_complete() const;
-  std::string why_not_enable() const;
+  std::optional<std::string> why_not_enable() const;
 
   // What stops the motors, and how, stands in kStoppingRules (stopping_rules.cpp). Everything ends
   // in disable().
@@ -93,8 +93,8 @@ class RobotDriver::Implementation {
   void end_home();
   Situation situation(bool silent, double now) const;
   void check_ecu(int ecu, bool silent, double now);
-  /// Why the ECUs may not have received a stop; empty: no reason.
-  std::string unconfirmed() const;
+  /// Why the ECUs may not have received a stop, if they may not.
+  std::optional<std::string> unconfirmed() const;
   /// To be called when its tendon has moved on its spindle: the zero no longer holds.
   void revoke_zero(const MuscleHardware& muscle);
 
@@ -105,7 +105,12 @@ class RobotDriver::Implementation {
   BusWatch watch_;
   ecu::Supervisor supervisor_;
   std::vector<EcuLink> links_;
-  std::vector<int> link_of_node_;
+  /// What a node of the bus is to this driver.
+  struct Addressee {
+    enum class Kind { kForeign, kIdle, kLinked } kind = Kind::kForeign;
+    std::optional<int> link;  ///< index of the ECU, if it is linked
+  };
+  std::vector<Addressee> by_node_;
   Sampler sampler_;
   FirstStep first_step_;
   Enabling enabling_;
@@ -121,7 +126,8 @@ class RobotDriver::Implementation {
   std::vector<ecu::MuscleReference> accepted_;
   std::uint64_t cycles_ = 0, halts_ = 0;
   std::uint8_t counter_ = 0, sequence_ = 0;
-  double last_cycle_ = 0.0, started_ = 0.0, cleared_ = -1.0;
+  double last_cycle_ = 0.0, started_ = 0.0;
+  std::optional<double> cleared_;  ///< [s] when clear_faults was called last
   int disable_repeats_ = 0, clear_repeats_ = 0;
 };
 

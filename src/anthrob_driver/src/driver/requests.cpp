@@ -14,8 +14,8 @@ using ecu::Operation;
 
 constexpr int kRepeats = 3;  // cycles in which disable and clear are sent
 
-std::string too_old(double age, double limit) {
-  if (std::abs(age) <= limit) return "";
+std::optional<std::string> too_old(double age, double limit) {
+  if (std::abs(age) <= limit) return std::nullopt;
   char text[120];
   std::snprintf(text, sizeof(text),
                 "sent %.1f s %s: a recording, or the clocks of two computers differ", std::abs(age),
@@ -29,13 +29,11 @@ RobotDriver::Outcome RobotDriver::Implementation::command(const std::vector<std:
                                                           const std::vector<std::uint8_t>& modes,
                                                           const std::vector<double>& references,
                                                           double now, double age) {
-  const std::string old = too_old(age, options_.command_timeout);
-  if (!old.empty()) return refuse(old);
+  if (const auto old = too_old(age, options_.command_timeout)) return refuse(*old);
   if (home_.running()) return refuse("home is running");
   if (phase_ == Phase::kEnabled) {
-    const std::string far =
-        first_step_.too_far(names, modes, references, references_, sampler_.last());
-    if (!far.empty()) return refuse(far);
+    const auto far = first_step_.too_far(names, modes, references, references_, sampler_.last());
+    if (far) return refuse(*far);
   }
   // The time-out runs from when it was sent. A stamp in the future gains nothing.
   const Outcome outcome =
@@ -47,33 +45,30 @@ RobotDriver::Outcome RobotDriver::Implementation::command(const std::vector<std:
   return outcome;
 }
 
-std::string RobotDriver::Implementation::why_not_enable() const {
+std::optional<std::string> RobotDriver::Implementation::why_not_enable() const {
   if (supervisor_.stop_latched()) return "emergency stop is latched: call clear_faults first";
-  if (!watch_.trouble().empty()) return watch_.trouble();
+  if (const auto trouble = watch_.trouble()) return trouble;
   if (gains_.changing()) return "gains are being changed; try again in a second";
   for (const EcuLink& link : links_) {
     const std::string who = link.own().name + ": ";
     if (supervisor_.state(link.own().muscles.front()) == ecu::State::kFault) {
       return who + "is in FAULT: call clear_faults first";
     }
-    const std::string reason = link.why_not_enable();
-    if (!reason.empty()) return who + reason;
+    if (const auto reason = link.why_not_enable()) return who + *reason;
   }
   for (const MuscleWatch& muscle : muscles_) {
-    const std::string reason = muscle.why_not_enable();
-    if (!reason.empty()) return reason;
+    if (const auto reason = muscle.why_not_enable()) return reason;
   }
-  return "";
+  return std::nullopt;
 }
 
 RobotDriver::Outcome RobotDriver::Implementation::start_enable(double now) {
   if (phase_ == Phase::kEnabled) return last_outcome_ = {true, "already enabled"};
   if (phase_ == Phase::kEnabling) return {true, "enabling"};
   explain_stop(HUGE_VAL);
-  const std::string reason = why_not_enable();
-  if (!reason.empty()) {
-    findings_.add(Finding::kEnableRefused, -1, now, reason);
-    return last_outcome_ = {false, reason};
+  if (const auto reason = why_not_enable()) {
+    findings_.add(Finding::kEnableRefused, std::nullopt, now, *reason);
+    return last_outcome_ = {false, *reason};
   }
   phase_ = Phase::kEnabling;
   // Outcome reported if disable() comes before confirmation.
@@ -110,7 +105,7 @@ void RobotDriver::Implementation::finish_enable(bool success, const std::string&
     phase_ = Phase::kEnabled;
     return;
   }
-  findings_.add(Finding::kEnableRefused, -1, last_cycle_, reason);
+  findings_.add(Finding::kEnableRefused, std::nullopt, last_cycle_, reason);
   disable();
 }
 
@@ -157,16 +152,15 @@ RobotDriver::Outcome RobotDriver::Implementation::start_gains(const std::vector<
 }
 
 bool RobotDriver::Implementation::clearing(double now) const {
-  if (cleared_ < 0.0 || now - cleared_ > kClearGrace) return false;
-  return clear_repeats_ > 0 || !not_cleared().empty();
+  if (!cleared_ || now - *cleared_ > kClearGrace) return false;
+  return clear_repeats_ > 0 || not_cleared().has_value();
 }
 
-std::string RobotDriver::Implementation::not_cleared() const {
+std::optional<std::string> RobotDriver::Implementation::not_cleared() const {
   for (const EcuLink& link : links_) {
-    const std::string left = link.not_cleared();
-    if (!left.empty()) return link.own().name + ": " + left;
+    if (const auto left = link.not_cleared()) return link.own().name + ": " + *left;
   }
-  return "";
+  return std::nullopt;
 }
 
 RobotDriver::Outcome RobotDriver::Implementation::disable() {
@@ -181,7 +175,7 @@ RobotDriver::Outcome RobotDriver::Implementation::disable() {
   request(Operation::kDisable, 0);
   watch_.sent(bus_.flush(), last_cycle_);
   supervisor_.disable();
-  return {true, unconfirmed()};
+  return {true, unconfirmed().value_or("")};
 }
 
 RobotDriver::Outcome RobotDriver::Implementation::emergency_stop() {
@@ -193,13 +187,13 @@ RobotDriver::Outcome RobotDriver::Implementation::emergency_stop() {
   clear_repeats_ = 0;
   disable();
   supervisor_.emergency_stop();
-  return {true, unconfirmed()};
+  return {true, unconfirmed().value_or("")};
 }
 
-std::string RobotDriver::Implementation::unconfirmed() const {
-  const std::string trouble = watch_.trouble();
-  if (trouble.empty()) return "";
-  return "the ECUs may not have received it: " + trouble +
+std::optional<std::string> RobotDriver::Implementation::unconfirmed() const {
+  const auto trouble = watch_.trouble();
+  if (!trouble) return std::nullopt;
+  return "the ECUs may not have received it: " + *trouble +
          ". Without references they stop by themselves";
 }
 

@@ -69,7 +69,7 @@ bool RobotDriver::clearing(double now) const {
   return implementation_->clearing(now);
 }
 
-std::string RobotDriver::not_cleared() const {
+std::optional<std::string> RobotDriver::not_cleared() const {
   return implementation_->not_cleared();
 }
 

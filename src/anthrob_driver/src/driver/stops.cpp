@@ -11,12 +11,12 @@ static_assert(RobotDriver::kSilence == kFirstAnswer, "one time to be heard");
 
 void RobotDriver::Implementation::stop(const StoppingRule& rule, std::optional<int> ecu, double now,
                                        const std::string& detail) {
-  if (rule.noted == Noted::kByRule) findings_.add(rule.finding, ecu.value_or(-1), now, detail);
+  if (rule.noted == Noted::kByRule) findings_.add(rule.finding, ecu, now, detail);
   const bool was_on = phase_ != Phase::kDisabled;
   switch (rule.reaction) {
     case Reaction::kDisable: {
       if (!was_on) break;
-      const std::string what = stopping_.reason(rule.finding, ecu.value_or(-1), detail);
+      const std::string what = stopping_.reason(rule.finding, ecu, detail);
       disable_for(rule, ecu, what);
       stopping_.record(rule.finding, what);
       break;
@@ -55,7 +55,7 @@ void RobotDriver::Implementation::disable_for(const StoppingRule& rule, std::opt
 void RobotDriver::Implementation::explain_stop(double now) {
   const std::optional<Stopping::Explained> stop = stopping_.take_reason(now);
   if (!stop) return;
-  findings_.add(stop->finding, stop->ecu, last_cycle_, stop->fault);
+  findings_.add(stop->finding, stop->ecu, last_cycle_, stop->fault.value_or(""));
   if (last_outcome_.reason == stop->told) last_outcome_ = {false, stop->what};
   stopping_.record(stop->finding, stop->what, stop->remedy);
 }
@@ -77,8 +77,8 @@ void RobotDriver::Implementation::end_home() {
     if (home_.tendon_lost(m)) revoke_zero(hardware_.muscles[m]);
   }
   disable();
-  last_outcome_ = {false, home_.failure()};
-  stopping_.record(Finding::kHomeFailed, home_.failure());
+  last_outcome_ = {false, *home_.failure()};
+  stopping_.record(Finding::kHomeFailed, *home_.failure());
 }
 
 void RobotDriver::Implementation::revoke_zero(const MuscleHardware& muscle) {
@@ -89,11 +89,10 @@ void RobotDriver::Implementation::check_bus(double now) {
   const double period = 1.0 / options_.rate;
   const double late = cycles_ > 0 ? now - last_cycle_ - period : 0.0;
   const bool too_late = late > period;
-  if (too_late) findings_.add(Finding::kLateCycle, -1, now);
+  if (too_late) findings_.add(Finding::kLateCycle, std::nullopt, now);
   watch_.cycle(now, too_late ? late : 0.0);
-  Finding finding;
-  if (watch_.take_stop(finding)) {
-    stop(stopping_rule(finding, NoticedBy::kBusWatch), std::nullopt, now);
+  if (const auto finding = watch_.take_stop()) {
+    stop(stopping_rule(*finding, NoticedBy::kBusWatch), std::nullopt, now);
   }
 }
 
@@ -105,7 +104,7 @@ Situation RobotDriver::Implementation::situation(bool silent, double now) const 
   result.clearing = clearing(now);
   result.bus_silent = silent;
   result.now = now;
-  result.since_clear = now - cleared_;
+  result.since_clear = cleared_ ? now - *cleared_ : HUGE_VAL;
   return result;
 }
 
@@ -125,10 +124,10 @@ void RobotDriver::Implementation::check_ecu(int ecu, bool silent, double now) {
       gains_.abort(ecu, link.own().name + " restarted", now);
     }
     const bool explains = rule.reaction == Reaction::kDisableThenExplain;
-    stop(rule, ecu, now, explains ? stopping_.fault_of(ecu) : "");
+    stop(rule, ecu, now, explains ? stopping_.fault_of(ecu).value_or("") : "");
   }
   if (!link.heard()) {
-    if (link.other_version().empty() && now - started_ > kSilence) {
+    if (!link.other_version() && now - started_ > kSilence) {
       findings_.add(Finding::kEcuSilent, ecu, now);
     }
     return;
@@ -162,7 +161,7 @@ void RobotDriver::Implementation::continue_home(double now) {
     references_[m] = home_.command(m, now);
   }
   if (home_.state() == Home::State::kFailed)
-    return stop(home_failed, std::nullopt, now, home_.failure());
+    return stop(home_failed, std::nullopt, now, *home_.failure());
   if (home_.state() == Home::State::kReached) zeros_.start();
 }
 
@@ -172,13 +171,13 @@ void RobotDriver::Implementation::continue_zero(const std::vector<Home::Reading>
   // The tendons are held meanwhile. A zero counts once its ECU has confirmed it.
   home_.hold(readings);
   if (home_.state() == Home::State::kFailed)
-    return stop(home_failed, std::nullopt, now, home_.failure());
+    return stop(home_failed, std::nullopt, now, *home_.failure());
   switch (zeros_.step(now, [this](const ecu::Frame& frame) { send(frame); })) {
     case Zeros::State::kWaiting:
       return;
     case Zeros::State::kRefused:
       home_.abort(zeros_.refusal());
-      return stop(home_failed, std::nullopt, now, home_.failure());
+      return stop(home_failed, std::nullopt, now, *home_.failure());
     case Zeros::State::kTaken:
       return home_.finish();
   }

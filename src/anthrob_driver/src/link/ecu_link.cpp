@@ -109,7 +109,7 @@ void EcuLink::on_report(const ecu::StateReport& report, double now) {
     wrong_version_ = true;
     other_version_ = "version " + std::to_string(report.version) + ", expected " +
                      std::to_string(ecu::kProtocolVersion);
-    findings_.add(Finding::kWrongVersion, index_, now, other_version_);
+    findings_.add(Finding::kWrongVersion, index_, now, *other_version_);
     return;
   }
   if (heard_ && report.session != report_.session) {
@@ -321,8 +321,8 @@ void EcuLink::on_reply(const ecu::ParameterMessage& reply, double now) {
   resume_ = now + kRetryPause;
 }
 
-std::string EcuLink::why_not_enable() const {
-  if (!heard_ && !other_version_.empty()) return "speaks another protocol: " + other_version_;
+std::optional<std::string> EcuLink::why_not_enable() const {
+  if (!heard_ && other_version_) return "speaks another protocol: " + *other_version_;
   if (!heard_) return "was never heard; is it switched on?";
   if (!alive()) return "does not answer; check its power and cable";
   if (!configured()) return "is being configured; try again in a second";
@@ -331,16 +331,18 @@ std::string EcuLink::why_not_enable() const {
   if (state_ == ecu::State::kFault) {
     return std::string("fault ") + ecu::name(report_.fault) + ": call clear_faults first";
   }
-  return latched_ ? "holds an emergency stop: call clear_faults first" : "";
+  if (latched_) return "holds an emergency stop: call clear_faults first";
+  return std::nullopt;
 }
 
-std::string EcuLink::not_cleared() const {
-  if (!heard_) return "";
+std::optional<std::string> EcuLink::not_cleared() const {
+  if (!heard_) return std::nullopt;
   if (!alive()) return "does not answer; check its power and cable";
   if (state_ == ecu::State::kFault) {
     return std::string("fault ") + ecu::name(report_.fault) + " persists";
   }
-  return latched_ ? "holds its emergency stop" : "";
+  if (latched_) return "holds its emergency stop";
+  return std::nullopt;
 }
 
 }  // namespace driver

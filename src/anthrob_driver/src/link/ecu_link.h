@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "anthrob_driver/findings.h"
@@ -84,8 +85,8 @@ class EcuLink {
   /// Whether a report in another version of the protocol came, perhaps from a second ECU with this
   /// node number. True once.
   bool take_wrong_version();
-  /// Which other version was reported last; empty if none was.
-  const std::string& other_version() const { return other_version_; }
+  /// Which other version was reported last, if one was.
+  const std::optional<std::string>& other_version() const { return other_version_; }
 
   /// Of the last complete answer.
   const ecu::Motion& motion(int channel) const { return sample_.motion[channel]; }
@@ -103,10 +104,10 @@ class EcuLink {
   /// This driver sends STOP. The ECU may hold it long after, if no CLEAR reaches it.
   void stop_sent() { own_stop_ = true; }
   bool holds_own_stop() const { return latched_ && own_stop_; }
-  /// Why it cannot be enabled; empty if it can.
-  std::string why_not_enable() const;
-  /// What clear_faults did not clear; empty if nothing is left, or the ECU was never heard.
-  std::string not_cleared() const;
+  /// Why it cannot be enabled, if it cannot.
+  std::optional<std::string> why_not_enable() const;
+  /// What clear_faults did not clear; none of an ECU that was never heard.
+  std::optional<std::string> not_cleared() const;
 
   /// @param channel that a frame names; the last muscle if there is none
   const MuscleHardware& muscle(int channel) const;
@@ -157,7 +158,7 @@ class EcuLink {
   bool latched_ = false;
   bool own_stop_ = false;  ///< sent, and not seen cleared since
   bool heard_ = false, sampled_ = false, restarted_ = false, wrong_version_ = false;
-  std::string other_version_;
+  std::optional<std::string> other_version_;
   double sample_time_ = 0.0, heard_since_ = 0.0, health_time_ = -HUGE_VAL;
 
   // Upload of the configuration: one parameter at a time, each read back.

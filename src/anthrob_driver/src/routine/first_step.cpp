@@ -7,14 +7,14 @@
 namespace anthrob {
 namespace driver {
 
-std::string FirstStep::too_far(const std::vector<std::string>& names,
-                               const std::vector<std::uint8_t>& modes,
-                               const std::vector<double>& references,
-                               const std::vector<ecu::MuscleReference>& followed,
-                               const Sample& last) const {
+std::optional<std::string> FirstStep::too_far(const std::vector<std::string>& names,
+                                              const std::vector<std::uint8_t>& modes,
+                                              const std::vector<double>& references,
+                                              const std::vector<ecu::MuscleReference>& followed,
+                                              const Sample& last) const {
   const std::size_t count = std::min({names.size(), modes.size(), references.size()});
-  if (limit_ <= 0.0) return "";
-  if (count > hardware_.muscles.size()) return "";  // malformed, however long it is
+  if (limit_ <= 0.0) return std::nullopt;
+  if (count > hardware_.muscles.size()) return std::nullopt;  // malformed, however long it is
   for (std::size_t i = 0; i < count; ++i) {
     const bool position = static_cast<ecu::Mode>(modes[i]) == ecu::Mode::kPosition;
     if (!position || !std::isfinite(references[i])) continue;
@@ -32,7 +32,7 @@ std::string FirstStep::too_far(const std::vector<std::string>& names,
       return "muscle '" + names[i] + "': " + text;
     }
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace driver

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,12 @@ class FirstStep {
   /// @param names, modes, references the command, not checked yet
   /// @param followed what the muscles follow at present, one for each
   /// @param last measurement of the muscles; without one, the command is forbidden
-  /// @return why the limit forbids the command; empty if it does not
-  std::string too_far(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
-                      const std::vector<double>& references,
-                      const std::vector<ecu::MuscleReference>& followed, const Sample& last) const;
+  /// @return why the limit forbids the command, if it does
+  std::optional<std::string> too_far(const std::vector<std::string>& names,
+                                     const std::vector<std::uint8_t>& modes,
+                                     const std::vector<double>& references,
+                                     const std::vector<ecu::MuscleReference>& followed,
+                                     const Sample& last) const;
 
  private:
   const Hardware& hardware_;

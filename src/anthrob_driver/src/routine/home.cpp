@@ -21,7 +21,7 @@ std::string text(const char* format, double a, double b) {
 
 void Home::start(double now) {
   state_ = State::kRunning;
-  failure_.clear();
+  failure_.reset();
   tendons_.clear();
   begun_ = false;
   started_ = settled_ = now;
@@ -63,24 +63,25 @@ bool Home::begin(const std::vector<Reading>& readings, double now) {
   return true;
 }
 
-std::string Home::check_force(const Reading& reading) const {
+std::optional<std::string> Home::check_force(const Reading& reading) const {
   if (!std::isfinite(reading.force)) return "its force is no longer measured";
-  if (reading.force <= hardware_.home.force_limit) return "";
+  if (reading.force <= hardware_.home.force_limit) return std::nullopt;
   return text("%.1f N, more than force_limit (%.1f N): unwind it by hand", reading.force,
               hardware_.home.force_limit);
 }
 
-std::string Home::check_grip(const Reading& reading, Tendon& tendon) const {
+std::optional<std::string> Home::check_grip(const Reading& reading, Tendon& tendon) const {
   const double pretension = hardware_.home.pretension;
-  if (!tendon.held || reading.force >= (1.0 - hardware_.home.slip_drop) * pretension) return "";
+  if (!tendon.held || reading.force >= (1.0 - hardware_.home.slip_drop) * pretension)
+    return std::nullopt;
   tendon.lost = true;
   return text("held %.1f N, now %.1f N: the tendon slips or broke", pretension, reading.force);
 }
 
-std::string Home::check(const Reading& reading, Tendon& tendon) const {
+std::optional<std::string> Home::check(const Reading& reading, Tendon& tendon) const {
   const HomeRoutine& limits = hardware_.home;
   const double pretension = limits.pretension;
-  if (const std::string wrong = check_force(reading); !wrong.empty()) return wrong;
+  if (const auto wrong = check_force(reading)) return wrong;
   const double wound = reading.position - tendon.start;
   const bool grips = reading.force > 0.5 * pretension;
   // One that was tight at the start may pay out down to the pretension, and holds that then.
@@ -111,9 +112,9 @@ std::string Home::check(const Reading& reading, Tendon& tendon) const {
 void Home::hold(const std::vector<Reading>& readings) {
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!pulls(i) || !std::isfinite(readings[i].position)) continue;
-    std::string wrong = check_force(readings[i]);
-    if (wrong.empty()) wrong = check_grip(readings[i], tendons_[i]);
-    if (!wrong.empty()) return abort(hardware_.muscles[i].name + ": " + wrong);
+    auto wrong = check_force(readings[i]);
+    if (!wrong) wrong = check_grip(readings[i], tendons_[i]);
+    if (wrong) return abort(hardware_.muscles[i].name + ": " + *wrong);
   }
 }
 
@@ -137,8 +138,8 @@ void Home::step(const std::vector<Reading>& readings, double now) {
     // One answer may be missing; an ECU that is lost ends homing elsewhere.
     if (!pulls(i) || !std::isfinite(readings[i].position)) continue;
     const std::string& name = hardware_.muscles[i].name;
-    const std::string wrong = check(readings[i], tendons_[i]);
-    if (!wrong.empty()) return abort(name + ": " + wrong);
+    const auto wrong = check(readings[i], tendons_[i]);
+    if (wrong) return abort(name + ": " + *wrong);
     const bool tight =
         std::abs(readings[i].force - hardware_.home.pretension) <= hardware_.home.tolerance;
     if (!tight) slack += (slack.empty() ? "" : ", ") + name;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,8 @@ class Home {
 
   State state() const { return state_; }
   bool running() const { return state_ == State::kRunning || state_ == State::kReached; }
-  /// Empty after success.
-  const std::string& failure() const { return failure_; }
+  /// Why it failed; none after success.
+  const std::optional<std::string>& failure() const { return failure_; }
   /// Whether this muscle's tendon broke, slipped, is off its pulley or did not grip in time.
   bool tendon_lost(std::size_t muscle) const {
     return muscle < tendons_.size() && tendons_[muscle].lost;
@@ -55,13 +56,14 @@ class Home {
   /// Names of the muscles that are to be pulled but have no measurement in this cycle.
   std::string unknown(const std::vector<Reading>& readings) const;
   bool begin(const std::vector<Reading>& readings, double now);
-  std::string check(const Reading& reading, Tendon& tendon) const;
-  std::string check_force(const Reading& reading) const;
-  std::string check_grip(const Reading& reading, Tendon& tendon) const;
+  /// What is wrong with a tendon.
+  std::optional<std::string> check(const Reading& reading, Tendon& tendon) const;
+  std::optional<std::string> check_force(const Reading& reading) const;
+  std::optional<std::string> check_grip(const Reading& reading, Tendon& tendon) const;
 
   const Hardware& hardware_;
   State state_ = State::kIdle;
-  std::string failure_;
+  std::optional<std::string> failure_;
   std::vector<Tendon> tendons_;
   bool begun_ = false;  ///< with a measurement of every tendon
   double started_ = 0.0, settled_ = 0.0;

@@ -31,7 +31,7 @@ void LiveGains::step(double now, bool disabled, const Send& send) {
       return link_of(change).alive() && !link_of(change).configured();
     };
     const auto change = std::find_if(changes_.begin(), changes_.end(), differs);
-    if (!disabled || change == changes_.end()) return finish("", now);
+    if (!disabled || change == changes_.end()) return finish(std::nullopt, now);
     if (now > deadline_)
       finish(link_of(*change).own().name + " does not report the gains that it was given", now);
     return;
@@ -68,14 +68,14 @@ void LiveGains::take(double now) {
   link().expect_configuration(now);
 }
 
-void LiveGains::finish(const std::string& refusal, double now) {
+void LiveGains::finish(const std::optional<std::string>& refusal, double now) {
   changing_ = false;
   ++ended_;
-  outcome_ = {refusal.empty(), refusal};
+  outcome_ = {!refusal, refusal.value_or("")};
   for (const ecu::GainChange& change : changes_) {
     link_of(change).end_write();
     // Whatever it holds now: it is compared, and mended, as any configuration.
-    if (!refusal.empty()) link_of(change).expect_configuration(now);
+    if (refusal) link_of(change).expect_configuration(now);
   }
 }
 

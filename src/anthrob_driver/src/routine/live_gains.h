@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,7 @@ class LiveGains {
   EcuLink& link() { return link_of(changes_[at_]); }
   void begin_next(double now);
   void take(double now);
-  void finish(const std::string& refusal, double now);
+  void finish(const std::optional<std::string>& refusal, double now);
 
   Hardware& hardware_;
   std::vector<EcuLink>& links_;

@@ -9,20 +9,22 @@ constexpr double kReasonTime = 0.15;  // [s] for a STATE, sent every 0.1 s and w
 
 }  // namespace
 
-std::string Stopping::reason(Finding finding, int ecu, const std::string& detail) const {
-  return prefix(ecu) + info(finding).meaning + (detail.empty() ? "" : " (" + detail + ")");
+std::string Stopping::reason(Finding finding, std::optional<int> ecu,
+                             const std::string& detail) const {
+  return (ecu ? prefix(*ecu) : "") + info(finding).meaning +
+         (detail.empty() ? "" : " (" + detail + ")");
 }
 
-std::string Stopping::fault_of(int ecu) const {
+std::optional<std::string> Stopping::fault_of(int ecu) const {
   const EcuLink& link = links_[static_cast<std::size_t>(ecu)];
   const ecu::StateReport& report = link.report();
-  if (report.fault == ecu::Fault::kNone) return "";
+  if (report.fault == ecu::Fault::kNone) return std::nullopt;
   const std::string name = ecu::name(report.fault);
   return ecu::concerns_unit(report.fault) ? name : name + " of " + link.muscle(report.muscle).name;
 }
 
 std::string Stopping::prefix(int ecu) const {
-  return ecu < 0 ? "" : links_[static_cast<std::size_t>(ecu)].own().name + ": ";
+  return links_[static_cast<std::size_t>(ecu)].own().name + ": ";
 }
 
 const char* Stopping::remedy_of(Finding finding, int ecu) const {
@@ -43,14 +45,14 @@ void Stopping::expect_reason(Finding finding, int ecu, const std::string& told, 
 std::optional<Stopping::Explained> Stopping::take_reason(double now) {
   if (!waiting_) return std::nullopt;
   const Waiting stop = *waiting_;
-  const std::string fault = fault_of(stop.ecu);
-  if (fault.empty() && now < stop.until) return std::nullopt;
+  const auto fault = fault_of(stop.ecu);
+  if (!fault && now < stop.until) return std::nullopt;
   waiting_.reset();
   return Explained{stop.finding,
                    stop.ecu,
                    fault,
                    stop.told,
-                   reason(stop.finding, stop.ecu, fault),
+                   reason(stop.finding, stop.ecu, fault.value_or("")),
                    remedy_of(stop.finding, stop.ecu)};
 }
 

@@ -21,9 +21,9 @@ class Stopping {
   struct Explained {
     Finding finding;
     int ecu;
-    std::string fault;  ///< that the ECU named; empty if it named none
-    std::string told;   ///< the reason in words, as far as it was known when the motors stopped
-    std::string what;   ///< the reason in words, as it is known now
+    std::optional<std::string> fault;  ///< that the ECU named, if it named one
+    std::string told;  ///< the reason in words, as far as it was known when the motors stopped
+    std::string what;  ///< the reason in words, as it is known now
     const char* remedy;
   };
 
@@ -31,13 +31,13 @@ class Stopping {
   explicit Stopping(const std::vector<EcuLink>& links) : links_(links) {}
 
   /// The reason in words.
-  /// @param ecu that the finding is about; -1: none
+  /// @param ecu that the finding is about
   /// @param detail which fault, which tendon; may be empty
-  std::string reason(Finding finding, int ecu, const std::string& detail) const;
-  /// The fault that an ECU reports. Empty until its STATE has named it: on the bus, STATE comes
+  std::string reason(Finding finding, std::optional<int> ecu, const std::string& detail) const;
+  /// The fault that an ECU reports. None until its STATE has named it: on the bus, STATE comes
   /// after all measurements.
-  std::string fault_of(int ecu) const;
-  /// The name of an ECU and a colon; nothing for -1.
+  std::optional<std::string> fault_of(int ecu) const;
+  /// The name of an ECU and a colon.
   std::string prefix(int ecu) const;
 
   /// Adds a stop to the log.

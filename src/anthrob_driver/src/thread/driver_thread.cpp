@@ -64,12 +64,13 @@ DriverThread::DriverThread(Hardware hardware, const Options& options, const std:
       wakeup_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   watch(epoll_, timer_);
   watch(epoll_, wakeup_);
-  if (bus_.descriptor() < 0) {
+  if (!bus_.descriptor()) {
     notes_.push_back("CAN interface " + interface + " is missing or down; waiting for it");
   }
   thread_ = std::thread([this] {
-    const std::string refused = options_.realtime ? become_realtime(kPriority) : "";
-    if (!refused.empty()) notes_.push_back(refused);
+    if (options_.realtime) {
+      if (const auto refused = become_realtime(kPriority)) notes_.push_back(*refused);
+    }
     start_timer(timer_, options_.driver.rate * options_.pace);
     loop();
   });
@@ -141,9 +142,9 @@ void DriverThread::collect() {
 void DriverThread::watch_socket() {
   // A recovered interface has a new socket, perhaps with the old number; closing the old one took
   // it out of the set.
-  if (bus_.descriptor() < 0 || bus_.openings() == watched_) return;
+  if (!bus_.descriptor() || bus_.openings() == watched_) return;
   watched_ = bus_.openings();
-  watch(epoll_, bus_.descriptor());
+  watch(epoll_, *bus_.descriptor());
 }
 
 void DriverThread::loop() {

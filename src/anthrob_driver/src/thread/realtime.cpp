@@ -16,7 +16,7 @@ double monotonic_now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-std::string become_realtime(int priority) {
+std::optional<std::string> become_realtime(int priority) {
   sched_param parameters{};
   parameters.sched_priority = priority;
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
@@ -28,7 +28,7 @@ std::string become_realtime(int priority) {
     return "memory is not locked: " + std::string(std::strerror(errno)) +
            "; run as root or set memlock in /etc/security/limits.conf";
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace driver

@@ -1,15 +1,15 @@
 #include "watch/bus_watch.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace anthrob {
 namespace driver {
 
 void BusWatch::found(Finding finding, double now) {
-  findings_.add(finding, -1, now);
+  findings_.add(finding, std::nullopt, now);
   if (!info(finding).stops) return;
-  stop_ = true;
-  stop_finding_ = finding;
+  stop_ = finding;
 }
 
 void BusWatch::receive(const BusEvent& event, double now) {
@@ -91,7 +91,7 @@ void BusWatch::cycle(double now, double late) {
   }
 }
 
-std::string BusWatch::trouble() const {
+std::optional<std::string> BusWatch::trouble() const {
   switch (condition_) {
     case Condition::kDown:
       return "the CAN interface is down or missing";
@@ -108,14 +108,11 @@ std::string BusWatch::trouble() const {
     return "no node on the bus acknowledges the driver's frames; are the ECUs switched on?";
   if (full_cycles_ >= kFullCycles)
     return "the CAN interface accepts no more frames; are the ECUs switched on?";
-  return "";
+  return std::nullopt;
 }
 
-bool BusWatch::take_stop(Finding& finding) {
-  const bool was = stop_;
-  stop_ = false;
-  finding = stop_finding_;
-  return was;
+std::optional<Finding> BusWatch::take_stop() {
+  return std::exchange(stop_, std::nullopt);
 }
 
 }  // namespace driver

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "anthrob_driver/bus/bus.h"
@@ -28,10 +29,10 @@ class BusWatch {
   void cycle(double now, double late);
 
   Condition condition() const { return condition_; }
-  /// Why motors must not be enabled on this bus; empty if nothing is wrong.
-  std::string trouble() const;
-  /// Whether something that must stop the motors was found since the last call.
-  bool take_stop(Finding& finding);
+  /// Why motors must not be enabled on this bus, if anything is wrong with it.
+  std::optional<std::string> trouble() const;
+  /// What was found last that must stop the motors, since the last call.
+  std::optional<Finding> take_stop();
   std::uint64_t frames() const { return frames_; }
 
  private:
@@ -40,8 +41,7 @@ class BusWatch {
   Findings& findings_;
   double rate_;
   Condition condition_ = Condition::kGood;
-  bool stop_ = false;
-  Finding stop_finding_ = Finding::kInterfaceDown;
+  std::optional<Finding> stop_;
   bool queue_full_ = false;
   int full_cycles_ = 0;
   bool echoes_ = false;  ///< whether this bus has ever returned an echo

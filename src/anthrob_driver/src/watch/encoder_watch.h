@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace anthrob {
@@ -36,8 +37,8 @@ class EncoderWatch {
   /// One measurement.
   /// @param position [rad]   @param voltage [V] of the controller   @param current [A]
   /// @param now [s]
-  /// @return what is wrong, in words; empty: nothing
-  std::string step(double position, double voltage, double current, double now);
+  /// @return what is wrong, in words
+  std::optional<std::string> step(double position, double voltage, double current, double now);
   /// Forgets everything; to be called while the muscle is not enabled.
   void restart() { turning_ = 0; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "anthrob_driver/hardware.h"
@@ -32,8 +33,9 @@ class ForceWatch {
   /// One measurement.
   /// @param position [rad]   @param speed [rad/s]   @param current [A]
   /// @param force [N]; NaN: no sensor   @param now [s]
-  /// @return what is wrong, in words; empty: nothing
-  std::string step(double position, double speed, double current, double force, double now);
+  /// @return what is wrong, in words
+  std::optional<std::string> step(double position, double speed, double current, double force,
+                                  double now);
   /// Forgets everything; to be called while the muscle is not enabled or `home` watches it.
   void restart() { count_ = 0; }
 

@@ -27,14 +27,16 @@ std::optional<MuscleWatch::Alarm> MuscleWatch::step(const MuscleSample& sample, 
     return std::nullopt;
   }
   if (sample.measured) {
-    const std::string slack = homing ? "" : tendon(sample, time);
-    if (!slack.empty()) return Alarm{Finding::kTendonSlack, name_ + ": " + slack, true};
-    const std::string dead = encoder_.step(sample.position, sample.voltage, sample.current, time);
-    if (!dead.empty()) return Alarm{Finding::kEncoderDead, name_ + ": " + dead, true};
-    const std::string hard =
-        homing ? ""
+    if (const auto slack = homing ? std::nullopt : tendon(sample, time)) {
+      return Alarm{Finding::kTendonSlack, name_ + ": " + *slack, true};
+    }
+    if (const auto dead = encoder_.step(sample.position, sample.voltage, sample.current, time)) {
+      return Alarm{Finding::kEncoderDead, name_ + ": " + *dead, true};
+    }
+    const auto hard =
+        homing ? std::nullopt
                : force_.step(sample.position, sample.velocity, sample.current, sample.force, time);
-    if (!hard.empty()) return Alarm{Finding::kForceImplausible, name_ + ": " + hard, false};
+    if (hard) return Alarm{Finding::kForceImplausible, name_ + ": " + *hard, false};
   }
   if (winding_.relative_temperature_rise() <= WindingTemperatureModel::kLimit) return std::nullopt;
   char text[120];
@@ -44,15 +46,15 @@ std::optional<MuscleWatch::Alarm> MuscleWatch::step(const MuscleSample& sample, 
   return Alarm{Finding::kMotorHot, name_ + text, false};
 }
 
-std::string MuscleWatch::tendon(const MuscleSample& sample, double time) {
-  if (!std::isfinite(sample.force)) return "";
+std::optional<std::string> MuscleWatch::tendon(const MuscleSample& sample, double time) {
+  if (!std::isfinite(sample.force)) return std::nullopt;
   const bool pulled = sample.mode == ecu::Mode::kForce && sample.reference > pretension_;
   return tendon_.step(sample.position, sample.force, pulled, time);
 }
 
-std::string MuscleWatch::why_not_enable() const {
+std::optional<std::string> MuscleWatch::why_not_enable() const {
   const double wait = winding_.time_to_cool();
-  if (wait <= 0.0) return "";
+  if (wait <= 0.0) return std::nullopt;
   char text[120];
   std::snprintf(text, sizeof(text),
                 ": its motor is too hot, judging by its current; try again in %.0f s",

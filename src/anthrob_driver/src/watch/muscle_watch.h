@@ -34,11 +34,11 @@ class MuscleWatch {
   std::optional<Alarm> step(const MuscleSample& sample, double time, bool enabled, bool homing);
 
   const WindingTemperatureModel& winding() const { return winding_; }
-  /// Why this muscle prevents enabling; empty if it does not.
-  std::string why_not_enable() const;
+  /// Why this muscle prevents enabling, if it does.
+  std::optional<std::string> why_not_enable() const;
 
  private:
-  std::string tendon(const MuscleSample& sample, double time);
+  std::optional<std::string> tendon(const MuscleSample& sample, double time);
 
   std::string name_;
   double pretension_;

@@ -56,7 +56,8 @@ bool TendonWatch::runs_free(double position, double force, bool pulled) {
   return limits_.travel > 0.0 && position - slack_from_ > limits_.travel;
 }
 
-std::string TendonWatch::step(double position, double force, bool pulled, double now) {
+std::optional<std::string> TendonWatch::step(double position, double force, bool pulled,
+                                             double now) {
   char text[160] = "";
   const bool is_torn = torn(position, force, now);
   const bool is_free = runs_free(position, force, pulled);
@@ -68,7 +69,8 @@ std::string TendonWatch::step(double position, double force, bool pulled, double
                   "wound in by %.2f rad, but only %.1f N: the tendon is broken or off its pulley",
                   position - slack_from_, force);
   }
-  if (text[0] != '\0') restart();
+  if (!is_torn && !is_free) return std::nullopt;
+  restart();
   return text;
 }
 

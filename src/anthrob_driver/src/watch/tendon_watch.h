@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "anthrob_driver/hardware.h"
@@ -35,8 +36,8 @@ class TendonWatch {
   /// One measurement.
   /// @param position [rad]   @param force [N], finite   @param pulled a FORCE reference above
   /// home's pretension went out with it   @param now [s]
-  /// @return what is wrong, in words; empty: nothing
-  std::string step(double position, double force, bool pulled, double now);
+  /// @return what is wrong, in words
+  std::optional<std::string> step(double position, double force, bool pulled, double now);
   /// Forgets everything; to be called while the muscle is not enabled or `home` watches it.
   void restart();
 

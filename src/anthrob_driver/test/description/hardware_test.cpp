@@ -42,12 +42,12 @@ TEST(Hardware, AnthrobWithoutItsForearm) {
   EXPECT_TRUE(upper.joints.empty());
   for (const char* name : {"model_I_tier1.yaml", "model_III_tier1.yaml"}) {
     const Hardware other = load_hardware(kConfig / "hardware_tier1.yaml", false, kConfig / name);
-    EXPECT_EQ(difference(upper, other), "") << name;
+    EXPECT_EQ(difference(upper, other), std::nullopt) << name;
   }
   // A muscle that both have is wired and limited alike.
   Hardware arm = load_hardware(kConfig / "hardware.yaml", false);
   arm.muscles.resize(8);
-  EXPECT_EQ(difference(upper, arm), "");
+  EXPECT_EQ(difference(upper, arm), std::nullopt);
 }
 
 TEST(Hardware, ARobotWithoutHand) {
@@ -101,7 +101,7 @@ TEST(Hardware, AMuscleMayHaveGainsOfItsOwn) {
   EXPECT_EQ(tuned.muscles[4].parameters.get(Parameter::kForceIntegral),
             plain.muscles[4].parameters.get(Parameter::kForceIntegral));
   EXPECT_NE(tuned.ecus[2].configuration, plain.ecus[2].configuration);
-  EXPECT_NE(difference(plain, tuned), "");
+  EXPECT_NE(difference(plain, tuned), std::nullopt);
 }
 
 TEST(Hardware, TheCarefulRobotIsTheSameButSlow) {
@@ -116,7 +116,7 @@ TEST(Hardware, TheCarefulRobotIsTheSameButSlow) {
       slow.set(rate, own.muscles[m].parameters.get(rate));
     }
   }
-  EXPECT_EQ(difference(own, careful), "");
+  EXPECT_EQ(difference(own, careful), std::nullopt);
 }
 
 TEST(Hardware, WhatIsNotSaidOfTendonsIsHomes) {
@@ -132,7 +132,7 @@ TEST(Hardware, ModelsOfOneRobotAreTheSameToTheDriver) {
     for (const char* model : {"model_I.yaml", "model_II.yaml", "model_II_noisy.yaml",
                               "model_II_ecu.yaml", "model_II_hand.yaml", "model_III.yaml"}) {
       const Hardware other = load_hardware(kConfig / "hardware.yaml", hand, kConfig / model);
-      EXPECT_EQ(difference(own, other), "") << model;
+      EXPECT_EQ(difference(own, other), std::nullopt) << model;
     }
   }
 }

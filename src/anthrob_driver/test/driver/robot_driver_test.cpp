@@ -351,7 +351,8 @@ TEST(RobotDriver, OfABusOnWhichNobodyAnswersNoUnitIsBlamed) {
   };
   rig.run(300);
   EXPECT_EQ(rig.moving(), 0);
-  EXPECT_EQ(rig.driver().stops().last().find("bus_silent: "), 0u) << rig.driver().stops().last();
+  EXPECT_EQ(rig.driver().stops().last().value_or("").find("bus_silent: "), 0u)
+      << rig.driver().stops().last().value_or("");
   EXPECT_EQ(rig.driver().findings().count(Finding::kEcuLost), 0u);
   rig.bus.tamper = nullptr;
   rig.run(500);
@@ -371,7 +372,8 @@ TEST(RobotDriver, ABusThatIsCutWithinACycleIsNoUnitsFaultEither) {
   rig.run(300);
   EXPECT_EQ(rig.moving(), 0);
   EXPECT_EQ(rig.driver().stops().count(), 1u);
-  EXPECT_EQ(rig.driver().stops().last().find("bus_silent: "), 0u) << rig.driver().stops().last();
+  EXPECT_EQ(rig.driver().stops().last().value_or("").find("bus_silent: "), 0u)
+      << rig.driver().stops().last().value_or("");
   EXPECT_EQ(rig.driver().findings().count(Finding::kEcuLost), 0u);
 }
 

@@ -384,7 +384,8 @@ TEST_P(FaultCampaign, StopsNamesAndStaysDisabled) {
   rig.commander_runs = true;
   // Only what the driver itself tells the user to do.
   const bool restarted = rig.driver().findings().count(Finding::kEcuRestarted) > 0;
-  if (restarted || rig.driver().stops().last().find("clear_faults") != std::string::npos) {
+  if (restarted ||
+      rig.driver().stops().last().value_or("").find("clear_faults") != std::string::npos) {
     rig.driver().clear_faults(rig.now());
     rig.run(500);
   }

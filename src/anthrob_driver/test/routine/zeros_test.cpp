@@ -32,7 +32,7 @@ class ZerosTest : public testing::Test {
                                 rig.now());
   }
   std::string refusal() { return command("infraspinatus", ecu::Mode::kPosition, 0.0).reason; }
-  std::string failure() { return rig.driver().home().failure(); }
+  std::string failure() { return rig.driver().home().failure().value_or(""); }
   void enable() {
     rig.driver().disable();
     rig.driver().clear_faults(rig.now());
@@ -42,7 +42,7 @@ class ZerosTest : public testing::Test {
   void home() {
     ASSERT_TRUE(rig.driver().start_home(rig.now()).accepted);
     for (int ms = 0; ms < 30000 && rig.driver().home().running(); ++ms) rig.step();
-    ASSERT_EQ(rig.driver().home().failure(), "");
+    ASSERT_EQ(rig.driver().home().failure(), std::nullopt);
   }
 
   Rig rig;
@@ -215,9 +215,10 @@ TEST_F(ZerosTest, AnEncoderThatDiesTakesTheZeroAlong) {
   rig.run(400);
   rig.commander_runs = false;
   ASSERT_EQ(rig.driver().findings().count(Finding::kEncoderDead), 1u);
-  EXPECT_EQ(rig.driver().stops().last().substr(0, 20), "encoder_dead: ecu_3:");
-  EXPECT_NE(rig.driver().stops().last().find("infraspinatus: at 2.0 V"), std::string::npos)
-      << rig.driver().stops().last();
+  EXPECT_EQ(rig.driver().stops().last().value_or("").substr(0, 20), "encoder_dead: ecu_3:");
+  EXPECT_NE(rig.driver().stops().last().value_or("").find("infraspinatus: at 2.0 V"),
+            std::string::npos)
+      << rig.driver().stops().last().value_or("");
   rig.rack.board(kUnit).peripherals.encoder = Board::Peripherals::Encoder::kCounts;
   enable();
   EXPECT_EQ(refusal(), kNoZero);

@@ -373,11 +373,11 @@ TEST(SocketCan, RefusesAnInterfaceOfAnotherKind) {
 TEST(SocketCan, ASocketThatIsOpenedAnewIsAnother) {
   if (::if_nametoindex(kInterface) == 0) GTEST_SKIP() << "no vcan0: scripts/with_vcan.sh";
   SocketCanBus bus(kInterface);
-  const int number = bus.descriptor();
+  const std::optional<int> number = bus.descriptor();
   EXPECT_EQ(bus.openings(), 1u);
   set_interface(false);
   EXPECT_EQ(bus.send(ecu::Frame{}), SendResult::kDown);
-  EXPECT_LT(bus.descriptor(), 0);
+  EXPECT_EQ(bus.descriptor(), std::nullopt);
   set_interface(true);
   bus.recover();
   EXPECT_EQ(bus.descriptor(), number);  // what it can be known by no longer

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 
 namespace anthrob {
@@ -27,7 +28,7 @@ struct Course {
 };
 
 /// What the watch says within 3 s; `when` it did.
-std::string watch(const Course& course, double* when = nullptr) {
+std::optional<std::string> watch(const Course& course, double* when = nullptr) {
   EncoderWatch encoder(kR, kK);
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
@@ -38,12 +39,12 @@ std::string watch(const Course& course, double* when = nullptr) {
     const double current = (m.voltage - kK * m.speed) / course.resistance;
     const double read = kAmpere * std::round((current + course.noise * normal(random)) / kAmpere);
     const double seen = kStep * std::floor(course.counted(position) / kStep);
-    const std::string wrong = encoder.step(seen, m.voltage, read, t);
-    if (wrong.empty()) continue;
+    const auto wrong = encoder.step(seen, m.voltage, read, t);
+    if (!wrong) continue;
     if (when != nullptr) *when = t;
     return wrong;
   }
-  return "";
+  return std::nullopt;
 }
 
 double stuck(double) {
@@ -62,8 +63,8 @@ TEST(EncoderWatch, AMotorThatTurnsUncountedIsFoundWithinAFifthOfASecond) {
             "at 2.0 V and 0.67 A its motor must have turned by 0.20 rad, but the encoder counted "
             "0.000 rad");
   EXPECT_NEAR(when, EncoderWatch::kLasts, 2.0 * kPeriod);
-  EXPECT_NE(watch({runs, flickers}), "");
-  EXPECT_NE(watch({[](double) { return Moment{-2.0, -1.0}; }, stuck}), "");
+  EXPECT_NE(watch({runs, flickers}), std::nullopt);
+  EXPECT_NE(watch({[](double) { return Moment{-2.0, -1.0}; }, stuck}), std::nullopt);
 }
 
 // POSITION control would run away with it.
@@ -74,12 +75,13 @@ TEST(EncoderWatch, AnEncoderThatCountsBackwardsIsFound) {
             "at 2.0 V and 0.67 A its motor must have turned by 0.20 rad, but the encoder counted "
             "-0.200 rad");
   EXPECT_NEAR(when, EncoderWatch::kLasts, 2.0 * kPeriod);
-  EXPECT_NE(watch({[](double) { return Moment{-2.0, -1.0}; }, backwards}), "");
+  EXPECT_NE(watch({[](double) { return Moment{-2.0, -1.0}; }, backwards}), std::nullopt);
 }
 
 TEST(EncoderWatch, AnEncoderThatDiesInMotionIsFound) {
   double when = 0.0;
-  EXPECT_NE(watch({runs, [](double position) { return std::min(position, 1.0); }}, &when), "");
+  EXPECT_NE(watch({runs, [](double position) { return std::min(position, 1.0); }}, &when),
+            std::nullopt);
   EXPECT_GT(when, 1.0);
   EXPECT_LT(when, 1.0 + 2.5 * EncoderWatch::kLasts);
 }
@@ -87,35 +89,41 @@ TEST(EncoderWatch, AnEncoderThatDiesInMotionIsFound) {
 TEST(EncoderWatch, AMotorThatStandsIsNone) {
   for (const double voltage : {0.5, 2.0, 12.0, -6.0}) {
     const auto held = [voltage](double) { return Moment{voltage, 0.0}; };
-    EXPECT_EQ(watch({held, stuck}), "") << voltage;
-    EXPECT_EQ(watch({held, stuck, 1.4 * kR}), "") << "hot, " << voltage;
-    EXPECT_EQ(watch({held, stuck, 0.8 * kR}), "") << "cold, " << voltage;
-    EXPECT_EQ(watch({held, stuck, kR, 0.1}), "") << "noise, " << voltage;
+    EXPECT_EQ(watch({held, stuck}), std::nullopt) << voltage;
+    EXPECT_EQ(watch({held, stuck, 1.4 * kR}), std::nullopt) << "hot, " << voltage;
+    EXPECT_EQ(watch({held, stuck, 0.8 * kR}), std::nullopt) << "cold, " << voltage;
+    EXPECT_EQ(watch({held, stuck, kR, 0.1}), std::nullopt) << "noise, " << voltage;
   }
 }
 
 TEST(EncoderWatch, AMotorThatIsCountedIsNone) {
-  EXPECT_EQ(watch({runs}), "");
+  EXPECT_EQ(watch({runs}), std::nullopt);
   // Free, hot, with noise; to and fro; driven by its tendon against the voltage.
-  EXPECT_EQ(watch({[](double) { return Moment{12.0, 8.0}; }, Course{}.counted, 1.4 * kR, 0.1}), "");
+  EXPECT_EQ(watch({[](double) {
+                     return Moment{12.0, 8.0};
+                   },
+                   Course{}.counted, 1.4 * kR, 0.1}),
+            std::nullopt);
   EXPECT_EQ(watch({[](double t) {
               return Moment{12.0 * std::sin(20.0 * t), 7.0 * std::sin(20.0 * t - 0.3)};
             }}),
-            "");
-  EXPECT_EQ(watch({[](double) { return Moment{1.0, -3.0}; }}), "");
+            std::nullopt);
+  EXPECT_EQ(watch({[](double) { return Moment{1.0, -3.0}; }}), std::nullopt);
 }
 
 TEST(EncoderWatch, AGapInTheMeasurementsIsNoMotion) {
   EncoderWatch encoder(kR, kK);
-  for (double t = 0.0; t < 0.15; t += kPeriod) EXPECT_EQ(encoder.step(0.0, 2.0, 0.67, t), "");
-  EXPECT_EQ(encoder.step(0.0, 2.0, 0.67, 0.3), "");
+  for (double t = 0.0; t < 0.15; t += kPeriod)
+    EXPECT_EQ(encoder.step(0.0, 2.0, 0.67, t), std::nullopt);
+  EXPECT_EQ(encoder.step(0.0, 2.0, 0.67, 0.3), std::nullopt);
   encoder.restart();
-  EXPECT_EQ(encoder.step(0.0, 2.0, 0.67, 0.36), "");
+  EXPECT_EQ(encoder.step(0.0, 2.0, 0.67, 0.36), std::nullopt);
 }
 
 TEST(EncoderWatch, AMotorThatIsNotKnownIsNotWatched) {
   EncoderWatch encoder(0.0, 0.0);
-  for (double t = 0.0; t < 1.0; t += kPeriod) EXPECT_EQ(encoder.step(0.0, 12.0, 0.0, t), "");
+  for (double t = 0.0; t < 1.0; t += kPeriod)
+    EXPECT_EQ(encoder.step(0.0, 12.0, 0.0, t), std::nullopt);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace anthrob {
 namespace driver {
@@ -18,7 +19,7 @@ struct Moment {
 
 /// A winch of which `efficiency` reaches the tendon, with a drag of `drag` [Nm]; its sensor reads
 /// by `reads`. What the watch says within 3 s; `when` it did.
-std::string watch(
+std::optional<std::string> watch(
     const std::function<Moment(double)>& course,
     const std::function<double(double)>& reads = [](double force) { return force; },
     double efficiency = 1.0, double drag = 0.0, double* when = nullptr) {
@@ -30,13 +31,12 @@ std::string watch(
     const double acceleration = (course(t + 1e-4).speed - course(t - 1e-4).speed) / 2e-4;
     const double torque =
         kWinch.radius * m.force / efficiency + kWinch.inertia * acceleration + drag;
-    const std::string wrong =
-        watch.step(position, m.speed, torque / kWinch.back_emf, reads(m.force), t);
-    if (wrong.empty()) continue;
+    const auto wrong = watch.step(position, m.speed, torque / kWinch.back_emf, reads(m.force), t);
+    if (!wrong) continue;
     if (when != nullptr) *when = t;
     return wrong;
   }
-  return "";
+  return std::nullopt;
 }
 
 /// Pulls harder and harder.
@@ -47,7 +47,7 @@ Moment rises(double t) {
 TEST(ForceWatch, ASensorThatStandsStillIsFoundBeforeTheTendonBreaks) {
   const auto stuck = [](double) { return 30.0; };
   double when = 0.0;
-  EXPECT_NE(watch(rises, stuck, 1.0, 0.0, &when), "");
+  EXPECT_NE(watch(rises, stuck, 1.0, 0.0, &when), std::nullopt);
   // 4 x 30 N + 100 N, in the mean of up to two intervals.
   EXPECT_GT(rises(when).force, 220.0);
   EXPECT_LT(rises(when).force, 220.0 + 2.0 * 200.0 * ForceWatch::kLasts);
@@ -58,17 +58,17 @@ TEST(ForceWatch, ASensorThatStandsStillIsFoundBeforeTheTendonBreaks) {
 
 TEST(ForceWatch, ASpindleThatStandsIsLeftToItsUnit) {
   const auto jammed = [](double) { return Moment{0.0, 150.0}; };
-  EXPECT_EQ(watch(jammed, [](double) { return 2.0; }), "");
+  EXPECT_EQ(watch(jammed, [](double) { return 2.0; }), std::nullopt);
 }
 
 TEST(ForceWatch, ATendonThatIsReadIsNone) {
-  EXPECT_EQ(watch(rises), "");
+  EXPECT_EQ(watch(rises), std::nullopt);
   // A gear of 0.6, friction along the tendon that takes half, and a drag without load.
   EXPECT_EQ(watch(
                 rises, [](double force) { return 0.5 * force; }, 0.6, 0.5),
-            "");
+            std::nullopt);
   // Accelerates from rest to no-load speed within 50 ms, without a tendon.
-  EXPECT_EQ(watch([](double t) { return Moment{8.0 * std::tanh(t / 0.025), 0.0}; }), "");
+  EXPECT_EQ(watch([](double t) { return Moment{8.0 * std::tanh(t / 0.025), 0.0}; }), std::nullopt);
   // A load that comes suddenly, read 0.03 s late.
   double late[7] = {};
   int k = 0;
@@ -77,24 +77,30 @@ TEST(ForceWatch, ATendonThatIsReadIsNone) {
     late[k++ % 7] = force;
     return old;
   };
-  EXPECT_EQ(watch([](double t) { return Moment{0.5, t < 0.55 ? 0.0 : 180.0}; }, delayed), "");
+  EXPECT_EQ(watch(
+                [](double t) {
+                  return Moment{0.5, t < 0.55 ? 0.0 : 180.0};
+                },
+                delayed),
+            std::nullopt);
 }
 
 TEST(ForceWatch, WhatIsNotKnownIsNotWatched) {
   ForceWatch unknown(Winch{});
   ForceWatch known(kWinch);
   for (double t = 0.0; t < 1.0; t += kPeriod) {
-    EXPECT_EQ(unknown.step(t, 1.0, 10.0, 5.0, t), "");
-    EXPECT_EQ(known.step(t, 1.0, 10.0, std::nan(""), t), "");
+    EXPECT_EQ(unknown.step(t, 1.0, 10.0, 5.0, t), std::nullopt);
+    EXPECT_EQ(known.step(t, 1.0, 10.0, std::nan(""), t), std::nullopt);
   }
 }
 
 TEST(ForceWatch, AGapInTheMeasurementsBeginsAnew) {
   ForceWatch watch(kWinch);
-  for (double t = 0.0; t < 0.095; t += kPeriod) EXPECT_EQ(watch.step(t, 1.0, 5.0, 5.0, t), "");
-  EXPECT_EQ(watch.step(0.2, 1.0, 5.0, 5.0, 0.2), "");
+  for (double t = 0.0; t < 0.095; t += kPeriod)
+    EXPECT_EQ(watch.step(t, 1.0, 5.0, 5.0, t), std::nullopt);
+  EXPECT_EQ(watch.step(0.2, 1.0, 5.0, 5.0, 0.2), std::nullopt);
   watch.restart();
-  EXPECT_EQ(watch.step(0.31, 1.0, 5.0, 5.0, 0.31), "");
+  EXPECT_EQ(watch.step(0.31, 1.0, 5.0, 5.0, 0.31), std::nullopt);
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST(HotMotors, StopAllAndWaitUntilTheyAreCool) {
   rig.commander_runs = false;
   rig.run(100);
   EXPECT_EQ(rig.moving(), 0);
-  const std::string last = rig.driver().stops().last();
+  const std::string last = rig.driver().stops().last().value_or("");
   EXPECT_EQ(last.substr(0, 10), "motor_hot:") << last;
   EXPECT_NE(last.find("infraspinatus: the estimated heat of its motor is 1.1"), std::string::npos)
       << last;

@@ -103,7 +103,7 @@ class OrdinaryMotion : public testing::Test {
 TEST_F(OrdinaryMotion, PosturesAtFullSpeedAreNoBrokenTendons) {
   for (const auto* posture : {&kTense, &kReach, &kRest, &kReach, &kTense, &kRest, &kTense}) {
     command(ecu::Mode::kPosition, *posture, 2500);
-    ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.stops().last();
+    ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.stops().last().value_or("");
   }
   // Loaded enough for the watch to look at, and moved.
   EXPECT_GT(highest_force, 3.0 * hardware.tendons.loaded);
@@ -115,7 +115,7 @@ TEST_F(OrdinaryMotion, PosturesAtFullSpeedAreNoBrokenTendons) {
 TEST_F(OrdinaryMotion, ForcesThatComeAndGoAreNoBrokenTendons) {
   for (const double force : {30.0, 1.0, 60.0, 0.0, 8.0, 2.0}) {
     command(ecu::Mode::kForce, std::vector<double>(11, force), 2500);
-    ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.stops().last();
+    ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.stops().last().value_or("");
   }
 }
 
@@ -130,9 +130,9 @@ TEST_F(OrdinaryMotion, ATendonThatLosesItsForceIsNamed) {
   command(ecu::Mode::kPosition, kReach, 300);
   EXPECT_EQ(robot.phase(), Phase::kDisabled);
   EXPECT_EQ(robot.findings().count(Finding::kTendonSlack), 1u);
-  EXPECT_NE(robot.stops().last().find("(" + hardware.muscles[loaded].name + ": held"),
+  EXPECT_NE(robot.stops().last().value_or("").find("(" + hardware.muscles[loaded].name + ": held"),
             std::string::npos)
-      << robot.stops().last();
+      << robot.stops().last().value_or("");
 }
 
 }  // namespace

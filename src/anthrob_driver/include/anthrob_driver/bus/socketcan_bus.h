@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "anthrob_driver/bus/bus.h"
@@ -28,8 +29,11 @@ class SocketCanBus final : public Bus {
   bool receive(BusEvent& event) override;
   void recover() override;
 
-  /// To wait on; negative while the interface is missing. Changes with recover().
-  int descriptor() const { return socket_; }
+  /// To wait on; none while the interface is missing. Changes with recover().
+  std::optional<int> descriptor() const {
+    if (socket_ < 0) return std::nullopt;
+    return socket_;
+  }
   /// How often it was opened: a new socket may have the number of the one before.
   std::uint64_t openings() const { return openings_; }
 
