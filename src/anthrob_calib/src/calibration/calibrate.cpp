@@ -195,8 +195,7 @@ CalibrationInput CalibrationInput::read(CalibrationConfig config, const Recordin
 }
 
 Problem CalibrationInput::problem() const {
-  return {model.clone(), ParameterSpace(config.node, model), runs, config.weights,
-          config.simulation};
+  return {model, ParameterSpace(config.node, model), runs, config.weights, config.simulation};
 }
 
 std::string CalibrationInput::fingerprint() const {

@@ -7,21 +7,18 @@
 namespace anthrob {
 namespace calibration {
 
-Problem::Problem(ConfigNode model, ParameterSpace space, std::vector<MeasuredRun> runs,
+Problem::Problem(const ConfigNode& model, ParameterSpace space, std::vector<MeasuredRun> runs,
                  Weights weights, SimulationOptions options)
-    : model_(std::move(model)),
+    : model_(model),
       space_(std::move(space)),
       runs_(std::move(runs)),
       weights_(weights),
-      options_(options) {
-  // Reading marks keys as read; afterwards threads only look.
-  model_.ignore();
-}
+      options_(options) {}
 
 std::shared_ptr<const RobotModel> Problem::build(const std::vector<double>& values) const {
   LoadOptions load;
   load.overrides = space_.overrides(values);
-  return build_robot_model(model_, load);
+  return model_.build(load);
 }
 
 template <class Function>

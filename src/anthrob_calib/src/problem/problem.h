@@ -14,8 +14,9 @@ namespace calibration {
 /// not depend on the optimiser. All members may be called from several threads at once.
 class Problem {
  public:
-  Problem(ConfigNode model, ParameterSpace space, std::vector<MeasuredRun> runs, Weights weights,
-          SimulationOptions options);
+  /// @param model its files are read here, and never again
+  Problem(const ConfigNode& model, ParameterSpace space, std::vector<MeasuredRun> runs,
+          Weights weights, SimulationOptions options);
 
   const ParameterSpace& space() const { return space_; }
   const std::vector<MeasuredRun>& runs() const { return runs_; }
@@ -35,7 +36,7 @@ class Problem {
   template <class Function>
   bool try_simulate(const std::vector<double>& values, Function use) const;
 
-  ConfigNode model_;
+  RobotDescription model_;
   ParameterSpace space_;
   std::vector<MeasuredRun> runs_;
   Weights weights_;

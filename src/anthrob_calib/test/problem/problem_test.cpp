@@ -2,10 +2,13 @@
 #include "problem/problem.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 
+#include "anthrob_core/errors.h"
 #include "calibration/problem_evaluator.h"
 #include "optimiser/optimiser.h"
 #include "rig_problem.h"
@@ -37,6 +40,24 @@ TEST(Problem, AnImpossibleRobotIsInvalid) {
   EXPECT_TRUE(std::isfinite(problem.fitness(problem.space().initial())));
   EXPECT_TRUE(std::isinf(problem.fitness({0.15})));  // the insertion would lie inside
   EXPECT_TRUE(problem.residuals({0.15}).empty());
+}
+
+TEST(Problem, EvaluatesWithoutTheFilesOfItsModel) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("anthrob_problem_test_" + std::to_string(getpid()));
+  fs::remove_all(folder);
+  fs::copy(fs::path(kModelFile).parent_path(), folder, fs::copy_options::recursive);
+  const auto copied = ConfigNode::load((folder / fs::path(kModelFile).filename()).string());
+  const auto runs = runs_of(rig(), "equilibrium");
+  const ParameterSpace space(ConfigNode::parse(kParameters, "c.yaml"), copied);
+  const Problem problem(copied, space, runs, {}, {});
+  fs::remove_all(folder);
+  ASSERT_THROW(build_robot_model(copied), BadInput);
+
+  std::vector<double> values = problem.space().initial();
+  values[0] += 0.002;
+  EXPECT_EQ(problem.fitness(values), problem_of(runs).fitness(values));
 }
 
 TEST(Calibration, LeastSquaresFindsForgottenParameters) {

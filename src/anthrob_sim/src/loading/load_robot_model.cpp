@@ -9,9 +9,13 @@
 #include "anthrob_core/errors.h"
 #include "anthrob_core/text.h"
 #include "anthrob_ecu/model_file.h"
+#include "anthrob_sim/actuator/actuator.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/path/muscle_path.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
+#include "anthrob_sim/spring/series_elastic_element.h"
+#include "path/surface_types.h"
 
 namespace anthrob {
 
@@ -34,25 +38,35 @@ Vec3 near_link(const ConfigNode& node) {
   return point;
 }
 
+}  // namespace
+
+/// What a model takes over from its files as it stands there.
+struct RobotFiles {
+  std::string name;  ///< of the folder that holds the model file
+  std::string urdf;
+  bool collisions = false;
+  SkeletonModel skeleton;  ///< as in the URDF
+  MeshFiles meshes;
+};
+
+namespace {
+
 class Builder {
  public:
-  Builder(const ConfigNode& config, const LoadOptions& options)
-      : config_(config), options_(options), model_(std::make_shared<RobotModel>()) {}
+  Builder(const ConfigNode& config, const RobotFiles& files, const LoadOptions& options)
+      : config_(config), files_(files), options_(options), model_(std::make_shared<RobotModel>()) {}
 
   std::shared_ptr<const RobotModel> build() {
     model_->file = config_.file();
     model_->step = options_.step;
-    const auto folder = std::filesystem::path(config_.file()).parent_path();
-    model_->name =
-        std::filesystem::weakly_canonical(config_.file()).parent_path().filename().string();
+    model_->name = files_.name;
     model_->gravity = config_.at("gravity").as_vector3("m/s^2");
-    model_->collisions = config_.has("collisions") && config_.at("collisions").as_bool();
-
-    const ConfigNode robot = config_.at("robot");
-    const auto urdf = std::filesystem::path(robot.file()).parent_path() / robot.as_text();
-    if (!std::filesystem::exists(urdf)) robot.fail_expected("a URDF file beside this one");
-    model_->urdf_file = urdf.string();
-    skeleton_ = std::make_shared<SkeletonModel>(load_urdf(model_->urdf_file, model_->collisions));
+    model_->collisions = files_.collisions;
+    model_->urdf_file = files_.urdf;
+    for (const char* key : {"collisions", "robot"}) {
+      if (config_.has(key)) config_.at(key).ignore();  // read with the files
+    }
+    skeleton_ = std::make_shared<SkeletonModel>(files_.skeleton);
     read_joints();
     model_->skeleton = skeleton_;
 
@@ -311,7 +325,7 @@ class Builder {
       obstacle.point_B = X_BF * near_link(entry.at("point"));
       obstacle.friction = eyelets;
     } else {
-      obstacle.surface = make_wrapping_surface(type, entry.at(type), X_BF);
+      obstacle.surface = make_wrapping_surface(type, entry.at(type), X_BF, files_.meshes);
       for (const std::string& remark : obstacle.surface->remarks()) {
         model_->remarks.push_back(remark);
       }
@@ -403,6 +417,7 @@ class Builder {
   }
 
   const ConfigNode& config_;
+  const RobotFiles& files_;
   const LoadOptions& options_;
   std::shared_ptr<RobotModel> model_;
   std::shared_ptr<SkeletonModel> skeleton_;
@@ -410,7 +425,55 @@ class Builder {
   std::shared_ptr<const FrictionLaw> eyelet_friction_, surface_friction_;  ///< null: none
 };
 
+/// Opens the meshes of all muscles. What is wrong with the description of a path is said when it is
+/// built.
+void read_meshes(const ConfigNode& config, const MeshFiles& files) {
+  const auto has = [](const ConfigNode& node, const char* key) {
+    return node.is_map() && node.has(key);
+  };
+  if (!has(config, "muscles") || !config.at("muscles").is_map()) return;
+  for (const auto& [name, muscle] : config.at("muscles").entries()) {
+    if (!has(muscle, "path") || !muscle.at("path").is_sequence()) continue;
+    for (const ConfigNode& entry : muscle.at("path").items()) {
+      if (!has(entry, "mesh") || !has(entry.at("mesh"), "file")) continue;
+      const ConfigNode file = entry.at("mesh").at("file");
+      if (file.is_scalar()) files.get(file);
+    }
+  }
+}
+
+void check_step(const LoadOptions& options) {
+  if (options.step > 0.0 && options.step <= kMaximumStep) return;
+  std::ostringstream given;
+  given << std::setprecision(std::numeric_limits<double>::digits10) << options.step;
+  throw BadInput("simulation step " + given.str() + " s: expected a number in (0, 0.1]");
+}
+
 }  // namespace
+
+RobotDescription RobotDescription::load(const std::string& file) {
+  return RobotDescription(ConfigNode::load(file));
+}
+
+RobotDescription::RobotDescription(const ConfigNode& config) : config_(config.clone()) {
+  auto files = std::make_shared<RobotFiles>();
+  files->name = std::filesystem::weakly_canonical(config_.file()).parent_path().filename().string();
+  files->collisions = config_.has("collisions") && config_.at("collisions").as_bool();
+  const ConfigNode robot = config_.at("robot");
+  const auto urdf = std::filesystem::path(robot.file()).parent_path() / robot.as_text();
+  if (!std::filesystem::exists(urdf)) robot.fail_expected("a URDF file beside this one");
+  files->urdf = urdf.string();
+  files->skeleton = load_urdf(files->urdf, files->collisions);
+  read_meshes(config_, files->meshes);
+  files_ = std::move(files);
+}
+
+std::shared_ptr<const RobotModel> RobotDescription::build(const LoadOptions& options) const {
+  check_step(options);
+  ConfigNode own = config_.clone();
+  for (const auto& [path, value] : options.overrides) own.set_number(path, value);
+  return Builder(own, *files_, options).build();
+}
 
 std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,
                                                    const LoadOptions& options) {
@@ -419,14 +482,8 @@ std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,
 
 std::shared_ptr<const RobotModel> build_robot_model(const ConfigNode& config,
                                                     const LoadOptions& options) {
-  if (!(options.step > 0.0 && options.step <= kMaximumStep)) {
-    std::ostringstream given;
-    given << std::setprecision(std::numeric_limits<double>::digits10) << options.step;
-    throw BadInput("simulation step " + given.str() + " s: expected a number in (0, 0.1]");
-  }
-  ConfigNode own = config.clone();
-  for (const auto& [path, value] : options.overrides) own.set_number(path, value);
-  return Builder(own, options).build();
+  check_step(options);
+  return RobotDescription(config).build(options);
 }
 
 }  // namespace anthrob

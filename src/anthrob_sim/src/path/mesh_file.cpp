@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -89,6 +92,42 @@ void check_size(const ConfigNode& node, const std::vector<Vec3>& points) {
   node.at("file").fail(text);
 }
 
+/// What a file holds now: a path may get another content, and content another path.
+std::string stamp_of(const std::string& path) {
+  std::string content;  // no file, or a folder, has a message of its own
+  if (std::filesystem::is_regular_file(path)) {
+    std::ifstream in(path, std::ios::binary);
+    content.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  std::ostringstream stamp;
+  stamp << path << content.size() << " " << std::hash<std::string>()(content);
+  return stamp.str();
+}
+
+/// Parsing takes much longer than reading: programs that load a robot again get the same mesh.
+std::shared_ptr<const MeshFile> parsed(const std::string& path) {
+  constexpr std::size_t kCapacity = 256;
+  static std::mutex mutex;
+  static std::map<std::string, std::shared_ptr<const MeshFile>> known;
+  auto file = std::make_shared<MeshFile>();
+  file->stamp = stamp_of(path);
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto same = known.find(file->stamp);
+    if (same != known.end()) return same->second;
+  }
+  try {
+    file->mesh = read_mesh(path);
+  } catch (const std::runtime_error& error) {
+    file->reason = error.what();
+    return file;
+  }
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (known.size() >= kCapacity) known.clear();
+  known.emplace(file->stamp, file);
+  return file;
+}
+
 }  // namespace
 
 TriangleMesh read_mesh(const std::string& file) {
@@ -159,16 +198,22 @@ std::vector<std::string> mesh_oddities(const TriangleMesh& mesh) {
   return list;
 }
 
-MeshPoints load_mesh_points(const ConfigNode& node) {
+std::shared_ptr<const MeshFile> MeshFiles::get(const std::string& path) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto& file = files_[path];
+  if (!file) file = parsed(path);
+  return file;
+}
+
+std::shared_ptr<const MeshFile> MeshFiles::get(const ConfigNode& file) const {
+  return get((std::filesystem::path(file.file()).parent_path() / file.as_text()).string());
+}
+
+MeshPoints load_mesh_points(const ConfigNode& node, const MeshFiles& files) {
   const ConfigNode file = node.at("file");
-  const std::string path =
-      (std::filesystem::path(file.file()).parent_path() / file.as_text()).string();
-  TriangleMesh mesh;
-  try {
-    mesh = read_mesh(path);
-  } catch (const std::runtime_error& error) {
-    file.fail(file.as_text() + ": " + error.what());
-  }
+  const std::shared_ptr<const MeshFile> source = files.get(file);
+  if (source->reason) file.fail(file.as_text() + ": " + *source->reason);
+  TriangleMesh mesh = source->mesh;
   const double scale = node.number_or("scale", 1.0, Bounds::positive(), "1");
   for (Vec3& p : mesh.vertices) p *= scale;
   check_size(node, mesh.vertices);

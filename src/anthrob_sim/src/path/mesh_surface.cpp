@@ -262,20 +262,12 @@ namespace {
 constexpr const char* kKeys[] = {"chi", "scale", "offset", "part", "selection"};
 
 /// All that a prepared surface depends on.
-std::string description(const ConfigNode& node, const Pose& X_BL) {
+std::string description(const ConfigNode& node, const Pose& X_BL, const MeshFiles& files) {
   const ConfigNode file = node.at("file");
-  const auto path = std::filesystem::path(file.file()).parent_path() / file.as_text();
-  std::string content;  // no file, or a folder, has a message of its own
-  if (std::filesystem::is_regular_file(path)) {
-    std::ifstream in(path, std::ios::binary);
-    content.assign(std::istreambuf_iterator<char>(in), {});
-  }
   std::ostringstream out;
   out.precision(17);
   // Remarks name the file that describes.
-  out << file.file() << file.path() << "\n"
-      << path.string() << content.size() << " " << std::hash<std::string>()(content) << "\n"
-      << X_BL.R << X_BL.p;
+  out << file.file() << file.path() << "\n" << files.get(file)->stamp << "\n" << X_BL.R << X_BL.p;
   for (const char* key : kKeys) {
     if (node.has(key)) out << "\n" << key << node.at(key).to_yaml();
   }
@@ -299,22 +291,24 @@ void pass_over(const ConfigNode& node) {
 
 }  // namespace
 
-std::shared_ptr<const WrappingSurface> MeshSurface::load(const ConfigNode& node, const Pose& X_BL) {
+std::shared_ptr<const WrappingSurface> MeshSurface::load(const ConfigNode& node, const Pose& X_BL,
+                                                         const MeshFiles& files) {
   static MeshCache cache;
   bool known = true;
-  const auto surface = cache.get(description(node, X_BL), [&] {
+  const auto surface = cache.get(description(node, X_BL, files), [&] {
     known = false;
-    return prepare(node, X_BL);
+    return prepare(node, X_BL, files);
   });
   if (known) pass_over(node);
   return surface;
 }
 
 std::shared_ptr<const WrappingSurface> MeshSurface::prepare(const ConfigNode& node,
-                                                            const Pose& X_BL) {
+                                                            const Pose& X_BL,
+                                                            const MeshFiles& files) {
   const Vec3 chi = node.at("chi").as_vector3("1");
   if (!(chi.norm() > 1e-9)) node.at("chi").fail_expected("a vector that is not zero");
-  MeshPoints mesh = load_mesh_points(node);
+  MeshPoints mesh = load_mesh_points(node, files);
   for (Vec3& p : mesh.points) p = X_BL * p;
   const std::string selection = node.text_or("selection", "hull");
   if (selection != "hull" && selection != "half_space") {

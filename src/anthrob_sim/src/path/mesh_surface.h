@@ -7,6 +7,7 @@
 #include "path/distance_field.h"
 #include "path/hull_geodesic.h"
 #include "path/hull_locator.h"
+#include "path/mesh_file.h"
 
 namespace anthrob {
 
@@ -56,10 +57,12 @@ class MeshSurface final : public WrappingSurface {
   /// `{file: , scale: , offset: [m], chi: [1], part: [{point: [m], normal: [1]}], selection:
   /// hull}`; with `selection: half_space` a SelectedMesh. The same description in the same file
   /// gives the same object.
-  static std::shared_ptr<const WrappingSurface> load(const ConfigNode& node, const Pose& X_BL);
+  static std::shared_ptr<const WrappingSurface> load(const ConfigNode& node, const Pose& X_BL,
+                                                     const MeshFiles& files = {});
 
  private:
-  static std::shared_ptr<const WrappingSurface> prepare(const ConfigNode& node, const Pose& X_BL);
+  static std::shared_ptr<const WrappingSurface> prepare(const ConfigNode& node, const Pose& X_BL,
+                                                        const MeshFiles& files);
 
   /// Head of the state: the facets below the neighbours in the last posture, and the direction and
   /// length of the strip that follows.

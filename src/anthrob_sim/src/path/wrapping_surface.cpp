@@ -6,18 +6,27 @@
 #include "path/cylinder.h"
 #include "path/mesh_surface.h"
 #include "path/sphere.h"
+#include "path/surface_types.h"
 
 namespace anthrob {
 
 namespace {
-using Factory = std::shared_ptr<const WrappingSurface> (*)(const ConfigNode&, const Pose&);
+using Factory = std::shared_ptr<const WrappingSurface> (*)(const ConfigNode&, const Pose&,
+                                                           const MeshFiles&);
+
+/// For surfaces that need no file.
+template <std::shared_ptr<const WrappingSurface> (*kLoad)(const ConfigNode&, const Pose&)>
+std::shared_ptr<const WrappingSurface> without_files(const ConfigNode& node, const Pose& X_BL,
+                                                     const MeshFiles&) {
+  return kLoad(node, X_BL);
+}
 
 // A new surface: one file, one line here.
 const std::map<std::string, Factory>& factories() {
   static const std::map<std::string, Factory> kFactories = {
-      {"cylinder", &Cylinder::load},
+      {"cylinder", &without_files<&Cylinder::load>},
       {"mesh", &MeshSurface::load},
-      {"sphere", &Sphere::load},
+      {"sphere", &without_files<&Sphere::load>},
   };
   return kFactories;
 }
@@ -25,11 +34,12 @@ const std::map<std::string, Factory>& factories() {
 
 std::shared_ptr<const WrappingSurface> make_wrapping_surface(const std::string& type,
                                                              const ConfigNode& node,
-                                                             const Pose& X_BL) {
+                                                             const Pose& X_BL,
+                                                             const MeshFiles& files) {
   const auto it = factories().find(type);
   if (it == factories().end())
     node.fail("unknown wrapping surface; known: " + wrapping_surface_types());
-  return it->second(node, X_BL);
+  return it->second(node, X_BL, files);
 }
 
 std::string wrapping_surface_types() {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_core/config_node.h"
 #include "anthrob_ecu/control_law.h"
 #include "anthrob_sim/actuator/geared_motor.h"
 #include "anthrob_sim/actuator/power_effect.h"
@@ -97,11 +98,33 @@ struct LoadOptions {
   bool slow_controllers = false;
 };
 
-/// Reads a model file, what it extends, and the URDF it names.
-/// @throws BadInput with one line: file, line, key, value, what was expected
+struct RobotFiles;
+
+/// The files of a robot, read once: model file, what it extends, URDF, meshes. Variants of the
+/// robot are built from it without opening a file. Immutable: copies share it, also between
+/// threads.
+class RobotDescription {
+ public:
+  /// @throws BadInput with one line: file, line, key, value, what was expected
+  static RobotDescription load(const std::string& file);
+  /// Of a model file in memory, and the files that it names. `config` is copied.
+  explicit RobotDescription(const ConfigNode& config);
+
+  /// The model file with what it extends.
+  const ConfigNode& config() const { return config_; }
+  /// @throws BadInput as load()
+  std::shared_ptr<const RobotModel> build(const LoadOptions& options = {}) const;
+
+ private:
+  ConfigNode config_;
+  std::shared_ptr<const RobotFiles> files_;
+};
+
+/// Builds one robot from its files.   @throws BadInput as RobotDescription::load()
 std::shared_ptr<const RobotModel> load_robot_model(const std::string& file,
                                                    const LoadOptions& options = {});
-/// Builds the model from a model file in memory; several threads may use one `config`.
+/// The same from a model file in memory; several threads may use one `config`. To build many
+/// variants, use a RobotDescription.
 std::shared_ptr<const RobotModel> build_robot_model(const ConfigNode& config,
                                                     const LoadOptions& options = {});
 

@@ -76,12 +76,4 @@ class WrappingSurface {
 /// projection on that line.
 void set_straight(const Vec3& before, const Vec3& after, const Vec3& point, WrapContact& contact);
 
-/// Builds the surface that one entry of a muscle's path describes, e.g. `{cylinder: {...}}`.
-/// @param X_BL from the link frame, in which the file gives the surface, to the body's frame
-std::shared_ptr<const WrappingSurface> make_wrapping_surface(const std::string& type,
-                                                             const ConfigNode& node,
-                                                             const Pose& X_BL);
-/// Names of all known types, for messages: "sphere, cylinder".
-std::string wrapping_surface_types();
-
 }  // namespace anthrob
