@@ -25,6 +25,10 @@ class House(unittest.TestCase):
     def test_doors(self):
         self.expect_kept(rules.doors(TOP))
 
+    def test_the_map_names_doors_and_folders_that_exist(self):
+        self.expect_kept(rules.doors_in_documents(TOP))
+        self.expect_kept(rules.folders_in_documents(TOP))
+
     def test_core_sources_are_free_of_ros(self):
         self.expect_kept(rules.ros_in_sources(TOP))
 
@@ -82,6 +86,14 @@ class Breaches(unittest.TestCase):
         self.write('src/anthrob_low/include/anthrob_low/private.h', '')
         self.write('src/anthrob_low/src/first/more.cpp', '#include "anthrob_low/private.h"\n')
         self.expect(rules.doors(self.folder.name), 'src/anthrob_low/include/anthrob_low/private.h:1')
+
+    def test_a_door_that_is_only_told(self):
+        self.write('docs/map.md', '## Doors\n| package | include | for |\n| `anthrob_low` | `door.h`, `none.h` | all |\n## End\n')
+        self.expect(rules.doors_in_documents(self.folder.name, 'docs/map.md'), 'docs/map.md:3')
+
+    def test_a_folder_that_is_not_on_the_map(self):
+        self.write('docs/map.md', 'Of low: `first/`\n')
+        self.expect(rules.folders_in_documents(self.folder.name, 'docs/map.md'), 'docs/map.md:1')
 
     def test_ros_in_a_core_source(self):
         self.write('src/anthrob_low/src/first/own.h', '#pragma once\n#include <ros/ros.h>\n')

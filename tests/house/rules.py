@@ -184,6 +184,36 @@ def filled_in(top):
 NUMBER = re.compile(r'\bconstexpr\b[^;=]*\bk[A-Z]\w*\s*(=\s*|\{)')
 
 
+def doors_in_documents(top, page='docs/architecture.md'):
+    """Rule 1, of what users are told: a header that the table of doors names can be included."""
+    breaches = []
+    with open(os.path.join(top, page), encoding='utf-8') as text:
+        lines = text.read().splitlines()
+    begin = lines.index('## Doors')
+    end = next(i for i in range(begin + 1, len(lines)) if lines[i].startswith('## '))
+    package = None
+    for number in range(begin, end):
+        cells = [cell.strip() for cell in lines[number].split('|')[1:-1]]
+        if len(cells) < 3:
+            continue
+        package = (re.findall(r'`(anthrob_\w+)`', cells[0]) or [package])[0]
+        for header in re.findall(r'`([\w/]+\.h)`', cells[1]):
+            if not os.path.isfile(os.path.join(top, 'src', package, 'include', package, header)):
+                breaches.append('%s:%d: %s has no %s in include/' % (os.path.join(top, page), number + 1, package, header))
+    return breaches
+
+
+def folders_in_documents(top, page='docs/architecture.md'):
+    """A folder of a package is found on the map."""
+    with open(os.path.join(top, page), encoding='utf-8') as text:
+        told = text.read()
+    with open(os.path.join(top, 'tests', 'house', 'folders.yaml'), encoding='utf-8') as text:
+        order = yaml.safe_load(text)
+    return ['%s:1: names no folder %s/, which %s has' % (os.path.join(top, page), folder, package)
+            for package, listed in order.items() for folder in listed
+            if re.match(r'\w+$', folder) and '`%s/`' % folder not in told]
+
+
 def scattered_numbers(top, package='anthrob_discovery'):
     """Rule 5: numbers that decide stand in src/options, not beside the code that uses them."""
     breaches = []
