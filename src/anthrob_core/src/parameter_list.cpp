@@ -188,7 +188,8 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
   return parameters;
 }
 
-std::string calibration_file_of(const std::string& model_file, const std::string& given) {
+std::optional<std::string> calibration_file_of(const std::string& model_file,
+                                               const std::string& given) {
   const ConfigNode model = ConfigNode::load(model_file);
   // The robot is named where the folder of its files is.
   const std::string robot_file = model.at("robot").file();
@@ -197,15 +198,15 @@ std::string calibration_file_of(const std::string& model_file, const std::string
     const auto beside = std::filesystem::path(file).parent_path() / "calibration.yaml";
     if (std::filesystem::exists(beside)) return beside.string();
   }
-  return "";
+  return std::nullopt;
 }
 
 std::vector<ModelParameter> ordinary_parameters(const std::string& model_file,
                                                 const std::string& calibration_file,
                                                 std::vector<std::string>* remarks) {
-  const std::string file = calibration_file_of(model_file, calibration_file);
-  if (file.empty()) return {};
-  const ConfigNode calibration = ConfigNode::load(file);
+  const std::optional<std::string> file = calibration_file_of(model_file, calibration_file);
+  if (!file) return {};
+  const ConfigNode calibration = ConfigNode::load(*file);
   check_file(calibration, remarks);
   return read_parameters(calibration.at("parameters"), ConfigNode::load(model_file),
                          Outside::kWiden);

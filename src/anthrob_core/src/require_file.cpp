@@ -1,6 +1,7 @@
 #include "require_file.h"
 
 #include <filesystem>
+#include <optional>
 #include <regex>
 #include <set>
 
@@ -12,12 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// NAME of model_NAME.yaml; empty for other files.
-std::string model_name(const fs::path& file) {
+/// NAME of model_NAME.yaml; none for other files.
+std::optional<std::string> model_name(const fs::path& file) {
   static const std::regex kModel("model_(.+)\\.yaml");
   std::smatch match;
   const std::string name = file.filename().string();
-  return std::regex_match(name, match, kModel) ? match[1].str() : "";
+  if (!std::regex_match(name, match, kModel)) return std::nullopt;
+  return match[1].str();
 }
 
 /// Separated by commas.
@@ -25,12 +27,10 @@ std::string models_in(const fs::path& folder) {
   std::set<std::string> names;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    names.insert(model_name(entry.path()));
+    if (const auto name = model_name(entry.path())) names.insert(*name);
   }
   std::string list;
-  for (const std::string& name : names) {
-    if (!name.empty()) list += (list.empty() ? "" : ", ") + name;
-  }
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return list;
 }
 
@@ -41,7 +41,7 @@ void require_file(const std::string& path) {
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) throw BadInput(path + ": expected a YAML file, not a folder");
   if (status.type() != fs::file_type::not_found) return;
-  const bool is_model = !model_name(path).empty();
+  const bool is_model = model_name(path).has_value();
   const std::string models = is_model ? models_in(fs::absolute(path).parent_path()) : "";
   throw BadInput(path + ": no such file" +
                  (models.empty() ? "" : "; its folder has the models " + models));

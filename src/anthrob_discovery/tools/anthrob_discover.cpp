@@ -115,7 +115,7 @@ void keep_inputs(const Arguments& a) {
 void load_question(const CLI::App& app, Arguments& a) {
   discovery::Question& question = a.question;
   std::vector<std::string> remarks;
-  question.calibration_file = calibration_file_of(question.model_file, a.calibration);
+  question.calibration_file = calibration_file_of(question.model_file, a.calibration).value_or("");
   question.nuisances = ordinary_parameters(question.model_file, a.calibration, &remarks);
   question.simulated_robot_file = a.robot_file;
   question.model_fingerprint = resume::model_fingerprint(ConfigNode::load(question.model_file));

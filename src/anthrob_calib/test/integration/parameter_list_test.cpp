@@ -181,7 +181,7 @@ TEST(OrdinaryParameters, AreThoseBesideTheModelOrBesideTheOneItExtends) {
   ASSERT_EQ(inherited.size(), own.size());
   EXPECT_EQ(inherited.back().path, own.back().path);
   const std::string beside = std::string(ANTHROB_CONFIG_DIR) + "/anthrob/calibration.yaml";
-  EXPECT_TRUE(std::filesystem::equivalent(calibration_file_of(extended), beside));
+  EXPECT_TRUE(std::filesystem::equivalent(calibration_file_of(extended).value(), beside));
   EXPECT_EQ(calibration_file_of(extended, "mine.yaml"), "mine.yaml");
 
   std::ofstream(folder / "calibration.yaml")

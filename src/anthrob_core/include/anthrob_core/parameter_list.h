@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,9 @@ std::vector<ModelParameter> read_parameters(const ConfigNode& list, const Config
                                             Outside outside = Outside::kRefuse);
 
 /// The file that lists the ordinary parameters of a model: the given one, or calibration.yaml
-/// beside the model or beside the model that it extends; empty if there is none.
-std::string calibration_file_of(const std::string& model_file, const std::string& given = "");
+/// beside the model or beside the model that it extends; none if neither exists.
+std::optional<std::string> calibration_file_of(const std::string& model_file,
+                                               const std::string& given = "");
 
 /// The ordinary parameters of a model, which a calibration may correct: the list `parameters` of
 /// its calibration_file_of(); empty if there is none. Ranges are widened to include the model's own
