@@ -24,9 +24,9 @@ void ClockWait::look() {
   next_ = now + kAgain;
   ROS_WARN_STREAM(
       "waiting for /clock: "
-      << (living_publisher("/clock").empty()
-              ? kStands
-              : "the simulator is paused at its start; call sim/step, or sim/pause with false"));
+      << (living_publisher("/clock")
+              ? "the simulator is paused at its start; call sim/step, or sim/pause with false"
+              : kStands));
 }
 
 void ClockWatch::look(const ros::Time& time) {
@@ -37,7 +37,7 @@ void ClockWatch::look(const ros::Time& time) {
   }
   if (now < next_) return;
   next_ = now + kAgain;
-  if (living_publisher("/clock").empty()) {
+  if (!living_publisher("/clock")) {
     throw std::runtime_error(
         "simulated time stands still and nobody publishes /clock any more: has the simulator "
         "ended?");

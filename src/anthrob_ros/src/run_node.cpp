@@ -60,7 +60,8 @@ std::string help_of(const NodeInfo& info, const std::string& program) {
   return text;
 }
 
-std::string wrong_argument(const NodeInfo& info, const std::vector<std::string>& arguments) {
+std::optional<std::string> wrong_argument(const NodeInfo& info,
+                                          const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     const std::size_t assignment = argument.find(":=");
     if (assignment == std::string::npos) {
@@ -72,7 +73,7 @@ std::string wrong_argument(const NodeInfo& info, const std::vector<std::string>&
       return "parameter ~" + key + ": unknown; expected one of " + keys_of(info);
     }
   }
-  return "";
+  return std::nullopt;
 }
 
 int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
@@ -83,9 +84,8 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
     std::cout << help_of(info, argv[0]);
     return 0;
   }
-  const std::string wrong = wrong_argument(info, arguments);
-  if (!wrong.empty()) {
-    std::cerr << wrong << "\n";
+  if (const auto wrong = wrong_argument(info, arguments)) {
+    std::cerr << *wrong << "\n";
     return kBadInput;
   }
   try {

@@ -71,26 +71,26 @@ std::vector<std::string> publishers_of(const std::string& topic) {
 
 }  // namespace
 
-std::string living_publisher(const std::string& topic) {
+std::optional<std::string> living_publisher(const std::string& topic) {
   for (const std::string& node : publishers_of(topic)) {
     if (node != ros::this_node::getName() && lives(node)) return node;
   }
-  return "";
+  return std::nullopt;
 }
 
 ros::Publisher claim_robot(ros::NodeHandle& nh) {
   const ros::Publisher claim = nh.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
-  const std::string other = living_publisher(claim.getTopic());
-  if (other.empty()) return claim;
+  const std::optional<std::string> other = living_publisher(claim.getTopic());
+  if (!other) return claim;
   restore_time();
-  throw BadInput(claim.getTopic() + ": " + other +
+  throw BadInput(claim.getTopic() + ": " + *other +
                  " publishes it already; stop that simulator or driver first");
 }
 
 void refuse_other_clocks() {
-  const std::string other = living_publisher("/clock");
-  if (other.empty()) return;
-  throw BadInput("/clock: " + other +
+  const std::optional<std::string> other = living_publisher("/clock");
+  if (!other) return;
+  throw BadInput("/clock: " + *other +
                  " publishes it already; a second one would turn time back and forth: give each "
                  "simulator a ROS master of its own (roslaunch -p PORT)");
 }

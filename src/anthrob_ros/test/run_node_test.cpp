@@ -14,10 +14,10 @@ NodeInfo simulator() {
 }
 
 TEST(RunNode, ArgumentsOfRosPass) {
-  EXPECT_EQ(wrong_argument(simulator(), {}), "");
+  EXPECT_EQ(wrong_argument(simulator(), {}), std::nullopt);
   EXPECT_EQ(wrong_argument(simulator(), {"__name:=a", "__ns:=b", "/muscle_states:=/c",
                                          "_model:=d.yaml", "_state_rate:=250"}),
-            "");
+            std::nullopt);
 }
 
 TEST(RunNode, MisspeltParameterIsTold) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,9 +43,10 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body);
 /// The text that --help prints. @param program path with which the node was called
 std::string help_of(const NodeInfo& info, const std::string& program);
 
-/// What is wrong with the arguments (without the program's name); empty if nothing is. Wrong are
+/// What is wrong with the arguments (without the program's name); none if nothing is. Wrong are
 /// arguments that are neither NAME:=VALUE, _PARAMETER:=VALUE nor --help, and parameters that the
 /// node does not know.
-std::string wrong_argument(const NodeInfo& info, const std::vector<std::string>& arguments);
+std::optional<std::string> wrong_argument(const NodeInfo& info,
+                                          const std::vector<std::string>& arguments);
 
 }  // namespace anthrob

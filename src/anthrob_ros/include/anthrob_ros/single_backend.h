@@ -2,14 +2,15 @@
 
 #include <ros/ros.h>
 
+#include <optional>
 #include <string>
 
 namespace anthrob {
 
 /// @param topic as the master knows it, from the root
-/// @return name of another living node that publishes it; empty if there is none. A node that
+/// @return name of another living node that publishes it; none if there is no such node. One that
 ///   crashed does not count, although the master still lists it; one that hangs does count.
-std::string living_publisher(const std::string& topic);
+std::optional<std::string> living_publisher(const std::string& topic);
 
 /// Makes sure that only one back end (simulator or driver) serves a robot. To be called before the
 /// back end advertises or sends anything else: a service of the same name would replace that of the
