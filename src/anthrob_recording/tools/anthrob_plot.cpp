@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -112,10 +113,10 @@ void add_ball_joint(const Dataset& data, const std::string& joint, SvgFigure& fi
   panel.lines.back().colour = 9;
 }
 
-/// Empty without joints.
-std::string joint_figure(const Dataset& data) {
+/// None without joints.
+std::optional<std::string> joint_figure(const Dataset& data) {
   const auto balls = owners(data, "w", false), others = owners(data, "position", false);
-  if (balls.empty() && others.empty()) return "";
+  if (balls.empty() && others.empty()) return std::nullopt;
   SvgFigure figure("Joint angles");
   for (const std::string& joint : balls) add_ball_joint(data, joint, figure);
   for (const std::string& joint : others) {
@@ -126,11 +127,11 @@ std::string joint_figure(const Dataset& data) {
   return figure.render();
 }
 
-/// Empty if no muscle has the quantity.
-std::string muscle_figure(const Dataset& data, const std::string& title,
-                          const std::string& quantity, const std::string& unit) {
+/// None if no muscle has the quantity.
+std::optional<std::string> muscle_figure(const Dataset& data, const std::string& title,
+                                         const std::string& quantity, const std::string& unit) {
   const auto muscles = owners(data, quantity, true);
-  if (muscles.empty()) return "";
+  if (muscles.empty()) return std::nullopt;
   SvgFigure figure(title);
   auto& panel = figure.add_panel("time [s]", quantity + " [" + unit + "]");
   for (const std::string& muscle : muscles) {
@@ -155,11 +156,12 @@ int main(int argc, char** argv) {
     tool::say(app, data.remarks);
     std::error_code error;
     std::filesystem::create_directories(out, error);
-    const auto write = [&](const std::string& name, const std::string& svg, const char* shown) {
-      if (svg.empty()) {
-        tool::say(app, {"no " + name + ": the recording has no " + shown});
+    const auto write = [&](const std::string& name, const std::optional<std::string>& svg,
+                           const char* shown) {
+      if (svg) {
+        write_file_atomically(out + "/" + name, *svg);
       } else {
-        write_file_atomically(out + "/" + name, svg);
+        tool::say(app, {"no " + name + ": the recording has no " + shown});
       }
     };
     write("joint_angles.svg", joint_figure(data), "joints");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace anthrob {
@@ -11,9 +12,9 @@ bool is_joint_quantity(const std::string& quantity);
 
 /// Quantities that a column may hold.
 bool is_known_quantity(const std::string& quantity);
-/// Word for a number of a `mode` or `ecu_state` column, and back; -1 for an unknown word.
+/// Word for a number of a `mode` or `ecu_state` column, and back; none for an unknown word.
 std::string word_of(const std::string& quantity, int value);
-int number_of(const std::string& quantity, const std::string& word);
+std::optional<int> number_of(const std::string& quantity, const std::string& word);
 bool holds_words(const std::string& quantity);
 
 }  // namespace anthrob

@@ -61,7 +61,7 @@ void empty_words(Table& table, const std::string& muscle, const Rows& lost) {
     if (column.owner() == muscle) (is_measured(column) ? measured : words).push_back(&column);
   }
   const Column& state = *table.find(muscle + "/ecu_state");
-  const double kFault = number_of("ecu_state", "FAULT");
+  const double kFault = number_of("ecu_state", "FAULT").value();
   bool fault_next = false;
   for (std::size_t i = table.t.size(); i-- > 0;) {
     if (!state.present[i]) continue;

@@ -45,17 +45,20 @@ std::string word_of(const std::string& quantity, int value) {
   return mode ? kModes[value] : kStates[value];
 }
 
-int number_of(const std::string& quantity, const std::string& word) {
-  const auto find = [&](const auto& words) {
+std::optional<int> number_of(const std::string& quantity, const std::string& word) {
+  const auto find = [&](const auto& words) -> std::optional<int> {
     const auto it = std::find(words.begin(), words.end(), word);
-    return it == words.end() ? -1 : static_cast<int>(it - words.begin());
+    if (it == words.end()) return std::nullopt;
+    return static_cast<int>(it - words.begin());
   };
-  const int index = quantity == "mode" ? find(kModes) : find(kStates);
-  if (index >= 0) return index;
-  int value = -1;
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-  return result.ec == std::errc() && result.ptr == word.data() + word.size() && value < 256 ? value
-                                                                                            : -1;
+  if (const auto index = quantity == "mode" ? find(kModes) : find(kStates)) return index;
+  int value = 0;
+  const char* end = word.data() + word.size();
+  const auto result = std::from_chars(word.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end || value < 0 || value > 255) {
+    return std::nullopt;
+  }
+  return value;
 }
 
 }  // namespace anthrob

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <vector>
@@ -146,10 +147,10 @@ class TableReader {
   void read_cell(const std::string& cell, Column& column) {
     double value = 0.0;
     if (!cell.empty() && holds_words(column.quantity())) {
-      const int number = number_of(column.quantity(), cell);
-      if (number < 0)
+      const std::optional<int> number = number_of(column.quantity(), cell);
+      if (!number)
         fail(column.name + ": '" + cell + "': expected one of " + words_of(column.quantity()));
-      value = number;
+      value = *number;
     } else if (!cell.empty()) {
       const char* end = cell.data() + cell.size();
       const auto result = std::from_chars(cell.data(), end, value);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "anthrob_core/config_node.h"
@@ -83,11 +84,11 @@ ForeignColumns::Orientation load_orientation(const ConfigNode& node) {
 
 int mode_of(const ConfigNode& node) {
   const std::string word = node.as_text();
-  const int mode = number_of("mode", word);
-  if (mode < 0 || word_of("mode", mode) != word) {
+  const std::optional<int> mode = number_of("mode", word);
+  if (!mode || word_of("mode", *mode) != word) {
     node.fail_expected("VOLTAGE, POSITION, CURRENT or FORCE");
   }
-  return mode;
+  return *mode;
 }
 
 /// Gives references their modes, one for all or by muscle.

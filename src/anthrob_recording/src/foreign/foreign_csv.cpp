@@ -54,7 +54,7 @@ class ForeignReader {
     // Tables first: a reference to a column must not move.
     for (const ForeignColumns::Entry& entry : columns_.entries) {
       dataset.table(entry.table).column(entry.to);
-      if (entry.mode >= 0) dataset.table(entry.table).column(mode_column(entry));
+      if (entry.mode) dataset.table(entry.table).column(mode_column(entry));
     }
     for (const ForeignColumns::Orientation& orientation : columns_.orientations) {
       for (const char* part : kParts) {
@@ -157,8 +157,7 @@ class ForeignReader {
       Table& table = dataset->table(entry.table);
       const double value = number(cells, places_[i]);
       put(table, entry.to, entry.scale * value + entry.offset);
-      if (entry.mode >= 0)
-        put(table, mode_column(entry), std::isfinite(value) ? entry.mode : value);
+      if (entry.mode) put(table, mode_column(entry), std::isfinite(value) ? *entry.mode : value);
     }
     for (std::size_t i = 0; i < columns_.orientations.size(); ++i) {
       put_orientation(cells, columns_.orientations[i], &angle_places_[3 * i], dataset);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct ForeignColumns {
     std::string to;                    ///< `<joint>/position`, ...
     double scale = 1.0, offset = 0.0;  ///< value = scale * cell + offset
     std::string table;                 ///< file of the dataset folder it goes to
-    int mode = -1;                     ///< of a reference; -1: not given
+    std::optional<int> mode;           ///< of a reference, if given
   };
   /// A ball joint's orientation from three columns.
   struct Orientation {

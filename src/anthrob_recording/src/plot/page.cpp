@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -50,8 +51,8 @@ std::string read_all(int pipe) {
   }
 }
 
-/// @return what the program complained about; empty: it has done its work
-std::string complaint_of(std::vector<std::string> command) {
+/// @return what the program complained about; none: it has done its work
+std::optional<std::string> complaint_of(std::vector<std::string> command) {
   std::vector<char*> arguments;
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -69,7 +70,7 @@ std::string complaint_of(std::vector<std::string> command) {
   if (error != 0) return complaint;
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   while (!complaint.empty() && complaint.back() == '\n') complaint.pop_back();
   // Of a program that broke down, the last line tells.
   complaint.erase(0, complaint.rfind('\n') + 1);
@@ -79,16 +80,16 @@ std::string complaint_of(std::vector<std::string> command) {
 }  // namespace
 
 void write_page(const std::string& name, const std::string& data, const std::string& page) {
-  std::string complaint;
+  std::optional<std::string> complaint;
   try {
     complaint = complaint_of({page_program().string(), name, data, "--out", page});
   } catch (const std::runtime_error& error) {
     complaint = error.what();
   }
-  if (complaint.empty()) return;
+  if (!complaint) return;
   std::error_code error;
   fs::remove(page, error);
-  throw std::runtime_error(page + ": not written: " + complaint + "; " + data +
+  throw std::runtime_error(page + ": not written: " + *complaint + "; " + data +
                            " is complete, and `rosrun anthrob_recording anthrob_page " + name +
                            " " + data + "` makes the page from it");
 }

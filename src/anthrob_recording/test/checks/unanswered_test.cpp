@@ -17,11 +17,11 @@ const char* const kMeasured[] = {"position", "velocity", "current", "voltage", "
 const char* const kWords[] = {"ecu_state", "mode", "reference"};
 
 double state_of(const std::string& word) {
-  return number_of("ecu_state", word);
+  return number_of("ecu_state", word).value();
 }
 
 double mode_of(const std::string& word) {
-  return number_of("mode", word);
+  return number_of("mode", word).value();
 }
 
 /// Two enabled muscles at 200 Hz; cells are numbered.
