@@ -3,6 +3,8 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <std_srvs/Trigger.h>
 
+#include <optional>
+
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_core/errors.h"
@@ -66,8 +68,8 @@ class ComputedForceNode {
         unheeded_ = 0.0;
       }
       trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
-      if (trouble_.empty()) trouble_ = missing_force();
-      if (!trouble_.empty()) {
+      if (!trouble_) trouble_ = missing_force();
+      if (trouble_) {
         // Nothing is sent on stale measurements: after command_timeout the motors stop. The
         // controller gets the length of the pause, and decides what it still holds.
         silent_ += link_.dt();
@@ -92,20 +94,20 @@ class ComputedForceNode {
   }
 
   /// Voltages are this node's own force law; FORCE and POSITION are the units'.
-  std::string missing_force() const {
+  std::optional<std::string> missing_force() const {
     const bool needed = settings_.hold_output == anthrob::ecu::Mode::kVoltage ||
                         settings_.move_output == anthrob::ecu::Mode::kVoltage;
-    const std::string muscle = needed ? link_.state().muscle_without_force() : "";
-    return muscle.empty()
-               ? ""
-               : "muscle " + muscle + ": its force is not measured; output VOLTAGE needs it";
+    if (!needed) return std::nullopt;
+    const std::optional<std::string> muscle = link_.state().muscle_without_force();
+    if (!muscle) return std::nullopt;
+    return "muscle " + *muscle + ": its force is not measured; output VOLTAGE needs it";
   }
 
   void control() {
     idle_ = link_.state().disabled_muscle();
     // Whatever posture the arm is in when the motors are enabled is the one that is held.
     // Also of those that were, and are again, while this node had no processor.
-    if (!link_.take_disabled().empty() || !idle_.empty()) controller_.reset();
+    if (link_.take_disabled() || idle_) controller_.reset();
     break_off_if_refused();
     const anthrob::ForceCommand& wanted =
         controller_.update(link_.state().measurement(), silent_ + link_.dt());
@@ -116,48 +118,52 @@ class ComputedForceNode {
     mode_ = wanted.mode;
     // A muscle that FORCE leaves alone must not go on holding a position that was ours.
     const bool other = wanted.mode != anthrob::ecu::Mode::kForce;
-    placed_ = placed_ || (other && link_.state().muscle_not_in(wanted.mode).empty());
+    placed_ = placed_ || (other && !link_.state().muscle_not_in(wanted.mode));
     link_.send(anthrob::make_command(controller_.model(), wanted.mode, wanted.reference, placed_));
   }
 
   /// A robot may refuse to go over to POSITION: too far from where its muscles are, or no zero. It
   /// refuses the whole command, so nobody would hold the arm, and soon its motors would stop.
   void break_off_if_refused() {
-    const bool positions =
-        idle_.empty() && !controller_.holds() && mode_ == anthrob::ecu::Mode::kPosition;
-    const std::string other =
-        positions ? link_.state().muscle_not_in(anthrob::ecu::Mode::kPosition) : "";
-    unheeded_ = other.empty() ? 0.0 : unheeded_ + silent_ + link_.dt();
-    if (unheeded_ <= kPatience) return;
+    const bool positions = !idle_ && !controller_.holds() && mode_ == anthrob::ecu::Mode::kPosition;
+    const std::optional<std::string> other =
+        positions ? link_.state().muscle_not_in(anthrob::ecu::Mode::kPosition) : std::nullopt;
+    unheeded_ = other ? unheeded_ + silent_ + link_.dt() : 0.0;
+    if (!other || unheeded_ <= kPatience) return;
     unheeded_ = 0.0;
     controller_.reset();
-    refused_ = "go_to was broken off: the robot refused its POSITION references (muscle " + other +
+    refused_ = "go_to was broken off: the robot refused its POSITION references (muscle " + *other +
                "); its diagnostics say why (last_rejection)";
-    ROS_ERROR_STREAM(refused_ << "; holding the arm where it is");
+    ROS_ERROR_STREAM(*refused_ << "; holding the arm where it is");
   }
 
-  bool ready(std::string& why) const {
-    why = !trouble_.empty() ? trouble_
-          : !idle_.empty()  ? "the motor of " + idle_ + " is not enabled"
-                            : "";
-    return why.empty();
+  /// Why no request can be carried out now; none if they can.
+  std::optional<std::string> hindrance() const {
+    if (trouble_) return trouble_;
+    if (idle_) return "the motor of " + *idle_ + " is not enabled";
+    return std::nullopt;
   }
 
   bool on_zero(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    response.success = ready(response.message);
+    const std::optional<std::string> why = hindrance();
+    response.success = !why;
+    response.message = why.value_or("");
     if (response.success) {
       controller_.zero_gravity();
-      refused_.clear();
+      refused_.reset();
     }
     return true;
   }
 
   bool on_go_to(anthrob_msgs::GoTo::Request& request, anthrob_msgs::GoTo::Response& response) {
-    if (!ready(response.message)) return true;
+    if (const auto why = hindrance()) {
+      response.message = *why;
+      return true;
+    }
     try {
       controller_.go_to(posture_of(request, controller_.model(), controller_.target()),
                         request.duration);
-      refused_.clear();
+      refused_.reset();
       response.success = true;
     } catch (const BadInput& error) {
       response.message = error.what();
@@ -167,9 +173,9 @@ class ComputedForceNode {
 
   void report() {
     const ros::WallTime now = ros::WallTime::now();
-    const bool changed = trouble_.empty() != reported_trouble_.empty();
+    const bool changed = trouble_.has_value() != reported_trouble_.has_value();
     if (!changed && (now - reported_).toSec() < 1.0) return;
-    if (changed && !trouble_.empty()) ROS_WARN_STREAM("no commands: " << trouble_);
+    if (changed && trouble_) ROS_WARN_STREAM("no commands: " << *trouble_);
     reported_ = now;
     reported_trouble_ = trouble_;
     using diagnostic_msgs::DiagnosticStatus;
@@ -177,16 +183,15 @@ class ComputedForceNode {
     status.name = name_;
     status.hardware_id = controller_.model().file;
     const bool short_of = shortfall_ > 0.01 || !converged_;
-    const bool at_limit = idle_.empty() && limited_ >= 0;
-    status.level = !trouble_.empty()                        ? DiagnosticStatus::ERROR
-                   : !refused_.empty()                      ? DiagnosticStatus::ERROR
-                   : !idle_.empty() || short_of || at_limit ? DiagnosticStatus::WARN
-                                                            : DiagnosticStatus::OK;
-    status.message = !trouble_.empty()   ? "no commands: " + trouble_
-                     : !refused_.empty() ? refused_
-                     : !idle_.empty()    ? "the motor of " + idle_ + " is not enabled"
-                     : short_of          ? "the muscles cannot deliver the torque"
-                     : at_limit          ? "muscle " + controller_.model().muscles[limited_].name +
+    const bool at_limit = !idle_ && limited_;
+    status.level = trouble_ || refused_            ? DiagnosticStatus::ERROR
+                   : idle_ || short_of || at_limit ? DiagnosticStatus::WARN
+                                                   : DiagnosticStatus::OK;
+    status.message = trouble_   ? "no commands: " + *trouble_
+                     : refused_ ? *refused_
+                     : idle_    ? "the motor of " + *idle_ + " is not enabled"
+                     : short_of ? "the muscles cannot deliver the torque"
+                     : at_limit ? "muscle " + controller_.model().muscles[*limited_].name +
                                       " would need a position beyond its limit"
                      : controller_.holds()   ? "zero gravity"
                      : controller_.arrived() ? "holding a posture"
@@ -208,16 +213,18 @@ class ComputedForceNode {
   anthrob::RobotLink link_;
   ros::Publisher diagnostics_;
   std::vector<ros::ServiceServer> services_;
-  std::string trouble_ = "nothing measured yet", reported_trouble_, idle_;
-  std::string refused_;  ///< why the last go_to ended early, until the next request
+  std::optional<std::string> trouble_ = "nothing measured yet";  ///< why nothing is sent
+  std::optional<std::string> reported_trouble_;
+  std::optional<std::string> idle_;     ///< a muscle whose motor is not enabled
+  std::optional<std::string> refused_;  ///< why the last go_to ended early, until the next request
   anthrob::ecu::Mode mode_ = anthrob::ecu::Mode::kVoltage;  ///< of the last command
   double unheeded_ = 0.0;  ///< for how long a muscle has not followed it [s]
   double shortfall_ = 0.0;
   double silent_ = 0.0;  ///< since the last command [s]
   double last_dt_ = 0.0;
   bool converged_ = true;
-  bool placed_ = false;  ///< whether muscles without force sensor were commanded
-  int limited_ = -1;     ///< muscle whose reference ends at its position limit
+  bool placed_ = false;                 ///< whether muscles without force sensor were commanded
+  std::optional<std::size_t> limited_;  ///< muscle whose reference ends at its position limit
   ros::WallTime reported_;
 };
 

@@ -3,6 +3,7 @@
 // the motors are.
 #include <ros/ros.h>
 
+#include <optional>
 #include <stdexcept>
 
 #include "anthrob_control/approach.h"
@@ -24,10 +25,10 @@ constexpr int kUnheeded = 25;          // 0.5 s of commands: motors may start wi
 /// @param unheeded commands in a row while a motor was off
 /// @throws std::runtime_error naming a motor that is off
 void check_motors(const anthrob::RobotLink& link, int& unheeded) {
-  const std::string off = link.state().disabled_muscle();
-  unheeded = off.empty() ? 0 : unheeded + 1;
-  if (unheeded > kUnheeded) {
-    throw std::runtime_error("the motor of " + off +
+  const std::optional<std::string> off = link.state().disabled_muscle();
+  unheeded = off ? unheeded + 1 : 0;
+  if (off && unheeded > kUnheeded) {
+    throw std::runtime_error("the motor of " + *off +
                              " is not enabled; call enable, then start the player again");
   }
 }
@@ -38,13 +39,14 @@ class Silence {
   /// @return whether all muscles are measured now
   /// @throws std::runtime_error naming a muscle that was not measured for long
   bool check(const anthrob::RobotLink& link) {
-    const std::string silence = link.state().complaint_of_muscles(link.now().toSec(), kStale);
+    const std::optional<std::string> silence =
+        link.state().complaint_of_muscles(link.now().toSec(), kStale);
     const ros::WallTime now = ros::WallTime::now();
-    if (silence.empty()) heard_ = now;
+    if (!silence) heard_ = now;
     // By the wall's clock: simulated time may outrun the messages.
-    if ((now - heard_).toSec() > kStale)
-      throw std::runtime_error("the robot is silent: " + silence);
-    return silence.empty();
+    if (silence && (now - heard_).toSec() > kStale)
+      throw std::runtime_error("the robot is silent: " + *silence);
+    return !silence;
   }
 
  private:
@@ -110,7 +112,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
     check_motors(link, unheeded);
     reference_watch.look(link.state(), link.now(), false);
     // Motors that were off begin where they are, if only for a moment.
-    if (!link.take_disabled().empty()) approach.begin();
+    if (link.take_disabled()) approach.begin();
     if (measured || approach.begun()) {
       const std::vector<double>& reference =
           approach.step(references[i], link.state().measurement(), link.dt());

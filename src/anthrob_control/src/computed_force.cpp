@@ -164,7 +164,7 @@ const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, doub
   if (mode != command_.mode) forget_voltages();
   command_.mode = mode;
   if (command_.mode == ecu::Mode::kPosition) target_posture_.update(target(), zero_);
-  command_.limited = -1;
+  command_.limited.reset();
   for (std::size_t m = 0; m < command_.reference.size(); ++m)
     command_.reference[m] = reference_for(m, measured.muscles[m], step);
   return command_;
@@ -224,7 +224,7 @@ double ComputedForce::reference_for(std::size_t muscle, const ecu::Measurement& 
     case ecu::Mode::kPosition: {
       const double reference =
           position_reference(m, target_posture_.muscle_length(muscle), tension);
-      if (std::abs(reference) > m.limits.position) command_.limited = static_cast<int>(muscle);
+      if (std::abs(reference) > m.limits.position) command_.limited = muscle;
       return std::min(m.limits.position, std::max(-m.limits.position, reference));
     }
     case ecu::Mode::kVoltage: {

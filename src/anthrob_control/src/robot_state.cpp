@@ -16,12 +16,12 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// A clock that is ahead must not make old measurements young: what counts is the older of stamp
 /// and receipt.
-std::string check_age(const std::string& who, double stamp, double receipt, double now,
-                      double stale_after) {
+std::optional<std::string> check_age(const std::string& who, double stamp, double receipt,
+                                     double now, double stale_after) {
   if (stamp == kNever) return who + ": not measured yet";
   const bool from_ahead = now - stamp < -std::max(stale_after, kAhead);
   const double age = now - (from_ahead ? stamp : std::min(stamp, receipt));
-  if (age <= stale_after && !from_ahead) return "";
+  if (age <= stale_after && !from_ahead) return std::nullopt;
   char text[32];
   std::snprintf(text, sizeof(text), "%.3f", std::abs(age));
   return who + ": the last measurement is " + text +
@@ -49,7 +49,7 @@ void RobotState::clear() {
   joint_receipts_ = joint_stamps_;
   enabled_.assign(model_->muscles.size(), 0);
   mode_.assign(model_->muscles.size(), std::nullopt);
-  was_disabled_ = -1;
+  was_disabled_.reset();
 }
 
 void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, bool enabled,
@@ -57,7 +57,9 @@ void RobotState::see_muscle(const std::string& name, const ecu::Measurement& m, 
   const int index = model_->find_muscle(name);
   if (index < 0) return;
   if (!std::isfinite(m.position + m.velocity + m.current) || std::isinf(m.force)) return;
-  if (was_disabled_ < 0 && !enabled && model_->muscles[index].has_controller) was_disabled_ = index;
+  if (!was_disabled_ && !enabled && model_->muscles[index].has_controller) {
+    was_disabled_ = static_cast<std::size_t>(index);
+  }
   measured_.muscles[index] = m;
   enabled_[index] = enabled;
   muscle_stamps_[index] = stamp;
@@ -100,23 +102,25 @@ bool RobotState::must_be_measured(std::size_t muscle) const {
   return model_->muscles[muscle].actuator->takes_input();
 }
 
-std::string RobotState::complaint(double now, double stale_after) const {
+std::optional<std::string> RobotState::complaint(double now, double stale_after) const {
   for (std::size_t j = 0; j < joint_stamps_.size(); ++j) {
-    const std::string why = check_age("joint " + model_->skeleton->joints[j].name, joint_stamps_[j],
-                                      joint_receipts_[j], now, stale_after);
-    if (!why.empty()) return why;
+    if (auto why = check_age("joint " + model_->skeleton->joints[j].name, joint_stamps_[j],
+                             joint_receipts_[j], now, stale_after)) {
+      return why;
+    }
   }
   return complaint_of_muscles(now, stale_after);
 }
 
-std::string RobotState::complaint_of_muscles(double now, double stale_after) const {
+std::optional<std::string> RobotState::complaint_of_muscles(double now, double stale_after) const {
   for (std::size_t m = 0; m < muscle_stamps_.size(); ++m) {
     if (!must_be_measured(m)) continue;
-    const std::string why = check_age("muscle " + model_->muscles[m].name, muscle_stamps_[m],
-                                      muscle_receipts_[m], now, stale_after);
-    if (!why.empty()) return why;
+    if (auto why = check_age("muscle " + model_->muscles[m].name, muscle_stamps_[m],
+                             muscle_receipts_[m], now, stale_after)) {
+      return why;
+    }
   }
-  return "";
+  return std::nullopt;
 }
 
 bool RobotState::complete_since(double stamp) const {
@@ -127,33 +131,34 @@ bool RobotState::complete_since(double stamp) const {
                      [stamp](double seen) { return seen >= stamp; });
 }
 
-std::string RobotState::disabled_muscle() const {
+std::optional<std::string> RobotState::disabled_muscle() const {
   for (std::size_t m = 0; m < enabled_.size(); ++m) {
     if (model_->muscles[m].has_controller && !enabled_[m]) return model_->muscles[m].name;
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string RobotState::muscle_not_in(ecu::Mode mode) const {
+std::optional<std::string> RobotState::muscle_not_in(ecu::Mode mode) const {
   for (std::size_t m = 0; m < enabled_.size(); ++m) {
     const bool other = mode_[m] && *mode_[m] != mode;
     if (model_->muscles[m].has_controller && enabled_[m] && other) return model_->muscles[m].name;
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string RobotState::muscle_without_force() const {
+std::optional<std::string> RobotState::muscle_without_force() const {
   for (std::size_t m = 0; m < enabled_.size(); ++m) {
     if (model_->muscles[m].has_controller && std::isnan(measured_.muscles[m].force)) {
       return model_->muscles[m].name;
     }
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string RobotState::take_disabled() {
-  const int muscle = std::exchange(was_disabled_, -1);
-  return muscle < 0 ? "" : model_->muscles[static_cast<std::size_t>(muscle)].name;
+std::optional<std::string> RobotState::take_disabled() {
+  const std::optional<std::size_t> muscle = std::exchange(was_disabled_, std::nullopt);
+  if (!muscle) return std::nullopt;
+  return model_->muscles[*muscle].name;
 }
 
 }  // namespace anthrob

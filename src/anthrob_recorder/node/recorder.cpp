@@ -128,27 +128,24 @@ bool Recorder::advance(Visit& visit, const Protocol::Target& target) {
   if (!link_.wait()) return false;
   if (link_.time_jumped()) throw std::runtime_error("time jumped back");
   const double now = link_.now().toSec();
-  const std::string silence = link_.state().complaint(now, kFresh);
-  if (!silence.empty()) {
+  if (const auto silence = link_.state().complaint(now, kFresh)) {
     // By the wall's clock: simulated time may outrun the messages.
     if ((ros::WallTime::now() - heard_).toSec() > (is_underway(visit) ? kSilence : kPatience))
-      throw std::runtime_error("the robot is silent: " + silence);
+      throw std::runtime_error("the robot is silent: " + *silence);
     // Nothing is sent to a robot that is gone, so that the command time-out stops its motors.
-    if (is_underway(visit) && link_.state().complaint(now, kSilence).empty())
-      carry_out(visit, target);
+    if (is_underway(visit) && !link_.state().complaint(now, kSilence)) carry_out(visit, target);
     return true;
   }
   heard_ = ros::WallTime::now();
   check_motors();
   // However short the stop was, it would be in the recording.
-  const std::string stopped = link_.take_disabled();
+  const std::optional<std::string> stopped = link_.take_disabled();
   // After a stop, the zero-gravity controller holds whatever posture it finds: the arm would be
   // sampled elsewhere.
   const bool spoilt =
       bags_.recording() || (protocol_.kind == Protocol::Kind::kZeroGravity && visit.begun());
-  if (!stopped.empty() && spoilt)
-    visit.fail("the motor of " + stopped + " stopped while it was recorded");
-  if (!stopped.empty()) approach_.begin();
+  if (stopped && spoilt) visit.fail("the motor of " + *stopped + " stopped while it was recorded");
+  if (stopped) approach_.begin();
   // Visits begin at the rest posture.
   if (refused_since_.isZero() && is_there()) {
     order_ = visit.step(link_.state().measurement(), now);
@@ -183,11 +180,11 @@ void Recorder::check_motors() {
   if (protocol_.kind != Protocol::Kind::kZeroGravity && !sent_.isZero()) {
     reference_watch_.look(link_.state(), link_.now(), lock_step_);
   }
-  const std::string off = link_.state().disabled_muscle();
-  if (off.empty() || driven_.isZero()) driven_ = link_.now();
-  if ((link_.now() - driven_).toSec() > kUndriven) {
+  const std::optional<std::string> off = link_.state().disabled_muscle();
+  if (!off || driven_.isZero()) driven_ = link_.now();
+  if (off && (link_.now() - driven_).toSec() > kUndriven) {
     throw std::runtime_error(
-        "the motor of " + off +
+        "the motor of " + *off +
         " is not enabled; call enable, then run the same command again to continue");
   }
 }
@@ -273,8 +270,8 @@ void Recorder::store(const Visit& visit, const Protocol::Target& target, int rep
     bool jumped = false;
     while (done.wait_for(std::chrono::seconds(0)) != std::future_status::ready && link_.wait()) {
       jumped = jumped || link_.time_jumped();
-      if (!link_.take_disabled().empty()) approach_.begin();
-      const bool fresh = link_.state().complaint(link_.now().toSec(), kSilence).empty();
+      if (link_.take_disabled()) approach_.begin();
+      const bool fresh = !link_.state().complaint(link_.now().toSec(), kSilence);
       if (fresh && !jumped) follow({aim_, 0}, target);
     }
     done.get();

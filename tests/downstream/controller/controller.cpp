@@ -9,7 +9,7 @@ int run(const char* model_file) {
   anthrob::RobotLink link(ros::NodeHandle(), model, {});
   const std::vector<double> volts(model->muscles.size(), 0.0);
   while (link.wait()) {
-    if (!link.state().complaint(link.now().toSec(), 0.1).empty()) continue;
+    if (link.state().complaint(link.now().toSec(), 0.1)) continue;
     link.send(anthrob::make_command(*model, anthrob::ecu::Mode::kVoltage, volts));
     std::printf("commanded %zu muscles\n", volts.size());
     return 0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "anthrob_control/control_settings.h"
@@ -23,12 +24,12 @@ struct RobotMeasurement {
 /// What the controller wants at one instant.
 struct ForceCommand {
   ecu::Mode mode = ecu::Mode::kForce;
-  std::vector<double> reference;  ///< by muscle: N, rad or V as the mode says
-  Eigen::VectorXd torque;         ///< wanted of the muscles [Nm]
-  Eigen::VectorXd shortfall;      ///< the part of it that they cannot deliver [Nm]
-  Eigen::VectorXd tension;        ///< least-effort tensions; ligaments: their own [N]
-  bool converged = true;          ///< whether the split is the least-effort one
-  int limited = -1;               ///< a muscle whose POSITION reference ends at its limit, or -1
+  std::vector<double> reference;       ///< by muscle: N, rad or V as the mode says
+  Eigen::VectorXd torque;              ///< wanted of the muscles [Nm]
+  Eigen::VectorXd shortfall;           ///< the part of it that they cannot deliver [Nm]
+  Eigen::VectorXd tension;             ///< least-effort tensions; ligaments: their own [N]
+  bool converged = true;               ///< whether the split is the least-effort one
+  std::optional<std::size_t> limited;  ///< a muscle whose POSITION reference ends at its limit
 };
 
 /// Computed-force control. The joint torques are the model's gravity, centrifugal and inertia terms

@@ -28,25 +28,25 @@ class RobotState {
                       double stamp);
 
   /// The first joint or muscle that was not measured, or received, within `stale_after` before
-  /// `now`, as one line; empty if all were. Values that are not finite, or not a rotation, count as
+  /// `now`, as one line; none if all were. Values that are not finite, or not a rotation, count as
   /// not measured. Only forces may be NaN, where there is no sensor. Muscles without input, such as
   /// ligaments, need no measurement, because no unit measures them.
-  std::string complaint(double now, double stale_after) const;
+  std::optional<std::string> complaint(double now, double stale_after) const;
   /// The same for muscles only.
-  std::string complaint_of_muscles(double now, double stale_after) const;
+  std::optional<std::string> complaint_of_muscles(double now, double stale_after) const;
   /// Whether everything that must be measured was measured at `stamp` or later.
   bool complete_since(double stamp) const;
-  /// The first muscle whose ECU does not follow references, or empty.
-  std::string disabled_muscle() const;
-  /// The first muscle with a controller that is enabled but in another mode, or empty. Such a
+  /// The first muscle whose ECU does not follow references, if any.
+  std::optional<std::string> disabled_muscle() const;
+  /// The first muscle with a controller that is enabled but in another mode, if any. Such a
   /// muscle has refused its commands.
-  std::string muscle_not_in(ecu::Mode mode) const;
-  /// The first muscle with a controller whose force is NaN (it has no sensor), or empty.
-  std::string muscle_without_force() const;
-  /// The first muscle that was measured as not enabled since the last call, or empty. This also
+  std::optional<std::string> muscle_not_in(ecu::Mode mode) const;
+  /// The first muscle with a controller whose force is NaN (it has no sensor), if any.
+  std::optional<std::string> muscle_without_force() const;
+  /// The first muscle that was measured as not enabled since the last call, if any. This also
   /// finds a motor that was stopped and enabled again between two calls: such a motor is enabled,
   /// but no longer at its reference.
-  std::string take_disabled();
+  std::optional<std::string> take_disabled();
   /// Forgets all measurements, for example when time jumps back.
   void clear();
 
@@ -63,7 +63,7 @@ class RobotState {
   double received_ = std::numeric_limits<double>::infinity();
   std::vector<char> enabled_;
   std::vector<std::optional<ecu::Mode>> mode_;
-  int was_disabled_ = -1;  // index of the muscle that take_disabled names
+  std::optional<std::size_t> was_disabled_;  // index of the muscle that take_disabled names
 };
 
 }  // namespace anthrob

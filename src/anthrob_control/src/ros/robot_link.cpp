@@ -157,7 +157,7 @@ bool RobotLink::step_simulator() {
     if (!ros::ok()) return false;
     if (!first || attempt == kFirstAttempts) {
       throw std::runtime_error("sim/step: not all states of the last step arrived: " +
-                               state_.complaint(stamp.toSec(), 0.0));
+                               state_.complaint(stamp.toSec(), 0.0).value_or(""));
     }
   }
 }

@@ -7,6 +7,8 @@
 #include <sensor_msgs/JointState.h>
 
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "anthrob_control/robot_state.h"
 #include "anthrob_ros/clock_wait.h"
@@ -41,7 +43,7 @@ class RobotLink {
 
   const RobotState& state() const { return state_; }
   /// As RobotState::take_disabled.
-  std::string take_disabled() { return state_.take_disabled(); }
+  std::optional<std::string> take_disabled() { return state_.take_disabled(); }
   ros::Time now() const { return now_; }
   /// Time from the previous return of wait to the last one [s]; 0 the first time and when time
   /// jumped back.
