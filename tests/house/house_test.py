@@ -49,6 +49,9 @@ class House(unittest.TestCase):
     def test_numbers_that_decide_stand_in_options(self):
         self.expect_kept(rules.scattered_numbers(TOP))
 
+    def test_what_is_missing_is_a_type(self):
+        self.expect_kept(rules.answers(TOP))
+
     def test_packages_name_what_they_include(self):
         self.expect_kept(rules.packages_point_one_way(TOP))
 
@@ -125,6 +128,17 @@ class Breaches(unittest.TestCase):
         self.write('src/anthrob_discovery/src/options/fit.h', 'constexpr double kHome = 3.0;\n')
         self.write('src/anthrob_discovery/src/a.cpp', '\nconstexpr double kOwn = 2.0;\n')
         self.expect(rules.scattered_numbers(self.folder.name), 'src/anthrob_discovery/src/a.cpp:2')
+
+    def test_an_empty_text_or_a_number_that_means_none(self):
+        self.write('src/anthrob_low/include/anthrob_low/door.h', '#pragma once\ninline double size() { return -1.0; }\n')
+        self.write('src/anthrob_low/src/first/door.cpp', 'if (sound) return "";\nreturn "no " + name;\nreturn -1;\nreturn -12;\n')
+        self.expect(rules.answers(self.folder.name, ['anthrob_low']), 'src/anthrob_low/include/anthrob_low/door.h:2',
+                    'src/anthrob_low/src/first/door.cpp:1', 'src/anthrob_low/src/first/door.cpp:3')
+
+    def test_an_answer_that_stays_does_so_in_its_place_only(self):
+        name, line, _ = rules.ALLOWED_ANSWERS[0]
+        self.write('src/' + name, line + '\nif (other) return "";\n')
+        self.expect(rules.answers(self.folder.name, [name.split('/')[0]]), 'src/' + name + ':2')
 
 
 if __name__ == '__main__':

@@ -225,3 +225,29 @@ def scattered_numbers(top, package='anthrob_discovery'):
                 breaches += ['%s:%d: a number of its own: move it to the options' % (file, number)
                              for number, line in enumerate(text, 1) if NUMBER.search(line)]
     return breaches
+
+
+# The packages that rule 6 is asked of: the others still have such answers.
+ANSWERING = ('anthrob_control', 'anthrob_core', 'anthrob_recording', 'anthrob_ros')
+NOTHING = re.compile(r'\breturn (?:""|-1|-1\.0);')
+# Where such an answer stays: the file, how its line goes, and why.
+ALLOWED_ANSWERS = (
+    ('anthrob_core/src/command_line.cpp', 'value <= highest) return "";', 'CLI11 asks validators for it'),
+    ('anthrob_recording/src/dataset/table_file.cpp', 'if (first == std::string::npos) return "";', 'blanks, trimmed, are this text'),
+    ('anthrob_recording/src/foreign/foreign_csv.cpp', 'if (first == std::string::npos) return "";', 'blanks, trimmed, are this text'),
+)
+
+
+def answers(top, asked=ANSWERING):
+    """Rule 6: what is missing or went wrong is a type, never an empty string or -1."""
+    breaches = []
+    for package in asked:
+        folder = os.path.join(top, 'src', package)
+        for part in ('include', 'src', 'node', 'tools'):
+            for file in files_of(os.path.join(folder, part)):
+                ends = [end for name, end, _ in ALLOWED_ANSWERS if file == os.path.join(top, 'src', name)]
+                with open(file, encoding='utf-8') as text:
+                    breaches += ['%s:%d: an answer that means none: return std::optional, or an enum' % (file, number)
+                                 for number, line in enumerate(text, 1)
+                                 if NOTHING.search(line) and not any(line.rstrip().endswith(end) for end in ends)]
+    return breaches
