@@ -91,12 +91,12 @@ class Breaches(unittest.TestCase):
         self.expect(rules.doors(self.folder.name), 'src/anthrob_low/include/anthrob_low/private.h:1')
 
     def test_a_door_that_is_only_told(self):
-        self.write('docs/map.md', '## Doors\n| package | include | for |\n| `anthrob_low` | `door.h`, `none.h` | all |\n## End\n')
-        self.expect(rules.doors_in_documents(self.folder.name, 'docs/map.md'), 'docs/map.md:3')
+        self.write('map.md', '## Doors\n| package | include | for |\n| `anthrob_low` | `door.h`, `none.h` | all |\n## End\n')
+        self.expect(rules.doors_in_documents(self.folder.name, 'map.md'), 'map.md:3')
 
     def test_a_folder_that_is_not_on_the_map(self):
-        self.write('docs/map.md', 'Of low: `first/`\n')
-        self.expect(rules.folders_in_documents(self.folder.name, 'docs/map.md'), 'docs/map.md:1')
+        self.write('map.md', 'Of low: `first/`\n')
+        self.expect(rules.folders_in_documents(self.folder.name, 'map.md'), 'map.md:1')
 
     def test_ros_in_a_core_source(self):
         self.write('src/anthrob_low/src/first/own.h', '#pragma once\n#include <ros/ros.h>\n')
