@@ -70,7 +70,7 @@ double SimulatorPlant::touch(std::size_t pad) const {
 }
 
 void SimulatorPlant::drive(std::size_t muscle, double voltage) {
-  if (muscles_[muscle]) simulation_.apply_voltage(*muscles_[muscle], voltage);
+  if (muscles_[muscle]) simulation_.muscle_inputs().apply_voltage(*muscles_[muscle], voltage);
 }
 
 void SimulatorPlant::advance() {

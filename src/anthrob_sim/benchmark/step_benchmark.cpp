@@ -54,7 +54,7 @@ void run_ours(benchmark::State& state, const std::shared_ptr<const RobotModel>& 
   for (auto _ : state) {
     drive(sim, step++);
     sim.step();
-    sweeps += sim.solver_iterations();
+    sweeps += sim.last_step().solver_iterations;
   }
   state.counters["friction_sweeps"] =
       benchmark::Counter(static_cast<double>(sweeps), benchmark::Counter::kAvgIterations);

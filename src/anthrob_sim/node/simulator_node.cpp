@@ -134,7 +134,7 @@ void SimulatorNode::apply_supervision() {
       // A stopped muscle forgets its reference: enabling it again must not make it jump.
       sim_.command(muscle, ecu::Mode::kVoltage, 0.0);
     }
-    sim_.set_enabled(muscle, follows);
+    sim_.muscle_inputs().set_enabled(muscle, follows);
   }
   driven_.apply(sim_);
 }
@@ -199,7 +199,7 @@ bool SimulatorNode::on_gains(anthrob_msgs::Gains::Request& request,
                                             request.value, changes);
   response.success = response.message.empty();
   for (const ecu::GainChange& change : changes) {
-    sim_.set_gain(change.gain.muscle, change.gain.parameter, change.value);
+    sim_.muscle_inputs().set_gain(change.gain.muscle, change.gain.parameter, change.value);
   }
   for (const ecu::Gain& gain : ecu::gains_of(supervisor_.muscles())) {
     ecu::ControllerSettings held = sim_.muscle(gain.muscle).controller();

@@ -146,8 +146,9 @@ class Driver {
     };
     for (Eigen::Index m = 0; m < path.position.cols(); ++m) {
       const auto muscle = static_cast<int>(m);
-      const double due = time + sim.position_delay(muscle) + sensor_lag(sim.model(), muscle);
-      sim.impose_reading(muscle, at(m, due - sim.step_length()), at(m, due));
+      const double due =
+          time + sim.muscle_inputs().position_delay(muscle) + sensor_lag(sim.model(), muscle);
+      sim.muscle_inputs().impose_reading(muscle, at(m, due - sim.step_length()), at(m, due));
     }
   }
 
@@ -253,7 +254,8 @@ RunDifferences follow(Simulation& sim, const MeasuredRun& run, const SimulationO
   if (options.drive == Drive::kSampledPositions) {
     command_positions(sim, row_of(run.after.position, 0));
   }
-  for (std::size_t m = 0; m < sim.muscle_count(); ++m) sim.release(static_cast<int>(m));
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m)
+    sim.muscle_inputs().release(static_cast<int>(m));
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/friction/resistance_solver.h"
+#include "friction/resistance_solver.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -187,15 +187,15 @@ void Replay::Run::drive(double time) {
     } else if (replay_.mode_ == ReplayMode::kVoltage) {
       // Before the first recorded voltage it stays as it has settled.
       if (!input.voltage.empty() && muscle.voltage.advance(now) && now >= input.voltage.t.front()) {
-        sim_.apply_voltage(input.muscle, muscle.voltage.value());
+        sim_.muscle_inputs().apply_voltage(input.muscle, muscle.voltage.value());
       }
     } else {
       command(muscle, now);
     }
   }
   if (replay_.mode_ == ReplayMode::kPosture) {
-    replay_.posture_at(time + sim_.posture_delay() + sim_.step_length(), posture_);
-    sim_.impose_posture_reading(posture_);
+    replay_.posture_at(time + sim_.imposed_posture().delay() + sim_.step_length(), posture_);
+    sim_.imposed_posture().impose_reading(posture_);
   }
   for (JointRun& joint : joints_) {
     const JointInput& input = *joint.input;
@@ -211,8 +211,8 @@ void Replay::Run::drive(double time) {
 void Replay::Run::command(MuscleRun& muscle, double now) {
   const MuscleInput& input = *muscle.input;
   if (!input.ecu_state.empty() && muscle.ecu_state.advance(now)) {
-    sim_.set_enabled(input.muscle,
-                     muscle.ecu_state.value() == static_cast<double>(ecu::State::kEnabled));
+    sim_.muscle_inputs().set_enabled(
+        input.muscle, muscle.ecu_state.value() == static_cast<double>(ecu::State::kEnabled));
   }
   if (input.reference.empty() || now < input.reference.t.front()) return;
   const bool other_mode = muscle.mode.advance(now);
@@ -226,9 +226,9 @@ void Replay::Run::command(MuscleRun& muscle, double now) {
 
 void Replay::Run::impose(const MuscleInput& input, double time) {
   if (input.position.empty()) return;
-  const double due = time + sim_.position_delay(input.muscle);
-  sim_.impose_reading(input.muscle, input.position.at(due),
-                      input.position.at(due + sim_.step_length()));
+  const double due = time + sim_.muscle_inputs().position_delay(input.muscle);
+  sim_.muscle_inputs().impose_reading(input.muscle, input.position.at(due),
+                                      input.position.at(due + sim_.step_length()));
 }
 
 }  // namespace anthrob

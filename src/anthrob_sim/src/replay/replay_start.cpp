@@ -89,8 +89,8 @@ bool is_stopped(const std::function<bool()>& wanted, long step) {
 void Replay::ramp(Simulation& sim, const std::vector<Ramp>& ramps, long step, long steps) {
   for (const Ramp& ramp : ramps) {
     const double length = ramp.to - ramp.from;
-    sim.impose_reading(ramp.muscle, ramp.from + ramp_share(step, steps) * length,
-                       ramp.from + ramp_share(step + 1, steps) * length);
+    sim.muscle_inputs().impose_reading(ramp.muscle, ramp.from + ramp_share(step, steps) * length,
+                                       ramp.from + ramp_share(step + 1, steps) * length);
   }
 }
 
@@ -133,7 +133,7 @@ Replay::Settled Replay::settle(Simulation& sim, const std::function<bool()>& wan
 
   for (const MuscleInput& muscle : muscles_) {
     const StartInput input = start_input(muscle);
-    sim.release(muscle.muscle);
+    sim.muscle_inputs().release(muscle.muscle);
     sim.command(muscle.muscle, ecu::Mode::kVoltage, 0.0);
     if (!input.imposed) sim.command(muscle.muscle, input.mode, input.value);
   }
@@ -146,7 +146,7 @@ Replay::Settled Replay::settle(Simulation& sim, const std::function<bool()>& wan
     settled.stopped = is_stopped(wanted, i);
     if (settled.stopped) break;
   }
-  for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
+  for (const MuscleInput& muscle : muscles_) sim.muscle_inputs().release(muscle.muscle);
   settled.last = sim.snapshot();
   return settled;
 }
@@ -182,7 +182,7 @@ void Replay::start(Simulation& sim, const Settled& settled) const {
     ramp(sim, ramps, i, steps);
     sim.step();
   }
-  for (const Ramp& ramp : ramps) sim.release(ramp.muscle);
+  for (const Ramp& ramp : ramps) sim.muscle_inputs().release(ramp.muscle);
 }
 
 std::vector<Replay::RampTarget> Replay::ramp_targets(const Simulation& settled) const {
@@ -234,27 +234,29 @@ bool Replay::start_where_recorded(Simulation& sim, long steps,
   for (const double position : first.positions) farthest = std::max(farthest, std::abs(position));
   const bool ramped = has_time_for(farthest, steps);
   for (const MuscleInput& muscle : muscles_) {
-    sim.release(muscle.muscle);
+    sim.muscle_inputs().release(muscle.muscle);
     sim.command(muscle.muscle, ecu::Mode::kVoltage, 0.0);
   }
   if (ramped) {
-    sim.place(sim.true_posture(rest), std::vector<double>(first.positions.size(), 0.0));
+    sim.place(sim.imposed_posture().true_posture(rest),
+              std::vector<double>(first.positions.size(), 0.0));
   } else {
-    sim.place(sim.true_posture(first.q), first.positions);
+    sim.place(sim.imposed_posture().true_posture(first.q), first.positions);
   }
   for (long i = 0; i < steps; ++i) {
     const double from = ramped ? ramp_share(i, steps) : 1.0,
                  to = ramped ? ramp_share(i + 1, steps) : 1.0;
     posture_between(skeleton, rest, first.q, to, q);
-    sim.impose_posture_reading(q);
+    sim.imposed_posture().impose_reading(q);
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
       if (muscles_[m].position.empty()) continue;
-      sim.impose_reading(muscles_[m].muscle, from * first.positions[m], to * first.positions[m]);
+      sim.muscle_inputs().impose_reading(muscles_[m].muscle, from * first.positions[m],
+                                         to * first.positions[m]);
     }
     sim.step();
     if (is_stopped(wanted, i)) return false;
   }
-  for (const MuscleInput& muscle : muscles_) sim.release(muscle.muscle);
+  for (const MuscleInput& muscle : muscles_) sim.muscle_inputs().release(muscle.muscle);
   return true;
 }
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/reading_chain.h"
+#include "simulation/reading_chain.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/skeleton/joint_loads.h"
+#include "skeleton/joint_loads.h"
 
 namespace anthrob {
 

@@ -1,4 +1,4 @@
-#include "anthrob_sim/skeleton/skeleton.h"
+#include "skeleton/skeleton.h"
 
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "anthrob_sim/actuator/dc_motor.h"
+#include "anthrob_sim/spring/series_elastic_element.h"
 #include "effects_support.h"
 
 namespace anthrob {
@@ -82,7 +83,7 @@ muscles:
 /// What can give energy back: skeleton, springs, rotors, and fields of windings [J].
 /// @param plain the same robot without effects, whose motors tell their inductance
 double stored_energy(const Simulation& sim, const RobotModel& plain) {
-  double sum = sim.kinetic_energy() + sim.potential_energy();
+  double sum = audit_energy(sim).kinetic + audit_energy(sim).potential;
   for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
     const Muscle& muscle = sim.muscle(static_cast<int>(m));
     const auto& p = static_cast<const DcMotor&>(*plain.muscles[m].actuator).parameters();
@@ -104,7 +105,8 @@ Course let_go(const std::shared_ptr<const RobotModel>& robot, const RobotModel& 
               const std::vector<double>& q, const std::vector<double>& positions, double seconds) {
   Simulation sim(robot);
   sim.place(q, positions);
-  for (int m = 0; m < static_cast<int>(sim.muscle_count()); ++m) sim.set_enabled(m, false);
+  for (int m = 0; m < static_cast<int>(sim.muscle_count()); ++m)
+    sim.muscle_inputs().set_enabled(m, false);
   const double start = stored_energy(sim, plain);
   Course course;
   double least = start;

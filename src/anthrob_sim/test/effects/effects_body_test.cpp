@@ -112,17 +112,17 @@ TEST(JointOffsetTorque, BesideMoreFrictionItIsFrictionThatDiffersByDirection) {
 double unexplained_joint_work(const std::vector<EffectInstance>& effects, double step) {
   Simulation sim(robot_with(kAxis, effects, step));
   double work = 0.0, heat = 0.0, turned_over = 0.0;
-  const double start = sim.kinetic_energy() + sim.potential_energy();
+  const double start = audit_energy(sim).kinetic + audit_energy(sim).potential;
   for (int i = 0; i < static_cast<int>(std::lround(4.0 / step)); ++i) {
     const double before = sim.configuration()[0], effort = 60.0 * std::sin(4.0 * sim.time());
     sim.apply_effort(0, effort);
     sim.step();
     work += effort * (sim.configuration()[0] - before);
     turned_over += std::abs(effort * (sim.configuration()[0] - before));
-    heat += sim.joint_dissipation() * step;
+    heat += sim.last_step().joint_dissipation * step;
   }
   EXPECT_GT(heat, 0.0);
-  const double stored = sim.kinetic_energy() + sim.potential_energy() - start;
+  const double stored = audit_energy(sim).kinetic + audit_energy(sim).potential - start;
   return std::abs(work - stored - heat) / turned_over;
 }
 
@@ -255,13 +255,13 @@ TEST(BallJointLoadFriction, PendulumLosesTheSameAmplitudeEveryHalfSwing) {
   Simulation sim(TemporaryRobot(urdf, model).load(1e-4));
   const double start = 0.2;
   sim.place({std::cos(0.5 * start), std::sin(0.5 * start), 0.0, 0.0}, {});
-  const double begin = sim.potential_energy();
+  const double begin = audit_energy(sim).potential;
   double heat = 0.0, last = start;
   std::vector<double> turning;
   double speed = 0.0;
   for (int i = 0; i < 45000; ++i) {
     sim.step();
-    heat += sim.joint_dissipation() * 1e-4;
+    heat += sim.last_step().joint_dissipation * 1e-4;
     const double angle = 2.0 * std::atan2(sim.configuration()[1], sim.configuration()[0]);
     if ((angle - last) * speed < 0.0) turning.push_back(std::abs(angle));
     speed = angle - last;
@@ -272,7 +272,7 @@ TEST(BallJointLoadFriction, PendulumLosesTheSameAmplitudeEveryHalfSwing) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(turning[i], start - loss * static_cast<double>(i + 1), 0.05 * loss * (i + 1.0));
   }
-  const double end = sim.potential_energy() + sim.kinetic_energy();
+  const double end = audit_energy(sim).potential + audit_energy(sim).kinetic;
   EXPECT_NEAR(begin - end, heat, 0.01 * heat);
 }
 
@@ -326,7 +326,7 @@ TEST(ForceCrosstalk, WhatOnePicksUpItDoesNotPassOn) {
     int muscle[3];
     for (int i = 0; i < 3; ++i) muscle[i] = sim.model().find_muscle(names[i]);
     for (int i = 1; i <= 200; ++i) {
-      for (const int m : muscle) sim.impose_position(m, 0.01 * i, 10.0);
+      for (const int m : muscle) sim.muscle_inputs().impose_position(m, 0.01 * i, 10.0);
       sim.step();
     }
     double expected[3];
@@ -348,7 +348,7 @@ TEST(EncoderDrift, FollowsTimeAndTravel) {
   const int m = sim.model().find_muscle("brachialis");
   for (int i = 1; i <= 1000; ++i) {  // there and half the way back
     const double position = i <= 600 ? 0.002 * i : 2.4 - 0.002 * i;
-    sim.impose_position(m, position, 0.0);
+    sim.muscle_inputs().impose_position(m, position, 0.0);
     sim.step();
   }
   EXPECT_NEAR(sim.muscle(m).actuator().position, 0.4, 1e-12);

@@ -31,9 +31,9 @@ TEST(CommandLatency, WhatStopsForgetsWhatIsOnItsWay) {
   sim.command(0, ecu::Mode::kVoltage, 2.0);
   sim.step(150);
   ASSERT_EQ(sim.muscle(0).voltage(), 2.0);
-  sim.set_enabled(0, false);
+  sim.muscle_inputs().set_enabled(0, false);
   sim.step(2);
-  sim.set_enabled(0, true);
+  sim.muscle_inputs().set_enabled(0, true);
   sim.command(0, ecu::Mode::kVoltage, 0.5);
   for (int i = 0; i < 150; ++i) {
     sim.step();
@@ -48,8 +48,8 @@ TEST(CommandLatency, AStopBetweenTwoStepsForgetsItTooAndTheControllersMemory) {
   sim.command(0, ecu::Mode::kPosition, 1.0);
   sim.step(150);
   const auto stop = [&sim](int muscle) {
-    sim.set_enabled(muscle, false);
-    sim.set_enabled(muscle, true);
+    sim.muscle_inputs().set_enabled(muscle, false);
+    sim.muscle_inputs().set_enabled(muscle, true);
     sim.command(muscle, ecu::Mode::kVoltage, 0.0);
   };
   ASSERT_NE(sim.muscle(0).voltage(), 0.0);
@@ -89,11 +89,11 @@ TEST(CommandLatency, AVoltagePastItIsThereAtOnceAndNoOlderCommandComesAfterIt) {
   Simulation sim(robot);
   sim.command(0, ecu::Mode::kPosition, 1.0);
   sim.step(200);
-  sim.apply_voltage(0, 3.0);
+  sim.muscle_inputs().apply_voltage(0, 3.0);
   sim.step();
   EXPECT_EQ(sim.muscle(0).voltage(), 3.0);
   sim.step(300);
-  sim.release(0);
+  sim.muscle_inputs().release(0);
   sim.command(0, ecu::Mode::kVoltage, 1.0);
   for (int i = 0; i < 100; ++i) {
     sim.step();
@@ -147,7 +147,7 @@ TEST(SupplySag, DoesNotCountAMotorThatIsMovedFromOutside) {
     Simulation sim(robot);
     for (int m = 0; m < 2; ++m) sim.command(m, ecu::Mode::kVoltage, beside || m == 0 ? 6.0 : 0.0);
     sim.step(5);  // both draw
-    sim.impose_position(1, 0.0, 0.0);
+    sim.muscle_inputs().impose_position(1, 0.0, 0.0);
     sim.step(200);
     EXPECT_EQ(sim.reading(1).current, 0.0);
     return sim.muscle(0).actuator().velocity;

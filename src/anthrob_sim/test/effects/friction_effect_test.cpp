@@ -30,7 +30,7 @@ TEST(EyeletFriction, TensionRatioIsTheCapstans) {
   // In the chain, winding in: what the motor feels over what the spring pulls.
   Simulation sim(robot);
   for (int i = 1; i <= 500; ++i) {
-    sim.impose_position(biceps, 0.004 * i, 4.0);
+    sim.muscle_inputs().impose_position(biceps, 0.004 * i, 4.0);
     sim.step();
   }
   const Muscle& muscle = sim.muscle(biceps);
@@ -136,8 +136,8 @@ effects:
   Simulation sim(robot.load());
   // The extensor swings the arm back and pulls the flexor over the surface.
   for (int i = 1; i <= 300; ++i) {
-    sim.impose_position(0, 0.0, 0.0);
-    sim.impose_position(1, 0.01 * i, 10.0);
+    sim.muscle_inputs().impose_position(0, 0.0, 0.0);
+    sim.muscle_inputs().impose_position(1, 0.01 * i, 10.0);
     sim.step();
   }
   const Muscle& flexor = sim.muscle(0);

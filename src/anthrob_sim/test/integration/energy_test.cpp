@@ -22,7 +22,7 @@ struct Account {
 
 /// Kinetic energy of motors, magnetic energy, rings, skeleton.
 double stored_energy(const Simulation& sim) {
-  double sum = sim.kinetic_energy() + sim.potential_energy();
+  double sum = audit_energy(sim).kinetic + audit_energy(sim).potential;
   for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
     const Muscle& muscle = sim.muscle(m);
     const auto& p = static_cast<const DcMotor&>(*muscle.model().actuator).parameters();
@@ -86,7 +86,7 @@ Account audit(const std::string& model_name, double step) {
       account.eyelets += muscle.friction_power() * step;
       account.rings += muscle.spring_dissipation() * step;
     }
-    account.joints += sim.joint_dissipation() * step;
+    account.joints += sim.last_step().joint_dissipation * step;
   }
   account.stored = stored_energy(sim) - start;
   return account;

@@ -76,7 +76,7 @@ double capstan_ratio(const std::string& law, int spring_segment, double speed) {
   sim.place({0.0}, {position});
   for (int i = 0; i < 4000; ++i) {
     position += speed / 0.0065 * sim.step_length();
-    sim.impose_position(0, position, speed / 0.0065);
+    sim.muscle_inputs().impose_position(0, position, speed / 0.0065);
     sim.step();
   }
   return sim.muscle(0).tension(0) / sim.muscle(0).tension(1);
@@ -102,7 +102,7 @@ TEST(Eyelet, InsertionSideCarriesTheLoad) {
   double position = kMass * kGravity / 2000.0 / 0.0065;
   sim.place({0.0}, {position});
   for (int i = 0; i < 3000; ++i) {
-    sim.impose_position(0, position += 2e-3, 2.0);
+    sim.muscle_inputs().impose_position(0, position += 2e-3, 2.0);
     sim.step();
   }
   const double viscous = 1.0 * 0.0065 * 2.0;
@@ -118,7 +118,8 @@ double creep(const std::string& law, double share) {
   const double weight = kMass * kGravity;
   const auto hold = [&](double tension, int steps) {
     const double position = tension / 2000.0 / 0.0065;
-    for (int i = 0; i < steps; ++i) sim.impose_position(0, position, 0.0), sim.step();
+    for (int i = 0; i < steps; ++i)
+      sim.muscle_inputs().impose_position(0, position, 0.0), sim.step();
   };
   sim.place({0.0}, {weight / 2000.0 / 0.0065});
   hold(share * weight, 1000);
@@ -145,7 +146,7 @@ TEST(Eyelet, SlipsBeyondItsLimit) {
   const double weight = kMass * kGravity, lowest = std::exp(-kStatic * M_PI / 2);
   sim.place({0.0}, {weight / 2000.0 / 0.0065});
   const double position = (lowest - 0.1) * weight / 2000.0 / 0.0065;
-  for (int i = 0; i < 3000; ++i) sim.impose_position(0, position, 0.0), sim.step();
+  for (int i = 0; i < 3000; ++i) sim.muscle_inputs().impose_position(0, position, 0.0), sim.step();
   EXPECT_LT(sim.configuration()[0], -1e-4);
   EXPECT_GT(sim.muscle(0).tension(0), lowest * sim.muscle(0).tension(1));
 }
@@ -172,7 +173,7 @@ TEST(Joint, StaticFrictionHoldsAgainstATendonThatPullsHarderAndHarder) {
     const double before = sim.configuration()[0];
     const double speed = 30.0 / 2000.0 / 0.0065;
     for (int i = 1; i <= 1000; ++i) {
-      sim.impose_position(0, 1e-3 * i * speed, speed);
+      sim.muscle_inputs().impose_position(0, 1e-3 * i * speed, speed);
       sim.step();
     }
     EXPECT_GT(sim.muscle(0).spring_tension(), 29.0) << segment;
@@ -233,7 +234,7 @@ TEST(Joint, BallJointFrictionIsIsotropic) {
 
 /// Energy of skeleton and rings.
 double mechanical_energy(const Simulation& sim) {
-  double sum = sim.kinetic_energy() + sim.potential_energy();
+  double sum = audit_energy(sim).kinetic + audit_energy(sim).potential;
   for (std::size_t m = 0; m < sim.muscle_count(); ++m) sum += sim.muscle(m).spring_energy();
   return sum;
 }
@@ -257,18 +258,18 @@ void expect_friction_dissipates(const std::string& law, int runs) {
     std::vector<double> positions(11);
     for (double& p : positions) p = random.uniform(0.0, 1.0);
     sim.place(testing_support::random_posture(random), positions);
-    for (int m = 0; m < 11; ++m) sim.impose_position(m, positions[m], 0.0);
+    for (int m = 0; m < 11; ++m) sim.muscle_inputs().impose_position(m, positions[m], 0.0);
     const double start = mechanical_energy(sim);
-    double elsewhere = 0.0, friction = 0.0, turned_over = 0.0, last = sim.kinetic_energy();
+    double elsewhere = 0.0, friction = 0.0, turned_over = 0.0, last = audit_energy(sim).kinetic;
     for (int i = 0; i < 500; ++i) {
       sim.step();
-      elsewhere += sim.joint_dissipation() * step;
+      elsewhere += sim.last_step().joint_dissipation * step;
       for (int m = 0; m < 11; ++m) {
         elsewhere += sim.muscle(m).spring_dissipation() * step;
         friction += sim.muscle(m).friction_power() * step;
       }
-      turned_over += std::abs(sim.kinetic_energy() - last);
-      last = sim.kinetic_energy();
+      turned_over += std::abs(audit_energy(sim).kinetic - last);
+      last = audit_energy(sim).kinetic;
     }
     const double loss = start - mechanical_energy(sim) - elsewhere;
     const double tolerance = 0.01 * turned_over + 1e-4;

@@ -67,8 +67,8 @@ TEST(Torso, MovesAndStaysTogether) {
         }
       }
       sim.step();
-      sweeps += sim.solver_iterations();
-      EXPECT_LT(sim.solver_iterations(), 40) << "friction was not solved in step " << i;
+      sweeps += sim.last_step().solver_iterations;
+      EXPECT_LT(sim.last_step().solver_iterations, 40) << "friction was not solved in step " << i;
       if (i % 20 == 0) note_contacts(sim, touched);
     }
   };

@@ -27,10 +27,10 @@ TEST(ReplayStart, StartsInTheStandThatTheMotorWasMeasuredIn) {
   Simulation recorded(model);
   recorded.command(0, ecu::Mode::kPosition, 0.5);
   for (int i = 0; i < 1000; ++i) {
-    recorded.impose_position(0, 0.58, 0.0);
+    recorded.muscle_inputs().impose_position(0, 0.58, 0.0);
     recorded.step();
   }
-  recorded.release(0);
+  recorded.muscle_inputs().release(0);
   recorded.step(2000);
   const double stand = recorded.reading(0).position;
   constexpr double kCount = 1e-3;
@@ -107,8 +107,8 @@ TEST(ReplayStart, StartsWithoutAJerkThatASpringRemembers) {
     const int steps = static_cast<int>(std::lround(time / slow.step_length()));
     for (int i = 0; i < steps; ++i) {
       const double speed = (to - from) / time;
-      slow.impose_position(0, from + (to - from) * (i + 1) / steps, speed);
-      slow.impose_position(1, -from - (to - from) * (i + 1) / steps, -speed);
+      slow.muscle_inputs().impose_position(0, from + (to - from) * (i + 1) / steps, speed);
+      slow.muscle_inputs().impose_position(1, -from - (to - from) * (i + 1) / steps, -speed);
       slow.step();
     }
   };

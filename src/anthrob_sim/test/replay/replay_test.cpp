@@ -169,7 +169,7 @@ class Session {
   }
   void enable(bool enabled) {
     if (!enabled) sim_.command(0, ecu::Mode::kVoltage, 0.0);
-    sim_.set_enabled(0, enabled);
+    sim_.muscle_inputs().set_enabled(0, enabled);
   }
   void run(double time) {
     for (const auto end = now_ + std::llround(time * 1e9); now_ < end; now_ += 1000000) {
@@ -210,10 +210,10 @@ class Session {
 TEST(Replay, StartsWhereARobotStandsThatNobodyCommandsYet) {
   Session session;
   for (int i = 0; i < 2000; ++i) {  // Left somewhere, before the recording begins.
-    session.sim().impose_position(0, 2.0, 0.0);
+    session.sim().muscle_inputs().impose_position(0, 2.0, 0.0);
     session.sim().step();
   }
-  session.sim().release(0);
+  session.sim().muscle_inputs().release(0);
   session.run(0.3);
   session.command(ecu::Mode::kPosition, 5.0);
   session.run(0.7);
@@ -397,7 +397,7 @@ TEST(Replay, ImposedPosturesAreWhatWasReadNotWhatWas) {
   options.effects = {{"mocap_misalignment", "y", {{"angle", 0.1}}}};
   Simulation sim(load_robot_model(config("anthrob/model_I.yaml"), options));
   const std::vector<double> read = {std::cos(0.2), 0.0, 0.0, std::sin(0.2), 0.7};
-  sim.impose_posture_reading(read);
+  sim.imposed_posture().impose_reading(read);
   sim.step(2);
   for (int k = 0; k < 5; ++k) EXPECT_NEAR(sim.read_positions()[k], read[k], 1e-12) << k;
   const double* is = sim.configuration().data();

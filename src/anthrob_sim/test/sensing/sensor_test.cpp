@@ -142,7 +142,7 @@ TEST(Sensor, AveragesOfAModelLagByTheSameTimeAtAnyStep) {
     Simulation sim(robot.load(step));
     const int steps = static_cast<int>(std::lround(0.1 / step));
     for (int i = 1; i <= steps; ++i) {
-      sim.impose_position(0, i * step, 1.0);
+      sim.muscle_inputs().impose_position(0, i * step, 1.0);
       sim.step();
     }
     EXPECT_NEAR(sim.muscle(0).actuator().position, 0.1, 1e-9);

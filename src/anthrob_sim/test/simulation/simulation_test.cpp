@@ -11,19 +11,18 @@
 #include <new>
 
 #include "allocations.h"
+#include "simulation/moving_arm.h"
 #include "support.h"
 
 namespace anthrob {
 namespace {
 
+using testing_support::anthrob_model;
 using testing_support::config;
+using testing_support::excite;
 using testing_support::Random;
 using testing_support::random_posture;
-
-std::shared_ptr<const RobotModel> anthrob_model(const std::string& model, double step = 1e-3,
-                                                std::map<std::string, double> overrides = {}) {
-  return load_robot_model(config("anthrob/model_" + model + ".yaml"), {step, std::move(overrides)});
-}
+using testing_support::swing;
 
 TEST(Anthrob, RestLengthsAreThoseOfTheOracle) {
   // l_M in mm, computed from the thesis's tables; l_T0 + l_0 agree with them within 0.15 mm.
@@ -187,12 +186,6 @@ void expect_same_bits(const Simulation& a, const Simulation& b) {
   }
 }
 
-void excite(Simulation& sim) {
-  for (int m = 0; m < static_cast<int>(sim.muscle_count()); ++m) {
-    sim.command(m, ecu::Mode::kPosition, 0.4 + 0.1 * m);
-  }
-}
-
 TEST(Simulation, SnapshotInMidFlightContinuesWithTheSameBits) {
   const auto model = anthrob_model("II");
   Simulation original(model);
@@ -224,7 +217,7 @@ TEST(Simulation, RestoringLeavesTheStateThatItWasGiven) {
 
 TEST(Simulation, RestoringAndPlacingBringTheLastStepsLossesToo) {
   const auto losses = [](const Simulation& sim) {
-    std::vector<double> powers{sim.joint_dissipation()};
+    std::vector<double> powers{sim.last_step().joint_dissipation};
     for (std::size_t m = 0; m < sim.muscle_count(); ++m)
       powers.push_back(sim.muscle(m).friction_power());
     return powers;
@@ -267,18 +260,6 @@ TEST(Simulation, WhatIsNotThereIsRefused) {
   EXPECT_THROW(sim.joint_load(2), BadInput);
 }
 
-TEST(Simulation, AnImposedHingeArrivesAlsoBeyondHalfATurn) {
-  Simulation sim(load_robot_model(testing_support::config("two_muscle_rig/model_I.yaml")));
-  for (const double angle : {3.5, -8.0}) {
-    sim.impose_posture({angle});
-    sim.step();
-    EXPECT_NEAR(sim.configuration()[0], angle, 1e-9);
-    sim.step();
-    EXPECT_NEAR(sim.configuration()[0], angle, 1e-9);
-    EXPECT_NEAR(sim.read_velocity(0), 0.0, 1e-6);
-  }
-}
-
 TEST(Simulation, DoesNotAllocateWhileStepping) {
   for (const char* model : {"I", "II", "III"}) {
     Simulation sim(anthrob_model(model));
@@ -291,7 +272,7 @@ TEST(Simulation, DoesNotAllocateWhileStepping) {
     const std::size_t imposed = testing_support::allocations();
     for (int i = 0; i < 100; ++i) {
       posture.back() += 1e-4;
-      sim.impose_posture(posture);
+      sim.imposed_posture().impose(posture);
       sim.step();
     }
     EXPECT_EQ(testing_support::allocations(), imposed);
@@ -301,45 +282,10 @@ TEST(Simulation, DoesNotAllocateWhileStepping) {
   }
 }
 
-/// A motion of all joints, at times [s].
-std::vector<double> swing(double t) {
-  const Quat shoulder(Eigen::AngleAxisd(0.4 * std::sin(3.0 * t), Vec3(0.6, 0.0, 0.8)));
-  return {shoulder.w(), shoulder.x(), shoulder.y(), shoulder.z(), 0.8 + 0.5 * std::cos(4.0 * t)};
-}
-
-TEST(Simulation, AnImposedPostureIsArrivedAtWhateverPulls) {
-  Simulation sim(anthrob_model("II"));
-  sim.place(swing(0.0), std::vector<double>(11, 0.0));
-  excite(sim);
-  const double h = sim.step_length();
-  for (int i = 1; i <= 600; ++i) {
-    sim.impose_posture(swing(i * h));
-    sim.step();
-    const std::vector<double> wanted = swing(i * h);
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      ASSERT_NEAR(sim.configuration()[k], wanted[k], 1e-12) << i << " " << k;
-    }
-    // Of that step, backwards.
-    const double rate = (wanted[4] - swing((i - 1) * h)[4]) / h;
-    ASSERT_NEAR(sim.read_velocity(1), rate, 1e-9) << i;
-    const Vec3 turning =
-        0.4 * (std::sin(3.0 * i * h) - std::sin(3.0 * (i - 1) * h)) / h * Vec3(0.6, 0.0, 0.8);
-    ASSERT_LT((sim.read_ball_velocity(0) - turning).norm(), 1e-9) << i;
-  }
-  EXPECT_GT(sim.muscle(0).spring_tension(), 1.0);  // muscles pull all the while
-  const std::vector<double> there = sim.configuration();
-  sim.step(100);  // and stays, until it is released
-  EXPECT_NEAR(sim.read_velocity(1), 0.0, 1e-9);
-  EXPECT_NEAR(sim.configuration()[4], there[4], 1e-12);
-  sim.release_posture();
-  sim.step(100);
-  EXPECT_GT(std::abs(sim.configuration()[4] - there[4]), 1e-3);
-}
-
 TEST(Simulation, AnImposedPostureIsPartOfASnapshotAndOfNoReset) {
   Simulation original(anthrob_model("II")), fresh(anthrob_model("II"));
   excite(original);
-  original.impose_posture(swing(0.1));
+  original.imposed_posture().impose(swing(0.1));
   original.step(50);
   const Snapshot snapshot = original.snapshot();
   original.step(200);
@@ -354,13 +300,6 @@ TEST(Simulation, AnImposedPostureIsPartOfASnapshotAndOfNoReset) {
   Snapshot other = snapshot;
   other.posture.pop_back();
   EXPECT_THROW(fresh.restore(other), BadInput);
-}
-
-TEST(Simulation, APostureThatIsNoneIsRefused) {
-  Simulation sim(anthrob_model("I"));
-  EXPECT_THROW(sim.impose_posture({1, 0, 0, 0}), BadInput);
-  EXPECT_THROW(sim.impose_posture({1, 0, 0, 0, std::nan("")}), BadInput);
-  EXPECT_THROW(sim.impose_posture({0, 0, 0, 0, 0}), BadInput);
 }
 
 TEST(Simulation, PlaceKeepsWrappingStatesOfAContinuousMotion) {
@@ -383,52 +322,6 @@ TEST(Simulation, CommandsAreChecked) {
   EXPECT_THROW(sim.apply_load(0, 1.0), BadInput);
   EXPECT_THROW(sim.apply_effort(-1, 1.0), BadInput);
   EXPECT_THROW(sim.apply_load(99, 1.0), BadInput);
-}
-
-TEST(Simulation, DisabledMuscleGetsZeroVolts) {
-  Simulation sim(anthrob_model("I"));
-  sim.command(0, ecu::Mode::kVoltage, 6.0);
-  sim.step(50);
-  EXPECT_EQ(sim.muscle(0).voltage(), 6.0);
-  sim.set_enabled(0, false);
-  sim.step(1);
-  EXPECT_EQ(sim.muscle(0).voltage(), 0.0);
-}
-
-TEST(Simulation, AGainCountsFromTheNextTickOn) {
-  Simulation sim(anthrob_model("I")), plain(anthrob_model("I"));
-  for (Simulation* each : {&sim, &plain}) {
-    each->command(0, ecu::Mode::kPosition, 1.0);
-    each->step(50);
-  }
-  EXPECT_EQ(sim.muscle(0).voltage(), plain.muscle(0).voltage());
-  sim.set_gain(0, ecu::Parameter::kPositionDerivative, 0.0);
-  sim.set_gain(0, ecu::Parameter::kPositionForceFeedforward, 0.0);
-  sim.set_gain(0, ecu::Parameter::kPositionProportional, 0.5);
-  const double seen = sim.muscle(0).measured().position;
-  sim.step(1);
-  EXPECT_EQ(sim.muscle(0).voltage(), 0.5 * (1.0 - seen));
-  EXPECT_EQ(sim.muscle(1).controller().position.proportional,
-            plain.muscle(1).controller().position.proportional);
-  sim.reset();
-  EXPECT_EQ(sim.muscle(0).controller().position.proportional, 0.5);
-  EXPECT_THROW(sim.set_gain(0, ecu::Parameter::kVoltageLimit, 1.0), BadInput);
-  EXPECT_THROW(sim.set_gain(0, ecu::Parameter::kPositionProportional, -1.0), BadInput);
-  EXPECT_THROW(sim.set_gain(0, ecu::Parameter::kPositionProportional, std::nan("")), BadInput);
-  Simulation hill(load_robot_model(testing_support::config("two_muscle_rig/model_hill.yaml")));
-  EXPECT_THROW(hill.set_gain(0, ecu::Parameter::kPositionProportional, 1.0), BadInput);
-}
-
-TEST(Simulation, ImposedPositionIsTakenExactly) {
-  Simulation sim(anthrob_model("I"));
-  for (int i = 1; i <= 100; ++i) {
-    sim.impose_position(3, 0.01 * i, 10.0);
-    sim.step();
-    EXPECT_EQ(sim.muscle(3).actuator().position, 0.01 * i);
-  }
-  sim.release(3);
-  sim.step(10);
-  EXPECT_NE(sim.muscle(3).actuator().position, 1.0);
 }
 
 TEST(Simulation, ExplodingModelIsReportedNotContinued) {
@@ -461,8 +354,8 @@ TEST(Simulation, NumbersThatAreNotFiniteAreRefused) {
     std::vector<double> positions = zero;
     positions[3] = bad;
     EXPECT_THROW(sim.place(rest, positions), BadInput);
-    EXPECT_THROW(sim.impose_position(0, bad, 0.0), BadInput);
-    EXPECT_THROW(sim.impose_position(0, 0.0, bad), BadInput);
+    EXPECT_THROW(sim.muscle_inputs().impose_position(0, bad, 0.0), BadInput);
+    EXPECT_THROW(sim.muscle_inputs().impose_position(0, 0.0, bad), BadInput);
   }
   for (const double bad : {std::nan(""), HUGE_VAL}) EXPECT_THROW(sim.apply_load(1, bad), BadInput);
   EXPECT_THROW(sim.place({0, 0, 0, 0, 0}, zero), BadInput);
@@ -541,16 +434,6 @@ TEST(Simulation, SkippedStepsMoveNothingButTime) {
   EXPECT_DOUBLE_EQ(sim.time(), 0.023);
   EXPECT_EQ(after.q, before.q);
   EXPECT_EQ(after.state, before.state);
-}
-
-TEST(Simulation, AVoltageThatIsAppliedDoesNotWaitForTheController) {
-  Simulation sim(load_robot_model(config("rig_oring_stretcher/model_I.yaml")));
-  ASSERT_EQ(sim.model().muscles[0].steps_per_tick, 2);
-  for (int i = 1; i <= 6; ++i) {
-    sim.apply_voltage(0, 0.1 * i);
-    sim.step();
-    EXPECT_EQ(sim.muscle(0).voltage(), 0.1 * i);
-  }
 }
 
 TEST(Simulation, RobotWithoutJointsRuns) {

@@ -1,6 +1,6 @@
 // Bodies and joints: Bullet's step with the tree solver, and the joint-space view, against closed
 // forms, invariants and Bullet's own constraint solver.
-#include "anthrob_sim/skeleton/skeleton.h"
+#include "skeleton/skeleton.h"
 
 #include <gtest/gtest.h>
 

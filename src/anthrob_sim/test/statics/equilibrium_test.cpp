@@ -145,10 +145,10 @@ TEST(Equilibrium, AsksNoHillMuscleForMoreThanItCanPullIn) {
   EXPECT_GT(limited, 0);
   EXPECT_GT(held, 0);
   EXPECT_THROW(sim.place({0.0}, std::vector<double>(model->muscles.size(), 5.0)), BadInput);
-  EXPECT_THROW(sim.impose_position(0, 5.0, 0.0), BadInput);
+  EXPECT_THROW(sim.muscle_inputs().impose_position(0, 5.0, 0.0), BadInput);
   // As a sensor may read it.
   const double highest = model->muscles[0].actuator->highest_position();
-  EXPECT_NO_THROW(sim.impose_position(0, highest + 0.001, 0.0));
+  EXPECT_NO_THROW(sim.muscle_inputs().impose_position(0, highest + 0.001, 0.0));
 }
 
 /// Nothing chooses a ligament's tension: slack it has none, taut what its stretch gives, and the

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "anthrob_sim/skeleton/skeleton.h"
+#include "skeleton/skeleton.h"
 
 namespace anthrob {
 

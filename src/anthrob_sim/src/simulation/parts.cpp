@@ -1,0 +1,257 @@
+#include "simulation/parts.h"
+
+#include "anthrob_sim/skeleton/posture.h"
+#include "simulation/checks.h"
+
+namespace anthrob {
+
+namespace {
+
+/// Streams of random numbers of joint sensors begin here; muscles come before.
+constexpr std::uint64_t kJointStreams = 1u << 20;
+
+}  // namespace
+
+Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
+    : model_(std::move(model)),
+      skeleton_(*model_->skeleton, model_->gravity, model_->step, model_->collisions),
+      tree_(*model_->skeleton),
+      resistance_(*model_->skeleton, model_->step),
+      readings_(*model_, store_),
+      muscle_inputs_(muscles_, readings_, model_->step),
+      posture_(*model_->skeleton, readings_),
+      q_(model_->skeleton->rest_configuration()),
+      effort_(model_->skeleton->joints.size(), 0.0),
+      load_(model_->skeleton->joints.size(), 0.0),
+      joint_loads_(*model_->skeleton, model_->gravity, model_->step) {
+  const SkeletonModel& skeleton = *model_->skeleton;
+  muscles_.reserve(model_->muscles.size());
+  for (std::size_t i = 0; i < model_->muscles.size(); ++i) {
+    muscles_.emplace_back(model_->muscles[i], skeleton, model_->sensors, static_cast<int>(i),
+                          model_->step, store_);
+  }
+  for (Muscle& muscle : muscles_) {
+    if (!muscle.sliding().contacts.empty()) sliding_.push_back(&muscle.sliding());
+  }
+  dissipation_offset_ = store_.reserve(1);
+  measured_offset_ = store_.reserve(skeleton.joints.size());
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    joint_sensors_.emplace_back(model_->sensors.joint_position, model_->sensors.seed,
+                                kJointStreams + i, model_->step, model_->sensors.steps_per_tick);
+    joint_sensor_offsets_.push_back(store_.reserve(joint_sensors_.back().state_size()));
+  }
+  tau_.setZero(skeleton.velocity_count);
+  way_.setZero(skeleton.velocity_count);
+  heading_.resize(static_cast<std::size_t>(skeleton.velocity_count));
+  arriving_.reserve(skeleton.bodies.size());
+  reserve_effects();
+}
+
+void Simulation::Parts::reserve_effects() {
+  const SkeletonModel& skeleton = *model_->skeleton;
+  if (joint_loads_.wanted()) loads_offset_ = store_.reserve(skeleton.joints.size());
+  if (!model_->joint_torques.empty()) joint_torque_.setZero(skeleton.velocity_count);
+  if (!model_->power_effects.empty()) lines_.resize(muscles_.size());
+  for (const auto& effect : model_->power_effects) {
+    power_offsets_.push_back(store_.reserve(effect->state_size()));
+  }
+}
+
+void Simulation::Parts::reset_effects() {
+  if (joint_loads_.wanted()) joint_loads_.reset(store_.at(loads_offset_).data());
+  for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
+    model_->power_effects[i]->reset(store_.at(power_offsets_[i]));
+  }
+  readings_.reset(truth());
+}
+
+void Simulation::Parts::head_for_posture() {
+  posture_difference(*model_->skeleton, q_, posture_.q(), way_);
+  way_ /= model_->step;
+  Eigen::Map<Eigen::VectorXd> heading(heading_.data(), way_.size());
+  heading = way_;
+  for (const JointModel& joint : model_->skeleton->joints) {
+    if (joint.type != JointType::kBall) continue;
+    const int index = static_cast<int>(&joint - model_->skeleton->joints.data());
+    heading.segment<3>(joint.velocity_offset) =
+        tree_.joint(index).R_WC * way_.segment<3>(joint.velocity_offset);
+  }
+}
+
+void Simulation::Parts::settle_in(const std::vector<BodyState>& bodies) {
+  skeleton_.set_bodies(bodies);
+  tree_.update(skeleton_.bodies(), q_);
+  store_.at(dissipation_offset_)[0] = 0.0;
+  reset_effects();
+  for (std::size_t m = 0; m < muscles_.size(); ++m) {
+    muscles_[m].reset_sensors(reading(m));
+  }
+  for (const JointModel& joint : model_->skeleton->joints) {
+    const std::size_t i = &joint - model_->skeleton->joints.data();
+    joint_sensors_[i].reset(read_positions()[joint.position_offset],
+                            store_.at(joint_sensor_offsets_[i]));
+  }
+  sense();
+}
+
+void Simulation::Parts::step_once() {
+  for (Muscle& muscle : muscles_) muscle.control(step_index_);
+
+  tree_.update_dynamics(skeleton_.bodies(), model_->gravity);
+  tau_.setZero();
+  for (const JointModel& joint : model_->skeleton->joints) {
+    const std::size_t i = &joint - model_->skeleton->joints.data();
+    tau_[joint.velocity_offset] += effort_[i] + load_[i];
+  }
+  if (!model_->joint_torques.empty()) add_joint_torques();
+  for (Muscle& muscle : muscles_) muscle.prepare_sliding(tree_, tau_);
+  if (!posture_.active()) {
+    resistance_.solve(tree_, q_, tau_, sliding_,
+                      joint_loads_.wanted() ? store_.at(loads_offset_).data() : nullptr);
+  } else {
+    head_for_posture();
+    resistance_.follow(tree_, heading_, sliding_);
+  }
+  // Work within the step goes with the mean of the velocities at its ends.
+  const Eigen::Map<const Eigen::VectorXd> start(tree_.velocities().data(), tau_.size());
+  store_.at(dissipation_offset_)[0] =
+      -0.5 * resistance_.joint_torque().dot(start + resistance_.velocity());
+  for (Muscle& muscle : muscles_) muscle.finish_sliding();
+
+  apply_wrenches();
+  advance_actuators();
+  move_skeleton();
+
+  ++step_index_;
+  tree_.update(skeleton_.bodies(), q_);
+  for (Muscle& muscle : muscles_) muscle.update(skeleton_.bodies(), tree_);
+  check_finite();
+  sense();
+}
+
+void Simulation::Parts::move_skeleton() {
+  if (posture_.active()) {
+    tree_.place(posture_.q(), heading_, arriving_);
+    skeleton_.set_bodies(arriving_);
+    // Body poses do not show whole turns of a hinge; continue counting from the imposed angle.
+    q_ = posture_.q();
+    return;
+  }
+  if (joint_loads_.wanted()) joint_loads_.before(skeleton_);
+  skeleton_.step();
+  if (joint_loads_.wanted()) joint_loads_.after(skeleton_, store_.at(loads_offset_).data());
+}
+
+void Simulation::Parts::add_joint_torques() {
+  joint_torque_.setZero();
+  for (const auto& torque : model_->joint_torques) torque->add(tree_, q_, joint_torque_.data());
+  tau_ += joint_torque_;
+}
+
+void Simulation::Parts::advance_actuators() {
+  if (model_->power_effects.empty()) {
+    for (Muscle& muscle : muscles_) muscle.advance_actuator(muscle.voltage());
+    return;
+  }
+  for (std::size_t m = 0; m < muscles_.size(); ++m) {
+    // A motor that is moved from outside draws nothing.
+    const bool imposed = muscles_[m].drive() == Drive::kImposed;
+    lines_[m] = {imposed ? 0.0 : muscles_[m].voltage(), muscles_[m].actuator().current};
+  }
+  for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
+    model_->power_effects[i]->apply(lines_, store_.at(power_offsets_[i]));
+  }
+  for (std::size_t m = 0; m < muscles_.size(); ++m) muscles_[m].advance_actuator(lines_[m].voltage);
+}
+
+void Simulation::Parts::apply_wrenches() {
+  skeleton_.clear_wrenches();
+  const auto& bodies = skeleton_.bodies();
+  const auto apply = [&](int body, const Vec3& point_W, const Vec3& force_W) {
+    if (body == 0) return;
+    skeleton_.add_wrench(body, force_W, (point_W - bodies[body].X_WB.p).cross(force_W));
+  };
+  for (const Muscle& muscle : muscles_) {
+    const PathModel& path = *muscle.model().path;
+    for (std::size_t i = 0; i < path.segment_count(); ++i) {
+      if (path.joints_of_segment(i).empty()) continue;
+      const PathSegment& segment = muscle.path().segments()[i];
+      const Vec3 pull = muscle.tension(i) * segment.pull_W;
+      apply(path.obstacles()[i].body, segment.from_W, pull);
+      apply(path.obstacles()[i + 1].body, segment.to_W, -pull);
+    }
+  }
+  apply_joint_efforts();
+}
+
+void Simulation::Parts::apply_joint_efforts() {
+  const auto& bodies = skeleton_.bodies();
+  const auto& joints = model_->skeleton->joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const JointModel& joint = joints[i];
+    const KinematicTree::JointView& view = tree_.joint(static_cast<int>(i));
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    if (joint.type == JointType::kBall) {
+      torque = resistance_.joint_torque().segment<3>(joint.velocity_offset);
+      if (joint_torque_.size() > 0) torque += joint_torque_.segment<3>(joint.velocity_offset);
+    } else {
+      double effort = resistance_.joint_torque()[joint.velocity_offset] + effort_[i] + load_[i];
+      if (joint_torque_.size() > 0) effort += joint_torque_[joint.velocity_offset];
+      (joint.type == JointType::kHinge ? torque : force) = effort * view.axis_W;
+    }
+    for (const auto& [body, sign] : {std::pair{joint.child, 1.0}, std::pair{joint.parent, -1.0}}) {
+      if (body == 0) continue;
+      const Vec3 lever = view.center_W - bodies[body].X_WB.p;
+      skeleton_.add_wrench(body, sign * force, sign * (torque + lever.cross(force)));
+    }
+  }
+}
+
+void Simulation::Parts::sense() {
+  readings_.update(truth());
+  for (std::size_t m = 0; m < muscles_.size(); ++m) {
+    muscles_[m].sense(step_index_, reading(m));
+  }
+  const auto& joints = model_->skeleton->joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    store_.at(measured_offset_)[i] =
+        joint_sensors_[i].measure(read_positions()[joints[i].position_offset], step_index_,
+                                  store_.at(joint_sensor_offsets_[i]));
+  }
+}
+
+void Simulation::Parts::check_finite() const {
+  for (std::size_t i = 1; i < skeleton_.bodies().size(); ++i) {
+    const BodyState& body = skeleton_.bodies()[i];
+    const double size =
+        body.v_W.cwiseAbs().sum() + body.w_W.cwiseAbs().sum() + body.X_WB.p.cwiseAbs().sum();
+    if (!is_sensible(size)) {
+      throw NumericalFailure(time(), "body " + model_->skeleton->bodies[i].name,
+                             "its motion is not a number below 1e9");
+    }
+  }
+  // A body's orientation shows in its joint.
+  for (const JointModel& joint : model_->skeleton->joints) {
+    for (int k = 0; k < joint.position_size(); ++k) {
+      if (is_sensible(q_[joint.position_offset + k])) continue;
+      throw NumericalFailure(time(), "joint " + joint.name,
+                             "its position is not a number below 1e9");
+    }
+  }
+  for (const Muscle& muscle : muscles_) {
+    const std::string& name = muscle.model().name;
+    if (!is_sensible(muscle.actuator().position)) {
+      throw NumericalFailure(time(), "muscle " + name,
+                             "its actuator's position is not a number below 1e9");
+    }
+    // A spring may treat NaN expansion as slack and hide it.
+    if (!is_sensible(muscle.expansion())) {
+      throw NumericalFailure(time(), "muscle " + name, "its length is not a number below 1e9");
+    }
+    if (!is_sensible(std::abs(muscle.tension(0)) + std::abs(muscle.spring_tension()))) {
+      throw NumericalFailure(time(), "muscle " + name, "its tension is not a number below 1e9");
+    }
+  }
+}
+
+}  // namespace anthrob

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "anthrob_sim/muscle/muscle.h"
+#include "anthrob_sim/sensing/sensor.h"
+#include "anthrob_sim/simulation.h"
+#include "friction/resistance_solver.h"
+#include "simulation/reading_chain.h"
+#include "skeleton/joint_loads.h"
+#include "skeleton/skeleton.h"
+
+namespace anthrob {
+
+/// What a simulation is made of, and how it takes a step.
+class Simulation::Parts {
+ public:
+  explicit Parts(std::shared_ptr<const RobotModel> model);
+
+  void step_once();
+  /// Puts skeleton and sensors into the posture q_, at rest, after the muscles were placed there.
+  void settle_in(const std::vector<BodyState>& bodies);
+
+  double time() const { return static_cast<double>(step_index_) * model_->step; }
+  ecu::Measurement reading(std::size_t muscle) const {
+    return readings_.empty() ? muscles_[muscle].truth() : readings_.muscle(muscle);
+  }
+  const double* read_positions() const {
+    return readings_.empty() ? q_.data() : readings_.positions();
+  }
+
+ private:
+  friend class Simulation;
+
+  void reserve_effects();
+  void reset_effects();
+  void add_joint_torques();
+  void head_for_posture();
+  void move_skeleton();
+  void advance_actuators();
+  ReadingChain::Truth truth() const { return {muscles_, q_, tree_}; }
+  void apply_wrenches();
+  void apply_joint_efforts();
+  void sense();
+  void check_finite() const;
+
+  std::shared_ptr<const RobotModel> model_;
+  mutable StateStore store_;  ///< components hold views of it
+  Skeleton skeleton_;
+  KinematicTree tree_;
+  ResistanceSolver resistance_;
+  std::vector<Muscle> muscles_;
+  ReadingChain readings_;
+  MuscleInputs muscle_inputs_;
+  ImposedPosture posture_;
+  std::vector<SlidingTendon*> sliding_;
+  std::vector<Sensor> joint_sensors_;
+  std::vector<double> q_, effort_, load_;
+  Eigen::VectorXd way_;              ///< scratch: velocities to the imposed posture, child axes
+  std::vector<double> heading_;      ///< scratch: the same, ball joints in world axes
+  std::vector<BodyState> arriving_;  ///< scratch: body states at it
+  std::size_t measured_offset_;      ///< measured joint positions
+  std::vector<std::size_t> joint_sensor_offsets_;
+  Eigen::VectorXd tau_;
+  // Of effects: empty in a plain model.
+  JointLoads joint_loads_;
+  Eigen::VectorXd joint_torque_;  ///< of joint_torques
+  std::vector<PowerLine> lines_;  ///< scratch of power_effects
+  std::size_t loads_offset_ = 0;
+  std::vector<std::size_t> power_offsets_;
+  std::size_t dissipation_offset_ = 0;
+  std::uint64_t step_index_ = 0;
+};
+
+}  // namespace anthrob
