@@ -112,6 +112,17 @@ class Install(unittest.TestCase):
             os.killpg(simulation.pid, signal.SIGINT)
             simulation.communicate(timeout=30)
 
+    def test_effects_of_another_workspace_are_found(self):
+        library = self.build('effects') + '/libdownstream_effects.so'
+        robot = os.path.join(self.folder, 'robot')
+        shutil.copytree(os.path.dirname(self.model), robot)
+        model = os.path.join(robot, 'model_downstream.yaml')
+        with open(model, 'w', encoding='utf-8') as text:
+            text.write('extends: %s\neffect_libraries: [%s]\n' % (os.path.basename(self.model), library))
+        listed = self.run_installed('rosrun', 'anthrob_sim', 'anthrob_effects', '--model', model)
+        for effect in 'downstream_cord', 'downstream_dirt':
+            self.assertIn(effect, listed)
+
     def test_a_program_without_ros_steps_the_simulation(self):
         simulation = self.build('simulation') + '/simulation'
         self.assertEqual(self.run_installed(simulation, self.model), '0.100 s\n')

@@ -7,6 +7,7 @@
 
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_recording/table.h"
+#include "anthrob_sim/spring/series_elastic_element.h"
 #include "anthrob_sim/statics/equilibrium.h"
 
 namespace anthrob {

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "anthrob_sim/skeleton/posture.h"
+#include "anthrob_sim/effects/effect.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {
 

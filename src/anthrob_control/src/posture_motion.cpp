@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "anthrob_sim/skeleton/posture.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "anthrob_sim/report/muscle_sweep.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {
 

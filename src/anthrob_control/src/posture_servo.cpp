@@ -1,6 +1,6 @@
 #include "anthrob_control/posture_servo.h"
 
-#include "anthrob_sim/skeleton/posture.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {
 

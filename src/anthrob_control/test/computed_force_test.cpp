@@ -11,7 +11,6 @@
 #include <random>
 
 #include "anthrob_sim/statics/equilibrium.h"
-#include "anthrob_sim/statics/least_effort.h"
 #include "closed_loop.h"
 
 namespace anthrob {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "anthrob_sim/skeleton/posture.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "anthrob_sim/statics/least_effort.h"
+#include "anthrob_sim/statics/equilibrium.h"
 
 namespace anthrob {
 namespace {

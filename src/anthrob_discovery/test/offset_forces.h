@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anthrob_core/random.h"
+#include "anthrob_sim/effects/effect.h"
 #include "experiment/excerpt.h"
 #include "experiment/experiment.h"
 #include "fit/model_fit.h"

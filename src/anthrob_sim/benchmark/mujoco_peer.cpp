@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "anthrob_sim/spring/series_elastic_element.h"
 #include "path/cylinder.h"
 #include "path/sphere.h"
 

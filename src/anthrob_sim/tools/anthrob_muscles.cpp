@@ -9,9 +9,9 @@
 #include "anthrob_core/files.h"
 #include "anthrob_recording/dataset.h"
 #include "anthrob_sim/placement.h"
-#include "anthrob_sim/report/muscle_sweep.h"
 #include "anthrob_sim/simulation.h"
 #include "anthrob_sim/tool.h"
+#include "report/muscle_sweep.h"
 
 namespace anthrob {
 namespace {

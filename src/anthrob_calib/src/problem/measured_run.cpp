@@ -12,8 +12,6 @@
 #include "anthrob_recording/orientation_series.h"
 #include "anthrob_recording/quantities.h"
 #include "anthrob_recording/unanswered.h"
-#include "anthrob_sim/replay/followed_commands.h"
-#include "anthrob_sim/replay/plausible_values.h"
 #include "anthrob_sim/replay/replay.h"
 
 namespace anthrob {

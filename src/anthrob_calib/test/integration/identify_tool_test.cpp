@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/spring/series_elastic_element.h"
 #include "virtual_rig/eyelet_pull.h"
 #include "virtual_rig/load_resistor.h"
 #include "virtual_rig/ring_stretcher.h"

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_sim/actuator/actuator.h"
 #include "anthrob_sim/model/robot_model.h"
 
 namespace anthrob {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "anthrob_sim/skeleton/posture.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {
 

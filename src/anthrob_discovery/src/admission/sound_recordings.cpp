@@ -8,7 +8,7 @@
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_core/errors.h"
 #include "anthrob_core/text.h"
-#include "anthrob_sim/replay/plausible_values.h"
+#include "anthrob_sim/replay/replay.h"
 
 namespace anthrob {
 namespace discovery {

@@ -1,6 +1,6 @@
-#include "anthrob_sim/actuator/gear_law.h"
-
 #include <cmath>
+
+#include "anthrob_sim/actuator/dc_motor.h"
 
 namespace anthrob {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "anthrob_sim/friction/sliding_tendon.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
+#include "friction/sliding_tendon.h"
 
 namespace anthrob {
 

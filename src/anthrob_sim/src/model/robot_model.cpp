@@ -1,8 +1,13 @@
 #include "anthrob_sim/model/robot_model.h"
 
 #include "anthrob_core/errors.h"
+#include "anthrob_sim/actuator/actuator.h"
 
 namespace anthrob {
+
+const GearedMotor* MuscleModel::motor() const {
+  return dynamic_cast<const GearedMotor*>(actuator.get());
+}
 
 SensorsModel SensorsModel::predictable() const {
   SensorsModel quiet = *this;

@@ -5,6 +5,9 @@
 
 #include "anthrob_core/errors.h"
 #include "anthrob_ecu/gains.h"
+#include "anthrob_sim/spring/series_elastic_element.h"
+#include "core/delay_line.h"
+#include "friction/sliding_tendon.h"
 
 namespace anthrob {
 
@@ -14,7 +17,12 @@ enum SensorIndex { kPosition, kVelocity, kCurrent, kForce, kSensorCount };
 
 Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const SensorsModel& sensors,
                int index, double step, StateStore& store)
-    : model_(model), controller_(model.controller), store_(store), step_(step), path_(*model.path) {
+    : model_(model),
+      controller_(model.controller),
+      store_(store),
+      step_(step),
+      path_(*model.path),
+      sliding_(std::make_unique<SlidingTendon>()) {
   const PathModel& path = *model.path;
   const SensorModel* kinds[] = {&sensors.position, &sensors.velocity, &sensors.current,
                                 &sensors.force};
@@ -30,7 +38,7 @@ Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const Se
     sensor_offsets_[i] = store.reserve(sensors_[i].state_size());
   }
   if (model.command_delay > 0.0) {
-    command_delay_.emplace(model.command_delay, 2, step);
+    command_delay_ = std::make_unique<DelayLine>(model.command_delay, 2, step);
     command_delay_offset_ = store.reserve(command_delay_->state_size());
   }
 
@@ -48,20 +56,24 @@ Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const Se
   for (std::size_t i = sliding_obstacles_.front(); i < path.segment_count(); ++i) {
     for (const JointOnPath& step_on_path : path.joints_of_segment(i)) {
       const JointModel& joint = skeleton.joints[step_on_path.joint];
-      for (int k = 0; k < joint.dof(); ++k) sliding_.dofs.push_back(joint.velocity_offset + k);
+      for (int k = 0; k < joint.dof(); ++k) sliding_->dofs.push_back(joint.velocity_offset + k);
     }
   }
-  std::sort(sliding_.dofs.begin(), sliding_.dofs.end());
-  sliding_.dofs.erase(std::unique(sliding_.dofs.begin(), sliding_.dofs.end()), sliding_.dofs.end());
-  const std::size_t count = sliding_obstacles_.size(), size = count * sliding_.dofs.size();
-  sliding_.contacts.resize(count);
-  sliding_.piece_arms.resize(size);
-  sliding_.slide_arms.resize(size);
-  for (auto* v : {&sliding_.tension_after, &sliding_.slide_speed, &sliding_.start_speed,
-                  &sliding_.mu, &sliding_.slope, &sliding_.steepness}) {
+  std::sort(sliding_->dofs.begin(), sliding_->dofs.end());
+  sliding_->dofs.erase(std::unique(sliding_->dofs.begin(), sliding_->dofs.end()),
+                       sliding_->dofs.end());
+  const std::size_t count = sliding_obstacles_.size(), size = count * sliding_->dofs.size();
+  sliding_->contacts.resize(count);
+  sliding_->piece_arms.resize(size);
+  sliding_->slide_arms.resize(size);
+  for (auto* v : {&sliding_->tension_after, &sliding_->slide_speed, &sliding_->start_speed,
+                  &sliding_->mu, &sliding_->slope, &sliding_->steepness}) {
     v->resize(count);
   }
 }
+
+Muscle::Muscle(Muscle&&) noexcept = default;
+Muscle::~Muscle() = default;
 
 StateView Muscle::contact_state(std::size_t i) const {
   const PathObstacle& obstacle = model_.path->obstacles()[i];
@@ -227,23 +239,24 @@ void Muscle::prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau) {
   }
   if (sliding_obstacles_.empty()) return;
 
-  sliding_.tension = spring_tension();
-  const std::size_t nd = sliding_.dofs.size(), count = sliding_obstacles_.size();
+  sliding_->tension = spring_tension();
+  const std::size_t nd = sliding_->dofs.size(), count = sliding_obstacles_.size();
   for (std::size_t j = 0; j < count; ++j) {
     const std::size_t obstacle = sliding_obstacles_[j];
     const std::size_t end =
         j + 1 < count ? sliding_obstacles_[j + 1] : model_.path->segment_count();
-    for (const int dof : sliding_.dofs) arms_[dof] = 0.0;
+    for (const int dof : sliding_->dofs) arms_[dof] = 0.0;
     for (std::size_t i = obstacle; i < end; ++i) path_.add_moment_arms(i, 1.0, tree, arms_.data());
-    for (std::size_t a = 0; a < nd; ++a) sliding_.piece_arms[j * nd + a] = arms_[sliding_.dofs[a]];
-    sliding_.contacts[j] = {model_.path->obstacles()[obstacle].friction.get(),
-                            contact_state(obstacle), path_.obstacles()[obstacle].turning};
+    for (std::size_t a = 0; a < nd; ++a)
+      sliding_->piece_arms[j * nd + a] = arms_[sliding_->dofs[a]];
+    sliding_->contacts[j] = {model_.path->obstacles()[obstacle].friction.get(),
+                             contact_state(obstacle), path_.obstacles()[obstacle].turning};
   }
   for (std::size_t a = 0; a < nd; ++a) {
     double sum = 0.0;
     for (std::size_t j = count; j-- > 0;) {
-      sum += sliding_.piece_arms[j * nd + a];
-      sliding_.slide_arms[j * nd + a] = sum;
+      sum += sliding_->piece_arms[j * nd + a];
+      sliding_->slide_arms[j * nd + a] = sum;
     }
   }
 }
@@ -253,7 +266,7 @@ void Muscle::finish_sliding() {
   std::size_t next = 0;
   for (std::size_t i = model_.spring_segment + 1; i < model_.path->segment_count(); ++i) {
     if (next < sliding_obstacles_.size() && sliding_obstacles_[next] == i) {
-      tension = sliding_.tension_after[next++];
+      tension = sliding_->tension_after[next++];
     }
     tension_slot(i) = tension;
   }
@@ -345,11 +358,11 @@ double Muscle::friction_power() const {
 
 /// As the solver left it: scratch memory, of no use after a restore.
 double Muscle::sliding_power() const {
-  double power = 0.0, before = sliding_.tension;
-  for (std::size_t j = 0; j < sliding_.contacts.size(); ++j) {
-    const double speed = 0.5 * (sliding_.start_speed[j] + sliding_.slide_speed[j]);
-    power += (before - sliding_.tension_after[j]) * speed;
-    before = sliding_.tension_after[j];
+  double power = 0.0, before = sliding_->tension;
+  for (std::size_t j = 0; j < sliding_->contacts.size(); ++j) {
+    const double speed = 0.5 * (sliding_->start_speed[j] + sliding_->slide_speed[j]);
+    power += (before - sliding_->tension_after[j]) * speed;
+    before = sliding_->tension_after[j];
   }
   return power;
 }

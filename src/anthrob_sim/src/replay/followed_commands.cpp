@@ -1,5 +1,3 @@
-#include "anthrob_sim/replay/followed_commands.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +6,7 @@
 #include "anthrob_core/errors.h"
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_recording/quantities.h"
+#include "anthrob_sim/replay/replay.h"
 
 namespace anthrob {
 

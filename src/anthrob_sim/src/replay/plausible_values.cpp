@@ -1,9 +1,8 @@
-#include "anthrob_sim/replay/plausible_values.h"
-
 #include <cmath>
 
 #include "anthrob_core/errors.h"
 #include "anthrob_core/text.h"
+#include "anthrob_sim/replay/replay.h"
 
 namespace anthrob {
 

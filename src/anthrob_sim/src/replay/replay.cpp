@@ -7,7 +7,6 @@
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_recording/quantities.h"
 #include "anthrob_recording/resolution.h"
-#include "anthrob_sim/replay/followed_commands.h"
 #include "replay/replay_modes.h"
 
 namespace anthrob {

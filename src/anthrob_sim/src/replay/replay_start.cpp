@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "anthrob_sim/replay/replay.h"
-#include "anthrob_sim/skeleton/posture.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 #include "replay/replay_modes.h"
 
 namespace anthrob {

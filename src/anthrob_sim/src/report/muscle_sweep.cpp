@@ -1,4 +1,4 @@
-#include "anthrob_sim/report/muscle_sweep.h"
+#include "report/muscle_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,19 +35,6 @@ void set_axis(const JointModel& joint, const SweepAxis& axis, double value,
 }
 
 }  // namespace
-
-std::vector<SweepAxis> sweep_axes(const SkeletonModel& skeleton) {
-  std::vector<SweepAxis> axes(static_cast<std::size_t>(skeleton.velocity_count));
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const JointModel& joint = skeleton.joints[j];
-    for (int k = 0; k < joint.dof(); ++k) {
-      axes[joint.velocity_offset + k] = {
-          static_cast<int>(j), k,
-          joint.type == JointType::kBall ? joint.name + "_" + "xyz"[k] : joint.name};
-    }
-  }
-  return axes;
-}
 
 MuscleSweep sweep_muscles(const std::shared_ptr<const RobotModel>& model,
                           const std::vector<double>& q, const std::vector<double>& actuators,

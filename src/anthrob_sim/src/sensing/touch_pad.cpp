@@ -1,6 +1,6 @@
-#include "anthrob_sim/sensing/touch_pad.h"
-
 #include <algorithm>
+
+#include "anthrob_sim/sensing/sensor.h"
 
 namespace anthrob {
 

@@ -1,6 +1,6 @@
 #include "simulation/parts.h"
 
-#include "anthrob_sim/skeleton/posture.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 #include "simulation/checks.h"
 
 namespace anthrob {

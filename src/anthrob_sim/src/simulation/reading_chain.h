@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "anthrob_sim/effects/effect.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/muscle/muscle.h"
-#include "anthrob_sim/sensing/reading_effect.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 
 namespace anthrob {

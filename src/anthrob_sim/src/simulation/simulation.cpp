@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anthrob_sim/skeleton/posture.h"
+#include "anthrob_sim/skeleton/skeleton_model.h"
 #include "simulation/checks.h"
 #include "simulation/parts.h"
 

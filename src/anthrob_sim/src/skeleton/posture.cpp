@@ -1,6 +1,6 @@
-#include "anthrob_sim/skeleton/posture.h"
-
 #include <cmath>
+
+#include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {
 

@@ -54,4 +54,17 @@ std::vector<JointOnPath> joints_between(const SkeletonModel& model, int from, in
   return path;
 }
 
+std::vector<SweepAxis> sweep_axes(const SkeletonModel& skeleton) {
+  std::vector<SweepAxis> axes(static_cast<std::size_t>(skeleton.velocity_count));
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const JointModel& joint = skeleton.joints[j];
+    for (int k = 0; k < joint.dof(); ++k) {
+      axes[joint.velocity_offset + k] = {
+          static_cast<int>(j), k,
+          joint.type == JointType::kBall ? joint.name + "_" + "xyz"[k] : joint.name};
+    }
+  }
+  return axes;
+}
+
 }  // namespace anthrob

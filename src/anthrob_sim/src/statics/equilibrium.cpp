@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "anthrob_core/errors.h"
-#include "anthrob_sim/statics/least_effort.h"
+#include "anthrob_sim/effects/effect.h"
+#include "anthrob_sim/spring/series_elastic_element.h"
 
 namespace anthrob {
 

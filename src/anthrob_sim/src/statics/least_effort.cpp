@@ -1,7 +1,7 @@
-#include "anthrob_sim/statics/least_effort.h"
-
 #include <nlopt.hpp>
 #include <stdexcept>
+
+#include "anthrob_sim/statics/equilibrium.h"
 
 namespace anthrob {
 

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "effects_support.h"
+#include "friction/sliding_tendon.h"
 #include "friction/smooth_stribeck.h"
 #include "friction/sticking.h"
 #include "report/solved_path.h"

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/path/muscle_path.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 #include "mesh_reference.h"
 #include "mesh_shapes.h"

@@ -1,5 +1,5 @@
 // Sweeps and solved paths against the definitions of what they report.
-#include "anthrob_sim/report/muscle_sweep.h"
+#include "report/muscle_sweep.h"
 
 #include <gtest/gtest.h>
 

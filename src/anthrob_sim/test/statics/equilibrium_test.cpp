@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "anthrob_core/errors.h"
-#include "anthrob_sim/statics/least_effort.h"
 #include "effects/effects_support.h"
 #include "support.h"
 

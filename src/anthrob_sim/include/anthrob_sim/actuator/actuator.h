@@ -53,6 +53,26 @@ class Actuator {
   bool takes_input() const { return input_high() > input_low(); }
 };
 
+/// An electric motor with gear and spindle. Effects are wrappers around it: they override what they
+/// change and pass on the rest. Their own state follows the state of the wrapped motor.
+class GearedMotor : public Actuator {
+ public:
+  /// One step, with an internal torque in addition to the load of the tendon.
+  /// @param torque at the gear output, past the losses of the gear, winding in positive [Nm]
+  virtual void advance_with(double input, double load, double torque, StateView state) const = 0;
+  void advance(double input, double load, StateView state) const override {
+    advance_with(input, load, 0.0, state);
+  }
+
+  /// Change of the current per change of the voltage within one step, with the shaft held [A/V].
+  virtual double conductance() const = 0;
+  /// Inertia of rotor and gear at the motor shaft [kg m^2].
+  virtual double inertia() const = 0;
+  /// N, and r_S at position 0 [m]
+  virtual double ratio() const = 0;
+  virtual double spindle_radius() const = 0;
+};
+
 /// Builds the actuator of one muscle.
 /// @param kind the kind of actuator, as the model file lists it: `{type: dc_motor, ...}`
 /// @param muscle what differs from muscle to muscle: `spindle_radius`, `rest_tendon_length`

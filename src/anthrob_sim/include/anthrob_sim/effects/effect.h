@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "anthrob_core/config_node.h"
+#include "anthrob_ecu/control_law.h"
+#include "anthrob_sim/core/state.h"
 #include "anthrob_sim/model/robot_model.h"
+#include "anthrob_sim/skeleton/kinematic_tree.h"
 
 namespace anthrob {
 
@@ -123,6 +126,72 @@ class EffectSetting {
   std::vector<EffectParameter> parameters_;
   std::vector<double> values_;
   ConfigNode origin_;
+};
+
+// Laws of the whole robot, which effects add to its model.
+
+/// One muscle between its controller and its motor's terminals.
+struct PowerLine {
+  double voltage;  ///< of the controller; effects change it into that of the terminals [V]
+  double current;  ///< of the motor [A]
+};
+
+/// Changes voltages on their way from the controllers to the motors.
+class PowerEffect {
+ public:
+  virtual ~PowerEffect() = default;
+  virtual std::size_t state_size() const { return 0; }
+  /// The robot was placed, at rest.
+  virtual void reset(StateView) const {}
+  /// Once a step.  @param lines one a muscle
+  virtual void apply(std::vector<PowerLine>& lines, StateView state) const = 0;
+};
+
+/// A posture-dependent joint torque, such as that of a spring.
+class JointTorque {
+ public:
+  virtual ~JointTorque() = default;
+  /// Adds to generalised forces, ball joints in world axes [Nm, N].
+  /// @param q joint positions
+  virtual void add(const KinematicTree& tree, const std::vector<double>& q, double* tau) const = 0;
+  /// Its potential energy [J].
+  virtual double energy(const std::vector<double>& q) const = 0;
+};
+
+/// The values that sensors measure: the true values, as changed by the effects so far.
+struct Readings {
+  ecu::Measurement* muscles;  ///< one per muscle
+  /// Joints as in Simulation::configuration, and their velocities, ball joints in the child's axes.
+  double* positions;
+  double* velocities;
+};
+
+/// A systematic error of sensors, applied before their delay, noise and rounding to counts.
+/// Recordings of the simulator contain it, and controllers see it.
+class ReadingEffect {
+ public:
+  virtual ~ReadingEffect() = default;
+  virtual std::size_t state_size() const { return 0; }
+  /// The robot was placed. Resets the state as if the readings so far had always been the given
+  /// ones.
+  virtual void reset(const Readings&, StateView) const {}
+  /// Once a step.
+  virtual void apply(Readings& readings, StateView state) const = 0;
+
+  // Recordings contain readings. To impose recorded positions, the true ones must be known. So an
+  // effect that changes how positions of muscles or joints are read also gives delay and inverse.
+  /// Delay of a muscle's position reading [s].
+  virtual double position_delay(std::size_t /*muscle*/) const { return 0.0; }
+  /// Inverse: the true position of a muscle [rad] that the next apply() turns into `position`, not
+  /// counting the delay.
+  virtual double true_position(std::size_t /*muscle*/, double position, StateView) const {
+    return position;
+  }
+  /// Delay of the readings of joint positions [s].
+  virtual double joint_delay() const { return 0.0; }
+  /// Inverse: replaces joint positions (as in Simulation::configuration) by the true ones that the
+  /// next apply() turns into them, not counting the delay.
+  virtual void true_joint_positions(double* /*positions*/) const {}
 };
 
 }  // namespace anthrob

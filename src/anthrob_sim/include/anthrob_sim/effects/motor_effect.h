@@ -24,6 +24,44 @@ class MotorEffect : public MuscleEffect {
                             MuscleModel& muscle) const = 0;
 };
 
+/// Wraps a motor: passes every call on to it, except for those that a subclass overrides.
+class MotorWrapper : public GearedMotor {
+ public:
+  explicit MotorWrapper(std::shared_ptr<const GearedMotor> inner) : inner_(std::move(inner)) {}
+
+  std::size_t state_size() const override { return inner_->state_size(); }
+  void place(double position, StateView state) const override { inner_->place(position, state); }
+  void impose(double position, double velocity, double load, StateView state) const override {
+    inner_->impose(position, velocity, load, state);
+  }
+  void advance_with(double input, double load, double torque, StateView state) const override {
+    inner_->advance_with(input, load, torque, state);
+  }
+  Readout read(StateView state) const override { return inner_->read(state); }
+  double tendon_length(StateView state) const override { return inner_->tendon_length(state); }
+  double winding_speed(StateView state) const override { return inner_->winding_speed(state); }
+  double position_for(double tendon_length) const override {
+    return inner_->position_for(tendon_length);
+  }
+  double holding_input(double position, double load) const override {
+    return inner_->holding_input(position, load);
+  }
+  double input_low() const override { return inner_->input_low(); }
+  double input_high() const override { return inner_->input_high(); }
+  double conductance() const override { return inner_->conductance(); }
+  double inertia() const override { return inner_->inertia(); }
+  double ratio() const override { return inner_->ratio(); }
+  double spindle_radius() const override { return inner_->spindle_radius(); }
+
+ protected:
+  /// State of the subclass, behind that of the inner motor.
+  StateView own(StateView state) const { return state.from(inner_->state_size()); }
+  const GearedMotor& inner() const { return *inner_; }
+
+ private:
+  std::shared_ptr<const GearedMotor> inner_;
+};
+
 /// MUSCLE | all, muscles with a motor of any kind: a wrapper around the motor. Stage::kComponents.
 class MotorWrappingEffect : public MuscleEffect {
  public:

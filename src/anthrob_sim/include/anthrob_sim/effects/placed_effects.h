@@ -1,6 +1,8 @@
 #pragma once
 
+#include "anthrob_sim/actuator/actuator.h"
 #include "anthrob_sim/effects/effect.h"
+#include "anthrob_sim/path/muscle_path.h"
 
 namespace anthrob {
 

@@ -2,9 +2,95 @@
 
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/effects/placed_effects.h"
-#include "anthrob_sim/spring/spring_wrapper.h"
+#include "anthrob_sim/spring/series_elastic_element.h"
 
 namespace anthrob {
+
+/// Wraps an element: passes every call on to it, except for those that a subclass overrides. The
+/// subclass's own state comes first.
+class SpringWrapper : public SeriesElasticElement {
+ public:
+  SpringWrapper(std::shared_ptr<const SeriesElasticElement> inner, std::size_t own_size)
+      : inner_(std::move(inner)), own_size_(own_size) {}
+
+  std::size_t state_size() const override { return own_size_ + inner_->state_size(); }
+  double rest_length() const override { return inner_->rest_length(); }
+
+ protected:
+  const SeriesElasticElement& inner() const { return *inner_; }
+  StateView inner_state(StateView state) const { return state.from(own_size_); }
+
+ private:
+  std::shared_ptr<const SeriesElasticElement> inner_;
+  std::size_t own_size_;
+};
+
+/// Adds a force in parallel to an element: f = max(0, f_inner + force), and 0 when slack. The force
+/// may be negative, but the sum must not fall with increasing stretch.
+class ParallelForce : public SpringWrapper {
+ public:
+  /// @param own_size state of the subclass   @param step [s]
+  ParallelForce(std::shared_ptr<const SeriesElasticElement> inner, std::size_t own_size,
+                double step);
+
+  void relax(double expansion, StateView state) const final;
+  double advance(double expansion, StateView state) const final;
+  double relaxed_tension(double expansion) const final;
+  double relaxed_expansion(double tension) const final;
+  double stored_energy(StateView state) const final;
+  double dissipation(double rate, StateView state) const final;
+
+ protected:
+  // Stretch is the expansion where it is positive, else 0 [m].
+  /// Puts the force into its fully relaxed state at `stretch`.
+  virtual void settle(double stretch, StateView own) const = 0;
+  /// Force after a move from one stretch to the next within a step [N].
+  virtual double force(double from, double to, StateView own) const = 0;
+  /// Fully relaxed force [N].
+  virtual double settled_force(double stretch) const = 0;
+  virtual double energy(double stretch, StateView own) const = 0;
+  /// Power that becomes heat, for a speed of stretch [m/s] in the last step [W].
+  virtual double heat(double stretch, double rate, StateView own) const = 0;
+
+  double step() const { return step_; }
+
+ private:
+  struct Own {
+    double stretch;  ///< [m]
+    double rate;     ///< of it, in the last step [m/s]
+    double lifted;   ///< what taking the maximum with 0 adds [N]
+  };
+  static StateView subclass(StateView state) { return state.from(state_size_of<Own>()); }
+
+  double step_;
+};
+
+/// Typical working stretch of an element [m]: a strain of 30 %, or 3 mm without rest length.
+double working_stretch(const SeriesElasticElement& element);
+/// Tension over stretch there [N/m]; exact where the element is linear.
+double working_stiffness(const SeriesElasticElement& element);
+
+/// Root of a non-decreasing function, bracketed by two points.
+/// @return x with |f(x)| <= tolerance, or as near as rounding allows
+template <class Function>
+double rising_root(const Function& f, double low, double high, double tolerance) {
+  double f_low = f(low), f_high = f(high);
+  if (f_low >= 0.0) return low;
+  if (f_high <= 0.0) return high;
+  for (int i = 0; i < 100; ++i) {
+    // Regula falsi, Illinois variant: the value at the end that stays is halved.
+    const double x = high - f_high * (high - low) / (f_high - f_low);
+    const double value = f(x);
+    if (value <= tolerance && value >= -tolerance) return x;
+    if (!(x > low && x < high)) return x;
+    if (value > 0.0) {
+      high = x, f_high = value, f_low *= 0.5;
+    } else {
+      low = x, f_low = value, f_high *= 0.5;
+    }
+  }
+  return 0.5 * (low + high);
+}
 
 /// l_T at position 0 [m].
 inline double rest_tendon_length(const Actuator& actuator) {

@@ -7,18 +7,24 @@
 
 #include "anthrob_core/config_node.h"
 #include "anthrob_ecu/control_law.h"
-#include "anthrob_sim/actuator/geared_motor.h"
-#include "anthrob_sim/actuator/power_effect.h"
-#include "anthrob_sim/model/effect_instance.h"
+#include "anthrob_sim/actuator/actuator.h"
 #include "anthrob_sim/path/muscle_path.h"
-#include "anthrob_sim/sensing/reading_effect.h"
 #include "anthrob_sim/sensing/sensor.h"
-#include "anthrob_sim/sensing/touch_pad.h"
-#include "anthrob_sim/skeleton/joint_torque.h"
 #include "anthrob_sim/skeleton/skeleton_model.h"
 #include "anthrob_sim/spring/series_elastic_element.h"
 
 namespace anthrob {
+
+class JointTorque;
+class PowerEffect;
+class ReadingEffect;
+
+/// An effect at a place, as a file, a command line or a search names it; see effects/catalogue.h.
+/// Parameters left out are neutral.
+struct EffectInstance {
+  std::string id, place;
+  std::map<std::string, double> parameters;
+};
 
 /// Largest references that are accepted for a muscle, by size.
 struct CommandLimits {
@@ -43,7 +49,7 @@ struct MuscleModel {
   double command_delay = 0.0;  ///< until the controller gets a command [s]
 
   /// Null: a ligament or a Hill muscle.
-  const GearedMotor* motor() const { return dynamic_cast<const GearedMotor*>(actuator.get()); }
+  const GearedMotor* motor() const;
   /// As on the robot: a unit whose force limit is 0 measures no force and has no mode FORCE.
   bool has_force_sensor() const { return !has_controller || limits.force > 0.0; }
 };

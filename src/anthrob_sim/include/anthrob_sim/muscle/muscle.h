@@ -1,18 +1,19 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "anthrob_ecu/control_law.h"
 #include "anthrob_ecu/parameters.h"
-#include "anthrob_sim/core/delay_line.h"
-#include "anthrob_sim/friction/sliding_tendon.h"
+#include "anthrob_sim/actuator/actuator.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/path/muscle_path.h"
 #include "anthrob_sim/sensing/sensor.h"
 
 namespace anthrob {
+
+class DelayLine;
+struct SlidingTendon;
 
 /// How a muscle is driven for the next steps.
 enum class Drive {
@@ -29,6 +30,8 @@ class Muscle {
   /// @param model, skeleton must outlive the muscle   @param index among the robot's muscles
   Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const SensorsModel& sensors,
          int index, double step, StateStore& store);
+  Muscle(Muscle&&) noexcept;
+  ~Muscle();
 
   const MuscleModel& model() const { return model_; }
 
@@ -63,8 +66,8 @@ class Muscle {
   /// Adds the known forces of the muscle to `tau`, and prepares the part of the tendon beyond the
   /// spring, whose tension depends on how the joints will move.
   void prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau);
-  SlidingTendon& sliding() { return sliding_; }
-  const SlidingTendon& sliding() const { return sliding_; }
+  SlidingTendon& sliding() { return *sliding_; }
+  const SlidingTendon& sliding() const { return *sliding_; }
   /// Takes over the solved tensions.
   void finish_sliding();
   /// Moves the actuator.
@@ -138,9 +141,9 @@ class Muscle {
   StateStore& store_;
   double step_;
   MusclePath path_;
-  SlidingTendon sliding_;
-  std::vector<Sensor> sensors_;  ///< position, velocity, current, force
-  std::optional<DelayLine> command_delay_;
+  std::unique_ptr<SlidingTendon> sliding_;          ///< never null
+  std::vector<Sensor> sensors_;                     ///< position, velocity, current, force
+  std::unique_ptr<const DelayLine> command_delay_;  ///< null: none
   std::size_t command_delay_offset_ = 0;
   std::size_t spring_offset_, actuator_offset_, path_offset_, control_offset_, tension_offset_;
   std::size_t sensor_offsets_[4];

@@ -175,4 +175,35 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
                ReplayMode mode, const std::function<bool(double)>& progress = {},
                std::string* failure = nullptr);
 
+/// Commands to a muscle's motor unit over time. `mode` is empty if it was not recorded.
+struct CommandSeries {
+  Series mode, reference;
+};
+
+/// The commands that a muscle's unit actually followed. If the recording contains `ecu_state`,
+/// together with the mode and reference in force, then commands that the unit refused or got while
+/// it was not ENABLED are left out, and from each stop on the command is VOLTAGE 0 until a later
+/// command. The series begins at time 0 if the recording says what was in force there.
+/// @param default_mode mode of commands without a recorded mode
+CommandSeries followed_commands(const Dataset& recording, const std::string& muscle,
+                                ecu::Mode default_mode);
+
+/// Checks that the recording contains every command that the unit followed.
+/// @throws BadInput with the time, if the unit followed a command that was not recorded
+void require_commanded(const Dataset& recording, const std::string& muscle,
+                       const CommandSeries& followed);
+
+/// Refuses numbers that nobody can have measured: positions far beyond a joint's stops (in degrees
+/// or millimetres), tendons that push (a force sensor with the other sign).
+/// @throws BadInput with file, row and column
+void refuse_implausible_values(const RobotModel& robot, const Dataset& recording);
+
+/// Refuses what is not finite, or beyond 1e9 in whatever unit. @throws BadInput as above
+void refuse_no_numbers(const Dataset& recording);
+
+/// @throws BadInput "FOLDER/TABLE.csv: row N: complaint", counted from 1
+/// @param row counted from 0
+[[noreturn]] void refuse_row(const Dataset& recording, const Table& table, std::size_t row,
+                             const std::string& complaint);
+
 }  // namespace anthrob

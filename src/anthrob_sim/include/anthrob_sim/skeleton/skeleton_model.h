@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -114,5 +115,45 @@ struct JointOnPath {
   double sign;
 };
 std::vector<JointOnPath> joints_between(const SkeletonModel& model, int from, int to);
+
+/// A joint axis that is moved through a range while all other joints and the actuators stand still.
+/// For a hinge or prismatic joint the values are its positions; a ball joint is rotated by them
+/// from its orientation, about one of the child's axes.
+struct SweepAxis {
+  int joint = 0;
+  int component = 0;  ///< 0, 1, 2: x, y, z of a ball joint
+  std::string name;   ///< "elbow", "shoulder_x"
+};
+
+/// Axes that a robot's joints have, in the order of its generalised velocities.
+std::vector<SweepAxis> sweep_axes(const SkeletonModel& skeleton);
+
+// Postures are joint positions as in a configuration: one number, or w, x, y, z of a ball joint.
+
+/// The velocity that leads from `from` to `to` within one second: differences of scalar joints,
+/// rotation vectors of ball joints in the axes of the child at `from` [rad, m].
+void posture_difference(const SkeletonModel& skeleton, const std::vector<double>& from,
+                        const std::vector<double>& to, Eigen::VectorXd& difference);
+
+/// Moves every joint by its part of `difference`, the inverse of posture_difference.
+void posture_plus(const SkeletonModel& skeleton, const std::vector<double>& from,
+                  const Eigen::VectorXd& difference, std::vector<double>& to);
+
+/// A posture on the shortest way from a (share 0) to b (share 1), all joints together.
+void posture_between(const SkeletonModel& skeleton, const std::vector<double>& a,
+                     const std::vector<double>& b, double share, std::vector<double>& result);
+
+/// The largest motion of any joint; angular distance for ball joints [rad], a metre of a prismatic
+/// joint counts ten.
+double posture_distance(const SkeletonModel& skeleton, const std::vector<double>& a,
+                        const std::vector<double>& b);
+
+/// Angular distance of one ball joint, or difference of a scalar joint, >= 0.
+double joint_distance(const JointModel& joint, const std::vector<double>& a,
+                      const std::vector<double>& b);
+
+/// The rotation vector of a unit quaternion, angle in [0, pi] [rad].
+Vec3 rotation_vector(const Quat& turn);
+Quat quaternion_of(const Vec3& rotation_vector);
 
 }  // namespace anthrob

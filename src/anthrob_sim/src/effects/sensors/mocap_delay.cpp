@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "anthrob_sim/core/delay_line.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/effects/placed_effects.h"
+#include "core/delay_line.h"
 
 namespace anthrob {
 namespace {

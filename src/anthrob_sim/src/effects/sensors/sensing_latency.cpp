@@ -1,6 +1,6 @@
-#include "anthrob_sim/core/delay_line.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/effects/placed_effects.h"
+#include "core/delay_line.h"
 
 namespace anthrob {
 namespace {

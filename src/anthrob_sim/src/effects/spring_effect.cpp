@@ -1,4 +1,4 @@
-#include "anthrob_sim/spring/spring_wrapper.h"
+#include "anthrob_sim/effects/spring_effect.h"
 
 #include <algorithm>
 

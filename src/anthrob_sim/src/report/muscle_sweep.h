@@ -9,18 +9,6 @@
 
 namespace anthrob {
 
-/// A joint axis that is moved through a range while all other joints and the actuators stand still.
-/// For a hinge or prismatic joint the values are its positions; a ball joint is rotated by them
-/// from its orientation, about one of the child's axes.
-struct SweepAxis {
-  int joint = 0;
-  int component = 0;  ///< 0, 1, 2: x, y, z of a ball joint
-  std::string name;   ///< "elbow", "shoulder_x"
-};
-
-/// Axes that a robot's joints have, in the order of its generalised velocities.
-std::vector<SweepAxis> sweep_axes(const SkeletonModel& skeleton);
-
 /// Curves of one muscle along a sweep, with relaxed springs and without friction.
 struct MuscleCurve {
   std::string muscle;
