@@ -84,22 +84,22 @@ void TendonDisplay::see_joint(const std::string& name, const std::vector<double>
   stamps_[index] = stamp;
 }
 
-std::string TendonDisplay::missing(const ros::Time& now) const {
+std::optional<std::string> TendonDisplay::missing(const ros::Time& now) const {
   for (std::size_t j = 0; j < stamps_.size(); ++j) {
     if (!is_fresh(stamps_[j], now)) return sim_.model().skeleton->joints[j].name;
   }
-  return "";
+  return std::nullopt;
 }
 
 void TendonDisplay::draw() {
   const ros::Time now = ros::Time::now();
   if (now.isZero()) return clock_wait_.look();
-  const std::string joint = missing(now);
-  if (joint.empty() || whole_.isZero() || whole_ > now) whole_ = now;
-  if (!joint.empty()) {
+  const std::optional<std::string> joint = missing(now);
+  if (!joint || whole_.isZero() || whole_ > now) whole_ = now;
+  if (joint) {
     // Where a bag begins, or a robot, not all topics are there at once.
     if ((now - whole_).toSec() <= kStaleAfter) return;
-    ROS_WARN_STREAM_THROTTLE(10.0, "tendons are not drawn: joint " << joint << " is not measured");
+    ROS_WARN_STREAM_THROTTLE(10.0, "tendons are not drawn: joint " << *joint << " is not measured");
     return;
   }
   try {

@@ -35,8 +35,8 @@ class TendonDisplay {
                  const ros::Time& stamp);
   void draw();
   void tell(const ros::Time& stamp);
-  /// The first joint that was not measured lately; empty if all were.
-  std::string missing(const ros::Time& now) const;
+  /// The first joint that was not measured lately; none if all were.
+  std::optional<std::string> missing(const ros::Time& now) const;
 
   Simulation sim_;
   std::vector<double> q_;       ///< of all joints, as Simulation::place takes them

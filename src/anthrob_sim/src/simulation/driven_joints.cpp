@@ -33,15 +33,13 @@ DrivenJoints::DrivenJoints(const SkeletonModel& skeleton, const ecu::Supervisor:
   }
 }
 
-int DrivenJoints::find(const std::string& name) const {
+bool DrivenJoints::knows(const std::string& name) const {
   const auto& all = supervisor_.muscles();
-  const auto it =
-      std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
-  return it == all.end() ? -1 : static_cast<int>(it - all.begin());
+  return std::any_of(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
 }
 
-std::string DrivenJoints::check(const std::vector<std::string>& names,
-                                const std::vector<double>& efforts) const {
+std::optional<std::string> DrivenJoints::complaint(const std::vector<std::string>& names,
+                                                   const std::vector<double>& efforts) const {
   if (names.empty()) return "expected the name of at least one joint";
   if (efforts.size() != names.size()) {
     return std::to_string(names.size()) + " names, " + std::to_string(efforts.size()) +
@@ -50,11 +48,11 @@ std::string DrivenJoints::check(const std::vector<std::string>& names,
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string who = "joint '" + names[i] + "': ";
     const auto here = names.begin() + static_cast<std::ptrdiff_t>(i);
-    if (find(names[i]) < 0) return who + "no driven joint of that name";
+    if (!knows(names[i])) return who + "no driven joint of that name";
     if (std::find(names.begin(), here, names[i]) != here) return who + "named twice";
     if (!std::isfinite(efforts[i])) return who + "expected a finite effort";
   }
-  return "";
+  return std::nullopt;
 }
 
 ecu::Supervisor::Outcome DrivenJoints::refuse(const std::string& reason) {
@@ -66,8 +64,7 @@ ecu::Supervisor::Outcome DrivenJoints::refuse(const std::string& reason) {
 ecu::Supervisor::Outcome DrivenJoints::command(const std::vector<std::string>& names,
                                                const std::vector<double>& efforts,
                                                Simulation& sim) {
-  const std::string reason = check(names, efforts);
-  if (!reason.empty()) return refuse(reason);
+  if (const auto reason = complaint(names, efforts)) return refuse(*reason);
   std::vector<ecu::MuscleReference> accepted;
   const std::vector<std::uint8_t> modes(names.size(), kEffort);
   const auto outcome = supervisor_.command(names, modes, efforts, sim.time(), accepted);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,10 @@ class DrivenJoints {
   std::size_t rejected_count() const { return rejected_; }
 
  private:
-  std::string check(const std::vector<std::string>& names,
-                    const std::vector<double>& efforts) const;
-  /// Index in the supervisor, or -1.
-  int find(const std::string& name) const;
+  /// Why a command cannot be followed; nothing if it can.
+  std::optional<std::string> complaint(const std::vector<std::string>& names,
+                                       const std::vector<double>& efforts) const;
+  bool knows(const std::string& name) const;
   ecu::Supervisor::Outcome refuse(const std::string& reason);
 
   std::vector<int> joints_;  ///< of the skeleton

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/effects/placed_effects.h"
@@ -47,8 +48,8 @@ EffectInfo describe() {
 
 /// A segment between two points with a joint between them: where a surface can be.
 struct Spot {
-  std::size_t obstacle = 0;  ///< at which the segment ends; 0: none
-  int joint = -1;
+  std::size_t obstacle;  ///< at which the segment ends
+  int joint;
 };
 
 class WrappingSurfaceEffect final : public Effect {
@@ -60,7 +61,7 @@ class WrappingSurfaceEffect final : public Effect {
     for (const MuscleModel& muscle : robot.muscles) {
       bool any = false;
       for (std::size_t i = 1; i < muscle.path->obstacles().size(); ++i) {
-        if (joint_of(*robot.skeleton, *muscle.path, i) < 0) continue;
+        if (!joint_of(*robot.skeleton, *muscle.path, i)) continue;
         any = true;
         list.push_back(muscle.name + "/" + std::to_string(muscle.path->obstacles()[i].entry));
       }
@@ -75,8 +76,9 @@ class WrappingSurfaceEffect final : public Effect {
     std::vector<EffectParameter> list = info().parameters;
     const int muscle = robot.find_muscle(split_place(place)[0]);
     if (muscle < 0) return list;
-    const Spot spot = find(robot, place);
-    if (spot.joint < 0) return list;
+    const std::optional<Spot> found = find(robot, place);
+    if (!found) return list;
+    const Spot spot = *found;
     std::vector<BodyState> bodies;
     const SkeletonModel& skeleton = *robot.skeleton;
     KinematicTree(skeleton).place(skeleton.rest_configuration(), {}, bodies);
@@ -96,7 +98,7 @@ class WrappingSurfaceEffect final : public Effect {
   }
 
   void build_in(const EffectSetting& setting, ModelDraft& draft) const override {
-    const Spot spot = find(draft.robot, setting.place());
+    const Spot spot = find(draft.robot, setting.place()).value();
     MuscleModel& muscle =
         draft.robot.muscles[draft.robot.find_muscle(split_place(setting.place())[0])];
     const SkeletonModel& skeleton = draft.skeleton;
@@ -120,30 +122,32 @@ class WrappingSurfaceEffect final : public Effect {
  private:
   static constexpr double kShortestLine = 1e-6;  // [m]
 
-  /// The outermost joint between the ends of the segment that ends at obstacle i, or -1.
-  static int joint_of(const SkeletonModel& skeleton, const PathModel& path, std::size_t i) {
+  /// The outermost joint between the ends of the segment that ends at obstacle i, if it has a line.
+  static std::optional<int> joint_of(const SkeletonModel& skeleton, const PathModel& path,
+                                     std::size_t i) {
     const PathObstacle &a = path.obstacles()[i - 1], &b = path.obstacles()[i];
-    if (a.surface || b.surface || b.entry < 0) return -1;
+    if (a.surface || b.surface || b.entry < 0) return std::nullopt;
     const auto joints = joints_between(skeleton, a.body, b.body);
-    if (joints.empty()) return -1;
+    if (joints.empty()) return std::nullopt;
     const int joint =
         std::max_element(joints.begin(), joints.end(), [](const auto& x, const auto& y) {
           return x.joint < y.joint;
         })->joint;
-    if (skeleton.joints[joint].type == JointType::kPrismatic) return -1;
+    if (skeleton.joints[joint].type == JointType::kPrismatic) return std::nullopt;
     // A ball joint in the middle of the next one, or of its body's mass, has no line.
-    return direction(skeleton, joint).norm() > kShortestLine ? joint : -1;
+    if (!(direction(skeleton, joint).norm() > kShortestLine)) return std::nullopt;
+    return joint;
   }
 
-  static Spot find(const RobotModel& robot, const std::string& place) {
+  static std::optional<Spot> find(const RobotModel& robot, const std::string& place) {
     const std::vector<std::string> parts = split_place(place);
     const PathModel& path = *robot.muscles[robot.find_muscle(parts[0])].path;
-    Spot spot;
+    std::optional<Spot> spot;
     for (std::size_t i = 1; i < path.obstacles().size(); ++i) {
-      const int joint = joint_of(*robot.skeleton, path, i);
-      if (joint < 0) continue;
+      const std::optional<int> joint = joint_of(*robot.skeleton, path, i);
+      if (!joint) continue;
       if (parts.size() > 1 && std::to_string(path.obstacles()[i].entry) != parts[1]) continue;
-      spot = {i, joint};
+      spot = Spot{i, *joint};
     }
     return spot;
   }
