@@ -42,7 +42,7 @@ std::uint64_t key_of(const Variant& variant,
 
 Evaluator::Evaluator(const std::string& model_file, std::vector<ModelParameter> nuisances,
                      double step, int jobs)
-    : config_(ConfigNode::load(model_file)),
+    : description_(RobotDescription::load(model_file)),
       nuisances_(std::move(nuisances)),
       step_(step),
       jobs_(jobs) {
@@ -61,14 +61,14 @@ std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const
   options.slow_controllers = options.step > step_;
   if (!variant.nuisances.empty()) options.overrides = overrides_of(nuisances_, variant.nuisances);
   options.effects = variant.effects;
-  return without_noise(build_robot_model(config_, options), variant);
+  return without_noise(description_.build(options), variant);
 }
 
 Journal& Evaluator::keep_journal(const std::string& file) {
   resume::Fingerprint context;
   // Effect libraries may have no mark of a linker; what they hold tells.
   context.add(resume::program_fingerprint(resume::program_fingerprint(), effect_library_files()))
-      .add(resume::model_fingerprint(config_))
+      .add(resume::model_fingerprint(description_.config()))
       .add(step_);
   for (const ModelParameter& p : nuisances_) context.add(p.path);
   journal_ = std::make_unique<Journal>(file, context.value());

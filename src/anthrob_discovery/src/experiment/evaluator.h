@@ -10,7 +10,7 @@
 
 #include "anthrob_calib/resume/result_file.h"
 #include "anthrob_core/parameter_list.h"
-#include "anthrob_sim/model/effect_instance.h"
+#include "anthrob_sim/model/robot_model.h"
 #include "experiment/experiment.h"
 
 namespace anthrob {
@@ -80,7 +80,7 @@ class Evaluator {
       const Variant& variant,
       const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
 
-  ConfigNode config_;
+  RobotDescription description_;
   std::vector<ModelParameter> nuisances_;
   double step_;
   int jobs_;
