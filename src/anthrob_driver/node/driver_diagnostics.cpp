@@ -55,8 +55,8 @@ DiagnosticStatus driver_status(const RobotDriver& driver, double now, const std:
   const auto late = driver.findings().count(Finding::kLateCycle);
   status.values = {
       key_value("rejected_commands", std::to_string(supervisor.rejected_count())),
-      key_value("last_rejection", supervisor.last_rejection()),
-      key_value("command_age", text(supervisor.command_age(now))),
+      key_value("last_rejection", supervisor.last_rejection().value_or("")),
+      key_value("command_age", text(supervisor.command_age(now).value_or(-1.0))),
       key_value("last_outcome", driver.last_outcome().reason),
       key_value("stops", std::to_string(driver.stops().count())),
       key_value("last_stop", driver.stops().last().value_or("")),

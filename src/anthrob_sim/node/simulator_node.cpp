@@ -195,9 +195,10 @@ bool SimulatorNode::on_clear_faults(std_srvs::Trigger::Request&,
 bool SimulatorNode::on_gains(anthrob_msgs::Gains::Request& request,
                              anthrob_msgs::Gains::Response& response) {
   std::vector<ecu::GainChange> changes;
-  response.message = ecu::read_gain_changes(supervisor_.muscles(), request.muscle, request.gain,
-                                            request.value, changes);
-  response.success = response.message.empty();
+  const auto refused = ecu::read_gain_changes(supervisor_.muscles(), request.muscle, request.gain,
+                                              request.value, changes);
+  response.success = !refused;
+  response.message = refused.value_or("");
   for (const ecu::GainChange& change : changes) {
     sim_.muscle_inputs().set_gain(change.gain.muscle, change.gain.parameter, change.value);
   }
@@ -391,12 +392,13 @@ void SimulatorNode::publish_diagnostics() {
                       : options_.paused  ? "paused"
                       : late_cycles_ > 0 ? "slower than real time"
                                          : "running";
-  simulator.values = {key_value("real_time_factor", text(factor)),
-                      key_value("late_cycles", std::to_string(late_cycles_)),
-                      key_value("simulated_time", text(sim_.time())),
-                      key_value("rejected_commands", std::to_string(supervisor_.rejected_count())),
-                      key_value("last_rejection", supervisor_.last_rejection()),
-                      key_value("command_age", text(supervisor_.command_age(sim_.time())))};
+  simulator.values = {
+      key_value("real_time_factor", text(factor)),
+      key_value("late_cycles", std::to_string(late_cycles_)),
+      key_value("simulated_time", text(sim_.time())),
+      key_value("rejected_commands", std::to_string(supervisor_.rejected_count())),
+      key_value("last_rejection", supervisor_.last_rejection().value_or("")),
+      key_value("command_age", text(supervisor_.command_age(sim_.time()).value_or(-1.0)))};
   if (!driven_.supervisor().muscles().empty()) {
     simulator.values.push_back(
         key_value("rejected_efforts", std::to_string(driven_.rejected_count())));

@@ -133,9 +133,8 @@ RobotDriver::Outcome RobotDriver::Implementation::start_gains(const std::vector<
                                                               const std::vector<double>& values,
                                                               double now) {
   std::vector<ecu::GainChange> changes;
-  const std::string wrong =
-      ecu::read_gain_changes(supervisor_.muscles(), names, gains, values, changes);
-  if (!wrong.empty()) return {false, wrong};
+  const auto wrong = ecu::read_gain_changes(supervisor_.muscles(), names, gains, values, changes);
+  if (wrong) return {false, *wrong};
   if (changes.empty()) return {true, ""};
   if (gains_.changing()) return {false, "gains are being changed already"};
   if (home_.running()) return {false, "home is running"};

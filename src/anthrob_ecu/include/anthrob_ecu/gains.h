@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,11 +30,12 @@ std::vector<Gain> gains_of(const std::vector<MuscleChannel>& muscles);
 
 /// Checks a whole request; fills `changes` only if all of it is good.
 /// @param names muscle names; an empty name stands for all muscles that have gains
-/// @return why the request is refused; empty if it is accepted
-std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
-                              const std::vector<std::string>& names,
-                              const std::vector<std::string>& gains,
-                              const std::vector<double>& values, std::vector<GainChange>& changes);
+/// @return why the request is refused, if it is
+std::optional<std::string> read_gain_changes(const std::vector<MuscleChannel>& muscles,
+                                             const std::vector<std::string>& names,
+                                             const std::vector<std::string>& gains,
+                                             const std::vector<double>& values,
+                                             std::vector<GainChange>& changes);
 
 }  // namespace ecu
 }  // namespace anthrob

@@ -97,10 +97,13 @@ class Supervisor {
   State ecu_state(std::size_t ecu) const { return machines_[ecu].state(); }
 
   std::size_t rejected_count() const { return rejected_; }
-  /// Why the last command was refused; empty if none ever was.
-  const std::string& last_rejection() const { return last_rejection_; }
-  /// Age of the last accepted command [s]; negative if there was none.
-  double command_age(double time) const { return commanded_ ? time - last_command_ : -1.0; }
+  /// Why the last command was refused, if one ever was.
+  const std::optional<std::string>& last_rejection() const { return last_rejection_; }
+  /// Age of the last command that was accepted since the last enable [s].
+  std::optional<double> command_age(double time) const {
+    if (!commanded_) return std::nullopt;
+    return time - last_command_;
+  }
 
  private:
   /// Why a command is refused, if it is.
@@ -122,7 +125,7 @@ class Supervisor {
   bool timed_out_ = false;       ///< whether motors stopped because no command came
   double last_command_ = 0.0;
   std::size_t rejected_ = 0;
-  std::string last_rejection_;
+  std::optional<std::string> last_rejection_;
 };
 
 }  // namespace ecu

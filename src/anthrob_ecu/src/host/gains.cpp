@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 
 namespace anthrob {
 namespace ecu {
@@ -49,10 +48,11 @@ std::vector<Gain> gains_of(const std::vector<MuscleChannel>& muscles) {
   return list;
 }
 
-std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
-                              const std::vector<std::string>& names,
-                              const std::vector<std::string>& gains,
-                              const std::vector<double>& values, std::vector<GainChange>& changes) {
+std::optional<std::string> read_gain_changes(const std::vector<MuscleChannel>& muscles,
+                                             const std::vector<std::string>& names,
+                                             const std::vector<std::string>& gains,
+                                             const std::vector<double>& values,
+                                             std::vector<GainChange>& changes) {
   changes.clear();
   if (gains.size() != names.size() || values.size() != names.size()) {
     return "muscle, gain and value: " + std::to_string(names.size()) + ", " +
@@ -75,7 +75,7 @@ std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
         if (names[i].empty()) continue;
         return "muscle '" + names[i] + "' has no gains";
       }
-      if (const auto wrong = check_value(muscles[m].name, *info, values[i])) return *wrong;
+      if (const auto wrong = check_value(muscles[m].name, *info, values[i])) return wrong;
       // Checked as a frame carries it, with fewer digits: by itself it may be beyond by some.
       const double value = std::clamp<double>(values[i], info->lowest, info->highest);
       wanted.push_back({{static_cast<int>(m), info->parameter}, value});
@@ -85,7 +85,7 @@ std::string read_gain_changes(const std::vector<MuscleChannel>& muscles,
     if (wanted.size() > most) return too_many;
   }
   changes = std::move(wanted);
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace ecu

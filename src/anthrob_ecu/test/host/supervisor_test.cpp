@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace anthrob {
 namespace ecu {
@@ -82,14 +83,14 @@ TEST(Supervisor, RefusesMalformedCommandsWholeAndSaysWhy) {
     EXPECT_NE(outcome.reason.find(test.reason), std::string::npos) << outcome.reason;
     EXPECT_EQ(f.supervisor.rejected_count(), ++count);
   }
-  EXPECT_LT(f.supervisor.command_age(1.0), 0.0);  // none of them counts as a command
+  EXPECT_FALSE(f.supervisor.command_age(1.0));  // none of them counts as a command
 }
 
 TEST(Supervisor, CommandsForWhatIsStoppedAreRefusedCountedAndNamed) {
   Fixture f;
   const auto expect_refused = [&](double time, const std::string& muscle, std::size_t count,
                                   const std::string& reason) {
-    const double age = f.supervisor.command_age(10.0);
+    const std::optional<double> age = f.supervisor.command_age(10.0);
     const auto outcome = f.supervisor.command({"a", muscle}, {0, 0}, {1.0, 1.0}, time, f.accepted);
     EXPECT_FALSE(outcome.accepted) << reason;
     EXPECT_TRUE(f.accepted.empty());
