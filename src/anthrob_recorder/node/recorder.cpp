@@ -80,7 +80,8 @@ bool Recorder::run() {
       for (int attempt = 0; result == Result::kAgain && attempt <= protocol_.redo; ++attempt)
         result = record(target, repeat);
       if (result == Result::kShutdown) return false;
-      if (result == Result::kAgain) missed += "\n  " + bags_.names().front() + ": " + trouble_;
+      if (result == Result::kAgain)
+        missed += "\n  " + bags_.names().front() + ": " + trouble_.value();
     }
   }
   store_.summarise();
@@ -114,12 +115,12 @@ Recorder::Result Recorder::record(const Protocol::Target& target, int repeat) {
     drop();
     return Result::kShutdown;
   }
-  trouble_ = visit.reason().empty() ? bags_.trouble() : visit.reason();
-  if (trouble_.empty()) {
+  trouble_ = visit.reason() ? visit.reason() : bags_.trouble();
+  if (!trouble_) {
     store(visit, target, repeat);
     return Result::kDone;
   }
-  ROS_WARN_STREAM(bags_.names().front() << ": " << trouble_);
+  ROS_WARN_STREAM(bags_.names().front() << ": " << *trouble_);
   drop();
   return Result::kAgain;
 }
@@ -163,8 +164,8 @@ void Recorder::carry_out(Visit& visit, const Protocol::Target& target) {
   const ros::WallTime now = ros::WallTime::now();
   if (!refused_since_.isZero() && (now - asked_).toSec() < kAskAgain) return;
   asked_ = now;
-  const std::string refused = follow(order_, target);
-  if (refused.empty()) {
+  const std::optional<std::string> refused = follow(order_, target);
+  if (!refused) {
     obeyed_ = true;
     refused_since_ = ros::WallTime();
     return;
@@ -172,7 +173,7 @@ void Recorder::carry_out(Visit& visit, const Protocol::Target& target) {
   // The controller may not run yet, or may have missed a measurement.
   aimed_ = false;
   if (refused_since_.isZero()) refused_since_ = now;
-  if ((now - refused_since_).toSec() > (obeyed_ ? kSilence : kPatience)) visit.fail(refused);
+  if ((now - refused_since_).toSec() > (obeyed_ ? kSilence : kPatience)) visit.fail(*refused);
 }
 
 void Recorder::check_motors() {
@@ -189,12 +190,13 @@ void Recorder::check_motors() {
   }
 }
 
-std::string Recorder::follow(const Visit::Order& order, const Protocol::Target& target) {
+std::optional<std::string> Recorder::follow(const Visit::Order& order,
+                                            const Protocol::Target& target) {
   const bool changed = !aimed_ || order.aim != aim_;
   aimed_ = true;
   aim_ = order.aim;
   if (protocol_.kind == Protocol::Kind::kZeroGravity) {
-    return changed ? call_controller(order.aim, target) : "";
+    return changed ? call_controller(order.aim, target) : std::nullopt;
   }
   const double dt = sent_.isZero() ? 0.0 : (link_.now() - sent_).toSec();
   if (changed || sent_.isZero() || dt >= kCommandPeriod - 1e-6) {
@@ -202,7 +204,7 @@ std::string Recorder::follow(const Visit::Order& order, const Protocol::Target& 
     send_references(approach_.step(rest ? protocol_.rest.reference : target.reference,
                                    link_.state().measurement(), dt));
   }
-  return "";
+  return std::nullopt;
 }
 
 void Recorder::send_references(const std::vector<double>& references) {
@@ -211,12 +213,14 @@ void Recorder::send_references(const std::vector<double>& references) {
   bags_.write_sent("muscle_command", command);
 }
 
-std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& target) {
+std::optional<std::string> Recorder::call_controller(Visit::Aim aim,
+                                                     const Protocol::Target& target) {
   if (aim == Visit::Aim::kRelease) {
     std_srvs::Trigger call;
     if (!ros::service::call(nh_.resolveName("controller/zero_gravity"), call))
       return "controller/zero_gravity: no answer; is the computed-force controller running?";
-    return call.response.success ? "" : "controller/zero_gravity: " + call.response.message;
+    if (call.response.success) return std::nullopt;
+    return "controller/zero_gravity: " + call.response.message;
   }
   anthrob_msgs::GoTo call;
   call.request.duration = protocol_.go_duration;
@@ -235,7 +239,8 @@ std::string Recorder::call_controller(Visit::Aim aim, const Protocol::Target& ta
   }
   if (!ros::service::call(nh_.resolveName("controller/go_to"), call))
     return "controller/go_to: no answer; is the computed-force controller running?";
-  return call.response.success ? "" : "controller/go_to: " + call.response.message;
+  if (call.response.success) return std::nullopt;
+  return "controller/go_to: " + call.response.message;
 }
 
 void Recorder::drop() {

@@ -4,6 +4,8 @@
 #include <std_srvs/Trigger.h>
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "anthrob_control/approach.h"
 #include "anthrob_control/ros/reference_watch.h"
@@ -45,10 +47,10 @@ class Recorder {
   /// @throws std::runtime_error if motors are off: the posture is then no equilibrium of the
   /// muscles
   void check_motors();
-  /// @return why the controller refused; empty if it did not
-  std::string follow(const Visit::Order& order, const Protocol::Target& target);
+  /// @return why the controller refused; none if it did not
+  std::optional<std::string> follow(const Visit::Order& order, const Protocol::Target& target);
   void send_references(const std::vector<double>& references);
-  std::string call_controller(Visit::Aim aim, const Protocol::Target& target);
+  std::optional<std::string> call_controller(Visit::Aim aim, const Protocol::Target& target);
   void store(const Visit& visit, const Protocol::Target& target, int repeat);
   void write_files(const Visit& visit, const Protocol::Target& target, int repeat);
   void drop();
@@ -68,7 +70,7 @@ class Recorder {
   Approach approach_;
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer sample_;
-  std::string trouble_;  ///< why the last visit is not stored
+  std::optional<std::string> trouble_;  ///< why the last visit is not stored
   Visit* visit_ = nullptr;
   bool aimed_ = false;
   Visit::Aim aim_ = Visit::Aim::kRest;

@@ -39,13 +39,13 @@ void VisitBags::see(const std::vector<std::string>& names, const std_msgs::Heade
   for (const std::string& name : names) current().gaps.see(name, header.stamp.toSec());
 }
 
-std::string VisitBags::trouble() const {
+std::optional<std::string> VisitBags::trouble() const {
   for (const auto& bag : bags_) {
     if (!bag || bag->gaps.largest() <= kLargestGap) continue;
     return bag->gaps.longest() + " was not measured for " + std::to_string(bag->gaps.largest()) +
            " s";
   }
-  return "";
+  return std::nullopt;
 }
 
 void VisitBags::close() {

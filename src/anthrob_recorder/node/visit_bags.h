@@ -4,6 +4,7 @@
 #include <std_msgs/Header.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,8 @@ class VisitBags {
   /// Longest time that anything was not measured in a recording [s].
   /// @param recording as in record
   double largest_gap(int recording) const { return bag(recording).gaps.largest(); }
-  /// What was not measured for too long, and for how long; empty if nothing.
-  std::string trouble() const;
+  /// What was not measured for too long, and for how long; none if nothing.
+  std::optional<std::string> trouble() const;
 
   /// @throws std::runtime_error, for example if the disk is full
   void close();

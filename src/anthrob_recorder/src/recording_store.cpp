@@ -33,9 +33,9 @@ std::string fingerprint(const std::string& text) {
   return digits;
 }
 
-/// "model_robot.yaml 0123456789abcdef"; empty without a file.
-std::string identity_of(const std::string& model_file) {
-  if (model_file.empty()) return "";
+/// "model_robot.yaml 0123456789abcdef"; none without a file.
+std::optional<std::string> identity_of(const std::string& model_file) {
+  if (model_file.empty()) return std::nullopt;
   const std::string text = ConfigNode::load(model_file).to_yaml();
   return fs::path(model_file).filename().string() + " " + fingerprint(text);
 }
@@ -82,7 +82,7 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   };
   expect("robot", model_->name);
   expect("time", time_);
-  if (!simulated_.empty()) expect("simulated", simulated_);
+  if (simulated_) expect("simulated", *simulated_);
   if (node.has("rest")) baseline_ = read_sample(node.at("rest"), *model_);
   remove_parts("");
 }
@@ -93,7 +93,7 @@ std::string RecordingStore::session_text() const {
       << "protocol: " << word(protocol_.kind) << "\nrobot: " << model_->name << "\ntime: " << time_
       << "\nmodel: " << fs::path(model_->file).filename().string() << "\nfingerprint: f"
       << fingerprint(protocol_.text) << "  # of protocol, postures and references\n";
-  if (!simulated_.empty()) out << "simulated: " << simulated_ << "  # by this model\n";
+  if (simulated_) out << "simulated: " << *simulated_ << "  # by this model\n";
   if (baseline()) {
     out << "rest: " << sample_yaml(*model_, baseline_)
         << "  # the first rest posture; drift is measured from it\n";

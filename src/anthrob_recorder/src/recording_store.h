@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,7 +59,7 @@ class RecordingStore {
   std::shared_ptr<const RobotModel> model_;
   Protocol protocol_;
   std::string time_;
-  std::string simulated_;  ///< name and fingerprint; empty: unknown
+  std::optional<std::string> simulated_;  ///< name and fingerprint, if known
   Sample baseline_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,8 @@ class Visit {
   Outcome outcome() const { return outcome_; }
   /// Whether step has been called.
   bool begun() const { return at_ > 0 || begun_; }
-  const std::string& reason() const { return reason_; }  ///< of a failure or a drift, one line
+  /// Of a failure or a drift, one line.
+  const std::optional<std::string>& reason() const { return reason_; }
   /// The posture at rest before and after, and at the target; empty position: not sampled.
   const Sample& rest_before() const { return samples_[kBefore]; }
   const Sample& target() const { return samples_[kTarget]; }
@@ -83,7 +85,7 @@ class Visit {
   Sample samples_[3];
   Sample baseline_;
   Outcome outcome_ = Outcome::kRunning;
-  std::string reason_;
+  std::optional<std::string> reason_;
 };
 
 }  // namespace anthrob

@@ -58,7 +58,7 @@ TEST_F(VisitTest, AnEquilibriumIsRecordedFromRestToTheEndOfTheHold) {
   load("tier1_equilibria");
   Visit visit(model, protocol, nullptr);
   const auto ticks = run(visit, protocol.rest, protocol.targets[5]);
-  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason();
+  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason().value_or("");
   EXPECT_NEAR(ticks[1] * kTick, 0.5 + 0.5 + 0.5, 0.1);  // lead, settling window, hold
   EXPECT_EQ(ticks[2], 0);
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(visit.target().q[k], protocol.targets[5].q[k], 1e-12);
@@ -71,7 +71,7 @@ TEST_F(VisitTest, ATrajectoryIsRecordedBothWays) {
   load("tier1_trajectories");
   Visit visit(model, protocol, nullptr);
   const auto ticks = run(visit, protocol.rest, protocol.targets[3]);
-  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason();
+  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason().value_or("");
   EXPECT_NEAR(ticks[1], ticks[2], 3);
   EXPECT_GT(ticks[2], 100);
 }
@@ -80,7 +80,7 @@ TEST_F(VisitTest, ZeroGravityIsRecordedOnceTheArmHangs) {
   load("tier1_zero_gravity");
   Visit visit(model, protocol, nullptr);
   const auto ticks = run(visit, protocol.rest, protocol.targets[3]);
-  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason();
+  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason().value_or("");
   EXPECT_NEAR(ticks[1] * kTick, 1.0, 0.1);
 }
 
@@ -99,7 +99,7 @@ TEST_F(VisitTest, ZeroGravityWaitsForAControllerThatSetsOutSlowly) {
     }
     if (order.aim == Visit::Aim::kRest) at = standing(*model, protocol.rest);
   }
-  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason();
+  EXPECT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason().value_or("");
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(visit.target().q[k], protocol.targets[3].q[k], 1e-12);
 }
 
@@ -137,7 +137,7 @@ TEST_F(VisitTest, WhatNeverSettlesFails) {
   }
   EXPECT_EQ(visit.outcome(), Visit::Outcome::kFailed);
   EXPECT_NEAR(t, protocol.settle.timeout, 0.1);
-  EXPECT_NE(visit.reason().find("not settled"), std::string::npos);
+  EXPECT_NE(visit.reason().value().find("not settled"), std::string::npos);
 }
 
 TEST_F(VisitTest, NoiseIsNotMotion) {
@@ -180,8 +180,8 @@ TEST_F(VisitTest, ADriftedRestPostureIsNoticedBeforeAndAfter) {
                                                            : protocol.rest);
   }
   EXPECT_EQ(back.outcome(), Visit::Outcome::kDrifted);
-  EXPECT_NE(back.reason().find("4.00 degrees at joint shoulder"), std::string::npos)
-      << back.reason();
+  EXPECT_NE(back.reason().value().find("4.00 degrees at joint shoulder"), std::string::npos)
+      << back.reason().value();
 }
 
 TEST_F(VisitTest, TheSimulatedRobotSettlesNearItsTargets) {
@@ -200,7 +200,7 @@ TEST_F(VisitTest, TheSimulatedRobotSettlesNearItsTargets) {
       for (int m = 0; m < 8; ++m) sim.command(m, ecu::Mode::kPosition, reference[m]);
       sim.step(5);
     }
-    ASSERT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason();
+    ASSERT_EQ(visit.outcome(), Visit::Outcome::kDone) << visit.reason().value_or("");
     // Eyelet friction keeps it from getting there.
     EXPECT_LT(joint_distance(model->skeleton->joints[0], visit.target().q, target.q), 0.35);
     EXPECT_GT(joint_distance(model->skeleton->joints[0], visit.target().q, protocol.rest.q), 0.3);
