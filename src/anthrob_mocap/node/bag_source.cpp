@@ -77,11 +77,10 @@ FrameSource::Grab BagSource::next_pair(StereoFrame& frame) {
   pairing_.end();
   take_counts();
   if (index_ == 0) {
-    const std::string why = Pairing::complaint(total_, pairing_.tolerance());
-    throw BadInput(last_refusal_.empty() ? file_ + ": " + why : last_refusal_);
+    const auto why = Pairing::complaint(total_, pairing_.tolerance());
+    throw BadInput(last_refusal_.empty() ? file_ + ": " + why.value() : last_refusal_);
   }
-  const std::string loss = Pairing::loss(total_);
-  if (!loss.empty()) refuse_(file_ + ": " + loss);
+  if (const auto loss = Pairing::loss(total_)) refuse_(file_ + ": " + *loss);
   return Grab::kEnd;
 }
 

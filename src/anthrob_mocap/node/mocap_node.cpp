@@ -98,7 +98,7 @@ void MocapNode::report_on(TopicInput& input) {
     last_counts_ = input.take_counts();
     last_trouble_ = Pairing::complaint(last_counts_, input.tolerance());
   }
-  publish_diagnostics(still ? "" : last_trouble_, last_counts_);
+  publish_diagnostics(still ? std::nullopt : last_trouble_, last_counts_);
   last_counts_.lost = 0;  // told
 }
 
@@ -128,15 +128,14 @@ void MocapNode::run(FrameSource& source) {
 /// What a whole recording shows; nobody may have looked at the diagnostics while it ran.
 void MocapNode::log_findings() const {
   if (!options_.recorded) return;
-  const std::string contradiction = recording_.contradiction(), bend = recording_.bend();
-  if (!contradiction.empty()) {
-    ROS_ERROR_STREAM("no pose: " << contradiction);
-  } else if (!recording_.advice().empty()) {
-    ROS_WARN_STREAM("no pose: " << recording_.advice());
-  } else if (!recording_.crowd().empty()) {
-    ROS_WARN_STREAM(recording_.crowd());
+  if (const auto contradiction = recording_.contradiction()) {
+    ROS_ERROR_STREAM("no pose: " << *contradiction);
+  } else if (const auto advice = recording_.advice()) {
+    ROS_WARN_STREAM("no pose: " << *advice);
+  } else if (const auto crowd = recording_.crowd()) {
+    ROS_WARN_STREAM(*crowd);
   }
-  if (!bend.empty()) ROS_WARN_STREAM(bend);
+  if (const auto bend = recording_.bend()) ROS_WARN_STREAM(*bend);
   if (recording_.given_up() > 0) {
     ROS_WARN_STREAM(recording_.given_up() << " searches of a target reached step_limit");
   }
@@ -294,7 +293,8 @@ void MocapNode::publish_pictures(const StereoFrame& frame, const std_msgs::Heade
   }
 }
 
-void MocapNode::publish_diagnostics(const std::string& trouble, const Pairing::Counts& images) {
+void MocapNode::publish_diagnostics(const std::optional<std::string>& trouble,
+                                    const Pairing::Counts& images) {
   const ros::WallTime now = ros::WallTime::now();
   diagnostic_msgs::DiagnosticArray array;
   array.header.stamp = ros::Time::now();

@@ -52,7 +52,8 @@ class MocapNode {
   std_msgs::Header joint_header(const ros::Time& stamp, std::size_t joint) const;
   void publish_transforms(const StereoFrame& frame, const std_msgs::Header& header);
   void publish_pictures(const StereoFrame& frame, const std_msgs::Header& header);
-  void publish_diagnostics(const std::string& trouble, const Pairing::Counts& images);
+  void publish_diagnostics(const std::optional<std::string>& trouble,
+                           const Pairing::Counts& images);
   void check_size(const StereoFrame& frame) const;
   void check_stamp(const StereoFrame& frame) const;
   void report_on(TopicInput& input);
@@ -71,7 +72,7 @@ class MocapNode {
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::WallTime last_markers_, last_debug_, last_report_, last_told_;
   ros::Time last_report_time_, last_asked_;
-  std::string last_trouble_;
+  std::optional<std::string> last_trouble_;
   Pairing::Counts last_counts_;
 
   Status status_;

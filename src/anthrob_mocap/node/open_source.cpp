@@ -46,7 +46,7 @@ std::unique_ptr<FrameSource> open_source(
     auto folder =
         std::make_unique<FolderSource>(required(settings, "left", "a folder of images"),
                                        required(settings, "right", "a folder of images"), options);
-    if (!folder->assumption().empty()) ROS_WARN_STREAM("mocap: " << folder->assumption());
+    if (folder->assumption()) ROS_WARN_STREAM("mocap: " << *folder->assumption());
     return folder;
   }
   if (kind == "bag") {

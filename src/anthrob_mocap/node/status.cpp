@@ -64,7 +64,7 @@ void Status::refuse(const std::string& why) {
   last_refusal_ = why;
 }
 
-DiagnosticStatus Status::report(double elapsed, const std::string& trouble,
+DiagnosticStatus Status::report(double elapsed, const std::optional<std::string>& trouble,
                                 const Pairing::Counts& images) {
   const std::lock_guard<std::mutex> lock(mutex_);
   DiagnosticStatus status;
@@ -77,26 +77,23 @@ DiagnosticStatus Status::report(double elapsed, const std::string& trouble,
   return status;
 }
 
-void Status::judge(const std::string& trouble, const Pairing::Counts& images,
+void Status::judge(const std::optional<std::string>& trouble, const Pairing::Counts& images,
                    DiagnosticStatus& status) const {
-  const std::string error = refused_ > 0       ? last_refusal_
-                            : !trouble.empty() ? trouble
-                                               : health_.contradiction();
+  const auto say = [&](const std::optional<std::string>& what) {
+    status.message = what.value_or("");
+    return what.has_value();
+  };
   status.level = DiagnosticStatus::ERROR;
-  status.message = error;
-  if (!error.empty()) return;
+  if (refused_ > 0 ? say(last_refusal_) : say(trouble) || say(health_.contradiction())) return;
   status.level = DiagnosticStatus::WARN;
-  status.message = health_.bend();
-  if (!status.message.empty()) return;
-  status.message = Pairing::loss(images);
-  if (!status.message.empty()) return;
+  if (say(health_.bend()) || say(Pairing::loss(images))) return;
   if (health_.frames() > 0) {
     for (std::size_t k = 0; k < targets_.size(); ++k) {
       if (seen_[k] > 0) continue;
       status.message = targets_[k] + " is not seen";
       if (health_.cut() > 0)
         status.message += "; more points than most_points: the lowest in the picture are ignored";
-      if (health_.poses() == 0) status.message = health_.advice();
+      if (const auto advice = health_.advice()) status.message = *advice;
       return;
     }
   }
@@ -110,8 +107,7 @@ void Status::judge(const std::string& trouble, const Pairing::Counts& images,
                      " s: no velocity, so the joint is not published";
     return;
   }
-  status.message = health_.crowd();
-  if (!status.message.empty()) return;
+  if (say(health_.crowd())) return;
   status.level = DiagnosticStatus::OK;
   status.message = health_.frames() > 0 ? "tracking" : "waiting";
 }

@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,14 @@ class Status {
   void refuse(const std::string& why);
 
   /// @param elapsed [s] since the last report
-  /// @param trouble of the source: an error, if not empty
+  /// @param trouble of the source, if it has any: an error
   /// @param images counts of the source since its last take_counts
-  diagnostic_msgs::DiagnosticStatus report(double elapsed, const std::string& trouble,
+  diagnostic_msgs::DiagnosticStatus report(double elapsed,
+                                           const std::optional<std::string>& trouble,
                                            const Pairing::Counts& images);
 
  private:
-  void judge(const std::string& trouble, const Pairing::Counts& images,
+  void judge(const std::optional<std::string>& trouble, const Pairing::Counts& images,
              diagnostic_msgs::DiagnosticStatus& status) const;
   void list_values(double elapsed, diagnostic_msgs::DiagnosticStatus& status);
   void clear();

@@ -22,8 +22,7 @@ struct Arguments {
 
 /// left07.jpg and right07.jpg belong together.
 std::string key_of(const std::string& file) {
-  const std::string number = mocap::image_number(file);
-  return number.empty() ? fs::path(file).stem().string() : number;
+  return mocap::image_number(file).value_or(fs::path(file).stem().string());
 }
 
 std::map<std::string, std::string> by_key(const std::string& folder) {

@@ -34,10 +34,10 @@ std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
   mocap::FolderSource source(recording.left, recording.right, recording.folder);
   if (!mocap::track_all(source, rig, recording, pipeline)) return std::nullopt;
   recording.refuse_contradiction(health);
-  if (!source.assumption().empty()) std::cerr << "note: " << source.assumption() << "\n";
-  if (!health.crowd().empty()) std::cerr << "warning: " << health.crowd() << "\n";
+  if (source.assumption()) std::cerr << "note: " << *source.assumption() << "\n";
+  if (const auto crowd = health.crowd()) std::cerr << "warning: " << *crowd << "\n";
   // Markers need not fit yet.
-  if (!health.uneven_rows().empty()) std::cerr << "warning: " << health.uneven_rows() << "\n";
+  if (const auto uneven = health.uneven_rows()) std::cerr << "warning: " << *uneven << "\n";
   return frames;
 }
 
@@ -45,9 +45,9 @@ std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
 void note_others(const mocap::TargetSet& set, const std::string& name, double edge_tolerance) {
   for (const mocap::MarkerTarget& a : set.targets) {
     for (const mocap::MarkerTarget& b : set.targets) {
-      const std::string why = mocap::find_ambiguity(a, b, edge_tolerance);
-      if (!why.empty() && !(a.name == name && b.name == name)) {
-        std::cerr << "cannot be tracked yet: target " << a.name << ": " << why << "\n";
+      const auto why = mocap::find_ambiguity(a, b, edge_tolerance);
+      if (why && !(a.name == name && b.name == name)) {
+        std::cerr << "cannot be tracked yet: target " << a.name << ": " << *why << "\n";
       }
     }
   }
@@ -80,8 +80,9 @@ int calibrate(const Arguments& arguments) {
     target = result.target;
     const std::string text = set.to_yaml();
     mocap::TargetSet::parse(text, arguments.out, mocap::TargetSet::kUnchecked);
-    const std::string why = mocap::find_ambiguity(target, target, edge_tolerance);
-    if (!why.empty()) throw anthrob::BadInput("target " + target.name + ": " + why);
+    if (const auto why = mocap::find_ambiguity(target, target, edge_tolerance)) {
+      throw anthrob::BadInput("target " + target.name + ": " + *why);
+    }
     anthrob::write_file_atomically(arguments.out, text);
     note_others(set, target.name, edge_tolerance);
     return anthrob::tool::kDone;

@@ -80,16 +80,15 @@ int track(const Arguments& arguments) {
   }
   out.move_into_place();
   report.print(health);
-  if (!source.assumption().empty()) std::cerr << "note: " << source.assumption() << "\n";
-  if (!health.advice().empty()) std::cerr << "no pose: " << health.advice() << "\n";
+  if (source.assumption()) std::cerr << "note: " << *source.assumption() << "\n";
+  const auto advice = health.advice(), crowd = health.crowd();
+  if (advice) std::cerr << "no pose: " << *advice << "\n";
   if (health.given_up() > 0) {
     std::cerr << "warning: " << health.given_up()
               << " searches of targets were given up at step_limit: too many bright blobs\n";
   }
-  if (!health.crowd().empty() && health.crowd() != health.advice()) {
-    std::cerr << "warning: " << health.crowd() << "\n";
-  }
-  if (!health.bend().empty()) std::cerr << "warning: " << health.bend() << "\n";
+  if (crowd && crowd != advice) std::cerr << "warning: " << *crowd << "\n";
+  if (const auto bend = health.bend()) std::cerr << "warning: " << *bend << "\n";
   return anthrob::tool::kDone;
 }
 

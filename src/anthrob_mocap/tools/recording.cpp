@@ -32,8 +32,7 @@ void Recording::add_options(CLI::App& app) {
 }
 
 void Recording::refuse_contradiction(const Health& health) const {
-  const std::string why = health.contradiction();
-  if (!why.empty()) throw BadInput(left + ", " + right + ": " + why);
+  if (const auto why = health.contradiction()) throw BadInput(left + ", " + right + ": " + *why);
 }
 
 bool track_all(FolderSource& source, const StereoRig& rig, const Recording& recording,

@@ -132,8 +132,7 @@ TargetSet read(const ConfigNode& file, double edge_tolerance) {
   file.refuse_empty_values();
   for (const MarkerTarget& a : set.targets) {
     for (const MarkerTarget& b : set.targets) {
-      const std::string why = find_ambiguity(a, b, edge_tolerance);
-      if (!why.empty()) targets.at(a.name).fail(why);
+      if (const auto why = find_ambiguity(a, b, edge_tolerance)) targets.at(a.name).fail(*why);
     }
   }
   return set;
@@ -184,9 +183,10 @@ std::string TargetSet::to_yaml() const {
   return out.str();
 }
 
-std::string find_ambiguity(const MarkerTarget& a, const MarkerTarget& b, double edge_tolerance) {
-  if (a.markers.size() > b.markers.size()) return "";  // found from the other side
-  std::string why;
+std::optional<std::string> find_ambiguity(const MarkerTarget& a, const MarkerTarget& b,
+                                          double edge_tolerance) {
+  if (a.markers.size() > b.markers.size()) return std::nullopt;  // found from the other side
+  std::optional<std::string> why;
   std::vector<int> image;
   assign(a, b, edge_tolerance, a.markers.size(), image, [&](const std::vector<int>& map) {
     const int count = static_cast<int>(map.size());

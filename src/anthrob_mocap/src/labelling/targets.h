@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,9 @@ struct TargetSet {
 
 /// Why markers of `a` can be taken for markers of `b` (or for others of the same target, if a and b
 /// are the same): another assignment of all of a's markers that keeps every edge within the
-/// tolerance. Names the offending edges; empty if there is none, or the tolerance is negative.
-std::string find_ambiguity(const MarkerTarget& a, const MarkerTarget& b, double edge_tolerance);
+/// tolerance. Names the offending edges; none if there are none, or the tolerance is negative.
+std::optional<std::string> find_ambiguity(const MarkerTarget& a, const MarkerTarget& b,
+                                          double edge_tolerance);
 
 /// Number of triples of markers (each of one target) that can be taken for another triple, or for
 /// themselves in another order. Such a triple alone gives no pose.

@@ -149,39 +149,38 @@ double Health::mean_of_rows() const {
   return poses > 0 ? sum / poses : 0.0;
 }
 
-std::string Health::uneven_rows() const {
+std::optional<std::string> Health::uneven_rows() const {
   const double mean = mean_of_rows();
   if (std::abs(mean) > kLargestRowError) {
     return format("rows of left and right differ by %.3f pixels: recalibrate the cameras", mean);
   }
   const double rms = worst(&Squares::row_error);
-  if (rms <= kLargestRms) return "";
+  if (rms <= kLargestRms) return std::nullopt;
   return format(
       "rows of left and right differ by %.3f pixels rms: the rig has been bent, or the pair is not "
       "synchronised",
       rms);
 }
 
-std::string Health::bend() const {
-  const std::string rows = uneven_rows();
-  if (!rows.empty()) return rows;
+std::optional<std::string> Health::bend() const {
+  if (auto rows = uneven_rows()) return rows;
   const double rms = worst(&Squares::pixel_rms);
-  if (rms <= kLargestRms) return "";
+  if (rms <= kLargestRms) return std::nullopt;
   return format(
       "markers are %.3f pixels rms off their target: the rig has been bent, the pair is not "
       "synchronised, or the target is not calibrated",
       rms);
 }
 
-std::string Health::crowd() const {
-  if (sums_.cut == 0) return "";
+std::optional<std::string> Health::crowd() const {
+  if (sums_.cut == 0) return std::nullopt;
   return std::to_string(sums_.cut) + " of " + std::to_string(sums_.frames) +
          " pairs show more points than most_points: the lowest in the picture are ignored, and "
          "three markers make no pose; cover reflections, or raise the threshold";
 }
 
-std::string Health::contradiction() const {
-  if (sums_.frames == 0 || sums_.poses > 0) return "";
+std::optional<std::string> Health::contradiction() const {
+  if (sums_.frames == 0 || sums_.poses > 0) return std::nullopt;
   const long frames = sums_.frames, fewest = std::min(sums_.blobs[kLeft], sums_.blobs[kRight]);
   if (sums_.cluttered == sums_.frames) {
     return "the images are full of bright specks: the scene is too bright, or the threshold too "
@@ -195,13 +194,12 @@ std::string Health::contradiction() const {
     return "the blobs of left and right image do not lie on common rows: the "
            "cameras are not synchronised, or the calibration belongs to other cameras";
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string Health::advice() const {
-  if (sums_.frames == 0 || sums_.poses > 0) return "";
-  const std::string why = contradiction();
-  if (!why.empty()) return why;
+std::optional<std::string> Health::advice() const {
+  if (sums_.frames == 0 || sums_.poses > 0) return std::nullopt;
+  if (auto why = contradiction()) return why;
   if (2 * sums_.cut > sums_.frames) return crowd();
   if (std::min(sums_.blobs[kLeft], sums_.blobs[kRight]) < 3L * sums_.frames) {
     return "hardly any marker is seen: check lighting, threshold and view";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,20 +33,20 @@ class Health {
   /// rare, or their stamps are wrong.
   std::vector<std::size_t> joints_without_velocity() const;
 
-  /// Says that rows of left and right differ, though targets are found; else empty. Does not depend
+  /// Says that rows of left and right differ, though targets are found; else none. Does not depend
   /// on where the markers of the targets are.
-  std::string uneven_rows() const;
+  std::optional<std::string> uneven_rows() const;
   /// uneven_rows, or that the markers do not fit the targets: the rig has been bent or the pair is
-  /// not synchronised, so angles are wrong. For targets that are calibrated; else empty.
-  std::string bend() const;
-  /// Says that pictures were cut at most_points; else empty.
-  std::string crowd() const;
+  /// not synchronised, so angles are wrong. For targets that are calibrated; else none.
+  std::optional<std::string> bend() const;
+  /// Says that pictures were cut at most_points; else none.
+  std::optional<std::string> crowd() const;
   /// Root mean square of pixel_rms over the poses of a target [pixel]; 0 without poses.
   double residual(std::size_t target) const;
-  /// What is certainly wrong with the images or the calibration; empty if nothing is.
-  std::string contradiction() const;
-  /// What to check if no target was found; empty if one was.
-  std::string advice() const;
+  /// What is certainly wrong with the images or the calibration; none if nothing is.
+  std::optional<std::string> contradiction() const;
+  /// What to check if no target was found; none if one was.
+  std::optional<std::string> advice() const;
 
  private:
   /// Of one target. A movement to and fro shows in the squares, not in the mean.

@@ -158,7 +158,7 @@ class AravisSource::Implementation {
           std::atomic_store(&cameras_[side], camera);
           stream(side, *camera);
         }
-        live_.set_trouble(side, stop_ ? "" : lost());
+        live_.set_trouble(side, stop_ ? std::nullopt : std::optional<std::string>(lost()));
       } catch (const std::exception& error) {
         live_.set_trouble(side, error.what());
       }
@@ -225,7 +225,7 @@ FrameSource::Grab AravisSource::next(StereoFrame& frame, double timeout) {
   return implementation_->live().next(frame, timeout) ? Grab::kFrame : Grab::kNothing;
 }
 
-std::string AravisSource::trouble() const {
+std::optional<std::string> AravisSource::trouble() const {
   return implementation_->live().trouble();
 }
 

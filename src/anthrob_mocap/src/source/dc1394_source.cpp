@@ -188,7 +188,7 @@ FrameSource::Grab Dc1394Source::next(StereoFrame& frame, double timeout) {
   return implementation_->live().next(frame, timeout) ? Grab::kFrame : Grab::kNothing;
 }
 
-std::string Dc1394Source::trouble() const {
+std::optional<std::string> Dc1394Source::trouble() const {
   return implementation_->live().trouble();
 }
 

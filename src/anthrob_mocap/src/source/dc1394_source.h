@@ -19,7 +19,7 @@ class Dc1394Source final : public FrameSource {
   ~Dc1394Source() override;
 
   Grab next(StereoFrame& frame, double timeout) override;
-  std::string trouble() const override;
+  std::optional<std::string> trouble() const override;
   Pairing::Counts take_counts() override;
 
  private:

@@ -21,12 +21,13 @@ bool expressible(double t) {
   return t >= 0.0 && t < 4294967296.0;
 }
 
-/// @return times.csv of a folder of images, in it or beside it; empty if there is none
-std::string times_file(const std::string& folder) {
+/// @return times.csv of a folder of images, in it or beside it; none if there is no such file
+std::optional<std::string> times_file(const std::string& folder) {
   const fs::path in = fs::absolute(folder).lexically_normal();
   const fs::path parent = (in.has_filename() ? in : in.parent_path()).parent_path();
   if (fs::exists(in / "times.csv")) return folder + "/times.csv";
-  return fs::exists(parent / "times.csv") ? (parent / "times.csv").string() : "";
+  if (fs::exists(parent / "times.csv")) return (parent / "times.csv").string();
+  return std::nullopt;
 }
 
 }  // namespace
@@ -51,13 +52,13 @@ FolderSource::FolderSource(const std::string& left, const std::string& right,
 void FolderSource::sort_names() {
   std::map<long, std::string> by_index;
   for (const std::string& name : names_) {
-    const std::string number = image_number(name);
-    if (number.empty() != image_number(names_.front()).empty()) {
-      throw BadInput(folder_[kLeft] + ": " + (number.empty() ? name : names_.front()) +
+    const std::optional<std::string> number = image_number(name);
+    if (number.has_value() != image_number(names_.front()).has_value()) {
+      throw BadInput(folder_[kLeft] + ": " + (number ? names_.front() : name) +
                      ": expected a number in the name, as other images of this folder have");
     }
-    const long index = number.empty() ? static_cast<long>(by_index.size())
-                                      : std::strtol(number.c_str(), nullptr, 10);
+    const long index =
+        number ? std::strtol(number->c_str(), nullptr, 10) : static_cast<long>(by_index.size());
     const auto [other, fresh] = by_index.emplace(index, name);
     if (fresh) continue;
     throw BadInput(folder_[kLeft] + ": " + other->second + " and " + name +
@@ -96,12 +97,12 @@ FolderSource::Times FolderSource::read_times(const std::string& file) {
 
 void FolderSource::load_times(const Options& options) {
   Times times, right;
-  std::string file = times_file(folder_[kLeft]);
-  const std::string right_file = times_file(folder_[kRight]);
-  if (!file.empty()) times = read_times(file);
-  if (!right_file.empty() && right_file != file) right = read_times(right_file);
+  std::optional<std::string> file = times_file(folder_[kLeft]);
+  const std::optional<std::string> right_file = times_file(folder_[kRight]);
+  if (file) times = read_times(*file);
+  if (right_file && right_file != file) right = read_times(*right_file);
   if (!times.empty() && !right.empty()) {
-    check_times(times, right, right_file, options.sync_tolerance);
+    check_times(times, right, *right_file, options.sync_tolerance);
   }
   if (times.empty()) times.swap(right), file = right_file;
   if (times.empty()) {
@@ -114,14 +115,15 @@ void FolderSource::load_times(const Options& options) {
     const long index = indices_[i];
     const auto t = times.find(index);
     if (!times.empty() && t == times.end()) {
-      throw BadInput(file + ": no time for " + names_[i]);
+      throw BadInput(*file + ": no time for " + names_[i]);
     }
     if (!right.empty() && right.count(index) == 0) {
-      throw BadInput(right_file + ": no time for " + names_[i] + ", which the other times.csv has");
+      throw BadInput(*right_file + ": no time for " + names_[i] +
+                     ", which the other times.csv has");
     }
     times_.push_back(times.empty() ? static_cast<double>(index) / options.rate : t->second);
     if (i > 0 && !(times_[i] > times_[i - 1])) {
-      throw BadInput((times.empty() ? folder_[kLeft] : file) + ": " + names_[i] +
+      throw BadInput((times.empty() ? folder_[kLeft] : *file) + ": " + names_[i] +
                      ": expected times that increase");
     }
     if (!expressible(times_[i])) {

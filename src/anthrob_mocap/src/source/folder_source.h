@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,8 @@ class FolderSource final : public FrameSource {
   /// @throws BadInput if folders, names or times of left and right do not belong together
   FolderSource(const std::string& left, const std::string& right, const Options& options);
 
-  /// What is assumed about the times where there is no times.csv; else empty.
-  const std::string& assumption() const { return assumption_; }
+  /// What is assumed about the times where there is no times.csv; else none.
+  const std::optional<std::string>& assumption() const { return assumption_; }
 
   /// @throws BadInput if an image is missing, truncated, or not 8-bit grey
   Grab next(StereoFrame& frame, double timeout) override;
@@ -42,7 +43,7 @@ class FolderSource final : public FrameSource {
   std::vector<std::string> names_;
   std::vector<long> indices_;  ///< by name
   std::vector<double> times_;
-  std::string assumption_;
+  std::optional<std::string> assumption_;
   std::size_t position_ = 0;
 };
 

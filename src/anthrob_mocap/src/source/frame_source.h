@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "pipeline/stereo_frame.h"
@@ -19,9 +20,9 @@ class FrameSource {
   /// @throws BadInput for images that cannot be used
   virtual Grab next(StereoFrame& frame, double timeout) = 0;
 
-  /// What is wrong with the cameras at the moment, in one line; empty if nothing is. Sources
+  /// What is wrong with the cameras at the moment, in one line; none if nothing is. Sources
   /// recover by themselves: keep calling next.
-  virtual std::string trouble() const { return ""; }
+  virtual std::optional<std::string> trouble() const { return std::nullopt; }
 
   /// Counts of images and pairs since the last call, for sources that pair images.
   virtual Pairing::Counts take_counts() { return {}; }

@@ -63,8 +63,8 @@ std::uint32_t crc32(const std::uint8_t* begin, const std::uint8_t* end) {
   return ~crc;
 }
 
-/// Why a PNG cannot be whole; empty if its chunks are, from the first to IEND.
-std::string damage_of_png(const Bytes& bytes) {
+/// Why a PNG cannot be whole; none if its chunks are, from the first to IEND.
+std::optional<std::string> damage_of_png(const Bytes& bytes) {
   constexpr std::size_t kSignature = 8, kFrame = 12;  // length, type and checksum of a chunk
   for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
     const std::uint8_t* chunk = &bytes[at];
@@ -72,15 +72,15 @@ std::string damage_of_png(const Bytes& bytes) {
     if (length > bytes.size() - at - kFrame) break;
     const std::uint8_t *type = chunk + 4, *checksum = type + 4 + length;
     if (crc32(type, checksum) != big_endian(checksum)) return "damaged image: wrong checksum";
-    if (std::equal(type, type + 4, "IEND")) return "";
+    if (std::equal(type, type + 4, "IEND")) return std::nullopt;
     at += kFrame + length;
   }
   return "truncated image";
 }
 
-/// Why the bytes cannot be a whole image; empty if nothing speaks against it. The decoders fill
+/// Why the bytes cannot be a whole image; none if nothing speaks against it. The decoders fill
 /// what is missing with grey, or print lines of their own on standard error.
-std::string damage_of(const Bytes& bytes) {
+std::optional<std::string> damage_of(const Bytes& bytes) {
   const auto begins = [&](const Bytes& mark) {
     return bytes.size() >= mark.size() && std::equal(mark.begin(), mark.end(), bytes.begin());
   };
@@ -92,14 +92,14 @@ std::string damage_of(const Bytes& bytes) {
   if (begins({0x89, 'P', 'N', 'G'})) return damage_of_png(bytes);
   const bool truncated = (begins({0xff, 0xd8}) && !holds_near_end({0xff, 0xd9})) ||
                          (begins({'P', '5'}) && truncated_pgm(bytes));
-  return truncated ? "truncated image" : "";
+  if (!truncated) return std::nullopt;
+  return "truncated image";
 }
 
 cv::Mat decode(const std::string& file, int flags) {
   const Bytes bytes = read_bytes(file);
   if (bytes.empty()) throw BadInput(file + ": the file is empty");
-  const std::string damage = damage_of(bytes);
-  if (!damage.empty()) throw BadInput(file + ": " + damage);
+  if (const auto damage = damage_of(bytes)) throw BadInput(file + ": " + *damage);
   cv::Mat image;
   try {
     image = cv::imdecode(bytes, flags);
@@ -138,16 +138,17 @@ void write_grey_image(const std::string& file, const Image& image) {
   if (!cv::imwrite(file, view)) throw std::runtime_error(file + ": cannot be written");
 }
 
-std::string image_number(const std::string& file) {
+std::optional<std::string> image_number(const std::string& file) {
   const std::string stem = fs::path(file).stem().string();
   const auto end = stem.find_last_of("0123456789");
-  if (end == std::string::npos) return "";
+  if (end == std::string::npos) return std::nullopt;
   const auto before = stem.find_last_not_of("0123456789", end);
   const auto begin = before == std::string::npos ? 0 : before + 1;
   // Decimals, as in a stamp "1700000000.25", do not count images.
   const bool is_decimals = begin >= 2 && stem[begin - 1] == '.' &&
                            std::isdigit(static_cast<unsigned char>(stem[begin - 2]));
-  return is_decimals ? "" : stem.substr(begin, end + 1 - begin);
+  if (is_decimals) return std::nullopt;
+  return stem.substr(begin, end + 1 - begin);
 }
 
 std::vector<std::string> list_images(const std::string& folder) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/image.h"
@@ -17,9 +18,9 @@ Image read_any_image(const std::string& file);
 void write_grey_image(const std::string& file, const Image& image);
 
 /// The last number in the name of an image file, as written: "07" of "rig2_07_l.png". It says which
-/// images belong together and in which order they were taken. Empty if there is no number, or if it
+/// images belong together and in which order they were taken. None if there is no number, or if it
 /// is the decimals of a stamp ("1700000000.25.png").
-std::string image_number(const std::string& file);
+std::optional<std::string> image_number(const std::string& file);
 
 /// Names of the image files of a folder, sorted as text.
 /// @throws BadInput if there is no such folder or no image in it

@@ -21,7 +21,7 @@ double now() {
 void LivePair::add(Side side, const TimedImage& image) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_image_[side] = now();
-  trouble_[side].clear();
+  trouble_[side].reset();
   Pair pair;
   try {
     if (!pairing_.add(side, image, pair.image)) return;
@@ -35,7 +35,7 @@ void LivePair::add(Side side, const TimedImage& image) {
   arrived_.notify_one();
 }
 
-void LivePair::set_trouble(Side side, const std::string& what) {
+void LivePair::set_trouble(Side side, const std::optional<std::string>& what) {
   const std::lock_guard<std::mutex> lock(mutex_);
   trouble_[side] = what;
 }
@@ -63,13 +63,13 @@ Pairing::Counts LivePair::take_counts() {
   return counts;
 }
 
-std::string LivePair::trouble() const {
+std::optional<std::string> LivePair::trouble() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const double t = now();
   const Side first = last_image_[kRight] < last_image_[kLeft] ? kRight : kLeft;
   for (const Side side : {first, first == kLeft ? kRight : kLeft}) {
     const std::string who = std::string(name(side)) + " camera: ";
-    if (!trouble_[side].empty()) return who + trouble_[side];
+    if (trouble_[side]) return who + *trouble_[side];
     if (t - last_image_[side] < silence_) continue;
     if (last_image_[side] == 0.0) return who + "no image yet";
     char text[64];
@@ -83,7 +83,7 @@ std::string LivePair::trouble() const {
                   1e3 * pairing_.tolerance());
     return text;
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace mocap

@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "source/frame_source.h"
@@ -20,15 +21,15 @@ class LivePair {
 
   /// Called by the camera's thread for each image.
   void add(Side side, const TimedImage& image);
-  /// Called by the camera's thread: what is wrong with the camera; empty if nothing is.
-  void set_trouble(Side side, const std::string& what);
+  /// Called by the camera's thread: what is wrong with the camera; none if nothing is.
+  void set_trouble(Side side, const std::optional<std::string>& what);
 
   /// Takes the oldest pair that was not taken yet; waits at most `timeout` [s].
   /// @return false if there was none
   bool next(StereoFrame& frame, double timeout);
-  /// What is wrong, in one line; empty if nothing is. Begins with the camera that has been silent
+  /// What is wrong, in one line; none if nothing is. Begins with the camera that has been silent
   /// for longer: both of a triggered pair may fall silent when one is pulled.
-  std::string trouble() const;
+  std::optional<std::string> trouble() const;
   /// Since the last call.
   Pairing::Counts take_counts();
 
@@ -41,7 +42,7 @@ class LivePair {
   std::condition_variable arrived_;
   Pairing pairing_;
   std::deque<Pair> pairs_;
-  std::string trouble_[2];
+  std::optional<std::string> trouble_[2];
   double last_image_[2] = {0.0, 0.0}, last_pair_ = 0.0;  ///< [s] steady clock; 0: none yet
   int late_ = 0;  ///< images since the last take_counts that nobody took in time
   std::uint64_t index_ = 0;

@@ -97,26 +97,25 @@ Pairing::Counts Pairing::take_counts() {
   return counts;
 }
 
-std::string Pairing::complaint(const Counts& counts, double tolerance) {
-  char text[160] = "";
+std::optional<std::string> Pairing::complaint(const Counts& counts, double tolerance) {
   if (counts.images[kLeft] == 0 && counts.images[kRight] == 0) return "no images";
   for (const Side side : {kLeft, kRight}) {
     if (counts.images[side] == 0)
       return std::string("no images from the ") + name(side) + " camera";
   }
-  if (counts.pairs == 0) {
-    std::snprintf(text, sizeof(text),
-                  "unsynchronised pair: %d left and %d right images, none within %.1f ms; nearest "
-                  "%.1f ms apart",
-                  counts.images[kLeft], counts.images[kRight], 1e3 * tolerance,
-                  1e3 * std::abs(counts.nearest));
-  }
+  if (counts.pairs > 0) return std::nullopt;
+  char text[160];
+  std::snprintf(text, sizeof(text),
+                "unsynchronised pair: %d left and %d right images, none within %.1f ms; nearest "
+                "%.1f ms apart",
+                counts.images[kLeft], counts.images[kRight], 1e3 * tolerance,
+                1e3 * std::abs(counts.nearest));
   return text;
 }
 
-std::string Pairing::loss(const Counts& counts) {
+std::optional<std::string> Pairing::loss(const Counts& counts) {
   const int images = counts.images[kLeft] + counts.images[kRight];
-  if (counts.lost <= kBearableLoss * images) return "";
+  if (counts.lost <= kBearableLoss * images) return std::nullopt;
   return std::to_string(counts.lost) + " of " + std::to_string(images) +
          " images have no partner, or came too late";
 }

@@ -43,10 +43,10 @@ class Pairing {
   Counts take_counts();
   /// To be called after the last image: counts those that still wait as lost.
   void end();
-  /// Why there are images but no pairs, or none of one camera; empty if all is well.
-  static std::string complaint(const Counts& counts, double tolerance);
-  /// How many images were lost, as text, if that is more than one in twenty; else empty.
-  static std::string loss(const Counts& counts);
+  /// Why there are images but no pairs, or none of one camera; none if all is well.
+  static std::optional<std::string> complaint(const Counts& counts, double tolerance);
+  /// How many images were lost, as text, if that is more than one in twenty.
+  static std::optional<std::string> loss(const Counts& counts);
   /// [s] as given, but at most half the period of a camera, once that is known: with a wider one,
   /// images one period apart would form pairs from then on.
   double tolerance() const;

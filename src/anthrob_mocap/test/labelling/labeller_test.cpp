@@ -198,7 +198,7 @@ TEST(CliqueSearch, RefusesAMirrorImage) {
 TEST(CliqueSearch, SaysWhenThreeMarkersCanBeTwoThings) {
   // An isosceles triangle within a target that is unique as a whole.
   const MarkerTarget target{"t", {{0, 0, 0}, {0.1, 0.04, 0}, {0.1, -0.04, 0}, {0.02, 0.05, 0.06}}};
-  ASSERT_EQ(find_ambiguity(target, target, 0.003), "");
+  ASSERT_EQ(find_ambiguity(target, target, 0.003), std::nullopt);
   std::vector<MarkerPoint> points;
   for (int i = 0; i < 3; ++i)
     points.push_back(point_at(target.markers[static_cast<std::size_t>(i)], i));
@@ -313,7 +313,7 @@ TEST(Labeller, GivesNobodyWhatTwoTargetsCanClaim) {
   MarkerTarget b = a;
   b.name = "other";
   b.markers[4] += Vec3(0.03, 0.01, -0.02);
-  ASSERT_EQ(find_ambiguity(a, b, 0.003), "");
+  ASSERT_EQ(find_ambiguity(a, b, 0.003), std::nullopt);
   Labeller labeller({a, b}, {}, {});
   std::vector<MarkerPoint> points;
   const auto label = [&] {
