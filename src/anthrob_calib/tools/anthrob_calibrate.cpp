@@ -124,7 +124,7 @@ Recordings recordings_of(const std::string& from) {
 CalibrationInput read_together(const Arguments& arguments, const MpiSession& session) {
   constexpr char kBad = 'B', kOther = 'O';  // first letter of a complaint: whose fault it is
   std::optional<CalibrationInput> input;
-  std::string complaint;
+  std::optional<std::string> complaint;
   try {
     CalibrationConfig config = configure(arguments);
     input.emplace(CalibrationInput::read(std::move(config), recordings_of(arguments.data),
@@ -140,8 +140,8 @@ CalibrationInput read_together(const Arguments& arguments, const MpiSession& ses
     complaint = kOther + std::string(error.what());
   }
   complaint = session.first_complaint(complaint);
-  if (!complaint.empty() && complaint[0] == kBad) throw BadInput(complaint.substr(1));
-  if (!complaint.empty()) throw std::runtime_error(complaint.substr(1));
+  if (complaint && complaint->front() == kBad) throw BadInput(complaint->substr(1));
+  if (complaint) throw std::runtime_error(complaint->substr(1));
   if (!session.all_have(input->fingerprint())) {
     throw BadInput(arguments.config +
                    ": the processes read different configurations, models or recordings: expected "

@@ -282,7 +282,7 @@ CalibrationOutcome conclude(const CalibrationInput& input, const Problem& proble
     replay(problem.runs(), outcome.calibration);
     replay(input.validation, outcome.validation);
     attempt([&] { outcome.moves_on = moves_on(problem, outcome, stop); });
-    if (const std::string early = too_early(outcome); !early.empty()) doubt(early);
+    if (const auto early = too_early(outcome)) doubt(*early);
     if (!thorough) return outcome;
     attempt([&] {
       outcome.identifiability = examine(problem, outcome.best, kProfiles, [&] {

@@ -25,9 +25,9 @@ bool is_at_bound(const CalibrationOutcome& outcome, std::size_t parameter) {
   return value - p.lower < edge || p.upper - value < edge;
 }
 
-std::string too_early(const CalibrationOutcome& outcome) {
+std::optional<std::string> too_early(const CalibrationOutcome& outcome) {
   constexpr double kMuch = 0.25;
-  if (outcome.moves_on <= kMuch * outcome.fitness) return "";
+  if (outcome.moves_on <= kMuch * outcome.fitness) return std::nullopt;
   char text[320];
   std::snprintf(
       text, sizeof(text),

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,8 +62,8 @@ std::vector<std::string> insensitive_parameters(const CalibrationOutcome& outcom
 /// Whether the search ended at an end of the range of a parameter, which may lie elsewhere then.
 bool is_at_bound(const CalibrationOutcome& outcome, std::size_t parameter);
 
-/// Says that the arm was not at rest when the search looked at equilibria. Empty if it was.
-std::string too_early(const CalibrationOutcome& outcome);
+/// Says that the arm was not at rest when the search looked at equilibria. None if it was.
+std::optional<std::string> too_early(const CalibrationOutcome& outcome);
 
 /// Errors of runs as Tables C.12 and D.1 have them: means over runs of each run's mean.
 struct MeanErrors {

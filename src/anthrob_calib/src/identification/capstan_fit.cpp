@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "anthrob_core/errors.h"
 #include "anthrob_core/text.h"
@@ -17,9 +18,10 @@ double sign(const SlidingPoint& point) {
   return point.pulling ? 1.0 : -1.0;
 }
 
-/// Which parameters there are, and where: -1 if not.
+/// Which parameters there are, and where.
 struct Layout {
-  int pulling = -1, relaxing = -1, offset = -1, count = 0;
+  std::optional<std::size_t> pulling, relaxing, offset;
+  std::size_t count = 0;
 
   explicit Layout(const std::vector<SlidingPoint>& points) {
     double least = points.front().load, most = least;
@@ -44,7 +46,7 @@ Estimate with_angle_error(const Estimate& mu, double relative) {
 void require_friction(const CapstanFit& result, const Fit& fit,
                       const std::vector<SlidingPoint>& points) {
   const std::string& name = points.front().recording;
-  if (fit.at_bound >= 0) {
+  if (fit.at_bound) {
     throw BadInput(name + ": tendon/force: " + significant(points.front().force.value, 3) +
                    " N at " + significant(points.front().load, 3) +
                    " N of weight/load: the fit of the friction ends at its bound; expected forces "
@@ -71,30 +73,28 @@ double CapstanFit::predicted_force(const SlidingPoint& point) const {
 CapstanFit fit_capstan(const std::vector<SlidingPoint>& points, double turning_sigma) {
   if (points.empty()) throw BadInput("no steady motion over the eyelet in any recording");
   const Layout layout(points);
-  if (static_cast<int>(points.size()) <= layout.count) {
+  if (points.size() <= layout.count) {
     throw BadInput(
         std::to_string(points.size()) +
         " pieces of steady motion are too few; expected several loads, each pulled and relaxed");
   }
   LeastSquares problem;
   problem.residual_count = points.size();
-  problem.parameters.resize(static_cast<std::size_t>(layout.count), {0.15, 0.1, -5.0, 5.0});
-  if (layout.offset >= 0) {
-    problem.parameters[static_cast<std::size_t>(layout.offset)] = {0.0, 1.0, -1e3, 1e3};
-  }
+  problem.parameters.resize(layout.count, {0.15, 0.1, -5.0, 5.0});
+  if (layout.offset) problem.parameters[*layout.offset] = {0.0, 1.0, -1e3, 1e3};
   // Relative to the load: friction scatters with it.
   problem.evaluate = [&](const double* p, double* r, double* j) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const SlidingPoint& point = points[i];
-      const int own = point.pulling ? layout.pulling : layout.relaxing;
+      const std::size_t own = point.pulling ? *layout.pulling : *layout.relaxing;
       const double ratio = std::exp(sign(point) * p[own] * point.turning);
-      const double offset = layout.offset >= 0 ? p[layout.offset] : 0.0;
+      const double offset = layout.offset ? p[*layout.offset] : 0.0;
       r[i] = ratio + (offset - point.force.value) / point.load;
       if (!j) continue;
-      double* row = j + i * static_cast<std::size_t>(layout.count);
+      double* row = j + i * layout.count;
       std::fill(row, row + layout.count, 0.0);
       row[own] = sign(point) * point.turning * ratio;
-      if (layout.offset >= 0) row[layout.offset] = 1.0 / point.load;
+      if (layout.offset) row[*layout.offset] = 1.0 / point.load;
     }
   };
   const Fit fit = solve(problem);
@@ -103,12 +103,12 @@ CapstanFit fit_capstan(const std::vector<SlidingPoint>& points, double turning_s
   double least_turning = points.front().turning;
   for (const SlidingPoint& point : points) least_turning = std::min(least_turning, point.turning);
   const double angle_error = turning_sigma / least_turning;  // that of the others is smaller
-  const auto take = [&](int index) {
-    return with_angle_error(fit.estimate(static_cast<std::size_t>(index)), angle_error);
+  const auto take = [&](std::size_t index) {
+    return with_angle_error(fit.estimate(index), angle_error);
   };
-  if (layout.pulling >= 0) result.pulling = take(layout.pulling);
-  if (layout.relaxing >= 0) result.relaxing = take(layout.relaxing);
-  if (layout.offset >= 0) result.offset = fit.estimate(static_cast<std::size_t>(layout.offset));
+  if (layout.pulling) result.pulling = take(*layout.pulling);
+  if (layout.relaxing) result.relaxing = take(*layout.relaxing);
+  if (layout.offset) result.offset = fit.estimate(*layout.offset);
   if (result.pulling && result.relaxing) {
     const double variance = 0.25 * fit.covariance.topLeftCorner<2, 2>().sum();
     result.both =

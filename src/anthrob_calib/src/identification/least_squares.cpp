@@ -65,18 +65,19 @@ void minimise(const LeastSquares& problem, std::vector<double>& scaled) {
   }
 }
 
-/// Index of the first parameter at one of its bounds, or -1.
-int first_at_bound(const LeastSquares& problem, const std::vector<double>& scaled) {
+/// Index of the first parameter at one of its bounds, if any is.
+std::optional<std::size_t> first_at_bound(const LeastSquares& problem,
+                                          const std::vector<double>& scaled) {
   constexpr double kNear = 1e-9;  // of the bound
   for (std::size_t i = 0; i < scaled.size(); ++i) {
     const LeastSquares::Parameter& p = problem.parameters[i];
     for (const double bound : {p.lower / p.scale, p.upper / p.scale}) {
       if (std::isfinite(bound) && std::abs(scaled[i] - bound) <= kNear * std::abs(bound)) {
-        return static_cast<int>(i);
+        return i;
       }
     }
   }
-  return -1;
+  return std::nullopt;
 }
 
 /// Sum of squares of the blocks' gradients, each as if the fit had not seen that block (the

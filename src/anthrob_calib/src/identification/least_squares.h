@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,9 @@ struct Fit {
   /// (the sandwich estimator of robust statistics, jackknifed), so that it holds for correlated
   /// residuals of unequal size, too.
   Eigen::MatrixXd covariance;
-  int freedom = 0;         ///< blocks (or residuals, without) minus parameters
-  double deviation = 0.0;  ///< root mean square of the residuals
-  int at_bound = -1;       ///< index of the first parameter that ends at a bound; -1: none does
+  int freedom = 0;                      ///< blocks (or residuals, without) minus parameters
+  double deviation = 0.0;               ///< root mean square of the residuals
+  std::optional<std::size_t> at_bound;  ///< index of the first parameter that ends at a bound
 
   /// With its 95 % interval.
   Estimate estimate(std::size_t i) const;

@@ -112,7 +112,7 @@ SeriesResistanceFit fit_series_resistance(const std::vector<LoadRecording>& reco
   result.resistance = widened(fit.estimate(0), gain_sigma * fit.values[0]);
   result.offset = fit.estimate(1);
   if (fit_gain) result.gain = fit.estimate(2);
-  if (fit.at_bound >= 0 || !(fit.values[0] > 0.0)) {
+  if (fit.at_bound || !(fit.values[0] > 0.0)) {
     throw BadInput(recordings.front().name + ": oscilloscope/current: R_ECU would be " +
                    significant(fit.values[0], 3) +
                    " ohm: expected a positive number within the bounds of the fit; check the signs "

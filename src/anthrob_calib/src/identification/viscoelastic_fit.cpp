@@ -110,8 +110,11 @@ void sort_arms(Fit& fit, std::size_t arms) {
   std::swap(order[1], order[3]);
   std::swap(order[2], order[4]);
   const Fit old = fit;
-  const auto bound = std::find(order.begin(), order.end(), old.at_bound);
-  fit.at_bound = bound == order.end() ? -1 : static_cast<int>(bound - order.begin());
+  if (old.at_bound) {
+    const auto bound =
+        std::find(order.begin(), order.end(), static_cast<Eigen::Index>(*old.at_bound));
+    fit.at_bound = static_cast<std::size_t>(bound - order.begin());
+  }
   for (std::size_t i = 0; i < order.size(); ++i) {
     fit.values[i] = old.values[static_cast<std::size_t>(order[i])];
     for (std::size_t k = 0; k < order.size(); ++k) {
@@ -198,11 +201,10 @@ ViscoelasticFit fit_viscoelastic(const RingRecording& recording, std::size_t arm
     }
     for (const auto& list : over_levels) result.over_levels.push_back(spread(list));
     const Fit fit = fit_tests(recording, used, arms, true);
-    if (fit.at_bound >= 0) {
+    if (fit.at_bound) {
       auto names = parameter_names(arms);
       names.push_back("the zero of the expansion");
-      throw std::runtime_error(names[static_cast<std::size_t>(fit.at_bound)] +
-                               " ends at the bound of the fit");
+      throw std::runtime_error(names[*fit.at_bound] + " ends at the bound of the fit");
     }
     result.parameters = estimates_of(fit, recording, count);
     result.zero = fit.estimate(count);

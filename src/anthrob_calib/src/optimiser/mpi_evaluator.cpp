@@ -55,18 +55,19 @@ MpiSession::~MpiSession() {
   if (started_) MPI_Finalize();
 }
 
-std::string MpiSession::first_complaint(const std::string& own) const {
+std::optional<std::string> MpiSession::first_complaint(
+    const std::optional<std::string>& own) const {
   if (size_ == 1) return own;
   constexpr std::size_t kLongest = 1024;
   std::vector<char> mine(kLongest, '\0'), all(kLongest * static_cast<std::size_t>(size_));
-  own.copy(mine.data(), kLongest - 1);
+  if (own) own->copy(mine.data(), kLongest - 1);
   MPI_Allgather(mine.data(), kLongest, MPI_CHAR, all.data(), kLongest, MPI_CHAR, MPI_COMM_WORLD);
   for (int r = 0; r < size_; ++r) {
     const std::string complaint(all.data() + kLongest * static_cast<std::size_t>(r));
-    if (complaint.empty()) continue;
+    if (complaint.empty()) continue;  // that process has none
     return r == 0 ? complaint : complaint + " (process " + std::to_string(r) + ")";
   }
-  return "";
+  return std::nullopt;
 }
 
 bool MpiSession::all_have(const std::string& text) const {

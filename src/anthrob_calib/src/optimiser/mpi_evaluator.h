@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "optimiser/evaluator.h"
@@ -20,9 +21,9 @@ class MpiSession {
   int size() const { return size_; }
 
   /// All processes must call it.
-  /// @param own error message of this process, or an empty text
-  /// @return in all processes the first error message by rank, or an empty text
-  std::string first_complaint(const std::string& own) const;
+  /// @param own error message of this process, not empty, if it has one
+  /// @return in all processes the first error message by rank, if there is one
+  std::optional<std::string> first_complaint(const std::optional<std::string>& own) const;
   /// All processes must call it. @return whether all have the same text
   bool all_have(const std::string& text) const;
 

@@ -105,9 +105,9 @@ TEST(CalibrationReport, SaysThatTheSearchLookedTooEarly) {
   outcome.fitness = 4e-6;
   outcome.simulation.motion = 2.0;
   outcome.moves_on = 1e-7;
-  EXPECT_EQ(too_early(outcome), "");
+  EXPECT_EQ(too_early(outcome), std::nullopt);
   outcome.moves_on = 2e-6;
-  EXPECT_NE(too_early(outcome).find("after 2 s of motion"), std::string::npos);
+  EXPECT_NE(too_early(outcome).value().find("after 2 s of motion"), std::string::npos);
 }
 
 }  // namespace
