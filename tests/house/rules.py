@@ -228,7 +228,8 @@ def scattered_numbers(top, package='anthrob_discovery'):
 
 
 # The packages that rule 6 is asked of: the others still have such answers.
-ANSWERING = ('anthrob_control', 'anthrob_core', 'anthrob_recording', 'anthrob_ros')
+ANSWERING = ('anthrob_calib', 'anthrob_control', 'anthrob_core', 'anthrob_mocap', 'anthrob_recorder', 'anthrob_recording',
+             'anthrob_ros')
 NOTHING = re.compile(r'\breturn (?:""|-1|-1\.0);')
 # Where such an answer stays: the file, how its line goes, and why.
 ALLOWED_ANSWERS = (
