@@ -67,8 +67,8 @@ command -v clang-tidy >/dev/null || skip 'no clang-tidy: apt-get install clang-t
 base="$(find_base 2>/dev/null)" || skip 'no history to compare with'
 
 mkdir -p "$out"
-# Of gcc's precompiled header clang can read nothing; it stands for GoogleTest's.
-sed -E 's#-include [^ ]*/cmake_pch\.hxx #-include gtest/gtest.h #' build/compile_commands.json >"$out/compile_commands.json"
+# Of gcc's precompiled headers clang can read nothing; every file names what it needs.
+sed -E "s#-include [^ ]*/cmake_pch\.hxx ##" build/compile_commands.json >"$out/compile_commands.json"
 files=()
 while read -r file; do
   compiled="$(as_compiled "$file")"

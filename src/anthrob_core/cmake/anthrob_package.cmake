@@ -34,6 +34,15 @@ function(anthrob_sources variable folder)
   set(${variable} ${sources} PARENT_SCOPE)
 endfunction()
 
+# anthrob_precompile(TARGET [HEADER...]): what nearly every source reads before its own lines, and the headers that are named.
+function(anthrob_precompile target)
+  set(headers <algorithm> <cmath> <functional> <map> <memory> <optional> <string> <vector> ${ARGN})
+  if(EIGEN3_INCLUDE_DIRS)
+    list(APPEND headers <Eigen/Dense>)
+  endif()
+  target_precompile_headers(${target} PRIVATE ${headers})
+endfunction()
+
 # anthrob_install(TARGET...): programs, libraries, and the package's doors.
 function(anthrob_install)
   install(TARGETS ${ARGN}
@@ -61,7 +70,7 @@ function(anthrob_tests)
   target_compile_definitions(${program} PRIVATE ANTHROB_CONFIG_DIR="${ANTHROB_CONFIG_DIR}" ${arg_DEFINITIONS})
   # They are compiled more often than they run.
   target_compile_options(${program} PRIVATE -O1)
-  target_precompile_headers(${program} PRIVATE <gtest/gtest.h>)
+  anthrob_precompile(${program} <gtest/gtest.h>)
   target_link_libraries(${program} ${arg_LIBRARIES} gtest)
   foreach(tool ${arg_TOOLS})
     string(TOUPPER ${tool} name)
