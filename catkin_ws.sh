@@ -18,7 +18,7 @@ needed_packages=(
   ros-robot-state-publisher rviz
   libimage-transport-dev
   build-essential cmake
-  libbullet-dev libeigen3-dev liburdfdom-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
+  libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libpagmo-dev libopenmpi-dev openmpi-bin
   libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libusb-1.0-0-dev

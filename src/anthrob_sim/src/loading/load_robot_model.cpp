@@ -16,6 +16,7 @@
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 #include "anthrob_sim/spring/series_elastic_element.h"
 #include "path/surface_types.h"
+#include "skeleton/urdf.h"
 
 namespace anthrob {
 
@@ -45,7 +46,7 @@ struct RobotFiles {
   std::string name;  ///< of the folder that holds the model file
   std::string urdf;
   bool collisions = false;
-  SkeletonModel skeleton;  ///< as in the URDF
+  UrdfRobot robot;
   MeshFiles meshes;
 };
 
@@ -66,7 +67,8 @@ class Builder {
     for (const char* key : {"collisions", "robot"}) {
       if (config_.has(key)) config_.at(key).ignore();  // read with the files
     }
-    skeleton_ = std::make_shared<SkeletonModel>(files_.skeleton);
+    model_->remarks = files_.robot.remarks;
+    skeleton_ = std::make_shared<SkeletonModel>(files_.robot.skeleton);
     read_joints();
     model_->skeleton = skeleton_;
 
@@ -463,7 +465,7 @@ RobotDescription::RobotDescription(const ConfigNode& config) : config_(config.cl
   const auto urdf = std::filesystem::path(robot.file()).parent_path() / robot.as_text();
   if (!std::filesystem::exists(urdf)) robot.fail_expected("a URDF file beside this one");
   files->urdf = urdf.string();
-  files->skeleton = load_urdf(files->urdf, files->collisions);
+  files->robot = read_urdf(files->urdf, files->collisions);
   read_meshes(config_, files->meshes);
   files_ = std::move(files);
 }

@@ -1,15 +1,15 @@
+#include "skeleton/urdf.h"
+
 #include <console_bridge/console.h>
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <sstream>
 
 #include "anthrob_core/errors.h"
-#include "anthrob_sim/skeleton/skeleton_model.h"
+#include "skeleton/urdf_spelling.h"
 
 namespace anthrob {
 
@@ -59,35 +59,37 @@ class Builder {
  public:
   Builder(const std::string& file, bool collisions) : file_(file), collisions_(collisions) {}
 
-  SkeletonModel build() {
-    std::ifstream in(file_);
-    if (!in) throw BadInput(file_ + ": cannot be read; expected a URDF file");
-    std::stringstream text;
-    text << in.rdbuf();
-    urdf::ModelInterfaceSharedPtr robot;
-    {
-      static std::mutex one_at_a_time;  // urdfdom reports through a global handler
-      const std::lock_guard<std::mutex> lock(one_at_a_time);
-      MessageCollector messages;
-      robot = urdf::parseURDF(text.str());
-      // A number that cannot be read leaves a robot without what it belongs to.
-      if (!robot || !messages.text().empty()) {
-        throw BadInput(file_ + ": not a valid URDF: " +
-                       (messages.text().empty() ? "no XML" : messages.text()));
-      }
-    }
+  UrdfRobot build() {
+    const UrdfFile xml(file_);
+    refuse_what_is_not_read(xml);
+    const urdf::ModelInterfaceSharedPtr robot = parsed(xml.text());
+    UrdfRobot result;
     model_.bodies.push_back({});
     model_.bodies[0].name = robot->getRoot()->name;
     add_link(*robot->getRoot(), 0, Pose());
     for (auto& body : model_.bodies) {
       if (&body != &model_.bodies[0]) finish_body(body);
     }
-    return std::move(model_);
+    result.skeleton = std::move(model_);
+    return result;
   }
 
  private:
   [[noreturn]] void fail(const std::string& message) const {
     throw BadInput(file_ + ": " + message);
+  }
+
+  /// By urdfdom, after what it would misunderstand was refused.
+  urdf::ModelInterfaceSharedPtr parsed(const std::string& text) const {
+    static std::mutex one_at_a_time;  // urdfdom reports through a global handler
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    MessageCollector messages;
+    urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
+    // A number that cannot be read leaves a robot without what it belongs to.
+    if (!robot || !messages.text().empty()) {
+      fail("not a valid URDF: " + (messages.text().empty() ? "no XML" : messages.text()));
+    }
+    return robot;
   }
 
   void add_collisions(const urdf::Link& link, int body, const Pose& X_LF) {
@@ -260,8 +262,12 @@ class Builder {
 
 }  // namespace
 
-SkeletonModel load_urdf(const std::string& file, bool collisions) {
+UrdfRobot read_urdf(const std::string& file, bool collisions) {
   return Builder(file, collisions).build();
+}
+
+SkeletonModel load_urdf(const std::string& file, bool collisions) {
+  return read_urdf(file, collisions).skeleton;
 }
 
 }  // namespace anthrob
