@@ -10,6 +10,7 @@
 
 #include "anthrob_core/errors.h"
 #include "skeleton/urdf_spelling.h"
+#include "skeleton/urdf_tree.h"
 
 namespace anthrob {
 
@@ -62,6 +63,7 @@ class Builder {
   UrdfRobot build() {
     const UrdfFile xml(file_);
     refuse_what_is_not_read(xml);
+    UrdfTree(xml).require_tree();
     const urdf::ModelInterfaceSharedPtr robot = parsed(xml.text());
     UrdfRobot result;
     model_.bodies.push_back({});
