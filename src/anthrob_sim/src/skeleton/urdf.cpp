@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "anthrob_core/errors.h"
+#include "skeleton/urdf_sizes.h"
 #include "skeleton/urdf_spelling.h"
 #include "skeleton/urdf_tree.h"
 
@@ -66,6 +67,7 @@ class Builder {
     UrdfTree(xml).require_tree();
     const urdf::ModelInterfaceSharedPtr robot = parsed(xml.text());
     UrdfRobot result;
+    result.remarks = odd_sizes(xml);
     model_.bodies.push_back({});
     model_.bodies[0].name = robot->getRoot()->name;
     add_link(*robot->getRoot(), 0, Pose());
@@ -119,10 +121,6 @@ class Builder {
 
   void add_inertial(const urdf::Link& link, int body, const Pose& X_LF) {
     const auto& inertial = *link.inertial;
-    if (!(inertial.mass >= 0.0) || !std::isfinite(inertial.mass)) {
-      fail("link " + link.name + ": mass: " + std::to_string(inertial.mass) +
-           ": expected a number >= 0 [kg]");
-    }
     Mat3 I;
     I << inertial.ixx, inertial.ixy, inertial.ixz,  //
         inertial.ixy, inertial.iyy, inertial.iyz,   //
