@@ -1,5 +1,6 @@
 #include "path/mesh_file.h"
 
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -135,6 +136,8 @@ TriangleMesh read_mesh(const std::string& file) {
   if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("not a file");
   if (std::filesystem::file_size(file) == 0) throw std::runtime_error("the file is empty");
   Assimp::Importer importer;
+  // As RViz draws it: vertices as the file has them, whichever axis it calls the upper one.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene =
       importer.ReadFile(file, aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr) {

@@ -116,22 +116,38 @@ TEST_F(MeshFile, SoundOnesOfThreeFormats) {
   const auto from_obj = load(write("box.obj", obj));
   EXPECT_EQ(from_obj->hull().facet_count(), 12);
   EXPECT_TRUE(from_obj->remarks().empty());
-  // COLLADA brings a unit and a transform of its own.
-  const auto from_dae = load(write("tetra.dae", R"(<?xml version="1.0"?>
+}
+
+/// A tetrahedron whose edges along x, y and z are 0.1, 0.2 and 0.3 units, moved by 1 along x.
+std::string collada(const std::string& up_axis, const std::string& meter) {
+  return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+<asset><unit name="u" meter=")" +
+         meter + R"("/><up_axis>)" + up_axis + R"(</up_axis></asset>
 <library_geometries><geometry id="g"><mesh><source id="s"><float_array id="a" count="12">
-0 0 0 0.1 0 0 0 0.1 0 0 0 0.1</float_array><technique_common><accessor source="#a" count="4" stride="3">
+0 0 0 0.1 0 0 0 0.2 0 0 0 0.3</float_array><technique_common><accessor source="#a" count="4" stride="3">
 <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>
 </technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
 <triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles>
 </mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="w"><node>
 <translate>1 0 0</translate><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#w"/></scene></COLLADA>)"));
-  EXPECT_EQ(from_dae->hull().facet_count(), 4);
-  double least = 10.0;
-  for (const Vec3& p : from_dae->hull().vertices()) least = std::min(least, p.x());
-  EXPECT_NEAR(least, 1.0, 1e-6);
+<scene><instance_visual_scene url="#w"/></scene></COLLADA>)";
+}
+
+// A transform of the file's own counts, and its unit; what it calls up turns nothing, as in RViz.
+TEST_F(MeshFile, ColladaAsRvizDrawsIt) {
+  for (const std::string up_axis : {"X_UP", "Y_UP", "Z_UP"}) {
+    for (const double meter : {1.0, 0.1}) {
+      SCOPED_TRACE(up_axis + " " + std::to_string(meter));
+      const auto surface =
+          load(write(up_axis + std::to_string(meter) + ".dae", collada(up_axis, std::to_string(meter))));
+      EXPECT_EQ(surface->hull().facet_count(), 4);
+      Vec3 lo = surface->hull().vertices()[0], hi = lo;
+      for (const Vec3& p : surface->hull().vertices()) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+      EXPECT_LT((lo - meter * Vec3(1.0, 0.0, 0.0)).norm(), 1e-6);
+      EXPECT_LT((hi - meter * Vec3(1.1, 0.2, 0.3)).norm(), 1e-6);
+    }
+  }
 }
 
 TEST_F(MeshFile, OffsetScaleAndPart) {
