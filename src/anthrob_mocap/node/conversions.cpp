@@ -39,9 +39,6 @@ CameraModel camera_model(const sensor_msgs::CameraInfo& info, Side side) {
   const std::string who = std::string(name(side)) + " camera_info: ";
   if (info.K[0] == 0.0) throw BadInput(who + "the camera is not calibrated");
   const Mat3 K = Eigen::Map<const RowMajor3>(info.K.data());
-  if (!is_camera_matrix(K)) {
-    throw BadInput(who + "K: expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0");
-  }
   if (info.distortion_model != sensor_msgs::distortion_models::PLUMB_BOB &&
       info.distortion_model != sensor_msgs::distortion_models::RATIONAL_POLYNOMIAL) {
     throw BadInput(who + "distortion_model " + info.distortion_model +
@@ -55,6 +52,9 @@ CameraModel camera_model(const sensor_msgs::CameraInfo& info, Side side) {
   if (info.width == 0 || info.height == 0) {
     throw BadInput(who + "width, height: expected the size of the images");
   }
+  const auto fault =
+      camera_matrix_fault(K, static_cast<int>(info.width), static_cast<int>(info.height));
+  if (fault) throw BadInput(who + "K: " + *fault);
   CameraModel camera;
   camera.name = name(side);
   camera.width = static_cast<int>(info.width), camera.height = static_cast<int>(info.height);

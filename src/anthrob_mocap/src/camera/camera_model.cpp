@@ -36,9 +36,20 @@ void read_distortion(const ConfigNode& file, CameraModel& camera) {
 
 // All comparisons are such that a NaN is refused.
 
-bool is_camera_matrix(const Mat3& K) {
-  return K(0, 0) > 0.0 && K(1, 1) > 0.0 && K(0, 1) == 0.0 && K(1, 0) == 0.0 && K(2, 2) == 1.0 &&
-         K.allFinite();
+std::optional<std::string> camera_matrix_fault(const Mat3& K, int width, int height) {
+  const auto is_one = [](const Mat3& M) {
+    return M(0, 0) > 0.0 && M(1, 1) > 0.0 && M(0, 1) == 0.0 && M(1, 0) == 0.0 &&
+           M.row(2) == Eigen::RowVector3d(0.0, 0.0, 1.0) && M.allFinite();
+  };
+  if (!is_one(K)) {
+    return std::string("expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0") +
+           (is_one(K.transpose()) ? "; this one is written column by column" : "");
+  }
+  if (!(K(0, 2) > 0.0 && K(0, 2) < width && K(1, 2) > 0.0 && K(1, 2) < height)) {
+    return "expected a principal point (cx, cy) in the picture of " + std::to_string(width) + " x " +
+           std::to_string(height) + " pixels";
+  }
+  return std::nullopt;
 }
 
 bool is_rotation(const Mat3& R) {
@@ -47,8 +58,8 @@ bool is_rotation(const Mat3& R) {
 }
 
 bool is_rectified(const CameraModel::Projection& P) {
-  return P(0, 0) > 0.0 && std::abs(P(0, 0) - P(1, 1)) <= 1e-6 * P(0, 0) && P(2, 2) == 1.0 &&
-         P.allFinite();
+  return P(0, 0) > 0.0 && std::abs(P(0, 0) - P(1, 1)) <= 1e-6 * P(0, 0) && P(0, 1) == 0.0 &&
+         P(1, 0) == 0.0 && P.row(2) == Eigen::RowVector4d(0.0, 0.0, 1.0, 0.0) && P.allFinite();
 }
 
 bool is_distortion_count(std::size_t coefficients) {
@@ -63,8 +74,9 @@ CameraModel CameraModel::load(const std::string& path) {
   camera.name = file.text_or("camera_name", "camera");
   const std::vector<double> K = matrix(file, "camera_matrix", 3, 3);
   camera.fx = K[0], camera.cx = K[2], camera.fy = K[4], camera.cy = K[5];
-  if (!is_camera_matrix(Eigen::Map<const RowMajor3>(K.data()))) {
-    file.at("camera_matrix").fail("expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0");
+  const Mat3 matrix_of_file = Eigen::Map<const RowMajor3>(K.data());
+  if (const auto fault = camera_matrix_fault(matrix_of_file, camera.width, camera.height)) {
+    file.at("camera_matrix").fail(*fault);
   }
   read_distortion(file, camera);
   const std::vector<double> R = matrix(file, "rectification_matrix", 3, 3);

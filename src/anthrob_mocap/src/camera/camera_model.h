@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "core/types.h"
@@ -40,10 +41,12 @@ struct CameraModel {
 };
 
 /// What any calibration must be, from a file or a topic.
-bool is_camera_matrix(const Mat3& K);  ///< [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0
-bool is_rotation(const Mat3& R);       ///< a mirrored one is none
-bool is_rectified(const CameraModel::Projection& P);  ///< [f, 0, cx, Tx, 0, f, cy, ...], f > 0
-bool is_distortion_count(std::size_t coefficients);   ///< 4, 5 or 8
+/// What is wrong with [fx, 0, cx, 0, fy, cy, 0, 0, 1], fx, fy > 0, (cx, cy) in the picture [pixel].
+std::optional<std::string> camera_matrix_fault(const Mat3& K, int width, int height);
+bool is_rotation(const Mat3& R);  ///< a mirrored one is none
+/// [f, 0, cx, Tx, 0, f, cy, Ty, 0, 0, 1, 0], f > 0
+bool is_rectified(const CameraModel::Projection& P);
+bool is_distortion_count(std::size_t coefficients);  ///< 4, 5 or 8
 
 }  // namespace mocap
 }  // namespace anthrob

@@ -154,6 +154,29 @@ TEST_F(RigFiles, WithBrokenValuesAreRefused) {
          "camera_matrix.data: a list of 10: expected 9 numbers");
 }
 
+// A matrix of numbers in another order is a camera, too, but not this one.
+TEST_F(RigFiles, WithMatricesInAnotherOrderAreRefused) {
+  const auto with_matrix = [&](const std::string& numbers) {
+    const auto key = left_.find("camera_matrix"), begin = left_.find('[', key);
+    return left_.substr(0, begin) + numbers + left_.substr(left_.find(']', key) + 1);
+  };
+  const std::string key = "left.yaml:4: camera_matrix: ";
+  refuse(with_matrix("[1000, 0, 0, 0, 1000, 0, 324, 244, 1]"), right_,
+         key + "expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0; this one is written "
+               "column by column");
+  refuse(with_matrix("[1000, 0, 324, 0, 1000, 244, 0, 1, 1]"), right_, key + "expected [fx");
+  refuse(with_matrix("[1000, 324, 0, 0, 1000, 244, 0, 0, 1]"), right_, key + "expected [fx");
+  // Its rows and columns interchanged, of a picture of 648 x 488: cy where cx should be.
+  refuse(with_matrix("[1000, 0, 244, 0, 1000, 524, 0, 0, 1]"), right_,
+         key + "expected a principal point (cx, cy) in the picture of 648 x 488 pixels");
+  refuse(with_matrix("[1000, 0, -324, 0, 1000, 244, 0, 0, 1]"), right_, "principal point");
+  const auto key_of_p = right_.find("projection_matrix"), begin = right_.find('[', key_of_p);
+  refuse(left_,
+         right_.substr(0, begin) + "[1000, 0, 0, 0, 1000, 0, 324, 244, 1, -300, 0, 0]" +
+             right_.substr(right_.find(']', key_of_p) + 1),
+         "right.yaml:17: projection_matrix: expected a rectified camera");
+}
+
 TEST_F(RigFiles, MayHoldMoreKeysButNoEndlessOnes) {
   write(left_ + "extra: {x: 1}\n", right_ + "empty:\n");
   EXPECT_NO_THROW(StereoRig::load(folder_.path()));
