@@ -50,6 +50,26 @@ std::string join(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
+bool is_number_of_digits(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// YAML that means something else than it seems to, in an entry that comes after those of `map`.
+void refuse_misleading(const std::string& key, const YAML::Node& value, const Data& map,
+                       int line) {
+  if (key == "<<") {
+    fail_at(*map.file, line, "<<: merge keys are not read; expected extends, or the keys again");
+  }
+  if (!value.IsNull() || !is_number_of_digits(key) || map.entries.empty()) return;
+  const auto& [name, before] = map.entries.back();
+  if (before->kind != Kind::kScalar) return;
+  const bool is_signed = !before->scalar.empty() && (before->scalar[0] == '-' || before->scalar[0] == '+');
+  if (!is_number_of_digits(before->scalar.substr(is_signed ? 1 : 0))) return;
+  fail_at(*map.file, line,
+          name + ": " + before->scalar + "," + key + ": a decimal comma? expected " +
+              before->scalar + "." + key);
+}
+
 /// No sensible file is nested deeper; an alias inside its own anchor would never end.
 constexpr int kDeepest = 100;
 
@@ -86,6 +106,7 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
         if (data->find(key)) {
           fail_at(*file, entry.first.Mark().line + 1, key + ": appears twice in the same map");
         }
+        refuse_misleading(key, entry.second, *data, entry.first.Mark().line + 1);
         data->entries.emplace_back(key, convert(entry.second, file, depth + 1));
         // An empty value has no mark of its own.
         data->entries.back().second->line = entry.first.Mark().line + 1;

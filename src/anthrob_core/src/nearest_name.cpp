@@ -34,6 +34,20 @@ std::size_t errors_between(const std::string& a, const std::string& b) {
   return cost.back();
 }
 
+/// The only known name that begins so.
+std::optional<std::string> completed(const std::string& beginning,
+                                     const std::vector<std::string>& known) {
+  constexpr std::size_t kFewest = 3;
+  std::optional<std::string> only;
+  if (beginning.size() < kFewest) return only;
+  for (const std::string& candidate : known) {
+    if (lower_case(candidate).rfind(lower_case(beginning), 0) != 0) continue;
+    if (only) return std::nullopt;
+    only = candidate;
+  }
+  return only;
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_name(const std::string& name,
@@ -45,11 +59,20 @@ std::optional<std::string> nearest_name(const std::string& name,
     if (candidate.size() > kLongest) continue;
     const std::size_t errors = errors_between(lower_case(name), lower_case(candidate));
     const std::size_t allowed = std::max<std::size_t>(1, (candidate.size() + 1) / 3);
+    if (errors >= candidate.size()) continue;  // no letter is right
     if (errors > allowed || (nearest && errors >= least)) continue;
     nearest = candidate;
     least = errors;
   }
-  return nearest;
+  return nearest ? nearest : completed(name, known);
+}
+
+std::string expected_names(const std::string& name, const std::vector<std::string>& known) {
+  if (const auto nearest = nearest_name(name, known)) return "; did you mean '" + *nearest + "'?";
+  if (known.empty()) return "; expected none";
+  std::string all;
+  for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+  return "; expected one of " + all;
 }
 
 }  // namespace anthrob

@@ -42,6 +42,28 @@ TEST(ConfigNode, RefusesKeysThatAreNoWords) {
   EXPECT_NE(refusal("a: 1\n'': 2\n").find("a key that is no word"), std::string::npos);
 }
 
+TEST(ConfigNode, RefusesWhatYamlReadsOtherwiseThanItSeems) {
+  const auto refusal = [](const std::string& text) {
+    try {
+      ConfigNode::parse(text, "model.yaml");
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refusal("usual: &u {static: 1}\nelbow:\n  <<: *u\n"),
+            "model.yaml:3: <<: merge keys are not read; expected extends, or the keys again");
+  EXPECT_EQ(refusal("coil: {type: linear, stiffness: 1500,0}"),
+            "model.yaml:1: stiffness: 1500,0: a decimal comma? expected 1500.0");
+  EXPECT_EQ(refusal("time: {column: t, scale: 0,001}"),
+            "model.yaml:1: scale: 0,001: a decimal comma? expected 0.001");
+  EXPECT_EQ(refusal("y: {offset: -0,5, scale: 2}"),
+            "model.yaml:1: offset: -0,5: a decimal comma? expected -0.5");
+  // Maps that are meant so.
+  EXPECT_EQ(refusal("{1: 2, 3: 4}"), "accepted");
+  EXPECT_EQ(refusal("{a: word, 7: }"), "accepted");
+}
+
 TEST(ConfigNode, RefusesAnAliasInsideItsOwnAnchor) {
   for (const char* text : {"a: &x {b: *x}\n", "a: &x [*x, *x]\n", "&x {a: *x}\n"}) {
     EXPECT_NE(refusal(text).find("nested more than 100 deep"), std::string::npos) << text;

@@ -21,7 +21,23 @@ TEST(NearestName, IsNoneForAnotherWord) {
   EXPECT_EQ(nearest_name("pelvis", kLinks), std::nullopt);
   EXPECT_EQ(nearest_name("quat_xyzw", {"xyz", "rpy"}), std::nullopt);
   EXPECT_EQ(nearest_name("hand", {}), std::nullopt);
+  EXPECT_EQ(nearest_name("x", {"a", "b"}), std::nullopt);
+  EXPECT_EQ(nearest_name("", {"a"}), std::nullopt);
   EXPECT_EQ(nearest_name(std::string(100000, 'h'), kLinks), std::nullopt);
+}
+
+TEST(NearestName, FindsWhatBeginsSo) {
+  const std::vector<std::string> muscles = {"biceps_brachii", "triceps_brachii", "triceps_longus"};
+  EXPECT_EQ(nearest_name("biceps", muscles), "biceps_brachii");
+  EXPECT_EQ(nearest_name("Bic", muscles), "biceps_brachii");
+  EXPECT_EQ(nearest_name("triceps", muscles), std::nullopt);  // either
+  EXPECT_EQ(nearest_name("bi", muscles), std::nullopt);
+}
+
+TEST(NearestName, EndsAMessage) {
+  EXPECT_EQ(expected_names("forarm", kLinks), "; did you mean 'forearm'?");
+  EXPECT_EQ(expected_names("pelvis", {"base", "hand"}), "; expected one of base, hand");
+  EXPECT_EQ(expected_names("pelvis", {}), "; expected none");
 }
 
 TEST(NearestName, PrefersTheNearest) {

@@ -198,8 +198,6 @@ void set_joint(const RobotModel& model, const std::string& option, Placement& pl
 
 void set_position(const RobotModel& model, const std::string& option, Placement& placement) {
   const tool::Assignment a = tool::parse_assignment("--position", option);
-  if (model.find_muscle(a.name) < 0)
-    throw BadInput("--position " + option + ": " + model.file + " has no muscle '" + a.name + "'");
   if (a.values.size() != 1) throw BadInput("--position " + option + ": expected one number [rad]");
   placement.set_muscle(a.name, a.values[0]);
 }
@@ -238,11 +236,7 @@ std::vector<Row> report(const MuscleSweep& sweep, const std::vector<std::string>
 }
 
 void check_muscles(const RobotModel& model, const std::vector<std::string>& only) {
-  for (const std::string& name : only) {
-    if (model.find_muscle(name) < 0) {
-      throw BadInput("--muscle " + name + ": " + model.file + " has no muscle '" + name + "'");
-    }
-  }
+  for (const std::string& name : only) model.muscle_index(name);
 }
 
 }  // namespace

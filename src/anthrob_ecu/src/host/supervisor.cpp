@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "anthrob_core/nearest_name.h"
+
 namespace anthrob {
 namespace ecu {
 
@@ -13,6 +15,12 @@ std::string text(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof(buffer), "%g", value);
   return buffer;
+}
+
+std::string others(const std::string& name, const std::vector<MuscleChannel>& muscles) {
+  std::vector<std::string> names;
+  for (const MuscleChannel& muscle : muscles) names.push_back(muscle.name);
+  return expected_names(name, names);
 }
 
 const char* const kModeNames[kModeCount] = {"VOLTAGE", "POSITION", "CURRENT", "FORCE"};
@@ -58,7 +66,7 @@ std::optional<std::string> Supervisor::check(const std::vector<std::string>& nam
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto it = std::find_if(muscles_.begin(), muscles_.end(),
                                  [&](const MuscleChannel& m) { return m.name == names[i]; });
-    if (it == muscles_.end()) return "muscle '" + names[i] + "': no such muscle";
+    if (it == muscles_.end()) return "muscle '" + names[i] + "': no such muscle" + others(names[i], muscles_);
     const std::string who = "muscle '" + names[i] + "': ";
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i)) {

@@ -52,9 +52,9 @@ TEST(Supervisor, RefusesMalformedCommandsWholeAndSaysWhy) {
     const char* reason;
   } cases[] = {
       {{}, {}, {}, "no muscle"},
-      {{"a", "x"}, {0, 0}, {0, 0}, "'x': no such muscle"},
+      {{"a", "x"}, {0, 0}, {0, 0}, "'x': no such muscle; expected one of a, "},
       {{""}, {0}, {0}, "no such muscle"},
-      {{"A"}, {0}, {0}, "no such muscle"},
+      {{"A"}, {0}, {0}, "no such muscle; did you mean 'a'?"},
       {{"a"}, {}, {1}, "1 names, 0 modes"},
       {{"a"}, {0}, {}, "0 references"},
       {{"a"}, {0, 0}, {1}, "2 modes"},

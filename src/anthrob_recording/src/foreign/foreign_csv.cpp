@@ -73,6 +73,7 @@ class ForeignReader {
         row_ = blank;
         fail("an empty row; expected none, because `rate` counts rows");
       }
+      refuse_open_quote(line);
       read_row(cells_of(line, columns_.separator), &dataset);
     }
     if (dataset.tables.front().t.size() < 2) {
@@ -92,6 +93,7 @@ class ForeignReader {
     std::getline(in_, line);
     constexpr const char* kByteOrderMark = "\xef\xbb\xbf";
     if (line.rfind(kByteOrderMark, 0) == 0) line.erase(0, 3);
+    refuse_other_text(line);
     header_ = cells_of(line, columns_.separator);
     if (!columns_.time.empty()) time_ = place_of(columns_.time);
     for (const ForeignColumns::Entry& entry : columns_.entries) {
@@ -100,6 +102,23 @@ class ForeignReader {
     for (const ForeignColumns::Orientation& orientation : columns_.orientations) {
       for (const std::string& from : orientation.from) angle_places_.push_back(place_of(from));
     }
+  }
+
+  /// What other programs write, but no table of lines.
+  void refuse_other_text(const std::string& header) const {
+    if (header.find('\0') != std::string::npos) {
+      fail("not text in UTF-8; expected a table in UTF-8 (saved as UTF-16?)");
+    }
+    const std::size_t cr = header.find('\r');
+    if (cr != std::string::npos && cr + 1 < header.size()) {
+      fail("lines end with CR alone, as on old Macs; expected LF or CR LF");
+    }
+    refuse_open_quote(header);
+  }
+
+  void refuse_open_quote(const std::string& line) const {
+    if (std::count(line.begin(), line.end(), '"') % 2 == 0) return;
+    fail("a quote that has no end in its line; expected every row, and every name, in one line");
   }
 
   std::size_t place_of(const std::string& name) const {

@@ -213,6 +213,24 @@ TEST_F(ForeignCsv, WhatIsWrongWithModesAndAnglesIsSaid) {
   expect("yaw]", "jaw]", "column 'jaw' is not in");
 }
 
+TEST_F(ForeignCsv, TextOfOtherProgramsIsRefusedWithTheReason) {
+  const std::string rows = "t [ms],y [mm],u\n0,1,2\n1,2,3\n";
+  std::string old_mac = rows, utf16 = "\xff\xfe";
+  for (char& c : old_mac) c = c == '\n' ? '\r' : c;
+  for (const char c : rows) utf16 += std::string{c, '\0'};
+  EXPECT_NE(error(kMap, old_mac).find("data.csv:1: lines end with CR alone, as on old Macs"),
+            std::string::npos);
+  EXPECT_NE(error(kMap, utf16).find("data.csv:1: not text in UTF-8"), std::string::npos);
+  EXPECT_NE(error(kMap, "t [ms],\"y\n[mm]\",u\n0,1,2\n1,2,3\n").find(
+                "data.csv:1: a quote that has no end in its line"),
+            std::string::npos);
+  EXPECT_NE(error(kMap, "t [ms],y [mm],u\n0,\"1,2\n1,2,3\n").find(
+                "data.csv:2: a quote that has no end in its line"),
+            std::string::npos);
+  // Those of Windows are read.
+  EXPECT_EQ(error(kMap, "t [ms],y [mm],u\r\n0,1,2\r\n1,2,3\r\n"), "no error");
+}
+
 TEST_F(ForeignCsv, WhatIsWrongIsSaidInOneLine) {
   const std::string head = "t [ms],y [mm],u\n";
   EXPECT_NE(error(kMap, "t [ms],y [mm]\n0,1\n").find("column 'u' is not in"), std::string::npos);

@@ -1,6 +1,7 @@
 #include "anthrob_sim/model/robot_model.h"
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/nearest_name.h"
 #include "anthrob_sim/actuator/actuator.h"
 
 namespace anthrob {
@@ -28,10 +29,9 @@ int RobotModel::find_muscle(const std::string& muscle) const {
 int RobotModel::muscle_index(const std::string& muscle) const {
   const int index = find_muscle(muscle);
   if (index >= 0) return index;
-  std::string names;
-  for (const MuscleModel& known : muscles) names += (names.empty() ? "" : ", ") + known.name;
-  throw BadInput(file + ": has no muscle '" + muscle + "'; expected " +
-                 (names.empty() ? "a robot with muscles" : "one of " + names));
+  std::vector<std::string> names;
+  for (const MuscleModel& known : muscles) names.push_back(known.name);
+  throw BadInput(file + ": has no muscle '" + muscle + "'" + expected_names(muscle, names));
 }
 
 }  // namespace anthrob

@@ -89,8 +89,7 @@ void Placement::set_ball_joint(const std::string& name, const Quat& turn) {
 
 void Placement::set_muscle(const std::string& name, double position) {
   const std::string who = "muscle '" + name + "'";
-  const int index = model_.find_muscle(name);
-  if (index < 0) throw BadInput(who + ": no such muscle");
+  const int index = model_.muscle_index(name);
   if (!std::isfinite(position)) {
     throw BadInput(who + ": " + text(position) + ": expected a finite position");
   }
