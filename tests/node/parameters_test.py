@@ -88,6 +88,22 @@ class Parameters(unittest.TestCase):
         self.assertIn('nowhere.yaml', done.stdout)
         self.assertEqual(done.returncode, 2, done.stdout)
 
+    def test_of_an_earlier_run(self):
+        """A known one that a former start has set stays on the master: told, unless this start sets it itself."""
+        for package, program, key, value in (('anthrob_sim', 'anthrob_simulator', 'command_timeout', 0),
+                                             ('anthrob_sim', 'anthrob_simulator', 'rate', '0,5'),
+                                             ('anthrob_recorder', 'anthrob_recorder', 'steps', 3)):
+            name = '/node_%d' % next(names)
+            rosgraph.Master('test').setParam('%s/%s' % (name, key), value)
+            start = ['rosrun', package, program, '__name:=' + name[1:], '_model:=nowhere.yaml']
+            with self.subTest(key):
+                said = subprocess.run(start, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=40).stdout
+                self.assertIn('parameter ~%s: %s, from the parameter server, not from this command line' % (key, value), said)
+                self.assertIn('rosparam delete %s/%s' % (name, key), said)
+                for own in ('_%s:=%s' % (key, value), '__log:=/dev/null'):
+                    said = subprocess.run(start + [own], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=40).stdout
+                    self.assertNotIn('from the parameter server', said)
+
     def check(self, package, program, good, wrong):
         for name, value in wrong:
             with self.subTest('%s: %s:=%s' % (program, name, value)):

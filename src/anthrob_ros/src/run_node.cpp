@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <sstream>
 
 #include "anthrob_core/errors.h"
 #include "anthrob_ros/parameters.h"
@@ -29,16 +30,45 @@ std::string keys_of(const NodeInfo& info) {
   return keys;
 }
 
-void warn_of_unknown_parameters(const NodeInfo& info, const std::string& own) {
+bool begins(const std::string& text, const std::string& beginning) {
+  return text.rfind(beginning, 0) == 0;
+}
+
+/// A master keeps the parameters of a node that has ended. roslaunch, which gives its nodes a log
+/// file, sets what they need; a command line sets what it names.
+bool is_left_over(const std::string& key, const std::vector<std::string>& arguments) {
+  return std::none_of(arguments.begin(), arguments.end(), [&](const std::string& argument) {
+    return begins(argument, "__log:=") || begins(argument, "_" + key + ":=");
+  });
+}
+
+std::string value_of(const std::string& parameter) {
+  XmlRpc::XmlRpcValue value;
+  ros::param::get(parameter, value);
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void warn_of_odd_parameters(const NodeInfo& info, const std::string& own,
+                            const std::vector<std::string>& arguments) {
   std::vector<std::string> names;
   ros::param::getParamNames(names);
   for (const std::string& name : names) {
     if (name.compare(0, own.size() + 1, own + "/") != 0) continue;
     const std::string key = name.substr(own.size() + 1);
     // Keys with a slash belong to libraries, such as image_transport.
-    if (key.find('/') != std::string::npos || info.has(key)) continue;
-    ROS_WARN_STREAM("parameter ~" << key << ": ignored; this node only knows " << keys_of(info)
-                                  << " (to remove it: rosparam delete " << name << ")");
+    if (key.find('/') != std::string::npos) continue;
+    const std::string remove = " (to remove it: rosparam delete " + name + ")";
+    if (!info.has(key)) {
+      ROS_WARN_STREAM("parameter ~" << key << ": ignored; this node only knows " << keys_of(info)
+                                    << remove);
+    } else if (is_left_over(key, arguments)) {
+      ROS_WARN_STREAM("parameter ~" << key << ": " << value_of(name)
+                                    << ", from the parameter server, not from this command line; "
+                                       "an earlier run may have left it there"
+                                    << remove);
+    }
   }
 }
 
@@ -101,7 +131,7 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
   // These handles outlive those of the body: without any handle nothing is logged.
   ros::NodeHandle nh, settings("~");
   try {
-    warn_of_unknown_parameters(info, settings.getNamespace());
+    warn_of_odd_parameters(info, settings.getNamespace(), arguments);
     if (commands) {
       std::string own;
       take(settings, kBackEndParameter.key, text_of, own);

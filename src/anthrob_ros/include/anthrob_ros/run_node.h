@@ -35,8 +35,8 @@ using NodeBody = std::function<int(ros::NodeHandle& nh, ros::NodeHandle& setting
 
 /// Runs a node, or prints its help. Every error becomes one line of the log and an exit status: 2
 /// for BadInput, for an unknown argument and for the name of a living node, and 1 for anything
-/// else. Warns of parameters on the server that the node does not know; an earlier start may have
-/// left them there.
+/// else. Warns of parameters on the server that the node does not know, or that neither roslaunch
+/// nor the command line has set: an earlier start may have left them there.
 /// @param body gets a handle of the node's namespace and one of its private parameters
 int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body);
 
