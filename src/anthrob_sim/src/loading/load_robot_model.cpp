@@ -16,6 +16,7 @@
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 #include "anthrob_sim/spring/series_elastic_element.h"
 #include "path/surface_types.h"
+#include "path/undecided_side.h"
 #include "skeleton/urdf.h"
 
 namespace anthrob {
@@ -385,6 +386,30 @@ class Builder {
     return list;
   }
 
+  static std::string millimetres(double metres) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.2f mm", 1e3 * metres);
+    return text;
+  }
+
+  /// A tendon may lie on either side of a surface whose middle it goes through.
+  void remark_on_undecided_side(const PathModel& path, std::size_t i, const ConfigNode& entry,
+                                const std::vector<BodyState>& bodies) {
+    const auto& list = path.obstacles();
+    if (!list[i].surface) return;
+    const auto seen = [&](const PathObstacle& point) {
+      return bodies[list[i].body].X_WB.to_local(bodies[point.body].X_WB * point.point_B);
+    };
+    const auto lengths = undecided_side(*list[i].surface, seen(list[i - 1]), seen(list[i + 1]));
+    if (!lengths) return;
+    model_->remarks.push_back(
+        entry.file() + ": " + entry.path() + ": at rest the tendon goes through the middle of this " +
+        list[i].surface->type() + ", and rounding decides on which side it lies (" +
+        millimetres(lengths->first) + " on this side, " + millimetres(lengths->second) +
+        " on another); expected a neighbouring point, or the surface, moved towards the side that "
+        "is meant");
+  }
+
   /// Points inside surfaces are easiest explained while the file is at hand.
   void check_rest_posture() {
     std::vector<BodyState> bodies;
@@ -400,16 +425,16 @@ class Builder {
       const auto entries = nodes[m].second.at("path").items();
       for (std::size_t i = 0; i < path.obstacles().size(); ++i) {
         const ObstacleState& obstacle = posture.obstacles()[i];
-        if (obstacle.penetration <= allowed) continue;
-        char text[32];
-        std::snprintf(text, sizeof(text), "%.2f", 1e3 * obstacle.penetration);
-        const std::string message = std::string("a neighbouring path point lies ") + text +
-                                    " mm inside the surface at rest" +
-                                    with_effects_at(model_->muscles[m].name) +
-                                    "; expected it outside";
         const int number = path.obstacles()[i].entry;
         const ConfigNode list = nodes[m].second.at("path");
         const ConfigNode entry = number >= 0 ? entries[number] : list;
+        remark_on_undecided_side(path, i, entry, bodies);
+        if (obstacle.penetration <= allowed) continue;
+        const std::string message = "a neighbouring path point lies " +
+                                    millimetres(obstacle.penetration) +
+                                    " inside the surface at rest" +
+                                    with_effects_at(model_->muscles[m].name) +
+                                    "; expected it outside";
         const std::string who = number >= 0 ? "" : "surface added by an effect: ";
         if (obstacle.touching) entry.fail(who + message);
         // A tendon that runs clear of it is well defined, and calibrations try such radii.
