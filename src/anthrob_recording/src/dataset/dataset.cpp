@@ -8,6 +8,7 @@
 
 #include "anthrob_core/errors.h"
 #include "anthrob_core/files.h"
+#include "dataset/clocks.h"
 #include "dataset/table_file.h"
 
 namespace anthrob {
@@ -141,6 +142,7 @@ Dataset Dataset::load(const std::string& folder) {
   for (const auto& file : files) dataset.tables.push_back(read_table(file));
   refuse_longer_than_counted(dataset);
   refuse_measured_twice(dataset);
+  check_clocks(dataset);
   return dataset;
 }
 

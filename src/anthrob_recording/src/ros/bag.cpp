@@ -14,8 +14,10 @@
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/errors.h"
 #include "anthrob_core/files.h"
+#include "dataset/clocks.h"
 #include "dataset/topic_tables.h"
 #include "ros/bag_rows.h"
+#include "ros/publishers.h"
 
 namespace anthrob {
 
@@ -53,7 +55,7 @@ class TableBuilder {
   explicit TableBuilder(const std::string& name) { table_.name = name; }
 
   template <class Message>
-  void add(const Message& message, const ros::Time& arrival) {
+  void add(const Message& message, const ros::Time& arrival, const std::string& node) {
     Cells cells;
     if (!are_column_owners(message.name) || !to_cells(message, cells)) {
       ++malformed_;
@@ -63,6 +65,7 @@ class TableBuilder {
     Nanoseconds bag_time = to_nanoseconds(arrival);
     if (bag_time == kFirstBagTime) bag_time = 0;
     const Nanoseconds stamp = to_nanoseconds(message.header.stamp);
+    publishers_.add(message.name, node);
     const std::size_t row = table_.t.size();
     table_.t.push_back(stamp != 0 ? stamp : bag_time);
     table_.stamp.push_back(stamp);
@@ -89,6 +92,11 @@ class TableBuilder {
                                      " messages with names only)");
     }
     if (table_.t.empty()) return;
+    // Commands may have several senders; a measurement has one.
+    if (publishers_.conflict() && table_.name != "commands") {
+      throw BadInput(contents.dataset.folder + ": " + topic + ": " + *publishers_.conflict() +
+                     "; expected one publisher of each measurement");
+    }
     for (Column& column : table_.columns) {
       column.values.resize(table_.t.size(), 0.0);
       column.present.resize(table_.t.size(), 0);
@@ -152,6 +160,7 @@ class TableBuilder {
   std::map<std::string, std::size_t> index_;
   std::string frame_;
   bool frames_differ_ = false;
+  Publishers publishers_;
   int malformed_ = 0;
   int bare_ = 0;  ///< messages with names and no values
 };
@@ -171,7 +180,7 @@ void add_all(rosbag::Bag& bag, const std::vector<std::string>& topics, TableBuil
                      instance.getDataType() + ": expected " +
                      ros::message_traits::DataType<Message>::value());
     }
-    builder.add(*message, instance.getTime());
+    builder.add(*message, instance.getTime(), instance.getCallerId());
   }
 }
 
@@ -255,6 +264,7 @@ BagContents contents_of(const std::string& file) {
     builder.finish(chosen[name].front(), contents);
   }
   if (contents.dataset.tables.empty()) throw BadInput(file + ": its topics hold no messages");
+  check_clocks(contents.dataset);
   return contents;
 }
 

@@ -31,8 +31,8 @@ void refuse_far_positions(const RobotModel& robot, const Dataset& recording, con
   const double low = joint.stop.lower, high = joint.stop.upper;
   const double beyond = kRangesBeyond * (high - low);
   for (std::size_t i = 0; i < column.values.size(); ++i) {
-    if (!column.present[i]) continue;
     const double value = column.values[i];
+    if (!column.present[i] || std::isnan(value)) continue;  // not measured
     if (value >= low - beyond && value <= high + beyond) continue;
     refuse_row(recording, table, i,
                column.name + ": " + short_number(value) +
@@ -49,7 +49,7 @@ void refuse_pushing_tendons(const RobotModel& robot, const Dataset& recording, c
   for (std::size_t i = 0; i < column.values.size(); ++i) {
     if (!column.present[i]) continue;
     ++count;
-    if (column.values[i] >= -kPush) continue;
+    if (!(column.values[i] < -kPush)) continue;
     if (pushes++ == 0) first = i;
   }
   if (2 * pushes <= count) return;

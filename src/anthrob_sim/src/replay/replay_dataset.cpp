@@ -94,6 +94,7 @@ void leave_out_imposed(const Dataset& recording, Dataset& out) {
 
 Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
                ReplayMode mode, const std::function<bool(double)>& progress, std::string* failure) {
+  refuse_implausible_values(*model, recording);
   const Replay input(model, recording, mode);
   std::vector<TableSampler> samplers;
   for (Table& table : output_tables(*model, recording)) {

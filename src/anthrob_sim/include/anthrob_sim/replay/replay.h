@@ -169,6 +169,7 @@ class Replay::Run {
 /// @param progress called with the share done in [0, 1], also while the robot settles; returns
 /// false to stop early (may be empty)
 /// @param failure if not null, gets the message of a NumericalFailure, which is then not thrown
+/// @throws BadInput for what nobody can have measured: see refuse_implausible_values()
 /// @return the simulated recording. If the replay was stopped or failed: the rows up to there (none
 /// if it failed before the first), and `cut_short` in its meta says up to which time
 Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& recording,
