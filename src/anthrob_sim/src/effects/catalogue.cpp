@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <sstream>
 
 #include "anthrob_core/errors.h"
+#include "effects/trusted_libraries.h"
 
 namespace anthrob {
 
@@ -130,6 +132,13 @@ void load_effect_library(const std::string& library, const ConfigNode& origin) {
   if (file.find('/') != std::string::npos) {
     const auto folder = std::filesystem::absolute(origin.file()).parent_path();
     file = (folder / file).lexically_normal().string();
+  }
+  const char* trusted = std::getenv(kTrustedLibraries);
+  if (!is_trusted(library, file, trusted ? trusted : "")) {
+    origin.fail(library +
+                ": this model asks for code of another origin; if you trust it, allow it in the "
+                "environment: " +
+                kTrustedLibraries + "=" + library);
   }
   const std::lock_guard<std::mutex> lock(registry().loading);
   if (registry().libraries.count(file)) return;

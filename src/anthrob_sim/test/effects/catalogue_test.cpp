@@ -285,7 +285,31 @@ TEST(Catalogue, ModelsAreBuiltAndRunInThreadsAtOnce) {
   for (const auto& result : found) EXPECT_EQ(result, expected);
 }
 
+void trust(const std::string& libraries) {
+  setenv("ANTHROB_EFFECT_LIBRARIES", libraries.c_str(), 1);
+}
+
+TEST(Catalogue, AModelOfAStrangerRunsNoCode) {
+  const TemporaryRobot robot("", "extends: " + config("two_muscle_rig/model_I.yaml") +
+                                     "\neffect_libraries: [" + ANTHROB_EXAMPLE_LIBRARY + "]\n");
+  for (const char* trusted : {"", "example", "/nowhere"}) {
+    trust(trusted);
+    try {
+      robot.load();
+      FAIL() << "loaded, trusting '" << trusted << "'";
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what())
+                    .find("effect_libraries.0: " ANTHROB_EXAMPLE_LIBRARY
+                          ": this model asks for code of another origin; if you trust it, allow it "
+                          "in the environment: ANTHROB_EFFECT_LIBRARIES=" ANTHROB_EXAMPLE_LIBRARY),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Catalogue, AnEffectOfOnesOwnComesFromALibrary) {
+  trust(ANTHROB_EXAMPLE_LIBRARY);
   const std::string base = config("two_muscle_rig/model_I.yaml");
   const TemporaryRobot robot("", "extends: " + base + "\neffect_libraries: [" +
                                      ANTHROB_EXAMPLE_LIBRARY +
@@ -313,8 +337,9 @@ TEST(Catalogue, ALibraryIsLookedForFromTheModelFile) {
   const TemporaryRobot robot("", "extends: " + config("two_muscle_rig/model_I.yaml") +
                                      "\neffect_libraries: [lib/own.so]\neffects:\n  - {id: "
                                      "spindle_eccentricity, place: flexor, offset: 0.001}\n");
-  EXPECT_THROW(robot.load(), BadInput);
   const auto folder = std::filesystem::path(robot.file()).parent_path() / "lib";
+  trust(std::string(ANTHROB_EXAMPLE_LIBRARY));
+  EXPECT_THROW(robot.load(), BadInput);
   std::filesystem::create_directories(folder);
   std::filesystem::create_symlink(ANTHROB_EXAMPLE_LIBRARY, folder / "own.so");
   EXPECT_EQ(robot.load()->effects.size(), 1u);
@@ -393,6 +418,7 @@ TEST(Catalogue, BadEntriesAreRefusedWithOneLine) {
                 .find("inside the surface at rest"),
             std::string::npos);
   EXPECT_EQ(refusal("effects: {id: payload}\n"), "model.yaml:2: effects: {...}: expected a list");
+  trust("no_such_library");
   EXPECT_NE(refusal("effect_libraries: [no_such_library]\n").find("no_such_library: expected a"),
             std::string::npos);
 }
