@@ -119,8 +119,7 @@ class Install(unittest.TestCase):
         model = os.path.join(robot, 'model_downstream.yaml')
         with open(model, 'w', encoding='utf-8') as text:
             text.write('extends: %s\neffect_libraries: [%s]\n' % (os.path.basename(self.model), library))
-        os.environ['ANTHROB_EFFECT_LIBRARIES'] = library
-        listed = self.run_installed('rosrun', 'anthrob_sim', 'anthrob_effects', '--model', model)
+        listed = self.run_installed('env', 'ANTHROB_EFFECT_LIBRARIES=' + library, 'rosrun', 'anthrob_sim', 'anthrob_effects', '--model', model)
         for effect in 'downstream_cord', 'downstream_dirt':
             self.assertIn(effect, listed)
 
