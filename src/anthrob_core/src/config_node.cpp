@@ -42,8 +42,15 @@ namespace {
 using Data = ConfigNode::Data;
 using DataPtr = std::shared_ptr<Data>;
 
+/// Both ends of a message that quotes more than anybody reads.
+std::string readable(const std::string& message) {
+  constexpr std::size_t kLongest = 2000, kEnd = 500;
+  if (message.size() <= kLongest) return message;
+  return message.substr(0, kLongest - kEnd) + " [...] " + message.substr(message.size() - kEnd);
+}
+
 [[noreturn]] void fail_at(const std::string& file, int line, const std::string& message) {
-  throw BadInput(file + ":" + std::to_string(line) + ": " + message);
+  throw BadInput(file + ":" + std::to_string(line) + ": " + readable(message));
 }
 
 std::string join(const std::string& path, const std::string& key) {
@@ -72,9 +79,22 @@ void refuse_misleading(const std::string& key, const YAML::Node& value, const Da
 
 /// No sensible file is nested deeper; an alias inside its own anchor would never end.
 constexpr int kDeepest = 100;
+/// Nor has any so many values, once each alias is what it stands for, or extends so many files.
+constexpr std::size_t kMostValues = 1000000, kMostFiles = 100;
+
+/// What was read for one file and those that it extends.
+struct Reading {
+  std::vector<std::string> chain;  ///< of files, each of which extends the next
+  std::size_t files = 0, values = 0;
+};
 
 DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>& file,
-                int depth = 0) {
+                Reading& reading, int depth = 0) {
+  if (++reading.values > kMostValues) {
+    fail_at(*file, node.Mark().line + 1,
+            "more than " + std::to_string(kMostValues) +
+                " values; expected fewer, and no aliases that repeat each other");
+  }
   if (depth > kDeepest) {
     fail_at(*file, node.Mark().line + 1,
             "nested more than " + std::to_string(kDeepest) +
@@ -91,7 +111,7 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
     case YAML::NodeType::Sequence:
       data->kind = Kind::kSequence;
       for (const auto& item : node) {
-        data->items.push_back(convert(item, file, depth + 1));
+        data->items.push_back(convert(item, file, reading, depth + 1));
       }
       break;
     case YAML::NodeType::Map:
@@ -107,7 +127,7 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
           fail_at(*file, entry.first.Mark().line + 1, key + ": appears twice in the same map");
         }
         refuse_misleading(key, entry.second, *data, entry.first.Mark().line + 1);
-        data->entries.emplace_back(key, convert(entry.second, file, depth + 1));
+        data->entries.emplace_back(key, convert(entry.second, file, reading, depth + 1));
         // An empty value has no mark of its own.
         data->entries.back().second->line = entry.first.Mark().line + 1;
       }
@@ -169,7 +189,12 @@ YAML::Node only_document(const std::string& text, const std::string& path) {
   return documents.empty() ? YAML::Node() : documents.front();
 }
 
-DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
+DataPtr load_file(const std::string& path, Reading& reading) {
+  std::vector<std::string>& chain = reading.chain;
+  if (++reading.files > kMostFiles) {
+    fail_at(path, 1, "extends: more than " + std::to_string(kMostFiles) +
+                         " files in all; expected fewer, and none twice");
+  }
   chain.push_back(std::filesystem::weakly_canonical(path).string());
 
   require_file(path);
@@ -182,7 +207,7 @@ DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
     fail_at(path, e.mark.line + 1, "not valid YAML: " + e.msg);
   }
   auto file = std::make_shared<const std::string>(path);
-  DataPtr data = convert(root, file);
+  DataPtr data = convert(root, file, reading);
   if (data->kind != Kind::kMap) fail_at(path, 1, "expected a map of keys at the top of the file");
 
   if (const DataPtr extends = data->find("extends")) {
@@ -197,7 +222,7 @@ DataPtr load_file(const std::string& path, std::vector<std::string>& chain) {
       if (std::find(chain.begin(), chain.end(), canonical) != chain.end()) {
         fail_at(path, name->line, "extends: " + name->scalar + ": the file extends itself");
       }
-      const DataPtr next = load_file(base_path, chain);
+      const DataPtr next = load_file(base_path, reading);
       base = base ? merge(base, next) : next;
     }
     if (!base) fail_at(path, extends->line, "extends: expected the name of a YAML file, or a list");
@@ -267,14 +292,15 @@ std::string Bounds::text() const {
 }
 
 ConfigNode ConfigNode::load(const std::string& file) {
-  std::vector<std::string> chain;
-  return ConfigNode(load_file(file, chain), "");
+  Reading reading;
+  return ConfigNode(load_file(file, reading), "");
 }
 
 ConfigNode ConfigNode::parse(const std::string& text, const std::string& name) {
   try {
     const YAML::Node root = only_document(text, name);
-    return ConfigNode(convert(root, std::make_shared<const std::string>(name)), "");
+    Reading reading;
+    return ConfigNode(convert(root, std::make_shared<const std::string>(name), reading), "");
   } catch (const YAML::Exception& e) {
     fail_at(name, e.mark.line + 1, "not valid YAML: " + e.msg);
   }

@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uintmax_t kLargest = 64u << 20;  // [bytes]
+
 /// NAME of model_NAME.yaml; none for other files.
 std::optional<std::string> model_name(const fs::path& file) {
   static const std::regex kModel("model_(.+)\\.yaml");
@@ -40,7 +42,12 @@ void require_file(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) throw BadInput(path + ": expected a YAML file, not a folder");
-  if (status.type() != fs::file_type::not_found) return;
+  if (fs::exists(status)) {
+    // A device, say, has no end.
+    if (!fs::is_regular_file(status)) throw BadInput(path + ": expected a YAML file");
+    if (fs::file_size(path, error) <= kLargest || error) return;
+    throw BadInput(path + ": larger than 64 MB; expected a YAML file");
+  }
   const bool is_model = model_name(path).has_value();
   const std::string models = is_model ? models_in(fs::absolute(path).parent_path()) : "";
   throw BadInput(path + ": no such file" +

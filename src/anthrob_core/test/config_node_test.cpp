@@ -43,31 +43,64 @@ TEST(ConfigNode, RefusesKeysThatAreNoWords) {
 }
 
 TEST(ConfigNode, RefusesWhatYamlReadsOtherwiseThanItSeems) {
-  const auto refusal = [](const std::string& text) {
-    try {
-      ConfigNode::parse(text, "model.yaml");
-    } catch (const BadInput& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
-  };
   EXPECT_EQ(refusal("usual: &u {static: 1}\nelbow:\n  <<: *u\n"),
-            "model.yaml:3: <<: merge keys are not read; expected extends, or the keys again");
+            "file.yaml:3: <<: merge keys are not read; expected extends, or the keys again");
   EXPECT_EQ(refusal("coil: {type: linear, stiffness: 1500,0}"),
-            "model.yaml:1: stiffness: 1500,0: a decimal comma? expected 1500.0");
+            "file.yaml:1: stiffness: 1500,0: a decimal comma? expected 1500.0");
   EXPECT_EQ(refusal("time: {column: t, scale: 0,001}"),
-            "model.yaml:1: scale: 0,001: a decimal comma? expected 0.001");
+            "file.yaml:1: scale: 0,001: a decimal comma? expected 0.001");
   EXPECT_EQ(refusal("y: {offset: -0,5, scale: 2}"),
-            "model.yaml:1: offset: -0,5: a decimal comma? expected -0.5");
+            "file.yaml:1: offset: -0,5: a decimal comma? expected -0.5");
   // Maps that are meant so.
-  EXPECT_EQ(refusal("{1: 2, 3: 4}"), "accepted");
-  EXPECT_EQ(refusal("{a: word, 7: }"), "accepted");
+  EXPECT_EQ(refusal("{1: 2, 3: 4}"), "");
+  EXPECT_EQ(refusal("{a: word, 7: }"), "");
 }
 
 TEST(ConfigNode, RefusesAnAliasInsideItsOwnAnchor) {
   for (const char* text : {"a: &x {b: *x}\n", "a: &x [*x, *x]\n", "&x {a: *x}\n"}) {
     EXPECT_NE(refusal(text).find("nested more than 100 deep"), std::string::npos) << text;
   }
+}
+
+TEST(ConfigNode, RefusesWhatHasNoEnd) {
+  // Each list holds the one before nine times: 9^12 values.
+  std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 12; ++i) {
+    const std::string before = "*a" + std::to_string(i - 1), own = "a" + std::to_string(i);
+    bomb += own + ": &" + own + " [" + before;
+    for (int k = 1; k < 9; ++k) bomb += ", " + before;
+    bomb += "]\n";
+  }
+  EXPECT_NE(refusal(bomb).find("more than 1000000 values"), std::string::npos);
+  // Nor has what it says of a name.
+  const std::string name(5000000, 'k');
+  EXPECT_LT(refusal("{\"" + name + "\": 1, \"" + name + "\": 2}").size(), 3000u);
+}
+
+TEST(ConfigNode, RefusesFilesWithoutEnd) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("anthrob_endless_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  for (int i = 0; i < 30; ++i) {
+    const std::string next = "f" + std::to_string(i + 1) + ".yaml";
+    std::ofstream(folder / ("f" + std::to_string(i) + ".yaml"))
+        << "extends: [" << next << ", " << next << "]\n";
+  }
+  std::ofstream(folder / "f30.yaml") << "a: 1\n";
+  const auto said = [](const std::string& file) -> std::string {
+    try {
+      ConfigNode::load(file);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(said((folder / "f0.yaml").string()).find("extends: more than 100 files in all"),
+            std::string::npos);
+  EXPECT_EQ(said((folder / "f29.yaml").string()), "");
+  EXPECT_EQ(said("/dev/zero"), "/dev/zero: expected a YAML file");
+  fs::remove_all(folder);
 }
 
 TEST(ConfigNode, RefusesEmptyValuesWhereTheyAreMistakes) {
