@@ -196,7 +196,7 @@ void set_joint(const RobotModel& model, const std::string& option, Placement& pl
   placement.set_ball_joint(a.name, Quat(a.values[0], a.values[1], a.values[2], a.values[3]));
 }
 
-void set_position(const RobotModel& model, const std::string& option, Placement& placement) {
+void set_position(const std::string& option, Placement& placement) {
   const tool::Assignment a = tool::parse_assignment("--position", option);
   if (a.values.size() != 1) throw BadInput("--position " + option + ": expected one number [rad]");
   placement.set_muscle(a.name, a.values[0]);
@@ -288,7 +288,7 @@ int main(int argc, char** argv) {
       }
     }
     for (const std::string& option : joints) set_joint(*model, option, placement);
-    for (const std::string& option : positions) set_position(*model, option, placement);
+    for (const std::string& option : positions) set_position(option, placement);
     check_muscles(*model, only);
     if (!sweep.empty()) {
       const MuscleSweep result = run_sweep(model, sweep, placement.q(), placement.positions());
