@@ -30,39 +30,24 @@ void keep_on_disk(const std::string& path) {
 }
 
 AtomicFile::AtomicFile(const std::string& file)
-    : file_(file), part_(file + ".part" + std::to_string(getpid())), out_(part_, std::ios::binary) {
-  if (!out_) fail(std::strerror(errno));
-}
-
-AtomicFile::~AtomicFile() {
-  std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
+    : file_(file), part_(file), out_(part_.path(), std::ios::binary) {
+  if (!out_) part_.fail(std::strerror(errno));
 }
 
 void AtomicFile::close() {
   out_.close();
-  if (!out_) fail(std::strerror(errno));
-  keep_on_disk(part_);
+  if (!out_) part_.fail(std::strerror(errno));
+  keep_on_disk(part_.path());
 }
 
 void AtomicFile::move_into_place() {
-  move_to(file_);
+  part_.move_to(file_);
 }
 
 std::string AtomicFile::move_beside() {
   const std::string beside = file_ + ".partial";
-  move_to(beside);
+  part_.move_to(beside);
   return beside;
-}
-
-void AtomicFile::move_to(const std::string& place) {
-  std::error_code error;
-  std::filesystem::rename(part_, place, error);
-  if (error) fail(error.message());
-}
-
-void AtomicFile::fail(const std::string& reason) const {
-  throw std::runtime_error(file_ + ": cannot be written: " + reason);
 }
 
 void write_file_atomically(const std::string& file, const std::string& content) {

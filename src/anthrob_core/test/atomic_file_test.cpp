@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <iterator>
+#include <vector>
 
 #include "anthrob_core/files.h"
 
@@ -70,6 +72,78 @@ TEST_F(AtomicFileTest, OfSeveralAllAreReplacedOrNone) {
   }
   EXPECT_EQ(text("a") + text("b"), "12");
   EXPECT_EQ(files(), 2);
+}
+
+/// @return the number of a process that was there and is gone
+pid_t gone() {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  return child;
+}
+
+TEST_F(AtomicFileTest, WhatAKilledProcessLeftIsSwept) {
+  const auto part = [&](const std::string& file, pid_t process) {
+    const std::string name = file + ".part" + std::to_string(process);
+    std::ofstream(path(name)) << "half";
+    return path(name);
+  };
+  const std::string left = part("a", gone());
+  const std::string left_by_our_number = part("a", getpid());  // as in a container
+  const std::string at_work = part("a", getppid()), of_another = part("b", gone());
+  const std::vector<std::string> of_somebody = {path("a.part"), path("a.part0"), path("a.part1x"),
+                                                path("a.part-1")};
+  for (const std::string& file : of_somebody) std::ofstream(file) << "precious";
+  write_file_atomically(path("a"), "whole");
+  EXPECT_EQ(text("a"), "whole");
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_FALSE(fs::exists(left_by_our_number));
+  EXPECT_TRUE(fs::exists(at_work));
+  EXPECT_TRUE(fs::exists(of_another));
+  for (const std::string& file : of_somebody) EXPECT_TRUE(fs::exists(file)) << file;
+}
+
+TEST_F(AtomicFileTest, NobodysLinkIsFollowed) {
+  std::ofstream(path("precious")) << "precious";
+  const std::string part = path("a.part" + std::to_string(getpid()));
+  fs::create_symlink(path("precious"), part);
+  write_file_atomically(path("a"), "whole");
+  EXPECT_EQ(text("precious"), "precious");
+  EXPECT_EQ(text("a"), "whole");
+  fs::create_symlink(path("not_there"), part);
+  write_file_atomically(path("a"), "again");
+  EXPECT_FALSE(fs::exists(path("not_there")));
+  fs::create_directories(part + "/kept");  // cannot be swept
+  EXPECT_THROW(write_file_atomically(path("a"), "other"), std::runtime_error);
+  EXPECT_TRUE(fs::exists(part + "/kept"));
+  EXPECT_EQ(text("a"), "again");
+}
+
+TEST_F(AtomicFileTest, TwoWritersOfOneProcessDoNotShareAPart) {
+  AtomicFile first(path("a"));
+  first.stream() << "first";
+  EXPECT_THROW(AtomicFile(path("a")), std::runtime_error);
+  EXPECT_THROW(AtomicFile(path("./a")), std::runtime_error);
+  first.close();
+  first.move_into_place();
+  write_file_atomically(path("a"), "second");
+  EXPECT_EQ(text("a"), "second");
+}
+
+TEST_F(AtomicFileTest, OnePlaceHasOnePath) {
+  fs::create_directory(path("same"));
+  fs::create_directory_symlink(path("same"), path("link"));
+  const fs::path place = fs::canonical(path("same"));
+  for (const char* name : {"same", "same/", "./same", "nox/../same", "nox/deep/../../same",
+                           "nox/../link", "link/new/.."}) {
+    const fs::path found = place_of(path(name));
+    EXPECT_EQ(found.has_filename() ? found : found.parent_path(), place) << name;
+  }
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  EXPECT_EQ(place_of("nox/../same"), place);
+  EXPECT_EQ(place_of("new"), fs::canonical(folder_) / "new");
+  fs::current_path(before);
 }
 
 TEST_F(AtomicFileTest, FoldersThatWereMadeForNothingGoAgain) {

@@ -15,15 +15,39 @@ namespace anthrob {
 /// @throws std::runtime_error if the disk is full or fails
 void keep_on_disk(const std::string& path);
 
+/// Canonical path of what is, or will be, at `path`: also where a folder on the way does not exist
+/// yet ("new/../old"), or is a link. Two names of one place give the same path.
+std::filesystem::path place_of(const std::filesystem::path& path);
+
+/// The name FILE.part<pid>, beside FILE, for what is written until it is complete. It is made as a
+/// new, empty file: whatever has that name, such as a link to another file, is not written to. If
+/// it is not moved, it is deleted. What a killed process left of the same FILE is deleted first.
+class PartFile {
+ public:
+  /// All members throw std::runtime_error naming FILE and the reason.
+  explicit PartFile(const std::string& file);
+  ~PartFile();
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  const std::string& path() const { return part_; }
+  void move_to(const std::string& place);
+  [[noreturn]] void fail(const std::string& reason) const;
+
+ private:
+  void forget() const;
+
+  std::string file_, part_;
+  std::filesystem::path place_;  ///< of the part
+  bool moved_ = false;
+};
+
 /// A file that is written beside its final place and moved there once it is complete. So the place
 /// always has either the old file or the complete new one. If it is not moved, it is deleted.
 class AtomicFile {
  public:
   /// All members throw std::runtime_error naming the file and the reason.
   explicit AtomicFile(const std::string& file);
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
 
   std::ostream& stream() { return out_; }
   /// Finishes writing: everything is then on the disk, beside its final place.
@@ -35,10 +59,8 @@ class AtomicFile {
   std::string move_beside();
 
  private:
-  void move_to(const std::string& place);
-  [[noreturn]] void fail(const std::string& reason) const;
-
-  std::string file_, part_;
+  std::string file_;
+  PartFile part_;
   std::ofstream out_;
 };
 
@@ -69,16 +91,17 @@ class MadeFolder {
   std::error_code error_;
 };
 
-/// Contents of a report's files by name, also "FOLDER/NAME"; all are complete before the first one is written.
+/// Contents of a report's files by name, also "FOLDER/NAME"; all are complete before the first one
+/// is written.
 using OutputFiles = std::map<std::string, std::string>;
 
 /// Checks that files can be written into a folder, or that it can be created.
 /// @throws std::runtime_error with one line: the folder and the reason
 void require_writable(const std::string& folder);
 
-/// Checks that no input file would be overwritten.
+/// Checks that no input file would be overwritten, by whatever name it was given.
 /// @param names of the files that will be written into the folder
-/// @param read canonical paths of the input files
+/// @param read places of the input files (place_of)
 /// @throws BadInput with one line: the folder and the name
 void require_kept(const std::string& folder, const std::vector<std::string>& names,
                   const std::vector<std::string>& read);

@@ -2,7 +2,6 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -363,10 +362,10 @@ BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
   }
   const std::string prefix =
       "/" + (dataset.meta.robot.empty() ? std::string("robot") : dataset.meta.robot) + "/";
-  const std::string temporary = file + ".part" + std::to_string(getpid());
+  PartFile part(file);
   auto bag = std::make_unique<rosbag::Bag>();
   try {
-    bag->open(temporary, rosbag::bagmode::Write);
+    bag->open(part.path(), rosbag::bagmode::Write);
     for (const Table& table : topics.tables) {
       if (table.name == "commands")
         write_rows<MuscleCommand>(with_all_modes(table, dataset), dataset,
@@ -380,18 +379,14 @@ BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
       }
     }
     bag->close();
-    keep_on_disk(temporary);
+    keep_on_disk(part.path());
     // Write meta first: a meta.yaml without a bag is harmless, a bag with a stale one is not.
     write_file_atomically(meta_beside(file), meta_text(dataset.meta));
-    std::filesystem::rename(temporary, file);
+    part.move_to(file);
     return {topics.not_carried, topics.remarks};
   } catch (const rosbag::BagException& e) {
     (void)bag.release();  // its destructor would write again, and throw, which ends the program
-    std::filesystem::remove(temporary);
-    throw std::runtime_error(file + ": cannot be written: " + e.what());
-  } catch (...) {
-    std::filesystem::remove(temporary);
-    throw;
+    part.fail(e.what());
   }
 }
 
