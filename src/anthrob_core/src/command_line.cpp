@@ -15,18 +15,20 @@
 #include <vector>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/signals.h"
 
 namespace anthrob {
 namespace tool {
 
 namespace {
 
-volatile std::sig_atomic_t interrupt_seen = 0;
+volatile std::sig_atomic_t listening = 0, interrupt_seen = 0;
 
-/// The second one of its kind ends a program that does not come to look.
+/// The second one of its kind ends a program that does not come to look. But a terminal that is
+/// closed says so twice: by its shell, and by itself.
 void on_interrupt(int number) {
   interrupt_seen = 1;
-  std::signal(number, SIG_DFL);
+  if (number != SIGHUP) std::signal(number, [](int) { _exit(kInterrupted); });
 }
 
 std::string one_line(std::string text) {
@@ -59,13 +61,15 @@ bool read_number(const std::string& text, double& value) {
 
 }  // namespace
 
-int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body, int stopped) {
+  if (listening == 0) leave_when_stopped(stopped);
   std::vector<char*> arguments;
   std::copy_if(argv, argv + argc, std::back_inserter(arguments),
                [](const char* argument) { return !is_remapping(argument); });
   try {
     app.parse(static_cast<int>(arguments.size()), arguments.data());
     const int status = body();
+    if (status != kDone) return status;
     // What a full disk has cut off is no answer.
     if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       std::cerr << app.get_name() << ": standard output: cannot be written\n";
@@ -100,11 +104,11 @@ CLI::Validator within(double lowest, double highest) {
 }
 
 bool interrupted() {
-  static const bool kListening = [] {
-    for (const int number : {SIGINT, SIGTERM}) std::signal(number, on_interrupt);
-    return true;
-  }();
-  return kListening && interrupt_seen != 0;
+  if (listening == 0) {
+    listening = 1;
+    anthrob::on_stop(on_interrupt);
+  }
+  return interrupt_seen != 0;
 }
 
 void say(const CLI::App& app, const std::vector<std::string>& remarks) {
