@@ -53,6 +53,7 @@ RecordingStore::RecordingStore(const std::string& folder, std::shared_ptr<const 
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw std::runtime_error(folder_ + ": cannot be created: " + error.message());
+  lock_.emplace(folder_);  // before parts are deleted: they may still grow
   const auto remove_parts = [&](const std::string& of) {
     for (const auto& entry : fs::directory_iterator(folder_)) {
       const bool wanted = of.empty() || entry.path().stem() == of;

@@ -4,15 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_core/folder_lock.h"
 #include "anthrob_recording/dataset.h"
 #include "protocol.h"
 #include "sample.h"
 
 namespace anthrob {
 
-/// The output folder of a session. Every recording has NAME.bag and NAME.yaml, which has the keys
-/// of a dataset folder's meta.yaml. NAME.yaml is written last, so a recording is complete when both
-/// exist. Further files:
+/// The output folder of a session, of which one recorder at a time makes use. Every recording has
+/// NAME.bag and NAME.yaml, which has the keys of a dataset folder's meta.yaml. NAME.yaml is written
+/// last, so a recording is complete when both exist. Further files:
 ///   session.yaml       protocol, robot, kind of time, simulated model, first rest posture;
 ///                      a folder belongs to one session
 ///   samples.csv        one row per recording: theta, f, q at its end
@@ -22,7 +23,8 @@ class RecordingStore {
   /// Creates the folder, or continues its session; deletes incomplete recordings.
   /// @param time "simulated" or "true": recordings of a simulator and of a robot must not be mixed
   /// @param simulated model file of the simulated robot, which must stay the same; empty: unknown
-  /// @throws BadInput if the folder belongs to another session
+  /// @throws BadInput if the folder belongs to another session, or another recorder is at work in
+  /// it
   /// @throws std::runtime_error if it cannot be written
   RecordingStore(const std::string& folder, std::shared_ptr<const RobotModel> model,
                  const Protocol& protocol, const std::string& time,
@@ -56,6 +58,7 @@ class RecordingStore {
   void write_repeatability(const std::vector<Entry>& entries) const;
 
   std::string folder_;
+  std::optional<FolderLock> lock_;
   std::shared_ptr<const RobotModel> model_;
   Protocol protocol_;
   std::string time_;

@@ -112,6 +112,28 @@ TEST_F(RecordingStoreTest, AForceThatNoSensorMeasuresIsLeftOut) {
   EXPECT_EQ(again.baseline()->position[2], 0.25);
 }
 
+TEST_F(RecordingStoreTest, ASecondRecorderLeavesTheBagOfTheFirstOneAlone) {
+  for (const bool begun : {false, true}) {
+    const RecordingStore first(folder, model, protocol, "true");
+    const std::string growing = first.partial_bag("E0_to_E3_run1");
+    std::ofstream(growing) << "half a b";
+    std::filesystem::create_directory_symlink(folder, parent.file("link"));
+    for (const std::string& name : {folder, folder + "/.", parent.file("link")}) {
+      try {
+        RecordingStore(name, model, protocol, "true");
+        ADD_FAILURE() << name << (begun ? ", continued" : ", new");
+      } catch (const BadInput& error) {
+        EXPECT_NE(std::string(error.what()).find("in use by another run"), std::string::npos)
+            << error.what();
+      }
+    }
+    std::filesystem::remove(parent.file("link"));
+    EXPECT_EQ(content(growing), "half a b");
+  }
+  const RecordingStore next(folder, model, protocol, "true");
+  EXPECT_FALSE(std::filesystem::exists(next.partial_bag("E0_to_E3_run1")));
+}
+
 TEST_F(RecordingStoreTest, GoesOnWhereItWasKilledAtItsVeryBeginning) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder + "/session.yaml.part4711") << "# A sess";

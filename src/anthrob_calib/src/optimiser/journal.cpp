@@ -36,7 +36,7 @@ Journal::Journal(Evaluator& evaluator, Options options)
       best_fitness_(std::numeric_limits<double>::infinity()) {
   if (options_.file.empty()) return;
   const std::string folder = std::filesystem::path(options_.file).parent_path().string();
-  lock_ = std::make_unique<resume::FolderLock>(folder.empty() ? "." : folder);
+  lock_ = std::make_unique<FolderLock>(folder.empty() ? "." : folder);
   if (options_.resume) {
     load();
   } else {

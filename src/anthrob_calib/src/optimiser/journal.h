@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "anthrob_calib/resume/result_file.h"
+#include "anthrob_core/folder_lock.h"
 #include "optimiser/evaluator.h"
-#include "resume/folder_lock.h"
 
 namespace anthrob {
 namespace calibration {
@@ -81,7 +81,7 @@ class Journal final : public Evaluator {
 
   Evaluator& evaluator_;
   Options options_;
-  std::unique_ptr<resume::FolderLock> lock_;
+  std::unique_ptr<FolderLock> lock_;
   std::vector<Entry> entries_;                         ///< of the file
   std::unique_ptr<resume::ResultFile<double>> lists_;  ///< of residuals, by points
   std::size_t unsaved_ = 0;

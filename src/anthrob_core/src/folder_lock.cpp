@@ -1,4 +1,4 @@
-#include "resume/folder_lock.h"
+#include "anthrob_core/folder_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,8 +11,6 @@
 #include "anthrob_core/errors.h"
 
 namespace anthrob {
-namespace resume {
-
 FolderLock::FolderLock(const std::string& folder)
     : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0) {
@@ -22,12 +20,11 @@ FolderLock::FolderLock(const std::string& folder)
   // A network file system may know no locks of folders; then there is none.
   if (errno != EWOULDBLOCK) return;
   close(descriptor_);
-  throw BadInput(folder + ": in use by another run; expected another --out folder");
+  throw BadInput(folder + ": in use by another run; expected another folder");
 }
 
 FolderLock::~FolderLock() {
   close(descriptor_);
 }
 
-}  // namespace resume
 }  // namespace anthrob

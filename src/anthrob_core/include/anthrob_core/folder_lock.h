@@ -3,9 +3,9 @@
 #include <string>
 
 namespace anthrob {
-namespace resume {
 
-/// Keeps other runs out of an output folder for as long as it lives, and leaves no file behind.
+/// Keeps other runs out of an output folder for as long as it lives, and leaves no file behind. A
+/// run that is killed keeps nobody out.
 class FolderLock {
  public:
   /// @throws BadInput if another run has it
@@ -18,5 +18,4 @@ class FolderLock {
   int descriptor_;
 };
 
-}  // namespace resume
 }  // namespace anthrob
