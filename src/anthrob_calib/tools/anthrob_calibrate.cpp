@@ -53,26 +53,32 @@ CalibrationConfig configure(const Arguments& arguments) {
 }
 
 std::string model_text(const Arguments& arguments, const CalibrationInput& input,
-                       const std::map<std::string, double>& overrides) {
+                       const std::map<std::string, double>& overrides, const std::string& remark) {
   return extended_model_text(ConfigNode::load(input.config.model_file), input.config.model_file,
-                             overrides, arguments.out,
-                             "Calibrated by anthrob_calibrate. result.json and report.html have "
-                             "the errors before and after.");
+                             overrides, arguments.out, remark);
 }
 
-/// Writes only model.yaml, before the remaining computations, which may fail or be interrupted.
+/// Of the search alone. model.yaml itself has its errors beside it, in result.json, or it is none.
+constexpr const char* kFoundModel = "model.yaml.partial";
+
+/// Writes what was found before the remaining computations, which may fail or be interrupted.
 void keep_model(const Arguments& arguments, const CalibrationInput& input, const Problem& problem,
                 const Point& best) {
   std::map<std::string, double> overrides = input.started;
   for (const auto& [path, value] : problem.space().overrides(best)) overrides[path] = value;
-  write_files(arguments.out, {{"model.yaml", model_text(arguments, input, overrides)}});
+  const char* const remark =
+      "Found by anthrob_calibrate, which did not come to the errors before and after.";
+  write_files(arguments.out, {{kFoundModel, model_text(arguments, input, overrides, remark)}});
 }
 
 void write(const Arguments& arguments, const CalibrationInput& input,
            const CalibrationOutcome& outcome) {
   OutputFiles files = report_files(outcome);
-  files["model.yaml"] = model_text(arguments, input, outcome.overrides);
+  files["model.yaml"] = model_text(arguments, input, outcome.overrides,
+                                   "Calibrated by anthrob_calibrate. result.json and report.html "
+                                   "have the errors before and after.");
   write_files(arguments.out, files);
+  fs::remove(fs::path(arguments.out) / kFoundModel);
   remove_other_figures(arguments.out, kinds_of_figures(), files);
 }
 
@@ -107,7 +113,7 @@ void keep_input(const Arguments& arguments, const std::string& model_file) {
   for (const std::string& file : arguments.start) {
     read.push_back(fs::weakly_canonical(file).string());
   }
-  require_kept(arguments.out, {"model.yaml", "result.json"}, read);
+  require_kept(arguments.out, {"model.yaml", kFoundModel, "result.json"}, read);
 }
 
 /// This build, with the libraries of effects that the model has loaded.

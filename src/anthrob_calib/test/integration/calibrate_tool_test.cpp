@@ -253,7 +253,7 @@ TEST_F(CalibrateTool, InterruptedAfterTheSearchItHasTheResultButNoErrorsOfParame
   const std::string more = "--optimiser least_squares --jobs 1";
   const std::string script = path("interrupt.sh");
   const Outcome stopped =
-      calibrate("errors", more, interrupted_when(path("errors/model.yaml"), script));
+      calibrate("errors", more, interrupted_when(path("errors/model.yaml.partial"), script));
   ASSERT_TRUE(interrupt_was_sent(script)) << "finished too early: make the work longer";
   ASSERT_EQ(stopped.status, 130) << stopped.errors;
   EXPECT_NE(stopped.errors.find("before the errors of the parameters"), std::string::npos)
@@ -266,6 +266,27 @@ TEST_F(CalibrateTool, InterruptedAfterTheSearchItHasTheResultButNoErrorsOfParame
   ASSERT_EQ(calibrate("errors_whole", more).status, 0);
   expect_same("errors", "errors_whole");
   EXPECT_FALSE(fs::exists(path("errors/residuals.bin")));
+}
+
+TEST_F(CalibrateTool, OnAFullDiskThereIsNoModelWithoutItsErrors) {
+  ASSERT_EQ(calibrate("roomy", "--generations 1 --brief").status, 0);
+  EXPECT_FALSE(fs::exists(path("roomy/model.yaml.partial")));
+  const auto kilobytes = fs::file_size(path("roomy/result.json")) / 1024;
+  ASSERT_GT(kilobytes, fs::file_size(path("roomy/journal.txt")) / 1024);
+  // No file may grow further than that.
+  const std::string full =
+      "bash -c 'trap \"\" XFSZ; ulimit -f " + std::to_string(kilobytes) + "; exec \"$@\"' full ";
+  const Outcome outcome = calibrate("full", "--generations 1 --brief", full);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("cannot be written: File too large"), std::string::npos)
+      << outcome.errors;
+  for (const char* file : {"/model.yaml", "/result.json", "/report.html"}) {
+    EXPECT_FALSE(fs::exists(path("full") + file)) << file;
+  }
+  EXPECT_NO_THROW(load_robot_model(path("full/model.yaml.partial")));
+  EXPECT_EQ(calibrate("full", "--generations 1 --brief --resume").status, 0);
+  expect_same("full", "roomy");
+  EXPECT_FALSE(fs::exists(path("full/model.yaml.partial")));
 }
 
 TEST_F(CalibrateTool, InterruptedWhileItReplaysItEndsAtOnce) {
