@@ -238,6 +238,7 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
     std::cerr << "anthrob_calibrate: " << options.file
               << ": written by another build of the program; its evaluations are repeated\n";
   }
+  if (journal.remark()) tool::say(app, {*journal.remark()});
   problem.build(problem.space().initial());  // a start that cannot be built has its own message
 
   std::string reason = arguments.evaluate ? "no search, --evaluate" : "interrupted";

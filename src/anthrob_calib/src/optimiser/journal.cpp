@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "anthrob_calib/resume/fingerprint.h"
@@ -16,7 +17,10 @@ namespace calibration {
 
 namespace {
 
-constexpr const char* kTitle = "anthrob_calibrate journal 2 ";
+constexpr const char* kTitle = "anthrob_calibrate journal 3 ";
+/// Without checksums. Only former builds wrote it, so its evaluations are repeated anyway.
+constexpr const char* kFormerTitle = "anthrob_calibrate journal 2 ";
+constexpr std::size_t kFirstEntry = 3;  ///< line, after the title and the program's
 
 std::string program_line(std::uint64_t program) {
   std::ostringstream out;
@@ -26,6 +30,22 @@ std::string program_line(std::uint64_t program) {
 
 std::uint64_t fingerprint_of(const Point& point) {
   return resume::Fingerprint().add(point.data(), point.size() * sizeof(double)).value();
+}
+
+/// @param before checksum of the line before; 0 for the first one
+std::uint64_t checksum(std::uint64_t before, const std::string& text) {
+  return resume::Fingerprint().add(before).add(text).value();
+}
+
+/// What a line says, without its checksum; none if the checksum is not that of the line.
+std::optional<std::string> checked(const std::string& line, std::uint64_t& sum) {
+  const std::size_t end = line.rfind(' ');
+  if (end == std::string::npos) return std::nullopt;
+  const std::string text = line.substr(0, end);
+  const std::uint64_t expected = checksum(sum, text);
+  if (line.substr(end + 1) != resume::fingerprint_text(expected)) return std::nullopt;
+  sum = expected;
+  return text;
 }
 
 }  // namespace
@@ -50,6 +70,8 @@ void Journal::load() {
   if (!in || !std::getline(in, title)) {
     throw BadInput(options_.file + ": cannot be read; expected the journal of an interrupted run");
   }
+  outdated_ = title == kFormerTitle + options_.fingerprint;
+  if (outdated_) return;
   if (title != kTitle + options_.fingerprint) {
     throw BadInput(options_.file +
                    ": belongs to other data, another configuration or another model; expected the "
@@ -59,10 +81,26 @@ void Journal::load() {
   std::getline(in, program);
   outdated_ = program != program_line(options_.program);
   if (outdated_) return;
-  std::string point, fitness;
-  while (in >> point >> fitness) {
-    entries_.push_back(
-        {std::strtoull(point.c_str(), nullptr, 16), std::strtod(fitness.c_str(), nullptr)});
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  read_entries(lines);
+}
+
+void Journal::read_entries(const std::vector<std::string>& lines) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string place = options_.file + ":" + std::to_string(kFirstEntry + i);
+    if (const auto text = checked(lines[i], sum)) {
+      char* fitness = nullptr;
+      const std::uint64_t point = std::strtoull(text->c_str(), &fitness, 16);
+      entries_.push_back({point, std::strtod(fitness, nullptr)});
+    } else if (i + 1 == lines.size()) {
+      remark_ = place + ": the last line is damaged: its evaluation is repeated";
+    } else {
+      throw BadInput(place +
+                     ": damaged: its checksum is wrong; expected the line as it was written. Start "
+                     "again with another --out, without --resume");
+    }
   }
 }
 
@@ -181,9 +219,12 @@ void Journal::save() {
 void Journal::write() const {
   std::ostringstream out;
   out << kTitle << options_.fingerprint << "\n" << program_line(options_.program) << "\n";
+  std::uint64_t sum = 0;
   for (const Entry& entry : entries_) {
-    out << std::hex << entry.point << " "
-        << (std::isfinite(entry.fitness) ? exact_text(entry.fitness) : "inf") << "\n";
+    const std::string text = resume::fingerprint_text(entry.point) + " " +
+                             (std::isfinite(entry.fitness) ? exact_text(entry.fitness) : "inf");
+    sum = checksum(sum, text);
+    out << text << " " << resume::fingerprint_text(sum) << "\n";
   }
   write_file_atomically(options_.file, out.str());
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Generation {
 /// the evaluations that the journal already has come from there. So any optimiser resumes to the
 /// same result, to the last bit. Evaluations of another build of the program may differ; they are
 /// repeated. Residuals are stored in a separate file beside the journal until forget_residuals().
+///
+/// Every line of the file ends in a checksum of it and of all lines before, because a changed
+/// fitness would lead the search astray in silence.
 class Journal final : public Evaluator {
  public:
   struct Options {
@@ -44,8 +48,8 @@ class Journal final : public Evaluator {
     std::uint64_t program = 0;               ///< fingerprint of the build that calculates them
   };
 
-  /// @throws BadInput if there is nothing to resume, it belongs to something else, or another run
-  /// writes into the same folder
+  /// @throws BadInput if there is nothing to resume, it belongs to something else or is damaged
+  /// before its last line, or another run writes into the same folder
   Journal(Evaluator& evaluator, Options options);
 
   std::vector<double> fitness(const std::vector<Point>& points) override;
@@ -63,6 +67,8 @@ class Journal final : public Evaluator {
   int replayed() const { return replayed_; }  ///< evaluations taken from the journal
   /// Whether the journal to resume was written by another build of the program.
   bool outdated() const { return outdated_; }
+  /// What is odd about the journal to resume; none if nothing.
+  const std::optional<std::string>& remark() const { return remark_; }
   std::vector<Generation> history() const;
 
  private:
@@ -72,6 +78,7 @@ class Journal final : public Evaluator {
   };
 
   void load();
+  void read_entries(const std::vector<std::string>& lines);
   void write() const;
   void open_lists();
   void check_stop() const;
@@ -87,6 +94,7 @@ class Journal final : public Evaluator {
   std::size_t unsaved_ = 0;
   std::chrono::steady_clock::time_point saved_at_ = std::chrono::steady_clock::now();
   bool outdated_ = false;
+  std::optional<std::string> remark_;
   int evaluations_ = 0, replayed_ = 0;
   Point best_;
   double best_fitness_;

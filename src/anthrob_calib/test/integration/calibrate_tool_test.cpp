@@ -289,6 +289,26 @@ TEST_F(CalibrateTool, OnAFullDiskThereIsNoModelWithoutItsErrors) {
   EXPECT_FALSE(fs::exists(path("full/model.yaml.partial")));
 }
 
+TEST_F(CalibrateTool, ADamagedJournalIsRefusedByItsLine) {
+  ASSERT_EQ(calibrate("damaged", "--generations 2 --brief").status, 0);
+  const std::string journal = content(path("damaged/journal.txt"));
+  std::string better = journal;  // its fifth line
+  std::size_t line = 0;
+  for (int i = 1; i < 5; ++i) line = better.find('\n', line) + 1;
+  const std::size_t fitness = better.find(' ', line) + 1;
+  better.replace(fitness, better.find(' ', fitness) - fitness, "1e-30");
+  write(path("damaged/journal.txt"), better);
+  const Outcome refused = calibrate("damaged", "--generations 2 --brief --resume");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.lines(), 1) << refused.errors;
+  EXPECT_NE(refused.errors.find("journal.txt:5: damaged"), std::string::npos) << refused.errors;
+  write(path("damaged/journal.txt"), journal.substr(0, journal.size() - 9));
+  const Outcome resumed = calibrate("damaged", "--generations 2 --brief --resume");
+  EXPECT_EQ(resumed.status, 0);
+  EXPECT_NE(resumed.errors.find("the last line is damaged"), std::string::npos) << resumed.errors;
+  EXPECT_EQ(content(path("damaged/journal.txt")), journal);
+}
+
 TEST_F(CalibrateTool, InterruptedWhileItReplaysItEndsAtOnce) {
   for (const char* name : {"E0", "E2", "E3"}) {
     Dataset recording = Dataset::load(path("eq/") + name);

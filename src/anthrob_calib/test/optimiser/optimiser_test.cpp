@@ -396,6 +396,98 @@ TEST_F(JournalTest, RefusesWhatItDoesNotBelongTo) {
   EXPECT_THROW(search(settings("evolution_strategy", 3, 2), variables(2, 1.0), same), BadInput);
 }
 
+class DamagedJournalTest : public JournalTest {
+ protected:
+  DamagedJournalTest() {
+    Journal journal(function_, options(false));
+    search(settings("evolution_strategy", 3), variables(2, 1.0), journal);
+    journal.save();
+    std::ifstream in(file_);
+    for (std::string line; std::getline(in, line);) lines_.push_back(line);
+  }
+
+  /// @return what is said when a journal of these lines is resumed
+  std::string refusal(const std::vector<std::string>& lines) {
+    write(lines);
+    try {
+      Journal(function_, options(true));
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+
+  void write(const std::vector<std::string>& lines) const {
+    std::ofstream out(file_);
+    for (const std::string& line : lines) out << line << "\n";
+  }
+
+  std::vector<std::string> lines_;
+};
+
+TEST_F(DamagedJournalTest, AChangedLineIsRefusedByItsNumber) {
+  ASSERT_GT(lines_.size(), 20u);
+  EXPECT_EQ(refusal(lines_), "nothing");
+  const auto expect_refused = [&](const std::vector<std::string>& lines, std::size_t number) {
+    EXPECT_EQ(refusal(lines).find(file_ + ":" + std::to_string(number) + ": damaged"), 0u)
+        << refusal(lines);
+  };
+  auto better = lines_;  // a fitness that no parameters have
+  const std::size_t fitness = better[9].find(' ') + 1;
+  better[9].replace(fitness, better[9].rfind(' ') - fitness, "1e-30");
+  expect_refused(better, 10);
+  auto flipped = lines_;
+  flipped[2][3] ^= 1;
+  expect_refused(flipped, 3);
+  auto swapped = lines_;
+  std::swap(swapped[7], swapped[8]);
+  expect_refused(swapped, 8);
+  auto without_one = lines_;
+  without_one.erase(without_one.begin() + 5);
+  expect_refused(without_one, 6);
+  auto cut_off = lines_;
+  cut_off[6] = cut_off[6].substr(0, 20);
+  expect_refused(cut_off, 7);
+  auto gone = lines_;
+  gone[6].clear();
+  expect_refused(gone, 7);
+}
+
+TEST_F(DamagedJournalTest, OfACutOffEndTheRestCounts) {
+  const int whole = static_cast<int>(lines_.size()) - 2;
+  for (const std::size_t left : {0u, 1u, 17u, 30u}) {
+    auto lines = lines_;
+    lines.back() = lines.back().substr(0, left);
+    write(lines);
+    Journal journal(function_, options(true));
+    ASSERT_TRUE(journal.remark()) << left;
+    EXPECT_EQ(journal.remark()->find(file_ + ":" + std::to_string(lines.size()) + ": "), 0u)
+        << *journal.remark();
+    search(settings("evolution_strategy", 3), variables(2, 1.0), journal);
+    EXPECT_LT(journal.replayed(), whole);
+    EXPECT_EQ(journal.evaluations(), whole);
+    journal.save();
+    std::ifstream in(file_);
+    std::vector<std::string> again;
+    for (std::string line; std::getline(in, line);) again.push_back(line);
+    EXPECT_EQ(again, lines_);
+  }
+}
+
+TEST_F(DamagedJournalTest, OneWithoutChecksumsIsFoundAnew) {
+  auto former = lines_;
+  former[0].replace(former[0].find(" 3 "), 3, " 2 ");
+  for (std::size_t i = 2; i < former.size(); ++i) {
+    former[i] = former[i].substr(0, former[i].find(' ')) + " 1e-30";
+  }
+  write(former);
+  Journal journal(function_, options(true));
+  EXPECT_TRUE(journal.outdated());
+  search(settings("evolution_strategy", 3), variables(2, 1.0), journal);
+  EXPECT_EQ(journal.replayed(), 0);
+  EXPECT_GT(journal.best_fitness(), 1e-29);
+}
+
 TEST_F(JournalTest, WhatAnotherBuildFoundIsFoundAnew) {
   {
     Journal journal(function_, options(false));
