@@ -111,7 +111,7 @@ void keep_input(const Arguments& arguments, const std::string& model_file) {
   std::vector<std::string> read = extended_files(model_file);
   for (const std::string& file : extended_files(arguments.config)) read.push_back(file);
   for (const std::string& file : arguments.start) {
-    read.push_back(fs::weakly_canonical(file).string());
+    read.push_back(place_of(file).string());
   }
   require_kept(arguments.out, {"model.yaml", kFoundModel, "result.json"}, read);
 }

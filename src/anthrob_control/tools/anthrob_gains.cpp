@@ -89,7 +89,7 @@ void check(const Gains::Request& request, const Gains::Response& held) {
 /// @throws BadInput if --save would overwrite the model or a file that it extends
 std::shared_ptr<const anthrob::RobotModel> load(const Arguments& arguments) {
   const auto model = anthrob::load_robot_model(arguments.model);
-  const std::string out = fs::weakly_canonical(arguments.save).string();
+  const std::string out = anthrob::place_of(arguments.save).string();
   for (const std::string& file : anthrob::extended_files(arguments.model)) {
     if (file == out) {
       throw BadInput("--save " + arguments.save +

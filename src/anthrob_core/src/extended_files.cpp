@@ -4,6 +4,7 @@
 
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/errors.h"
+#include "anthrob_core/files.h"
 #include "require_file.h"
 
 namespace anthrob {
@@ -21,7 +22,7 @@ ConfigNode alone(const std::string& file) {
 }  // namespace
 
 std::vector<std::string> extended_files(const std::string& file) {
-  std::vector<std::string> files = {std::filesystem::weakly_canonical(file).string()};
+  std::vector<std::string> files = {place_of(file).string()};
   const ConfigNode node = alone(file);
   if (!node.is_map() || !node.has("extends")) return files;
   const ConfigNode extends = node.at("extends");

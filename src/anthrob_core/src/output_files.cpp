@@ -31,9 +31,9 @@ void require_writable(const std::string& folder) {
 void require_kept(const std::string& folder, const std::vector<std::string>& names,
                   const std::vector<std::string>& read) {
   for (const std::string& name : names) {
-    const std::string written = fs::weakly_canonical(fs::path(folder) / name).string();
+    const std::string written = place_of(fs::path(folder) / name).string();
     if (std::find(read.begin(), read.end(), written) == read.end()) continue;
-    throw BadInput("--out " + folder + ": its " + name +
+    throw BadInput(folder + ": its " + name +
                    " is an input of this run and would be overwritten; expected another folder");
   }
 }

@@ -100,7 +100,7 @@ void keep_inputs(const Arguments& a) {
     for (const std::string& file : extended_files(a.robot_file)) read.push_back(file);
     for (const auto* group : {&a.train, &a.test, &a.repeats}) {
       for (const std::string& name : *group) {
-        const std::filesystem::path folder = std::filesystem::weakly_canonical(name);
+        const std::filesystem::path folder = place_of(name);
         const bool has_slash = folder.filename().empty();
         read.push_back((has_slash ? folder.parent_path() : folder).string());
       }

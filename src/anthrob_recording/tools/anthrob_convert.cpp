@@ -4,6 +4,7 @@
 
 #include "anthrob_core/command_line.h"
 #include "anthrob_core/errors.h"
+#include "anthrob_core/files.h"
 #include "anthrob_recording/bag.h"
 #include "anthrob_recording/dataset.h"
 #include "foreign/foreign_csv.h"
@@ -12,6 +13,23 @@ namespace {
 
 void say_not_carried(const std::vector<std::string>& list) {
   for (const std::string& what : list) std::cout << "not converted: " << what << "\n";
+}
+
+/// Refuses to write a dataset folder over the files that it is made from.
+void keep_inputs(const anthrob::Dataset& made, const std::string& out,
+                 const std::vector<std::string>& inputs) {
+  std::vector<std::string> written = {"meta.yaml"}, read;
+  for (const anthrob::Table& table : made.tables) written.push_back(table.name + ".csv");
+  for (const std::string& input : inputs) read.push_back(anthrob::place_of(input).string());
+  anthrob::require_kept(out, written, read);
+}
+
+/// The same of a bag, whose description is written beside it.
+void keep_folder(const std::string& in, const std::filesystem::path& bag) {
+  const std::string described = bag.stem().string() + ".yaml";
+  const std::string folder = bag.has_parent_path() ? bag.parent_path().string() : ".";
+  anthrob::require_kept(folder, {described},
+                        {anthrob::place_of(std::filesystem::path(in) / "meta.yaml").string()});
 }
 
 }  // namespace
@@ -29,7 +47,9 @@ int main(int argc, char** argv) {
                  "YAML file that says what the columns of the CSV file are (docs/files.md)");
   return tool::run(app, argc, argv, [&]() -> int {
     if (!columns.empty()) {
-      read_foreign_csv(in, ForeignColumns::load(columns)).save(out);
+      const Dataset made = read_foreign_csv(in, ForeignColumns::load(columns));
+      keep_inputs(made, out, {in, columns});
+      made.save(out);
       return tool::kDone;
     }
     const auto is_bag = [](const std::string& path) {
@@ -44,6 +64,7 @@ int main(int argc, char** argv) {
     if (!is_bag(in)) {
       const Dataset recording = Dataset::load(in);
       tool::say(app, recording.remarks);
+      keep_folder(in, out);
       const BagRemarks done = write_bag(recording, out);
       tool::say(app, done.remarks);
       say_not_carried(done.not_carried);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "anthrob_core/files.h"
 #include "anthrob_recording/bag.h"
 #include "anthrob_recording/unanswered.h"
 #include "anthrob_sim/replay/replay.h"
@@ -50,8 +51,8 @@ int main(int argc, char** argv) {
                                    : mode == "voltage"  ? ReplayMode::kVoltage
                                    : mode == "position" ? ReplayMode::kPosition
                                                         : ReplayMode::kPosture;
-    std::error_code error;
-    if (std::filesystem::equivalent(in, out, error)) {
+    std::error_code none;
+    if (place_of(in) == place_of(out) || std::filesystem::equivalent(in, out, none)) {
       throw BadInput("--out " + out + ": expected another folder than the recording");
     }
     recording.require_place(out);

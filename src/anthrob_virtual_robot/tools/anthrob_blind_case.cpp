@@ -5,6 +5,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "anthrob_core/files.h"
 #include "blind_case.h"
 #include "tool.h"
 
@@ -40,7 +41,7 @@ std::pair<std::string, std::string> law_and_place(const std::string& text) {
 
 /// One way to write it, whether it exists or not.
 std::filesystem::path whole(const std::string& path) {
-  const auto all = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  const auto all = anthrob::place_of(path);
   return all.has_filename() ? all : all.parent_path();
 }
 

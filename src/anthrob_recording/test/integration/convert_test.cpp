@@ -512,6 +512,34 @@ TEST(ConvertTool, TellsWhatIsOddAndWhatItDoesNotCarry) {
   EXPECT_EQ(Dataset::load(folder / "back").meta.other.at("weather"), "fine\n");
 }
 
+TEST(ConvertTool, NothingThatIsReadIsReplaced) {
+  const Folder folder;
+  hinge().save(folder / "set");
+  const std::string meta = content(folder / "set/meta.yaml");
+  for (const char* bag : {"set/meta.bag", "nox/../set/meta.bag", "set/./meta.bag"}) {
+    EXPECT_EQ(convert(folder, folder / "set", folder / bag), 2) << bag;
+    EXPECT_NE(content(folder / "errors.txt").find("meta.yaml is an input of this run"),
+              std::string::npos)
+        << content(folder / "errors.txt");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "set/meta.bag"));
+  EXPECT_EQ(content(folder / "set/meta.yaml"), meta);
+  // A CSV file that would have the name of a table, and what says what its columns are.
+  std::ofstream(folder / "map.yaml") << "robot: rig\ntime: {column: t}\ncolumns:\n"
+                                        "  - {from: hinge/position, to: hinge/position}\n";
+  const std::string columns = " --columns " + (folder / "map.yaml");
+  const std::string csv = content(folder / "set/joints.csv");
+  ASSERT_EQ(convert(folder, (folder / "set/joints.csv") + columns, folder / "new"), 0)
+      << content(folder / "errors.txt");
+  for (const char* out : {"set", "nox/../set"}) {
+    EXPECT_EQ(convert(folder, (folder / "set/joints.csv") + columns, folder / out), 2);
+    EXPECT_NE(content(folder / "errors.txt").find("joints.csv is an input of this run"),
+              std::string::npos)
+        << content(folder / "errors.txt");
+    EXPECT_EQ(content(folder / "set/joints.csv"), csv);
+  }
+}
+
 TEST(ConvertTool, WhatCannotBeWrittenIsNoBadInput) {
   const Folder folder;
   hinge().save(folder / "set");
