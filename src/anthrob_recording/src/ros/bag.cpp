@@ -251,7 +251,14 @@ BagContents contents_of(const std::string& file) {
   const std::string beside = meta_beside(file);
   if (std::filesystem::exists(beside))
     contents.dataset.meta = load_meta(beside, &contents.dataset.remarks);
-  contents.dataset.meta.robot = robot;
+  if (!robot.empty()) contents.dataset.meta.robot = robot;
+  if (contents.dataset.meta.robot.empty()) {
+    contents.dataset.remarks.push_back(
+        file +
+        ": its topics are in no robot's namespace, so that the robot is not known; give its "
+        "name by robot: in meta.yaml, or in " +
+        leaf(beside) + " beside the bag");
+  }
   for (const auto& [topic, table] : kTopics) {
     if (!chosen.count(topic)) continue;
     TableBuilder builder(table);
@@ -360,8 +367,8 @@ BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
   if (topics.tables.empty()) {
     throw BadInput(dataset.folder + ": contains no column that a bag can store");
   }
-  const std::string prefix =
-      "/" + (dataset.meta.robot.empty() ? std::string("robot") : dataset.meta.robot) + "/";
+  const std::string robot = dataset.meta.robot.empty() ? "robot" : dataset.meta.robot;
+  const std::string prefix = "/" + robot + "/";
   PartFile part(file);
   auto bag = std::make_unique<rosbag::Bag>();
   try {
@@ -383,7 +390,12 @@ BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
     // Write meta first: a meta.yaml without a bag is harmless, a bag with a stale one is not.
     write_file_atomically(meta_beside(file), meta_text(dataset.meta));
     part.move_to(file);
-    return {topics.not_carried, topics.remarks};
+    BagRemarks remarks = {topics.not_carried, topics.remarks};
+    if (dataset.meta.robot.empty()) {
+      remarks.remarks.push_back(dataset.folder +
+                                ": meta.yaml: robot: is missing: the topics are in " + prefix);
+    }
+    return remarks;
   } catch (const rosbag::BagException& e) {
     (void)bag.release();  // its destructor would write again, and throw, which ends the program
     part.fail(e.what());

@@ -466,6 +466,47 @@ TEST(Convert, ATopicNeedsNoLeadingSlash) {
   EXPECT_EQ(read_bag(folder / "b.bag").dataset.meta.robot, "");
 }
 
+TEST(Convert, ARobotKeepsItsName) {
+  const Folder folder;
+  const auto record = [&](const std::string& name, const std::string& topic) {
+    std::filesystem::remove(folder / (name + ".yaml"));
+    rosbag::Bag bag(folder / (name + ".bag"), rosbag::bagmode::Write);
+    sensor_msgs::JointState joints;
+    joints.name = {"hinge"}, joints.position = {0.5};
+    bag.write(topic, ros::Time(1), joints);
+  };
+  const auto topic_of = [](const std::string& file) {
+    rosbag::Bag bag(file, rosbag::bagmode::Read);
+    return rosbag::View(bag).getConnections().front()->topic;
+  };
+  // As recorded by whole names; as other writers of bags have them; of a robot among others.
+  for (const auto& [topic, robot] :
+       {std::pair<std::string, std::string>("/rig/joint_states", "rig"), {"rig/joint_states", "rig"},
+        {"/lab/rig/joint_states", "lab/rig"}}) {
+    record("a", topic);
+    const Dataset dataset = read_bag(folder / "a.bag").dataset;
+    EXPECT_TRUE(dataset.remarks.empty()) << topic;
+    dataset.save(folder / "set");
+    EXPECT_TRUE(write_bag(Dataset::load(folder / "set"), folder / "b.bag").remarks.empty());
+    EXPECT_EQ(topic_of(folder / "b.bag"), "/" + robot + "/joint_states");
+    EXPECT_EQ(read_bag(folder / "b.bag").dataset.meta.robot, robot);
+  }
+  // Recorded within the robot's namespace: the name is nowhere, and that is said.
+  record("a", "joint_states");
+  Dataset nameless = read_bag(folder / "a.bag").dataset;
+  ASSERT_EQ(nameless.remarks.size(), 1u);
+  EXPECT_EQ(nameless.remarks[0].find((folder / "a.bag") + ": its topics are in no robot's"), 0u);
+  nameless.save(folder / "set");
+  const BagRemarks said = write_bag(Dataset::load(folder / "set"), folder / "b.bag");
+  ASSERT_EQ(said.remarks.size(), 1u);
+  EXPECT_EQ(said.remarks[0].find((folder / "set") + ": meta.yaml: robot: is missing"), 0u);
+  // Unless the description has it.
+  std::ofstream(folder / "a.yaml") << "robot: rig\nkind: trajectory\n";
+  const Dataset named = read_bag(folder / "a.bag").dataset;
+  EXPECT_TRUE(named.remarks.empty());
+  EXPECT_EQ(named.meta.robot, "rig");
+}
+
 TEST(Convert, AnOrientationIsWholeOrNotThere) {
   const Folder folder;
   for (const char* missing : {"w", "x", "z", "wy"}) {
