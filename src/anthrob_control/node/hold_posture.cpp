@@ -126,6 +126,7 @@ bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "hold_posture";
+  info.ends_by_itself = true;
   info.role = anthrob::NodeInfo::Role::kCommander;
   info.purpose =
       "Puts a running simulator into one posture of a file, at equilibrium, and commands it once.";

@@ -128,6 +128,7 @@ bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "posture_player";
+  info.ends_by_itself = true;
   info.role = anthrob::NodeInfo::Role::kCommander;
   info.purpose = "Moves the robot through the postures of a file.";
   info.parameters = {

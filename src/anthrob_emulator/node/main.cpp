@@ -14,6 +14,7 @@
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
+#include "anthrob_ros/master_uri.h"
 #include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/conversions.h"
 #include "anthrob_sim/tool.h"
@@ -125,7 +126,8 @@ int run(const Arguments& arguments) {
 }  // namespace anthrob
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "emulated_ecus", ros::init_options::NoSigintHandler);
+  const auto wrong = anthrob::wrong_master_uri({argv + 1, argv + argc});
+  if (!wrong) ros::init(argc, argv, "emulated_ecus", ros::init_options::NoSigintHandler);
   anthrob::Arguments arguments;
   CLI::App app("Emulated ECUs of a robot on a CAN interface", "anthrob_emulator");
   app.add_option("--hardware", arguments.hardware, "hardware.yaml of the robot")->required();
@@ -152,5 +154,9 @@ int main(int argc, char** argv) {
                "publish the ball joints, as motion capture would, once a driver sends SYNC");
   app.add_flag("--clock", arguments.clock,
                "publish /clock, the robot's time at --pace, once a driver sends SYNC");
-  return anthrob::tool::run(app, argc, argv, [&] { return anthrob::run(arguments); });
+  const auto body = [&] {
+    if (wrong) throw anthrob::BadInput(*wrong);
+    return anthrob::run(arguments);
+  };
+  return anthrob::tool::run(app, argc, argv, body, anthrob::tool::kDone);
 }

@@ -33,6 +33,7 @@ bool enable(ros::NodeHandle& nh) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "recorder";
+  info.ends_by_itself = true;
   info.role = anthrob::NodeInfo::Role::kCommander;
   info.purpose = "Records equilibria or trajectories of a robot by protocol.";
   info.parameters = {

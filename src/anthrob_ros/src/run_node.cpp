@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/signals.h"
+#include "anthrob_ros/master_uri.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/single_backend.h"
 
@@ -12,7 +14,7 @@ namespace anthrob {
 
 namespace {
 
-constexpr int kBadInput = 2, kFailed = 1;
+constexpr int kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130;
 
 const NodeInfo::Parameter kBackEndParameter = {
     "back_end",
@@ -118,8 +120,14 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
     std::cerr << *wrong << "\n";
     return kBadInput;
   }
+  if (const auto wrong = wrong_master_uri(arguments)) {
+    std::cerr << *wrong << "\n";
+    return kBadInput;
+  }
+  leave_when_stopped(info.ends_by_itself ? kInterrupted : kDone);
   try {
-    ros::init(argc, argv, info.name, info.options);
+    // ROS would listen to Ctrl-C only, and only once there is a master.
+    ros::init(argc, argv, info.name, info.options | ros::init_options::NoSigintHandler);
   } catch (const ros::Exception& error) {  // not a valid name
     std::cerr << error.what() << "\n";
     return kBadInput;
@@ -130,6 +138,7 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
   }
   // These handles outlive those of the body: without any handle nothing is logged.
   ros::NodeHandle nh, settings("~");
+  on_stop([](int) { ros::requestShutdown(); });
   try {
     warn_of_odd_parameters(info, settings.getNamespace(), arguments);
     if (commands) {

@@ -26,6 +26,7 @@ struct NodeInfo {
     kCommander,  ///< commands or enables a robot: has the parameter ~back_end (single_backend.h)
   };
   Role role = Role::kOther;
+  bool ends_by_itself = false;  ///< so that one that is stopped before has not done its work
 
   bool has(const std::string& key) const;
 };
@@ -37,6 +38,8 @@ using NodeBody = std::function<int(ros::NodeHandle& nh, ros::NodeHandle& setting
 /// for BadInput, for an unknown argument and for the name of a living node, and 1 for anything
 /// else. Warns of parameters on the server that the node does not know, or that neither roslaunch
 /// nor the command line has set: an earlier start may have left them there.
+/// Ctrl-C, SIGTERM and a closed terminal end ros::ok(). Before the body begins, also while there is
+/// no master yet, they end the node at once, with the status of a stopped one.
 /// @param body gets a handle of the node's namespace and one of its private parameters
 int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body);
 
