@@ -12,6 +12,7 @@
 #include "anthrob_core/errors.h"
 #include "anthrob_core/files.h"
 #include "anthrob_ecu/gains.h"
+#include "anthrob_ros/master_uri.h"
 #include "gains_file.h"
 
 namespace {
@@ -139,8 +140,11 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "gains",
-            ros::init_options::AnonymousName | ros::init_options::NoSigintHandler);
+  const auto wrong = anthrob::wrong_master_uri({argv + 1, argv + argc});
+  if (!wrong) {
+    ros::init(argc, argv, "gains",
+              ros::init_options::AnonymousName | ros::init_options::NoSigintHandler);
+  }
   CLI::App app(
       "Reads, changes and saves the gains of a running robot or simulator. Without arguments it "
       "changes nothing. It prints all gains that are in force afterwards, as MUSCLE/GAIN=VALUE.",
@@ -152,5 +156,8 @@ int main(int argc, char** argv) {
   app.add_option("--save", arguments.save,
                  "model file to write: extends --model by the gains that differ from it");
   app.add_option("--model", arguments.model, "model file that the robot was started with");
-  return anthrob::tool::run(app, argc, argv, [&] { return run(arguments); });
+  return anthrob::tool::run(app, argc, argv, [&] {
+    if (wrong) throw BadInput(*wrong);
+    return run(arguments);
+  });
 }
