@@ -62,15 +62,15 @@ bool is_number_of_digits(const std::string& text) {
 }
 
 /// YAML that means something else than it seems to, in an entry that comes after those of `map`.
-void refuse_misleading(const std::string& key, const YAML::Node& value, const Data& map,
-                       int line) {
+void refuse_misleading(const std::string& key, const YAML::Node& value, const Data& map, int line) {
   if (key == "<<") {
     fail_at(*map.file, line, "<<: merge keys are not read; expected extends, or the keys again");
   }
   if (!value.IsNull() || !is_number_of_digits(key) || map.entries.empty()) return;
   const auto& [name, before] = map.entries.back();
   if (before->kind != Kind::kScalar) return;
-  const bool is_signed = !before->scalar.empty() && (before->scalar[0] == '-' || before->scalar[0] == '+');
+  const bool is_signed =
+      !before->scalar.empty() && (before->scalar[0] == '-' || before->scalar[0] == '+');
   if (!is_number_of_digits(before->scalar.substr(is_signed ? 1 : 0))) return;
   fail_at(*map.file, line,
           name + ": " + before->scalar + "," + key + ": a decimal comma? expected " +
@@ -192,8 +192,9 @@ YAML::Node only_document(const std::string& text, const std::string& path) {
 DataPtr load_file(const std::string& path, Reading& reading) {
   std::vector<std::string>& chain = reading.chain;
   if (++reading.files > kMostFiles) {
-    fail_at(path, 1, "extends: more than " + std::to_string(kMostFiles) +
-                         " files in all; expected fewer, and none twice");
+    fail_at(path, 1,
+            "extends: more than " + std::to_string(kMostFiles) +
+                " files in all; expected fewer, and none twice");
   }
   chain.push_back(std::filesystem::weakly_canonical(path).string());
 

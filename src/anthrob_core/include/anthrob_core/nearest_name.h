@@ -7,8 +7,8 @@
 namespace anthrob {
 
 /// The known name that a misspelt one probably stands for. A letter too many, too few, another one,
-/// or two that are swapped count one each; capitals do not count. Three letters or more at which only
-/// one known name begins stand for that. None if more than every third letter is wrong.
+/// or two that are swapped count one each; capitals do not count. Three letters or more at which
+/// only one known name begins stand for that. None if more than every third letter is wrong.
 std::optional<std::string> nearest_name(const std::string& name,
                                         const std::vector<std::string>& known);
 

@@ -193,9 +193,10 @@ TEST_F(InterruptedRun, OfAnotherEffectLibraryIsBegunAnew) {
                                   << "effect_libraries: [own]\n";
   const auto run = [&](const std::string& before) {
     const int status = std::system(
-        ("LD_LIBRARY_PATH=" + folder_.string() + ":$LD_LIBRARY_PATH ANTHROB_EFFECT_LIBRARIES=own " + before + ANTHROB_DISCOVER +
-         " --model " + path("own.yaml") + " --train " + path("train") + " --test " + path("test") +
-         " --jobs 1 --out " + path("found") + " >/dev/null 2>" + path("errors"))
+        ("LD_LIBRARY_PATH=" + folder_.string() + ":$LD_LIBRARY_PATH ANTHROB_EFFECT_LIBRARIES=own " +
+         before + ANTHROB_DISCOVER + " --model " + path("own.yaml") + " --train " + path("train") +
+         " --test " + path("test") + " --jobs 1 --out " + path("found") + " >/dev/null 2>" +
+         path("errors"))
             .c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   };

@@ -66,7 +66,8 @@ std::optional<std::string> Supervisor::check(const std::vector<std::string>& nam
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto it = std::find_if(muscles_.begin(), muscles_.end(),
                                  [&](const MuscleChannel& m) { return m.name == names[i]; });
-    if (it == muscles_.end()) return "muscle '" + names[i] + "': no such muscle" + others(names[i], muscles_);
+    if (it == muscles_.end())
+      return "muscle '" + names[i] + "': no such muscle" + others(names[i], muscles_);
     const std::string who = "muscle '" + names[i] + "': ";
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i)) {

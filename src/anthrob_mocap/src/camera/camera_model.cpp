@@ -46,8 +46,8 @@ std::optional<std::string> camera_matrix_fault(const Mat3& K, int width, int hei
            (is_one(K.transpose()) ? "; this one is written column by column" : "");
   }
   if (!(K(0, 2) > 0.0 && K(0, 2) < width && K(1, 2) > 0.0 && K(1, 2) < height)) {
-    return "expected a principal point (cx, cy) in the picture of " + std::to_string(width) + " x " +
-           std::to_string(height) + " pixels";
+    return "expected a principal point (cx, cy) in the picture of " + std::to_string(width) +
+           " x " + std::to_string(height) + " pixels";
   }
   return std::nullopt;
 }

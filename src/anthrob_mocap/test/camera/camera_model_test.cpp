@@ -162,8 +162,9 @@ TEST_F(RigFiles, WithMatricesInAnotherOrderAreRefused) {
   };
   const std::string key = "left.yaml:4: camera_matrix: ";
   refuse(with_matrix("[1000, 0, 0, 0, 1000, 0, 324, 244, 1]"), right_,
-         key + "expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0; this one is written "
-               "column by column");
+         key +
+             "expected [fx, 0, cx, 0, fy, cy, 0, 0, 1] with fx, fy > 0; this one is written "
+             "column by column");
   refuse(with_matrix("[1000, 0, 324, 0, 1000, 244, 0, 1, 1]"), right_, key + "expected [fx");
   refuse(with_matrix("[1000, 324, 0, 0, 1000, 244, 0, 0, 1]"), right_, key + "expected [fx");
   // Its rows and columns interchanged, of a picture of 648 x 488: cy where cx should be.

@@ -35,19 +35,21 @@ std::string refusal_of(Dataset dataset) {
 
 TEST(Clocks, SimulatedTimeBesideTheTimeOfDay) {
   const Nanoseconds today = 1690000000 * kSecond;
-  EXPECT_EQ(refusal_of(recording({table("muscles", today, today + 2 * kSecond),
-                                  table("joints", kSecond, 3 * kSecond),
-                                  table("commands", today, today + kSecond)})),
-            "run/joints.csv: not synchronised with the other files: it ends 1689999997.000 s before "
-            "they begin; expected all files to use one clock");
+  EXPECT_EQ(
+      refusal_of(recording({table("muscles", today, today + 2 * kSecond),
+                            table("joints", kSecond, 3 * kSecond),
+                            table("commands", today, today + kSecond)})),
+      "run/joints.csv: not synchronised with the other files: it ends 1689999997.000 s before "
+      "they begin; expected all files to use one clock");
 }
 
 TEST(Clocks, AnHourFast) {
   const std::string said = refusal_of(recording(
       {table("joints", 3600 * kSecond, 3610 * kSecond), table("commands", 0, 10 * kSecond)}));
-  EXPECT_EQ(said,
-            "run/joints.csv: not synchronised with the other files: it begins 3590.000 s after they "
-            "end; expected all files to use one clock");
+  EXPECT_EQ(
+      said,
+      "run/joints.csv: not synchronised with the other files: it begins 3590.000 s after they "
+      "end; expected all files to use one clock");
 }
 
 TEST(Clocks, ALatchedCommandIsRemarked) {
@@ -55,9 +57,10 @@ TEST(Clocks, ALatchedCommandIsRemarked) {
       {table("muscles", 600 * kSecond, 610 * kSecond), table("commands", 0, 609 * kSecond)});
   check_clocks(latched);
   ASSERT_EQ(latched.remarks.size(), 1u);
-  EXPECT_EQ(latched.remarks.front(),
-            "run/commands.csv: begins 600.000 s before the other files: a latched message, or a wrong "
-            "clock? A replay begins there");
+  EXPECT_EQ(
+      latched.remarks.front(),
+      "run/commands.csv: begins 600.000 s before the other files: a latched message, or a wrong "
+      "clock? A replay begins there");
 }
 
 TEST(Clocks, WhatIsUsualIsNot) {

@@ -403,9 +403,10 @@ class Builder {
     const auto lengths = undecided_side(*list[i].surface, seen(list[i - 1]), seen(list[i + 1]));
     if (!lengths) return;
     model_->remarks.push_back(
-        entry.file() + ": " + entry.path() + ": at rest the tendon goes through the middle of this " +
-        list[i].surface->type() + ", and rounding decides on which side it lies (" +
-        millimetres(lengths->first) + " on this side, " + millimetres(lengths->second) +
+        entry.file() + ": " + entry.path() +
+        ": at rest the tendon goes through the middle of this " + list[i].surface->type() +
+        ", and rounding decides on which side it lies (" + millimetres(lengths->first) +
+        " on this side, " + millimetres(lengths->second) +
         " on another); expected a neighbouring point, or the surface, moved towards the side that "
         "is meant");
   }
@@ -430,11 +431,10 @@ class Builder {
         const ConfigNode entry = number >= 0 ? entries[number] : list;
         remark_on_undecided_side(path, i, entry, bodies);
         if (obstacle.penetration <= allowed) continue;
-        const std::string message = "a neighbouring path point lies " +
-                                    millimetres(obstacle.penetration) +
-                                    " inside the surface at rest" +
-                                    with_effects_at(model_->muscles[m].name) +
-                                    "; expected it outside";
+        const std::string message =
+            "a neighbouring path point lies " + millimetres(obstacle.penetration) +
+            " inside the surface at rest" + with_effects_at(model_->muscles[m].name) +
+            "; expected it outside";
         const std::string who = number >= 0 ? "" : "surface added by an effect: ";
         if (obstacle.touching) entry.fail(who + message);
         // A tendon that runs clear of it is well defined, and calibrations try such radii.

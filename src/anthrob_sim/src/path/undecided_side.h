@@ -7,9 +7,9 @@
 
 namespace anthrob {
 
-/// Whether rounding decides on which side of a surface a tendon comes to lie: a straight line through
-/// the axis of a cylinder or the centre of a sphere is equally far from either. Chi decides for
-/// meshes.
+/// Whether rounding decides on which side of a surface a tendon comes to lie: a straight line
+/// through the axis of a cylinder or the centre of a sphere is equally far from either. Chi decides
+/// for meshes.
 /// @param before, after the neighbouring points, in the frame of the surface's body [m]
 /// @return lengths of the tendon over the surface on one side and on the other [m]; none where the
 /// points decide

@@ -139,8 +139,8 @@ TEST_F(MeshFile, ColladaAsRvizDrawsIt) {
   for (const std::string up_axis : {"X_UP", "Y_UP", "Z_UP"}) {
     for (const double meter : {1.0, 0.1}) {
       SCOPED_TRACE(up_axis + " " + std::to_string(meter));
-      const auto surface =
-          load(write(up_axis + std::to_string(meter) + ".dae", collada(up_axis, std::to_string(meter))));
+      const auto surface = load(
+          write(up_axis + std::to_string(meter) + ".dae", collada(up_axis, std::to_string(meter))));
       EXPECT_EQ(surface->hull().facet_count(), 4);
       Vec3 lo = surface->hull().vertices()[0], hi = lo;
       for (const Vec3& p : surface->hull().vertices()) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
