@@ -17,7 +17,8 @@ std::vector<double> matrix(const ConfigNode& parent, const std::string& key, int
   const ConfigNode node = parent.at(key);
   node.at("rows").as_integer(rows, rows);
   node.at("cols").as_integer(cols, cols);
-  return node.at("data").as_numbers(static_cast<std::size_t>(rows * cols), "pixel or 1");
+  const auto count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols);
+  return node.at("data").as_numbers(count, "pixel or 1");
 }
 
 void read_distortion(const ConfigNode& file, CameraModel& camera) {
