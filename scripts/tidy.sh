@@ -45,6 +45,21 @@ changed_files() {
   } | awk '!seen[$0]++'
 }
 
+# The commands of the single files, of which the build compiles several as one.
+single_files() {
+  /usr/bin/python3 - build/compile_commands.json "$out/compile_commands.json" <<'PYTHON'
+import json, re, sys
+singles = []
+for entry in json.load(open(sys.argv[1])):
+    together = []
+    if '/Unity/unity_' in entry['file']:
+        together = re.findall(r'#include "(.*)"', open(entry['file']).read())
+    singles += [{'directory': entry['directory'], 'file': file, 'command': entry['command'].replace(entry['file'], file)}
+                for file in together or [entry['file']]]
+json.dump(singles, open(sys.argv[2], 'w'), indent=2)
+PYTHON
+}
+
 # A file as build/compile_commands.json names it, if it is compiled at all. tests/ is a link in a package.
 as_compiled() {
   sed -nE "s|^ *\"file\": \"(.*/${1/#tests\//anthrob_tests/tests/})\".*|\1|p" "$out/compile_commands.json" | head -1
@@ -67,8 +82,7 @@ command -v clang-tidy >/dev/null || skip 'no clang-tidy: apt-get install clang-t
 base="$(find_base 2>/dev/null)" || skip 'no history to compare with'
 
 mkdir -p "$out"
-# Of gcc's precompiled headers clang can read nothing; every file names what it needs.
-sed -E "s#-include [^ ]*/cmake_pch\.hxx ##" build/compile_commands.json >"$out/compile_commands.json"
+single_files || skip 'build/compile_commands.json cannot be read'
 files=()
 while read -r file; do
   compiled="$(as_compiled "$file")"

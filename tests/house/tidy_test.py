@@ -77,6 +77,18 @@ class Tidy(unittest.TestCase):
         status, said, cases = self.run_script()
         self.assertEqual((status, cases), (1, {'good.cpp': 'failure', 'new.cpp': None}), said)
 
+    def test_files_that_are_compiled_as_one_are_looked_at_one_by_one(self):
+        one = self.folder + '/build/Unity/unity_0_cxx.cxx'
+        self.write('build/Unity/unity_0_cxx.cxx', ''.join('#include "%s/%s.cpp"\n' % (self.folder, name)
+                                                          for name in ('good', 'old', 'new')))
+        self.write('build/compile_commands.json', json.dumps(
+            [{'directory': self.folder, 'command': 'c++ -std=gnu++17 -c ' + one, 'file': one}], indent=2))
+        self.write('new.cpp', BAD.replace('half', 'a_half'))
+        self.commit()
+        status, said, cases = self.run_script()
+        self.assertEqual((status, cases), (1, {'new.cpp': 'failure'}), said)
+        self.assertIn('/new.cpp:3:', said)
+
     def test_a_branch_counts_from_where_it_left(self):
         self.git('update-ref', 'refs/remotes/origin/main', 'HEAD')
         for name in ('new.cpp', 'good.cpp'):

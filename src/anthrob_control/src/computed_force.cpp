@@ -15,7 +15,7 @@ namespace anthrob {
 namespace {
 
 constexpr double kForgotten = 0.5;  ///< without an update [s]; begins anew after it
-constexpr double kLongestStep =
+constexpr double kLongestPause =
     0.1;  ///< of motion and integrals [s]; a measurement that old is stale
 
 /// Muscles without a controller are left alone: their bounds are zero.
@@ -151,7 +151,7 @@ const ForceCommand& ComputedForce::update(const RobotMeasurement& measured, doub
   filter_.step(measured.q, measured.u, dt);
   // Where commands were held up the motion waits, and nothing is integrated: what it would have
   // done meanwhile is no step to be taken at once.
-  const double step = std::min(dt, std::max(kLongestStep, 2.0 / settings_.rate));
+  const double step = std::min(dt, std::max(kLongestPause, 2.0 / settings_.rate));
   posture_.update(filter_.configuration(), filter_.velocity());
   if (fresh_) {
     fresh_ = false;

@@ -11,6 +11,10 @@ macro(anthrob_package)
     set(CMAKE_BUILD_TYPE Release)
   endif()
   add_compile_options(-Wall -Wextra -Wpedantic -Wshadow)
+  # Several sources are compiled as one: most of the time goes into headers. For work on few files: -DCMAKE_UNITY_BUILD=OFF.
+  if(NOT DEFINED CMAKE_UNITY_BUILD)
+    set(CMAKE_UNITY_BUILD ON)
+  endif()
   # Every library names all that it needs.
   add_link_options(-Wl,--no-undefined)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/include)
@@ -32,15 +36,6 @@ function(anthrob_sources variable folder)
     list(FILTER sources EXCLUDE REGEX "^${excluded}/")
   endforeach()
   set(${variable} ${sources} PARENT_SCOPE)
-endfunction()
-
-# anthrob_precompile(TARGET [HEADER...]): what nearly every source reads before its own lines, and the headers that are named.
-function(anthrob_precompile target)
-  set(headers <algorithm> <cmath> <functional> <map> <memory> <optional> <string> <vector> ${ARGN})
-  if(EIGEN3_INCLUDE_DIRS)
-    list(APPEND headers <Eigen/Dense>)
-  endif()
-  target_precompile_headers(${target} PRIVATE ${headers})
 endfunction()
 
 # anthrob_install(TARGET...): programs, libraries, and the package's doors.
@@ -70,7 +65,6 @@ function(anthrob_tests)
   target_compile_definitions(${program} PRIVATE ANTHROB_CONFIG_DIR="${ANTHROB_CONFIG_DIR}" ${arg_DEFINITIONS})
   # They are compiled more often than they run.
   target_compile_options(${program} PRIVATE -O1)
-  anthrob_precompile(${program} <gtest/gtest.h>)
   target_link_libraries(${program} ${arg_LIBRARIES} gtest)
   foreach(tool ${arg_TOOLS})
     string(TOUPPER ${tool} name)

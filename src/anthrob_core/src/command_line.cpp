@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/monotonic_clock.h"
 #include "anthrob_core/signals.h"
 
 namespace anthrob {
@@ -42,10 +42,6 @@ std::string one_line(std::string text) {
 /// What roslaunch adds to a command line: "__name:=discover", "__log:=..."
 bool is_remapping(const std::string& argument) {
   return argument.rfind("__", 0) == 0 && argument.find(":=") != std::string::npos;
-}
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 /// Whether all of a text is one finite number.
@@ -156,7 +152,7 @@ Range parse_range(const std::string& option, const std::string& text) {
 }
 
 Progress::Progress(const std::string& what)
-    : what_(what), start_(now()), visible_(isatty(2) == 1) {}
+    : what_(what), start_(monotonic_now()), visible_(isatty(2) == 1) {}
 
 Progress::~Progress() {
   if (visible_) std::fprintf(stderr, "\r\033[K");
@@ -167,14 +163,14 @@ void Progress::update(double share) {
 }
 
 void Progress::show(const std::string& state) {
-  const double t = now();
+  const double t = monotonic_now();
   if (!visible_ || t - last_ < 0.2) return;
   last_ = t;
   std::fprintf(stderr, "\r\033[K%s: %s", what_.c_str(), state.c_str());
 }
 
 double Progress::elapsed() const {
-  return now() - start_;
+  return monotonic_now() - start_;
 }
 
 std::string progress_text(double share, double elapsed) {

@@ -16,12 +16,10 @@
 
 namespace anthrob {
 
-namespace {
-enum class Kind { kNull, kScalar, kSequence, kMap };
-}  // namespace
+enum class NodeKind { kNull, kScalar, kSequence, kMap };
 
 struct ConfigNode::Data {
-  Kind kind = Kind::kNull;
+  NodeKind kind = NodeKind::kNull;
   std::string scalar;
   std::vector<std::shared_ptr<Data>> items;
   std::vector<std::pair<std::string, std::shared_ptr<Data>>> entries;
@@ -68,7 +66,7 @@ void refuse_misleading(const std::string& key, const YAML::Node& value, const Da
   }
   if (!value.IsNull() || !is_number_of_digits(key) || map.entries.empty()) return;
   const auto& [name, before] = map.entries.back();
-  if (before->kind != Kind::kScalar) return;
+  if (before->kind != NodeKind::kScalar) return;
   const bool is_signed =
       !before->scalar.empty() && (before->scalar[0] == '-' || before->scalar[0] == '+');
   if (!is_number_of_digits(before->scalar.substr(is_signed ? 1 : 0))) return;
@@ -105,17 +103,17 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
   data->line = node.Mark().line + 1;
   switch (node.Type()) {
     case YAML::NodeType::Scalar:
-      data->kind = Kind::kScalar;
+      data->kind = NodeKind::kScalar;
       data->scalar = node.Scalar();
       break;
     case YAML::NodeType::Sequence:
-      data->kind = Kind::kSequence;
+      data->kind = NodeKind::kSequence;
       for (const auto& item : node) {
         data->items.push_back(convert(item, file, reading, depth + 1));
       }
       break;
     case YAML::NodeType::Map:
-      data->kind = Kind::kMap;
+      data->kind = NodeKind::kMap;
       for (const auto& entry : node) {
         const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
         if (key.empty()) {
@@ -140,7 +138,7 @@ DataPtr convert(const YAML::Node& node, const std::shared_ptr<const std::string>
 
 /// @param path of the maps in their file
 DataPtr merge(const DataPtr& base, const DataPtr& over, const std::string& path = "") {
-  if (base->kind != Kind::kMap || over->kind != Kind::kMap) return over;
+  if (base->kind != NodeKind::kMap || over->kind != NodeKind::kMap) return over;
   auto merged = std::make_shared<Data>(*base);
   merged->file = over->file;
   merged->line = over->line;
@@ -149,7 +147,7 @@ DataPtr merge(const DataPtr& base, const DataPtr& over, const std::string& path 
     const auto entry = std::find_if(entries.begin(), entries.end(),
                                     [&, name = key](const auto& e) { return e.first == name; });
     const std::string where = join(path, key);
-    if (value->kind == Kind::kNull) {
+    if (value->kind == NodeKind::kNull) {
       if (entry == entries.end()) {
         fail_at(
             *value->file, value->line,
@@ -167,7 +165,7 @@ DataPtr merge(const DataPtr& base, const DataPtr& over, const std::string& path 
 
 /// The file that an entry of `extends` names, beside the file that says so.
 std::string base_file(const std::string& path, const Data& name) {
-  if (name.kind != Kind::kScalar) {
+  if (name.kind != NodeKind::kScalar) {
     fail_at(path, name.line, "extends: expected the name of a YAML file, or a list");
   }
   const auto base = std::filesystem::path(path).parent_path() / name.scalar;
@@ -209,13 +207,14 @@ DataPtr load_file(const std::string& path, Reading& reading) {
   }
   auto file = std::make_shared<const std::string>(path);
   DataPtr data = convert(root, file, reading);
-  if (data->kind != Kind::kMap) fail_at(path, 1, "expected a map of keys at the top of the file");
+  if (data->kind != NodeKind::kMap)
+    fail_at(path, 1, "expected a map of keys at the top of the file");
 
   if (const DataPtr extends = data->find("extends")) {
     auto& entries = data->entries;
     entries.erase(std::find_if(entries.begin(), entries.end(),
                                [](const auto& entry) { return entry.first == "extends"; }));
-    const bool one = extends->kind == Kind::kScalar;
+    const bool one = extends->kind == NodeKind::kScalar;
     DataPtr base;
     for (const DataPtr& name : one ? std::vector<DataPtr>{extends} : extends->items) {
       const std::string base_path = base_file(path, *name);
@@ -248,21 +247,21 @@ DataPtr deep_copy(const DataPtr& data) {
 
 void emit(YAML::Emitter& out, const DataPtr& data, bool flow) {
   switch (data->kind) {
-    case Kind::kNull:
+    case NodeKind::kNull:
       out << YAML::Null;
       break;
-    case Kind::kScalar:
+    case NodeKind::kScalar:
       out << data->scalar;
       break;
-    case Kind::kSequence:
-      if (flow || (!data->items.empty() && data->items.front()->kind == Kind::kScalar)) {
+    case NodeKind::kSequence:
+      if (flow || (!data->items.empty() && data->items.front()->kind == NodeKind::kScalar)) {
         out << YAML::Flow;
       }
       out << YAML::BeginSeq;
       for (const auto& item : data->items) emit(out, item, true);
       out << YAML::EndSeq;
       break;
-    case Kind::kMap:
+    case NodeKind::kMap:
       if (flow) out << YAML::Flow;
       out << YAML::BeginMap;
       for (const auto& [key, value] : data->entries) {
@@ -308,20 +307,21 @@ ConfigNode ConfigNode::parse(const std::string& text, const std::string& name) {
 }
 
 bool ConfigNode::is_map() const {
-  return data_->kind == Kind::kMap;
+  return data_->kind == NodeKind::kMap;
 }
 bool ConfigNode::is_sequence() const {
-  return data_->kind == Kind::kSequence;
+  return data_->kind == NodeKind::kSequence;
 }
 bool ConfigNode::is_scalar() const {
-  return data_->kind == Kind::kScalar;
+  return data_->kind == NodeKind::kScalar;
 }
 bool ConfigNode::has(const std::string& key) const {
   // Otherwise a word or list here would be ignored silently: it has no keys that could be unknown.
-  if (data_->kind == Kind::kScalar || data_->kind == Kind::kSequence) fail_expected("a map");
+  if (data_->kind == NodeKind::kScalar || data_->kind == NodeKind::kSequence)
+    fail_expected("a map");
   const DataPtr child = data_->find(key);
-  if (child && child->kind == Kind::kNull) child->read = true;
-  return child && child->kind != Kind::kNull;
+  if (child && child->kind == NodeKind::kNull) child->read = true;
+  return child && child->kind != NodeKind::kNull;
 }
 
 const std::string& ConfigNode::file() const {
@@ -333,16 +333,16 @@ void ConfigNode::fail(const std::string& message) const {
 }
 
 void ConfigNode::fail_expected(const std::string& expectation) const {
-  const std::string value = data_->kind == Kind::kScalar ? data_->scalar
-                            : data_->kind == Kind::kSequence
+  const std::string value = data_->kind == NodeKind::kScalar ? data_->scalar
+                            : data_->kind == NodeKind::kSequence
                                 ? "a list of " + std::to_string(data_->items.size())
-                            : data_->kind == Kind::kMap ? "{...}"
-                                                        : "(empty)";
+                            : data_->kind == NodeKind::kMap ? "{...}"
+                                                            : "(empty)";
   fail(value + ": expected " + expectation);
 }
 
 ConfigNode ConfigNode::at(const std::string& key) const {
-  if (data_->kind != Kind::kMap) fail_expected("a map with the key '" + key + "'");
+  if (data_->kind != NodeKind::kMap) fail_expected("a map with the key '" + key + "'");
   data_->read = true;
   const DataPtr child = data_->find(key);
   if (!child) fail("key '" + key + "' is missing");
@@ -351,7 +351,7 @@ ConfigNode ConfigNode::at(const std::string& key) const {
 }
 
 std::vector<ConfigNode> ConfigNode::items() const {
-  if (data_->kind != Kind::kSequence) fail_expected("a list");
+  if (data_->kind != NodeKind::kSequence) fail_expected("a list");
   data_->read = true;
   std::vector<ConfigNode> nodes;
   for (std::size_t i = 0; i < data_->items.size(); ++i) {
@@ -362,7 +362,7 @@ std::vector<ConfigNode> ConfigNode::items() const {
 }
 
 std::vector<std::pair<std::string, ConfigNode>> ConfigNode::entries() const {
-  if (data_->kind != Kind::kMap) fail_expected("a map");
+  if (data_->kind != NodeKind::kMap) fail_expected("a map");
   data_->read = true;
   std::vector<std::pair<std::string, ConfigNode>> nodes;
   for (const auto& [key, value] : data_->entries) {
@@ -374,7 +374,7 @@ std::vector<std::pair<std::string, ConfigNode>> ConfigNode::entries() const {
 
 double ConfigNode::as_number(const Bounds& bounds, const std::string& unit) const {
   const std::string expectation = bounds.text() + " [" + unit + "]";
-  if (data_->kind != Kind::kScalar) fail_expected(expectation);
+  if (data_->kind != NodeKind::kScalar) fail_expected(expectation);
   data_->read = true;
   double value = 0.0;
   if (!YAML::convert<double>::decode(YAML::Node(data_->scalar), value) || !bounds.contains(value)) {
@@ -386,7 +386,7 @@ double ConfigNode::as_number(const Bounds& bounds, const std::string& unit) cons
 int ConfigNode::as_integer(int lo, int hi) const {
   const std::string expectation =
       "an integer from " + std::to_string(lo) + " to " + std::to_string(hi);
-  if (data_->kind != Kind::kScalar) fail_expected(expectation);
+  if (data_->kind != NodeKind::kScalar) fail_expected(expectation);
   data_->read = true;
   int value = 0;
   // yaml-cpp takes a leading 0 for octal, as C does; whoever writes 010 means ten.
@@ -403,7 +403,7 @@ int ConfigNode::as_integer(int lo, int hi) const {
 bool ConfigNode::as_bool() const {
   data_->read = true;
   bool value = false;
-  if (data_->kind != Kind::kScalar ||
+  if (data_->kind != NodeKind::kScalar ||
       !YAML::convert<bool>::decode(YAML::Node(data_->scalar), value)) {
     fail_expected("true or false");
   }
@@ -411,13 +411,13 @@ bool ConfigNode::as_bool() const {
 }
 
 std::string ConfigNode::as_text() const {
-  if (data_->kind != Kind::kScalar || data_->scalar.empty()) fail_expected("a word");
+  if (data_->kind != NodeKind::kScalar || data_->scalar.empty()) fail_expected("a word");
   data_->read = true;
   return data_->scalar;
 }
 
 Eigen::Vector3d ConfigNode::as_vector3(const std::string& unit) const {
-  if (data_->kind != Kind::kSequence || data_->items.size() != 3) {
+  if (data_->kind != NodeKind::kSequence || data_->items.size() != 3) {
     fail_expected("three numbers [x, y, z] [" + unit + "]");
   }
   const auto nodes = items();
@@ -426,7 +426,7 @@ Eigen::Vector3d ConfigNode::as_vector3(const std::string& unit) const {
 }
 
 std::vector<double> ConfigNode::as_numbers(std::size_t count, const std::string& unit) const {
-  if (data_->kind != Kind::kSequence || data_->items.size() != count) {
+  if (data_->kind != NodeKind::kSequence || data_->items.size() != count) {
     fail_expected(std::to_string(count) + " numbers [" + unit + "]");
   }
   std::vector<double> values;
@@ -455,7 +455,7 @@ void ConfigNode::refuse_unknown_keys() const {
 void ConfigNode::refuse_empty_values() const {
   for (const auto& [key, value] : data_->entries) {
     const ConfigNode child(value, join(path_, key));
-    if (value->kind == Kind::kNull) child.fail_expected("a value; otherwise leave the key out");
+    if (value->kind == NodeKind::kNull) child.fail_expected("a value; otherwise leave the key out");
     child.refuse_empty_values();
   }
   for (std::size_t i = 0; i < data_->items.size(); ++i) {
@@ -473,9 +473,9 @@ void ConfigNode::set_number(const std::string& path, double value) {
   std::string key;
   while (std::getline(keys, key, '.')) {
     DataPtr child;
-    if (data->kind == Kind::kMap) {
+    if (data->kind == NodeKind::kMap) {
       child = data->find(key);
-    } else if (data->kind == Kind::kSequence && !key.empty() &&
+    } else if (data->kind == NodeKind::kSequence && !key.empty() &&
                key.find_first_not_of("0123456789") == std::string::npos) {
       const std::size_t index = std::stoul(key);
       if (index < data->items.size()) child = data->items[index];
@@ -484,7 +484,7 @@ void ConfigNode::set_number(const std::string& path, double value) {
     data = child;
   }
   double old = 0.0;
-  if (data->kind != Kind::kScalar ||
+  if (data->kind != NodeKind::kScalar ||
       !YAML::convert<double>::decode(YAML::Node(data->scalar), old)) {
     fail(path + ": not a number in the model");
   }

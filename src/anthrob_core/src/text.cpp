@@ -11,6 +11,15 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return text;
 }
 
+void append(const std::vector<std::string>& more, std::vector<std::string>& words) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+std::string trimmed(const std::string& text, const char* blank) {
+  const std::size_t first = text.find_first_not_of(blank), end = text.find_last_not_of(blank) + 1;
+  return first < end ? text.substr(first, end - first) : std::string();
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {

@@ -9,7 +9,7 @@
 
 #include "arm.h"
 #include "axis_recording.h"
-#include "rendered_page.h"
+#include "config.h"
 #include "rendered_page.h"
 #include "report/discovery_report.h"
 #include "report/discovery_summary.h"
@@ -19,8 +19,6 @@
 namespace anthrob {
 namespace discovery {
 namespace {
-
-const std::string kConfig = ANTHROB_CONFIG_DIR;
 
 const FoundParameter* find_parameter(const FoundEffect& effect, const std::string& name) {
   const auto found = std::find_if(effect.parameters.begin(), effect.parameters.end(),

@@ -14,6 +14,16 @@
 namespace anthrob {
 namespace testing_support {
 
+inline const char* const kHardware = ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml";
+
+using References = std::map<std::string, double>;  ///< by muscle [rad]
+inline const References kReach = {
+    {"lateral_deltoid", 6.0},  {"anterior_deltoid", 3.0}, {"posterior_deltoid", 1.0},
+    {"supraspinatus", 3.0},    {"infraspinatus", 0.5},    {"teres_minor", -0.5},
+    {"teres_major", -1.0},     {"pectoralis_major", 0.0}, {"biceps_brachii", 4.0},
+    {"triceps_brachii", -2.0}, {"brachialis", 3.0},
+};
+
 /// Driver, bus and seven emulated ECUs around the simulator's physics, a millisecond at a time. The
 /// zero is the model's, and the ECUs know it.
 class EmulatedRobot {

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "emulated_robot.h"
+
 namespace anthrob {
 namespace {
 
-const char* const kHardware = ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml";
+using testing_support::kHardware;
 
 SimulatorPlant plant_with(const driver::Hardware& hardware,
                           const std::vector<EffectInstance>& effects) {

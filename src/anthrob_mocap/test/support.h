@@ -1,6 +1,9 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <random>
@@ -14,6 +17,14 @@ namespace mocap {
 namespace test {
 
 constexpr double kDegree = M_PI / 180.0;
+
+/// What this process has of the machine's memory [MiB].
+inline double resident_megabytes() {
+  std::ifstream in("/proc/self/statm");
+  long size = 0, resident = 0;
+  in >> size >> resident;
+  return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
 
 /// Like the thesis's cameras: 648x488 pixels, 6 mm lens, turned towards each other.
 inline StereoRig make_rig(double toe_in = 5.0 * kDegree) {

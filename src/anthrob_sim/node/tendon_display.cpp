@@ -14,8 +14,8 @@ namespace anthrob {
 
 namespace {
 
-constexpr double kPeriod = 0.05;     // [s] of wall time
-constexpr double kStaleAfter = 0.5;  // [s] what is older, or ahead, is not where the robot is
+constexpr double kDrawingPeriod = 0.05;  // [s] of wall time
+constexpr double kStaleAfter = 0.5;      // [s] what is older, or ahead, is not where the robot is
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSlackForce = 1.0;  // [N] three times the noise of a sensor
 
@@ -42,7 +42,7 @@ TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeH
       nh.subscribe("joint_states", 100, &TendonDisplay::see_joints, this, no_delay),
       nh.subscribe("spherical_joint_states", 100, &TendonDisplay::see_ball_joints, this, no_delay),
   };
-  timer_ = nh.createWallTimer(ros::WallDuration(kPeriod),
+  timer_ = nh.createWallTimer(ros::WallDuration(kDrawingPeriod),
                               [this](const ros::WallTimerEvent&) { draw(); });
 }
 

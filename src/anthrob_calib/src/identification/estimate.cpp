@@ -8,6 +8,12 @@
 namespace anthrob {
 namespace identification {
 
+double mean(const std::vector<double>& list, std::size_t begin, std::size_t end) {
+  double sum = 0.0;
+  for (std::size_t i = begin; i < end; ++i) sum += list[i];
+  return sum / static_cast<double>(end - begin);
+}
+
 Estimate make_estimate(double value, double sigma, double freedom) {
   const boost::math::students_t distribution(freedom);
   const double reach = boost::math::quantile(distribution, 0.975) * sigma;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct Estimate {
   double sigma = 0.0;         ///< standard error
   double lo = 0.0, hi = 0.0;  ///< 95 % confidence interval
 };
+
+/// Of list[begin] to list[end - 1].
+double mean(const std::vector<double>& list, std::size_t begin, std::size_t end);
 
 /// @param freedom degrees of freedom of `sigma`, >= 1; the interval is by Student's distribution
 Estimate make_estimate(double value, double sigma, double freedom);

@@ -18,12 +18,6 @@ namespace {
 /// At the end of a level of the reference [s]: 500 periods of the pulse width modulation.
 constexpr double kAverage = 0.01;
 
-double mean(const std::vector<double>& list, std::size_t begin, std::size_t end) {
-  double sum = 0.0;
-  for (std::size_t i = begin; i < end; ++i) sum += list[i];
-  return sum / static_cast<double>(end - begin);
-}
-
 /// A load has the voltage and the current that the reference asks for.
 void require_signs(const LoadRecording& recording) {
   double by_voltage = 0.0, by_current = 0.0;

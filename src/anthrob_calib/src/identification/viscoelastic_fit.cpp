@@ -77,12 +77,6 @@ class HoldProblem {
   LeastSquares problem_;
 };
 
-double mean(const std::vector<double>& list, std::size_t begin, std::size_t end) {
-  return std::accumulate(list.begin() + static_cast<std::ptrdiff_t>(begin),
-                         list.begin() + static_cast<std::ptrdiff_t>(end), 0.0) /
-         static_cast<double>(end - begin);
-}
-
 /// Statics first: the settled stress gives E_0, what relaxed gives E_1.
 ViscoelasticModel first_guess(const RingRecording& recording, const RelaxationTest& test) {
   const std::size_t size = test.t.size(), tenth = std::max<std::size_t>(1, (size - test.hold) / 10);

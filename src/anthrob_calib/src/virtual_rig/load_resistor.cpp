@@ -12,7 +12,7 @@ namespace virtual_rig {
 
 namespace {
 
-constexpr double kStep = 1e-4;          // [s] of the oscilloscope
+constexpr double kSampling = 1e-4;      // [s] of the oscilloscope
 constexpr double kVoltageLimit = 12.0;  // [V] of the ECU
 
 double counted(double value, double count) {
@@ -35,7 +35,7 @@ Dataset load_ecu(const std::string& rig, const EcuLoadOptions& options) {
   const double batch = 1.0 + of_ecu.next(options.batch_sigma);
 
   LoadOptions load;
-  load.step = kStep;
+  load.step = kSampling;
   load.overrides["actuators.resistor.motor.resistance"] =
       options.load_resistance * (1.0 + of_resistor.next(options.resistor_sigma));
   const double series = options.series_resistance * (options.specimen > 1 ? batch : 1.0);
@@ -45,7 +45,7 @@ Dataset load_ecu(const std::string& rig, const EcuLoadOptions& options) {
   Dataset data;
   data.meta.robot = "rig_ecu_load";
   data.meta.kind = "rig";
-  data.meta.rate = 1.0 / kStep;
+  data.meta.rate = 1.0 / kSampling;
   data.meta.other["specimen"] = "{number: " + std::to_string(options.specimen) + "}\n";
   data.meta.other["rig"] = "{load_resistance: " + exact_text(options.load_resistance) +
                            ", current_gain_sigma: " + exact_text(options.current_gain_sigma) +
@@ -61,7 +61,7 @@ Dataset load_ecu(const std::string& rig, const EcuLoadOptions& options) {
                           (options.load_resistance + options.series_resistance);
     const double reference = std::clamp(wanted, -kVoltageLimit, kVoltageLimit);
     sim.command(0, ecu::Mode::kVoltage, reference);
-    for (auto steps = std::lround(options.level / kStep); steps > 0; --steps) {
+    for (auto steps = std::lround(options.level / kSampling); steps > 0; --steps) {
       sim.step();
       const double current = sim.muscle(0).actuator().current;
       const double at_load = sim.muscle(0).voltage() - series * current;

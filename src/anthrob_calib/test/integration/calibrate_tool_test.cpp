@@ -14,31 +14,21 @@
 
 #include "anthrob_core/testing/interrupt.h"
 #include "anthrob_recording/bag.h"
+#include "integration/tool_outcome.h"
 #include "simulated_recordings.h"
 
 namespace anthrob {
 namespace {
 
 namespace fs = std::filesystem;
+using testing_support::content;
+using testing_support::Outcome;
 
 const std::string kRig = std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/model_II.yaml";
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
 }
-
-struct Outcome {
-  int status;
-  std::string errors;
-  long lines() const { return std::count(errors.begin(), errors.end(), '\n'); }
-};
 
 class CalibrateTool : public testing::Test {
  protected:

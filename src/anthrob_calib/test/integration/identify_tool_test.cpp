@@ -13,6 +13,7 @@
 
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/spring/series_elastic_element.h"
+#include "integration/tool_outcome.h"
 #include "virtual_rig/eyelet_pull.h"
 #include "virtual_rig/load_resistor.h"
 #include "virtual_rig/ring_stretcher.h"
@@ -21,22 +22,10 @@ namespace anthrob {
 namespace {
 
 namespace fs = std::filesystem;
+using testing_support::content;
+using testing_support::Outcome;
 
 const std::string kConfig = ANTHROB_CONFIG_DIR;
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-struct Outcome {
-  int status;
-  std::string errors;
-
-  long lines() const { return std::count(errors.begin(), errors.end(), '\n'); }
-};
 
 /// One folder for all tests: recordings are made once.
 class IdentifyTool : public testing::Test {

@@ -16,6 +16,12 @@ inline bool is_snake_case(const std::string& name) {
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
 
+/// Adds words, or lines, at the end of others.
+void append(const std::vector<std::string>& more, std::vector<std::string>& words);
+
+/// Without the given characters at its beginning and end.
+std::string trimmed(const std::string& text, const char* blank = " \t\r");
+
 /// As text of an HTML or SVG page, whatever it holds.
 std::string escaped(const std::string& text);
 

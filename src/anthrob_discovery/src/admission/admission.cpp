@@ -66,10 +66,6 @@ void remark_on_few_blocks(const Length& length, const std::string& option,
                     " s or more would do");
 }
 
-void append(const std::vector<std::string>& more, std::vector<std::string>& remarks) {
-  remarks.insert(remarks.end(), more.begin(), more.end());
-}
-
 /// Held-out recordings with the commands of the training recordings test less than they seem to.
 std::vector<std::string> remarks_on(const RobotModel& robot, const Question& question) {
   std::vector<std::string> remarks;

@@ -1,5 +1,6 @@
 #include "conclusion/conclusion.h"
 
+#include "anthrob_core/text.h"
 #include "conclusion/sizes.h"
 #include "conclusion/verdict.h"
 
@@ -18,10 +19,6 @@ FoundEffect with_separation(FoundEffect effect, const NamedEffect& named,
       hypotheses.evaluator, named.contest->named, named.contest->rival,
       admission.question.train.front(), scales, admission.train.front()->bin(), hypotheses.options);
   return effect;
-}
-
-void append(const std::vector<std::string>& more, std::vector<std::string>& remarks) {
-  remarks.insert(remarks.end(), more.begin(), more.end());
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ namespace discovery {
 
 namespace {
 
-using Gaps = std::map<std::string, double>;
+using ChannelGaps = std::map<std::string, double>;
 
 /// By how much the squared gap of each channel that got worse is too large.
-Gaps paid(const Gaps& before, const Gaps& after, const GuardOptions& options) {
-  Gaps too_large;
+ChannelGaps paid(const ChannelGaps& before, const ChannelGaps& after, const GuardOptions& options) {
+  ChannelGaps too_large;
   for (const auto& [name, gap] : after) {
     const double more = excess(gap, std::max(options.floor, options.worse * before.at(name)));
     if (more > 0.0) too_large[name] = more;
@@ -24,13 +24,13 @@ Gaps paid(const Gaps& before, const Gaps& after, const GuardOptions& options) {
   return too_large;
 }
 
-double sum(const Gaps& gaps) {
+double sum(const ChannelGaps& gaps) {
   double sum = 0.0;
   for (const auto& [name, gap] : gaps) sum += gap;
   return sum;
 }
 
-Gaps ones(Gaps gaps) {
+ChannelGaps ones(ChannelGaps gaps) {
   for (auto& [name, gap] : gaps) gap = 1.0;
   return gaps;
 }
@@ -57,9 +57,9 @@ bool fit_on(const ModelFit& fit, const Eigen::VectorXf& factor, Fitted& fitted) 
 Fitted spare_channels(const ModelFit& fit, const Judge& judge, const Eigen::VectorXf& reference,
                       const Fitted& fitted) {
   const GuardOptions& options = fit.options().guard;
-  const Gaps before = judge.channel_gaps(reference);
+  const ChannelGaps before = judge.channel_gaps(reference);
   Fitted best = fitted, present = fitted;
-  Gaps weights, paying = paid(before, judge.channel_gaps(fitted.residual), options);
+  ChannelGaps weights, paying = paid(before, judge.channel_gaps(fitted.residual), options);
   const double gained = 0.5 * reference.cast<double>().squaredNorm() - fitted.cost;
   const Eigen::VectorXf theirs = judge.by_channel(ones(paying), 0.0);
   const auto is_dear = [&] {

@@ -11,17 +11,17 @@ namespace anthrob {
 namespace discovery {
 namespace {
 
-constexpr double kDose = 0.03;      // of a tilt [rad]
-constexpr double kDamping = 0.15;   // of the model's shoulder [Nms/rad]
-constexpr std::size_t kBins = 500;  // of each channel
-constexpr double kStep = 0.001;     // [s]
+constexpr double kDose = 0.03;             // of a tilt [rad]
+constexpr double kDamping = 0.15;          // of the model's shoulder [Nms/rad]
+constexpr std::size_t kChannelBins = 500;  // of each channel
+constexpr double kTimeStep = 0.001;        // [s]
 
 /// A tilt of gravity by t doses and a shoulder's damping that is d tenths too high show as
 /// 20 (t - d) in one channel, so that d follows t; as t - cubic d^3 and a constant in another; and
 /// something that has nothing to do with either is large in a third one, where a coarse step errs.
 class Tilted final : public Experiment {
  public:
-  Tilted(double cubic, double constant, double large, std::size_t bins = kBins)
+  Tilted(double cubic, double constant, double large, std::size_t bins = kChannelBins)
       : shown_{0.0, constant, large}, cubic_(cubic), bins_(bins) {
     const char* places[] = {"shoulder", "elbow", "wrist"};
     for (std::size_t c = 0; c < kChannels; ++c) {
@@ -36,7 +36,7 @@ class Tilted final : public Experiment {
     const double t = std::asin(model->gravity.y() / model->gravity.norm()) / kDose;
     const auto shoulder = static_cast<std::size_t>(model->skeleton->find_joint("shoulder"));
     const double d = (model->skeleton->joints[shoulder].friction.viscous - kDamping) / 0.1;
-    const double error = model->step > kStep ? 5.0 : 0.0;
+    const double error = model->step > kTimeStep ? 5.0 : 0.0;
     const double change[] = {20.0 * (t - d), t - cubic_ * d * d * d, error};
     for (std::size_t b = 0; b < kChannels * bins_; ++b) {
       const std::size_t channel = b / bins_;
@@ -54,17 +54,18 @@ class Tilted final : public Experiment {
 
 struct TiltProblem {
   explicit TiltProblem(double cubic, double constant = 0.0, double large = 0.0, double coarse = 0.0)
-      : half{{std::make_shared<Tilted>(cubic, constant, large, kBins / 2)}, {}},
+      : half{{std::make_shared<Tilted>(cubic, constant, large, kChannelBins / 2)}, {}},
         evaluator(std::string(ANTHROB_CONFIG_DIR) + "/anthrob/model_I.yaml",
                   {{"joints.shoulder.friction.viscous", "Nms/rad", kDamping, -10.0, 10.0, 0.01}},
-                  kStep, 1),
+                  kTimeStep, 1),
         fit(evaluator, {std::make_shared<Tilted>(cubic, constant, large)},
-            Eigen::VectorXf::Ones(Tilted::kChannels * kBins), {}, coarse),
+            Eigen::VectorXf::Ones(Tilted::kChannels * kChannelBins), {}, coarse),
         hypotheses(evaluator, list_candidates(evaluator, {"gravity_tilt"}), fit, fit, fit, {}, {},
                    1),
         base(fit.start(Variant{{kDamping}}, nuisance_unknowns(evaluator))) {
     for (Eigen::Index b = 0; b < base.residual.size(); ++b) {
-      if (b % static_cast<Eigen::Index>(kBins) < static_cast<Eigen::Index>(kBins / 2)) {
+      if (b % static_cast<Eigen::Index>(kChannelBins) <
+          static_cast<Eigen::Index>(kChannelBins / 2)) {
         half.rows.push_back(b);
       }
     }
@@ -96,7 +97,8 @@ TEST(LikelihoodProfile, IsWhatOrdinaryParametersCannotTakeUp) {
     for (const double large : {0.0, 300.0}) {
       // The constant is higher on one side by as much as lower on the other.
       const TiltProblem problem(cubic, 0.5, large);
-      EXPECT_NEAR(problem.rise(1.0), 0.5 * kBins * std::pow(1.0 - cubic, 2), 0.02 * 0.5 * kBins)
+      EXPECT_NEAR(problem.rise(1.0), 0.5 * kChannelBins * std::pow(1.0 - cubic, 2),
+                  0.02 * 0.5 * kChannelBins)
           << large;
     }
   }
@@ -104,7 +106,7 @@ TEST(LikelihoodProfile, IsWhatOrdinaryParametersCannotTakeUp) {
 
 TEST(LikelihoodProfile, ComparesWithTheCoarseStepWhereThereIsOne) {
   const double usual = TiltProblem(0.5).rise(1.0);
-  EXPECT_NEAR(TiltProblem(0.5, 0.0, 0.0, 2.0 * kStep).rise(1.0), usual, 0.01 * usual);
+  EXPECT_NEAR(TiltProblem(0.5, 0.0, 0.0, 2.0 * kTimeStep).rise(1.0), usual, 0.01 * usual);
 }
 
 TEST(LikelihoodProfile, EndsWhereIterationsDecideNothing) {

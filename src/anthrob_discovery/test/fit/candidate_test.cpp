@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "anthrob_core/errors.h"
+#include "config.h"
 #include "discover.h"
 
 namespace anthrob {
 namespace discovery {
 namespace {
-
-const std::string kConfig = ANTHROB_CONFIG_DIR;
 
 TEST(ListCandidates, EveryDoseCanBeBuilt) {
   const std::string model = kConfig + "/anthrob/model_I.yaml";

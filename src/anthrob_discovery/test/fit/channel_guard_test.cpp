@@ -11,7 +11,7 @@ namespace anthrob {
 namespace discovery {
 namespace {
 
-constexpr std::size_t kBins = 40;
+constexpr std::size_t kGuardedBins = 40;
 
 /// Of two channels, one wants the damping x of the elbow to be 1 and, for the law is not quite
 /// right, the shoulder's damping y to be 0.5 in the second half of the time; the other one, which
@@ -23,19 +23,19 @@ struct Wishes {
 class TwoChannels final : public Experiment {
  public:
   explicit TwoChannels(const Wishes& wish) : wish_(wish) {
-    channels_ = {{"elbow", "position", "rad", 0, 0, kBins, 0.0},
-                 {"shoulder", "position", "rad", 0, kBins, kBins, 0.0}};
-    present_.assign(2 * kBins, 1);
+    channels_ = {{"elbow", "position", "rad", 0, 0, kGuardedBins, 0.0},
+                 {"shoulder", "position", "rad", 0, kGuardedBins, kGuardedBins, 0.0}};
+    present_.assign(2 * kGuardedBins, 1);
     bin_ = 0.1;
-    duration_ = bin_ * static_cast<double>(kBins);
+    duration_ = bin_ * static_cast<double>(kGuardedBins);
   }
 
   void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
     const double x = damping(*model, "elbow"), y = damping(*model, "shoulder");
-    for (std::size_t b = 0; b < kBins; ++b) {
-      const double wrong = b < kBins / 2 ? 0.0 : wish_.y * (y - 0.5);
+    for (std::size_t b = 0; b < kGuardedBins; ++b) {
+      const double wrong = b < kGuardedBins / 2 ? 0.0 : wish_.y * (y - 0.5);
       out[b] = static_cast<float>(wish_.x * (x - 1.0) + wrong);
-      out[kBins + b] = static_cast<float>(wish_.other + y);
+      out[kGuardedBins + b] = static_cast<float>(wish_.other + y);
     }
   }
 
@@ -70,7 +70,7 @@ struct Case {
     fit.improve(fitted, 10, 1e-6);
   }
 
-  static Eigen::VectorXf ones() { return Eigen::VectorXf::Ones(2 * kBins); }
+  static Eigen::VectorXf ones() { return Eigen::VectorXf::Ones(2 * kGuardedBins); }
   static ModelParameter damping(const std::string& joint) {
     return {"joints." + joint + ".friction.viscous", "Nms/rad", 0.0, 0.0, 4.0, 0.1};
   }
@@ -90,7 +90,7 @@ TEST(ChannelGuard, AChannelThatPaysPaysNoMore) {
   EXPECT_NEAR(spared.unknowns[0].read(spared.variant), 1.0, 0.1);
   // What belongs to it is that of the residual as it is.
   EXPECT_NEAR(spared.cost, made.fit.start(spared.variant, spared.unknowns).cost, 1e-3);
-  EXPECT_NEAR(spared.sensitivity(kBins, 1), spared.unknowns[1].scale, 1e-3);
+  EXPECT_NEAR(spared.sensitivity(kGuardedBins, 1), spared.unknowns[1].scale, 1e-3);
 }
 
 TEST(ChannelGuard, PaysAShareOfTheGainAtMost) {

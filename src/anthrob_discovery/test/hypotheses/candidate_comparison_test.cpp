@@ -58,11 +58,11 @@ TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
 
 /// Ten seconds to learn from and ten to judge by, of a robot whose shoulder's damping is free and
 /// whose elbow may have more than the model says.
-struct Problem : MadeProblem {
+struct ElbowProblem : MadeProblem {
   using Law = MadeExperiment::Law;
 
-  explicit Problem(const Law& law, const std::string& free = "shoulder",
-                   const std::vector<std::string>& effects = {"joint_viscous"})
+  explicit ElbowProblem(const Law& law, const std::string& free = "shoulder",
+                        const std::vector<std::string>& effects = {"joint_viscous"})
       : MadeProblem(free.empty()
                         ? std::vector<ModelParameter>{}
                         : std::vector<ModelParameter>{{"joints." + free + ".friction.viscous",
@@ -102,40 +102,41 @@ struct Problem : MadeProblem {
   static constexpr Eigen::Index kBins = 500;
 };
 
-constexpr double kElbow = 0.02, kDose = 0.05;  // damping in the model, of the catalogue [Nms/rad]
+constexpr double kElbow = 0.02,
+                 kCatalogueDose = 0.05;  // damping in the model, of the catalogue [Nms/rad]
 
 TEST(CandidateComparison, WhatDoesNothingAtFirstIsTriedWhereItBegins) {
   // Up to seven tenths of a dose nothing happens, and the data ask for a third of what a whole dose
   // does. In proportion that would be a third of a dose, where the slope is zero.
-  const Problem problem([](double elbow, double, double) {
-    const double amount = (elbow - kElbow) / kDose;
+  const ElbowProblem problem([](double elbow, double, double) {
+    const double amount = (elbow - kElbow) / kCatalogueDose;
     return 10.0 * (std::max(0.0, amount - 0.7) / 0.3 - 0.34);
   });
   const ShortList list = problem.weigh(problem.base(0.15), "elbow", 0.34);
   ASSERT_EQ(list.entries.size(), 1u);
   EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"),
-              (0.7 + 0.34 * 0.3) * kDose, 0.02 * kDose);
+              (0.7 + 0.34 * 0.3) * kCatalogueDose, 0.02 * kCatalogueDose);
   EXPECT_GT(list.entries[0].probability, 0.99);
 }
 
 TEST(CandidateComparison, WhatIsManyDosesIsNotTakenForAWeakOne) {
   // Half a dose is a little better than none, a few are worse; ten are what there is.
-  const Problem problem([](double elbow, double, double) {
-    const double amount = (elbow - kElbow) / kDose;
+  const ElbowProblem problem([](double elbow, double, double) {
+    const double amount = (elbow - kElbow) / kCatalogueDose;
     return amount < 3.0 ? 5.0 + std::pow(amount - 0.5, 2) : 11.25 * (10.0 - amount) / 7.0;
   });
   const ShortList list = problem.weigh(problem.base(0.15), "elbow", 0.5);
   ASSERT_EQ(list.entries.size(), 1u);
-  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 10.0 * kDose,
-              0.1 * kDose);
+  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"),
+              10.0 * kCatalogueDose, 0.1 * kCatalogueDose);
   EXPECT_GT(list.entries[0].probability, 0.99);
 }
 
 TEST(CandidateComparison, WhatPointsTheWrongWayAtFirstIsTriedWhereEvidenceIs) {
   // A dose of damping makes it worse, three are what is missing. Dry friction says a little.
-  const Problem problem(
+  const ElbowProblem problem(
       [](double elbow, double, double dry) {
-        const double doses = (elbow - kElbow) / kDose;
+        const double doses = (elbow - kElbow) / kCatalogueDose;
         return 4.0 - std::min(1.0, dry / 0.1) + (doses < 1.0 ? 2.0 * doses : 5.0 - 3.0 * doses);
       },
       "shoulder", {"joint_viscous", "joint_coulomb"});
@@ -148,34 +149,35 @@ TEST(CandidateComparison, WhatPointsTheWrongWayAtFirstIsTriedWhereEvidenceIs) {
   const ShortList list = problem.comparison.weigh(problem.base(0.15), scores);
   ASSERT_EQ(list.entries.size(), 2u);
   EXPECT_EQ(list.entries[0].candidate, scores[1].candidate);
-  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 3.0 * kDose,
-              0.1 * kDose);
+  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 3.0 * kCatalogueDose,
+              0.1 * kCatalogueDose);
 }
 
 TEST(CandidateComparison, WithoutOrdinaryParameters) {
-  const Problem problem(
-      [](double elbow, double, double) { return 5.0 - 10.0 * (elbow - kElbow) / kDose; }, "");
+  const ElbowProblem problem(
+      [](double elbow, double, double) { return 5.0 - 10.0 * (elbow - kElbow) / kCatalogueDose; },
+      "");
   const Tested base = problem.hypotheses.tested(problem.train.start(Variant{}, {}));
   EXPECT_TRUE(bootstrap_intervals(base.fit, problem.train.experiments(), {}, 1, {}, 2.0).empty());
   const ShortList list = problem.weigh(base, "elbow", 1.0);
   ASSERT_EQ(list.entries.size(), 1u);
-  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 0.5 * kDose,
-              0.02 * kDose);
+  EXPECT_NEAR(list.entries[0].fit.variant.effects[0].parameters.at("damping"), 0.5 * kCatalogueDose,
+              0.02 * kCatalogueDose);
 }
 
 TEST(CandidateComparison, FitsFollowABaseThatFoundABetterValley) {
   // The shoulder's damping has a valley where the search begins and a deeper one.
-  const Problem problem([](double elbow, double shoulder, double) {
+  const ElbowProblem problem([](double elbow, double shoulder, double) {
     const double valley = shoulder < 0.5 ? 4.0 + 50.0 * std::abs(shoulder - 0.15)
                                          : 1.0 + 50.0 * std::abs(shoulder - 0.8);
-    return valley - 1.0 * (elbow - kElbow) / kDose;
+    return valley - 1.0 * (elbow - kElbow) / kCatalogueDose;
   });
   ShortList list = problem.weigh(problem.base(0.15), "elbow", 1.0);
   ASSERT_EQ(list.entries.size(), 1u);
   // Stuck half way, as rugged ground may have it.
   FittedCandidate& stuck = list.entries[0];
   Variant half = stuck.fit.variant;
-  half.effects[0].parameters["damping"] = 2.0 * kDose;
+  half.effects[0].parameters["damping"] = 2.0 * kCatalogueDose;
   ASSERT_TRUE(problem.train.move(stuck.fit, half));
   stuck.test = problem.test.residual(half);
   const Tested better = problem.base(0.8);
@@ -188,7 +190,8 @@ TEST(CandidateComparison, FitsFollowABaseThatFoundABetterValley) {
 }
 
 TEST(CandidateComparison, OddsAreOfWhatWasNotLearnedFrom) {
-  const Problem problem([](double, double shoulder, double) { return 20.0 * (shoulder - 0.15); });
+  const ElbowProblem problem(
+      [](double, double shoulder, double) { return 20.0 * (shoulder - 0.15); });
   const Eigen::VectorXf good = problem.base(0.15).test, bad = problem.base(0.25).test;
   EXPECT_NEAR(problem.comparison.odds(good, good).probability, 0.5, 1e-9);
   EXPECT_EQ(problem.comparison.odds(good, good).evidence, 0.0);
@@ -200,7 +203,7 @@ TEST(CandidateComparison, OddsAreOfWhatWasNotLearnedFrom) {
 }
 
 TEST(WithoutEffect, OthersStayAsTheyAre) {
-  const Problem problem(
+  const ElbowProblem problem(
       [](double elbow, double shoulder, double) { return elbow + 10.0 * shoulder; });
   const std::size_t elbow = problem.index("elbow"), shoulder = problem.index("shoulder");
   const Fitted fitted = problem.with(problem.with(problem.fitted(0.15), elbow, 0.3), shoulder, 0.4);
@@ -216,7 +219,7 @@ TEST(WithoutEffect, OthersStayAsTheyAre) {
 }
 
 TEST(WithLastEffectAt, IsTheSameFitInAnotherOrder) {
-  const Problem problem(
+  const ElbowProblem problem(
       [](double elbow, double shoulder, double) { return elbow + 10.0 * shoulder; });
   const std::size_t elbow = problem.index("elbow"), shoulder = problem.index("shoulder");
   const Fitted both = problem.with(problem.with(problem.fitted(0.2), elbow, 0.03), shoulder, 0.07);
@@ -231,7 +234,7 @@ TEST(WithLastEffectAt, IsTheSameFitInAnotherOrder) {
 }
 
 TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
-  const Problem problem([](double elbow, double, double) { return 30.0 * elbow; }, "elbow");
+  const ElbowProblem problem([](double elbow, double, double) { return 30.0 * elbow; }, "elbow");
   const std::size_t elbow = problem.index("elbow");
   ASSERT_EQ(problem.candidates[elbow].same_as.size(), 1u);
   Fitted fitted = problem.weigh(problem.base(0.15), "elbow", 1.0).entries.at(0).fit;
@@ -246,15 +249,15 @@ TEST(WithoutEffect, WhatIsTheSameQuantityTakesItOver) {
 }
 
 TEST(Convergence, WhatStaysOutOfReachIsNotSettled) {
-  const Problem problem(
+  const ElbowProblem problem(
       [](double, double shoulder, double) { return 5.0 + 50.0 * (shoulder - 0.8); });
   const Fitted begin = problem.fitted(0.15);
-  ASSERT_GT(begin.cost, 100.0 * Problem::kBins);
+  ASSERT_GT(begin.cost, 100.0 * ElbowProblem::kBins);
   const auto simulated = [&](double level, bool within) {
     Fitted fitted = begin;
     const std::size_t before = problem.evaluator.simulated();
     EXPECT_EQ(problem.convergence.converge_within_reach(fitted, level), within);
-    EXPECT_LT(fitted.cost, Problem::kBins);  // the noise alone: half of that
+    EXPECT_LT(fitted.cost, ElbowProblem::kBins);  // the noise alone: half of that
     return problem.evaluator.simulated() - before;
   };
   const std::size_t rough = simulated(0.0, false);
@@ -262,12 +265,12 @@ TEST(Convergence, WhatStaysOutOfReachIsNotSettled) {
 }
 
 TEST(Convergence, WhatMissesByFarIsNotPolished) {
-  const Problem problem(
+  const ElbowProblem problem(
       [](double, double shoulder, double) { return 20.0 + 50.0 * std::abs(shoulder - 0.8); });
   const auto simulated = [&](double level) {
     Fitted fitted = problem.fitted(0.75);
     const std::size_t before = problem.evaluator.simulated();
-    EXPECT_FALSE(problem.convergence.converge_within_reach(fitted, level * Problem::kBins));
+    EXPECT_FALSE(problem.convergence.converge_within_reach(fitted, level * ElbowProblem::kBins));
     return problem.evaluator.simulated() - before;
   };
   // 20 floors everywhere: 200 for every bin.
@@ -278,16 +281,17 @@ TEST(Convergence, WhatMissesByFarIsNotPolished) {
 /// @param given, far what differs on their grounds; parameters are given in the first
 /// @return simulations that it took
 std::size_t finish_from_far(double given, double far, double level, bool within) {
-  const Problem problem([=](double, double shoulder, double) {
+  const ElbowProblem problem([=](double, double shoulder, double) {
     if (shoulder < 0.4) return 50.0 * std::abs(shoulder - 0.15) + given;
     return 50.0 * std::abs(shoulder - 0.7) + far;
   });
   const Fitted begin = problem.fitted(0.7);
   const std::size_t before = problem.evaluator.simulated();
-  const auto end = problem.convergence.to_the_end_within_reach(begin, level * Problem::kBins);
+  const auto end = problem.convergence.to_the_end_within_reach(begin, level * ElbowProblem::kBins);
   EXPECT_EQ(end.has_value(), within);
   if (end) {
-    EXPECT_LT(end->cost, 1.2 * Problem::kBins);  // half of its square, and as much of the noise
+    EXPECT_LT(end->cost,
+              1.2 * ElbowProblem::kBins);  // half of its square, and as much of the noise
   }
   return problem.evaluator.simulated() - before;
 }
@@ -301,7 +305,7 @@ TEST(Convergence, WhatLagsBehindIsNotFinished) {
 TEST(Convergence, AFitFromTheGivenParametersEndsWhereItFallsBehind) {
   // The valley where parameters are given has a curved ground, so that it takes several rounds.
   const auto simulated = [](double left) {
-    const Problem problem([left](double, double shoulder, double) {
+    const ElbowProblem problem([left](double, double shoulder, double) {
       if (shoulder < 0.5) return left + 100.0 * (shoulder - 0.35) * (shoulder - 0.35);
       return 1.0 + 50.0 * std::abs(shoulder - 0.7);
     });
@@ -316,9 +320,10 @@ TEST(Convergence, AFitFromTheGivenParametersEndsWhereItFallsBehind) {
 /// Dry friction of the elbow is what is missing, and where the shoulder's damping is right it says
 /// all 6. In another valley, where that has gone astray, it says less, and more damping of the
 /// elbow says something.
-Problem::Law hides_dry_friction(double dry_astray, double damping_astray) {
+ElbowProblem::Law hides_dry_friction(double dry_astray, double damping_astray) {
   return [=](double elbow, double shoulder, double dry) {
-    const double rubs = std::min(1.0, dry / 0.1), damped = std::min(1.0, (elbow - kElbow) / kDose);
+    const double rubs = std::min(1.0, dry / 0.1),
+                 damped = std::min(1.0, (elbow - kElbow) / kCatalogueDose);
     if (shoulder < 0.4) return 50.0 * std::abs(shoulder - 0.15) + 6.0 - 6.0 * rubs;
     return 50.0 * std::abs(shoulder - 0.7) + 6.0 - dry_astray * rubs - damping_astray * damped;
   };
@@ -327,7 +332,7 @@ Problem::Law hides_dry_friction(double dry_astray, double damping_astray) {
 /// The short list of more damping of the elbow and dry friction there, a dose of each, and what the
 /// final comparison makes of it.
 struct TwoLaws {
-  TwoLaws(const Problem::Law& law, double shoulder)
+  TwoLaws(const ElbowProblem::Law& law, double shoulder)
       : problem(law, "shoulder",
                 {"joint_viscous", "joint_coulomb", "force_sensor_gain", "force_sensor_offset"}),
         base(problem.base(shoulder)) {
@@ -350,7 +355,7 @@ struct TwoLaws {
     return problem.candidates[list.entries.at(place).candidate].effect->info().id;
   }
 
-  Problem problem;
+  ElbowProblem problem;
   Tested base;
   ShortList list;
 };
@@ -366,9 +371,9 @@ TEST(FinalComparison, WhatIsBetterInTheEndIsFirst) {
   EXPECT_EQ(laws.id(0), "joint_coulomb");
   EXPECT_NEAR(laws.list.entries[0].probability, rough, 0.01);
   EXPECT_LT(laws.list.entries[1].probability, 0.01);
-  EXPECT_LT(laws.list.entries[0].fit.cost, Problem::kBins);
+  EXPECT_LT(laws.list.entries[0].fit.cost, ElbowProblem::kBins);
   // 3 more than none are left by the rough fit, nothing in the end.
-  EXPECT_GT(laws.list.entries[0].evidence, rough_evidence + 0.4 * Problem::kBins);
+  EXPECT_GT(laws.list.entries[0].evidence, rough_evidence + 0.4 * ElbowProblem::kBins);
 }
 
 TEST(FinalComparison, WhatLeavesMuchMoreIsNotFinished) {
@@ -376,7 +381,7 @@ TEST(FinalComparison, WhatLeavesMuchMoreIsNotFinished) {
   const auto simulated = [](double damping_leaves) {
     TwoLaws laws(
         [=](double elbow, double shoulder, double dry) {
-          const double damped = std::min(1.0, (elbow - kElbow) / kDose);
+          const double damped = std::min(1.0, (elbow - kElbow) / kCatalogueDose);
           return 6.0 + 50.0 * std::abs(shoulder - 0.15) -
                  std::max(5.0 * std::min(1.0, dry / 0.1), (6.0 - damping_leaves) * damped);
         },
@@ -405,7 +410,7 @@ TEST(FinalComparison, TheSameLawElsewhereIsFirstIfItIsBetterInTheEnd) {
   const auto made = [](std::uint64_t seed) {
     return std::make_shared<MadeExperiment>(MadeExperiment::OfModel(hides_friction_of_the_shoulder),
                                             MadeExperiment::OfModel(hides_friction_of_the_shoulder),
-                                            Problem::kBins, seed);
+                                            ElbowProblem::kBins, seed);
   };
   const MadeProblem problem(
       {{"joints.shoulder.friction.viscous", "Nms/rad", 0.15, 0.0, 1.0, 0.01}}, made(1), made(2),
@@ -430,14 +435,14 @@ TEST(FinalComparison, TheSameLawElsewhereIsFirstIfItIsBetterInTheEnd) {
   EXPECT_EQ(first(), "shoulder");
   EXPECT_GT(list.entries[0].probability, 0.98);
   EXPECT_LT(list.entries[1].probability, 0.01);
-  EXPECT_LT(list.entries[0].fit.cost, Problem::kBins);
+  EXPECT_LT(list.entries[0].fit.cost, ElbowProblem::kBins);
 }
 
 TEST(FinalComparison, WhatIsNoBetterThanFitsScatterStaysOpen) {
   // Of a gap of 6 damping leaves 0.35: 0.3 % of what it gains, of which every block is sure.
   TwoLaws laws(
       [](double elbow, double shoulder, double dry) {
-        const double damped = std::min(1.0, (elbow - kElbow) / kDose);
+        const double damped = std::min(1.0, (elbow - kElbow) / kCatalogueDose);
         return 6.0 - 6.0 * std::max(std::min(1.0, dry / 0.1), 0.942 * damped) +
                50.0 * std::abs(shoulder - 0.15);
       },
@@ -451,7 +456,7 @@ TEST(FinalComparison, WhatIsNoBetterThanFitsScatterStaysOpen) {
 }
 
 TEST(Scatter, OnlyLeadsBeyondItDecide) {
-  const Problem problem([](double, double, double) { return 0.0; });
+  const ElbowProblem problem([](double, double, double) { return 0.0; });
   const Tested base = problem.base(0.15);
   const auto with_cost = [&](double cost) {
     Tested tested = base;
@@ -520,10 +525,10 @@ TEST(FinalComparison, WhatDidNotTakePartKeepsItsProbability) {
 
 TEST(Screening, ExpectationsCountTheLessTheMoreWasRecorded) {
   // The shoulder's damping imitates the elbow's, as far as it is not expected to stay.
-  const Problem::Law law = [](double elbow, double shoulder, double) {
-    return (elbow - kElbow) / kDose + 0.35 * (shoulder - 0.15);
+  const ElbowProblem::Law law = [](double elbow, double shoulder, double) {
+    return (elbow - kElbow) / kCatalogueDose + 0.35 * (shoulder - 0.15);
   };
-  const Problem problem(law);
+  const ElbowProblem problem(law);
   Fitted base = problem.fitted(0.15);
   problem.train.polish(base, 0);
   const auto uncertainty = [&](Eigen::Index bins) {
@@ -535,13 +540,14 @@ TEST(Screening, ExpectationsCountTheLessTheMoreWasRecorded) {
     }
     return 0.0;
   };
-  const double whole = uncertainty(Problem::kBins), half = uncertainty(Problem::kBins / 2);
-  EXPECT_GT(whole, 3.0 / std::sqrt(Problem::kBins)) << "much of it is imitated";
+  const double whole = uncertainty(ElbowProblem::kBins),
+               half = uncertainty(ElbowProblem::kBins / 2);
+  EXPECT_GT(whole, 3.0 / std::sqrt(ElbowProblem::kBins)) << "much of it is imitated";
   EXPECT_NEAR(half, std::sqrt(2.0) * whole, 0.01 * whole);
 }
 
 /// The elbow is asked whether it is needed beside the shoulder.
-std::optional<Tested> without_elbow(const Problem& problem, double elbow) {
+std::optional<Tested> without_elbow(const ElbowProblem& problem, double elbow) {
   Gaps gaps(problem.train_judge, problem.test_judge, problem.candidates.size());
   const Tested none = problem.base(0.15);
   gaps.begin(none.test);
@@ -554,17 +560,18 @@ std::optional<Tested> without_elbow(const Problem& problem, double elbow) {
 
 TEST(BackwardElimination, WhatWasNamedInAnothersSteadGoes) {
   // The shoulder's damping is all that matters. The elbow once was taken for it.
-  const Problem problem([](double, double shoulder, double) { return 20.0 * (shoulder - 0.45); });
+  const ElbowProblem problem(
+      [](double, double shoulder, double) { return 20.0 * (shoulder - 0.45); });
   const auto without = without_elbow(problem, 0.2);
   ASSERT_TRUE(without);
   ASSERT_EQ(without->fit.variant.effects.size(), 1u);
   EXPECT_EQ(without->fit.variant.effects[0].place, "shoulder");
-  EXPECT_EQ(without->test.size(), Problem::kBins);
+  EXPECT_EQ(without->test.size(), ElbowProblem::kBins);
 }
 
 TEST(BackwardElimination, WhatIsNeededStays) {
   // Each has a part of its own: what one lacks the other cannot say.
-  const Problem problem([](double elbow, double shoulder, double) {
+  const ElbowProblem problem([](double elbow, double shoulder, double) {
     return std::abs(20.0 * (shoulder - 0.45)) + std::abs(20.0 * (elbow - kElbow - 0.2));
   });
   EXPECT_FALSE(without_elbow(problem, 0.2));

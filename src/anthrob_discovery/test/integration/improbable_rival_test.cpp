@@ -69,7 +69,7 @@ class Leaning final : public JointEffect {
   }
 };
 
-Answer ask(const std::vector<std::string>& effects) {
+Answer ask_about(const std::vector<std::string>& effects) {
   // Only now: other tests of this program search without it.
   const EffectRegistration registration(std::make_unique<Leaning>());
   // Steeper than a leaning force may be, so that its best shape is at the end of its range.
@@ -83,7 +83,7 @@ Answer ask(const std::vector<std::string>& effects) {
 }
 
 TEST(ImprobableRival, IsTriedInPlaceOfWhatWasDropped) {
-  const Answer answer = ask({"leaning_force", "joint_offset_torque"});
+  const Answer answer = ask_about({"leaning_force", "joint_offset_torque"});
   ASSERT_EQ(answer.search.improbable.size(), 1u) << summary(answer);
   EXPECT_EQ(answer.search.improbable[0].id, "leaning_force");
   EXPECT_EQ(answer.search.improbable[0].at_limit, "lean");
@@ -93,7 +93,7 @@ TEST(ImprobableRival, IsTriedInPlaceOfWhatWasDropped) {
 }
 
 TEST(ImprobableRival, WhatWasDroppedIsNotNamedAgain) {
-  const Answer answer = ask({"leaning_force"});
+  const Answer answer = ask_about({"leaning_force"});
   ASSERT_EQ(answer.search.improbable.size(), 1u) << summary(answer);
   EXPECT_TRUE(answer.effects.empty()) << summary(answer);
   EXPECT_EQ(answer.verdict, Verdict::kUnexplained);

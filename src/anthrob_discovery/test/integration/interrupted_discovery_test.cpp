@@ -15,6 +15,7 @@
 #include "anthrob_core/testing/interrupt.h"
 #include "arm.h"
 #include "axis_recording.h"
+#include "config.h"
 #include "discover.h"
 #include "report/discovery_report.h"
 
@@ -23,8 +24,6 @@ namespace discovery {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string kConfig = ANTHROB_CONFIG_DIR;
 
 class InterruptedRun : public testing::Test {
  protected:

@@ -81,7 +81,7 @@ RigRecording rig(double phase, double length = 20.0) {
 }
 
 template <typename Change>
-void change(Dataset& recording, const std::string& name, Change change_column) {
+void change_columns(Dataset& recording, const std::string& name, Change change_column) {
   for (Table& table : recording.tables) {
     for (Column& column : table.columns) {
       if (column.name == name || column.quantity() == name) change_column(column);
@@ -90,13 +90,15 @@ void change(Dataset& recording, const std::string& name, Change change_column) {
 }
 
 void remove(Dataset& recording, const std::string& name) {
-  change(recording, name,
-         [](Column& column) { std::fill(column.present.begin(), column.present.end(), 0); });
+  change_columns(recording, name, [](Column& column) {
+    std::fill(column.present.begin(), column.present.end(), 0);
+  });
 }
 
 void freeze(Dataset& recording, const std::string& name, double value) {
-  change(recording, name,
-         [&](Column& column) { std::fill(column.values.begin(), column.values.end(), value); });
+  change_columns(recording, name, [&](Column& column) {
+    std::fill(column.values.begin(), column.values.end(), value);
+  });
 }
 
 Question question_of(Dataset train, Dataset test) {
@@ -111,7 +113,7 @@ Admission prepared(const Question& question) {
   return admit(Evaluator(question.model_file, {}, 0.001, 1), question);
 }
 
-std::string refusal(const Question& question) {
+std::string refusal_of(const Question& question) {
   try {
     prepared(question);
   } catch (const BadInput& error) {
@@ -127,7 +129,7 @@ std::string remarks_on(const Question& question) {
   return lines;
 }
 
-bool holds(const std::string& text, const std::string& part) {
+bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -153,10 +155,10 @@ TEST(SharedChannels, AreNeeded) {
     remove(forces, other);
   }
   for (const char* other : {"force", "current"}) remove(positions, other);
-  const std::string line = refusal(question_of(forces, positions));
-  EXPECT_TRUE(holds(line,
-                    "the held-out recordings measure none of the channels of the training "
-                    "recordings (flexor/force, extensor/force)"))
+  const std::string line = refusal_of(question_of(forces, positions));
+  EXPECT_TRUE(says(line,
+                   "the held-out recordings measure none of the channels of the training "
+                   "recordings (flexor/force, extensor/force)"))
       << line;
 }
 
@@ -166,34 +168,33 @@ TEST(SharedChannels, OthersGetARemark) {
   remove(test, "extensor/force");
   const auto remarks = prepared(question_of(train, test)).remarks;
   ASSERT_EQ(remarks.size(), 2u);
-  EXPECT_TRUE(holds(remarks[0], "extensor/force: measured in the --train recordings only"))
+  EXPECT_TRUE(says(remarks[0], "extensor/force: measured in the --train recordings only"))
       << remarks[0];
-  EXPECT_TRUE(holds(remarks[1], "hinge/position: measured in the --test recordings only"))
+  EXPECT_TRUE(says(remarks[1], "hinge/position: measured in the --test recordings only"))
       << remarks[1];
 }
 
 // ---- length -----------------------------------------------------------------------------------
 
 TEST(Length, IsOfThreeBlocksAtLeast) {
-  const std::string line = refusal(question_of(rig(0.0, 2.4).make(), rig(1.1, 2.4).make()));
-  EXPECT_TRUE(holds(line,
-                    "too short: the --train recordings are 2.395 s and the --test recordings "
-                    "2.395 s long, together 2 blocks of 2 s; expected at least 3 blocks (6 s)"))
+  const std::string line = refusal_of(question_of(rig(0.0, 2.4).make(), rig(1.1, 2.4).make()));
+  EXPECT_TRUE(says(line,
+                   "too short: the --train recordings are 2.395 s and the --test recordings "
+                   "2.395 s long, together 2 blocks of 2 s; expected at least 3 blocks (6 s)"))
       << line;
   // Blocks of both count together.
-  EXPECT_EQ(refusal(question_of(rig(0.0, 4.0).make(), rig(1.1, 2.4).make())), "not refused");
+  EXPECT_EQ(refusal_of(question_of(rig(0.0, 4.0).make(), rig(1.1, 2.4).make())), "not refused");
   Question repeated = question_of(rig(0.0, 2.4).make(), rig(1.1, 2.4).make());
   repeated.test.push_back(rig(2.2, 2.4).make());
-  EXPECT_EQ(refusal(repeated), "not refused");
+  EXPECT_EQ(refusal_of(repeated), "not refused");
 }
 
 TEST(Length, OfOneSideAloneGetsARemark) {
   const std::string short_test = remarks_on(question_of(rig(0.0).make(), rig(1.1, 4.0).make()));
-  EXPECT_TRUE(holds(short_test, "the --test recordings are only 3.995 s long in all"))
-      << short_test;
-  EXPECT_FALSE(holds(short_test, "--train")) << short_test;
+  EXPECT_TRUE(says(short_test, "the --test recordings are only 3.995 s long in all")) << short_test;
+  EXPECT_FALSE(says(short_test, "--train")) << short_test;
   const std::string short_train = remarks_on(question_of(rig(0.0, 4.0).make(), rig(1.1).make()));
-  EXPECT_TRUE(holds(short_train, "the --train recordings are only 3.995 s long in all"))
+  EXPECT_TRUE(says(short_train, "the --train recordings are only 3.995 s long in all"))
       << short_train;
 }
 
@@ -203,13 +204,13 @@ TEST(Clocks, OfJointsAndMusclesAreOne) {
   for (const double late : {1.0, -1.0, 2.0}) {
     RigRecording off = rig(0.0);
     off.late = late;
-    const std::string line = refusal(question_of(off.make(), rig(1.1).make()));
-    EXPECT_TRUE(holds(line,
-                      "joints.csv: not synchronised with the other files: joints seem to be "
-                      "stamped"))
+    const std::string line = refusal_of(question_of(off.make(), rig(1.1).make()));
+    EXPECT_TRUE(says(line,
+                     "joints.csv: not synchronised with the other files: joints seem to be "
+                     "stamped"))
         << line;
-    EXPECT_TRUE(holds(line, late > 0.0 ? "s too late" : "s too early")) << line;
-    EXPECT_TRUE(holds(refusal(question_of(rig(1.1).make(), off.make())), "not synchronised"));
+    EXPECT_TRUE(says(line, late > 0.0 ? "s too late" : "s too early")) << line;
+    EXPECT_TRUE(says(refusal_of(question_of(rig(1.1).make(), off.make())), "not synchronised"));
   }
 }
 
@@ -232,7 +233,7 @@ TEST(Clocks, AreOnlyRemarkedOnAfterFewMovements) {
   EXPECT_EQ(remarks_on(question_of(off.make(), rig(1.1).make())), "");
   off.late = 1.5;
   const std::string line = remarks_on(question_of(off.make(), rig(1.1).make()));
-  EXPECT_TRUE(holds(line, "joints seem to be stamped 1.5 s too late")) << line;
+  EXPECT_TRUE(says(line, "joints seem to be stamped 1.5 s too late")) << line;
 }
 
 TEST(Clocks, AreNotDoubtedForFrictionBacklashOrResonance) {
@@ -262,10 +263,10 @@ TEST(Clocks, OfEachFileOfJointsAreExamined) {
   question.test = {recording};
   EXPECT_EQ(remarks_on(question), "");
   for (Nanoseconds& t : question.test[0].table("spherical_joints").t) t += 1000000000;
-  std::string said = refusal(question);
+  std::string said = refusal_of(question);
   if (said == "not refused") said = remarks_on(question);
-  EXPECT_TRUE(holds(said, "long/spherical_joints.csv: not synchronised")) << said;
-  EXPECT_FALSE(holds(said, "long/joints.csv")) << said;
+  EXPECT_TRUE(says(said, "long/spherical_joints.csv: not synchronised")) << said;
+  EXPECT_FALSE(says(said, "long/joints.csv")) << said;
 }
 
 // ---- stillness --------------------------------------------------------------------------------
@@ -291,30 +292,30 @@ TEST(Stillness, IsNotHiddenByNoise) {
   RigRecording still = rig(0.0);
   still.amount = 0.0;
   ASSERT_GT(range_of(still.make().series("flexor/force")), 1.0);
-  EXPECT_TRUE(holds(refusal(question_of(still.make(), rig(1.1).make())), "no muscle moves"));
-  EXPECT_TRUE(holds(refusal(question_of(rig(1.1).make(), still.make())), "no muscle moves"));
+  EXPECT_TRUE(says(refusal_of(question_of(still.make(), rig(1.1).make())), "no muscle moves"));
+  EXPECT_TRUE(says(refusal_of(question_of(rig(1.1).make(), still.make())), "no muscle moves"));
 }
 
 TEST(Stillness, IsNotHiddenByReferencesThatNoMotorFollows) {
   RigRecording still = rig(0.0);
   still.amount = 0.0;
   Dataset recording = still.make();
-  change(recording, "reference", [&](Column& column) {
+  change_columns(recording, "reference", [&](Column& column) {
     for (std::size_t i = 0; i < column.values.size(); ++i) {
       column.values[i] += std::sin(0.005 * static_cast<double>(i));
     }
   });
-  EXPECT_TRUE(holds(refusal(question_of(recording, rig(1.1).make())), "no muscle moves"));
+  EXPECT_TRUE(says(refusal_of(question_of(recording, rig(1.1).make())), "no muscle moves"));
   Dataset followed = recording;  // by a motor that sticks, but pulls
-  change(followed, "flexor/current", [](Column& column) {
+  change_columns(followed, "flexor/current", [](Column& column) {
     for (std::size_t i = 0; i < column.values.size(); ++i) {
       column.values[i] += 0.05 * std::sin(0.005 * static_cast<double>(i));
     }
   });
-  EXPECT_EQ(refusal(question_of(followed, rig(1.1).make())), "not refused");
+  EXPECT_EQ(refusal_of(question_of(followed, rig(1.1).make())), "not refused");
   // Where no position is measured, the reference is all that is known.
   for (const char* muscle : {"flexor/position", "extensor/position"}) remove(recording, muscle);
-  EXPECT_EQ(refusal(question_of(recording, rig(1.1).make())), "not refused");
+  EXPECT_EQ(refusal_of(question_of(recording, rig(1.1).make())), "not refused");
 }
 
 // ---- dead sensors -----------------------------------------------------------------------------
@@ -331,11 +332,10 @@ TEST(FrozenColumns, AreLeftOut) {
   EXPECT_TRUE(has_channel(recordings.test, "extensor/force"));
   EXPECT_TRUE(recordings.question.train[0].series("extensor/force").empty());
   ASSERT_GE(recordings.remarks.size(), 2u);
-  EXPECT_TRUE(holds(recordings.remarks[0], "extensor/position never changes"))
+  EXPECT_TRUE(says(recordings.remarks[0], "extensor/position never changes"))
       << recordings.remarks[0];
-  EXPECT_TRUE(holds(recordings.remarks[1], "extensor/force never changes"))
-      << recordings.remarks[1];
-  EXPECT_TRUE(holds(recordings.remarks[1], "left out")) << recordings.remarks[1];
+  EXPECT_TRUE(says(recordings.remarks[1], "extensor/force never changes")) << recordings.remarks[1];
+  EXPECT_TRUE(says(recordings.remarks[1], "left out")) << recordings.remarks[1];
 }
 
 TEST(FrozenColumns, AreLeftOutOfRepeatsToo) {
@@ -375,7 +375,7 @@ TEST(FrozenColumns, AreKeptWhereNothingSaysThatTheyShouldChange) {
   freeze(recording, "extensor/force", 0.0);
   EXPECT_TRUE(kept("extensor/force", recording));
   EXPECT_TRUE(
-      holds(remarks_on(question_of(recording, rig(1.1).make())), "extensor/force is always 0"));
+      says(remarks_on(question_of(recording, rig(1.1).make())), "extensor/force is always 0"));
 }
 
 }  // namespace

@@ -39,13 +39,13 @@ Dataset recording(const std::shared_ptr<const RobotModel>& robot, std::uint64_t 
 }
 
 const EffectInstance kFriction{"joint_coulomb", "elbow", {{"torque", 0.06}, {"static_ratio", 1.2}}};
-const EffectInstance kDamping{"joint_viscous", "elbow", {{"damping", 0.08}}};
+const EffectInstance kMoreDamping{"joint_viscous", "elbow", {{"damping", 0.08}}};
 
 class Separation : public ::testing::Test {
  protected:
   Separation() {
     named.effects = {kFriction};
-    rival.effects = {kDamping};
+    rival.effects = {kMoreDamping};
     // Planned once: it takes seconds.
     static const SeparatingRecording kPlan =
         plan_separation(evaluator, named, rival, seen, scales(), kBin, {});

@@ -11,18 +11,18 @@ namespace anthrob {
 namespace discovery {
 namespace {
 
-constexpr std::size_t kBins = 10;
+constexpr std::size_t kFewBins = 10;
 
 /// What tells gaps of the elbow's position, its only channel.
 struct Held {
   Experiments experiments = {
       std::make_shared<MadeExperiment>([](double, double, double) { return 0.0; },
-                                       [](double, double, double) { return 0.0; }, kBins)};
-  Eigen::VectorXf whitening = Eigen::VectorXf::Ones(kBins);
+                                       [](double, double, double) { return 0.0; }, kFewBins)};
+  Eigen::VectorXf whitening = Eigen::VectorXf::Ones(kFewBins);
   Judge judge{experiments, whitening, {}, {}};
 
   static Eigen::VectorXf gap(double size) {
-    return Eigen::VectorXf::Constant(kBins, static_cast<float>(size));
+    return Eigen::VectorXf::Constant(kFewBins, static_cast<float>(size));
   }
 };
 

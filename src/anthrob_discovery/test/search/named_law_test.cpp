@@ -9,7 +9,7 @@ namespace anthrob {
 namespace discovery {
 namespace {
 
-const std::vector<Candidate>& candidates() {
+const std::vector<Candidate>& law_candidates() {
   static const std::vector<Candidate> list = {
       {find_effect("joint_coulomb"), "elbow", {}, {}},
       {find_effect("joint_coulomb_asymmetric"), "elbow", {}, {}},
@@ -29,7 +29,7 @@ NamedLaw friction() {
     list.entries[i].probability = probabilities[i];
     list.entries[i].evidence = 100.0 - static_cast<double>(i);
   }
-  return named_law(list, candidates(), 0.02);
+  return named_law(list, law_candidates(), 0.02);
 }
 
 TEST(FoundEffect, HasTheOthersForRivals) {
@@ -43,7 +43,7 @@ TEST(FoundEffect, HasTheOthersForRivals) {
 
 TEST(FoundEffect, WhatSaysMoreTakesItsOwnProbabilityAlong) {
   NamedLaw effect = friction();
-  const Replaced replaced = name_instead(candidates()[1], {0.75, 12.0}, effect, 0.02);
+  const Replaced replaced = name_instead(law_candidates()[1], {0.75, 12.0}, effect, 0.02);
   EXPECT_TRUE(replaced.is_first_rival);
   effect = replaced.effect;
   EXPECT_EQ(effect.id, "joint_coulomb_asymmetric");
@@ -59,7 +59,7 @@ TEST(FoundEffect, WhatSaysMoreTakesItsOwnProbabilityAlong) {
 
 TEST(FoundEffect, WhatIsExcludedIsNoRival) {
   NamedLaw effect = friction();
-  Replaced replaced = name_instead(candidates()[1], {0.999, 50.0}, effect, 0.02);
+  Replaced replaced = name_instead(law_candidates()[1], {0.999, 50.0}, effect, 0.02);
   EXPECT_FALSE(replaced.is_first_rival);
   effect = replaced.effect;
   ASSERT_EQ(effect.rivals.size(), 1u);
@@ -67,13 +67,13 @@ TEST(FoundEffect, WhatIsExcludedIsNoRival) {
   EXPECT_EQ(how_to_separate(effect),
             separating_experiment("joint_coulomb_asymmetric", "cable_drag"));
   effect.rivals.clear();
-  effect = name_instead(candidates()[1], {0.999, 50.0}, effect, 0.02).effect;
+  effect = name_instead(law_candidates()[1], {0.999, 50.0}, effect, 0.02).effect;
   EXPECT_EQ(how_to_separate(effect), "");
 }
 
 TEST(FoundEffect, OfTwoThatDoAsWellEachHasHalf) {
   NamedLaw effect = friction();
-  effect = leave_open(candidates()[1], {0.7, 5.0}, effect);
+  effect = leave_open(law_candidates()[1], {0.7, 5.0}, effect);
   EXPECT_EQ(effect.id, "joint_coulomb");
   EXPECT_DOUBLE_EQ(effect.probability, 0.4);
   ASSERT_EQ(effect.rivals.size(), 2u);

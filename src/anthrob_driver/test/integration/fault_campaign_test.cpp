@@ -21,7 +21,7 @@ constexpr int kVictimMuscles[] = {4, 5};  // its muscles
 constexpr std::size_t kElbow = 5;         // ecu_6 reads its potentiometer
 constexpr int kNone = -1;
 
-struct Kind {
+struct FaultKind {
   const char* name;
   /// Zero volts expected at all muscles; kNobody: motion goes on.
   enum Reach { kEverybody, kNobody } reach;
@@ -77,9 +77,9 @@ void mend_encoder(Rig& rig) {
   let_pull_by_volts(rig);
 }
 
-std::vector<Kind> kinds() {
-  using K = Kind;
-  std::vector<Kind> k;
+std::vector<FaultKind> kinds() {
+  using K = FaultKind;
+  std::vector<FaultKind> k;
   k.push_back({"ECU loses power", K::kEverybody, int(Finding::kEcuLost),
                [](Rig& r) { r.rack.board(kVictim).set_power(false); },
                [](Rig& r) { r.rack.board(kVictim).set_power(true); }});
@@ -326,12 +326,12 @@ bool still(const Rig& rig, int muscle) {
   return rig.plant.voltage(static_cast<std::size_t>(muscle)) == 0.0;
 }
 
-bool lasts(const Kind& kind) {
+bool lasts(const FaultKind& kind) {
   return kind.finding != static_cast<int>(Finding::kLateCycle);
 }
 
 /// 1.5 s with the fault in.
-Result expose(Rig& rig, const Kind& kind) {
+Result expose(Rig& rig, const FaultKind& kind) {
   Result result;
   kind.inject(rig);
   for (int ms = 1; ms <= 1500; ++ms) {
@@ -354,12 +354,12 @@ class FaultCampaign : public testing::TestWithParam<std::size_t> {};
 std::vector<std::string> table_rows(kinds().size());
 
 TEST_P(FaultCampaign, StopsNamesAndStaysDisabled) {
-  const Kind kind = kinds()[GetParam()];
+  const FaultKind kind = kinds()[GetParam()];
   Rig rig;
   ASSERT_TRUE(rig.start()) << rig.driver().last_outcome().reason;
 
   const Result result = expose(rig, kind);
-  if (kind.reach == Kind::kNobody) {
+  if (kind.reach == FaultKind::kNobody) {
     EXPECT_EQ(rig.driver().phase(), RobotDriver::Phase::kEnabled) << result.named;
     EXPECT_EQ(rig.moving(), 13);
   } else {
@@ -377,7 +377,7 @@ TEST_P(FaultCampaign, StopsNamesAndStaysDisabled) {
 
   // The fault goes away; the controller commands on; only the user may start motion again.
   if (lasts(kind)) kind.repair(rig);
-  for (int ms = 0; kind.reach != Kind::kNobody && ms < 2000; ++ms) {
+  for (int ms = 0; kind.reach != FaultKind::kNobody && ms < 2000; ++ms) {
     rig.step();
     ASSERT_EQ(rig.moving(), 0) << "moves " << ms << " ms after recovery";
   }
@@ -393,14 +393,15 @@ TEST_P(FaultCampaign, StopsNamesAndStaysDisabled) {
   rig.run(100);
   EXPECT_EQ(rig.moving(), 13);
 
-  const std::string time = kind.reach == Kind::kNobody ? "motion goes on"
-                                                       : std::to_string(result.victim_ms) + " | " +
-                                                             std::to_string(result.all_ms);
-  const std::string columns = kind.reach == Kind::kNobody ? "- | -" : time;
+  const std::string time =
+      kind.reach == FaultKind::kNobody
+          ? "motion goes on"
+          : std::to_string(result.victim_ms) + " | " + std::to_string(result.all_ms);
+  const std::string columns = kind.reach == FaultKind::kNobody ? "- | -" : time;
   table_rows[GetParam()] = "| " + std::string(kind.name) + " | " + columns + " | " +
                            (kind.grace > 0 ? std::to_string(kind.grace) : "-") + " | " +
                            (result.named.empty() ? "-" : result.named) + " | " +
-                           (kind.reach == Kind::kNobody ? "goes on" : "disabled") + " |";
+                           (kind.reach == FaultKind::kNobody ? "goes on" : "disabled") + " |";
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, FaultCampaign, testing::Range(std::size_t{0}, kinds().size()),
@@ -421,7 +422,7 @@ TEST(FaultCampaignTable, IsThatOfTheDocs) {
     if (row) rows.push_back(line.substr(2, line.find(" |", 2) - 2));
   }
   std::vector<std::string> names;
-  for (const Kind& kind : kinds()) names.push_back(kind.name);
+  for (const FaultKind& kind : kinds()) names.push_back(kind.name);
   EXPECT_EQ(rows, names);
   std::ifstream robot(ANTHROB_DOCS_DIR "/robot.md");
   const std::string text{std::istreambuf_iterator<char>(robot), {}};

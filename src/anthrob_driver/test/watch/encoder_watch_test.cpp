@@ -7,11 +7,12 @@
 #include <optional>
 #include <random>
 
+#include "watch/period.h"
+
 namespace anthrob {
 namespace driver {
 namespace {
 
-constexpr double kPeriod = 0.005;                   // [s]
 constexpr double kR = 0.79, kK = 0.0115 * 128.0;    // Anthrob's type_1
 constexpr double kAmpere = 0.01, kStep = 9.587e-5;  // what the bus and the encoder resolve
 

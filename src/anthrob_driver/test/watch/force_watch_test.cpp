@@ -6,27 +6,28 @@
 #include <functional>
 #include <optional>
 
+#include "watch/period.h"
+
 namespace anthrob {
 namespace driver {
 namespace {
 
-constexpr double kPeriod = 0.005;                                         // [s]
 constexpr Winch kWinch{0.0115 * 128.0, 1.05e-6 * 128.0 * 128.0, 0.0065};  // Anthrob's type_1
 
-struct Moment {
+struct Pull {
   double speed, force;  ///< [rad/s], [N]
 };
 
 /// A winch of which `efficiency` reaches the tendon, with a drag of `drag` [Nm]; its sensor reads
 /// by `reads`. What the watch says within 3 s; `when` it did.
 std::optional<std::string> watch(
-    const std::function<Moment(double)>& course,
+    const std::function<Pull(double)>& course,
     const std::function<double(double)>& reads = [](double force) { return force; },
     double efficiency = 1.0, double drag = 0.0, double* when = nullptr) {
   ForceWatch watch(kWinch);
   double position = 0.0;
   for (double t = 0.0; t < 3.0; t += kPeriod) {
-    const Moment m = course(t);
+    const Pull m = course(t);
     position += kPeriod * m.speed;
     const double acceleration = (course(t + 1e-4).speed - course(t - 1e-4).speed) / 2e-4;
     const double torque =
@@ -40,7 +41,7 @@ std::optional<std::string> watch(
 }
 
 /// Pulls harder and harder.
-Moment rises(double t) {
+Pull rises(double t) {
   return {0.2, 30.0 + 200.0 * t};
 }
 
@@ -51,13 +52,13 @@ TEST(ForceWatch, ASensorThatStandsStillIsFoundBeforeTheTendonBreaks) {
   // 4 x 30 N + 100 N, in the mean of up to two intervals.
   EXPECT_GT(rises(when).force, 220.0);
   EXPECT_LT(rises(when).force, 220.0 + 2.0 * 200.0 * ForceWatch::kLasts);
-  const auto half_a_kilonewton = [](double) { return Moment{0.5, 500.0}; };
+  const auto half_a_kilonewton = [](double) { return Pull{0.5, 500.0}; };
   EXPECT_EQ(watch(half_a_kilonewton, stuck),
             "at 2.21 A its motor pulls with up to 500 N, and reads 30.0 N");
 }
 
 TEST(ForceWatch, ASpindleThatStandsIsLeftToItsUnit) {
-  const auto jammed = [](double) { return Moment{0.0, 150.0}; };
+  const auto jammed = [](double) { return Pull{0.0, 150.0}; };
   EXPECT_EQ(watch(jammed, [](double) { return 2.0; }), std::nullopt);
 }
 
@@ -68,7 +69,7 @@ TEST(ForceWatch, ATendonThatIsReadIsNone) {
                 rises, [](double force) { return 0.5 * force; }, 0.6, 0.5),
             std::nullopt);
   // Accelerates from rest to no-load speed within 50 ms, without a tendon.
-  EXPECT_EQ(watch([](double t) { return Moment{8.0 * std::tanh(t / 0.025), 0.0}; }), std::nullopt);
+  EXPECT_EQ(watch([](double t) { return Pull{8.0 * std::tanh(t / 0.025), 0.0}; }), std::nullopt);
   // A load that comes suddenly, read 0.03 s late.
   double late[7] = {};
   int k = 0;
@@ -79,7 +80,7 @@ TEST(ForceWatch, ATendonThatIsReadIsNone) {
   };
   EXPECT_EQ(watch(
                 [](double t) {
-                  return Moment{0.5, t < 0.55 ? 0.0 : 180.0};
+                  return Pull{0.5, t < 0.55 ? 0.0 : 180.0};
                 },
                 delayed),
             std::nullopt);

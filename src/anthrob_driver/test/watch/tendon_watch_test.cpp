@@ -7,24 +7,23 @@
 #include <optional>
 
 #include "rig.h"
+#include "watch/period.h"
 
 namespace anthrob {
 namespace driver {
 namespace {
 
-constexpr double kPeriod = 0.005;  // [s]
-
-struct Moment {
+struct Strain {
   double position, force;
   bool pulled;
 };
 
 /// What the watch says to `course` of time, until it says something or 3 s are over.
-std::optional<std::string> watch(const std::function<Moment(double)>& course,
+std::optional<std::string> watch(const std::function<Strain(double)>& course,
                                  double* when = nullptr) {
   TendonWatch tendon({20.0, 2.5, 6.0});
   for (double t = 0.0; t < 3.0; t += kPeriod) {
-    const Moment m = course(t);
+    const Strain m = course(t);
     const auto wrong = tendon.step(m.position, m.force, m.pulled, t);
     if (!wrong) continue;
     if (when != nullptr) *when = t;
@@ -42,7 +41,7 @@ TEST(TendonWatch, ALoadThatIsGoneAtOnceIsABrokenTendon) {
   double when = 0.0;
   EXPECT_EQ(watch(
                 [](double t) {
-                  return Moment{1.0, fall(t, 40.0, 0.06), false};
+                  return Strain{1.0, fall(t, 40.0, 0.06), false};
                 },
                 &when),
             "held 40.0 N, 0.15 s later 0.0 N: the tendon broke or slips");
@@ -51,34 +50,34 @@ TEST(TendonWatch, ALoadThatIsGoneAtOnceIsABrokenTendon) {
 
 TEST(TendonWatch, ATendonThatTheJointsLetGoIsNone) {
   // An arm that moves by 1 rad/s lets a tendon of 4 kN/m at 30 mm go by 120 N/s.
-  EXPECT_EQ(watch([](double t) { return Moment{1.0, fall(t, 40.0, 0.33), false}; }), std::nullopt);
+  EXPECT_EQ(watch([](double t) { return Strain{1.0, fall(t, 40.0, 0.33), false}; }), std::nullopt);
 }
 
 TEST(TendonWatch, ATendonThatItsSpindleLetsGoIsNone) {
   EXPECT_EQ(watch([](double t) {
-              return Moment{1.0 - 4.0 * std::max(0.0, t - 1.0), fall(t, 40.0, 0.06), false};
+              return Strain{1.0 - 4.0 * std::max(0.0, t - 1.0), fall(t, 40.0, 0.06), false};
             }),
             std::nullopt);
 }
 
 TEST(TendonWatch, ABlowOnTheArmIsNone) {
   EXPECT_EQ(watch([](double t) {
-              return Moment{1.0, t < 1.07 ? fall(t, 40.0, 0.06) : 30.0, false};
+              return Strain{1.0, t < 1.07 ? fall(t, 40.0, 0.06) : 30.0, false};
             }),
             std::nullopt);
 }
 
 TEST(TendonWatch, AForceThatWasThereForAMomentIsNoLoad) {
   EXPECT_EQ(watch([](double t) {
-              return Moment{1.0, t > 0.9 ? fall(t, 40.0, 0.06) : 1.0, false};
+              return Strain{1.0, t > 0.9 ? fall(t, 40.0, 0.06) : 1.0, false};
             }),
             std::nullopt);
 }
 
 TEST(TendonWatch, ASlackTendonThatWindsInIsNone) {
-  EXPECT_EQ(watch([](double t) { return Moment{8.0 * t, 0.0, false}; }), std::nullopt);
+  EXPECT_EQ(watch([](double t) { return Strain{8.0 * t, 0.0, false}; }), std::nullopt);
   EXPECT_EQ(watch([](double t) {
-              return Moment{std::min(8.0 * t, 5.9), 0.0, true};
+              return Strain{std::min(8.0 * t, 5.9), 0.0, true};
             }),
             std::nullopt);
 }
@@ -87,14 +86,14 @@ TEST(TendonWatch, AForceThatIsWantedAndNeverComesIsABrokenTendon) {
   double when = 0.0;
   EXPECT_EQ(watch(
                 [](double t) {
-                  return Moment{8.0 * t, 0.0, true};
+                  return Strain{8.0 * t, 0.0, true};
                 },
                 &when),
             "wound in by 6.00 rad, but only 0.0 N: the tendon is broken or off its pulley");
   EXPECT_NEAR(when, 0.755, 2.0 * kPeriod);
   // Force in between: it is there.
   EXPECT_EQ(watch([](double t) {
-              return Moment{4.0 * t, std::fmod(t, 1.0) < 0.1 ? 3.0 : 0.0, true};
+              return Strain{4.0 * t, std::fmod(t, 1.0) < 0.1 ? 3.0 : 0.0, true};
             }),
             std::nullopt);
 }

@@ -12,12 +12,12 @@
 
 #include "anthrob_core/errors.h"
 #include "rig.h"
+#include "watch/period.h"
 
 namespace anthrob {
 namespace driver {
 namespace {
 
-constexpr double kPeriod = 0.005;   // [s]
 constexpr double kNominal = 1.5;    // [A]
 constexpr double kConstant = 12.0;  // [s]
 

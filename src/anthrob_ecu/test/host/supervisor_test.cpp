@@ -10,7 +10,7 @@ namespace anthrob {
 namespace ecu {
 namespace {
 
-std::vector<MuscleChannel> muscles() {
+std::vector<MuscleChannel> supervised() {
   MuscleChannel motor;
   motor.modes = {true, true, true, true};
   motor.lowest = {-12.0, -30.0, -8.0, 0.0};
@@ -25,7 +25,7 @@ std::vector<MuscleChannel> muscles() {
 }
 
 struct Fixture {
-  explicit Fixture(Supervisor::Options options = {}) : supervisor(muscles(), options) {}
+  explicit Fixture(Supervisor::Options options = {}) : supervisor(supervised(), options) {}
   bool command(double time, double reference = 1.0) {
     return supervisor.command({"a"}, {1}, {reference}, time, accepted).accepted;
   }

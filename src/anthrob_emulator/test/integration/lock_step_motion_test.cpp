@@ -13,21 +13,15 @@ namespace {
 
 const char* const kIdeal = ANTHROB_CONFIG_DIR "/anthrob/model_II.yaml";
 const char* const kAsUnits = ANTHROB_CONFIG_DIR "/anthrob/model_II_ecu.yaml";
-const char* const kHardware = ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml";
 constexpr double kPotentiometerCount = 1.2783173232380343e-3;  // [rad]
 constexpr double kPeriod = 2.0;                                // [s]
 constexpr int kLength = 4000;                                  // [ms]
 
 using testing_support::EmulatedRobot;
-using References = std::map<std::string, double>;
+using testing_support::kHardware;
+using testing_support::kReach;
+using testing_support::References;
 
-// [rad]
-const References kReach = {
-    {"lateral_deltoid", 6.0},  {"anterior_deltoid", 3.0}, {"posterior_deltoid", 1.0},
-    {"supraspinatus", 3.0},    {"infraspinatus", 0.5},    {"teres_minor", -0.5},
-    {"teres_major", -1.0},     {"pectoralis_major", 0.0}, {"biceps_brachii", 4.0},
-    {"triceps_brachii", -2.0}, {"brachialis", 3.0},
-};
 // [N]
 const References kPull = {
     {"lateral_deltoid", 40.0}, {"anterior_deltoid", 20.0}, {"posterior_deltoid", 10.0},

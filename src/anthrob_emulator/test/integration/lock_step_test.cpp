@@ -13,17 +13,11 @@ namespace {
 
 const char* const kModel = ANTHROB_CONFIG_DIR "/anthrob/model_II.yaml";
 const char* const kHandModel = ANTHROB_CONFIG_DIR "/anthrob/model_II_hand.yaml";
-const char* const kHardware = ANTHROB_CONFIG_DIR "/anthrob/hardware.yaml";
 
 using testing_support::EmulatedRobot;
-using References = std::map<std::string, double>;  // [rad]
-
-const References kReach = {
-    {"lateral_deltoid", 6.0},  {"anterior_deltoid", 3.0}, {"posterior_deltoid", 1.0},
-    {"supraspinatus", 3.0},    {"infraspinatus", 0.5},    {"teres_minor", -0.5},
-    {"teres_major", -1.0},     {"pectoralis_major", 0.0}, {"biceps_brachii", 4.0},
-    {"triceps_brachii", -2.0}, {"brachialis", 3.0},
-};
+using testing_support::kHardware;
+using testing_support::kReach;
+using testing_support::References;
 
 /// What both ends say at the end.
 struct Outcome {

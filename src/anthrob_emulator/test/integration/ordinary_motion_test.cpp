@@ -18,7 +18,7 @@ using Phase = driver::RobotDriver::Phase;
 
 /// By muscle of hardware.yaml [rad].
 const std::vector<double> kRest(11, 0.0);
-const std::vector<double> kReach = {6.0, 3.0, 1.0, 3.0, 0.5, -0.5, -1.0, 0.0, 4.0, -2.0, 3.0};
+const std::vector<double> kReached = {6.0, 3.0, 1.0, 3.0, 0.5, -0.5, -1.0, 0.0, 4.0, -2.0, 3.0};
 const std::vector<double> kTense(11, 1.5);
 
 /// A simulated arm whose force sensors can lose their tendon.
@@ -101,7 +101,7 @@ class OrdinaryMotion : public testing::Test {
 };
 
 TEST_F(OrdinaryMotion, PosturesAtFullSpeedAreNoBrokenTendons) {
-  for (const auto* posture : {&kTense, &kReach, &kRest, &kReach, &kTense, &kRest, &kTense}) {
+  for (const auto* posture : {&kTense, &kReached, &kRest, &kReached, &kTense, &kRest, &kTense}) {
     command(ecu::Mode::kPosition, *posture, 2500);
     ASSERT_EQ(robot.phase(), Phase::kEnabled) << robot.stops().last().value_or("");
   }
@@ -120,14 +120,14 @@ TEST_F(OrdinaryMotion, ForcesThatComeAndGoAreNoBrokenTendons) {
 }
 
 TEST_F(OrdinaryMotion, ATendonThatLosesItsForceIsNamed) {
-  command(ecu::Mode::kPosition, kReach, 4000);
+  command(ecu::Mode::kPosition, kReached, 4000);
   std::size_t loaded = 0;
   for (std::size_t m = 0; m < 11; ++m) {
     if (last.muscles[m].force > last.muscles[loaded].force) loaded = m;
   }
   ASSERT_GT(last.muscles[loaded].force, hardware.tendons.loaded);
   plant.broken = loaded;
-  command(ecu::Mode::kPosition, kReach, 300);
+  command(ecu::Mode::kPosition, kReached, 300);
   EXPECT_EQ(robot.phase(), Phase::kDisabled);
   EXPECT_EQ(robot.findings().count(Finding::kTendonSlack), 1u);
   EXPECT_NE(robot.stops().last().value_or("").find("(" + hardware.muscles[loaded].name + ": held"),

@@ -17,7 +17,7 @@ constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not mo
 // believes, give 0.09. A right camera turned by 3 mrad gives 0.4 to 0.5, a target that turns at
 // 0.7 rad/s in pairs that are 1/60 s apart 0.2 to 0.4. Larger values hardly occur: such markers
 // form no target.
-constexpr double kLargestRms = 0.2;
+constexpr double kLargestResidual = 0.2;
 constexpr int kFewestPoses = 5;  // of a target; fewer may be one merged blob
 
 std::string format(const char* form, double value) {
@@ -155,7 +155,7 @@ std::optional<std::string> Health::uneven_rows() const {
     return format("rows of left and right differ by %.3f pixels: recalibrate the cameras", mean);
   }
   const double rms = worst(&Squares::row_error);
-  if (rms <= kLargestRms) return std::nullopt;
+  if (rms <= kLargestResidual) return std::nullopt;
   return format(
       "rows of left and right differ by %.3f pixels rms: the rig has been bent, or the pair is not "
       "synchronised",
@@ -165,7 +165,7 @@ std::optional<std::string> Health::uneven_rows() const {
 std::optional<std::string> Health::bend() const {
   if (auto rows = uneven_rows()) return rows;
   const double rms = worst(&Squares::pixel_rms);
-  if (rms <= kLargestRms) return std::nullopt;
+  if (rms <= kLargestResidual) return std::nullopt;
   return format(
       "markers are %.3f pixels rms off their target: the rig has been bent, the pair is not "
       "synchronised, or the target is not calibrated",

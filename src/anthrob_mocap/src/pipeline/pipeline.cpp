@@ -4,11 +4,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/monotonic_clock.h"
 
 namespace anthrob {
 namespace mocap {
@@ -21,10 +21,6 @@ PipelineMode pipeline_mode(const std::string& word) {
 
 namespace {
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void run_lanes(const Stage& stage, Packet& packet, bool parallel) {
   if (!parallel || stage.lanes.size() == 1) {
     for (const auto& lane : stage.lanes) lane(packet);
@@ -35,9 +31,9 @@ void run_lanes(const Stage& stage, Packet& packet, bool parallel) {
 }
 
 void run_stage(const Stage& stage, std::size_t index, Packet& packet, bool parallel) {
-  const double start = now();
+  const double start = monotonic_now();
   run_lanes(stage, packet, parallel);
-  packet.stage_seconds[index] = now() - start;
+  packet.stage_seconds[index] = monotonic_now() - start;
 }
 
 }  // namespace

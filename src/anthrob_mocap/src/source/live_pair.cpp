@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/monotonic_clock.h"
 
 namespace anthrob {
 namespace mocap {
@@ -12,15 +13,11 @@ namespace {
 
 constexpr std::size_t kMostPairs = 4;  // that wait to be taken; older ones are dropped
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 void LivePair::add(Side side, const TimedImage& image) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  last_image_[side] = now();
+  last_image_[side] = monotonic_now();
   trouble_[side].reset();
   Pair pair;
   try {
@@ -29,7 +26,7 @@ void LivePair::add(Side side, const TimedImage& image) {
     trouble_[side] = error.what();
     return;
   }
-  last_pair_ = now();
+  last_pair_ = monotonic_now();
   pairs_.push_back(pair);
   if (pairs_.size() > kMostPairs) pairs_.pop_front(), late_ += 2;
   arrived_.notify_one();
@@ -65,7 +62,7 @@ Pairing::Counts LivePair::take_counts() {
 
 std::optional<std::string> LivePair::trouble() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const double t = now();
+  const double t = monotonic_now();
   const Side first = last_image_[kRight] < last_image_[kLeft] ? kRight : kLeft;
   for (const Side side : {first, first == kLeft ? kRight : kLeft}) {
     const std::string who = std::string(name(side)) + " camera: ";

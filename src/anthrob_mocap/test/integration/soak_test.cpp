@@ -18,13 +18,6 @@ namespace {
 
 constexpr int kScenes = 24;
 
-double resident_megabytes() {
-  std::ifstream in("/proc/self/statm");
-  long size = 0, resident = 0;
-  in >> size >> resident;
-  return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1048576.0;
-}
-
 /// What was asked for and not given back. The process does not grow while there is room in what it
 /// once needed: its size alone does not show some hundred kilobytes.
 double heap_megabytes() {
@@ -86,12 +79,12 @@ TEST_P(Soak, DoesNotGrow) {
       if (live.next(*frame, 0.0)) pipeline.push(std::move(frame));
       if (i == pairs / 4) {
         pipeline.drain();
-        before = resident_megabytes();
+        before = test::resident_megabytes();
         heap_before = heap_megabytes();
       }
     }
     pipeline.drain();
-    const double after = resident_megabytes(), heap_after = heap_megabytes();
+    const double after = test::resident_megabytes(), heap_after = heap_megabytes();
     std::printf(
         "%ld pairs, %ld poses: %.1f MB after a quarter, %.1f MB at the end; heap %.3f, %.3f\n",
         pairs, poses, before, after, heap_before, heap_after);

@@ -176,13 +176,6 @@ TEST(Tracking, GivesTheSameBitsInBothModes) {
   EXPECT_NE(table[0].find(",1,"), std::string::npos);
 }
 
-double resident_megabytes() {
-  std::ifstream statm("/proc/self/statm");
-  double total = 0.0, resident = 0.0;
-  statm >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
 TEST_P(EitherMode, DoesNotGrow) {
   // ANTHROB_MOCAP_PAIRS=5184000 is a day at 60 Hz.
   const char* wanted = std::getenv("ANTHROB_MOCAP_PAIRS");
@@ -196,12 +189,12 @@ TEST_P(EitherMode, DoesNotGrow) {
   const int warm = count / 5;
   for (int i = 0; i < warm; ++i) pipeline.push(recording.frame(i));
   pipeline.drain();
-  const double before = resident_megabytes();
+  const double before = test::resident_megabytes();
   for (int i = warm; i < count; ++i) pipeline.push(recording.frame(i));
   pipeline.drain();
-  EXPECT_LT(resident_megabytes() - before, 2.0);
+  EXPECT_LT(test::resident_megabytes() - before, 2.0);
   EXPECT_GT(poses, 9 * count / 10);
-  RecordProperty("growth_kB", static_cast<int>(1e3 * (resident_megabytes() - before)));
+  RecordProperty("growth_kB", static_cast<int>(1e3 * (test::resident_megabytes() - before)));
 }
 
 /// Tracks 20 pairs after something has been done to them.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
 #include "anthrob_recording/quantities.h"
 
 namespace anthrob {
@@ -34,12 +35,6 @@ std::vector<std::string> split(const std::string& line) {
     if (comma == std::string::npos) return cells;
     begin = comma + 1;
   }
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 /// Exact for plain decimals with up to nine places; others are rounded to a nanosecond.

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
 
 namespace anthrob {
 namespace {
@@ -17,12 +18,7 @@ constexpr const char* kParts[] = {"/w", "/x", "/y", "/z"};
 constexpr double kLatest = 9e9;  ///< [s] nanoseconds of 64 bits end there
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-std::string trimmed(const std::string& text) {
-  const char* kBlank = " \t\r\"";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
+constexpr char kBlank[] = " \t\r\"";  // quotes, too
 
 /// Cells of a line; separators inside quotes belong to the cell.
 std::vector<std::string> cells_of(const std::string& line, char separator) {
@@ -36,7 +32,7 @@ std::vector<std::string> cells_of(const std::string& line, char separator) {
       cells.back() += c;
     }
   }
-  for (std::string& cell : cells) cell = trimmed(cell);
+  for (std::string& cell : cells) cell = trimmed(cell, kBlank);
   return cells;
 }
 
@@ -64,7 +60,7 @@ class ForeignReader {
     int blank = 0;  // the first line without anything, 0: none
     for (std::string line; std::getline(in_, line);) {
       ++row_;
-      if (trimmed(line).empty()) {
+      if (trimmed(line, kBlank).empty()) {
         if (blank == 0) blank = row_;
         continue;
       }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kRows = 40;
 constexpr Nanoseconds kPeriod = 5'000'000;
-const char* const kMuscles[] = {"biceps", "triceps"};
+const char* const kTwoMuscles[] = {"biceps", "triceps"};
 const char* const kMeasured[] = {"position", "velocity", "current", "voltage", "force"};
 const char* const kWords[] = {"ecu_state", "mode", "reference"};
 
@@ -35,7 +35,7 @@ Dataset recording() {
     column.present.assign(kRows, 1);
   };
   double value = 0.5;
-  for (const std::string muscle : kMuscles) {
+  for (const std::string muscle : kTwoMuscles) {
     for (const std::string quantity : kMeasured) fill(muscle + "/" + quantity, value += 1.0);
     fill(muscle + "/ecu_state", state_of("ENABLED"));
     fill(muscle + "/mode", mode_of("POSITION"));

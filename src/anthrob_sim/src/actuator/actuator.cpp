@@ -10,11 +10,12 @@ namespace anthrob {
 
 namespace {
 
-using Factory = std::shared_ptr<const Actuator> (*)(const ConfigNode&, const ConfigNode&, double);
+using ActuatorFactory = std::shared_ptr<const Actuator> (*)(const ConfigNode&, const ConfigNode&,
+                                                            double);
 
-Factory factory_of(const ConfigNode& kind) {
+ActuatorFactory factory_of(const ConfigNode& kind) {
   // A new actuator: one file, one line here.
-  static const std::map<std::string, Factory> kFactories = {
+  static const std::map<std::string, ActuatorFactory> kFactories = {
       {"dc_motor", &DcMotor::load},
       {"hill", &HillMuscle::load},
       {"ligament", &Ligament::load},

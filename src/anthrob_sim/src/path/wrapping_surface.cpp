@@ -11,8 +11,8 @@
 namespace anthrob {
 
 namespace {
-using Factory = std::shared_ptr<const WrappingSurface> (*)(const ConfigNode&, const Pose&,
-                                                           const MeshFiles&);
+using SurfaceFactory = std::shared_ptr<const WrappingSurface> (*)(const ConfigNode&, const Pose&,
+                                                                  const MeshFiles&);
 
 /// For surfaces that need no file.
 template <std::shared_ptr<const WrappingSurface> (*kLoad)(const ConfigNode&, const Pose&)>
@@ -22,8 +22,8 @@ std::shared_ptr<const WrappingSurface> without_files(const ConfigNode& node, con
 }
 
 // A new surface: one file, one line here.
-const std::map<std::string, Factory>& factories() {
-  static const std::map<std::string, Factory> kFactories = {
+const std::map<std::string, SurfaceFactory>& factories() {
+  static const std::map<std::string, SurfaceFactory> kFactories = {
       {"cylinder", &without_files<&Cylinder::load>},
       {"mesh", &MeshSurface::load},
       {"sphere", &without_files<&Sphere::load>},

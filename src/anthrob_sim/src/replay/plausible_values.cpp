@@ -8,13 +8,13 @@ namespace anthrob {
 
 namespace {
 
-constexpr double kLargest = 1e9;       // in whatever unit
+constexpr double kAbsurd = 1e9;        // in whatever unit
 constexpr double kRangesBeyond = 2.0;  // of a joint, beyond its stops: degrees are 57 times as much
 constexpr double kPush = 1.0;          // [N], more than the offset of a sensor
 
 void refuse_no_number(const Dataset& recording, const Table& table, const Column& column) {
   for (std::size_t i = 0; i < column.values.size(); ++i) {
-    if (!column.present[i] || std::abs(column.values[i]) < kLargest) continue;
+    if (!column.present[i] || std::abs(column.values[i]) < kAbsurd) continue;
     refuse_row(recording, table, i,
                column.name + ": expected a finite number" +
                    (std::isfinite(column.values[i]) ? " below 1e9" : ""));

@@ -83,6 +83,8 @@ std::unique_ptr<btCollisionShape> make_shape(const CollisionModel& model) {
       btVector3(model.size[0], model.size[0], 0.5 * model.size[1]));
 }
 
+}  // namespace
+
 /// What Bullet needs to find and solve contacts. Nothing of it may remember earlier steps, so that
 /// a restored snapshot continues with the same bits: pairs are sorted, and all that they found is
 /// made anew, for the order in which several shapes of two bodies first met is memory, too.
@@ -104,8 +106,6 @@ struct ContactWorld {
   btMLCPSolver solver;
   btDiscreteDynamicsWorld world;
 };
-
-}  // namespace
 
 struct Skeleton::Bullet {
   std::vector<std::unique_ptr<btCollisionShape>> shapes;

@@ -10,7 +10,7 @@
 namespace anthrob {
 namespace {
 
-constexpr double kStep = 1e-3;
+constexpr double kMotorStep = 1e-3;
 constexpr double kEta = 0.59;
 
 DcMotor::Parameters unit_a() {
@@ -27,7 +27,7 @@ std::shared_ptr<const GearLaw> thesis_gear() {
 /// A motor with its state.
 class Motor {
  public:
-  Motor(const DcMotor::Parameters& p, std::shared_ptr<const GearLaw> gear, double step = kStep)
+  Motor(const DcMotor::Parameters& p, std::shared_ptr<const GearLaw> gear, double step = kMotorStep)
       : motor_(p, std::move(gear), step), memory_(motor_.state_size()) {
     motor_.place(0.0, state());
   }
@@ -242,7 +242,7 @@ TEST(HillMuscle, CurvesAreThelens) {
 }
 
 TEST(HillMuscle, IsometricForceIsActivationTimesForceLength) {
-  const HillMuscle muscle({1000.0, 0.1, 10.0, 0.015, 0.05, 0.1, 0.3}, kStep);
+  const HillMuscle muscle({1000.0, 0.1, 10.0, 0.015, 0.05, 0.1, 0.3}, kMotorStep);
   std::vector<double> memory(muscle.state_size());
   const StateView state(memory.data());
   muscle.place(0.0, state);
@@ -259,7 +259,7 @@ TEST(HillMuscle, IsometricForceIsActivationTimesForceLength) {
 }
 
 TEST(HillMuscle, StandsAtItsShortest) {
-  const HillMuscle muscle({1000.0, 0.1, 10.0, 0.015, 0.05, 0.1, 0.3}, kStep);
+  const HillMuscle muscle({1000.0, 0.1, 10.0, 0.015, 0.05, 0.1, 0.3}, kMotorStep);
   std::vector<double> memory(muscle.state_size());
   const StateView state(memory.data());
   muscle.place(0.0, state);
@@ -267,7 +267,7 @@ TEST(HillMuscle, StandsAtItsShortest) {
   for (int i = 0; i < 1000; ++i) {
     muscle.advance(1.0, 0.0, state);
     const Actuator::Readout now = muscle.read(state);
-    ASSERT_NEAR(now.velocity, (now.position - last) / kStep, 1e-9) << i;
+    ASSERT_NEAR(now.velocity, (now.position - last) / kMotorStep, 1e-9) << i;
     last = now.position;
   }
   EXPECT_EQ(last, 0.8);

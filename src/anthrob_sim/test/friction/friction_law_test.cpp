@@ -10,7 +10,7 @@
 namespace anthrob {
 namespace {
 
-constexpr double kStatic = 0.195, kKinetic = 0.156, kVelocity = 0.001, kStep = 1e-3;
+constexpr double kStatic = 0.195, kKinetic = 0.156, kVelocity = 0.001, kStickStep = 1e-3;
 
 TEST(SmoothStribeck, IsTheLogisticStribeckCurve) {
   const SmoothStribeck law(kStatic, kKinetic, kVelocity, 10.0);
@@ -33,7 +33,7 @@ TEST(SmoothStribeck, SlopeIsItsDerivative) {
 }
 
 TEST(Sticking, SlidesAtTheKineticLevelInBothDirections) {
-  const Sticking law(kStatic, kKinetic, kVelocity, 1e-5, kStep);
+  const Sticking law(kStatic, kKinetic, kVelocity, 1e-5, kStickStep);
   double z = 0.0;
   const StateView state(&z);
   for (const double v : {0.05, -0.05}) {
@@ -43,12 +43,12 @@ TEST(Sticking, SlidesAtTheKineticLevelInBothDirections) {
 }
 
 TEST(Sticking, HoldsAnythingUpToTheStaticLevelAtRest) {
-  const Sticking law(kStatic, kKinetic, kVelocity, 1e-5, kStep);
+  const Sticking law(kStatic, kKinetic, kVelocity, 1e-5, kStickStep);
   double z = 0.0;
   const StateView state(&z);
   // Displaced by a share of the presliding distance, then left alone: the same share of mu_s, for
   // ever.
-  law.commit(0.7e-5 / kStep, state);
+  law.commit(0.7e-5 / kStickStep, state);
   for (int i = 0; i < 1000; ++i) {
     EXPECT_DOUBLE_EQ(law.evaluate(0.0, state).mu, 0.7 * kStatic);
     law.commit(0.0, state);
@@ -56,7 +56,7 @@ TEST(Sticking, HoldsAnythingUpToTheStaticLevelAtRest) {
 }
 
 TEST(Sticking, BreaksAwayAtTheStaticLevel) {
-  const Sticking law(kStatic, kKinetic, kVelocity, 1e-5, kStep);
+  const Sticking law(kStatic, kKinetic, kVelocity, 1e-5, kStickStep);
   double z = 0.0, highest = 0.0;
   const StateView state(&z);
   const double slow = 1e-6;
@@ -68,7 +68,7 @@ TEST(Sticking, BreaksAwayAtTheStaticLevel) {
 }
 
 TEST(Sticking, SlopeIsItsDerivative) {
-  const Sticking law(kStatic, kKinetic, kVelocity, 1e-5, kStep);
+  const Sticking law(kStatic, kKinetic, kVelocity, 1e-5, kStickStep);
   double z = 0.3e-5;
   const StateView state(&z);
   for (double v : {1e-3, -2e-3, 5e-3, 0.05, -0.05}) {
@@ -81,7 +81,7 @@ TEST(Sticking, SlopeIsItsDerivative) {
 TEST(BothLaws, DissipateWhateverTheMotion) {
   // Friction power T mu v over random motion; the bristle may give back what it stored, no more.
   testing_support::Random random(3);
-  const Sticking sticking(kStatic, kKinetic, kVelocity, 1e-5, kStep);
+  const Sticking sticking(kStatic, kKinetic, kVelocity, 1e-5, kStickStep);
   const SmoothStribeck smooth(kStatic, kKinetic, kVelocity, 10.0);
   for (int run = 0; run < 500; ++run) {
     double z = 0.0, work = 0.0, v = 0.0;
@@ -90,7 +90,7 @@ TEST(BothLaws, DissipateWhateverTheMotion) {
       v = 0.9 * v + random.uniform(-0.003, 0.003);
       const double power = v * sticking.evaluate(v, state).mu;
       sticking.commit(v, state);
-      work += power * kStep;
+      work += power * kStickStep;
       ASSERT_GE(work, -0.5 * kStatic * 1e-5) << run << " " << i;
       EXPECT_GE(v * smooth.evaluate(v, StateView()).mu, 0.0);
     }

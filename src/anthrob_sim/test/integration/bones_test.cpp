@@ -18,6 +18,7 @@ namespace anthrob {
 namespace {
 
 using testing_support::config;
+using testing_support::content;
 
 /// Nearest point of a triangle, by clamping barycentric coordinates region by region.
 Vec3 nearest(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -36,11 +37,6 @@ Vec3 nearest(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     if ((x - p).norm() < (best - p).norm()) best = x;
   }
   return best;
-}
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
 TEST(Bones, AreWhatTheirGeneratorWrites) {

@@ -13,7 +13,7 @@ using testing_support::config;
 using testing_support::Random;
 using testing_support::TemporaryRobot;
 
-constexpr double kMass = 2.0, kGravity = 9.81, kStatic = 0.195, kKinetic = 0.156;
+constexpr double kLinkMass = 2.0, kGravity = 9.81, kLinkStatic = 0.195, kLinkKinetic = 0.156;
 
 const char* const kHoistUrdf = R"(<robot name="hoist">
   <link name="world"/>
@@ -71,7 +71,7 @@ const std::string kSmooth =
 double capstan_ratio(const std::string& law, int spring_segment, double speed) {
   const TemporaryRobot robot(kHoistUrdf, hoist(law, spring_segment));
   Simulation sim(robot.load());
-  const double lift = kMass * kGravity / 2000.0;
+  const double lift = kLinkMass * kGravity / 2000.0;
   double position = lift / 0.0065;
   sim.place({0.0}, {position});
   for (int i = 0; i < 4000; ++i) {
@@ -83,7 +83,7 @@ double capstan_ratio(const std::string& law, int spring_segment, double speed) {
 }
 
 TEST(Eyelet, CapstanRatioInBothDirections) {
-  const double expected = std::exp(kKinetic * M_PI / 2);
+  const double expected = std::exp(kLinkKinetic * M_PI / 2);
   for (const std::string& law : {kSticking, kSmooth}) {
     for (const int segment : {0, 1}) {
       EXPECT_NEAR(capstan_ratio(law, segment, 0.02), expected, 1e-4 * expected) << law << segment;
@@ -99,23 +99,23 @@ TEST(Eyelet, InsertionSideCarriesTheLoad) {
                                                "stribeck_velocity: 0.001, presliding: 1.0e-5}",
                                                0));
   Simulation sim(robot.load());
-  double position = kMass * kGravity / 2000.0 / 0.0065;
+  double position = kLinkMass * kGravity / 2000.0 / 0.0065;
   sim.place({0.0}, {position});
   for (int i = 0; i < 3000; ++i) {
     sim.muscle_inputs().impose_position(0, position += 2e-3, 2.0);
     sim.step();
   }
   const double viscous = 1.0 * 0.0065 * 2.0;
-  EXPECT_NEAR(sim.muscle(0).tension(1), kMass * kGravity + viscous, 1e-3);
-  EXPECT_NEAR(sim.muscle(0).tension(0) / sim.muscle(0).tension(1), std::exp(kKinetic * M_PI / 2),
-              1e-6);
+  EXPECT_NEAR(sim.muscle(0).tension(1), kLinkMass * kGravity + viscous, 1e-3);
+  EXPECT_NEAR(sim.muscle(0).tension(0) / sim.muscle(0).tension(1),
+              std::exp(kLinkKinetic * M_PI / 2), 1e-6);
 }
 
 /// Slackens the spring side to a share of the load and watches the load for a minute.
 double creep(const std::string& law, double share) {
   const TemporaryRobot robot(kHoistUrdf, hoist(law, 0));
   Simulation sim(robot.load());
-  const double weight = kMass * kGravity;
+  const double weight = kLinkMass * kGravity;
   const auto hold = [&](double tension, int steps) {
     const double position = tension / 2000.0 / 0.0065;
     for (int i = 0; i < steps; ++i)
@@ -129,7 +129,7 @@ double creep(const std::string& law, double share) {
 }
 
 TEST(Eyelet, StickingLawHoldsBelowItsLimitForAMinute) {
-  const double lowest = std::exp(-kStatic * M_PI / 2);  // share of the load at which it slips
+  const double lowest = std::exp(-kLinkStatic * M_PI / 2);  // share of the load at which it slips
   EXPECT_NEAR(creep(kSticking, 0.5 * (1.0 + lowest)), 0.0, 1e-9);
   EXPECT_NEAR(creep(kSticking, lowest + 0.02), 0.0, 1e-9);
 }
@@ -143,7 +143,7 @@ TEST(Eyelet, SlipsBeyondItsLimit) {
   // The load sinks until the spring side carries its share again.
   const TemporaryRobot robot(kHoistUrdf, hoist(kSticking, 0));
   Simulation sim(robot.load());
-  const double weight = kMass * kGravity, lowest = std::exp(-kStatic * M_PI / 2);
+  const double weight = kLinkMass * kGravity, lowest = std::exp(-kLinkStatic * M_PI / 2);
   sim.place({0.0}, {weight / 2000.0 / 0.0065});
   const double position = (lowest - 0.1) * weight / 2000.0 / 0.0065;
   for (int i = 0; i < 3000; ++i) sim.muscle_inputs().impose_position(0, position, 0.0), sim.step();
@@ -185,7 +185,7 @@ TEST(Joint, StribeckFrictionAtConstantSpeed) {
   // Terminal speed: load - weight = kinetic + (static - kinetic) exp(-v / v_s) + viscous v.
   const TemporaryRobot robot(kHoistUrdf, hoist("{law: none}", 0, 25.0));
   Simulation sim(robot.load());
-  sim.apply_load(0, kMass * kGravity + 26.0);
+  sim.apply_load(0, kLinkMass * kGravity + 26.0);
   sim.step(20000 / 40);
   double speed = 0.0;
   for (int i = 0; i < 100; ++i) {
@@ -194,7 +194,7 @@ TEST(Joint, StribeckFrictionAtConstantSpeed) {
     // m a = load - weight - friction, within the first-order phase of the velocity.
     const double friction = 20.0 + 5.0 * std::exp(-v / 0.01) + 1.0 * v;
     if (i > 0) {
-      EXPECT_NEAR((v - speed) / 1e-3 * kMass, 26.0 - friction, 0.05);
+      EXPECT_NEAR((v - speed) / 1e-3 * kLinkMass, 26.0 - friction, 0.05);
     }
     speed = v;
   }

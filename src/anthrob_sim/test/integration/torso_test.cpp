@@ -10,11 +10,7 @@
 namespace anthrob {
 namespace {
 
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
+using testing_support::content;
 TEST(Torso, IsWhatItsGeneratorWrites) {
   const std::filesystem::path config = testing_support::config("");
   const auto out =

@@ -11,7 +11,7 @@ using testing_support::arm_with;
 using testing_support::expect_refused;
 using testing_support::expect_remark;
 using testing_support::expect_silence;
-using testing_support::kArm;
+using testing_support::kArmUrdf;
 using testing_support::said_about;
 
 const char* const kUpperArm =
@@ -164,7 +164,7 @@ TEST(UrdfSizes, LimitsThatAreNotUsed) {
 }
 
 TEST(UrdfSizes, TheArmItselfIsPlausible) {
-  expect_silence(kArm);
+  expect_silence(kArmUrdf);
 }
 
 TEST(PlausibleBody, AcceptsAllThatRandomPointsCanBe) {

@@ -9,7 +9,7 @@ using testing_support::arm_and;
 using testing_support::arm_with;
 using testing_support::expect_refused;
 using testing_support::expect_silence;
-using testing_support::kArm;
+using testing_support::kArmUrdf;
 using testing_support::said_about;
 
 const char* const kElbowOrigin = "<origin xyz=\"0 0 -0.25\"/>";
@@ -195,7 +195,7 @@ TEST(UrdfSpelling, LineEndsAndTabsInAttributes) {
 
 std::string with_line_ends(const std::string& end) {
   std::string text;
-  for (const char c : kArm) text += c == '\n' ? end : std::string(1, c);
+  for (const char c : kArmUrdf) text += c == '\n' ? end : std::string(1, c);
   return text;
 }
 
@@ -210,7 +210,7 @@ TEST(UrdfFile, LineEndsOfOtherSystems) {
 /// Each byte followed, or preceded, by others that are 0.
 std::string wide(const std::string& mark, std::size_t before, std::size_t after) {
   std::string text = mark;
-  for (const char c : kArm) text += std::string(before, '\0') + c + std::string(after, '\0');
+  for (const char c : kArmUrdf) text += std::string(before, '\0') + c + std::string(after, '\0');
   return text;
 }
 
@@ -226,22 +226,22 @@ TEST(UrdfFile, OtherEncodings) {
   expect_refused(arm_with("\n  <link name=\"upper_arm\">",
                           std::string("\n\0", 2) + "<link name=\"upper_arm\">"),
                  "10: a byte 0 in the text: expected UTF-8 without it");
-  expect_silence("\xEF\xBB\xBF" + kArm);
+  expect_silence("\xEF\xBB\xBF" + kArmUrdf);
 }
 
 TEST(UrdfFile, DoctypeAndEntities) {
   const std::string message =
       ": DOCTYPE and entities are not read: expected <robot> first: delete it, and write what each "
       "&entity; stands for";
-  expect_refused("<!DOCTYPE robot [<!ENTITY m \"0.4\">]>\n" + kArm, "1" + message);
+  expect_refused("<!DOCTYPE robot [<!ENTITY m \"0.4\">]>\n" + kArmUrdf, "1" + message);
   expect_refused(
-      "<?xml version=\"1.0\"?>\n<!-- a -->\n<!DOCTYPE robot SYSTEM \"urdf.dtd\">\n" + kArm,
+      "<?xml version=\"1.0\"?>\n<!-- a -->\n<!DOCTYPE robot SYSTEM \"urdf.dtd\">\n" + kArmUrdf,
       "3" + message);
-  expect_refused("\n<!doctype robot>" + kArm, "2" + message);
+  expect_refused("\n<!doctype robot>" + kArmUrdf, "2" + message);
 }
 
 TEST(UrdfFile, WhatIsNotOneRobot) {
-  expect_refused(kArm + "<robot name=\"second\"/>",
+  expect_refused(kArmUrdf + "<robot name=\"second\"/>",
                  "36: <robot> after </robot>: expected one <robot> with all in it");
   expect_refused("<sdf version=\"1.6\"/>",
                  "1: not a valid URDF: it begins with <sdf>: expected <robot>");
@@ -252,7 +252,7 @@ TEST(UrdfFile, WhatIsNotOneRobot) {
   };
   EXPECT_EQ(said_of_xml(arm_with("</inertial>", "</inertia>")),
             "not a valid URDF: an element that is closed by another name, or not at all");
-  EXPECT_EQ(said_of_xml(kArm.substr(0, kArm.find("</robot>"))),
+  EXPECT_EQ(said_of_xml(kArmUrdf.substr(0, kArmUrdf.find("</robot>"))),
             "not a valid URDF: an element that is not closed before the file ends");
   EXPECT_EQ(said_of_xml(arm_with("<mass value=\"0.4\"/>", "<mass value=0.4/>")),
             "not a valid URDF: an attribute that appears twice in its element, or is not written "

@@ -15,7 +15,7 @@ namespace anthrob {
 namespace testing_support {
 
 /// An arm of two links; the tests below change one thing of it.
-inline const std::string kArm = R"(<robot name="arm">
+inline const std::string kArmUrdf = R"(<robot name="arm">
   <link name="base"/>
   <joint name="shoulder" type="revolute">
     <parent link="base"/>
@@ -54,7 +54,7 @@ inline const std::string kArm = R"(<robot name="arm">
 
 /// The arm with a piece of its text replaced, where it stands first.
 inline std::string arm_with(const std::string& from, const std::string& to) {
-  std::string text = kArm;
+  std::string text = kArmUrdf;
   const auto at = text.find(from);
   if (at == std::string::npos) throw std::logic_error("the arm has no " + from);
   return text.replace(at, from.size(), to);

@@ -10,7 +10,7 @@ using testing_support::arm_and;
 using testing_support::arm_with;
 using testing_support::expect_refused;
 using testing_support::expect_silence;
-using testing_support::kArm;
+using testing_support::kArmUrdf;
 using testing_support::said_about;
 
 std::string joint(const std::string& name, const std::string& parent, const std::string& child,
@@ -28,7 +28,7 @@ const char* const kOneParent =
     "another link?";
 
 TEST(UrdfTree, ATreeIsAccepted) {
-  expect_silence(kArm);
+  expect_silence(kArmUrdf);
   expect_silence(arm_and(link("tool") + joint("mount", "forearm", "tool") + link("pen") +
                          joint("holder", "tool", "pen")));
   expect_silence(arm_and(link("left") + link("right") + joint("l", "base", "left") +

@@ -14,7 +14,7 @@ namespace {
 
 using testing_support::config;
 
-std::shared_ptr<const RobotModel> rig() {
+std::shared_ptr<const RobotModel> standing_rig() {
   return load_robot_model(config("two_muscle_rig/model_I.yaml"));
 }
 
@@ -140,7 +140,7 @@ Dataset still(double settle) {
 
 TEST(ReplayStart, BeginsWhereItWasRecordedHoweverShortTheTimeToSettle) {
   for (const double settle : {0.0, 0.05, 8.0}) {
-    const Dataset replayed = replay(rig(), still(settle), ReplayMode::kPosture);
+    const Dataset replayed = replay(standing_rig(), still(settle), ReplayMode::kPosture);
     const Table& muscles = *replayed.find_table("muscles");
     for (const char* column : {"flexor/position", "extensor/position", "hinge/position"}) {
       const auto& values = muscles.find(column)->values;
@@ -161,8 +161,8 @@ TEST(ReplayStart, PlacesMotorsThatThereIsNoTimeToWind) {
                       {"extensor/position", {2.0, 2.0}, {1, 1}}};
   for (const double settle : {0.0, 0.001, 0.1}) {
     recording.meta.settle_s = settle;
-    const Replay input(rig(), recording, ReplayMode::kPosition);
-    Simulation sim(rig());
+    const Replay input(standing_rig(), recording, ReplayMode::kPosition);
+    Simulation sim(standing_rig());
     input.start(sim);
     EXPECT_NEAR(sim.reading(0).position, 2.0, 1e-12) << settle;
     const double force = sim.muscle(0).spring_tension();
@@ -226,7 +226,7 @@ TEST(ReplayStart, PlacesThePostureThatTheCamerasReadAsMeasured) {
 }
 
 TEST(ReplayStart, MotorsWhosePositionsAreImposedHaveNoCurrent) {
-  const Dataset replayed = replay(rig(), still(0.5), ReplayMode::kPosition);
+  const Dataset replayed = replay(standing_rig(), still(0.5), ReplayMode::kPosition);
   const Table& muscles = *replayed.find_table("muscles");
   for (const char* column : {"flexor/current", "extensor/voltage"}) {
     EXPECT_EQ(muscles.find(column)->present, std::vector<char>({0, 0})) << column;
@@ -284,7 +284,7 @@ TEST(ReplayStart, StartsMusclesWithoutControllersAtRest) {
   recording.meta.start_position = {{"flexor", 1.0}};
   EXPECT_THROW(replay(hill, recording, ReplayMode::kReference), BadInput);
   recording.meta.start_position = {{"flexro", 1.0}};
-  EXPECT_THROW(replay(rig(), recording, ReplayMode::kReference), BadInput);
+  EXPECT_THROW(replay(standing_rig(), recording, ReplayMode::kReference), BadInput);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace anthrob {
 namespace {
 
-constexpr double kStep = 1e-3;
+constexpr double kStretchStep = 1e-3;
 // Ring 15x5 of Tables 7.2, C.4 and C.5.
 constexpr double kRest = 0.015, kArea = 2 * 0.25 * M_PI * 0.005 * 0.005;
 const Ring kRing{kRest, kArea};
@@ -39,12 +39,12 @@ void expect_relaxation(const Model& model, double strain, Expected expected, dou
   for (int i = 1; i <= 10000; ++i) {
     const double force = ring.stretch(strain);
     // The ramp of one step acts like a sudden stretch half a step earlier, to second order.
-    EXPECT_NEAR(force, expected((i + 0.5) * kStep), tolerance) << "step " << i;
+    EXPECT_NEAR(force, expected((i + 0.5) * kStretchStep), tolerance) << "step " << i;
   }
 }
 
 TEST(Zener, RelaxationFollowsTheClosedForm) {
-  const Zener zener(kRing, kE0, MaxwellArm(kE1, kTau, kStep));
+  const Zener zener(kRing, kE0, MaxwellArm(kE1, kTau, kStretchStep));
   // (4.51), (4.52) and the exponential between them.
   expect_relaxation(
       zener, 0.8, [](double t) { return kArea * 0.8 * (kE0 + kE1 * std::exp(-t / kTau)); }, 1e-6);
@@ -53,7 +53,7 @@ TEST(Zener, RelaxationFollowsTheClosedForm) {
 TEST(Zener, CreepFollowsTheClosedForm) {
   // Constant stress: e(t) = s/E_0 - (s/E_0 - s/(E_0 + E_1)) exp(-t / tau_c), tau_c = tau (E_0 +
   // E_1) / E_0.
-  const Zener zener(kRing, kE0, MaxwellArm(kE1, kTau, kStep));
+  const Zener zener(kRing, kE0, MaxwellArm(kE1, kTau, kStretchStep));
   Element ring(zener);
   const double force = 20.0, stress = force / kArea;
   const double retardation = kTau * (kE0 + kE1) / kE0;
@@ -70,7 +70,7 @@ TEST(Zener, CreepFollowsTheClosedForm) {
     const double f0 = try_strain(strain), f1 = try_strain(strain + 0.01);
     strain += 0.01 * (force - f0) / (f1 - f0);
     try_strain(strain);
-    const double t = (i + 0.5) * kStep;  // stretched within one step
+    const double t = (i + 0.5) * kStretchStep;  // stretched within one step
     const double expected =
         stress / kE0 - (stress / kE0 - stress / (kE0 + kE1)) * std::exp(-t / retardation);
     ASSERT_NEAR(strain, expected, 1e-6);  // (4.48) at t = 0, (4.49) at infinity
@@ -78,7 +78,7 @@ TEST(Zener, CreepFollowsTheClosedForm) {
 }
 
 TEST(Zener, MaxwellModelIsTheLimitWithoutTheParallelSpring) {
-  const Zener maxwell(kRing, 0.0, MaxwellArm(kE1, 0.2, kStep));
+  const Zener maxwell(kRing, 0.0, MaxwellArm(kE1, 0.2, kStretchStep));
   expect_relaxation(
       maxwell, 0.5, [](double t) { return kArea * 0.5 * kE1 * std::exp(-t / 0.2); }, 1e-4);
 }
@@ -87,17 +87,18 @@ TEST(Zener, VoigtModelIsTheLimitOfAStiffShortArm) {
   // E_1 -> infinity, tau_1 -> 0 with viscosity mu = E_1 tau_1: stress = E e + mu de/dt (B.11),
   // (B.7).
   const double viscosity = 0.1e6, tau = 1e-6;
-  const Zener voigt(kRing, kE0, MaxwellArm(viscosity / tau, tau, kStep));
+  const Zener voigt(kRing, kE0, MaxwellArm(viscosity / tau, tau, kStretchStep));
   Element ring(voigt);
   const double rate = 0.5;
   double strain = 0.0, force = 0.0;
-  for (int i = 0; i < 100; ++i) force = ring.stretch(strain += rate * kStep);
+  for (int i = 0; i < 100; ++i) force = ring.stretch(strain += rate * kStretchStep);
   EXPECT_NEAR(force, kArea * (kE0 * strain + viscosity * rate), 1e-9);
 }
 
 TEST(Wiechert, RelaxationIsTheSumOfItsArms) {
   const Wiechert wiechert(
-      kRing, 0.8045e6, {MaxwellArm(0.1272e6, 0.2366, kStep), MaxwellArm(0.0827e6, 2.9414, kStep)});
+      kRing, 0.8045e6,
+      {MaxwellArm(0.1272e6, 0.2366, kStretchStep), MaxwellArm(0.0827e6, 2.9414, kStretchStep)});
   expect_relaxation(
       wiechert, 1.2,
       [](double t) {  // (4.59)
@@ -108,8 +109,8 @@ TEST(Wiechert, RelaxationIsTheSumOfItsArms) {
 }
 
 TEST(Wiechert, OneArmIsAZener) {
-  const Zener zener(kRing, kE0, MaxwellArm(kE1, kTau, kStep));
-  const Wiechert wiechert(kRing, kE0, {MaxwellArm(kE1, kTau, kStep)});
+  const Zener zener(kRing, kE0, MaxwellArm(kE1, kTau, kStretchStep));
+  const Wiechert wiechert(kRing, kE0, {MaxwellArm(kE1, kTau, kStretchStep)});
   Element a(zener), b(wiechert);
   for (int i = 0; i < 3000; ++i) {
     const double strain = 0.5 * std::sin(0.01 * i);
@@ -118,7 +119,7 @@ TEST(Wiechert, OneArmIsAZener) {
 }
 
 TEST(SpringDamper, ClosedForm) {
-  const SpringDamper spring(0.01, 2000.0, 5.0, kStep);
+  const SpringDamper spring(0.01, 2000.0, 5.0, kStretchStep);
   Element element(spring);
   EXPECT_EQ(spring.relaxed_tension(0.002), 4.0);
   EXPECT_EQ(spring.relaxed_tension(-0.002), 0.0);
@@ -130,7 +131,7 @@ TEST(SpringDamper, ClosedForm) {
 
 class EveryElement : public ::testing::TestWithParam<int> {
  protected:
-  std::shared_ptr<const SeriesElasticElement> make(double step = kStep) const {
+  std::shared_ptr<const SeriesElasticElement> make(double step = kStretchStep) const {
     switch (GetParam()) {
       case 0:
         return std::make_shared<Zener>(kRing, kE0, MaxwellArm(kE1, kTau, step));
