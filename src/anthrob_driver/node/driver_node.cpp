@@ -10,6 +10,7 @@
 #include <limits>
 #include <thread>
 
+#include "anthrob_core/monotonic_clock.h"
 #include "anthrob_ros/diagnostics.h"
 #include "driver_diagnostics.h"
 #include "publishing/measurement_age.h"

@@ -13,6 +13,7 @@
 
 #include "anthrob_core/command_line.h"
 #include "anthrob_core/errors.h"
+#include "anthrob_core/monotonic_clock.h"
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <memory>
 
+#include "anthrob_core/monotonic_clock.h"
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
@@ -61,7 +62,7 @@ class RobotClock {
 
   void publish() {
     rosgraph_msgs::Clock message;
-    message.clock.fromSec(1.0 + pace_ * driver::monotonic_now());  // zero would mean: unknown
+    message.clock.fromSec(1.0 + pace_ * monotonic_now());  // zero would mean: unknown
     publisher_.publish(message);
   }
 

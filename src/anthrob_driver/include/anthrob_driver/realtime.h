@@ -6,9 +6,6 @@
 namespace anthrob {
 namespace driver {
 
-/// [s] of the clock that never jumps.
-double monotonic_now();
-
 /// Gives the calling thread SCHED_FIFO with `priority` and locks the process's memory.
 /// @return what the system refused, if it refused anything
 std::optional<std::string> become_realtime(int priority);

@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/monotonic_clock.h"
 #include "anthrob_driver/realtime.h"
 
 namespace anthrob {

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "anthrob_core/monotonic_clock.h"
 #include "anthrob_driver/bus/socketcan_bus.h"
 #include "anthrob_driver/link/sample.h"
 #include "anthrob_driver/realtime.h"

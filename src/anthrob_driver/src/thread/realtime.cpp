@@ -5,16 +5,9 @@
 
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 
 namespace anthrob {
 namespace driver {
-
-double monotonic_now() {
-  timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 std::optional<std::string> become_realtime(int priority) {
   sched_param parameters{};
