@@ -272,7 +272,7 @@ TEST_F(IdentifyTool, RefusesWrongOrder) {
   const auto earlier = [](const std::string& text) { return with_cell(text, 1000, 0, "0.5"); };
   expect_refused("see", altered("ring_1", "muscles.csv", earlier), "expected time to grow");
   const auto twice = [](const std::string& text) { return with_cell(text, 3, 0, "0.002"); };
-  expect_refused("see", altered("ring_1", "muscles.csv", twice), "expected time to grow");
+  expect_refused("see", altered("ring_1", "muscles.csv", twice), "at one time, 0.002 s");
   expect_refused("see", path("ring_1") + " " + path("ring_1"), "the same ring, specimen and run");
   expect_refused("eyelet", path("eyelet_00") + " " + path("eyelet_00"), "given twice");
   // The first release is missing.

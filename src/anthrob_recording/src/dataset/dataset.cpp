@@ -9,6 +9,7 @@
 #include "anthrob_core/errors.h"
 #include "anthrob_core/files.h"
 #include "dataset/clocks.h"
+#include "dataset/sources.h"
 #include "dataset/table_file.h"
 
 namespace anthrob {
@@ -143,6 +144,7 @@ Dataset Dataset::load(const std::string& folder) {
   refuse_longer_than_counted(dataset);
   refuse_measured_twice(dataset);
   check_clocks(dataset);
+  check_sources(dataset);
   return dataset;
 }
 

@@ -14,6 +14,7 @@
 #include "anthrob_core/errors.h"
 #include "anthrob_core/files.h"
 #include "dataset/clocks.h"
+#include "dataset/sources.h"
 #include "dataset/topic_tables.h"
 #include "ros/bag_rows.h"
 #include "ros/publishers.h"
@@ -271,6 +272,7 @@ BagContents contents_of(const std::string& file) {
   }
   if (contents.dataset.tables.empty()) throw BadInput(file + ": its topics hold no messages");
   check_clocks(contents.dataset);
+  check_sources(contents.dataset);
   return contents;
 }
 
