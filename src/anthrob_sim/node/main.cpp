@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   info.role = anthrob::NodeInfo::Role::kBackEnd;
   info.parameters = {
       {"model", "path of a model file (required)"},
-      {"step", "simulation step [s], in (0, 0.1] (default: 0.001)"},
+      {"step", "simulation step [s], in [1e-07, 0.1] (default: 0.001)"},
       {"rate", "real-time factor, 0: as fast as possible (default: 1)"},
       {"state_rate", "rate of states and clock [Hz of simulated time], at least 1 (default: 500)"},
       {"paused", "start paused: sim/step advances time, sim/pause lets it run (default: false)"},
@@ -48,9 +48,9 @@ int main(int argc, char** argv) {
     const std::string file = required(settings, "model", "the path of a model file");
     LoadOptions load;
     take(settings, "step", number_of, load.step);
-    if (!(load.step > 0.0 && load.step <= kMaximumStep)) {
+    if (!(load.step >= kMinimumStep && load.step <= kMaximumStep)) {
       throw BadInput("parameter ~step: " + std::to_string(load.step) +
-                     ": expected a number in (0, 0.1] [s]");
+                     ": expected a number in [1e-07, 0.1] [s]");
     }
     SimulatorNode::Options options;
     take(settings, "rate", nonnegative_number_of, options.rate);

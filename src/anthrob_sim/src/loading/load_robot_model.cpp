@@ -470,10 +470,10 @@ void read_meshes(const ConfigNode& config, const MeshFiles& files) {
 }
 
 void check_step(const LoadOptions& options) {
-  if (options.step > 0.0 && options.step <= kMaximumStep) return;
+  if (options.step >= kMinimumStep && options.step <= kMaximumStep) return;
   std::ostringstream given;
   given << std::setprecision(std::numeric_limits<double>::digits10) << options.step;
-  throw BadInput("simulation step " + given.str() + " s: expected a number in (0, 0.1]");
+  throw BadInput("simulation step " + given.str() + " s: expected a number in [1e-07, 0.1]");
 }
 
 }  // namespace

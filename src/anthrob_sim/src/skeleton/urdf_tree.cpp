@@ -23,6 +23,10 @@ std::string all_of(const std::vector<std::string>& names) {
   return text;
 }
 
+/// More than any robot has, and less than urdfdom's and our own recursion need to end the stack.
+constexpr std::size_t kMostLinks = 10000;
+constexpr int kLongestChain = 1000;
+
 std::string required_name(const UrdfFile& file, const XMLElement& element) {
   const std::string name = attribute_of(element, "name");
   if (name.empty()) {
@@ -50,9 +54,14 @@ void UrdfTree::require_tree() const {
   refuse_two_parents();
   refuse_detached_loops();
   refuse_several_roots();
+  refuse_long_chains();
 }
 
 void UrdfTree::add_link(const XMLElement& element) {
+  if (links_.size() == kMostLinks) {
+    file_.fail(element.GetLineNum(),
+               "more than " + std::to_string(kMostLinks) + " links; expected a robot");
+  }
   const std::string name = required_name(file_, element);
   const auto [known, is_new] = link_of_.emplace(name, static_cast<int>(links_.size()));
   if (!is_new) {
@@ -188,6 +197,26 @@ void UrdfTree::refuse_several_roots() const {
   for (const Link* root : roots) names.push_back(root->name);
   file_.fail(roots[1]->line, "links " + all_of(names) +
                                  ": children of no joint; expected one root: is a joint missing?");
+}
+
+/// Of a tree.
+void UrdfTree::refuse_long_chains() const {
+  std::vector<int> depth(links_.size(), 0), reached;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (links_[i].above.empty()) reached.push_back(static_cast<int>(i));
+  }
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    for (const int joint : links_[reached[next]].below) {
+      const int child = joints_[joint].child;
+      depth[child] = depth[reached[next]] + 1;
+      reached.push_back(child);
+      if (depth[child] <= kLongestChain) continue;
+      file_.fail(joints_[joint].line, "joint " + joints_[joint].name + ": the " +
+                                          std::to_string(depth[child]) +
+                                          "th in a chain; expected at most " +
+                                          std::to_string(kLongestChain));
+    }
+  }
 }
 
 }  // namespace anthrob

@@ -18,7 +18,7 @@ class UrdfTree {
   explicit UrdfTree(const UrdfFile& file);
 
   /// @throws BadInput, naming lines, joints and links, if a link has two parents, if joints close a
-  /// loop, or if there is not one root
+  /// loop, if there is not one root, or if a chain is longer than any robot's
   void require_tree() const;
 
  private:
@@ -41,6 +41,7 @@ class UrdfTree {
   void refuse_loop_through(int link) const;
   void refuse_detached_loops() const;
   void refuse_several_roots() const;
+  void refuse_long_chains() const;
   std::string loop_text(const std::vector<int>& joints) const;
 
   const UrdfFile& file_;

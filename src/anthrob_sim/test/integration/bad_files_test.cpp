@@ -609,13 +609,14 @@ TEST(BadFiles, ImpossibleTimeStep) {
   const TemporaryRobot robot(kUrdf, kModel);
   EXPECT_THROW(robot.load(0.0), BadInput);
   EXPECT_THROW(robot.load(-1e-3), BadInput);
+  EXPECT_THROW(robot.load(1e-12), BadInput);  // never comes to an end
   EXPECT_THROW(robot.load(0.002), BadInput);  // longer than a controller's period
   try {
     robot.load(0.10000001);
     FAIL() << "accepted";
   } catch (const BadInput& error) {
     EXPECT_EQ(std::string(error.what()),
-              "simulation step 0.10000001 s: expected a number in (0, 0.1]");
+              "simulation step 0.10000001 s: expected a number in [1e-07, 0.1]");
   }
 }
 

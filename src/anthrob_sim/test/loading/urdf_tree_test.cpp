@@ -133,5 +133,26 @@ TEST(UrdfTree, ManyLinksAreLookedAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
+/// An arm with so many more links one below the other.
+std::string arm_with_chain(int length) {
+  std::string more, last = "forearm";
+  for (int i = 0; i < length; ++i) {
+    const std::string name = "l" + std::to_string(i);
+    more += link(name) + joint("j" + std::to_string(i), last, name);
+    last = name;
+  }
+  return arm_and(more);
+}
+
+TEST(UrdfTree, AChainThatWouldEndTheStackIsRefused) {
+  EXPECT_EQ(said_about(arm_with_chain(900)).refusal, std::nullopt);
+  for (const int length : {1001, 9000}) {
+    const std::string said = said_about(arm_with_chain(length)).refusal.value_or("accepted");
+    EXPECT_NE(said.find("the 1001th in a chain; expected at most 1000"), std::string::npos) << said;
+  }
+  const std::string said = said_about(arm_with_chain(20000)).refusal.value_or("accepted");
+  EXPECT_NE(said.find("more than 10000 links"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace anthrob

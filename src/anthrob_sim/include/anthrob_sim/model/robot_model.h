@@ -90,7 +90,7 @@ struct RobotModel {
   int muscle_index(const std::string& muscle) const;
 };
 
-constexpr double kMaximumStep = 0.1;  ///< [s] of a simulation
+constexpr double kMinimumStep = 1e-7, kMaximumStep = 0.1;  ///< [s] of a simulation
 
 struct LoadOptions {
   double step = 0.001;  ///< length of a simulation step [s]
