@@ -191,6 +191,10 @@ void MocapNode::on_pair(const TimedImage pair[2]) {
 
 void MocapNode::take(std::unique_ptr<StereoFrame> frame) {
   frame->index = index_++;
+  if (frame->fault) {
+    refuse(*frame->fault);
+    return;
+  }
   try {
     check_size(*frame);
     check_stamp(*frame);

@@ -32,9 +32,11 @@ std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
                              health.add(frame), frames.push_back(frame.points);
                            });
   mocap::FolderSource source(recording.left, recording.right, recording.folder);
-  if (!mocap::track_all(source, rig, recording, pipeline)) return std::nullopt;
+  mocap::LeftOut left_out(source.pairs());
+  if (!mocap::track_all(source, rig, recording, pipeline, left_out)) return std::nullopt;
   recording.refuse_contradiction(health);
   if (source.assumption()) std::cerr << "note: " << *source.assumption() << "\n";
+  if (const auto few = left_out.warning()) std::cerr << "warning: " << *few << "\n";
   if (const auto crowd = health.crowd()) std::cerr << "warning: " << *crowd << "\n";
   // Markers need not fit yet.
   if (const auto uneven = health.uneven_rows()) std::cerr << "warning: " << *uneven << "\n";

@@ -26,6 +26,7 @@ class Report {
   explicit Report(const mocap::TargetSet& set) : set_(set), seen_(set.targets.size(), 0) {}
 
   void add(const mocap::StereoFrame& frame) {
+    if (frame.fault) return;
     double total = 0.0;
     for (const double seconds : frame.stage_seconds) total += seconds;
     latency_.push_back(total);
@@ -70,7 +71,8 @@ int track(const Arguments& arguments) {
                              const auto& frame = static_cast<const mocap::StereoFrame&>(*packet);
                              table.add(frame), health.add(frame), report.add(frame);
                            });
-  const bool done = mocap::track_all(source, rig, recording, pipeline);
+  mocap::LeftOut left_out(source.pairs());
+  const bool done = mocap::track_all(source, rig, recording, pipeline, left_out);
   if (done) recording.refuse_contradiction(health);
   out.close();
   if (!done) {
@@ -81,6 +83,7 @@ int track(const Arguments& arguments) {
   out.move_into_place();
   report.print(health);
   if (source.assumption()) std::cerr << "note: " << *source.assumption() << "\n";
+  if (const auto few = left_out.warning()) std::cerr << "warning: " << *few << "\n";
   const auto advice = health.advice(), crowd = health.crowd();
   if (advice) std::cerr << "no pose: " << *advice << "\n";
   if (health.given_up() > 0) {

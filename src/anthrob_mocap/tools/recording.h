@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "pipeline/health.h"
@@ -21,11 +22,28 @@ struct Recording {
   void refuse_contradiction(const Health& health) const;
 };
 
-/// Tracks all pairs of a recording.
+/// Counts the pairs of a recording that cannot be used.
+class LeftOut {
+ public:
+  /// @param pairs of the whole recording
+  explicit LeftOut(std::size_t pairs) : pairs_(pairs) {}
+
+  /// @throws BadInput if they are more than FolderSource::kMostFaults of all pairs
+  void add(const std::string& why);
+  /// How many they are, and the first; none if all pairs could be used.
+  std::optional<std::string> warning() const;
+
+ private:
+  std::size_t pairs_, count_ = 0;
+  std::string first_;
+};
+
+/// Tracks all pairs of a recording. Nothing is seen in those that are left out: pictures that are
+/// missing, damaged, or not as large as calibrated.
 /// @return false if it was interrupted
-/// @throws BadInput if an image cannot be used or is not as large as calibrated
+/// @throws BadInput as LeftOut::add
 bool track_all(FolderSource& source, const StereoRig& rig, const Recording& recording,
-               Pipeline& pipeline);
+               Pipeline& pipeline, LeftOut& left_out);
 
 }  // namespace mocap
 }  // namespace anthrob

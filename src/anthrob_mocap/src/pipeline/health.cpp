@@ -39,6 +39,7 @@ Health::Health(const StereoRig& rig, const MatchingOptions& options)
     : rig_(rig), matcher_(rig, options), row_matcher_(rig, rows_only(options)) {}
 
 void Health::add(const StereoFrame& frame) {
+  if (frame.fault) return;  // nothing was seen because nobody looked
   ++sums_.frames;
   sums_.cluttered += frame.cluttered[kLeft] || frame.cluttered[kRight] ? 1 : 0;
   sums_.cut += frame.cut ? 1 : 0;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct StereoFrame final : Packet {
   std::array<ImageView, 2> image;
   std::array<std::shared_ptr<const void>, 2> owner;  ///< keeps the pixels alive
   std::array<std::string, 2> file;                   ///< the file it was read from; empty if none
+  std::optional<std::string> fault;  ///< why the pair cannot be used; its images are empty then
 
   std::array<std::vector<Blob>, 2> blobs;      ///< segmentation
   std::array<bool, 2> cluttered{};             ///< too many specks to be a scene of markers
@@ -36,6 +38,13 @@ struct StereoFrame final : Packet {
   std::vector<Labelling> labels;      ///< labelling, by target
   std::vector<TargetPose> targets;    ///< pose, by target
   std::vector<JointEstimate> joints;  ///< joint, by joint
+
+  /// Empties the images, so that the stages see nothing.
+  void leave_out(const std::string& why) {
+    fault = why;
+    image = {};
+    owner = {};
+  }
 };
 
 }  // namespace mocap

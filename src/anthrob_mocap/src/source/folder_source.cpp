@@ -1,9 +1,11 @@
 #include "source/folder_source.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "anthrob_core/errors.h"
@@ -30,39 +32,57 @@ std::optional<std::string> times_file(const std::string& folder) {
   return std::nullopt;
 }
 
+std::string missing(const std::string& folder, const std::string& name) {
+  return folder + ": no " + name + ", which the other folder has";
+}
+
+Image read_picture(const std::string& folder, const std::string& name) {
+  const std::string file = folder + "/" + name;
+  if (!fs::exists(file)) throw BadInput(missing(folder, name));
+  return read_grey_image(file);
+}
+
 }  // namespace
 
 FolderSource::FolderSource(const std::string& left, const std::string& right,
                            const Options& options)
     : folder_{left, right} {
-  names_ = list_images(left);
-  const std::vector<std::string> right_names = list_images(right);
-  for (std::size_t i = 0; i < std::max(names_.size(), right_names.size()); ++i) {
-    if (i < names_.size() && i < right_names.size() && names_[i] == right_names[i]) continue;
-    const bool left_first =
-        i < names_.size() && (i >= right_names.size() || names_[i] < right_names[i]);
-    throw BadInput((left_first ? right : left) + ": no " +
-                   (left_first ? names_[i] : right_names[i]) +
-                   ", which the other folder has: expected the same names in both");
-  }
+  list_names();
   sort_names();
   load_times(options);
 }
 
+/// The names that either folder has.
+void FolderSource::list_names() {
+  const std::vector<std::string> left = list_images(folder_[kLeft]);
+  const std::vector<std::string> right = list_images(folder_[kRight]);
+  std::set_union(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(names_));
+  std::vector<std::string> lonely;
+  std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(),
+                                std::back_inserter(lonely));
+  const double most = kMostFaults * static_cast<double>(names_.size());
+  if (static_cast<double>(lonely.size()) <= most) return;
+  const bool in_left = std::binary_search(left.begin(), left.end(), lonely.front());
+  throw BadInput(missing(folder_[in_left ? kRight : kLeft], lonely.front()) +
+                 ": expected the same names in both, but for a tenth; " +
+                 std::to_string(lonely.size()) + " of " + std::to_string(names_.size()) +
+                 " are in one only");
+}
+
 void FolderSource::sort_names() {
+  const std::string both = folder_[kLeft] + ", " + folder_[kRight] + ": ";
   std::map<long, std::string> by_index;
   for (const std::string& name : names_) {
     const std::optional<std::string> number = image_number(name);
     if (number.has_value() != image_number(names_.front()).has_value()) {
-      throw BadInput(folder_[kLeft] + ": " + (number ? names_.front() : name) +
-                     ": expected a number in the name, as other images of this folder have");
+      throw BadInput(both + (number ? names_.front() : name) +
+                     ": expected a number in the name, as other images have");
     }
     const long index =
         number ? std::strtol(number->c_str(), nullptr, 10) : static_cast<long>(by_index.size());
     const auto [other, fresh] = by_index.emplace(index, name);
     if (fresh) continue;
-    throw BadInput(folder_[kLeft] + ": " + other->second + " and " + name +
-                   " have the same number in their names");
+    throw BadInput(both + other->second + " and " + name + " have the same number in their names");
   }
   names_.clear();
   for (const auto& [index, name] : by_index) indices_.push_back(index), names_.push_back(name);
@@ -149,15 +169,19 @@ void FolderSource::check_times(const Times& left, const Times& right, const std:
 
 FrameSource::Grab FolderSource::next(StereoFrame& frame, double) {
   if (position_ == names_.size()) return Grab::kEnd;
-  for (const Side side : {kLeft, kRight}) {
-    frame.file[side] = folder_[side] + "/" + names_[position_];
-    auto image = std::make_shared<Image>(read_grey_image(frame.file[side]));
-    frame.image[side] = image->view();
-    frame.owner[side] = image;
-  }
   frame.index = position_;
   frame.t = times_[position_];
   frame.ns = std::llround(1e9 * frame.t);
+  try {
+    for (const Side side : {kLeft, kRight}) {
+      frame.file[side] = folder_[side] + "/" + names_[position_];
+      auto image = std::make_shared<Image>(read_picture(folder_[side], names_[position_]));
+      frame.image[side] = image->view();
+      frame.owner[side] = image;
+    }
+  } catch (const BadInput& error) {
+    frame.leave_out(error.what());
+  }
   ++position_;
   return Grab::kFrame;
 }

@@ -16,8 +16,9 @@ class FrameSource {
 
   virtual ~FrameSource() = default;
 
-  /// Fills index, t, image and owner of a frame; waits at most `timeout` [s].
-  /// @throws BadInput for images that cannot be used
+  /// Fills index, t, image and owner of a frame; waits at most `timeout` [s]. A pair whose images
+  /// cannot be used has a fault.
+  /// @throws BadInput if the source as a whole cannot be used
   virtual Grab next(StereoFrame& frame, double timeout) = 0;
 
   /// What is wrong with the cameras at the moment, in one line; none if nothing is. Sources

@@ -219,6 +219,37 @@ TEST_F(Offline, RefusesImagesItCannotUse) {
   refuse("calibration: holds no image", "calibration");
 }
 
+TEST_F(Offline, LeavesOutThePairsOfAFewPicturesItCannotUse) {
+  const int count = 3 * kFrames;
+  for (const std::string side : {"left", "right"}) {
+    for (int i = kFrames; i < count; ++i) {
+      std::filesystem::copy(file(side, i % kFrames), file(side, i));
+    }
+  }
+  const std::string good = folder_.read("right/000003.png");
+  folder_.write("right/000003.png", good.substr(0, good.size() / 2));
+  cv::imwrite(file("left", 10), cv::Mat(487, 647, CV_8U, cv::Scalar(0)));
+  for (const char* mode : {"--pipeline sequential", "--pipeline threaded"}) {
+    ASSERT_EQ(run(mode), 0) << folder_.read("err");
+    const auto rows = table();
+    ASSERT_EQ(rows.size(), count + 1u);
+    for (int i = 0; i < count; ++i) {
+      const auto& row = rows[static_cast<std::size_t>(i) + 1];
+      EXPECT_DOUBLE_EQ(std::stod(row[0]), i / 60.0);
+      EXPECT_EQ(row[1], i == 3 || i == 10 ? "0" : "1") << i;
+      EXPECT_EQ(row[2].empty(), i == 3 || i == 10) << i;
+    }
+    const std::string error = folder_.read("err");
+    EXPECT_NE(error.find("warning: 2 of 24 pairs cannot be used and were left out; the first: "),
+              std::string::npos)
+        << error;
+    EXPECT_NE(error.find("right/000003.png: truncated image"), std::string::npos) << error;
+    EXPECT_NE(folder_.read("out").find("22 pairs, "), std::string::npos) << folder_.read("out");
+  }
+  std::filesystem::remove(file("left", 20));
+  refuse("right/000003.png: truncated image; 3 or more of 24 pairs cannot be used: expected at");
+}
+
 TEST_F(Offline, RefusesWhatDoesNotBelongTogether) {
   refuse("left and right images are swapped", "right", "left");
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path(""))) {
@@ -345,6 +376,14 @@ TEST_F(CalibrateTarget, RefusesWhatDoesNotBelongTogether) {
   refuse(run(), "index 107: unsynchronised pair: left and right are 5.0");
   EXPECT_EQ(run("--sync-tolerance 0.006"), 0) << folder_.read("err");
   cv::imwrite(folder_.path("left/103.png"), cv::Mat(487, 647, CV_8U, cv::Scalar(0)));
+  const auto warned = [&](const std::string& part) {
+    const std::string error = folder_.read("err");
+    EXPECT_NE(error.find(part), std::string::npos) << error << "expected: " << part;
+  };
+  EXPECT_EQ(run("--sync-tolerance 0.006"), 0);
+  warned("warning: 1 of 24 pairs cannot be used and were left out; the first: ");
+  warned("left/103.png: 647x487 pixels: expected 648x488, as in ");
+  for (const char* picture : {"left/104.png", "right/105.png"}) folder_.write(picture, "");
   refuse(run("--sync-tolerance 0.006"), "left/103.png: 647x487 pixels: expected 648x488, as in ");
 }
 

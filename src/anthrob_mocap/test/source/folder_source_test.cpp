@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <thread>
 
 #include "expect_bad_input.h"
@@ -104,10 +105,38 @@ TEST_F(Folders, OfStampsWithDecimalsAreInTheirOrder) {
   }
 }
 
+TEST_F(Folders, HaveFaultsWhereAPictureIsMissingOrDamaged) {
+  for (int i = 0; i < 20; ++i) write(std::to_string(i) + ".png", i);
+  std::filesystem::remove(folder_.path("left/4.png"));
+  folder_.write("right/7.png", "");
+  std::filesystem::remove(folder_.path("right/19.png"));
+  FolderSource source = open();
+  EXPECT_EQ(source.pairs(), 20u);
+  for (int i = 0; i < 20; ++i) {
+    StereoFrame frame;
+    ASSERT_EQ(source.next(frame, 0.0), FrameSource::Grab::kFrame);
+    EXPECT_DOUBLE_EQ(frame.t, i / 60.0);
+    const bool sound = i != 4 && i != 7 && i != 19;
+    EXPECT_EQ(frame.fault.has_value(), !sound) << i;
+    for (const Side side : {kLeft, kRight}) EXPECT_EQ(frame.image[side].width, sound ? 4 : 0);
+    const std::string fault = frame.fault.value_or("");
+    const std::map<int, std::string> said = {{4, "left: no 4.png, which"},
+                                             {7, "right/7.png: the file is empty"},
+                                             {19, "right: no 19.png, which"}};
+    if (!sound) {
+      EXPECT_NE(fault.find(said.at(i)), std::string::npos) << fault;
+    }
+  }
+  std::filesystem::remove(folder_.path("left/5.png"));
+  test::expect_bad_input([&] { open(); },
+                         "right: no 19.png, which the other folder has: expected the same names in "
+                         "both, but for a tenth; 3 of 20 are in one only");
+}
+
 TEST_F(Folders, WithOneNumberTwiceAreRefused) {
   write("cam1_7.png", 1), write("cam2_07.png", 2);
   test::expect_bad_input([&] { open(); },
-                         "left: cam1_7.png and cam2_07.png have the same number in their names");
+                         "right: cam1_7.png and cam2_07.png have the same number in their names");
 }
 
 TEST(Pairing, FindsPartnersInAnyOrder) {
