@@ -3,9 +3,12 @@
 import argparse
 import bisect
 import math
+import statistics
 import sys
 
 import rosbag
+
+LONGEST_GAP = 5.0  # median periods of the simulated states; across longer ones a joint may have moved in any way
 
 
 def refuse(what):
@@ -36,18 +39,27 @@ def read(bag):
     return seen, truth
 
 
-def interpolated(truth, t):
-    """The true quaternion at time t, linear between its neighbours; None before the first state and after the last."""
+def longest_gap(truth):
+    """[s] between simulated states across which a joint is interpolated."""
+    return LONGEST_GAP * statistics.median(b[0] - a[0] for a, b in zip(truth, truth[1:]))
+
+
+def interpolated(truth, t, gap):
+    """The true quaternion at time t, linear between its neighbours; None before the first state, after the last, and
+    between two that are more than gap [s] apart."""
     i = bisect.bisect(truth, (t,))
     if i == 0 or i == len(truth):
         return None
     (t0, a), (t1, b) = truth[i - 1], truth[i]
+    if t1 - t0 > gap:
+        return None
     u = (t - t0) / (t1 - t0)
     return [x + u * (y - x) for x, y in zip(a, b)]
 
 
 def report(name, seen, truth):
-    pairs = [(q, interpolated(truth, t)) for t, q in seen]
+    gap = longest_gap(truth) if len(truth) > 1 else 0.0
+    pairs = [(q, interpolated(truth, t, gap)) for t, q in seen]
     errors = sorted(angle_deg(q, p) for q, p in pairs if p)
     if not errors or len(seen) < 2:
         refuse('%s: expected two measurements or more, recorded while the simulated state was recorded, too' % name)
@@ -59,6 +71,9 @@ def report(name, seen, truth):
     print('%s: difference rms %.4f deg, median %.4f, 99 %% %.4f, worst %.4f' %
           (name, math.sqrt(sum(e * e for e in errors) / len(errors)), errors[len(errors) // 2],
            errors[int(0.99 * (len(errors) - 1))], errors[-1]))
+    if len(errors) < len(pairs):
+        print('%s: %d of %d measurements left out: no simulated states around them that are %.0f ms apart or less' %
+              (name, len(pairs) - len(errors), len(pairs), 1e3 * gap))
 
 
 def main():
