@@ -47,6 +47,7 @@ std::unique_ptr<FrameSource> open_source(
         std::make_unique<FolderSource>(required(settings, "left", "a folder of images"),
                                        required(settings, "right", "a folder of images"), options);
     if (folder->assumption()) ROS_WARN_STREAM("mocap: " << *folder->assumption());
+    if (folder->loss()) ROS_WARN_STREAM("mocap: " << *folder->loss());
     return folder;
   }
   if (kind == "bag") {

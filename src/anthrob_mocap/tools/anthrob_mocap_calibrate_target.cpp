@@ -36,6 +36,7 @@ std::optional<std::vector<std::vector<mocap::MarkerPoint>>> read_points(
   if (!mocap::track_all(source, rig, recording, pipeline, left_out)) return std::nullopt;
   recording.refuse_contradiction(health);
   if (source.assumption()) std::cerr << "note: " << *source.assumption() << "\n";
+  if (source.loss()) std::cerr << "warning: " << *source.loss() << "\n";
   if (const auto few = left_out.warning()) std::cerr << "warning: " << *few << "\n";
   if (const auto crowd = health.crowd()) std::cerr << "warning: " << *crowd << "\n";
   // Markers need not fit yet.

@@ -83,6 +83,7 @@ int track(const Arguments& arguments) {
   out.move_into_place();
   report.print(health);
   if (source.assumption()) std::cerr << "note: " << *source.assumption() << "\n";
+  if (source.loss()) std::cerr << "warning: " << *source.loss() << "\n";
   if (const auto few = left_out.warning()) std::cerr << "warning: " << *few << "\n";
   const auto advice = health.advice(), crowd = health.crowd();
   if (advice) std::cerr << "no pose: " << *advice << "\n";

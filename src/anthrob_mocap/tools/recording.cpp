@@ -43,7 +43,7 @@ void Recording::add_options(CLI::App& app) {
   app.add_option("--calibration", calibration, "folder with left.yaml and right.yaml")->required();
   app.add_option(
          "--sync-tolerance", folder.sync_tolerance,
-         "[s] largest difference between the times of a pair, if both folders have a times.csv")
+         "[s] largest difference between the times of a pair, if each folder has its own times.csv")
       ->check(tool::within(0.0, 10.0));
 }
 
