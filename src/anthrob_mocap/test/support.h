@@ -18,12 +18,12 @@ namespace test {
 
 constexpr double kDegree = M_PI / 180.0;
 
-/// What this process has of the machine's memory [MiB].
-inline double resident_megabytes() {
+/// What this process has of the machine's memory.
+inline double resident_bytes() {
   std::ifstream in("/proc/self/statm");
   long size = 0, resident = 0;
   in >> size >> resident;
-  return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1048576.0;
+  return static_cast<double>(resident * sysconf(_SC_PAGESIZE));
 }
 
 /// Like the thesis's cameras: 648x488 pixels, 6 mm lens, turned towards each other.

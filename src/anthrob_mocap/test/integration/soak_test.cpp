@@ -2,11 +2,9 @@
 // of pairs: 5184000 are a day at 60 Hz.
 #include <gtest/gtest.h>
 #include <malloc.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 
 #include "pipeline/health.h"
 #include "source/live_pair.h"
@@ -79,12 +77,12 @@ TEST_P(Soak, DoesNotGrow) {
       if (live.next(*frame, 0.0)) pipeline.push(std::move(frame));
       if (i == pairs / 4) {
         pipeline.drain();
-        before = test::resident_megabytes();
+        before = test::resident_bytes() / 1048576.0;
         heap_before = heap_megabytes();
       }
     }
     pipeline.drain();
-    const double after = test::resident_megabytes(), heap_after = heap_megabytes();
+    const double after = test::resident_bytes() / 1048576.0, heap_after = heap_megabytes();
     std::printf(
         "%ld pairs, %ld poses: %.1f MB after a quarter, %.1f MB at the end; heap %.3f, %.3f\n",
         pairs, poses, before, after, heap_before, heap_after);

@@ -11,6 +11,7 @@ namespace anthrob {
 namespace {
 
 using testing_support::content;
+
 TEST(Torso, IsWhatItsGeneratorWrites) {
   const std::filesystem::path config = testing_support::config("");
   const auto out =
