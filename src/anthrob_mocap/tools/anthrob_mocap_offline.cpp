@@ -107,7 +107,8 @@ int main(int argc, char** argv) {
   app.add_option("--out", a.out, "poses.csv to write")->required();
   app.add_option("--settings", a.settings, "options of the stages (YAML)");
   app.add_option("--threshold", a.threshold,
-                 "grey levels above the background; overrides segmentation.threshold of --settings")
+                 "grey levels above the background, not by the noise of the pictures; overrides "
+                 "segmentation.threshold of --settings")
       ->check(CLI::Range(1, 254));
   app.add_option("--rate", a.recording.folder.rate, "pairs a second, if there is no times.csv")
       ->check(anthrob::tool::within(0.001, 100000.0));

@@ -37,6 +37,11 @@ TrackerOptions load_tracker_options(const std::string& path) {
   section("segmentation", [&](const ConfigNode& node) {
     SegmentationOptions& o = options.segmentation;
     if (node.has("threshold")) o.threshold = node.at("threshold").as_integer(1, 254);
+    number(node, "noise_factor", o.noise_factor, 1.0, 1000.0, "1");
+    if (node.has("least_threshold"))
+      o.least_threshold = node.at("least_threshold").as_integer(1, 254);
+    if (node.has("most_threshold")) o.most_threshold = node.at("most_threshold").as_integer(1, 254);
+    expect_order(node, "least_threshold", o.least_threshold, "most_threshold", o.most_threshold);
     number(node, "min_area", o.min_area, 1.0, 1e6, "pixel");
     number(node, "max_area", o.max_area, 1.0, 1e6, "pixel");
     expect_order(node, "min_area", o.min_area, "max_area", o.max_area);

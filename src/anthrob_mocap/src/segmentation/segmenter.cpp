@@ -11,7 +11,8 @@ namespace {
 
 /// A scene of markers has tens of blobs; this many specks are noise or daylight.
 constexpr std::size_t kMostComponents = 20000;
-constexpr int kBlock = 32;  // pixels looked at together
+constexpr int kBlock = 32;                 // pixels looked at together
+constexpr double kUpperQuartile = 0.6745;  // [1] standard deviations above the median
 
 /// Brightest of `count` pixels; compiles to vector instructions.
 inline std::uint8_t brightest(const std::uint8_t* pixels, int count) {
@@ -20,30 +21,56 @@ inline std::uint8_t brightest(const std::uint8_t* pixels, int count) {
   return best;
 }
 
+/// Of a grid of pixels.
+class GreyLevels {
+ public:
+  explicit GreyLevels(const ImageView& image) {
+    for (int y = 4; y < image.height; y += 16) {
+      const std::uint8_t* row = image.row(y);
+      for (int x = 4; x < image.width; x += 16, ++count_) ++histogram_[row[x]];
+    }
+  }
+  int median() const {
+    int level = 0;
+    for (int below = 0; level < 255 && 2 * (below += histogram_[level]) < count_;) ++level;
+    return level;
+  }
+  /// Standard deviation of a normal distribution with this median and upper quartile. Markers are
+  /// too few to move these.
+  double noise() const { return (quantile(0.75) - quantile(0.5)) / kUpperQuartile; }
+
+ private:
+  /// Between levels: noise is of their size.
+  double quantile(double share) const {
+    const double wanted = share * count_;
+    int level = 0, below = 0;
+    while (level < 255 && below + histogram_[level] < wanted) below += histogram_[level++];
+    return level - 0.5 + (wanted - below) / std::max(1, histogram_[level]);
+  }
+
+  int histogram_[256] = {}, count_ = 0;
+};
+
 }  // namespace
 
 Segmenter::Segmenter(const SegmentationOptions& options) : options_(options) {
-  if (options.threshold < 1 || options.threshold > 254) {
+  if (options.threshold && (*options.threshold < 1 || *options.threshold > 254)) {
     throw std::invalid_argument("segmentation threshold: expected 1 to 254 grey levels");
   }
   above_.reserve(1024), current_.reserve(1024), components_.reserve(1024);
 }
 
-int Segmenter::background(const ImageView& image) const {
-  int histogram[256] = {};
-  int count = 0;
-  for (int y = 4; y < image.height; y += 16) {
-    const std::uint8_t* row = image.row(y);
-    for (int x = 4; x < image.width; x += 16, ++count) ++histogram[row[x]];
-  }
-  int level = 0;
-  for (int below = 0; level < 255 && 2 * (below += histogram[level]) < count;) ++level;
-  return level;
+int Segmenter::threshold_of(const ImageView& image) const {
+  const GreyLevels levels(image);
+  if (options_.threshold) return std::min(254, levels.median() + *options_.threshold);
+  const int wanted = static_cast<int>(std::lround(options_.noise_factor * levels.noise()));
+  return std::min(
+      254, levels.median() + std::clamp(wanted, options_.least_threshold, options_.most_threshold));
 }
 
 bool Segmenter::find(const ImageView& image, std::vector<Blob>& blobs) {
   blobs.clear(), components_.clear(), above_.clear();
-  const int threshold = std::min(254, background(image) + options_.threshold);
+  const int threshold = threshold_of(image);
   for (int y = 0; y < image.height; ++y) {
     if (!scan_row(image.row(y), y, image.width, threshold)) return false;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,11 @@ namespace anthrob {
 namespace mocap {
 
 struct SegmentationOptions {
-  int threshold = 40;              ///< grey levels above the background
+  /// Grey levels above the background; none: noise_factor times the noise of each image.
+  std::optional<int> threshold;
+  double noise_factor = 5.0;       ///< [1] of 3e5 dark pixels 0.1 are above that by chance
+  int least_threshold = 8;         ///< grey levels; above steps of a dark image without noise
+  int most_threshold = 40;         ///< grey levels; an uneven background looks like noise
   double min_area = 6.0;           ///< [pixel]
   double max_area = 5000.0;        ///< [pixel]
   double max_axis_ratio = 1.4;     ///< beyond it a blob is two markers merged, or no marker
@@ -25,7 +30,8 @@ struct SegmentationOptions {
 /// Centroids are weighted with the grey level above the threshold ("linear threshold"): a pixel at
 /// the edge enters with weight zero, so noise there does not make the centroid jump, as it does
 /// with the binary threshold of (A.3.2); see the standard deviations of Table A.1.
-/// The background is the median of a grid of pixels.
+/// The background is the median of a grid of pixels, its noise what their upper quartile says: the
+/// lower one is cut off where the camera's black is 0.
 class Segmenter {
  public:
   explicit Segmenter(const SegmentationOptions& options);
@@ -47,7 +53,7 @@ class Segmenter {
     std::int64_t w, wx, wy;               ///< weighted sums
   };
 
-  int background(const ImageView& image) const;
+  int threshold_of(const ImageView& image) const;
   bool scan_row(const std::uint8_t* row, int y, int width, int threshold);
   int component_above(int begin, int end, std::size_t& cursor);
   int root(int component);

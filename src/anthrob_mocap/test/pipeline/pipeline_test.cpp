@@ -431,6 +431,7 @@ TEST(TrackerFile, IsStrict) {
   folder.write("t.yaml", "segmentation: {threshold: 70}\nlabelling: {edge_tolerance: 0.002}\n");
   const TrackerOptions options = load_tracker_options(folder.path("t.yaml"));
   EXPECT_EQ(options.segmentation.threshold, 70);
+  EXPECT_EQ(TrackerOptions().segmentation.threshold, std::nullopt);
   EXPECT_EQ(options.labelling.edge_tolerance, 0.002);
   folder.write("t.yaml", "segmentation: {treshold: 70}\n");
   test::expect_bad_input([&] { load_tracker_options(folder.path("t.yaml")); },
@@ -456,6 +457,8 @@ TEST(TrackerFile, RefusesWhatIsNoSectionAndBoundsThatAreSwapped) {
   refuse("segmentation: {min_area: 5000, max_area: 10}\n",
          "segmentation: min_area 5000, max_area 10: expected min_area < max_area");
   refuse("segmentation: {min_area: 6000}\n", "min_area 6000, max_area 5000");
+  refuse("segmentation: {least_threshold: 50}\n",
+         "least_threshold 50, most_threshold 40: expected least_threshold < most_threshold");
   refuse("matching: {max_depth: 0.1}\n", "expected min_depth < max_depth");
   refuse("matching: {max_depth: far}\n",
          "t.yaml:1: matching.max_depth: far: expected a number in [0.01, 1000] [m]");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
@@ -142,6 +143,76 @@ TEST_F(OneMarker, DoesNotMoveWithItsBrightness) {
   for (const double brightness : {90.0, 130.0, 400.0}) {
     EXPECT_LT((see(p, 5, brightness) - outline(p)).norm(), 0.03) << brightness;
   }
+}
+
+/// Root mean square of the centroids of one marker in 30 places [pixel], which all must be found.
+double centroid_error(Renderer& renderer, double brightness, const SegmentationOptions& options) {
+  static const StereoRig rig = make_rig();
+  Segmenter segmenter(options);
+  Image image;
+  std::vector<Blob> blobs;
+  double squares = 0.0;
+  const int count = 30;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 p(0.05 + 4e-3 * i, 0.02 + 2.7e-3 * i, 0.9 + 0.024 * i);
+    renderer.render(kLeft, {{{{p, 0.008, brightness}}}}, static_cast<std::uint64_t>(i), image);
+    EXPECT_TRUE(segmenter.find(image.view(), blobs));
+    EXPECT_EQ(blobs.size(), 1u) << brightness;
+    if (blobs.empty()) return std::numeric_limits<double>::infinity();
+    const Vec3 c = rig.in_camera(kLeft, p);
+    const double stretch = 1.0 / (1.0 - 0.008 * 0.008 / (c.z() * c.z()));
+    const Vec2 outline = rig.camera(kLeft).project({c.x() * stretch, c.y() * stretch, c.z()});
+    squares += (blobs[0].centre - outline).squaredNorm();
+  }
+  return std::sqrt(squares / count);
+}
+
+TEST(Segmenter, FindsDimMarkersByTheNoiseAsWellAsBrightOnes) {
+  const StereoRig rig = make_rig();
+  SegmentationOptions fixed;
+  fixed.threshold = 40;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const double noise : {1.5, 5.0}) {
+      RenderOptions render;
+      render.seed = seed, render.read_noise = noise;
+      Renderer renderer(rig, render);
+      for (const double brightness : {60.0, 90.0, 180.0, 400.0}) {
+        const double before = centroid_error(renderer, brightness, fixed);
+        const double error = centroid_error(renderer, brightness, SegmentationOptions());
+        const bool dim = brightness <= 60.0;
+        // Where the picture is cut off at 255, what the lens does to the outline is all there is.
+        EXPECT_LE(error, dim ? 0.7 * before : before + 0.001)
+            << brightness << " of noise " << noise;
+      }
+    }
+  }
+}
+
+TEST(Segmenter, FindsMarkersThatAFixedThresholdDidNotReach) {
+  Renderer renderer(make_rig(), RenderOptions());
+  EXPECT_LT(centroid_error(renderer, 30.0, SegmentationOptions()), 0.06);
+}
+
+TEST(Segmenter, KnowsTheNoiseOfABlackThatIsCutOff) {
+  // Half of the noise lies below 0, where the camera's grey levels end.
+  RenderOptions render;
+  render.background = 0.0, render.read_noise = 3.0;
+  Renderer renderer(make_rig(), render);
+  EXPECT_LT(centroid_error(renderer, 60.0, SegmentationOptions()), 0.06);
+}
+
+TEST(Segmenter, TakesAnUnevenBackgroundForNoMarker) {
+  // From 20 to 120 from left to right: as if by a lamp. Nothing may come of it.
+  Image image;
+  image.resize(648, 488);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      image.row(y)[x] = static_cast<std::uint8_t>(20 + 100 * x / 647);
+    }
+  }
+  std::vector<Blob> blobs;
+  EXPECT_TRUE(Segmenter(SegmentationOptions()).find(image.view(), blobs));
+  EXPECT_TRUE(blobs.empty());
 }
 
 TEST(Segmenter, DropsWhatIsNoWholeMarker) {
