@@ -12,13 +12,14 @@ namespace {
 
 constexpr int kRare = 3;  // sightings in a row without a velocity before a joint is reported
 // Limits in pixels of the cameras, as TargetPose has them.
-constexpr double kLargestRowError = 0.3;  // [pixel] mean; a rig that has not moved stays below
-// [pixel] root mean square. Centroids that scatter by 0.1 pixels, three times what PoseOptions
-// believes, give 0.09. A right camera turned by 3 mrad gives 0.4 to 0.5, a target that turns at
-// 0.7 rad/s in pairs that are 1/60 s apart 0.2 to 0.4. Larger values hardly occur: such markers
-// form no target.
-constexpr double kLargestResidual = 0.2;
-constexpr int kFewestPoses = 5;  // of a target; fewer may be one merged blob
+constexpr double kLargestRowError = 0.3;  // [pixel] mean; above it the rig has certainly moved
+// [pixel] root mean square, of rows and of residuals. A sound rig shows the noise of its centroids:
+// in virtual pictures 0.005, of dim markers 0.015. A camera turned by 0.05 degrees along the rows
+// gives 0.13 to 0.15 and angles that are off by 0.2 degrees.
+constexpr double kNoiseFactor = 3.0;   // [1] times the noise; chance reaches it once in 300 rows
+constexpr double kLeastLimit = 0.05;   // [pixel] what calibrations of cameras and targets leave
+constexpr double kLargestLimit = 0.2;  // [pixel] above it angles are wrong, noise or not
+constexpr int kFewestPoses = 5;        // of a target; fewer may be one merged blob
 
 std::string format(const char* form, double value) {
   char text[160];
@@ -55,6 +56,7 @@ void Health::add(const StereoFrame& frame) {
     ++sums_.poses;
     sums_.row_error += pose.row_error;
     sums_.pixel_rms += pose.pixel_rms;
+    add_change(pose, sums_.targets[k]);
     ++sums_.targets[k].poses;
     sums_.targets[k].rows += pose.row_error;
     sums_.targets[k].row_error += pose.row_error * pose.row_error;
@@ -72,6 +74,25 @@ void Health::add(const StereoFrame& frame) {
     sums_.joints[j] += joint.valid ? 1 : 0;
     if (joint.valid) still_[j] = joint.velocity_valid ? 0 : std::min(still_[j] + 1, kRare);
   }
+}
+
+/// A row error is the mean of v_left - v_right over m markers, each of variance 2 s^2; so the
+/// square of the difference of two has the mean 4 s^2 / m.
+void Health::add_change(const TargetPose& pose, Squares& target) {
+  if (target.last_row && target.last_markers == pose.markers) {
+    sums_.variance += std::pow(pose.row_error - *target.last_row, 2) * pose.markers / 4.0;
+    ++sums_.changes;
+  }
+  target.last_row = pose.row_error;
+  target.last_markers = pose.markers;
+}
+
+double Health::noise() const {
+  return sums_.changes > 0 ? std::sqrt(sums_.variance / sums_.changes) : 0.0;
+}
+
+double Health::limit() const {
+  return std::clamp(kNoiseFactor * noise(), kLeastLimit, kLargestLimit);
 }
 
 std::vector<std::size_t> Health::unseen_targets() const {
@@ -156,7 +177,7 @@ std::optional<std::string> Health::uneven_rows() const {
     return format("rows of left and right differ by %.3f pixels: recalibrate the cameras", mean);
   }
   const double rms = worst(&Squares::row_error);
-  if (rms <= kLargestResidual) return std::nullopt;
+  if (rms <= limit()) return std::nullopt;
   return format(
       "rows of left and right differ by %.3f pixels rms: the rig has been bent, or the pair is not "
       "synchronised",
@@ -164,9 +185,9 @@ std::optional<std::string> Health::uneven_rows() const {
 }
 
 std::optional<std::string> Health::bend() const {
-  if (auto rows = uneven_rows()) return rows;
   const double rms = worst(&Squares::pixel_rms);
-  if (rms <= kLargestResidual) return std::nullopt;
+  const auto rows = uneven_rows();
+  if (rms <= limit() || (rows && worst(&Squares::row_error) > rms)) return rows;
   return format(
       "markers are %.3f pixels rms off their target: the rig has been bent, the pair is not "
       "synchronised, or the target is not calibrated",

@@ -33,6 +33,10 @@ class Health {
   /// rare, or their stamps are wrong.
   std::vector<std::size_t> joints_without_velocity() const;
 
+  /// Standard deviation of a centroid [pixel], from how row errors change from pose to pose: what a
+  /// bent rig adds to them hardly changes. 0 before two poses.
+  double noise() const;
+
   /// Says that rows of left and right differ, though targets are found; else none. Does not depend
   /// on where the markers of the targets are.
   std::optional<std::string> uneven_rows() const;
@@ -54,6 +58,8 @@ class Health {
     int poses = 0;
     double row_error = 0.0, pixel_rms = 0.0;  ///< sums of squares
     double rows = 0.0;                        ///< sum of row errors, with their signs
+    std::optional<double> last_row;           ///< row error of the last pose,
+    int last_markers = 0;                     ///< and what it was the mean of
   };
   struct Sums {
     int frames = 0, poses = 0, cluttered = 0, cut = 0, given_up = 0;
@@ -61,11 +67,15 @@ class Health {
     long matches = 0, matches_if_swapped = 0;  ///< in these frames
     long on_common_rows = 0, blobs[2] = {0, 0};
     double row_error = 0.0, pixel_rms = 0.0;
+    double variance = 0.0;  ///< sum of what each change says of a centroid's [pixel^2]
+    int changes = 0;        ///< of row errors, between poses of as many markers
     std::vector<Squares> targets;
     std::vector<int> joints;  ///< frames with an orientation
   };
   double worst(double Squares::*sum) const;
   double mean_of_rows() const;
+  double limit() const;
+  void add_change(const TargetPose& pose, Squares& target);
   void try_swapped(const StereoFrame& frame);
   void try_rows(const StereoFrame& frame);
 
