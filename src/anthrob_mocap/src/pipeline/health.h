@@ -65,6 +65,8 @@ class Health {
     int frames = 0, poses = 0, cluttered = 0, cut = 0, given_up = 0;
     int tried_swapped = 0;                     ///< frames that were matched with sides swapped, too
     long matches = 0, matches_if_swapped = 0;  ///< in these frames
+    /// In these frames: blobs of the side that shows fewer, and how many have a match if swapped.
+    long fewer_blobs = 0, matched_if_swapped = 0;
     long on_common_rows = 0, blobs[2] = {0, 0};
     double row_error = 0.0, pixel_rms = 0.0;
     double variance = 0.0;  ///< sum of what each change says of a centroid's [pixel^2]

@@ -337,6 +337,50 @@ TEST(Health, SeesPairsThatAreNotSynchronised) {
   EXPECT_NE(late.bend().value().find("not synchronised"), std::string::npos) << late.bend().value();
 }
 
+/// What is said of a rig whose cameras look at each other by 8 degrees, without drawing the
+/// pictures.
+/// @param turn of the right camera, unknown to the calibration   @param specks beside the markers
+std::optional<std::string> contradiction_of(const Vec3& turn, int specks, bool swap) {
+  const StereoRig rig = make_rig(8.0 * test::kDegree);
+  CameraModel turned = rig.camera(kRight);
+  turned.R = exp_rotation(turn) * turned.R;
+  const StereoRig believed(rig.camera(kLeft), turned);
+  const TargetSet set = make_targets();
+  EpipolarMatcher matcher(believed, matching_of(set, {}));
+  Health health(believed, matching_of(set, {}));
+  for (int i = 0; i < 10; ++i) {
+    Scene scene = test::scene_of(set, test::swing(0.5, 2.0)(i / 60.0));
+    std::mt19937_64 random(5);
+    test::add_distractors(scene, specks, random);
+    StereoFrame frame;
+    for (const Side side : {kLeft, kRight}) {
+      const Side seen = swap ? (side == kLeft ? kRight : kLeft) : side;
+      for (const Sphere& sphere : scene.spheres) {
+        Blob blob;
+        blob.centre = rig.project(seen, sphere.p);
+        blob.area = M_PI * std::pow(1070.0 * sphere.radius / sphere.p.z(), 2);
+        frame.blobs[side].push_back(blob);
+        frame.rectified[side].push_back(believed.rectify(side, blob.centre));
+      }
+    }
+    matcher.match(frame.blobs, frame.rectified, frame.matches);
+    health.add(frame);
+  }
+  return health.contradiction();
+}
+
+TEST(Health, DoesNotTakeAPitchedCameraForASwappedOne) {
+  for (const int specks : {0, 10, 30}) {
+    EXPECT_EQ(contradiction_of(Vec3::Zero(), specks, true), "left and right images are swapped");
+    for (int tenths = -80; tenths <= 80; ++tenths) {
+      const Vec3 pitch(0.1 * tenths * test::kDegree, 0.0, 0.0);
+      EXPECT_NE(contradiction_of(pitch, specks, false).value_or("none"),
+                "left and right images are swapped")
+          << specks << " specks, pitched by " << 0.1 * tenths << " degrees";
+    }
+  }
+}
+
 /// Dark, with squares of 3 pixels all over.
 Image specks(int count, std::mt19937_64& random) {
   Image image;
