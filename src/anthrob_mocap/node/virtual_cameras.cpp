@@ -1,10 +1,13 @@
 #include <sensor_msgs/image_encodings.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
 #include "conversions.h"
+#include "joint/joint_estimator.h"
 #include "virtual_rig.h"
 
 namespace anthrob {
@@ -24,6 +27,8 @@ VirtualRig::VirtualRig(ros::NodeHandle nh, const StereoRig& rig, const TargetSet
       setup_(setup),
       renderer_(rig, setup.render),
       listener_(buffer_, nh, true, ros::TransportHints().tcpNoDelay()),
+      gaps_({JointEstimator::kLongestGap, tf2::BufferCore::DEFAULT_CACHE_TIME}),
+      stamps_(nh.subscribe("/tf", 1000, &VirtualRig::keep_stamps, this)),
       transport_(nh) {
   for (const Side side : {kLeft, kRight}) {
     publishers_[side] = transport_.advertiseCamera(std::string(name(side)) + "/image_raw", 8);
@@ -47,11 +52,18 @@ ros::Time VirtualRig::latest() {
   return common == ros::Time(ros::TIME_MAX) ? ros::Time::now() : common;
 }
 
+void VirtualRig::keep_stamps(const tf2_msgs::TFMessage& message) {
+  for (const auto& transform : message.transforms) {
+    gaps_.add(transform.child_frame_id, transform.header.stamp.toSec());
+  }
+}
+
 void VirtualRig::run() {
   const ros::Duration half_exposure(0.5 * setup_.exposure);
   ros::Time next;
   while (ros::ok()) {
     const ros::Time reach = latest();
+    ros::spinOnce();  // the stamps up to there
     const bool jumped =
         next > reach + ros::Duration(1.0) || reach > next + ros::Duration(kLargestLag);
     if (!reach.isZero() && (next.isZero() || jumped)) {
@@ -64,7 +76,6 @@ void VirtualRig::run() {
       last_reach_ = ros::WallTime::now();
     }
     if (reach.isZero() || next.isZero() || next + half_exposure > reach) {
-      ros::spinOnce();
       ros::WallDuration(0.001).sleep();
       continue;
     }
@@ -82,11 +93,29 @@ void VirtualRig::expose(const ros::Time& stamp) {
   publish(stamp, instants);
 }
 
+/// The frame between the cameras and a link that has a gap in tf at a time; none if none has.
+std::optional<std::string> VirtualRig::frame_with_gap(const std::string& link,
+                                                      const ros::Time& time) const {
+  std::vector<std::string> chain;
+  buffer_._chainAsVector(setup_.camera_parent, time, link, time, link, chain);
+  const auto at = std::find_if(chain.begin(), chain.end(), [&](const std::string& frame) {
+    return gaps_.hold(frame, time.toSec());
+  });
+  if (at == chain.end()) return std::nullopt;
+  return *at;
+}
+
 bool VirtualRig::scene_at(const ros::Time& time, Scene& scene) const {
   const Pose X_CP = setup_.X_PC.inverse();
   try {
     for (std::size_t k = 0; k < set_.targets.size(); ++k) {
       const Setup::Mount& mount = setup_.mounts[k];
+      if (const auto frame = frame_with_gap(mount.link, time)) {
+        ROS_WARN_STREAM_THROTTLE(1.0, "no image rendered: tf of "
+                                          << *frame << " has a gap of more "
+                                          << "than " << JointEstimator::kLongestGap << " s");
+        return false;
+      }
       const Pose X_PL =
           pose(buffer_.lookupTransform(setup_.camera_parent, mount.link, time).transform);
       const Pose X_CT = X_CP * X_PL * mount.X_LT;

@@ -3,9 +3,11 @@
 #include <image_transport/camera_publisher.h>
 #include <image_transport/image_transport.h>
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "render/frame_gaps.h"
 #include "render/renderer.h"
 #include "render/setup.h"
 
@@ -14,7 +16,7 @@ namespace mocap {
 
 /// Publishes what the cameras would see of the targets' links in tf: left/image_raw,
 /// right/image_raw and their CameraInfo. An exposure is drawn as soon as tf reaches beyond it, so
-/// it comes late by tf's period, and never from extrapolation.
+/// it comes late by tf's period, and never from extrapolation, nor from interpolation across gaps.
 class VirtualRig {
  public:
   VirtualRig(ros::NodeHandle nh, const StereoRig& rig, const TargetSet& set, const Setup& setup);
@@ -27,6 +29,8 @@ class VirtualRig {
   bool scene_at(const ros::Time& time, Scene& scene) const;
   void publish(const ros::Time& stamp, const std::vector<Scene>& instants);
   ros::Time latest();
+  void keep_stamps(const tf2_msgs::TFMessage& message);
+  std::optional<std::string> frame_with_gap(const std::string& link, const ros::Time& time) const;
 
   StereoRig rig_;
   TargetSet set_;
@@ -36,6 +40,8 @@ class VirtualRig {
   ros::WallTime last_reach_ = ros::WallTime::now();
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
+  FrameGaps gaps_;
+  ros::Subscriber stamps_;
   image_transport::ImageTransport transport_;
   image_transport::CameraPublisher publishers_[2];
   Image image_;
