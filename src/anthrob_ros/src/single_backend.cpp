@@ -2,14 +2,12 @@
 
 #include <anthrob_msgs/MuscleStates.h>
 #include <ros/network.h>
-#include <ros/xmlrpc_manager.h>
-#include <sys/socket.h>
-#include <xmlrpcpp/XmlRpc.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "anthrob_core/errors.h"
+#include "remote_call.h"
 
 namespace anthrob {
 
@@ -21,26 +19,10 @@ constexpr double kPatience = 2.0;  // [s] for an answer
 /// stopped, or that a debugger holds, may continue at any time. If the host is gone, this takes
 /// kPatience.
 bool answers(const std::string& host, std::uint32_t port) {
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller, answer;
+  XmlRpc::XmlRpcValue caller;
   caller[0] = ros::this_node::getName();
-  if (!client.executeNonBlock("getPid", caller)) return false;
-  XmlRpc::XmlRpcDispatch dispatch;
-  dispatch.addSource(&client,
-                     XmlRpc::XmlRpcDispatch::WritableEvent | XmlRpc::XmlRpcDispatch::Exception);
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
-  while (client.getfd() >= 0 && ros::WallTime::now() < end) {
-    dispatch.work(0.05);
-    // A refused connection is done, too, but without an answer.
-    if (client.executeCheckDone(answer)) return answer.valid();
-  }
-  sockaddr_storage peer;
-  socklen_t size = sizeof(peer);
-  const bool connected =
-      client.getfd() >= 0 &&
-      ::getpeername(client.getfd(), reinterpret_cast<sockaddr*>(&peer), &size) == 0;
-  dispatch.removeSource(&client);
-  return connected;
+  const Reach reach = remote_call(host, port, "getPid", caller, kPatience).reach;
+  return reach == Reach::kAnswered || reach == Reach::kSilent;
 }
 
 /// Whether the node is there; the master also lists those that were killed.
