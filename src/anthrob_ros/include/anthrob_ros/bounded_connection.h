@@ -1,0 +1,61 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "anthrob_ros/bounded_message.h"
+
+namespace anthrob {
+
+/// Warns that a message was refused, once a second of wall time at most: simulated time may stand
+/// still, and whoever sends nonsense sends it often.
+class RefusalWarning {
+ public:
+  explicit RefusalWarning(std::string what) : what_(std::move(what)) {}
+  void warn(const std::string& why);
+
+ private:
+  std::string what_;
+  ros::SteadyTime last_;
+};
+
+/// NodeHandle::subscribe, for messages with lists (bounded_message.h). What is malformed is warned
+/// of and never reaches `accept`.
+/// @param refuse for counting; may be empty
+template <class M>
+ros::Subscriber subscribe_bounded(ros::NodeHandle& nh, const std::string& topic,
+                                  std::uint32_t queue_size, std::function<void(const M&)> accept,
+                                  std::function<void(const std::string& why)> refuse = {},
+                                  const ros::TransportHints& hints = {}) {
+  const auto warning = std::make_shared<RefusalWarning>(topic);
+  const auto receive = [=](const boost::shared_ptr<const Bounded<M>>& received) {
+    if (!received->refusal) return accept(received->message);
+    warning->warn(*received->refusal);
+    if (refuse) refuse(*received->refusal);
+  };
+  return nh.subscribe<Bounded<M>>(topic, queue_size, receive, ros::VoidConstPtr(), hints);
+}
+
+/// NodeHandle::advertiseService, for requests with lists. The answer to what is malformed is
+/// `success` false and the reason as `message`.
+/// @param Service with `success` and `message` in its answer
+template <class Service>
+ros::ServiceServer advertise_bounded(
+    ros::NodeHandle& nh, const std::string& name,
+    std::function<bool(typename Service::Request&, typename Service::Response&)> serve) {
+  using Request = Bounded<typename Service::Request>;
+  using Response = typename Service::Response;
+  const boost::function<bool(Request&, Response&)> receive = [=](Request& request,
+                                                                 Response& response) {
+    if (!request.refusal) return serve(request.message, response);
+    response.success = false;
+    response.message = *request.refusal;
+    return true;
+  };
+  return nh.advertiseService<Request, Response>(name, receive);
+}
+
+}  // namespace anthrob
