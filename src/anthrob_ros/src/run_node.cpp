@@ -6,8 +6,10 @@
 
 #include "anthrob_core/errors.h"
 #include "anthrob_core/signals.h"
+#include "anthrob_ros/descriptor_watch.h"
 #include "anthrob_ros/master_uri.h"
 #include "anthrob_ros/parameters.h"
+#include "anthrob_ros/registration_watch.h"
 #include "anthrob_ros/single_backend.h"
 
 namespace anthrob {
@@ -125,6 +127,7 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
     return kBadInput;
   }
   leave_when_stopped(info.ends_by_itself ? kInterrupted : kDone);
+  raise_descriptor_limit();
   try {
     // ROS would listen to Ctrl-C only, and only once there is a master.
     ros::init(argc, argv, info.name, info.options | ros::init_options::NoSigintHandler);
@@ -146,6 +149,10 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
       take(settings, kBackEndParameter.key, text_of, own);
       refuse_other_back_ends(nh, own);
     }
+    // Back ends and commanders have a watch that stops what they do; all others only need to be
+    // found again.
+    std::optional<RegistrationWatch> watch;
+    if (info.role == NodeInfo::Role::kOther) watch.emplace();
     return body(nh, settings);
   } catch (const BadInput& error) {
     ROS_FATAL_STREAM(error.what());
