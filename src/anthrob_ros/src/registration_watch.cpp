@@ -15,7 +15,8 @@ namespace anthrob {
 namespace {
 
 constexpr std::chrono::seconds kPeriod(1);
-constexpr double kPatience = 2.0;  // [s] for one answer
+constexpr double kPatience = 5.0;  // [s] for one answer
+constexpr double kFirst = 60.0;    // [s] for the first one: much starts at the same time
 
 double monotonic_now() {
   return ros::SteadyTime::now().toSec();
@@ -32,7 +33,7 @@ class RegistrationWatch::Implementation {
  public:
   /// @throws std::runtime_error if the master does not answer
   Implementation() : rules_(monotonic_now()) {
-    const double end = monotonic_now() + RegistrationRules::kPatience;
+    const double end = monotonic_now() + kFirst;
     Look first = look();
     while (first != Look::kRegistered && monotonic_now() < end && !ros::isShuttingDown()) {
       first = look();
@@ -48,6 +49,7 @@ class RegistrationWatch::Implementation {
     expected_.add(*answer.known);
     expected_ = still_offered(expected_);
     missing_ = expected_.without(*answer.known);
+    publishers_ = answer.publishers;
     return missing_.size() == 0 ? Look::kRegistered : Look::kIncomplete;
   }
 
@@ -66,11 +68,22 @@ class RegistrationWatch::Implementation {
   }
 
   std::optional<Turn> see(Look look) { return rules_.see(look, monotonic_now()); }
+  /// Of topics whose publishers are others than at the last look: the master tells us, too, but
+  /// only once, and we may have had no descriptor to hear it.
+  void refresh_changed() {
+    for (const auto& [topic, publishers] : publishers_) {
+      const auto before = connected_.find(topic);
+      if (before != connected_.end() && before->second == publishers) continue;
+      if (refresh_publishers(topic, kPatience)) connected_[topic] = publishers;
+    }
+  }
   bool register_missing() { return register_again(missing_, kPatience); }
 
  private:
   RegistrationRules rules_;
   Registrations expected_, missing_;
+  Publishers publishers_;  ///< by the master's last answer
+  Publishers connected_;   ///< of which we know
 };
 
 RegistrationWatch::RegistrationWatch(Lost lost)
@@ -100,6 +113,7 @@ void RegistrationWatch::watch() {
     }
     const Look found = implementation_->look();
     note(found);
+    if (found == Look::kRegistered) implementation_->refresh_changed();
     if (found != Look::kIncomplete || !implementation_->register_missing()) continue;
     note(implementation_->look());
   }

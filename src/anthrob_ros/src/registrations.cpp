@@ -117,7 +117,8 @@ XmlRpcValue list_of(const Names& names) {
   return list;
 }
 
-bool subscribe_again(const Names& topics, const Server& at, const Server& own) {
+/// @param kept whether connections stay that the master does not know
+bool subscribe_again(const Names& topics, const Server& at, const Server& own, bool kept) {
   if (topics.empty()) return true;
   auto pairs = own.call("getSubscriptions");
   auto connections = own.call("getBusInfo");
@@ -128,7 +129,7 @@ bool subscribe_again(const Names& topics, const Server& at, const Server& own) {
     if (type == types.end()) continue;  // given up meanwhile
     auto publishers = at.call("registerSubscriber", topic, type->second, own_uri());
     if (!publishers) return false;
-    Names all = connected(*connections, topic);
+    Names all = kept ? connected(*connections, topic) : Names{};
     for (int i = 0; i < publishers->size(); ++i) all.insert((*publishers)[i]);
     if (!own.call("publisherUpdate", topic, list_of(all))) return false;
   }
@@ -184,12 +185,28 @@ std::optional<Registrations> registrations_of(const std::string& node, XmlRpcVal
   }
 }
 
+Publishers publishers_for(const Names& topics, XmlRpcValue state) {
+  Publishers publishers;
+  try {
+    for (int i = 0; i < state[0].size(); ++i) {
+      const std::string topic = state[0][i][0];
+      if (topics.count(topic) == 0) continue;
+      XmlRpcValue& nodes = state[0][i][1];
+      for (int k = 0; k < nodes.size(); ++k) publishers[topic].insert(nodes[k]);
+    }
+  } catch (const XmlRpc::XmlRpcException&) {
+    publishers.clear();
+  }
+  return publishers;
+}
+
 MasterAnswer ask_master(double patience) {
   const Reply reply = remote_call(ros::master::getHost(), ros::master::getPort(), "getSystemState",
                                   arguments(), patience);
   const auto state = payload_of(reply);
-  if (!state) return {reply.reach, std::nullopt};
-  return {reply.reach, registrations_of(ros::this_node::getName(), *state)};
+  const auto known = state ? registrations_of(ros::this_node::getName(), *state) : std::nullopt;
+  if (!known) return {reply.reach, std::nullopt, {}};
+  return {reply.reach, known, publishers_for(known->subscribed, *state)};
 }
 
 Registrations still_offered(const Registrations& registrations) {
@@ -211,12 +228,20 @@ bool register_again(const Registrations& missing, double patience) {
   const Server at = master(patience), own = own_server(patience);
   try {
     // What stops the motors first.
-    if (!subscribe_again(missing.subscribed, at, own) || !offer_again(missing.services, at) ||
+    if (!subscribe_again(missing.subscribed, at, own, true) || !offer_again(missing.services, at) ||
         !advertise_again(missing.published, at, own)) {
       return false;
     }
     // A new master does not know that time is simulated.
     return !ros::Time::isSimTime() || at.call("setParam", std::string("/use_sim_time"), true);
+  } catch (const XmlRpc::XmlRpcException&) {
+    return false;
+  }
+}
+
+bool refresh_publishers(const std::string& topic, double patience) {
+  try {
+    return subscribe_again({topic}, master(patience), own_server(patience), false);
   } catch (const XmlRpc::XmlRpcException&) {
     return false;
   }

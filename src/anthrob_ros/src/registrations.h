@@ -2,6 +2,7 @@
 
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,10 +26,16 @@ struct Registrations {
 /// @param state answer to the master's getSystemState   @return none if it is none
 std::optional<Registrations> registrations_of(const std::string& node, XmlRpc::XmlRpcValue state);
 
+/// Who publishes each topic that a node subscribes to.
+using Publishers = std::map<std::string, std::set<std::string>>;
+/// @param state as above; one of another form has none
+Publishers publishers_for(const std::set<std::string>& topics, XmlRpc::XmlRpcValue state);
+
 /// What the master knows of this node.
 struct MasterAnswer {
   Reach reach;
   std::optional<Registrations> known;  ///< only with kAnswered, and not with every answer
+  Publishers publishers;               ///< for what it subscribes to
 };
 MasterAnswer ask_master(double patience);
 
@@ -39,5 +46,10 @@ Registrations still_offered(const Registrations& registrations);
 /// to publishers that it does not know any more stay: an emergency stop may come from there.
 /// @return false if the master or this node's own server does not answer properly
 bool register_again(const Registrations& missing, double patience);
+
+/// Asks the master who publishes this topic, and connects to exactly those. The master itself tells
+/// of a new publisher only once, whether that arrives or not.
+/// @return false as above
+bool refresh_publishers(const std::string& topic, double patience);
 
 }  // namespace anthrob

@@ -42,6 +42,12 @@ TEST(Registrations, OfAnAnswerOfAnotherFormAreNone) {
   EXPECT_FALSE(registrations_of("/node", numbers));
 }
 
+TEST(Registrations, PublishersAreThoseOfTheTopics) {
+  const Publishers found = publishers_for({"/tf", "/nothing"}, state());
+  EXPECT_EQ(found, (Publishers{{"/tf", {"/third", "/node"}}}));
+  EXPECT_TRUE(publishers_for({"/tf"}, XmlRpc::XmlRpcValue(3)).empty());
+}
+
 TEST(Registrations, WhatIsMissingIsNamed) {
   const Registrations expected = *registrations_of("/node", state());
   Registrations known = expected;
