@@ -4,6 +4,7 @@ import math
 import os
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 
@@ -329,6 +330,19 @@ class SimContract(unittest.TestCase):
         answer = self.step(0)
         self.assertFalse(answer.success)
         self.assertIn('expected a number > 0', answer.message)
+
+    def test_stops_are_heard_during_a_long_step(self):
+        steps = threading.Thread(target=self.step, args=(20000,), daemon=True)
+        steps.start()
+        time.sleep(0.2)
+        self.assertTrue(self.disable().success)
+        answer = self.emergency_stop()
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(steps.is_alive(), 'the stop waited for the steps')
+        steps.join(120)
+        self.assertFalse(self.enable().success)
+        self.assertTrue(self.clear_faults().success)
+        self.assertTrue(self.enable().success)
 
     def test_lock_step_waits_for_its_command_whatever_another_clock_stamped(self):
         now = self.step(1).stamp

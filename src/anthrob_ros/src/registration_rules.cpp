@@ -10,7 +10,7 @@ bool RegistrationRules::is_lost(Look look, double now) const {
     case Look::kGone:
       return true;
     case Look::kSilent:
-      return lost_ || now - answered_ >= kPatience;
+      return lost_ || now - answered_ >= patience_;
   }
   return true;
 }

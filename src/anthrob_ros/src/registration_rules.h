@@ -22,7 +22,8 @@ class RegistrationRules {
   static constexpr double kPatience = 10.0;  ///< [s]
 
   /// Begins registered. @param now [s] of a clock that never jumps
-  explicit RegistrationRules(double now) : answered_(now) {}
+  explicit RegistrationRules(double now, double patience = kPatience)
+      : patience_(patience), answered_(now) {}
 
   /// @return what has changed by this look
   std::optional<Turn> see(Look look, double now);
@@ -30,6 +31,7 @@ class RegistrationRules {
  private:
   bool is_lost(Look look, double now) const;
 
+  double patience_;  ///< [s]
   bool lost_ = false;
   double answered_;  ///< [s] when the master answered last
 };

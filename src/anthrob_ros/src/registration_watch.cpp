@@ -32,7 +32,8 @@ std::string master_text() {
 class RegistrationWatch::Implementation {
  public:
   /// @throws std::runtime_error if the master does not answer
-  Implementation() : rules_(monotonic_now()) {
+  explicit Implementation(double pace)
+      : patience_(kPatience / pace), rules_(monotonic_now(), RegistrationRules::kPatience / pace) {
     const double end = monotonic_now() + kFirst;
     Look first = look();
     while (first != Look::kRegistered && monotonic_now() < end && !ros::isShuttingDown()) {
@@ -43,7 +44,7 @@ class RegistrationWatch::Implementation {
   }
 
   Look look() {
-    const MasterAnswer answer = ask_master(kPatience);
+    const MasterAnswer answer = ask_master(patience_);
     if (answer.reach == Reach::kRefused) return Look::kGone;
     if (!answer.known) return Look::kSilent;
     expected_.add(*answer.known);
@@ -74,20 +75,21 @@ class RegistrationWatch::Implementation {
     for (const auto& [topic, publishers] : publishers_) {
       const auto before = connected_.find(topic);
       if (before != connected_.end() && before->second == publishers) continue;
-      if (refresh_publishers(topic, kPatience)) connected_[topic] = publishers;
+      if (refresh_publishers(topic, patience_)) connected_[topic] = publishers;
     }
   }
-  bool register_missing() { return register_again(missing_, kPatience); }
+  bool register_missing() { return register_again(missing_, patience_); }
 
  private:
+  double patience_;  ///< [s] for one answer
   RegistrationRules rules_;
   Registrations expected_, missing_;
   Publishers publishers_;  ///< by the master's last answer
   Publishers connected_;   ///< of which we know
 };
 
-RegistrationWatch::RegistrationWatch(Lost lost)
-    : implementation_(std::make_unique<Implementation>()), on_lost_(std::move(lost)) {
+RegistrationWatch::RegistrationWatch(Lost lost, double pace)
+    : implementation_(std::make_unique<Implementation>(pace)), on_lost_(std::move(lost)) {
   thread_ = std::thread([this] { watch(); });
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "anthrob_ecu/gains.h"
+#include "anthrob_ros/bounded_connection.h"
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/conversions.h"
@@ -27,6 +28,10 @@ constexpr std::chrono::milliseconds kClockRepeat(200);
 /// However rarely states are published, commands and stops are heard as often as this.
 constexpr double kHearing = 0.01;                   // [s] of simulated time
 constexpr std::chrono::milliseconds kListening(5);  // of wall time
+/// How long a stop is not answered while a step takes longer than that.
+constexpr std::chrono::seconds kStopPatience(1);
+
+const auto kEmergencyStop = [](ecu::Supervisor& all) { return all.emergency_stop(); };
 
 }  // namespace
 
@@ -41,44 +46,68 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       steps_to_state_(steps_per_state_),
       nh_(nh),
       surfaces_(nh_, sim_.model()) {
+  advertise_topics();
+  subscribe_to_commands();
+  offer_services();
+  apply_supervision();
+}
+
+void SimulatorNode::advertise_topics() {
   clock_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
   refuse_other_clocks();
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
   joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
   spherical_joints_ = nh_.advertise<anthrob_msgs::SphericalJointStates>(
-      options.motion_capture ? "sim/spherical_joint_states" : "spherical_joint_states", 100);
+      options_.motion_capture ? "sim/spherical_joint_states" : "spherical_joint_states", 100);
   muscle_paths_ = nh_.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
   if (!sim_.model().touch_pads.empty()) {
     touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);
   }
   solved_paths_ = nh_.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+}
 
-  ros::NodeHandle commands(nh_);
+void SimulatorNode::subscribe_to_commands() {
+  ros::NodeHandle commands(nh_), stops(nh_);
   commands.setCallbackQueue(&command_queue_);
+  stops.setCallbackQueue(&stop_queue_);
   subscribers_ = {
-      commands.subscribe("muscle_command", 100, &SimulatorNode::on_command, this, kNoDelay),
-      commands.subscribe("joint_effort_command", 100, &SimulatorNode::on_effort, this, kNoDelay),
-      nh_.subscribe<std_msgs::Empty>(
+      subscribe_bounded<anthrob_msgs::MuscleCommand>(
+          commands, "muscle_command", 100, [this](const auto& command) { on_command(command); },
+          [this](const std::string& why) { supervisor_.refuse(why); }, kNoDelay),
+      subscribe_bounded<sensor_msgs::JointState>(
+          commands, "joint_effort_command", 100,
+          [this](const auto& command) { on_effort(command); },
+          [this](const std::string& why) { driven_.refuse(why); }, kNoDelay),
+      stops.subscribe<std_msgs::Empty>(
           "emergency_stop", 1,
           [this](const std_msgs::EmptyConstPtr&) {
-            supervise([](ecu::Supervisor& all) { return all.emergency_stop(); });
+            std_srvs::Trigger::Response unheard;
+            supervise_between_steps(kEmergencyStop, unheard);
           },
           ros::VoidConstPtr(), kNoDelay),
   };
+}
+
+void SimulatorNode::offer_services() {
+  ros::NodeHandle stops(nh_);
+  stops.setCallbackQueue(&stop_queue_);
   services_ = {
       nh_.advertiseService("enable", &SimulatorNode::on_enable, this),
       nh_.advertiseService("home", &SimulatorNode::on_home, this),
-      nh_.advertiseService("disable", &SimulatorNode::on_disable, this),
-      nh_.advertiseService("emergency_stop", &SimulatorNode::on_emergency_stop, this),
+      stops.advertiseService("disable", &SimulatorNode::on_disable, this),
+      stops.advertiseService("emergency_stop", &SimulatorNode::on_emergency_stop, this),
       nh_.advertiseService("clear_faults", &SimulatorNode::on_clear_faults, this),
-      nh_.advertiseService("gains", &SimulatorNode::on_gains, this),
+      advertise_bounded<anthrob_msgs::Gains>(
+          nh_, "gains",
+          [this](auto& request, auto& response) { return on_gains(request, response); }),
       nh_.advertiseService("sim/pause", &SimulatorNode::on_pause, this),
       nh_.advertiseService("sim/step", &SimulatorNode::on_step, this),
       nh_.advertiseService("sim/reset", &SimulatorNode::on_reset, this),
-      nh_.advertiseService("sim/set_state", &SimulatorNode::on_set_state, this),
+      advertise_bounded<anthrob_msgs::SetState>(
+          nh_, "sim/set_state",
+          [this](auto& request, auto& response) { return on_set_state(request, response); }),
   };
-  apply_supervision();
 }
 
 int SimulatorNode::steps_in(double time) const {
@@ -156,9 +185,37 @@ void SimulatorNode::supervise(Request request, std_srvs::Trigger::Response* resp
   }
 }
 
+template <typename Request>
+void SimulatorNode::supervise_between_steps(Request request,
+                                            std_srvs::Trigger::Response& response) {
+  // It may come after this call has ended.
+  const auto answer = std::make_shared<std_srvs::Trigger::Response>();
+  if (interrupts_.call([this, request, answer] { supervise(request, answer.get()); },
+                       kStopPatience)) {
+    response = *answer;
+    return;
+  }
+  response.success = true;
+  response.message = "the simulation is busy, and stops before its next step";
+}
+
+void SimulatorNode::stop_for(const std::string& why) {
+  const auto stop = [this, why] {
+    supervise(kEmergencyStop);
+    stopped_for_ = why;
+  };
+  interrupts_.call(stop, kStopPatience);
+  ROS_ERROR_STREAM("motors stopped: " << why << "; then: clear_faults, enable");
+}
+
 // ---- services
 
 bool SimulatorNode::on_enable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  // Where nobody finds this node, nobody can stop it.
+  if (const auto lost = registration_->lost()) {
+    response.message = *lost;
+    return true;
+  }
   supervise([this](ecu::Supervisor& all) { return all.enable(sim_.time()); }, &response);
   return true;
 }
@@ -176,19 +233,20 @@ bool SimulatorNode::on_home(std_srvs::Trigger::Request&, std_srvs::Trigger::Resp
 }
 
 bool SimulatorNode::on_disable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  supervise([](ecu::Supervisor& all) { return all.disable(); }, &response);
+  supervise_between_steps([](ecu::Supervisor& all) { return all.disable(); }, response);
   return true;
 }
 
 bool SimulatorNode::on_emergency_stop(std_srvs::Trigger::Request&,
                                       std_srvs::Trigger::Response& response) {
-  supervise([](ecu::Supervisor& all) { return all.emergency_stop(); }, &response);
+  supervise_between_steps(kEmergencyStop, response);
   return true;
 }
 
 bool SimulatorNode::on_clear_faults(std_srvs::Trigger::Request&,
                                     std_srvs::Trigger::Response& response) {
   supervise([](ecu::Supervisor& all) { return all.clear_faults(); }, &response);
+  stopped_for_.reset();
   return true;
 }
 
@@ -297,6 +355,7 @@ bool SimulatorNode::wait_for_command(const ros::Time& stamp) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(1.0);
   while (last_command_stamp_ < stamp) {
     if (!ros::ok() || ros::WallTime::now() > end) return false;
+    interrupts_.serve();
     command_queue_.callOne(ros::WallDuration(0.01));
   }
   return true;
@@ -315,6 +374,7 @@ bool SimulatorNode::advance(int steps) {
   try {
     for (int i = 0; i < steps; ++i) {
       if (!ros::ok()) return false;
+      interrupts_.serve();
       watch_commands();
       sim_.step();
     }
@@ -374,24 +434,20 @@ void SimulatorNode::publish(bool all) {
   }
 }
 
-void SimulatorNode::publish_diagnostics() {
-  const Clock::time_point wall = Clock::now();
-  const double elapsed = std::chrono::duration<double>(wall - report_time_).count();
-  if (elapsed < 1.0) return;
-  const double factor = (sim_.time() - report_sim_time_) / elapsed;
-
-  diagnostic_msgs::DiagnosticArray array;
-  array.header.stamp = stamp();
-  diagnostic_msgs::DiagnosticStatus simulator;
+diagnostic_msgs::DiagnosticStatus SimulatorNode::own_status(double elapsed) const {
+  using diagnostic_msgs::DiagnosticStatus;
+  DiagnosticStatus simulator;
   simulator.name = nh_.getNamespace() + ": simulator";
   simulator.hardware_id = sim_.model().file;
-  simulator.level = !failure_.empty()  ? diagnostic_msgs::DiagnosticStatus::ERROR
-                    : late_cycles_ > 0 ? diagnostic_msgs::DiagnosticStatus::WARN
-                                       : diagnostic_msgs::DiagnosticStatus::OK;
-  simulator.message = !failure_.empty()  ? failure_
-                      : options_.paused  ? "paused"
-                      : late_cycles_ > 0 ? "slower than real time"
-                                         : "running";
+  simulator.level = stopped_for_ || !failure_.empty() ? DiagnosticStatus::ERROR
+                    : late_cycles_ > 0                ? DiagnosticStatus::WARN
+                                                      : DiagnosticStatus::OK;
+  simulator.message = stopped_for_        ? "emergency stop: " + *stopped_for_
+                      : !failure_.empty() ? failure_
+                      : options_.paused   ? "paused"
+                      : late_cycles_ > 0  ? "slower than real time"
+                                          : "running";
+  const double factor = (sim_.time() - report_sim_time_) / elapsed;
   simulator.values = {
       key_value("real_time_factor", text(factor)),
       key_value("late_cycles", std::to_string(late_cycles_)),
@@ -404,20 +460,33 @@ void SimulatorNode::publish_diagnostics() {
         key_value("rejected_efforts", std::to_string(driven_.rejected_count())));
     simulator.values.push_back(key_value("last_effort_rejection", driven_.last_rejection()));
   }
-  array.status.push_back(simulator);
+  return simulator;
+}
+
+diagnostic_msgs::DiagnosticStatus SimulatorNode::path_status() const {
+  using diagnostic_msgs::DiagnosticStatus;
+  DiagnosticStatus paths;
+  paths.name = nh_.getNamespace() + ": muscle paths";
+  paths.hardware_id = sim_.model().file;
+  const bool inside = deepest_.depth > kRoundingDepth;
+  paths.level = inside ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  paths.message = inside ? deepest_.text() : "no path point inside a surface";
+  paths.values = {key_value("deepest_penetration", text(deepest_.depth))};
+  return paths;
+}
+
+void SimulatorNode::publish_diagnostics() {
+  const Clock::time_point wall = Clock::now();
+  const double elapsed = std::chrono::duration<double>(wall - report_time_).count();
+  if (elapsed < 1.0) return;
+  diagnostic_msgs::DiagnosticArray array;
+  array.header.stamp = stamp();
+  array.status.push_back(own_status(elapsed));
   for (const ecu::Supervisor* units : {&supervisor_, &driven_.supervisor()}) {
     const auto statuses = ecu_statuses(*units, nh_.getNamespace());
     array.status.insert(array.status.end(), statuses.begin(), statuses.end());
   }
-  diagnostic_msgs::DiagnosticStatus paths;
-  paths.name = nh_.getNamespace() + ": muscle paths";
-  paths.hardware_id = sim_.model().file;
-  const bool inside = deepest_.depth > kRoundingDepth;
-  paths.level =
-      inside ? diagnostic_msgs::DiagnosticStatus::WARN : diagnostic_msgs::DiagnosticStatus::OK;
-  paths.message = inside ? deepest_.text() : "no path point inside a surface";
-  paths.values = {key_value("deepest_penetration", text(deepest_.depth))};
-  array.status.push_back(paths);
+  array.status.push_back(path_status());
   deepest_ = deepest_penetration(sim_);
   diagnostics_.publish(array);
   report_time_ = wall;
@@ -450,11 +519,16 @@ void SimulatorNode::pace() {
 }
 
 void SimulatorNode::hear() {
+  interrupts_.serve();
   command_queue_.callAvailable();
   ros::getGlobalCallbackQueue()->callAvailable();
 }
 
 void SimulatorNode::run() {
+  registration_.emplace([this](const std::string& why) { stop_for(why); });
+  descriptors_.emplace([this](const std::string& why) { stop_for(why); });
+  ros::AsyncSpinner stops(1, &stop_queue_);
+  stops.start();
   deadline_ = report_time_ = Clock::now();
   publish(true);
   while (ros::ok()) {

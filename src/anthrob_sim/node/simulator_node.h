@@ -4,6 +4,7 @@
 #include <anthrob_msgs/MuscleCommand.h>
 #include <anthrob_msgs/SetState.h>
 #include <anthrob_msgs/Step.h>
+#include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
@@ -14,18 +15,24 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
+#include <string>
 
 #include "anthrob_ecu/supervisor.h"
+#include "anthrob_ros/descriptor_watch.h"
+#include "anthrob_ros/registration_watch.h"
 #include "anthrob_sim/simulation.h"
+#include "interrupts.h"
 #include "report/solved_path.h"
 #include "simulation/driven_joints.h"
 #include "surface_display.h"
 
 namespace anthrob {
 
-/// The ROS contract around a simulation: topics, services, time. One thread: callbacks are served
+/// The ROS contract around a simulation: topics, services, time. Commands and services are served
 /// between two cycles, so a command takes effect at a cycle's start and a service answers when it
-/// is done.
+/// is done. Stops have a thread of their own, as the driver's, and take effect between two steps:
+/// no message and no call can delay them.
 class SimulatorNode {
  public:
   struct Options {
@@ -53,9 +60,17 @@ class SimulatorNode {
   /// Of a command that sim/step may wait for.
   void note_stamp(const ros::Time& commanded);
   void warn_of_refusal(const char* topic, const std::string& reason);
+  void advertise_topics();
+  void subscribe_to_commands();
+  void offer_services();
   /// Puts a request to muscles and driven joints.
   template <typename Request>
   void supervise(Request request, std_srvs::Trigger::Response* response = nullptr);
+  /// The same between two steps, for the thread of stops.
+  template <typename Request>
+  void supervise_between_steps(Request request, std_srvs::Trigger::Response& response);
+  /// An emergency stop that nobody asked for.
+  void stop_for(const std::string& why);
   bool on_enable(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   /// Nothing is lost here that it could find: moves nothing. As on the robot it wants enabled
   /// motors, and from then on commands are watched, whether some came before or none.
@@ -90,6 +105,8 @@ class SimulatorNode {
   void publish_clock();
   void repeat_clock();
   void publish_diagnostics();
+  diagnostic_msgs::DiagnosticStatus own_status(double elapsed) const;
+  diagnostic_msgs::DiagnosticStatus path_status() const;
   void pace();
   ros::Time stamp() const;
 
@@ -106,6 +123,9 @@ class SimulatorNode {
 
   ros::NodeHandle nh_;
   ros::CallbackQueue command_queue_;  ///< of its own, so that sim/step can wait for a command
+  ros::CallbackQueue stop_queue_;
+  Interrupts interrupts_;
+  std::optional<std::string> stopped_for_;  ///< why, if nobody asked for the stop that holds
   ros::Time last_command_stamp_;
   std::map<std::string, ros::WallTime> last_warnings_;  ///< by topic
   std::vector<ros::Subscriber> subscribers_;
@@ -119,6 +139,9 @@ class SimulatorNode {
   double report_sim_time_ = 0.0;
   int late_cycles_ = 0;
   Penetration deepest_;  ///< of a path point into a surface since the last report
+  // Last, so that their threads end first.
+  std::optional<RegistrationWatch> registration_;
+  std::optional<DescriptorWatch> descriptors_;
 };
 
 }  // namespace anthrob

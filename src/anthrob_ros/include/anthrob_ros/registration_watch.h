@@ -17,9 +17,9 @@ enum class Look;
 /// nobody who is started then finds the node, and `rostopic pub emergency_stop` stops nothing.
 ///
 /// What it knew once must stay, unless the node gave it up. If the master is gone or answers
-/// without us, the registration is lost at once; if it keeps silent, after 10 s. As soon as a master
-/// answers again, the watch registers everything again. It logs both, once. It also asks the master
-/// for publishers of whose coming the node may not have heard.
+/// without us, the registration is lost at once; if it keeps silent, after 10 s. As soon as a
+/// master answers again, the watch registers everything again. It logs both, once. It also asks the
+/// master for publishers of whose coming the node may not have heard.
 class RegistrationWatch {
  public:
   /// @param why in words
@@ -27,8 +27,9 @@ class RegistrationWatch {
 
   /// To be made after all topics and services that must be there.
   /// @param lost called once a loss, by the watch's thread, before it registers again; may be empty
+  /// @param pace below 1, a silent master has longer: for emulated robots on slow machines
   /// @throws std::runtime_error if the master does not answer within a minute
-  explicit RegistrationWatch(Lost lost = {});
+  explicit RegistrationWatch(Lost lost = {}, double pace = 1.0);
   ~RegistrationWatch();
 
   /// Why this node is not registered now; none if it is. For any thread.

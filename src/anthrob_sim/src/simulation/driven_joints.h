@@ -20,6 +20,8 @@ class DrivenJoints {
   /// efforts that are not finite, a joint that is stopped.
   ecu::Supervisor::Outcome command(const std::vector<std::string>& names,
                                    const std::vector<double>& efforts, Simulation& sim);
+  /// Counts and records a command that is refused for a reason of somebody else.
+  ecu::Supervisor::Outcome refuse(const std::string& reason);
   /// Removes the effort from stopped joints; to be called after every request to the supervisor.
   void apply(Simulation& sim) const;
 
@@ -35,7 +37,6 @@ class DrivenJoints {
   std::optional<std::string> complaint(const std::vector<std::string>& names,
                                        const std::vector<double>& efforts) const;
   bool knows(const std::string& name) const;
-  ecu::Supervisor::Outcome refuse(const std::string& reason);
 
   std::vector<int> joints_;  ///< of the skeleton
   ecu::Supervisor supervisor_;
