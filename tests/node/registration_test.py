@@ -8,7 +8,7 @@ import rosgraph
 import rospy
 import rostest
 from back_end import all_begin_anew
-from own_robot import NODE, PATIENCE, OwnRobot
+from own_robot import NODE, PACE, PATIENCE, OwnRobot
 from waiting import wait_for
 
 
@@ -17,7 +17,7 @@ class Registration(OwnRobot):
 
     def check_stops(self, why):
         begin = time.time()
-        self.wait_for(self.is_stopped, PATIENCE + 16.0, 'the motors to stop')
+        self.wait_for(self.is_stopped, PATIENCE + 16.0 / PACE, 'the motors to stop')
         print('stopped after %.2f s' % (time.time() - begin))
         # The driver's stops are in its values, too.
         self.wait_for(lambda: why in self.seen['report'].message + self.values.get('last_stop', ''), PATIENCE,

@@ -332,7 +332,7 @@ class SimContract(unittest.TestCase):
         self.assertIn('expected a number > 0', answer.message)
 
     def test_stops_are_heard_during_a_long_step(self):
-        steps = threading.Thread(target=self.step, args=(20000,), daemon=True)
+        steps = threading.Thread(target=self.step, args=(100000,), daemon=True)
         steps.start()
         time.sleep(0.2)
         self.assertTrue(self.disable().success)
