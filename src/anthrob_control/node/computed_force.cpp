@@ -8,6 +8,7 @@
 #include "anthrob_control/posture_sequence.h"
 #include "anthrob_control/ros/robot_link.h"
 #include "anthrob_core/errors.h"
+#include "anthrob_ros/bounded_connection.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
 #include "anthrob_sim/placement.h"
@@ -56,7 +57,10 @@ class ComputedForceNode {
         link_(nh, model, options),
         diagnostics_(nh.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
     services_ = {nh.advertiseService("controller/zero_gravity", &ComputedForceNode::on_zero, this),
-                 nh.advertiseService("controller/go_to", &ComputedForceNode::on_go_to, this)};
+                 anthrob::advertise_bounded<anthrob_msgs::GoTo>(
+                     nh, "controller/go_to", [this](auto& request, auto& response) {
+                       return on_go_to(request, response);
+                     })};
   }
 
   void run() {
@@ -67,11 +71,13 @@ class ComputedForceNode {
         silent_ = 0.0;
         unheeded_ = 0.0;
       }
-      trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
+      trouble_ = link_.unregistered();
+      if (!trouble_) trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
       if (!trouble_) trouble_ = missing_force();
       if (trouble_) {
-        // Nothing is sent on stale measurements: after command_timeout the motors stop. The
-        // controller gets the length of the pause, and decides what it still holds.
+        // Nothing is sent on stale measurements, nor while nobody could find us: after
+        // command_timeout the motors stop. The controller gets the length of the pause, and decides
+        // what it still holds.
         silent_ += link_.dt();
       } else {
         control();

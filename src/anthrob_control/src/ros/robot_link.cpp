@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "anthrob_ros/bounded_connection.h"
+
 namespace anthrob {
 
 namespace {
@@ -27,9 +29,13 @@ RobotLink::RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   commands_ = nh_.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 10);
   subscribers_ = {
-      nh_.subscribe("muscle_states", 2000, &RobotLink::see_muscles, this, no_delay),
-      nh_.subscribe("joint_states", 2000, &RobotLink::see_joints, this, no_delay),
-      nh_.subscribe("spherical_joint_states", 2000, &RobotLink::see_ball_joints, this, no_delay),
+      subscribe_bounded<anthrob_msgs::MuscleStates>(
+          nh_, "muscle_states", 2000, [this](const auto& m) { see_muscles(m); }, {}, no_delay),
+      subscribe_bounded<sensor_msgs::JointState>(
+          nh_, "joint_states", 2000, [this](const auto& m) { see_joints(m); }, {}, no_delay),
+      subscribe_bounded<anthrob_msgs::SphericalJointStates>(
+          nh_, "spherical_joint_states", 2000, [this](const auto& m) { see_ball_joints(m); }, {},
+          no_delay),
   };
 }
 
@@ -99,7 +105,13 @@ void RobotLink::look_for_robot() {
                      "node in the robot's namespace, e.g. __ns:=/anthrob");
 }
 
+std::optional<std::string> RobotLink::unregistered() const {
+  return registration_ ? registration_->lost() : std::nullopt;
+}
+
 bool RobotLink::wait() {
+  // By now the node's own topics and services are there, too.
+  if (!registration_) registration_.emplace();
   return options_.lock_step ? step_simulator() : wait_for_period();
 }
 
@@ -193,6 +205,7 @@ bool RobotLink::states_arrive(const ros::Time& stamp, double patience) {
 }
 
 ros::Time RobotLink::send(anthrob_msgs::MuscleCommand command) {
+  if (unregistered()) return now_;
   command.header.stamp = now_;
   commands_.publish(command);
   command_ = std::move(command);

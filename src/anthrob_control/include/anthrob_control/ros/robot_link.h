@@ -12,6 +12,7 @@
 
 #include "anthrob_control/robot_state.h"
 #include "anthrob_ros/clock_wait.h"
+#include "anthrob_ros/registration_watch.h"
 
 namespace anthrob {
 
@@ -25,6 +26,8 @@ namespace anthrob {
 /// still. In lock-step, it lets the simulator take its steps with the command that was sent last,
 /// and returns when their results have arrived: a run gives the same bits at any speed.
 /// If nobody publishes muscle_states for 5 s of wall time, `wait` warns once.
+/// From the first `wait` on it watches that the ROS master knows the node. While it does not,
+/// `send` sends nothing: after command_timeout the motors stop.
 class RobotLink {
  public:
   struct Options {
@@ -38,9 +41,11 @@ class RobotLink {
   /// Serves callbacks until the next period. @return false when ROS shuts down
   /// @throws std::runtime_error if the simulator does not step, or no longer runs
   bool wait();
-  /// Stamps the command with now() and publishes it. @return the stamp
+  /// Stamps the command with now() and publishes it, unless unregistered(). @return the stamp
   ros::Time send(anthrob_msgs::MuscleCommand command);
 
+  /// Why the ROS master does not know this node; none if it does.
+  std::optional<std::string> unregistered() const;
   const RobotState& state() const { return state_; }
   /// As RobotState::take_disabled.
   std::optional<std::string> take_disabled() { return state_.take_disabled(); }
@@ -86,6 +91,7 @@ class RobotLink {
   ClockWatch clock_watch_;
   double dt_ = 0.0;
   bool jumped_ = false;
+  std::optional<RegistrationWatch> registration_;
 };
 
 /// A command for all muscles that have the mode. It leaves the others out, because with one of them
