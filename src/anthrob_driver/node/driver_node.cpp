@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "anthrob_core/monotonic_clock.h"
+#include "anthrob_ros/bounded_connection.h"
 #include "anthrob_ros/diagnostics.h"
 #include "driver_diagnostics.h"
 #include "publishing/measurement_age.h"
@@ -81,6 +82,10 @@ void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command) {
   ROS_WARN_STREAM("muscle_command refused: " << outcome.reason);
 }
 
+void DriverNode::on_malformed_command(const std::string& why) {
+  thread_.call([&](RobotDriver& driver, double) { driver.refuse(why); });
+}
+
 double DriverNode::command_age(const ros::Time& stamp) const {
   const ros::Time now = ros::Time::now();
   // `rostopic pub` sends no stamp; simulated time may not have begun.
@@ -120,6 +125,11 @@ DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, C
 }
 
 bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
+  // Where nobody finds this node, nobody can stop it.
+  if (const auto lost = registration_->lost()) {
+    answer({false, *lost}, response);
+    return true;
+  }
   const auto begin = [](RobotDriver& driver, double now, Outcome& outcome) {
     outcome = driver.start_enable(now);
     return driver.phase() == RobotDriver::Phase::kEnabling;
@@ -162,6 +172,11 @@ bool DriverNode::on_emergency_stop(TriggerEvent& event) {
 void DriverNode::on_stop_message(const ros::MessageEvent<const std_msgs::Empty>& event) {
   thread_.call([](RobotDriver& driver, double) { driver.emergency_stop(); });
   ROS_WARN_STREAM_THROTTLE(1.0, "emergency stop by " << event.getPublisherName());
+}
+
+void DriverNode::stop_unreachable(Finding finding, const std::string& why) {
+  thread_.call(
+      [&](RobotDriver& driver, double now) { driver.stop_unreachable(finding, why, now); });
 }
 
 bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response) {
@@ -315,6 +330,10 @@ void DriverNode::publish_diagnostics() {
     const auto published = static_cast<double>(samples_ - reported_samples_);
     own.values.push_back(key_value("state_rate", text(published / (time - report_time_))));
     own.values.push_back(key_value("longest_round_trip_ms", text(1e3 * longest_round_trip_)));
+    if (const auto lost = registration_->lost()) {
+      own.level = diagnostic_msgs::DiagnosticStatus::ERROR;
+      own.message += "; not registered: " + *lost;
+    }
     for (std::size_t e = 0; e < hardware_.ecus.size(); ++e) {
       array.status.push_back(ecu_status(driver, e, now, nh_.getNamespace()));
     }
@@ -339,17 +358,25 @@ void DriverNode::log_stops() {
 
 void DriverNode::run() {
   subscribers_ = {
-      command_nh_.subscribe("muscle_command", 100, &DriverNode::on_command, this, kNoDelay),
+      subscribe_bounded<anthrob_msgs::MuscleCommand>(
+          command_nh_, "muscle_command", 100, [this](const auto& command) { on_command(command); },
+          [this](const std::string& why) { on_malformed_command(why); }, kNoDelay),
       stop_nh_.subscribe("emergency_stop", 1, &DriverNode::on_stop_message, this, kNoDelay),
   };
   services_ = {
       request_nh_.advertiseService("enable", &DriverNode::on_enable, this),
       request_nh_.advertiseService("home", &DriverNode::on_home, this),
       request_nh_.advertiseService("clear_faults", &DriverNode::on_clear_faults, this),
-      request_nh_.advertiseService("gains", &DriverNode::on_gains, this),
+      advertise_bounded<anthrob_msgs::Gains>(
+          request_nh_, "gains",
+          [this](auto& request, auto& response) { return on_gains(request, response); }),
       stop_nh_.advertiseService("disable", &DriverNode::on_disable, this),
       stop_nh_.advertiseService("emergency_stop", &DriverNode::on_emergency_stop, this),
   };
+  registration_.emplace(
+      [this](const std::string& why) { stop_unreachable(Finding::kUnregistered, why); }, pace_);
+  descriptors_.emplace(
+      [this](const std::string& why) { stop_unreachable(Finding::kNoDescriptors, why); });
   ros::AsyncSpinner stops(1, &stop_queue_);
   stops.start();
   ros::AsyncSpinner requests(kRequestThreads, &request_queue_);

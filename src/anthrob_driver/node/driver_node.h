@@ -13,6 +13,8 @@
 #include <optional>
 #include <vector>
 
+#include "anthrob_ros/descriptor_watch.h"
+#include "anthrob_ros/registration_watch.h"
 #include "publishing/reading_group.h"
 #include "publishing/stamp_clock.h"
 #include "request_queue.h"
@@ -39,6 +41,7 @@ class DriverNode {
   using Trigger = std_srvs::Trigger;
 
   void on_command(const anthrob_msgs::MuscleCommand& command);
+  void on_malformed_command(const std::string& why);
   /// [s] of ROS time since `stamp`; 0 if the command has no stamp.
   double command_age(const ros::Time& stamp) const;
   using Outcome = RobotDriver::Outcome;
@@ -58,6 +61,8 @@ class DriverNode {
   using TriggerEvent = ros::ServiceEvent<Trigger::Request, Trigger::Response>;
   bool on_disable(TriggerEvent& event);
   bool on_emergency_stop(TriggerEvent& event);
+  /// Nobody may be able to stop the driver any more.
+  void stop_unreachable(Finding finding, const std::string& why);
   void on_stop_message(const ros::MessageEvent<const std_msgs::Empty>& event);
   bool on_clear_faults(Trigger::Request& request, Trigger::Response& response);
   bool on_gains(anthrob_msgs::Gains::Request& request, anthrob_msgs::Gains::Response& response);
@@ -94,6 +99,9 @@ class DriverNode {
   std::uint64_t samples_ = 0, reported_samples_ = 0;
   std::uint64_t logged_stops_ = 0;
   double longest_round_trip_ = 0.0;
+  // Last, so that their threads end first.
+  std::optional<RegistrationWatch> registration_;
+  std::optional<DescriptorWatch> descriptors_;
 };
 
 }  // namespace driver

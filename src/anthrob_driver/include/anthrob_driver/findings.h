@@ -44,8 +44,10 @@ enum class Finding : std::uint8_t {
   kEncoderDead,
   kForceImplausible,
   kMotorHot,
+  kUnregistered,
+  kNoDescriptors,
 };
-constexpr int kFindingCount = 32;
+constexpr int kFindingCount = 34;
 
 struct FindingInfo {
   Finding finding;

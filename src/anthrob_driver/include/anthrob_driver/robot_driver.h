@@ -70,6 +70,9 @@ class RobotDriver {
   /// Always accepted; `reason` tells if the ECUs may not have received it.
   Outcome disable();
   Outcome emergency_stop();
+  /// An emergency stop because nobody may be able to stop the driver any more.
+  /// @param finding kUnregistered or kNoDescriptors   @param detail in words
+  void stop_unreachable(Finding finding, const std::string& detail, double now);
   Outcome clear_faults(double now);
 
   /// Between clear_faults and the moment the ECUs have cleared too.

@@ -39,6 +39,8 @@ const FindingInfo kFindings[kFindingCount] = {
     {Finding::kEncoderDead, "encoder_dead", true, "a motor turns, judging by its voltage and current, but its encoder does not count, or counts backwards", "check the encoder's cable and polarity, then the motor's cable and its current sensor; clear_faults, enable, home"},
     {Finding::kForceImplausible, "force_implausible", true, "a motor pulls, judging by its current, much harder than its force sensor reads", "check the force sensor and its cable, then that nothing holds the tendon between spindle and sensor; clear_faults, enable"},
     {Finding::kMotorHot, "motor_hot", true, "a motor drew more current than its winding withstands for long", "find what it pulls against; let it cool; clear_faults, enable"},
+    {Finding::kUnregistered, "unregistered", true, "the ROS master is gone or does not know the driver any more: whoever starts now cannot stop it", "start roscore again, and the driver registers by itself; clear_faults, enable"},
+    {Finding::kNoDescriptors, "no_descriptors", true, "the driver has hardly any file descriptors left: whoever connects now cannot stop it", "find who opens connections and leaves them idle (`ss -tnp`); clear_faults, enable"},
 };
 // clang-format on
 

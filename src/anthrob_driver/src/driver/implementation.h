@@ -60,6 +60,12 @@ class RobotDriver::Implementation {
   std::uint64_t halts() const { return halts_; }
   const StopLog& stops() const { return stopping_.log(); }
 
+  /// Carries a rule out, whose condition holds.
+  /// @param ecu index of the ECU that it concerns
+  /// @param detail which fault, which tendon; may be empty
+  void stop(const StoppingRule& rule, std::optional<int> ecu, double now,
+            const std::string& detail = "");
+
  private:
   void send(const ecu::Frame& frame);
   /// @return the number of the request
@@ -81,15 +87,12 @@ class RobotDriver::Implementation {
   // What stops the motors, and how, stands in kStoppingRules (stopping_rules.cpp). Everything ends
   // in disable().
 
-  /// Carries a rule out, whose condition holds.
-  /// @param ecu index of the ECU that it concerns
-  /// @param detail which fault, which tendon; may be empty
-  void stop(const StoppingRule& rule, std::optional<int> ecu, double now,
-            const std::string& detail = "");
   void disable_for(const StoppingRule& rule, std::optional<int> ecu, const std::string& what);
   /// Records a stop that waits for its reason. @param now HUGE_VAL: with or without the reason
   void explain_stop(double now);
   void obey_emergency_stop(std::optional<int> ecu);
+  /// @param remedy null: the finding's
+  void latch_stop(Finding finding, const std::string& what, const char* remedy = nullptr);
   void end_home();
   Situation situation(bool silent, double now) const;
   void check_ecu(int ecu, bool silent, double now);

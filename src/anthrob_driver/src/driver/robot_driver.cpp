@@ -61,6 +61,10 @@ RobotDriver::Outcome RobotDriver::emergency_stop() {
   return implementation_->emergency_stop();
 }
 
+void RobotDriver::stop_unreachable(Finding finding, const std::string& detail, double now) {
+  implementation_->stop(stopping_rule(finding, NoticedBy::kNode), std::nullopt, now, detail);
+}
+
 RobotDriver::Outcome RobotDriver::clear_faults(double now) {
   return implementation_->clear_faults(now);
 }

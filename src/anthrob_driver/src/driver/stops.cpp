@@ -30,7 +30,11 @@ void RobotDriver::Implementation::stop(const StoppingRule& rule, std::optional<i
       break;
     }
     case Reaction::kEmergencyStop:
-      obey_emergency_stop(ecu);
+      if (rule.noticed_by == NoticedBy::kNode) {
+        latch_stop(rule.finding, stopping_.reason(rule.finding, ecu, detail));
+      } else {
+        obey_emergency_stop(ecu);
+      }
       break;
     case Reaction::kEndHome:
       end_home();
@@ -66,10 +70,15 @@ void RobotDriver::Implementation::obey_emergency_stop(std::optional<int> ecu) {
       !ecu  ? "a STOP frame came from elsewhere on the bus"
       : own ? stopping_.prefix(*ecu) + "still holds an emergency stop of this driver"
             : stopping_.prefix(*ecu) + info(Finding::kStopLatched).meaning;
+  latch_stop(Finding::kStopLatched, what, own ? "clear_faults, enable" : nullptr);
+}
+
+void RobotDriver::Implementation::latch_stop(Finding finding, const std::string& what,
+                                             const char* remedy) {
   home_.abort(what);
   emergency_stop();
   last_outcome_ = {false, what};
-  stopping_.record(Finding::kStopLatched, what, own ? "clear_faults, enable" : nullptr);
+  stopping_.record(finding, what, remedy);
 }
 
 void RobotDriver::Implementation::end_home() {

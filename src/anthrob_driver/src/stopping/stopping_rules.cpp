@@ -64,6 +64,8 @@ const StoppingRule kStoppingRules[kStoppingRuleCount] = {
     {Finding::kForceImplausible, NoticedBy::kMuscleWatch, Reaction::kDisable,            Concerned::kFault,       Noted::kByRule,     nullptr},
     {Finding::kMotorHot,         NoticedBy::kMuscleWatch, Reaction::kDisable,            Concerned::kFault,       Noted::kByRule,     nullptr},
     {Finding::kHomeFailed,       NoticedBy::kHome,        Reaction::kEndHome,            Concerned::kNone,        Noted::kByRule,     nullptr},
+    {Finding::kUnregistered,     NoticedBy::kNode,        Reaction::kEmergencyStop,      Concerned::kNone,        Noted::kByRule,     nullptr},
+    {Finding::kNoDescriptors,    NoticedBy::kNode,        Reaction::kEmergencyStop,      Concerned::kNone,        Noted::kByRule,     nullptr},
 };
 // clang-format on
 

@@ -19,6 +19,7 @@ enum class NoticedBy {
   kSupervisor,   ///< ecu::Supervisor: commands stay away
   kMuscleWatch,  ///< MuscleWatch: tendon, encoder, force sensor or winding of a muscle
   kHome,         ///< Home or Zeros, while `home` runs
+  kNode,         ///< the ROS node around the driver, which nobody may reach any more
 };
 
 /// What then happens to the motors.
@@ -26,8 +27,9 @@ enum class Reaction {
   kDisable,             ///< unless they are: all are disabled, and the stop is recorded
   kDisableThenExplain,  ///< the same, but recorded once the ECU has named its reason: an ECU
                         ///< reports that it stopped some frames before it reports why
-  kEmergencyStop,       ///< an emergency stop that others hold is passed on to all, and latched
-  kEndHome,             ///< as kDisable; tendons that `home` lost have no zero
+  kEmergencyStop,  ///< an emergency stop that others hold, or that the node asks for, is passed
+                   ///< on to all, and latched
+  kEndHome,        ///< as kDisable; tendons that `home` lost have no zero
 };
 
 /// What then happens to the ECU that it concerns; all others are only disabled.
@@ -64,7 +66,7 @@ struct StoppingRule {
   /// Only of NoticedBy::kEcu: whether the condition holds. What an ECU reports only once is taken.
   bool (*holds)(EcuLink& link, const Situation& situation);
 };
-constexpr int kStoppingRuleCount = 20;
+constexpr int kStoppingRuleCount = 22;
 
 /// In the order in which a cycle looks at them; frames come in between. Every finding that stops
 /// (FindingInfo::stops) has a rule, and no other has.

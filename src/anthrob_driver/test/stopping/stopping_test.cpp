@@ -56,6 +56,26 @@ TEST(Stopping, AStopFromElsewhereIsCountedAndNamed) {
   EXPECT_TRUE(rig.driver().supervisor().stop_latched());
 }
 
+TEST(Stopping, WhereNobodyCouldStopItItStopsAndSaysWhy) {
+  for (const Finding finding : {Finding::kUnregistered, Finding::kNoDescriptors}) {
+    Rig rig;
+    ASSERT_TRUE(rig.start());
+    rig.driver().stop_unreachable(finding, "the detail", rig.now());
+    rig.run(20);
+    EXPECT_EQ(rig.moving(), 0);
+    EXPECT_TRUE(rig.driver().supervisor().stop_latched());
+    EXPECT_EQ(rig.driver().stops().count(), 1u);
+    EXPECT_EQ(rig.driver().stops().last().value_or(""),
+              std::string(info(finding).name) + ": " + info(finding).meaning + " (the detail); " +
+                  info(finding).remedy);
+    EXPECT_EQ(rig.driver().findings().count(finding), 1u);
+    EXPECT_FALSE(rig.driver().start_enable(rig.now()).accepted);
+    rig.driver().clear_faults(rig.now());
+    rig.run(200);
+    EXPECT_TRUE(rig.enable());
+  }
+}
+
 TEST(Stopping, AStopThatAnEcuStillHoldsIsKnownAsItsOwn) {
   Rig rig;
   ASSERT_TRUE(rig.start());
