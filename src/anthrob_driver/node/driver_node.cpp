@@ -374,7 +374,8 @@ void DriverNode::run() {
       stop_nh_.advertiseService("emergency_stop", &DriverNode::on_emergency_stop, this),
   };
   registration_.emplace(
-      [this](const std::string& why) { stop_unreachable(Finding::kUnregistered, why); }, pace_);
+      [this](const std::string& why) { stop_unreachable(Finding::kUnregistered, why); },
+      1.0 / pace_);
   descriptors_.emplace(
       [this](const std::string& why) { stop_unreachable(Finding::kNoDescriptors, why); });
   ros::AsyncSpinner stops(1, &stop_queue_);

@@ -17,13 +17,15 @@
 #include <chrono>
 #include <vector>
 
+#include "anthrob_core/monotonic_clock.h"
+
 namespace anthrob {
 
 namespace {
 
-constexpr rlim_t kMost = 8192;
-constexpr std::chrono::milliseconds kPeriod(200);
-constexpr double kPatience = 2.0;         // [s]
+constexpr rlim_t kMostDescriptors = 8192;
+constexpr std::chrono::milliseconds kLookPeriod(200);
+constexpr double kScarceTime = 2.0;       // [s]
 constexpr std::uint32_t kIdleAge = 1000;  // [ms]
 
 std::size_t descriptor_limit() {
@@ -105,7 +107,7 @@ Hand& hand() {
 void raise_descriptor_limit() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  limit.rlim_cur = std::min(limit.rlim_max, kMost);
+  limit.rlim_cur = std::min(limit.rlim_max, kMostDescriptors);
   ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
@@ -145,7 +147,7 @@ void DescriptorWatch::watch() {
   for (;;) {
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      if (ended_.wait_for(lock, kPeriod, [this] { return quit_; })) return;
+      if (ended_.wait_for(lock, kLookPeriod, [this] { return quit_; })) return;
     }
     if (!ros::isShuttingDown()) look();
   }
@@ -153,7 +155,7 @@ void DescriptorWatch::watch() {
 
 void DescriptorWatch::look() {
   const std::size_t left = free_descriptors();
-  const double now = ros::SteadyTime::now().toSec();
+  const double now = monotonic_now();
   if (left >= kReserve) {
     since_.reset();
     told_ = false;
@@ -165,7 +167,7 @@ void DescriptorWatch::look() {
     ROS_WARN_STREAM("hardly any file descriptors were left: " << idle
                                                               << " idle connections shut down");
   }
-  if (told_ || now - *since_ < kPatience) return;
+  if (told_ || now - *since_ < kScarceTime) return;
   told_ = true;
   on_scarce_("only " + std::to_string(left) + " of " + std::to_string(descriptor_limit()) +
              " file descriptors are free, less than " + std::to_string(kReserve));

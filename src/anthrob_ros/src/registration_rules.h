@@ -19,7 +19,7 @@ enum class Turn { kLost, kRegained };
 /// machine, and has kPatience.
 class RegistrationRules {
  public:
-  static constexpr double kPatience = 10.0;  ///< [s]
+  static constexpr double kPatience = 10.0;  ///< [s] with a look each second
 
   /// Begins registered. @param now [s] of a clock that never jumps
   explicit RegistrationRules(double now, double patience = kPatience)

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "anthrob_core/monotonic_clock.h"
 #include "registration_rules.h"
 #include "registrations.h"
 
@@ -14,13 +15,8 @@ namespace anthrob {
 
 namespace {
 
-constexpr std::chrono::seconds kPeriod(1);
-constexpr double kPatience = 5.0;  // [s] for one answer
-constexpr double kFirst = 60.0;    // [s] for the first one: much starts at the same time
-
-double monotonic_now() {
-  return ros::SteadyTime::now().toSec();
-}
+constexpr double kAnswerPeriods = 5.0;  // periods, for one answer
+constexpr double kFirstAnswer = 60.0;   // [s] for the first one: much starts at the same time
 
 std::string master_text() {
   return "the ROS master at " + ros::master::getURI();
@@ -32,9 +28,11 @@ std::string master_text() {
 class RegistrationWatch::Implementation {
  public:
   /// @throws std::runtime_error if the master does not answer
-  explicit Implementation(double pace)
-      : patience_(kPatience / pace), rules_(monotonic_now(), RegistrationRules::kPatience / pace) {
-    const double end = monotonic_now() + kFirst;
+  explicit Implementation(double seconds)
+      : period(seconds),
+        patience_(kAnswerPeriods * seconds),
+        rules_(monotonic_now(), RegistrationRules::kPatience * seconds) {
+    const double end = monotonic_now() + kFirstAnswer;
     Look first = look();
     while (first != Look::kRegistered && monotonic_now() < end && !ros::isShuttingDown()) {
       first = look();
@@ -42,6 +40,8 @@ class RegistrationWatch::Implementation {
     if (first != Look::kRegistered && !ros::isShuttingDown())
       throw std::runtime_error(why(first) + "; start roscore, then this node again");
   }
+
+  const std::chrono::duration<double> period;
 
   Look look() {
     const MasterAnswer answer = ask_master(patience_);
@@ -88,8 +88,8 @@ class RegistrationWatch::Implementation {
   Publishers connected_;   ///< of which we know
 };
 
-RegistrationWatch::RegistrationWatch(Lost lost, double pace)
-    : implementation_(std::make_unique<Implementation>(pace)), on_lost_(std::move(lost)) {
+RegistrationWatch::RegistrationWatch(Lost lost, double period)
+    : implementation_(std::make_unique<Implementation>(period)), on_lost_(std::move(lost)) {
   thread_ = std::thread([this] { watch(); });
 }
 
@@ -111,7 +111,7 @@ void RegistrationWatch::watch() {
   for (;;) {
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      if (ended_.wait_for(lock, kPeriod, [this] { return quit_; })) return;
+      if (ended_.wait_for(lock, implementation_->period, [this] { return quit_; })) return;
     }
     const Look found = implementation_->look();
     note(found);

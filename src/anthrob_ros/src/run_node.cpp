@@ -16,6 +16,7 @@ namespace anthrob {
 
 namespace {
 
+constexpr double kWatchPeriod = 5.0;  // [s] of the registration watch of nodes that move nothing
 constexpr int kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130;
 
 const NodeInfo::Parameter kBackEndParameter = {
@@ -152,7 +153,7 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
     // Back ends and commanders have a watch that stops what they do; all others only need to be
     // found again.
     std::optional<RegistrationWatch> watch;
-    if (info.role == NodeInfo::Role::kOther) watch.emplace();
+    if (info.role == NodeInfo::Role::kOther) watch.emplace(RegistrationWatch::Lost(), kWatchPeriod);
     return body(nh, settings);
   } catch (const BadInput& error) {
     ROS_FATAL_STREAM(error.what());

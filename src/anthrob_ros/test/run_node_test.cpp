@@ -101,7 +101,7 @@ int status_of_stopped(int number, bool ends_by_itself) {
   std::string text;
   char buffer[256];
   while (text.find("Failed to contact master") == std::string::npos) {
-    const ssize_t got = read(said[0], buffer, sizeof(buffer));
+    const ssize_t got = ::read(said[0], buffer, sizeof(buffer));
     if (got <= 0) break;
     text.append(buffer, static_cast<std::size_t>(got));
   }

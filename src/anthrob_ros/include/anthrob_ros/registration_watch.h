@@ -27,9 +27,9 @@ class RegistrationWatch {
 
   /// To be made after all topics and services that must be there.
   /// @param lost called once a loss, by the watch's thread, before it registers again; may be empty
-  /// @param pace below 1, a silent master has longer: for emulated robots on slow machines
+  /// @param period [s] of wall time between two looks, > 0. A silent master has ten of them
   /// @throws std::runtime_error if the master does not answer within a minute
-  explicit RegistrationWatch(Lost lost = {}, double pace = 1.0);
+  explicit RegistrationWatch(Lost lost = {}, double period = 1.0);
   ~RegistrationWatch();
 
   /// Why this node is not registered now; none if it is. For any thread.
