@@ -15,7 +15,7 @@ needed_packages=(
   librosbag-dev librosbag-storage-dev libroscpp-dev libroslib-dev libtf2-ros-dev
   libdiagnostic-msgs-dev libgeometry-msgs-dev libros-rosgraph-msgs-dev libsensor-msgs-dev libstd-msgs-dev
   libstd-srvs-dev libvisualization-msgs-dev
-  ros-robot-state-publisher rviz
+  ros-robot-state-publisher rviz topic-tools
   libimage-transport-dev
   build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev

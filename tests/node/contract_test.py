@@ -90,6 +90,9 @@ class Contract(unittest.TestCase):
                  and cls.stop_topic.get_num_connections() > 0, 'connections', 60)
         cls.commander = Commander(cls.publisher)
         cls.commander.start()
+        # By way of the node other_sender.
+        cls.other = Commander(rospy.Publisher('other_command', MuscleCommand, queue_size=10, tcp_nodelay=True))
+        cls.other.start()
         # Hardware is configured first.
         wait_for(lambda: cls.call('enable').success, 'the first enable', 30)
         cls.first_gains = cls.held_of(cls.gains([], [], []))
@@ -100,7 +103,7 @@ class Contract(unittest.TestCase):
 
     @classmethod
     def recover(cls):
-        cls.commander.message = None
+        cls.commander.message = cls.other.message = None
         wait_for(cls.home, 'home', 40)
 
     @classmethod
@@ -132,7 +135,7 @@ class Contract(unittest.TestCase):
         self.await_state(MuscleStates.ENABLED)
 
     def tearDown(self):
-        self.commander.message = None
+        self.commander.message = self.other.message = None
 
     def wait_for(self, condition, what, seconds=PATIENCE):
         wait_for(self.back_end.unless_lost(condition), what, seconds)
@@ -319,6 +322,24 @@ class Contract(unittest.TestCase):
         values = lambda: {v.key: v.value for v in self.diagnostics.last().status[0].values}
         self.wait_for(lambda: 'a recording' in values()['last_rejection'], 'the rejection')
         self.assertEqual(self.states.last().reference[0], 0.0)
+
+    def test_a_muscle_has_one_sender(self):
+        self.send(['lateral_deltoid'], [VOLTAGE], [1.0])
+        self.await_value('voltage', 'lateral_deltoid', 1.0)
+        self.other.message = MuscleCommand(name=['lateral_deltoid'], mode=[VOLTAGE], reference=[-1.0])
+        me, other = rospy.get_name(), rospy.resolve_name('other_sender')
+
+        def owner_and_refused():
+            said = self.diagnosed('last_rejection')
+            return next(((one, two) for one, two in ((me, other), (other, me))
+                         if 'is commanded by %s; %s ' % (one, two) in said), None)
+
+        self.wait_for(owner_and_refused, 'one of them to be refused', 30)
+        # Mostly it is the other one; but this one may have been silent too long on a busy machine.
+        owner, refused = owner_and_refused()
+        {me: self.commander, other: self.other}[owner].message = None  # now the second may, and nothing stops in between
+        self.await_value('voltage', 'lateral_deltoid', {me: 1.0, other: -1.0}[refused])
+        self.assertEqual(set(self.states.last().ecu_state), {MuscleStates.ENABLED})
 
     # ---- stops ----
 

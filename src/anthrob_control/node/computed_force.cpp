@@ -71,7 +71,7 @@ class ComputedForceNode {
         silent_ = 0.0;
         unheeded_ = 0.0;
       }
-      trouble_ = link_.unregistered();
+      trouble_ = link_.obstacle();
       if (!trouble_) trouble_ = link_.state().complaint(link_.now().toSec(), settings_.stale_after);
       if (!trouble_) trouble_ = missing_force();
       if (trouble_) {
@@ -114,6 +114,8 @@ class ComputedForceNode {
     // Whatever posture the arm is in when the motors are enabled is the one that is held.
     // Also of those that were, and are again, while this node had no processor.
     if (link_.take_disabled() || idle_) controller_.reset();
+    // Nor is it moved back to where a sensor said that it was.
+    if (link_.take_jump()) controller_.reset();
     break_off_if_refused();
     const anthrob::ForceCommand& wanted =
         controller_.update(link_.state().measurement(), silent_ + link_.dt());

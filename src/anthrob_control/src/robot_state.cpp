@@ -12,6 +12,11 @@ namespace {
 
 /// What clocks of two computers, or of two topics, may differ [s].
 constexpr double kAhead = 0.5;
+/// Faster than any joint of an arm moves [rad/s or m/s], and what may be noise besides [rad or m].
+constexpr double kFastest = 30.0, kNoise = 0.05;
+/// How long a joint that jumped must stay where it then is [s]: less than the motors go on without
+/// a command.
+constexpr double kSettled = 0.2;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// A clock that is ahead must not make old measurements young: what counts is the older of stamp
@@ -26,6 +31,26 @@ std::optional<std::string> check_age(const std::string& who, double stamp, doubl
   std::snprintf(text, sizeof(text), "%.3f", std::abs(age));
   return who + ": the last measurement is " + text +
          (from_ahead ? " s in the future: clocks differ, or time was set back" : " s old");
+}
+
+/// [rad or m] between positions of a joint: 1 number, or 4 of a ball joint.
+double distance(const std::vector<double>& one, const std::vector<double>& other) {
+  if (one.size() == 1) return std::abs(one[0] - other[0]);
+  return Quat(one[0], one[1], one[2], one[3])
+      .angularDistance(Quat(other[0], other[1], other[2], other[3]));
+}
+
+double reach(double time) {
+  return kFastest * std::max(0.0, time) + kNoise;
+}
+
+std::string jump_text(double jump, double time, const char* unit) {
+  char text[160];
+  std::snprintf(text, sizeof(text),
+                "jumped by %.3g %s in %.3g s, faster than a joint moves: a loose encoder, or two "
+                "nodes that publish it?",
+                jump, unit, time);
+  return text;
 }
 
 }  // namespace
@@ -47,6 +72,9 @@ void RobotState::clear() {
   joint_stamps_.assign(model_->skeleton->joints.size(), kNever);
   muscle_receipts_ = muscle_stamps_;
   joint_receipts_ = joint_stamps_;
+  taken_ = joint_stamps_;
+  jumps_.assign(joint_stamps_.size(), std::nullopt);
+  jumped_ = false;
   enabled_.assign(model_->muscles.size(), 0);
   mode_.assign(model_->muscles.size(), std::nullopt);
   was_disabled_.reset();
@@ -71,16 +99,49 @@ void RobotState::see_mode(const std::string& name, ecu::Mode mode) {
   if (index >= 0) mode_[index] = mode;
 }
 
+/// As last measured [rad/s or m/s].
+double RobotState::speed_of(std::size_t joint) const {
+  const JointModel& model = model_->skeleton->joints[joint];
+  return measured_.u.segment(model.velocity_offset, model.type == JointType::kBall ? 3 : 1).norm();
+}
+
+bool RobotState::is_reachable(std::size_t joint, const std::vector<double>& q, double stamp) {
+  const JointModel& model = model_->skeleton->joints[joint];
+  const double* last = &measured_.q[model.position_offset];
+  const double jump = distance(q, {last, last + q.size()}), time = stamp - taken_[joint];
+  std::optional<Jump>& pending = jumps_[joint];
+  // From a jump it comes back to where it would be by now, not to anywhere.
+  const double near = pending ? reach(stamp - pending->last) + speed_of(joint) * time : reach(time);
+  if (taken_[joint] == kNever || jump <= near) {
+    pending.reset();
+    return true;
+  }
+  if (!pending || distance(q, pending->q) > reach(stamp - pending->last)) {
+    const char* unit = model.type == JointType::kPrismatic ? "m" : "rad";
+    pending = Jump{q, stamp, stamp, jump_text(jump, time, unit)};
+  }
+  pending->q = q;
+  pending->last = stamp;
+  if (stamp - pending->begin < kSettled) return false;
+  pending.reset();
+  jumped_ = true;
+  return true;
+}
+
 void RobotState::see_joint(const std::string& name, double position, double velocity,
                            double stamp) {
   const int index = model_->skeleton->find_joint(name);
   if (index < 0 || !std::isfinite(position + velocity)) return;
   const JointModel& joint = model_->skeleton->joints[index];
   if (joint.type == JointType::kBall) return;
+  const auto j = static_cast<std::size_t>(index);
+  const bool taken = is_reachable(j, {position}, stamp);
+  joint_stamps_[j] = stamp;
+  joint_receipts_[j] = received_;
+  if (!taken) return;
+  taken_[j] = stamp;
   measured_.q[joint.position_offset] = position;
   measured_.u[joint.velocity_offset] = velocity;
-  joint_stamps_[index] = stamp;
-  joint_receipts_[index] = received_;
 }
 
 void RobotState::see_ball_joint(const std::string& name, const Quat& orientation,
@@ -91,11 +152,15 @@ void RobotState::see_ball_joint(const std::string& name, const Quat& orientation
   if (joint.type != JointType::kBall) return;
   if (!velocity.allFinite() || !(std::abs(orientation.norm() - 1.0) < 1e-3)) return;
   const Quat unit = canonical(orientation.normalized());
-  double* q = &measured_.q[joint.position_offset];
-  q[0] = unit.w(), q[1] = unit.x(), q[2] = unit.y(), q[3] = unit.z();
+  const std::vector<double> q = {unit.w(), unit.x(), unit.y(), unit.z()};
+  const auto j = static_cast<std::size_t>(index);
+  const bool taken = is_reachable(j, q, stamp);
+  joint_stamps_[j] = stamp;
+  joint_receipts_[j] = received_;
+  if (!taken) return;
+  taken_[j] = stamp;
+  std::copy(q.begin(), q.end(), &measured_.q[joint.position_offset]);
   measured_.u.segment<3>(joint.velocity_offset) = velocity;
-  joint_stamps_[index] = stamp;
-  joint_receipts_[index] = received_;
 }
 
 bool RobotState::must_be_measured(std::size_t muscle) const {
@@ -108,6 +173,7 @@ std::optional<std::string> RobotState::complaint(double now, double stale_after)
                              joint_receipts_[j], now, stale_after)) {
       return why;
     }
+    if (jumps_[j]) return "joint " + model_->skeleton->joints[j].name + ": " + jumps_[j]->text;
   }
   return complaint_of_muscles(now, stale_after);
 }
@@ -153,6 +219,10 @@ std::optional<std::string> RobotState::muscle_without_force() const {
     }
   }
   return std::nullopt;
+}
+
+bool RobotState::take_jump() {
+  return std::exchange(jumped_, false);
 }
 
 std::optional<std::string> RobotState::take_disabled() {

@@ -54,6 +54,58 @@ TEST_F(RobotStateTest, AClockThatIsAheadMakesNothingYoung) {
   EXPECT_EQ(state.complaint(2.0, 0.1), "joint shoulder: the last measurement is 0.200 s old");
 }
 
+TEST_F(RobotStateTest, AJointThatJumpsIsNotBelieved) {
+  see_all(1.0);
+  state.see_joint("elbow", 1.7, 0.0, 1.01);
+  EXPECT_EQ(state.complaint(1.01, 0.1),
+            "joint elbow: jumped by 1.2 rad in 0.01 s, faster than a joint moves: a loose encoder, "
+            "or two nodes that publish it?");
+  EXPECT_EQ(state.measurement().q[4], 0.5);
+  EXPECT_TRUE(state.complete_since(1.0)) << "it was measured";
+  state.see_joint("elbow", 0.51, 0.0, 1.02);
+  EXPECT_EQ(state.complaint(1.02, 0.1), std::nullopt) << "it was a single error";
+  EXPECT_EQ(state.measurement().q[4], 0.51);
+  EXPECT_FALSE(state.take_jump());
+}
+
+TEST_F(RobotStateTest, OfTwoThatAlternateOnlyOneIsEverBelieved) {
+  see_all(1.0);
+  for (int i = 1; i < 200; ++i) {
+    const double t = 1.0 + 0.01 * i;
+    see_all(t - 0.005);
+    state.see_joint("elbow", 0.0, 0.0, t);
+    EXPECT_TRUE(state.complaint(t, 0.1));
+    EXPECT_EQ(state.measurement().q[4], 0.5);
+  }
+}
+
+TEST_F(RobotStateTest, WhereABallJointStaysForAFifthOfASecondItIs) {
+  see_all(1.0);
+  const Quat turned(Eigen::AngleAxisd(2.0, Vec3::UnitX()));
+  for (int i = 1; i <= 20; ++i) {
+    state.see_ball_joint("shoulder", turned, Vec3::Zero(), 1.0 + 0.01 * i);
+    EXPECT_FALSE(state.take_jump()) << i;
+  }
+  EXPECT_EQ(
+      state.complaint(1.2, 0.5).value_or(""),
+      "joint shoulder: jumped by 2 rad in 0.01 s, faster than a joint moves: a loose encoder, "
+      "or two nodes that publish it?");
+  state.see_ball_joint("shoulder", turned, Vec3::Zero(), 1.22);
+  EXPECT_EQ(state.complaint(1.22, 0.5), std::nullopt);
+  EXPECT_NEAR(state.measurement().q[0], turned.w(), 1e-12);
+  EXPECT_TRUE(state.take_jump());
+  EXPECT_FALSE(state.take_jump()) << "told once";
+}
+
+TEST_F(RobotStateTest, AFastJointIsBelieved) {
+  see_all(1.0);
+  for (int i = 1; i < 100; ++i) {
+    const double noise = i % 2 == 0 ? 0.02 : -0.02;
+    state.see_joint("elbow", 0.5 + 0.2 * i + noise, 20.0, 1.0 + 0.01 * i);
+    EXPECT_EQ(state.complaint(1.0 + 0.01 * i, 2.0), std::nullopt) << i;
+  }
+}
+
 TEST_F(RobotStateTest, WhatIsNoMeasurementDoesNotCount) {
   see_all(1.0);
   state.see_joint("elbow", NAN, 0.0, 2.0);

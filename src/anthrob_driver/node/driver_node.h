@@ -40,7 +40,7 @@ class DriverNode {
  private:
   using Trigger = std_srvs::Trigger;
 
-  void on_command(const anthrob_msgs::MuscleCommand& command);
+  void on_command(const anthrob_msgs::MuscleCommand& command, const std::string& sender);
   void on_malformed_command(const std::string& why);
   /// [s] of ROS time since `stamp`; 0 if the command has no stamp.
   double command_age(const ros::Time& stamp) const;

@@ -73,11 +73,11 @@ void SimulatorNode::subscribe_to_commands() {
   stops.setCallbackQueue(&stop_queue_);
   subscribers_ = {
       subscribe_bounded<anthrob_msgs::MuscleCommand>(
-          commands, "muscle_command", 100, [this](const auto& command) { on_command(command); },
+          commands, "muscle_command", 100, [this](const auto& command, const std::string& sender) { on_command(command, sender); },
           [this](const std::string& why) { supervisor_.refuse(why); }, kNoDelay),
       subscribe_bounded<sensor_msgs::JointState>(
           commands, "joint_effort_command", 100,
-          [this](const auto& command) { on_effort(command); },
+          [this](const auto& command, const std::string& sender) { on_effort(command, sender); },
           [this](const std::string& why) { driven_.refuse(why); }, kNoDelay),
       stops.subscribe<std_msgs::Empty>(
           "emergency_stop", 1,
@@ -122,10 +122,12 @@ ros::Time SimulatorNode::stamp() const {
 
 // ---- commands
 
-void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command) {
+void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command,
+                               const std::string& sender) {
   note_stamp(command.header.stamp);
   const auto outcome =
-      supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_);
+      supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_,
+                          sender);
   if (!outcome.accepted) return warn_of_refusal("muscle_command", outcome.reason);
   apply_supervision();
   for (const ecu::MuscleReference& reference : accepted_) {
@@ -140,9 +142,9 @@ void SimulatorNode::note_stamp(const ros::Time& commanded) {
   if (commanded <= stamp()) last_command_stamp_ = std::max(last_command_stamp_, commanded);
 }
 
-void SimulatorNode::on_effort(const sensor_msgs::JointState& command) {
+void SimulatorNode::on_effort(const sensor_msgs::JointState& command, const std::string& sender) {
   if (supervisor_.muscles().empty()) note_stamp(command.header.stamp);
-  const auto outcome = driven_.command(command.name, command.effort, sim_);
+  const auto outcome = driven_.command(command.name, command.effort, sim_, sender);
   if (!outcome.accepted) warn_of_refusal("joint_effort_command", outcome.reason);
 }
 

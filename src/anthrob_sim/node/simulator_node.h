@@ -55,8 +55,8 @@ class SimulatorNode {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void on_command(const anthrob_msgs::MuscleCommand& command);
-  void on_effort(const sensor_msgs::JointState& command);
+  void on_command(const anthrob_msgs::MuscleCommand& command, const std::string& sender);
+  void on_effort(const sensor_msgs::JointState& command, const std::string& sender);
   /// Of a command that sim/step may wait for.
   void note_stamp(const ros::Time& commanded);
   void warn_of_refusal(const char* topic, const std::string& reason);

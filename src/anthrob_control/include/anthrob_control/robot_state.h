@@ -23,6 +23,8 @@ class RobotState {
   void receive_at(double now) { received_ = now; }
   /// The control mode of a muscle's motor. Not every robot reports it.
   void see_mode(const std::string& name, ecu::Mode mode);
+  /// A position that is further from the last one than a joint can move meanwhile is not taken:
+  /// complaint() tells it, until the joint is where it was, or has stayed elsewhere for 0.2 s.
   void see_joint(const std::string& name, double position, double velocity, double stamp);
   void see_ball_joint(const std::string& name, const Quat& orientation, const Vec3& velocity,
                       double stamp);
@@ -47,6 +49,9 @@ class RobotState {
   /// finds a motor that was stopped and enabled again between two calls: such a motor is enabled,
   /// but no longer at its reference.
   std::optional<std::string> take_disabled();
+  /// Whether a joint has been found elsewhere, after a jump, since the last call: what was held
+  /// before is not where the joint is.
+  bool take_jump();
   /// Forgets all measurements, for example when time jumps back.
   void clear();
 
@@ -54,6 +59,16 @@ class RobotState {
   const RobotModel& model() const { return *model_; }
 
  private:
+  /// A position that was not taken yet.
+  struct Jump {
+    std::vector<double> q;  ///< 1 number, or 4 of a ball joint
+    double begin, last;     ///< [s] stamps of the first and the last one there
+    std::string text;
+  };
+
+  double speed_of(std::size_t joint) const;
+  /// Whether a joint can be at `q` now.  @param q 1 number, or 4 of a ball joint
+  bool is_reachable(std::size_t joint, const std::vector<double>& q, double stamp);
   bool must_be_measured(std::size_t muscle) const;
 
   std::shared_ptr<const RobotModel> model_;
@@ -63,6 +78,9 @@ class RobotState {
   double received_ = std::numeric_limits<double>::infinity();
   std::vector<char> enabled_;
   std::vector<std::optional<ecu::Mode>> mode_;
+  std::vector<std::optional<Jump>> jumps_;  ///< by joint
+  std::vector<double> taken_;               ///< [s] stamps of the positions that were taken
+  bool jumped_ = false;
   std::optional<std::size_t> was_disabled_;  // index of the muscle that take_disabled names
 };
 

@@ -16,6 +16,9 @@ constexpr double kStepPatience = 10.0;
 constexpr int kFirstAttempts = 10;
 /// How long no muscle_states may come before a warning, of wall time [s].
 constexpr double kSilence = 5.0;
+/// How long two nodes must not alternate with one measurement before one of them is believed again,
+/// of wall time [s].
+constexpr double kPublisherWindow = 3.0;
 
 bool fits(std::size_t names, std::size_t values) {
   return values == names;
@@ -30,18 +33,44 @@ RobotLink::RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model
   commands_ = nh_.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 10);
   subscribers_ = {
       subscribe_bounded<anthrob_msgs::MuscleStates>(
-          nh_, "muscle_states", 2000, [this](const auto& m) { see_muscles(m); }, {}, no_delay),
+          nh_, "muscle_states", 2000,
+          [this](const auto& m, const std::string& node) {
+            note_publisher(m.name, node);
+            see_muscles(m);
+          },
+          {}, no_delay),
       subscribe_bounded<sensor_msgs::JointState>(
-          nh_, "joint_states", 2000, [this](const auto& m) { see_joints(m); }, {}, no_delay),
+          nh_, "joint_states", 2000,
+          [this](const auto& m, const std::string& node) {
+            note_publisher(m.name, node);
+            see_joints(m);
+          },
+          {}, no_delay),
       subscribe_bounded<anthrob_msgs::SphericalJointStates>(
-          nh_, "spherical_joint_states", 2000, [this](const auto& m) { see_ball_joints(m); }, {},
-          no_delay),
+          nh_, "spherical_joint_states", 2000,
+          [this](const auto& m, const std::string& node) {
+            note_publisher(m.name, node);
+            see_ball_joints(m);
+          },
+          {}, no_delay),
   };
 }
 
 /// In lock-step measurements come with their step, whatever the clock has come to.
 void RobotLink::note_receipt() {
   if (!options_.lock_step) state_.receive_at(ros::Time::now().toSec());
+}
+
+/// Whoever publishes beside another one may end some time; after a while all is asked anew.
+void RobotLink::note_publisher(const std::vector<std::string>& names, const std::string& node) {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if ((now - publishers_begin_).toSec() > kPublisherWindow) {
+    two_publishers_ = publishers_.conflict();
+    publishers_ = {};
+    publishers_begin_ = now;
+  }
+  publishers_.add(names, node);
+  if (publishers_.conflict()) two_publishers_ = publishers_.conflict();
 }
 
 void RobotLink::see_muscles(const anthrob_msgs::MuscleStates& m) {
@@ -105,8 +134,9 @@ void RobotLink::look_for_robot() {
                      "node in the robot's namespace, e.g. __ns:=/anthrob");
 }
 
-std::optional<std::string> RobotLink::unregistered() const {
-  return registration_ ? registration_->lost() : std::nullopt;
+std::optional<std::string> RobotLink::obstacle() const {
+  const auto lost = registration_ ? registration_->lost() : std::nullopt;
+  return lost ? lost : two_publishers_;
 }
 
 bool RobotLink::wait() {
@@ -205,7 +235,7 @@ bool RobotLink::states_arrive(const ros::Time& stamp, double patience) {
 }
 
 ros::Time RobotLink::send(anthrob_msgs::MuscleCommand command) {
-  if (unregistered()) return now_;
+  if (obstacle()) return now_;
   command.header.stamp = now_;
   commands_.publish(command);
   command_ = std::move(command);

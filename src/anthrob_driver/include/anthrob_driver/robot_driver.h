@@ -54,8 +54,10 @@ class RobotDriver {
 
   /// @param age [s] of the command by its stamp; 0 if it has none. A command that is more than
   /// command_timeout old, or as far ahead of time, is refused: it cannot have been sent just now
+  /// @param sender node that sent it; empty: not known. A muscle has one at a time
   Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
-                  const std::vector<double>& references, double now, double age = 0.0);
+                  const std::vector<double>& references, double now, double age = 0.0,
+                  const std::string& sender = "");
   /// Refuses a command without checking it; it is counted and recorded like other refused ones.
   Outcome refuse(const std::string& reason);
   /// Begins; phase() and last_outcome() show the result within Enabling::kTimeout.

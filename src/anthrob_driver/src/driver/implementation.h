@@ -31,7 +31,8 @@ class RobotDriver::Implementation {
   bool take_analog(AnalogSample& sample) { return sampler_.take(sample); }
 
   Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
-                  const std::vector<double>& references, double now, double age = 0.0);
+                  const std::vector<double>& references, double now, double age,
+                  const std::string& sender);
   Outcome refuse(const std::string& reason) { return supervisor_.refuse(reason); }
   Outcome start_enable(double now);
   Outcome start_home(double now);

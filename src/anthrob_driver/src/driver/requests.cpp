@@ -28,7 +28,8 @@ std::optional<std::string> too_old(double age, double limit) {
 RobotDriver::Outcome RobotDriver::Implementation::command(const std::vector<std::string>& names,
                                                           const std::vector<std::uint8_t>& modes,
                                                           const std::vector<double>& references,
-                                                          double now, double age) {
+                                                          double now, double age,
+                                                          const std::string& sender) {
   if (const auto old = too_old(age, options_.command_timeout)) return refuse(*old);
   if (home_.running()) return refuse("home is running");
   if (phase_ == Phase::kEnabled) {
@@ -37,7 +38,7 @@ RobotDriver::Outcome RobotDriver::Implementation::command(const std::vector<std:
   }
   // The time-out runs from when it was sent. A stamp in the future gains nothing.
   const Outcome outcome =
-      supervisor_.command(names, modes, references, now - std::max(0.0, age), accepted_);
+      supervisor_.command(names, modes, references, now - std::max(0.0, age), accepted_, sender);
   if (!outcome.accepted) return outcome;
   for (const ecu::MuscleReference& reference : accepted_) {
     references_[static_cast<std::size_t>(reference.muscle)] = reference;

@@ -31,8 +31,8 @@ bool RobotDriver::take_analog(AnalogSample& sample) {
 RobotDriver::Outcome RobotDriver::command(const std::vector<std::string>& names,
                                           const std::vector<std::uint8_t>& modes,
                                           const std::vector<double>& references, double now,
-                                          double age) {
-  return implementation_->command(names, modes, references, now, age);
+                                          double age, const std::string& sender) {
+  return implementation_->command(names, modes, references, now, age, sender);
 }
 
 RobotDriver::Outcome RobotDriver::refuse(const std::string& reason) {

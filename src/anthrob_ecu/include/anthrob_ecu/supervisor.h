@@ -33,6 +33,7 @@ struct MuscleReference {
 /// - Nothing moves before enable.
 /// - A command that is malformed or names a stopped muscle is refused as a whole.
 /// - A command that is not renewed in time stops the motors.
+/// - A muscle has one sender: while one commands it, commands of others are refused.
 /// - An emergency stop holds until it is cleared.
 ///
 /// It reads no clock: time is passed as an argument [s] and may jump.
@@ -54,9 +55,10 @@ class Supervisor {
 
   /// Checks a whole command; fills `accepted` only if all of it is good and all of its muscles
   /// follow references.
+  /// @param sender node that sent it; empty: not known, and not asked for
   Outcome command(const std::vector<std::string>& names, const std::vector<std::uint8_t>& modes,
                   const std::vector<double>& references, double time,
-                  std::vector<MuscleReference>& accepted);
+                  std::vector<MuscleReference>& accepted, const std::string& sender = "");
   /// Records (count and reason) a command that the back end refuses for a reason of its own.
   Outcome refuse(const std::string& reason);
 
@@ -112,6 +114,12 @@ class Supervisor {
                                    const std::vector<double>& references,
                                    std::vector<MuscleReference>& accepted) const;
   std::string why_stopped(int muscle) const;
+  void forget_owners();
+  /// How long a muscle belongs to whoever commanded it last [s].
+  double hold() const;
+  /// Why somebody else commands one of these muscles; none if nobody does.
+  std::optional<std::string> taken(const std::vector<MuscleReference>& muscles, double time,
+                                   const std::string& sender) const;
   void set_zero_lost(const std::string& ecu, bool lost);
   bool handle_all(Event event);
 
@@ -121,6 +129,11 @@ class Supervisor {
   std::vector<std::size_t> ecu_of_;
   std::vector<StateMachine> machines_;
   std::vector<char> zero_lost_;  ///< by ECU
+  struct Owner {
+    std::string sender;
+    double time;  ///< [s] of its last command
+  };
+  std::vector<Owner> owners_;    ///< by muscle
   bool commanded_ = false;       ///< since the last enable
   bool timed_out_ = false;       ///< whether motors stopped because no command came
   double last_command_ = 0.0;

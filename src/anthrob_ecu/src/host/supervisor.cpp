@@ -38,6 +38,7 @@ Supervisor::Supervisor(std::vector<MuscleChannel> muscles, const Options& option
     ecu_of_.push_back(static_cast<std::size_t>(it - ecus_.begin()));
   }
   machines_.resize(ecus_.size());
+  owners_.resize(muscles_.size());
   zero_lost_.resize(ecus_.size());
   handle_all(Event::kSelfTestPassed);
   if (options_.auto_enable) handle_all(Event::kEnable);
@@ -98,7 +99,8 @@ std::optional<std::string> Supervisor::check(const std::vector<std::string>& nam
 Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
                                         const std::vector<std::uint8_t>& modes,
                                         const std::vector<double>& references, double time,
-                                        std::vector<MuscleReference>& accepted) {
+                                        std::vector<MuscleReference>& accepted,
+                                        const std::string& sender) {
   accepted.clear();
   std::vector<MuscleReference> checked;
   if (const auto reason = check(names, modes, references, checked)) return refuse(*reason);
@@ -112,10 +114,39 @@ Supervisor::Outcome Supervisor::command(const std::vector<std::string>& names,
   for (const MuscleReference& reference : checked) {
     if (!follows_references(reference.muscle)) return refuse(why_stopped(reference.muscle));
   }
+  if (const auto reason = taken(checked, time, sender)) return refuse(*reason);
+  for (const MuscleReference& reference : checked)
+    owners_[static_cast<std::size_t>(reference.muscle)] = {sender, time};
   commanded_ = true;
   last_command_ = std::max(last_command_, time);
   accepted = std::move(checked);
   return {true, ""};
+}
+
+double Supervisor::hold() const {
+  // Half of what stops the motors, so that the next one can take over without a stop.
+  const double timeout =
+      options_.command_timeout > 0.0 ? options_.command_timeout : Options().command_timeout;
+  return 0.5 * timeout;
+}
+
+std::optional<std::string> Supervisor::taken(const std::vector<MuscleReference>& muscles,
+                                             double time, const std::string& sender) const {
+  if (sender.empty()) return std::nullopt;
+  for (const MuscleReference& reference : muscles) {
+    const auto muscle = static_cast<std::size_t>(reference.muscle);
+    const Owner& owner = owners_[muscle];
+    // Simulated time may be set back.
+    const bool current = time >= owner.time && time - owner.time <= hold();
+    if (owner.sender.empty() || owner.sender == sender || !current) continue;
+    return "muscle '" + muscles_[muscle].name + "' is commanded by " + owner.sender + "; " +
+           sender + " may command it once that has been silent for " + text(hold()) + " s";
+  }
+  return std::nullopt;
+}
+
+void Supervisor::forget_owners() {
+  owners_.assign(muscles_.size(), {});
 }
 
 Supervisor::Outcome Supervisor::refuse(const std::string& reason) {
@@ -154,12 +185,14 @@ Supervisor::Outcome Supervisor::enable(double time) {
 
 Supervisor::Outcome Supervisor::disable() {
   handle_all(Event::kDisable);
+  forget_owners();
   commanded_ = timed_out_ = false;
   return {true, ""};
 }
 
 Supervisor::Outcome Supervisor::emergency_stop() {
   handle_all(Event::kEmergencyStop);
+  forget_owners();
   commanded_ = timed_out_ = false;
   return {true, ""};
 }

@@ -44,6 +44,53 @@ TEST(Supervisor, NothingMovesBeforeEnable) {
   EXPECT_TRUE(f.supervisor.follows_references(0));
 }
 
+TEST(Supervisor, AMuscleHasOneSenderUntilThatIsSilent) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  const auto send = [&](const std::string& muscle, const std::string& sender, double time) {
+    return f.supervisor.command({muscle}, {1}, {1.0}, time, f.accepted, sender);
+  };
+  EXPECT_TRUE(send("a", "/player", 0.0).accepted);
+  const auto outcome = send("a", "/zero_gravity", 0.1);
+  EXPECT_FALSE(outcome.accepted);
+  EXPECT_EQ(outcome.reason,
+            "muscle 'a' is commanded by /player; /zero_gravity may command it once that has been "
+            "silent for 0.25 s");
+  EXPECT_TRUE(f.accepted.empty());
+  EXPECT_EQ(f.supervisor.rejected_count(), 1u);
+  EXPECT_TRUE(send("b", "/zero_gravity", 0.1).accepted) << "another muscle";
+  EXPECT_TRUE(send("a", "/player", 0.2).accepted);
+  EXPECT_FALSE(send("a", "/zero_gravity", 0.44).accepted);
+  EXPECT_TRUE(send("a", "/zero_gravity", 0.46).accepted) << "it was silent";
+  EXPECT_FALSE(f.supervisor.update(0.46)) << "nothing stopped meanwhile";
+  EXPECT_FALSE(send("a", "/player", 0.5).accepted) << "it has lost the muscle";
+  EXPECT_TRUE(send("a", "", 0.5).accepted) << "an unknown sender, as of a program without ROS";
+}
+
+TEST(Supervisor, AStopEndsTheOwnershipAndSoDoesTimeThatIsSetBack) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  const auto send = [&](const std::string& sender, double time) {
+    return f.supervisor.command({"a"}, {1}, {1.0}, time, f.accepted, sender).accepted;
+  };
+  EXPECT_TRUE(send("/player", 5.0));
+  f.supervisor.disable();
+  f.supervisor.enable(5.0);
+  EXPECT_TRUE(send("/hold", 5.1));
+  f.supervisor.emergency_stop();
+  f.supervisor.clear_faults();
+  f.supervisor.enable(5.2);
+  EXPECT_TRUE(send("/player", 5.2));
+  EXPECT_TRUE(send("/hold", 1.0));
+}
+
+TEST(Supervisor, ARefusedCommandMakesNobodyTheSender) {
+  Fixture f;
+  f.supervisor.enable(0.0);
+  EXPECT_FALSE(f.supervisor.command({"a"}, {1}, {kNan}, 0.0, f.accepted, "/player").accepted);
+  EXPECT_TRUE(f.supervisor.command({"a"}, {1}, {1.0}, 0.1, f.accepted, "/hold").accepted);
+}
+
 TEST(Supervisor, RefusesMalformedCommandsWholeAndSaysWhy) {
   const struct {
     std::vector<std::string> names;

@@ -13,11 +13,11 @@
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/errors.h"
 #include "anthrob_core/files.h"
+#include "anthrob_core/publishers.h"
 #include "dataset/clocks.h"
 #include "dataset/sources.h"
 #include "dataset/topic_tables.h"
 #include "ros/bag_rows.h"
-#include "ros/publishers.h"
 
 namespace anthrob {
 

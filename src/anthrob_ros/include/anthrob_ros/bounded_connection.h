@@ -24,19 +24,28 @@ class RefusalWarning {
 
 /// NodeHandle::subscribe, for messages with lists (bounded_message.h). What is malformed is warned
 /// of and never reaches `accept`.
+/// @param accept called with the message and the name of the node that sent it
 /// @param refuse for counting; may be empty
-template <class M>
+template <class M, class Accept>
 ros::Subscriber subscribe_bounded(ros::NodeHandle& nh, const std::string& topic,
-                                  std::uint32_t queue_size, std::function<void(const M&)> accept,
+                                  std::uint32_t queue_size, Accept accept,
                                   std::function<void(const std::string& why)> refuse = {},
                                   const ros::TransportHints& hints = {}) {
   const auto warning = std::make_shared<RefusalWarning>(topic);
-  const auto receive = [=](const boost::shared_ptr<const Bounded<M>>& received) {
-    if (!received->refusal) return accept(received->message);
-    warning->warn(*received->refusal);
-    if (refuse) refuse(*received->refusal);
+  using Event = ros::MessageEvent<const Bounded<M>>;
+  const boost::function<void(const Event&)> receive = [=](const Event& event) {
+    const Bounded<M>& received = *event.getConstMessage();
+    if (received.refusal) {
+      warning->warn(*received.refusal);
+      if (refuse) refuse(*received.refusal);
+    } else {
+      accept(received.message, event.getPublisherName());
+    }
   };
-  return nh.subscribe<Bounded<M>>(topic, queue_size, receive, ros::VoidConstPtr(), hints);
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const Event&>(topic, queue_size, receive);
+  options.transport_hints = hints;
+  return nh.subscribe(options);
 }
 
 /// NodeHandle::advertiseService, for requests with lists. The answer to what is malformed is

@@ -63,11 +63,11 @@ ecu::Supervisor::Outcome DrivenJoints::refuse(const std::string& reason) {
 
 ecu::Supervisor::Outcome DrivenJoints::command(const std::vector<std::string>& names,
                                                const std::vector<double>& efforts,
-                                               Simulation& sim) {
+                                               Simulation& sim, const std::string& sender) {
   if (const auto reason = complaint(names, efforts)) return refuse(*reason);
   std::vector<ecu::MuscleReference> accepted;
   const std::vector<std::uint8_t> modes(names.size(), kEffort);
-  const auto outcome = supervisor_.command(names, modes, efforts, sim.time(), accepted);
+  const auto outcome = supervisor_.command(names, modes, efforts, sim.time(), accepted, sender);
   if (!outcome.accepted) return refuse(outcome.reason);
   for (const ecu::MuscleReference& effort : accepted) {
     sim.apply_effort(joints_[effort.muscle], effort.reference);

@@ -17,9 +17,10 @@ class DrivenJoints {
   DrivenJoints(const SkeletonModel& skeleton, const ecu::Supervisor::Options& options);
 
   /// Applies a whole command, or refuses it with a reason: an unknown joint, unequal numbers,
-  /// efforts that are not finite, a joint that is stopped.
+  /// efforts that are not finite, a joint that is stopped, or one that another sender commands.
   ecu::Supervisor::Outcome command(const std::vector<std::string>& names,
-                                   const std::vector<double>& efforts, Simulation& sim);
+                                   const std::vector<double>& efforts, Simulation& sim,
+                                   const std::string& sender = "");
   /// Counts and records a command that is refused for a reason of somebody else.
   ecu::Supervisor::Outcome refuse(const std::string& reason);
   /// Removes the effort from stopped joints; to be called after every request to the supervisor.

@@ -12,6 +12,7 @@
 
 #include "anthrob_control/robot_state.h"
 #include "anthrob_ros/clock_wait.h"
+#include "anthrob_core/publishers.h"
 #include "anthrob_ros/registration_watch.h"
 
 namespace anthrob {
@@ -41,14 +42,16 @@ class RobotLink {
   /// Serves callbacks until the next period. @return false when ROS shuts down
   /// @throws std::runtime_error if the simulator does not step, or no longer runs
   bool wait();
-  /// Stamps the command with now() and publishes it, unless unregistered(). @return the stamp
+  /// Stamps the command with now() and publishes it, unless there is an obstacle(). @return the stamp
   ros::Time send(anthrob_msgs::MuscleCommand command);
 
-  /// Why the ROS master does not know this node; none if it does.
-  std::optional<std::string> unregistered() const;
+  /// Why nothing is sent: the ROS master does not know this node, or two nodes publish one
+  /// measurement. None if neither is so.
+  std::optional<std::string> obstacle() const;
   const RobotState& state() const { return state_; }
   /// As RobotState::take_disabled.
   std::optional<std::string> take_disabled() { return state_.take_disabled(); }
+  bool take_jump() { return state_.take_jump(); }
   ros::Time now() const { return now_; }
   /// Time from the previous return of wait to the last one [s]; 0 the first time and when time
   /// jumped back.
@@ -63,6 +66,7 @@ class RobotLink {
 
  private:
   void note_receipt();
+  void note_publisher(const std::vector<std::string>& names, const std::string& node);
   void see_muscles(const anthrob_msgs::MuscleStates& message);
   void see_joints(const sensor_msgs::JointState& message);
   void see_ball_joints(const anthrob_msgs::SphericalJointStates& message);
@@ -92,6 +96,9 @@ class RobotLink {
   double dt_ = 0.0;
   bool jumped_ = false;
   std::optional<RegistrationWatch> registration_;
+  Publishers publishers_;  ///< since publishers_begin_
+  ros::SteadyTime publishers_begin_ = ros::SteadyTime::now();
+  std::optional<std::string> two_publishers_;
 };
 
 /// A command for all muscles that have the mode. It leaves the others out, because with one of them

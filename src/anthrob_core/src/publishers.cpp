@@ -1,4 +1,4 @@
-#include "ros/publishers.h"
+#include "anthrob_core/publishers.h"
 
 namespace anthrob {
 
