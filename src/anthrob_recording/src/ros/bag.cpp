@@ -14,9 +14,11 @@
 #include "anthrob_core/errors.h"
 #include "anthrob_core/files.h"
 #include "anthrob_core/publishers.h"
+#include "anthrob_ros/bounded_message.h"
 #include "dataset/clocks.h"
 #include "dataset/sources.h"
 #include "dataset/topic_tables.h"
+#include "ros/bag_records.h"
 #include "ros/bag_rows.h"
 
 namespace anthrob {
@@ -174,13 +176,16 @@ const std::pair<const char*, const char*> kTopics[] = {
 template <class Message>
 void add_all(rosbag::Bag& bag, const std::vector<std::string>& topics, TableBuilder& builder) {
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topics))) {
-    const auto message = instance.instantiate<Message>();
+    const auto message = instance.instantiate<Bounded<Message>>();
     if (!message) {
       throw BadInput(bag.getFileName() + ": topic " + instance.getTopic() + " is " +
                      instance.getDataType() + ": expected " +
                      ros::message_traits::DataType<Message>::value());
     }
-    builder.add(*message, instance.getTime(), instance.getCallerId());
+    if (message->refusal)
+      throw BadInput(bag.getFileName() + ": topic " + instance.getTopic() + ": " +
+                     *message->refusal);
+    builder.add(message->message, instance.getTime(), instance.getCallerId());
   }
 }
 
@@ -209,6 +214,7 @@ bool is_of_a_recording(const std::string& topic) {
 }
 
 BagContents contents_of(const std::string& file) {
+  check_bag_records(file);
   rosbag::Bag bag(file, rosbag::bagmode::Read);
   BagContents contents;
   contents.dataset.folder = file;
