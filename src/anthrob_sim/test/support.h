@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "anthrob_core/testing/random.h"
@@ -12,12 +11,6 @@
 
 namespace anthrob {
 namespace testing_support {
-
-/// All of a file.
-inline std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
 
 inline std::string config(const std::string& file) {
   return std::string(ANTHROB_CONFIG_DIR) + "/" + file;

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "anthrob_core/testing/content.h"
 #include "anthrob_core/testing/interrupt.h"
 #include "anthrob_recording/bag.h"
 #include "integration/tool_outcome.h"
@@ -19,7 +20,6 @@ namespace anthrob {
 namespace {
 
 namespace fs = std::filesystem;
-using testing_support::content;
 using testing_support::Outcome;
 
 const std::string kRig = std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/model_II.yaml";

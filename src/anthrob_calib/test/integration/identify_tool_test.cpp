@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "anthrob_core/testing/content.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/spring/series_elastic_element.h"
 #include "integration/tool_outcome.h"
@@ -22,7 +23,6 @@ namespace anthrob {
 namespace {
 
 namespace fs = std::filesystem;
-using testing_support::content;
 using testing_support::Outcome;
 
 const std::string kConfig = ANTHROB_CONFIG_DIR;

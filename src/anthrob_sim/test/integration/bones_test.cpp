@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 
+#include "anthrob_core/testing/content.h"
 #include "anthrob_sim/simulation.h"
 #include "path/mesh_file.h"
 #include "support.h"
@@ -17,7 +18,6 @@ namespace anthrob {
 namespace {
 
 using testing_support::config;
-using testing_support::content;
 
 /// Nearest point of a triangle, by clamping barycentric coordinates region by region.
 Vec3 nearest(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -4,13 +4,12 @@
 #include <cstdlib>
 #include <set>
 
+#include "anthrob_core/testing/content.h"
 #include "anthrob_sim/simulation.h"
 #include "support.h"
 
 namespace anthrob {
 namespace {
-
-using testing_support::content;
 
 TEST(Torso, IsWhatItsGeneratorWrites) {
   const std::filesystem::path config = testing_support::config("");
