@@ -33,9 +33,9 @@ std::optional<std::string> check_age(const std::string& who, double stamp, doubl
          (from_ahead ? " s in the future: clocks differ, or time was set back" : " s old");
 }
 
-/// [rad or m] between positions of a joint: 1 number, or 4 of a ball joint.
-double distance(const std::vector<double>& one, const std::vector<double>& other) {
-  if (one.size() == 1) return std::abs(one[0] - other[0]);
+/// [rad or m] between positions of a joint.
+double distance(JointType type, const double* one, const double* other) {
+  if (type != JointType::kBall) return std::abs(one[0] - other[0]);
   return Quat(one[0], one[1], one[2], one[3])
       .angularDistance(Quat(other[0], other[1], other[2], other[3]));
 }
@@ -105,10 +105,10 @@ double RobotState::speed_of(std::size_t joint) const {
   return measured_.u.segment(model.velocity_offset, model.type == JointType::kBall ? 3 : 1).norm();
 }
 
-bool RobotState::is_reachable(std::size_t joint, const std::vector<double>& q, double stamp) {
+bool RobotState::is_reachable(std::size_t joint, const double* q, double stamp) {
   const JointModel& model = model_->skeleton->joints[joint];
   const double* last = &measured_.q[model.position_offset];
-  const double jump = distance(q, {last, last + q.size()}), time = stamp - taken_[joint];
+  const double jump = distance(model.type, q, last), time = stamp - taken_[joint];
   std::optional<Jump>& pending = jumps_[joint];
   // From a jump it comes back to where it would be by now, not to anywhere.
   const double near = pending ? reach(stamp - pending->last) + speed_of(joint) * time : reach(time);
@@ -116,11 +116,11 @@ bool RobotState::is_reachable(std::size_t joint, const std::vector<double>& q, d
     pending.reset();
     return true;
   }
-  if (!pending || distance(q, pending->q) > reach(stamp - pending->last)) {
+  if (!pending || distance(model.type, q, pending->q.data()) > reach(stamp - pending->last)) {
     const char* unit = model.type == JointType::kPrismatic ? "m" : "rad";
-    pending = Jump{q, stamp, stamp, jump_text(jump, time, unit)};
+    pending = Jump{{}, stamp, stamp, jump_text(jump, time, unit)};
   }
-  pending->q = q;
+  std::copy(q, q + (model.type == JointType::kBall ? 4 : 1), pending->q.begin());
   pending->last = stamp;
   if (stamp - pending->begin < kSettled) return false;
   pending.reset();
@@ -135,7 +135,7 @@ void RobotState::see_joint(const std::string& name, double position, double velo
   const JointModel& joint = model_->skeleton->joints[index];
   if (joint.type == JointType::kBall) return;
   const auto j = static_cast<std::size_t>(index);
-  const bool taken = is_reachable(j, {position}, stamp);
+  const bool taken = is_reachable(j, &position, stamp);
   joint_stamps_[j] = stamp;
   joint_receipts_[j] = received_;
   if (!taken) return;
@@ -152,9 +152,9 @@ void RobotState::see_ball_joint(const std::string& name, const Quat& orientation
   if (joint.type != JointType::kBall) return;
   if (!velocity.allFinite() || !(std::abs(orientation.norm() - 1.0) < 1e-3)) return;
   const Quat unit = canonical(orientation.normalized());
-  const std::vector<double> q = {unit.w(), unit.x(), unit.y(), unit.z()};
+  const std::array<double, 4> q = {unit.w(), unit.x(), unit.y(), unit.z()};
   const auto j = static_cast<std::size_t>(index);
-  const bool taken = is_reachable(j, q, stamp);
+  const bool taken = is_reachable(j, q.data(), stamp);
   joint_stamps_[j] = stamp;
   joint_receipts_[j] = received_;
   if (!taken) return;

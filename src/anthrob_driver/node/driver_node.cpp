@@ -68,15 +68,14 @@ DriverNode::DriverNode(Hardware hardware, const DriverThread::Options& options,
 
 // ---- commands and services ----
 
-void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command,
-                            const std::string& sender) {
+void DriverNode::on_command(const anthrob_msgs::MuscleCommand& command, const std::string& sender) {
   RobotDriver::Outcome outcome;
   double time = 0.0;
   const double old = command_age(command.header.stamp);
   thread_.call([&](RobotDriver& driver, double now) {
-    outcome = dropping_ ? driver.refuse("sent before enable or home had answered")
-                        : driver.command(command.name, command.mode, command.reference, now, old,
-                                         sender);
+    outcome = dropping_
+                  ? driver.refuse("sent before enable or home had answered")
+                  : driver.command(command.name, command.mode, command.reference, now, old, sender);
     time = now;
   });
   if (outcome.accepted || time - warning_time_ < 1.0) return;
@@ -361,7 +360,8 @@ void DriverNode::log_stops() {
 void DriverNode::run() {
   subscribers_ = {
       subscribe_bounded<anthrob_msgs::MuscleCommand>(
-          command_nh_, "muscle_command", 100, [this](const auto& command, const std::string& sender) { on_command(command, sender); },
+          command_nh_, "muscle_command", 100,
+          [this](const auto& command, const std::string& sender) { on_command(command, sender); },
           [this](const std::string& why) { on_malformed_command(why); }, kNoDelay),
       stop_nh_.subscribe("emergency_stop", 1, &DriverNode::on_stop_message, this, kNoDelay),
   };

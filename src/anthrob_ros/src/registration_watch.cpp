@@ -84,8 +84,8 @@ class RegistrationWatch::Implementation {
   double patience_;  ///< [s] for one answer
   RegistrationRules rules_;
   Registrations expected_, missing_;
-  Publishers publishers_;  ///< by the master's last answer
-  Publishers connected_;   ///< of which we know
+  PublishersByTopic publishers_;  ///< by the master's last answer
+  PublishersByTopic connected_;   ///< of which we know
 };
 
 RegistrationWatch::RegistrationWatch(Lost lost, double period)

@@ -185,8 +185,8 @@ std::optional<Registrations> registrations_of(const std::string& node, XmlRpcVal
   }
 }
 
-Publishers publishers_for(const Names& topics, XmlRpcValue state) {
-  Publishers publishers;
+PublishersByTopic publishers_for(const Names& topics, XmlRpcValue state) {
+  PublishersByTopic publishers;
   try {
     for (int i = 0; i < state[0].size(); ++i) {
       const std::string topic = state[0][i][0];

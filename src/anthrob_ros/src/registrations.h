@@ -27,15 +27,15 @@ struct Registrations {
 std::optional<Registrations> registrations_of(const std::string& node, XmlRpc::XmlRpcValue state);
 
 /// Who publishes each topic that a node subscribes to.
-using Publishers = std::map<std::string, std::set<std::string>>;
+using PublishersByTopic = std::map<std::string, std::set<std::string>>;
 /// @param state as above; one of another form has none
-Publishers publishers_for(const std::set<std::string>& topics, XmlRpc::XmlRpcValue state);
+PublishersByTopic publishers_for(const std::set<std::string>& topics, XmlRpc::XmlRpcValue state);
 
 /// What the master knows of this node.
 struct MasterAnswer {
   Reach reach;
   std::optional<Registrations> known;  ///< only with kAnswered, and not with every answer
-  Publishers publishers;               ///< for what it subscribes to
+  PublishersByTopic publishers;        ///< for what it subscribes to
 };
 MasterAnswer ask_master(double patience);
 

@@ -43,8 +43,8 @@ TEST(Registrations, OfAnAnswerOfAnotherFormAreNone) {
 }
 
 TEST(Registrations, PublishersAreThoseOfTheTopics) {
-  const Publishers found = publishers_for({"/tf", "/nothing"}, state());
-  EXPECT_EQ(found, (Publishers{{"/tf", {"/third", "/node"}}}));
+  const PublishersByTopic found = publishers_for({"/tf", "/nothing"}, state());
+  EXPECT_EQ(found, (PublishersByTopic{{"/tf", {"/third", "/node"}}}));
   EXPECT_TRUE(publishers_for({"/tf"}, XmlRpc::XmlRpcValue(3)).empty());
 }
 

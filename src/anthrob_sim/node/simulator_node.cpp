@@ -73,7 +73,8 @@ void SimulatorNode::subscribe_to_commands() {
   stops.setCallbackQueue(&stop_queue_);
   subscribers_ = {
       subscribe_bounded<anthrob_msgs::MuscleCommand>(
-          commands, "muscle_command", 100, [this](const auto& command, const std::string& sender) { on_command(command, sender); },
+          commands, "muscle_command", 100,
+          [this](const auto& command, const std::string& sender) { on_command(command, sender); },
           [this](const std::string& why) { supervisor_.refuse(why); }, kNoDelay),
       subscribe_bounded<sensor_msgs::JointState>(
           commands, "joint_effort_command", 100,
@@ -125,9 +126,8 @@ ros::Time SimulatorNode::stamp() const {
 void SimulatorNode::on_command(const anthrob_msgs::MuscleCommand& command,
                                const std::string& sender) {
   note_stamp(command.header.stamp);
-  const auto outcome =
-      supervisor_.command(command.name, command.mode, command.reference, sim_.time(), accepted_,
-                          sender);
+  const auto outcome = supervisor_.command(command.name, command.mode, command.reference,
+                                           sim_.time(), accepted_, sender);
   if (!outcome.accepted) return warn_of_refusal("muscle_command", outcome.reason);
   apply_supervision();
   for (const ecu::MuscleReference& reference : accepted_) {

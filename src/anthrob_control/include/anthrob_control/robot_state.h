@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -61,14 +62,14 @@ class RobotState {
  private:
   /// A position that was not taken yet.
   struct Jump {
-    std::vector<double> q;  ///< 1 number, or 4 of a ball joint
-    double begin, last;     ///< [s] stamps of the first and the last one there
+    std::array<double, 4> q;  ///< 1 number, or 4 of a ball joint
+    double begin, last;       ///< [s] stamps of the first and the last one there
     std::string text;
   };
 
   double speed_of(std::size_t joint) const;
   /// Whether a joint can be at `q` now.  @param q 1 number, or 4 of a ball joint
-  bool is_reachable(std::size_t joint, const std::vector<double>& q, double stamp);
+  bool is_reachable(std::size_t joint, const double* q, double stamp);
   bool must_be_measured(std::size_t muscle) const;
 
   std::shared_ptr<const RobotModel> model_;

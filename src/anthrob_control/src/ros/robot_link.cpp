@@ -29,31 +29,21 @@ bool fits(std::size_t names, std::size_t values) {
 RobotLink::RobotLink(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model,
                      const Options& options)
     : nh_(nh), options_(options), state_(std::move(model)) {
-  const auto no_delay = ros::TransportHints().tcpNoDelay();
   commands_ = nh_.advertise<anthrob_msgs::MuscleCommand>("muscle_command", 10);
   subscribers_ = {
-      subscribe_bounded<anthrob_msgs::MuscleStates>(
-          nh_, "muscle_states", 2000,
-          [this](const auto& m, const std::string& node) {
-            note_publisher(m.name, node);
-            see_muscles(m);
-          },
-          {}, no_delay),
-      subscribe_bounded<sensor_msgs::JointState>(
-          nh_, "joint_states", 2000,
-          [this](const auto& m, const std::string& node) {
-            note_publisher(m.name, node);
-            see_joints(m);
-          },
-          {}, no_delay),
-      subscribe_bounded<anthrob_msgs::SphericalJointStates>(
-          nh_, "spherical_joint_states", 2000,
-          [this](const auto& m, const std::string& node) {
-            note_publisher(m.name, node);
-            see_ball_joints(m);
-          },
-          {}, no_delay),
+      listen("muscle_states", &RobotLink::see_muscles),
+      listen("joint_states", &RobotLink::see_joints),
+      listen("spherical_joint_states", &RobotLink::see_ball_joints),
   };
+}
+
+template <class M>
+ros::Subscriber RobotLink::listen(const std::string& topic, void (RobotLink::*see)(const M&)) {
+  const auto take = [this, see](const M& message, const std::string& node) {
+    note_publisher(message.name, node);
+    (this->*see)(message);
+  };
+  return subscribe_bounded<M>(nh_, topic, 2000, take, {}, ros::TransportHints().tcpNoDelay());
 }
 
 /// In lock-step measurements come with their step, whatever the clock has come to.

@@ -133,9 +133,9 @@ class Supervisor {
     std::string sender;
     double time;  ///< [s] of its last command
   };
-  std::vector<Owner> owners_;    ///< by muscle
-  bool commanded_ = false;       ///< since the last enable
-  bool timed_out_ = false;       ///< whether motors stopped because no command came
+  std::vector<Owner> owners_;  ///< by muscle
+  bool commanded_ = false;     ///< since the last enable
+  bool timed_out_ = false;     ///< whether motors stopped because no command came
   double last_command_ = 0.0;
   std::size_t rejected_ = 0;
   std::optional<std::string> last_rejection_;

@@ -62,8 +62,8 @@ ecu::Supervisor::Outcome DrivenJoints::refuse(const std::string& reason) {
 }
 
 ecu::Supervisor::Outcome DrivenJoints::command(const std::vector<std::string>& names,
-                                               const std::vector<double>& efforts,
-                                               Simulation& sim, const std::string& sender) {
+                                               const std::vector<double>& efforts, Simulation& sim,
+                                               const std::string& sender) {
   if (const auto reason = complaint(names, efforts)) return refuse(*reason);
   std::vector<ecu::MuscleReference> accepted;
   const std::vector<std::uint8_t> modes(names.size(), kEffort);

@@ -211,10 +211,9 @@ void UrdfTree::refuse_long_chains() const {
       depth[child] = depth[reached[next]] + 1;
       reached.push_back(child);
       if (depth[child] <= kLongestChain) continue;
-      file_.fail(joints_[joint].line, "joint " + joints_[joint].name + ": the " +
-                                          std::to_string(depth[child]) +
-                                          "th in a chain; expected at most " +
-                                          std::to_string(kLongestChain));
+      file_.fail(joints_[joint].line,
+                 "joint " + joints_[joint].name + ": the " + std::to_string(depth[child]) +
+                     "th in a chain; expected at most " + std::to_string(kLongestChain));
     }
   }
 }

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "anthrob_control/robot_state.h"
-#include "anthrob_ros/clock_wait.h"
 #include "anthrob_core/publishers.h"
+#include "anthrob_ros/clock_wait.h"
 #include "anthrob_ros/registration_watch.h"
 
 namespace anthrob {
@@ -42,7 +42,8 @@ class RobotLink {
   /// Serves callbacks until the next period. @return false when ROS shuts down
   /// @throws std::runtime_error if the simulator does not step, or no longer runs
   bool wait();
-  /// Stamps the command with now() and publishes it, unless there is an obstacle(). @return the stamp
+  /// Stamps the command with now() and publishes it, unless there is an obstacle(). @return the
+  /// stamp
   ros::Time send(anthrob_msgs::MuscleCommand command);
 
   /// Why nothing is sent: the ROS master does not know this node, or two nodes publish one
@@ -66,6 +67,8 @@ class RobotLink {
 
  private:
   void note_receipt();
+  template <class M>
+  ros::Subscriber listen(const std::string& topic, void (RobotLink::*see)(const M&));
   void note_publisher(const std::vector<std::string>& names, const std::string& node);
   void see_muscles(const anthrob_msgs::MuscleStates& message);
   void see_joints(const sensor_msgs::JointState& message);
