@@ -178,11 +178,11 @@ void SimulatorNode::supervise(Request request, std_srvs::Trigger::Response* resp
   if (response == nullptr) return;
   response->success = muscles.accepted && joints.accepted;
   // A robot with one of the two only hears of that one; "nothing to clear" must hold for both.
-  if (supervisor_.muscles().empty()) {
-    response->message = joints.reason;
-  } else if (driven_.supervisor().muscles().empty() || !muscles.accepted) {
+  const bool joints_only = supervisor_.muscles().empty();
+  const bool muscles_only = driven_.supervisor().muscles().empty();
+  if (!joints_only && (muscles_only || !muscles.accepted)) {
     response->message = muscles.reason;
-  } else if (!joints.accepted || joints.reason == muscles.reason) {
+  } else if (joints_only || !joints.accepted || joints.reason == muscles.reason) {
     response->message = joints.reason;
   }
 }
