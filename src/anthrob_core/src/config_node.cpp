@@ -1,5 +1,6 @@
 #include "anthrob_core/config_node.h"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -40,9 +41,10 @@ namespace {
 using Data = ConfigNode::Data;
 using DataPtr = std::shared_ptr<Data>;
 
-/// Both ends of a message that quotes more than anybody reads.
-std::string readable(const std::string& message) {
+/// One line, whatever it quotes; both ends of one that quotes more than anybody reads.
+std::string readable(std::string message) {
   constexpr std::size_t kLongest = 2000, kEnd = 500;
+  for (char& c : message) c = c == '\n' || c == '\r' ? ' ' : c;
   if (message.size() <= kLongest) return message;
   return message.substr(0, kLongest - kEnd) + " [...] " + message.substr(message.size() - kEnd);
 }
@@ -175,16 +177,48 @@ std::string base_file(const std::string& path, const Data& name) {
   return base.string();
 }
 
-/// Whatever follows a second "---" must not be ignored silently. Files of OpenCV and of older ROS
-/// camera calibrators begin with "%YAML:1.0", which is no valid YAML directive.
-YAML::Node only_document(const std::string& text, const std::string& path) {
-  const bool opencv_header = text.rfind("%YAML:", 0) == 0;
-  const std::vector<YAML::Node> documents = YAML::LoadAll(opencv_header ? "#" + text : text);
-  if (documents.size() > 1) {
-    const int line = documents[1].Mark().line;
-    fail_at(path, line < 0 ? 1 : line + 1, "a second document: expected one");
+/// Notes where the documents of a file begin.
+class Beginnings final : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> of_documents;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { of_documents.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// Whatever follows a second "---" must not be ignored silently. Of a comma outside of all lists
+/// yaml-cpp takes every look for one more document: YAML::LoadAll would never end.
+void expect_one_document(const std::string& text, const std::string& path) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  Beginnings beginnings;
+  while (beginnings.of_documents.size() < 2 && parser.HandleNextDocument(beginnings)) {
   }
-  return documents.empty() ? YAML::Node() : documents.front();
+  if (beginnings.of_documents.size() < 2) return;
+  const YAML::Mark& second = beginnings.of_documents[1];
+  const auto at = static_cast<std::size_t>(std::max(second.pos, 0));
+  const bool comma = at < text.size() && text[at] == ',';
+  fail_at(
+      path, second.line + 1,
+      comma ? "not valid YAML: a comma outside of all lists" : "a second document: expected one");
+}
+
+/// Files of OpenCV and of older ROS camera calibrators begin with "%YAML:1.0", which is no valid
+/// YAML directive.
+YAML::Node only_document(const std::string& text, const std::string& path) {
+  const std::string yaml = (text.rfind("%YAML:", 0) == 0 ? "#" : "") + text;
+  expect_one_document(yaml, path);
+  return YAML::Load(yaml);
 }
 
 DataPtr load_file(const std::string& path, Reading& reading) {

@@ -56,6 +56,25 @@ TEST(ConfigNode, RefusesWhatYamlReadsOtherwiseThanItSeems) {
   EXPECT_EQ(refusal("{a: word, 7: }"), "");
 }
 
+TEST(ConfigNode, RefusesWhatComesAfterTheOnlyDocument) {
+  EXPECT_EQ(refusal("a: 1\n---\nb: 2\n"), "file.yaml:2: a second document: expected one");
+  // yaml-cpp would find one document after the other, without end.
+  for (const char* text : {", a: 1\n", "[1], 2\n", ",", "x, [1]: {,\n"}) {
+    EXPECT_NE(refusal(text), "") << text;
+  }
+  EXPECT_EQ(refusal("[1, 2],\n3\n"), "file.yaml:1: not valid YAML: a comma outside of all lists");
+}
+
+TEST(ConfigNode, SaysInOneLineWhatKeysOfManyLinesAre) {
+  const std::string text = "\"a key\\nof two lines\": {b: 1}\n";
+  EXPECT_EQ(refusal(text,
+                    [](const ConfigNode& root) {
+                      root.entries().front().second.number("c", Bounds::any(), "m");
+                    })
+                .find('\n'),
+            std::string::npos);
+}
+
 TEST(ConfigNode, RefusesAnAliasInsideItsOwnAnchor) {
   for (const char* text : {"a: &x {b: *x}\n", "a: &x [*x, *x]\n", "&x {a: *x}\n"}) {
     EXPECT_NE(refusal(text).find("nested more than 100 deep"), std::string::npos) << text;
