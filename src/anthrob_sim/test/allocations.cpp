@@ -1,11 +1,13 @@
 #include "allocations.h"
 
+#include <cstdlib>
+
 namespace {
 std::size_t count = 0;
 }
 
 extern "C" void* __libc_malloc(std::size_t);
-extern "C" void* malloc(std::size_t size) {
+extern "C" void* malloc(std::size_t size) noexcept {
   ++count;
   return __libc_malloc(size);
 }

@@ -18,8 +18,8 @@ std::string content_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-bool begins_with(const std::string& text, const std::string& beginning, std::size_t at = 0) {
-  return text.compare(at, beginning.size(), beginning) == 0;
+bool stands_at(const std::string& text, const std::string& words, std::size_t at = 0) {
+  return text.compare(at, words.size(), words) == 0;
 }
 
 /// As XML has it: Windows' "\r\n" and the old Mac's "\r" are one line end.
@@ -64,7 +64,7 @@ std::string explanation(XMLError error) {
 
 UrdfFile::UrdfFile(const std::string& file) : file_(file), text_(content_of(file)) {
   refuse_other_encodings();
-  if (begins_with(text_, "\xEF\xBB\xBF")) text_.erase(0, 3);
+  if (stands_at(text_, "\xEF\xBB\xBF")) text_.erase(0, 3);
   text_ = with_plain_line_ends(text_);
   refuse_doctype();
   parse();
@@ -85,12 +85,11 @@ int UrdfFile::line_of(std::size_t position) const {
 
 void UrdfFile::refuse_other_encodings() const {
   const std::string zero(1, '\0');
-  if (begins_with(text_, "\xFF\xFE" + zero + zero) ||
-      begins_with(text_, zero + zero + "\xFE\xFF")) {
+  if (stands_at(text_, "\xFF\xFE" + zero + zero) || stands_at(text_, zero + zero + "\xFE\xFF")) {
     fail(1, "the text is UTF-32: expected UTF-8: iconv -f UTF-32 -t UTF-8 converts it");
   }
-  if (begins_with(text_, "\xFF\xFE") || begins_with(text_, "\xFE\xFF") ||
-      begins_with(text_, "<" + zero) || begins_with(text_, zero + "<")) {
+  if (stands_at(text_, "\xFF\xFE") || stands_at(text_, "\xFE\xFF") ||
+      stands_at(text_, "<" + zero) || stands_at(text_, zero + "<")) {
     fail(1, "the text is UTF-16: expected UTF-8: iconv -f UTF-16 -t UTF-8 converts it");
   }
   // Readers of C strings end there.
@@ -107,14 +106,14 @@ void UrdfFile::refuse_doctype() const {
   for (;;) {
     begin = text_.find_first_not_of(" \t\n", begin);
     if (begin == std::string::npos) return;
-    const bool comment = begins_with(text_, "<!--", begin);
-    if (!comment && !begins_with(text_, "<?", begin)) break;
+    const bool comment = stands_at(text_, "<!--", begin);
+    if (!comment && !stands_at(text_, "<?", begin)) break;
     begin = text_.find(comment ? "-->" : "?>", begin);
     if (begin == std::string::npos) return;
     begin += 2;
     if (comment) ++begin;
   }
-  if (begins_with(text_, "<!", begin)) {
+  if (stands_at(text_, "<!", begin)) {
     fail(line_of(begin),
          "DOCTYPE and entities are not read: expected <robot> first: delete it, and write what "
          "each &entity; stands for");
