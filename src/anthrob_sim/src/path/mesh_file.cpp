@@ -5,6 +5,7 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +15,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
+
+#include "path/collada_check.h"
 
 namespace anthrob {
 
@@ -129,12 +132,21 @@ std::shared_ptr<const MeshFile> parsed(const std::string& path) {
   return file;
 }
 
+bool is_collada(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".dae" || extension == ".xml";
+}
+
 }  // namespace
 
 TriangleMesh read_mesh(const std::string& file) {
   if (!std::filesystem::exists(file)) throw std::runtime_error("no such file");
   if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("not a file");
   if (std::filesystem::file_size(file) == 0) throw std::runtime_error("the file is empty");
+  if (is_collada(file)) {
+    if (const auto fault = fault_of_collada(file)) throw std::runtime_error(*fault);
+  }
   Assimp::Importer importer;
   // As RViz draws it: vertices as the file has them, whichever axis it calls the upper one.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

@@ -1,0 +1,128 @@
+#include "path/collada_check.h"
+
+#include <tinyxml2.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "skeleton/urdf_file.h"
+
+namespace anthrob {
+
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr std::uint64_t kMostValues = 100'000'000;  ///< of an array: 800 MB
+
+std::optional<std::uint64_t> whole_number(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value > kMostValues)
+    return std::nullopt;
+  return value;
+}
+
+bool is_number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+std::vector<std::string> words_of(const XMLElement& element) {
+  std::istringstream text(element.GetText() == nullptr ? "" : element.GetText());
+  return {std::istream_iterator<std::string>(text), {}};
+}
+
+/// Visits every element; throws std::runtime_error at the first fault.
+class ColladaCheck {
+ public:
+  explicit ColladaCheck(const XMLElement& root) {
+    note_ids(root);
+    check(root);
+  }
+
+ private:
+  [[noreturn]] static void fail(const XMLElement& element, const std::string& what) {
+    throw std::runtime_error("line " + std::to_string(element.GetLineNum()) + ": <" +
+                             element.Name() + ">: " + what);
+  }
+
+  void note_ids(const XMLElement& element) {
+    if (const char* id = element.Attribute("id")) ids_.insert(id);
+    for (auto child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+      note_ids(*child);
+  }
+
+  void check(const XMLElement& element) {
+    check_attributes(element);
+    check_text(element);
+    for (auto child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+      check(*child);
+  }
+
+  void check_attributes(const XMLElement& element) {
+    for (auto attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
+      const std::string name = attribute->Name(), value = attribute->Value();
+      const bool counts = name == "count" || name == "stride" || name == "offset" || name == "set";
+      if (counts && !whole_number(value))
+        fail(element, name + "=\"" + in_one_line(value) + "\": expected a whole number");
+      // Others, such as those of materials, may lead nowhere: nobody follows them.
+      const std::string element_name = element.Name();
+      const bool leads =
+          name == "source" && (element_name == "input" || element_name == "accessor");
+      if (leads && (value[0] != '#' || ids_.count(value.substr(1)) == 0))
+        fail(element, name + "=\"" + in_one_line(value) + "\": expected the id of an element");
+    }
+  }
+
+  static void check_text(const XMLElement& element) {
+    const std::string name = element.Name();
+    if (name == "float_array") check_numbers(element);
+    if (name == "p" || name == "h" || name == "vcount") check_indices(element);
+  }
+
+  static void check_numbers(const XMLElement& element) {
+    const std::vector<std::string> words = words_of(element);
+    for (const std::string& word : words)
+      if (!is_number(word)) fail(element, "'" + in_one_line(word) + "': expected a number");
+    const char* count = element.Attribute("count");
+    if (count == nullptr) fail(element, "expected a count");
+    if (*whole_number(count) != words.size()) {
+      fail(element, std::string("count=\"") + count + "\": but it has " +
+                        std::to_string(words.size()) + " numbers");
+    }
+  }
+
+  static void check_indices(const XMLElement& element) {
+    for (const std::string& word : words_of(element))
+      if (!whole_number(word))
+        fail(element, "'" + in_one_line(word) + "': expected a whole number");
+  }
+
+  std::set<std::string> ids_;
+};
+
+}  // namespace
+
+std::optional<std::string> fault_of_collada(const std::string& file) {
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
+    return "line " + std::to_string(document.ErrorLineNum()) +
+           ": not XML: " + tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID());
+  }
+  try {
+    if (const XMLElement* root = document.RootElement()) ColladaCheck{*root};
+  } catch (const std::runtime_error& fault) {
+    return fault.what();
+  }
+  return std::nullopt;
+}
+
+}  // namespace anthrob
