@@ -19,6 +19,7 @@ sys.path.insert(0, os.path.join(TOP, 'scripts', 'study'))
 import _study  # noqa: E402
 import calibration  # noqa: E402
 import discovery  # noqa: E402
+import fuzz  # noqa: E402
 
 # Hides "law" everywhere; lists three laws.
 MAKER = '''#!/bin/sh
@@ -54,6 +55,21 @@ mkdir -p "$2"
 errors='{"mean": {"after": {"joints_deg": {"shoulder": '$error', "elbow": 1.0}, "force_N": 3.0}}}'
 echo '{"fitness": {"before": 9.0, "after": '$error'}, "optimiser": {"evaluations": 7}, "calibration": '$errors',
   "validation": '$errors'}' > "$2/result.json"
+'''
+# Accepts 600 of 1000 inputs; the reader of a file `crash_NAME` ends behind 2000.
+FUZZER = '''#!/bin/sh
+case "$*" in *--list*) echo stl; echo obj; exit;; esac
+while [ $# -gt 0 ]; do
+  case $1 in --work) work=$2;; --reader) reader=$2;; --first) first=$2;; --end) end=$2;; esac; shift
+done
+echo "$reader $first" >> calls
+mkdir -p "$work/$reader"
+echo damaged > "$work/$reader/mesh"
+while [ $first -lt $end ]; do
+  first=$((first + 1000))
+  [ -f crash_$reader ] && [ $first -gt 2000 ] && { echo "SEGV in $reader" >&2; exit 139; }
+  echo "$first 600 400 0.25"
+done
 '''
 
 
@@ -94,6 +110,43 @@ class Study(unittest.TestCase):
         """The page that the study writes into the documents."""
         with open(f'studies/{self.study_of.__name__}.md') as file:
             return file.read()
+
+
+class FuzzStudy(Study):
+    study_of = fuzz
+
+    def programs(self):
+        tool = self.program('fuzzer', FUZZER)
+        return {'program': lambda out: os.makedirs(os.path.join(out, 'fuzz'), exist_ok=True) or tool}
+
+    def calls(self):
+        with open('calls') as file:
+            return file.read().split('\n')[:-1]
+
+    def test_it_goes_on_where_it_stopped(self):
+        self.study('--inputs', '2000')
+        self.assertEqual(self.calls(), ['stl 0', 'obj 0'])
+        self.study('--inputs', '2000')
+        self.assertEqual(self.calls(), ['stl 0', 'obj 0'])
+        self.study('--inputs', '3000')
+        self.assertEqual(self.calls()[2:], ['stl 2000', 'obj 2000'])
+        self.assertIn('| stl | 3000 | 1800 | 1200 | 0.25 |', self.told())
+
+    def test_what_ended_a_reader_is_kept_and_the_others_go_on(self):
+        open('crash_stl', 'w').close()
+        with self.assertRaises(SystemExit) as ended:
+            self.study('--inputs', '3000')
+        self.assertEqual(ended.exception.code, 1)
+        with open('out/fuzz/found/stl_2000/said.txt') as said, open('out/fuzz/found/stl_2000/mesh') as mesh:
+            self.assertEqual((said.read(), mesh.read()), ('SEGV in stl\n', 'damaged\n'))
+        self.assertIn('| stl | 2000 |', self.told())
+        self.assertIn('| obj | 3000 |', self.told())
+        self.assertIn('found: out/fuzz/found/stl_2000', self.told())
+
+    def test_a_reader_that_is_not_there(self):
+        with self.assertRaises(SystemExit) as ended:
+            self.study('--reader', 'step')
+        self.assertEqual(ended.exception.code, 2)
 
 
 class CalibrationStudy(Study):
