@@ -20,6 +20,7 @@ import _study  # noqa: E402
 import calibration  # noqa: E402
 import discovery  # noqa: E402
 import fuzz  # noqa: E402
+import soak  # noqa: E402
 
 # Hides "law" everywhere; lists three laws.
 MAKER = '''#!/bin/sh
@@ -70,6 +71,15 @@ while [ $first -lt $end ]; do
   [ -f crash_$reader ] && [ $first -gt 2000 ] && { echo "SEGV in $reader" >&2; exit 139; }
   echo "$first 600 400 0.25"
 done
+'''
+# Stands in for roslaunch: in a folder with a file `leak` it grows, in one with `short` it ends.
+LAUNCHER = '''#!/usr/bin/python3
+import os, time
+kept = []
+while not os.path.exists("short"):
+    time.sleep(0.02)
+    if os.path.exists("leak"):
+        kept.append(b"x" * 100000)
 '''
 
 
@@ -146,6 +156,43 @@ class FuzzStudy(Study):
     def test_a_reader_that_is_not_there(self):
         with self.assertRaises(SystemExit) as ended:
             self.study('--reader', 'step')
+        self.assertEqual(ended.exception.code, 2)
+
+
+class SoakStudy(Study):
+    study_of = soak
+
+    def programs(self):
+        launcher = [self.program('launcher', LAUNCHER)]
+        return {'SHELL': launcher, 'PERIOD': 0.05, 'SETTLED': 1.5, 'BUS': 'none', 'long_postures': lambda *_: 'postures.yaml',
+                'long_protocol': lambda *_: 'protocol.yaml'}
+
+    def test_what_stays_as_it_is(self):
+        self.study('--hours', '0.0014')
+        rows = [line for line in self.told().split('\n') if line.startswith('| arm: roslaunch')]
+        self.assertEqual(len(rows), 2)
+
+    def test_what_grows(self):
+        open('leak', 'w').close()
+        with self.assertRaises(SystemExit) as ended:
+            self.study('--hours', '0.0014', '--part', 'recorder')
+        self.assertEqual(ended.exception.code, 1)
+        with open('out/soak.json') as file:
+            (grown,) = json.load(file)['processes']
+        # 0.1 MB every 0.02 s, or a little later
+        self.assertGreater(grown['slope_MB_per_h'], 3000.0)
+        self.assertLess(grown['slope_MB_per_h'], 18100.0)
+
+    def test_what_ends_before_its_time(self):
+        open('short', 'w').close()
+        with self.assertRaises(SystemExit) as ended:
+            self.study('--hours', '0.01')
+        self.assertEqual(ended.exception.code, 2)
+        self.assertFalse(os.path.exists('out/soak.json'))
+
+    def test_a_driver_without_a_bus(self):
+        with self.assertRaises(SystemExit) as ended:
+            self.study('--part', 'driver')
         self.assertEqual(ended.exception.code, 2)
 
 
