@@ -1,0 +1,53 @@
+#include "diagnostics.h"
+
+#include <algorithm>
+
+namespace anthrob {
+
+std::optional<std::string> Diagnosis::value(const std::string& key) const {
+  for (const auto& [own_key, text] : values) {
+    if (own_key == key) return text;
+  }
+  return std::nullopt;
+}
+
+void Diagnostics::hear(const Diagnosis& diagnosis, double now) {
+  last_[diagnosis.name] = {diagnosis, now};
+}
+
+std::vector<Diagnosis> Diagnostics::all(double now) const {
+  std::vector<Diagnosis> diagnoses;
+  for (const auto& [name, heard] : last_) {
+    diagnoses.push_back(heard.diagnosis);
+    if (now - heard.time > kStale) diagnoses.back().level = Level::kStale;
+  }
+  return diagnoses;
+}
+
+std::optional<Diagnosis> Diagnostics::of(const std::string& robot, const std::string& part,
+                                         double now) const {
+  const auto found = last_.find(robot + ": " + part);
+  if (found == last_.end() || now - found->second.time > kStale) return std::nullopt;
+  return found->second.diagnosis;
+}
+
+std::optional<Diagnosis> Diagnostics::unit_of_muscle(const std::string& robot,
+                                                     const std::string& muscle, double now) const {
+  for (const Diagnosis& diagnosis : all(now)) {
+    if (whole_and_part(diagnosis.name).first != robot) continue;
+    // "biceps_brachii temperature"
+    const bool names_it =
+        std::any_of(diagnosis.values.begin(), diagnosis.values.end(),
+                    [&](const auto& entry) { return entry.first.rfind(muscle + " ", 0) == 0; });
+    if (names_it) return diagnosis;
+  }
+  return std::nullopt;
+}
+
+std::pair<std::string, std::string> whole_and_part(const std::string& name) {
+  const std::size_t colon = name.find(": ");
+  if (colon == std::string::npos) return {std::string(), name};
+  return {name.substr(0, colon), name.substr(colon + 2)};
+}
+
+}  // namespace anthrob

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/MuscleStates.h>
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include <optional>
+#include <vector>
+
+#include "diagnostics.h"
+#include "muscle_reading.h"
+#include "muscle_row.h"
+
+namespace anthrob {
+
+/// None of a message whose lists have different lengths.
+std::optional<MuscleReadings> readings_of(const anthrob_msgs::MuscleStates& message);
+Diagnosis diagnosis_of(const diagnostic_msgs::DiagnosticStatus& status);
+/// Without a stamp.
+anthrob_msgs::MuscleCommand command_of(const std::vector<Reference>& references);
+
+}  // namespace anthrob

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "readings.h"
+#include "robot_connection.h"
+
+namespace anthrob {
+
+/// What a fake robot was told, and what it tells.
+struct FakeRobot {
+  MuscleReadings muscles = {reading("flexor", 1.0), reading("extensor", -1.0)};
+  bool talks = true;
+  bool simulated = true;
+  std::string connected;
+  std::vector<std::vector<Reference>> commands;
+  std::vector<ServiceRequest> calls;
+  std::vector<Diagnosis> diagnostics;
+  std::vector<CallResult> answers;
+  int shouts = 0;
+};
+
+/// A panel owns its connection; the test keeps the robot.
+class FakeConnection final : public RobotConnection {
+ public:
+  explicit FakeConnection(std::shared_ptr<FakeRobot> robot) : robot_(std::move(robot)) {}
+
+  void connect(const std::string& robot) override { robot_->connected = robot; }
+  News look() override {
+    News news;
+    if (robot_->talks) news.muscles = robot_->muscles;
+    news.diagnostics = std::exchange(robot_->diagnostics, {});
+    news.answers = std::exchange(robot_->answers, {});
+    return news;
+  }
+  void send(const std::vector<Reference>& references) override {
+    robot_->commands.push_back(references);
+  }
+  bool call(const ServiceRequest& request) override {
+    robot_->calls.push_back(request);
+    return true;
+  }
+  void shout_stop() override { ++robot_->shouts; }
+  bool simulated() const override { return robot_->simulated; }
+  ReferenceLimits limits() const override { return {}; }
+
+ private:
+  std::shared_ptr<FakeRobot> robot_;
+};
+
+}  // namespace anthrob
