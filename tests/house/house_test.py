@@ -14,7 +14,7 @@ import rules  # noqa: E402
 TOP = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..'))
 CORE = ['anthrob_core', 'anthrob_ecu', 'anthrob_supervisor', 'anthrob_recording_core', 'anthrob_sim_core', 'anthrob_driver_core',
         'anthrob_emulation', 'anthrob_emulator_core', 'anthrob_mocap_core', 'anthrob_control_core', 'anthrob_recorder_core',
-        'anthrob_calib_core', 'anthrob_discovery_core', 'anthrob_reference', 'anthrob_virtual_robot']
+        'anthrob_calib_core', 'anthrob_discovery_core', 'anthrob_reference', 'anthrob_rviz_core', 'anthrob_virtual_robot']
 
 
 class House(unittest.TestCase):

@@ -50,7 +50,8 @@ MuscleRowWidget::MuscleRowWidget(const std::string& name, std::function<MuscleRo
       slider_(new QSlider(Qt::Horizontal)),
       values_(new QLabel),
       force_(new QProgressBar),
-      remark_(text_label("remark")) {
+      remark_(new QLabel),
+      lines_(new QStackedWidget) {
   setObjectName(name_);
   lay_out();
   listen();
@@ -73,10 +74,13 @@ void MuscleRowWidget::lay_out() {
   grid->addWidget(slider_, 1, 0, 1, 3);
   grid->addWidget(number_, 1, 3);
   grid->addWidget(force_, 1, 4);
-  grid->addWidget(values_, 2, 0, 1, 5);
-  grid->addWidget(remark_, 3, 0, 1, 5);
+  for (QLabel* line : {values_, remark_})
+    line->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  lines_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  lines_->addWidget(values_);
+  lines_->addWidget(remark_);
+  grid->addWidget(lines_, 2, 0, 1, 5);
   grid->setColumnStretch(2, 1);
-  remark_->hide();
 }
 
 void MuscleRowWidget::listen() {
@@ -96,6 +100,9 @@ void MuscleRowWidget::listen() {
   QFont small = values_->font();
   small.setPointSizeF(0.85 * small.pointSizeF());
   values_->setFont(small);
+  remark_->setObjectName("remark");
+  remark_->setFont(small);
+  remark_->setStyleSheet("color: " + colour_of(Level::kError));
   force_->setObjectName("force");
   force_->setFixedWidth(84);
   force_->setToolTip("Measured force");
@@ -174,10 +181,14 @@ void MuscleRowWidget::show_numbers(double force_limit) {
   force_->setFormat(known ? number_text(reading.force) + " N" : QString("no sensor"));
 }
 
+/// In the place of the numbers, because rows that grow would move other sliders under the mouse.
 void MuscleRowWidget::show_remark(const std::string& remark) {
-  show_text(remark_, remark, colour_of(Level::kError));
-  remark_->setVisible(!remark.empty());
-  if (!remark.empty()) light_->setToolTip(QString::fromStdString(remark));
+  const QString text = QString::fromStdString(remark);
+  const int width = values_->contentsRect().width();
+  remark_->setText(remark_->fontMetrics().elidedText(text, Qt::ElideRight, width));
+  remark_->setToolTip(text);
+  lines_->setCurrentWidget(remark.empty() ? values_ : remark_);
+  if (!remark.empty()) light_->setToolTip(text);
 }
 
 }  // namespace anthrob

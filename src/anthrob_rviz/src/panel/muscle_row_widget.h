@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QSlider>
+#include <QStackedWidget>
 #include <functional>
 #include <string>
 
@@ -47,6 +48,7 @@ class MuscleRowWidget final : public QFrame {
   QLabel* values_;
   QProgressBar* force_;
   QLabel* remark_;
+  QStackedWidget* lines_;  ///< numbers, or the remark
 };
 
 }  // namespace anthrob

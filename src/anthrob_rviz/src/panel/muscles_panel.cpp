@@ -6,13 +6,7 @@
 #include <QSignalBlocker>
 #include <utility>
 
-#include "ros/ros_connection.h"
-
 namespace anthrob {
-
-MusclesPanel::MusclesPanel()
-    : MusclesPanel(std::make_unique<RosConnection>(RosConnection::Role::kCommander),
-                   default_robot()) {}
 
 MusclesPanel::MusclesPanel(std::unique_ptr<RobotConnection> connection, const std::string& robot)
     : ConnectedPanel(std::move(connection), robot),

@@ -18,7 +18,7 @@ namespace anthrob {
 /// Shows a robot's muscles, and commands those whose slider is held down or whose hold is ticked.
 class MusclesPanel final : public ConnectedPanel {
  public:
-  MusclesPanel();  ///< for RViz
+  MusclesPanel();  ///< over ROS, see ros/plugins.cpp
   MusclesPanel(std::unique_ptr<RobotConnection> connection, const std::string& robot);
 
  private:

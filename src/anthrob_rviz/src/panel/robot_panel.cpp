@@ -4,8 +4,6 @@
 #include <QHBoxLayout>
 #include <utility>
 
-#include "ros/ros_connection.h"
-
 namespace anthrob {
 namespace {
 
@@ -21,10 +19,11 @@ const char* const kStopStyle =
     " border-radius: 6px; font-weight: bold; font-size: 22px; }"
     "QPushButton:pressed { background: #8e1010; }";
 
-}  // namespace
+std::string shown_name(const std::string& service) {
+  return service == kStop ? "STOP (disable)" : service;
+}
 
-RobotPanel::RobotPanel()
-    : RobotPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {}
+}  // namespace
 
 RobotPanel::RobotPanel(std::unique_ptr<RobotConnection> connection, const std::string& robot)
     : ConnectedPanel(std::move(connection), robot),
@@ -114,8 +113,8 @@ void RobotPanel::stop() {
 }
 
 void RobotPanel::call(const ServiceRequest& request) {
-  const std::string text = request.service == kStop ? "STOP" : request.service;
-  if (connection().call(request)) show_text(answer_, text + " ...", colour_of(Level::kStale));
+  if (!connection().call(request)) return;
+  show_text(answer_, shown_name(request.service) + " ...", colour_of(Level::kStale));
 }
 
 void RobotPanel::note(const CallResult& answer) {
@@ -128,7 +127,7 @@ void RobotPanel::note(const CallResult& answer) {
   }
   const std::string outcome = answer.success ? ": done" : ": failed";
   const std::string why = answer.message.empty() ? "" : ", " + answer.message;
-  show_text(answer_, answer.service + outcome + why,
+  show_text(answer_, shown_name(answer.service) + outcome + why,
             colour_of(answer.success ? Level::kOk : Level::kError));
 }
 

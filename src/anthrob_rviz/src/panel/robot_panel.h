@@ -16,7 +16,7 @@ namespace anthrob {
 /// its diagnostics.
 class RobotPanel final : public ConnectedPanel {
  public:
-  RobotPanel();  ///< for RViz
+  RobotPanel();  ///< over ROS, see ros/plugins.cpp
   RobotPanel(std::unique_ptr<RobotConnection> connection, const std::string& robot);
 
   void stop();

@@ -1,0 +1,21 @@
+// RViz makes panels without arguments: these are connected over ROS.
+#include <memory>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "panel/muscles_panel.h"
+#include "panel/robot_panel.h"
+#include "ros/ros_connection.h"
+
+namespace anthrob {
+
+RobotPanel::RobotPanel()
+    : RobotPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {}
+
+MusclesPanel::MusclesPanel()
+    : MusclesPanel(std::make_unique<RosConnection>(RosConnection::Role::kCommander),
+                   default_robot()) {}
+
+}  // namespace anthrob
+
+PLUGINLIB_EXPORT_CLASS(anthrob::RobotPanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(anthrob::MusclesPanel, rviz::Panel)

@@ -1,0 +1,163 @@
+// The real panels on a running robot: what a hand on the mouse does, asserted on topics. Started in
+// the robot's namespace by tests/node/rviz_panels.test.
+#include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/MuscleStates.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include <QPushButton>
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_core/monotonic_clock.h"
+#include "panel/gui.h"
+#include "panel/muscles_panel.h"
+#include "panel/robot_panel.h"
+
+namespace anthrob {
+namespace {
+
+const char* const kMuscle = "biceps_brachii";
+constexpr double kPatience = 20.0;  // [s] of wall time, also beside other programs
+
+class PanelsOnRobot : public testing::Test {
+ protected:
+  PanelsOnRobot() {
+    subscribers_.push_back(nh_.subscribe("muscle_states", 1, &PanelsOnRobot::see_muscles, this));
+    subscribers_.push_back(nh_.subscribe("joint_states", 1, &PanelsOnRobot::see_joints, this));
+    subscribers_.push_back(nh_.subscribe("muscle_command", 100, &PanelsOnRobot::count, this));
+    muscles_.resize(430, 900);
+    muscles_.show();
+    robot_.show();
+  }
+
+  void see_muscles(const anthrob_msgs::MuscleStates& states) {
+    const auto found = std::find(states.name.begin(), states.name.end(), kMuscle);
+    if (found == states.name.end()) return;
+    const auto i = static_cast<std::size_t>(found - states.name.begin());
+    position_ = states.position[i], voltage_ = states.voltage[i], state_ = states.ecu_state[i];
+  }
+  void see_joints(const sensor_msgs::JointState& joints) { elbow_ = joints.position.at(0); }
+  void count(const anthrob_msgs::MuscleCommand&) { ++commands_; }
+
+  template <class Condition>
+  bool wait_for(Condition condition) {
+    const double end = monotonic_now() + kPatience;
+    while (!condition() && monotonic_now() < end) wait(0.02);
+    return condition();
+  }
+  void wait(double time) {
+    QTest::qWait(static_cast<int>(std::lround(1e3 * time)));
+    ros::spinOnce();
+  }
+  int commands_within(double time) {
+    ros::spinOnce();
+    commands_ = 0;
+    wait(time);
+    return commands_;
+  }
+
+  template <class Widget>
+  Widget* of_muscle(const char* name) {
+    return child<Widget>(child<QWidget>(&muscles_, kMuscle), name);
+  }
+  bool connected() {
+    return wait_for([&] { return child<QWidget>(&muscles_, kMuscle) && !std::isnan(elbow_); });
+  }
+  void click(const char* button) {
+    QTest::mouseClick(child<QPushButton>(&robot_, button), Qt::LeftButton);
+  }
+  std::string answer() { return child<QLabel>(&robot_, "answer")->text().toStdString(); }
+  bool answered(const std::string& text) {
+    return wait_for([&] { return answer().rfind(text, 0) == 0; });
+  }
+  /// The mouse on the biceps' slider winds its tendon.
+  void drag_slider() {
+    auto* slider = of_muscle<QSlider>("slider");
+    QTest::mousePress(slider, Qt::LeftButton, {}, handle_of(slider));
+    wait(0.3);
+    drag(slider, 40);
+  }
+  bool stopped() {
+    return wait_for(
+        [&] { return state_ != anthrob_msgs::MuscleStates::ENABLED && voltage_ == 0.0; });
+  }
+
+  ros::NodeHandle nh_;
+  std::vector<ros::Subscriber> subscribers_;
+  double position_ = 0.0, voltage_ = 0.0, elbow_ = std::nan("");
+  int state_ = 0, commands_ = 0;
+  MusclesPanel muscles_;
+  RobotPanel robot_;
+};
+
+TEST_F(PanelsOnRobot, ASliderMovesTheArmAndStopStopsIt) {
+  ASSERT_TRUE(connected());
+  EXPECT_EQ(commands_within(0.5), 0);
+  const double begin = position_, angle = elbow_;
+  drag_slider();
+  EXPECT_TRUE(wait_for([&] { return position_ > begin + 1.0; })) << position_;
+  EXPECT_TRUE(wait_for([&] { return std::abs(elbow_ - angle) > 0.05; })) << elbow_ - angle;
+  const int count = commands_within(1.0);
+  EXPECT_GE(count, 10);
+  EXPECT_LE(count, 21);
+  click("stop");
+  EXPECT_TRUE(answered("STOP (disable): done")) << answer();
+  EXPECT_TRUE(stopped());
+  // The mouse is still down, and nothing more is sent.
+  EXPECT_TRUE(wait_for([&] { return commands_within(0.3) == 0; }));
+  QTest::mouseRelease(of_muscle<QSlider>("slider"), Qt::LeftButton);
+}
+
+TEST_F(PanelsOnRobot, TheSpaceBarStopsWhatIsHeld) {
+  ASSERT_TRUE(connected());
+  click("enable");
+  EXPECT_TRUE(answered("enable: done")) << answer();
+  of_muscle<QCheckBox>("hold")->setChecked(true);
+  EXPECT_TRUE(wait_for([&] { return commands_within(0.5) > 4; }));
+  QTest::keyClick(&muscles_, Qt::Key_Space);
+  EXPECT_TRUE(stopped());
+  EXPECT_TRUE(wait_for([&] { return commands_within(0.3) == 0; }));
+  EXPECT_TRUE(wait_for([&] { return !of_muscle<QCheckBox>("hold")->isChecked(); }));
+  EXPECT_EQ(of_muscle<QLabel>("remark")->text(), "the robot stopped this motor");
+}
+
+TEST_F(PanelsOnRobot, AClosedPanelLeavesTheMotorsToTheirTimeOut) {
+  ASSERT_TRUE(connected());
+  click("enable");
+  EXPECT_TRUE(answered("enable: done")) << answer();
+  of_muscle<QCheckBox>("hold")->setChecked(true);
+  EXPECT_TRUE(wait_for(
+      [&] { return commands_within(0.2) > 0 && state_ == anthrob_msgs::MuscleStates::ENABLED; }));
+  muscles_.close();
+  EXPECT_TRUE(stopped());
+  EXPECT_EQ(commands_within(0.3), 0);
+}
+
+TEST_F(PanelsOnRobot, APausedSimulatorIsSilentAndEndsAHold) {
+  ASSERT_TRUE(connected());
+  click("enable");
+  EXPECT_TRUE(answered("enable: done")) << answer();
+  ASSERT_TRUE(wait_for([&] { return child<QWidget>(&robot_, "simulator")->isVisible(); }));
+  of_muscle<QCheckBox>("hold")->setChecked(true);
+  EXPECT_TRUE(wait_for([&] { return commands_within(0.2) > 0; }));
+  click("pause");
+  EXPECT_TRUE(answered("sim/pause: done")) << answer();
+  EXPECT_TRUE(wait_for([&] { return !of_muscle<QCheckBox>("hold")->isChecked(); }));
+  EXPECT_EQ(commands_within(0.3), 0);
+  click("continue");
+  EXPECT_TRUE(
+      wait_for([&] { return child<QLabel>(&muscles_, "status")->text().contains("11 m"); }));
+  EXPECT_EQ(commands_within(0.3), 0);
+}
+
+}  // namespace
+}  // namespace anthrob
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  anthrob::begin_application();
+  ros::init(argc, argv, "rviz_panels");
+  return RUN_ALL_TESTS();
+}
