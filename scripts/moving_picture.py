@@ -34,7 +34,7 @@ def refuse(message):
 
 
 def view(source):
-    """The view only: without panels and names of frames, and nearer."""
+    """The view only: without panels and names of frames, in a window that the virtual screen holds, and nearer."""
     lines, shown = ["Panels: []\n"], False
     with open(source) as file:
         for line in file:
@@ -44,6 +44,10 @@ def view(source):
             key = line.strip().split(":")[0]
             if key in ("Show Names", "Show Axes"):
                 line = line.replace("true", "false")
+            elif line.startswith("  QMainWindow State:"):
+                continue  # where the panels are
+            elif line.startswith(("  Height:", "  Width:")):
+                line = "  %s: %d\n" % (key, {"Height": 900, "Width": 1280}[key])
             elif key == "Distance":
                 line = line[:line.index(":")] + ": 0.95\n"
             lines.append(line)

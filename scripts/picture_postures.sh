@@ -17,8 +17,9 @@ config="$(rospack find anthrob_bringup)"
 export ROS_MASTER_URI="http://localhost:11399" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1
 work="$(mktemp -d)"
 
-# The view only, without panels, and nearer.
+# The view only, without panels, as large as the virtual screen, and nearer.
 sed -e 's/^\( *Distance:\) .*/\1 0.95/' \
+  -e 's/^\(  Height:\) .*/\1 900/' -e 's/^\(  Width:\) .*/\1 1280/' -e '/^  QMainWindow State:/d' \
   -e '/^Panels:/,/^Visualization Manager:/{/^Visualization Manager:/!d}; 1i Panels: []' \
   "$config/launch/anthrob.rviz" >"$work/view.rviz"
 roslaunch -p 11399 anthrob_bringup sim.launch "robot:=$robot" "model:=$model" rviz:=true \
