@@ -1,21 +1,21 @@
 #include "command_repeater.h"
 
+#include <utility>
+
 namespace anthrob {
 
-std::optional<std::string> CommandRepeater::obstacle(double now) const {
-  if (!visible_) return "the panel was hidden";
-  if (!heard_) return "no robot publishes its states";
-  if (!fresh(now)) return "the robot's states are older than 0.5 s";
-  return std::nullopt;
+void CommandRepeater::set(std::vector<Reference> references, double deadline) {
+  references_ = std::move(references);
+  deadline_ = deadline;
 }
 
-bool CommandRepeater::due(double now) {
-  if (obstacle(now)) return false;
-  if (next_ && now < *next_) return false;
+std::vector<Reference> CommandRepeater::take_due(double now) {
+  if (references_.empty() || now > deadline_) return {};
+  if (next_ && now < *next_) return {};
   // From the time when it was due, so that a late look does not lower the rate.
   const bool in_step = next_ && now - *next_ < kPeriod;
   next_ = (in_step ? *next_ : now) + kPeriod;
-  return true;
+  return references_;
 }
 
 }  // namespace anthrob

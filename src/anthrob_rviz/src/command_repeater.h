@@ -1,33 +1,27 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <vector>
+
+#include "muscle_row.h"
 
 namespace anthrob {
 
-/// Decides when a command may go and when one is due: the dead man of the panel. Time is an
-/// argument, [s] of a clock that never jumps.
+/// Decides when a command is due: twenty times a second, until a deadline. Time as of DeadMan.
 class CommandRepeater {
  public:
   static constexpr double kPeriod = 0.05;  ///< [s] ten commands within the time-out of the robot
-  static constexpr double kStale = 0.5;    ///< [s] states older than this are no states
 
-  void hear(double now) { heard_ = now; }
-  void forget() { heard_.reset(); }
-  void show(bool visible) { visible_ = visible; }
-
-  /// The robot has published its states within the last half second.
-  bool fresh(double now) const { return heard_ && now - *heard_ <= kStale; }
-  /// Why nothing may be sent now; none if it may.
-  std::optional<std::string> obstacle(double now) const;
-  /// Whether a command is to be sent now, by somebody who has one. To be asked more often than one
-  /// is due. What was missed is not made up for.
-  bool due(double now);
+  /// What is to be sent from now on; empty: nothing.
+  void set(std::vector<Reference> references, double deadline);
+  /// What is to be sent now; empty: nothing. To be asked more often than one is due. What was
+  /// missed is not made up for.
+  std::vector<Reference> take_due(double now);
 
  private:
-  std::optional<double> heard_;
+  std::vector<Reference> references_;
+  double deadline_ = 0.0;
   std::optional<double> next_;  ///< when a command is due
-  bool visible_ = false;
 };
 
 }  // namespace anthrob

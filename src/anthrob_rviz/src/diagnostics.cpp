@@ -12,12 +12,19 @@ std::optional<std::string> Diagnosis::value(const std::string& key) const {
 }
 
 void Diagnostics::hear(const Diagnosis& diagnosis, double now) {
-  last_[diagnosis.name] = {diagnosis, now};
+  const auto same = std::find_if(last_.begin(), last_.end(), [&](const Heard& heard) {
+    return heard.diagnosis.name == diagnosis.name;
+  });
+  if (same == last_.end()) {
+    last_.push_back({diagnosis, now});
+  } else {
+    *same = {diagnosis, now};
+  }
 }
 
 std::vector<Diagnosis> Diagnostics::all(double now) const {
   std::vector<Diagnosis> diagnoses;
-  for (const auto& [name, heard] : last_) {
+  for (const Heard& heard : last_) {
     diagnoses.push_back(heard.diagnosis);
     if (now - heard.time > kStale) diagnoses.back().level = Level::kStale;
   }
@@ -26,9 +33,11 @@ std::vector<Diagnosis> Diagnostics::all(double now) const {
 
 std::optional<Diagnosis> Diagnostics::of(const std::string& robot, const std::string& part,
                                          double now) const {
-  const auto found = last_.find(robot + ": " + part);
-  if (found == last_.end() || now - found->second.time > kStale) return std::nullopt;
-  return found->second.diagnosis;
+  for (const Diagnosis& diagnosis : all(now)) {
+    const bool wanted = diagnosis.name == robot + ": " + part;
+    if (wanted && diagnosis.level != Level::kStale) return diagnosis;
+  }
+  return std::nullopt;
 }
 
 std::optional<Diagnosis> Diagnostics::unit_of_muscle(const std::string& robot,

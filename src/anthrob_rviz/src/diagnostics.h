@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,7 +28,8 @@ class Diagnostics {
   void hear(const Diagnosis& diagnosis, double now);
   void clear() { last_.clear(); }
 
-  /// All of them by name; those that are no longer repeated are stale.
+  /// All of them, in the order in which they first came; those that are no longer repeated are
+  /// stale.
   std::vector<Diagnosis> all(double now) const;
   /// Of one part of a robot, if it is not stale. @param part "simulator"
   std::optional<Diagnosis> of(const std::string& robot, const std::string& part, double now) const;
@@ -43,7 +43,7 @@ class Diagnostics {
     Diagnosis diagnosis;
     double time = 0.0;
   };
-  std::map<std::string, Heard> last_;
+  std::vector<Heard> last_;
 };
 
 /// "/anthrob: ecu_1" is the part "ecu_1" of "/anthrob"; a name without colon is a part of nothing.

@@ -5,7 +5,7 @@
 namespace anthrob {
 
 bool MuscleBoard::hear(const MuscleReadings& readings, double now) {
-  repeater_.hear(now);
+  dead_man_.hear(now);
   if (same_muscles(readings)) {
     for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].hear(readings[i], now);
     return false;
@@ -28,14 +28,14 @@ void MuscleBoard::set_limits(const ReferenceLimits& limits) {
 }
 
 void MuscleBoard::show(bool visible) {
-  repeater_.show(visible);
+  dead_man_.show(visible);
   if (!visible) end_all("the panel was hidden");
 }
 
 void MuscleBoard::clear() {
   rows_.clear();
   stopped_.reset();
-  repeater_.forget();
+  dead_man_.forget();
 }
 
 void MuscleBoard::hold_all(bool held) {
@@ -58,14 +58,13 @@ void MuscleBoard::hold_all_in(ControlMode mode) {
   }
 }
 
-std::vector<Reference> MuscleBoard::take_due(double now) {
+std::vector<Reference> MuscleBoard::take(double now) {
   if (!any_active()) return {};
-  if (const auto obstacle = repeater_.obstacle(now)) {
+  if (const auto obstacle = dead_man_.obstacle(now)) {
     end_all(*obstacle);
     return {};
   }
   stopped_.reset();
-  if (!repeater_.due(now)) return {};
   std::vector<Reference> references;
   for (MuscleRow& row : rows_) {
     if (row.active()) references.push_back(row.take(now));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "command_repeater.h"
+#include "dead_man.h"
 #include "muscle_row.h"
 
 namespace anthrob {
@@ -29,20 +29,22 @@ class MuscleBoard {
   /// Zero volts for all muscles: they yield as far as their gears let them, and nothing winds.
   void relax_all();
 
-  /// What is to be sent now; empty if nothing is. To be called at least a hundred times a second.
-  std::vector<Reference> take_due(double now);
+  /// What is to be repeated from now on; empty if nothing is.
+  std::vector<Reference> take(double now);
+  /// Until when, if nobody asks again.
+  double deadline(double now) const { return dead_man_.deadline(now); }
   /// Why the last holds ended all at once; none since something is held again.
   const std::optional<std::string>& stopped() const { return stopped_; }
   bool any_active() const;
   bool all_held() const;
-  bool fresh(double now) const { return repeater_.fresh(now); }
+  bool fresh(double now) const { return dead_man_.fresh(now); }
 
  private:
   void hold_all_in(ControlMode mode);
   void end_all(const std::string& why);
   bool same_muscles(const MuscleReadings& readings) const;
 
-  CommandRepeater repeater_;
+  DeadMan dead_man_;
   ReferenceLimits limits_;
   std::vector<MuscleRow> rows_;
   std::optional<std::string> stopped_;

@@ -27,7 +27,8 @@ struct ServiceRequest {
   int steps = 1;        ///< of sim/step
 };
 
-/// A robot as a panel sees it. Nothing here waits, and all is called by the GUI's thread.
+/// A robot as a panel sees it. Nothing here waits, and all is called by the GUI's thread, except
+/// that another one may send().
 class RobotConnection {
  public:
   virtual ~RobotConnection() = default;

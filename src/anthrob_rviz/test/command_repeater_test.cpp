@@ -5,15 +5,15 @@
 namespace anthrob {
 namespace {
 
+const std::vector<Reference> kCommand = {{"flexor", ControlMode::kForce, 5.0}};
+
 /// How often a command is due within two seconds, if somebody looks every so often.
 int commands_in_two_seconds(double look_period) {
   CommandRepeater repeater;
-  repeater.show(true);
+  repeater.set(kCommand, 2.0);
   int count = 0;
   for (int i = 0; i * look_period < 2.0; ++i) {
-    const double now = i * look_period;
-    repeater.hear(now);
-    count += repeater.due(now) ? 1 : 0;
+    count += repeater.take_due(i * look_period).empty() ? 0 : 1;
   }
   return count;
 }
@@ -27,27 +27,21 @@ TEST(CommandRepeater, TwentyASecondHoweverOftenOneLooks) {
 
 TEST(CommandRepeater, WhatWasMissedIsNotMadeUpFor) {
   CommandRepeater repeater;
-  repeater.show(true);
-  repeater.hear(0.0);
-  EXPECT_TRUE(repeater.due(0.0));
-  repeater.hear(3.0);
-  EXPECT_TRUE(repeater.due(3.0));
-  EXPECT_FALSE(repeater.due(3.01));
+  repeater.set(kCommand, 9.0);
+  EXPECT_EQ(repeater.take_due(0.0).size(), 1U);
+  EXPECT_EQ(repeater.take_due(3.0).size(), 1U);
+  EXPECT_TRUE(repeater.take_due(3.01).empty());
 }
 
-TEST(CommandRepeater, SaysWhyNothingMayBeSent) {
+TEST(CommandRepeater, EndsAtItsDeadlineAndWithoutReferences) {
   CommandRepeater repeater;
-  EXPECT_EQ(repeater.obstacle(0.0).value(), "the panel was hidden");
-  repeater.show(true);
-  EXPECT_EQ(repeater.obstacle(0.0).value(), "no robot publishes its states");
-  EXPECT_FALSE(repeater.due(0.0));
-  repeater.hear(1.0);
-  EXPECT_FALSE(repeater.obstacle(1.5).has_value());
-  EXPECT_EQ(repeater.obstacle(1.51).value(), "the robot's states are older than 0.5 s");
-  EXPECT_FALSE(repeater.due(1.51));
-  repeater.hear(1.6);
-  repeater.show(false);
-  EXPECT_FALSE(repeater.due(1.6));
+  EXPECT_TRUE(repeater.take_due(0.0).empty());
+  repeater.set(kCommand, 1.0);
+  EXPECT_FALSE(repeater.take_due(1.0).empty());
+  EXPECT_TRUE(repeater.take_due(1.1).empty());
+  repeater.set(kCommand, 3.0);
+  repeater.set({}, 3.0);
+  EXPECT_TRUE(repeater.take_due(2.0).empty());
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ TEST(Diagnostics, KeepTheLastOfEachAndAgeIt) {
   diagnostics.hear({"/anthrob: simulator", Level::kWarning, "slower", {}}, 3.0);
   const auto all = diagnostics.all(5.5);
   ASSERT_EQ(all.size(), 2U);
-  EXPECT_EQ(all[0].level, Level::kStale);
-  EXPECT_EQ(all[1].message, "slower");
-  EXPECT_EQ(all[1].level, Level::kWarning);
+  EXPECT_EQ(all[0].message, "slower");
+  EXPECT_EQ(all[0].level, Level::kWarning);
+  EXPECT_EQ(all[1].level, Level::kStale);
 }
 
 TEST(Diagnostics, OfOneRobot) {

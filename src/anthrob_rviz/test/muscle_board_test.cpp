@@ -21,36 +21,36 @@ MuscleBoard board_at(double now) {
 
 TEST(MuscleBoard, SendsNothingByItself) {
   MuscleBoard board = board_at(0.0);
-  EXPECT_TRUE(board.take_due(0.1).empty());
+  EXPECT_TRUE(board.take(0.1).empty());
   EXPECT_FALSE(board.stopped().has_value());
 }
 
 TEST(MuscleBoard, SendsWhatIsPressedOrHeldInOneCommand) {
   MuscleBoard board = board_at(0.0);
   board.rows()[1].press();
-  ASSERT_EQ(board.take_due(0.0).size(), 1U);
+  ASSERT_EQ(board.take(0.0).size(), 1U);
   board.rows()[0].hold(true);
-  const auto references = board.take_due(0.06);
+  const auto references = board.take(0.06);
   ASSERT_EQ(references.size(), 2U);
   EXPECT_EQ(references[0].muscle, "flexor");
   EXPECT_EQ(references[0].value, 1.0);
   board.rows()[1].release();
-  EXPECT_EQ(board.take_due(0.12).size(), 1U);
+  EXPECT_EQ(board.take(0.12).size(), 1U);
   board.rows()[0].hold(false);
-  EXPECT_TRUE(board.take_due(0.18).empty());
+  EXPECT_TRUE(board.take(0.18).empty());
 }
 
 TEST(MuscleBoard, ASilentRobotEndsAllHolds) {
   MuscleBoard board = board_at(0.0);
   board.hold_all(true);
-  EXPECT_FALSE(board.take_due(0.5).empty());
-  EXPECT_TRUE(board.take_due(0.51).empty());
+  EXPECT_FALSE(board.take(0.5).empty());
+  EXPECT_TRUE(board.take(0.51).empty());
   EXPECT_EQ(board.stopped().value(), "the robot's states are older than 0.5 s");
   EXPECT_FALSE(board.any_active());
   board.hear(two_muscles(), 1.0);  // it is there again, and nothing goes on by itself
-  EXPECT_TRUE(board.take_due(1.0).empty());
+  EXPECT_TRUE(board.take(1.0).empty());
   board.hold_all(true);
-  EXPECT_FALSE(board.take_due(1.1).empty());
+  EXPECT_FALSE(board.take(1.1).empty());
   EXPECT_FALSE(board.stopped().has_value());
 }
 
@@ -58,10 +58,10 @@ TEST(MuscleBoard, AHiddenPanelEndsAllHolds) {
   MuscleBoard board = board_at(0.0);
   board.rows()[0].press();
   board.show(false);
-  EXPECT_TRUE(board.take_due(0.0).empty());
+  EXPECT_TRUE(board.take(0.0).empty());
   EXPECT_EQ(board.stopped().value(), "the panel was hidden");
   board.show(true);
-  EXPECT_TRUE(board.take_due(0.1).empty());
+  EXPECT_TRUE(board.take(0.1).empty());
 }
 
 TEST(MuscleBoard, HoldHereHoldsTheMeasuredPositions) {
@@ -70,7 +70,7 @@ TEST(MuscleBoard, HoldHereHoldsTheMeasuredPositions) {
   board.rows()[0].hold(true);
   board.hear(two_muscles(2.0), 0.1);
   board.hold_here();
-  const auto references = board.take_due(0.1);
+  const auto references = board.take(0.1);
   ASSERT_EQ(references.size(), 2U);
   EXPECT_EQ(references[0].mode, ControlMode::kPosition);
   EXPECT_EQ(references[0].value, 2.0);
@@ -82,7 +82,7 @@ TEST(MuscleBoard, RelaxAllAsksForNoVolts) {
   MuscleBoard board = board_at(0.0);
   board.hold_here();
   board.relax_all();
-  for (const Reference& reference : board.take_due(0.0)) {
+  for (const Reference& reference : board.take(0.0)) {
     EXPECT_EQ(reference.mode, ControlMode::kVoltage);
     EXPECT_EQ(reference.value, 0.0);
   }
@@ -95,7 +95,7 @@ TEST(MuscleBoard, OtherMusclesAreOtherRows) {
   EXPECT_FALSE(board.hear(two_muscles(3.0), 0.1));
   EXPECT_TRUE(board.hear({reading("only_one", 0.0)}, 0.2));
   EXPECT_EQ(board.rows().size(), 1U);
-  EXPECT_TRUE(board.take_due(0.2).empty());
+  EXPECT_TRUE(board.take(0.2).empty());
 }
 
 TEST(MuscleBoard, WithoutMusclesNothingIsHeld) {
@@ -103,7 +103,7 @@ TEST(MuscleBoard, WithoutMusclesNothingIsHeld) {
   board.show(true);
   board.hold_here();
   EXPECT_FALSE(board.all_held());
-  EXPECT_TRUE(board.take_due(0.0).empty());
+  EXPECT_TRUE(board.take(0.0).empty());
 }
 
 }  // namespace

@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "anthrob_core/monotonic_clock.h"
-#include "command_repeater.h"
+#include "dead_man.h"
 
 namespace anthrob {
 namespace {
 
-constexpr int kTick_ms = 10;            // a fifth of the period of commands
+constexpr int kTick_ms = 20;            // less than anybody feels between mouse and motor
 constexpr double kRefreshPeriod = 0.1;  // [s] faster cannot be read
 
 const char* const kRobotKey = "Robot";  // in the .rviz file
@@ -60,6 +60,7 @@ void ConnectedPanel::choose(const QString& text) {
 }
 
 void ConnectedPanel::connect_robot() {
+  end();
   heard_.reset();
   summary_ = {};
   connection_->connect(robot_);
@@ -85,7 +86,7 @@ void ConnectedPanel::tick() {
 
 Presence ConnectedPanel::presence(double now) const {
   if (!heard_) return Presence::kAbsent;
-  return now - *heard_ > CommandRepeater::kStale ? Presence::kSilent : Presence::kHeard;
+  return now - *heard_ > DeadMan::kStale ? Presence::kSilent : Presence::kHeard;
 }
 
 std::string ConnectedPanel::state_text(double now) const {

@@ -16,7 +16,7 @@
 namespace anthrob {
 
 /// A panel of one robot, whose namespace is the property "Robot" in the .rviz file. It looks for
-/// news a hundred times a second, and shows them ten times a second.
+/// news fifty times a second, and shows them ten times a second.
 class ConnectedPanel : public rviz::Panel {
  public:
   void load(const rviz::Config& config) override;
@@ -26,6 +26,8 @@ class ConnectedPanel : public rviz::Panel {
   /// @param robot namespace until load() or its user names another one
   ConnectedPanel(std::unique_ptr<RobotConnection> connection, const std::string& robot);
 
+  /// Before another robot is connected.
+  virtual void end() {}
   /// Another robot is connected from now on.
   virtual void begin() = 0;
   virtual void hear(const News& news, double now) = 0;

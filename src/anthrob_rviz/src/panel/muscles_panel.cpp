@@ -13,7 +13,8 @@ MusclesPanel::MusclesPanel(std::unique_ptr<RobotConnection> connection, const st
       status_(text_label("status")),
       search_(new QLineEdit),
       hold_all_(new QCheckBox("hold all")),
-      list_(new QVBoxLayout) {
+      list_(new QVBoxLayout),
+      commands_([this](const std::vector<Reference>& r) { this->connection().send(r); }) {
   column()->addWidget(status_);
   add_buttons();
   add_list();
@@ -59,6 +60,10 @@ void MusclesPanel::add_list() {
   column()->addWidget(area, 1);
 }
 
+void MusclesPanel::end() {
+  commands_.set({}, 0.0);
+}
+
 void MusclesPanel::begin() {
   board_.clear();
   diagnostics_.clear();
@@ -88,14 +93,15 @@ void MusclesPanel::filter(const QString& text) {
 }
 
 void MusclesPanel::act(double now) {
-  const std::vector<Reference> references = board_.take_due(now);
-  if (!references.empty()) connection().send(references);
+  commands_.set(board_.take(now), board_.deadline(now));
 }
 
 void MusclesPanel::refresh(double now) {
   board_.set_limits(connection().limits());
   const double force_limit = connection().limits().of(ControlMode::kForce).high;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
+    // Of a hundred muscles ten are in sight.
+    if (rows_[i]->visibleRegion().isEmpty()) continue;
     rows_[i]->show_row(board_.fresh(now), remark_of(board_.rows()[i], now), force_limit);
   }
   const QSignalBlocker quiet(hold_all_);
@@ -142,6 +148,7 @@ void MusclesPanel::showEvent(QShowEvent* event) {
 void MusclesPanel::hideEvent(QHideEvent* event) {
   rviz::Panel::hideEvent(event);
   board_.show(false);
+  commands_.set({}, 0.0);
   for (MuscleRowWidget* row : rows_) row->let_go();
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "command_thread.h"
 #include "diagnostics.h"
 #include "muscle_board.h"
 #include "panel/connected_panel.h"
@@ -22,6 +23,7 @@ class MusclesPanel final : public ConnectedPanel {
   MusclesPanel(std::unique_ptr<RobotConnection> connection, const std::string& robot);
 
  private:
+  void end() override;
   void begin() override;
   void hear(const News& news, double now) override;
   void act(double now) override;
@@ -44,6 +46,7 @@ class MusclesPanel final : public ConnectedPanel {
   QCheckBox* hold_all_;
   QVBoxLayout* list_;
   std::vector<MuscleRowWidget*> rows_;
+  CommandThread commands_;
 };
 
 }  // namespace anthrob

@@ -136,7 +136,7 @@ bool RosConnection::simulated() const {
 }
 
 std::string default_robot() {
-  const std::string own = ros::this_node::getNamespace();
+  const std::string& own = ros::this_node::getNamespace();
   return own == "/" ? "anthrob" : own.substr(1);
 }
 

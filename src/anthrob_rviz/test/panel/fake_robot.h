@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,11 +17,24 @@ struct FakeRobot {
   bool talks = true;
   bool simulated = true;
   std::string connected;
-  std::vector<std::vector<Reference>> commands;
   std::vector<ServiceRequest> calls;
   std::vector<Diagnosis> diagnostics;
   std::vector<CallResult> answers;
   int shouts = 0;
+
+  /// Commands come from another thread.
+  void receive(const std::vector<Reference>& command) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    commands_.push_back(command);
+  }
+  std::vector<std::vector<Reference>> take_commands() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(commands_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::vector<Reference>> commands_;
 };
 
 /// A panel owns its connection; the test keeps the robot.
@@ -36,9 +50,7 @@ class FakeConnection final : public RobotConnection {
     news.answers = std::exchange(robot_->answers, {});
     return news;
   }
-  void send(const std::vector<Reference>& references) override {
-    robot_->commands.push_back(references);
-  }
+  void send(const std::vector<Reference>& references) override { robot_->receive(references); }
   bool call(const ServiceRequest& request) override {
     robot_->calls.push_back(request);
     return true;
