@@ -6,6 +6,7 @@ namespace {
 std::size_t count = 0;
 }
 
+// Of glibc. NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" void* malloc(std::size_t size) noexcept {
   ++count;
