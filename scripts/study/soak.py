@@ -133,7 +133,7 @@ def node_of(words):
     named = [word.split(":=")[1] for word in words if word.startswith("__name:=")]
     scripts = [word for word in words[:3] if word and not word.startswith("-")]
     # Anonymous nodes have the host's name, a process and a random number at their end.
-    return re.sub(r"_\w+_\d+_\d+$", "", named[0]) if named else os.path.basename(scripts[-1] if "python" in scripts[0] else scripts[0])
+    return re.sub(r"_[^_]+_\d+_\d+$", "", named[0]) if named else os.path.basename(scripts[-1] if "python" in scripts[0] else scripts[0])
 
 
 def measured(pid):
@@ -213,7 +213,8 @@ def page(rows, facts):
               both(row["threads"])] for row in rows]
     return markdown_page("Long runs", [
         "`./catkin_ws.sh study soak` runs the arm with everything that measures and records it, and notes what each process "
-        "has. Growth is a straight line through the memory after the first ten minutes.", (head, table), facts])
+        "has. Growth is a straight line through the memory after the first ten minutes. The recorder tabulates all its "
+        "recordings after each of them, so it grows with their number, not with time.", (head, table), facts])
 
 
 def main():
