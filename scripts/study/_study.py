@@ -63,7 +63,7 @@ def refuse(line):
     sys.exit(BAD_INPUT)
 
 
-def start(main):
+def start(main, continues=True):
     """Runs a study. Ctrl-C and SIGTERM both end it with status 130."""
 
     def interrupt(*_):
@@ -73,7 +73,7 @@ def start(main):
     try:
         main()
     except KeyboardInterrupt:
-        say("interrupted; the same command continues where this one stopped")
+        say(f"interrupted; the same command {'continues where this one stopped' if continues else 'begins anew'}")
         sys.exit(INTERRUPTED)
     except BrokenPipeError:
         # `--list | head`: nobody reads the rest. The interpreter would complain at its end if it could not write it.

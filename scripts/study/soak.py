@@ -42,11 +42,21 @@ def hours(word):
     return value
 
 
+def pace(word):
+    try:
+        value = float(word)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value <= 1.0:
+        raise argparse.ArgumentTypeError(f"{word}: expected a number in (0, 1]")
+    return value
+
+
 def arguments():
     parser = OneLineParser("study soak", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--hours", type=hours, default=2.0, help="how long (default: 2)")
     parser.add_argument("--part", action="append", choices=PARTS, default=[], help="only this one; may be given several times")
-    parser.add_argument("--pace", type=float, default=1.0, help="speed of simulator and emulated units, in (0, 1] (default: 1)")
+    parser.add_argument("--pace", type=pace, default=1.0, help="speed of simulator and emulated units, in (0, 1] (default: 1)")
     parser.add_argument("--out", default=OUT, help="folder of the results (default: build/study, and studies/)")
     return parser.parse_args()
 
@@ -248,4 +258,4 @@ def main():
 
 
 if __name__ == "__main__":
-    start(main)
+    start(main, continues=False)

@@ -190,6 +190,12 @@ class SoakStudy(Study):
         self.assertEqual(ended.exception.code, 2)
         self.assertFalse(os.path.exists('out/soak.json'))
 
+    def test_a_pace_that_is_none(self):
+        for word in ('0', '1.5', 'fast', 'nan'):
+            with self.assertRaises(SystemExit) as ended:
+                self.study('--pace', word)
+            self.assertEqual(ended.exception.code, 2)
+
     def test_a_driver_without_a_bus(self):
         with self.assertRaises(SystemExit) as ended:
             self.study('--part', 'driver')
