@@ -12,10 +12,10 @@ import rospkg
 import rospy
 import rostest
 import yaml
-from anthrob_msgs.msg import MuscleCommand, MusclePaths, MuscleStates, SphericalJointStates
-from anthrob_msgs.srv import SetState, SetStateRequest, Step
+from anthrob_msgs.msg import ExternalWrenches, MuscleCommand, MusclePaths, MuscleStates, SphericalJointStates
+from anthrob_msgs.srv import ApplyWrench, ApplyWrenchRequest, SetRate, SetState, SetStateRequest, Step
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import Quaternion
+from geometry_msgs.msg import Point, Quaternion, Vector3
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
@@ -56,7 +56,7 @@ class SimContract(unittest.TestCase):
         cls.command = rospy.Publisher('muscle_command', MuscleCommand, queue_size=10, tcp_nodelay=True)
         cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
         for name in ['enable', 'home', 'disable', 'emergency_stop', 'clear_faults', 'sim/pause', 'sim/step', 'sim/reset',
-                     'sim/set_state']:
+                     'sim/set_state', 'sim/set_rate', 'sim/apply_wrench']:
             rospy.wait_for_service(name, 30)
         cls.enable = rospy.ServiceProxy('enable', Trigger)
         cls.home = rospy.ServiceProxy('home', Trigger)
@@ -68,6 +68,9 @@ class SimContract(unittest.TestCase):
         cls.step = staticmethod(lambda count, command=rospy.Time(): step(steps=count, command_stamp=command))
         cls.reset = rospy.ServiceProxy('sim/reset', Trigger)
         cls.set_state = rospy.ServiceProxy('sim/set_state', SetState)
+        cls.set_rate = rospy.ServiceProxy('sim/set_rate', SetRate)
+        cls.apply_wrench = rospy.ServiceProxy('sim/apply_wrench', ApplyWrench)
+        cls.wrenches = Collector('external_wrenches', ExternalWrenches)
         wait_for(lambda: cls.states.messages and cls.command.get_num_connections() > 0
                  and cls.stop_topic.get_num_connections() > 0, 30, 'connections')
 
@@ -92,7 +95,66 @@ class SimContract(unittest.TestCase):
         wait_for(lambda: self.states.last().header.stamp >= answer.stamp, 5, 'states after the step')
         return self.states.last()
 
+    # ---- pushes ----
+
+    def push(self, **request):
+        return self.apply_wrench(ApplyWrenchRequest(**request))
+
+    def test_a_link_is_pushed_for_as_long_as_asked(self):
+        self.disable()
+        self.advance(10)
+        before = self.joints.last().position[0]
+        lift = dict(link='forearm', point=Point(z=-0.2), force=Vector3(z=60.0))
+        self.assertTrue(self.push(duration=rospy.Duration(0.3), **lift).success)
+        self.assertTrue(self.push(link='humerus', torque=Vector3(x=0.1), duration=rospy.Duration(0.1)).success)
+        self.advance(200)
+        acting = self.wrenches.last()
+        self.assertEqual((acting.header.frame_id, acting.link), ('base', ['forearm']))
+        self.assertEqual((acting.point[0].z, acting.wrench[0].force.z), (-0.2, 60.0))
+        self.assertAlmostEqual(acting.left[0].to_sec(), 0.1, delta=1e-6)
+        self.advance(100)
+        wait_for(lambda: not self.wrenches.last().link, 5, 'the end of the pushes')
+        self.assertGreater(self.joints.last().position[0], before + 0.1)
+        count = len(self.wrenches.messages)
+        self.advance(20)
+        self.assertEqual(len(self.wrenches.messages), count)
+
+    def test_a_push_can_be_ended_and_ends_with_a_reset(self):
+        for end in (lambda: self.push(link='forearm', point=Point(z=-0.2)), self.reset):
+            self.push(link='forearm', point=Point(z=-0.2), force=Vector3(z=1.0), duration=rospy.Duration(1000))
+            self.advance(1)
+            wait_for(lambda: self.wrenches.last().link == ['forearm'], 5, 'the push')
+            end()
+            self.advance(1)
+            wait_for(lambda: not self.wrenches.last().link, 5, 'its end')
+
+    def test_a_push_that_is_none_is_refused(self):
+        second = rospy.Duration(1)
+        for why, request in [("link 'elbow': unknown; expected one of base, ", dict(link='elbow', duration=second)),
+                             ('force', dict(link='forearm', force=Vector3(x=float('nan')), duration=second)),
+                             ('point', dict(link='forearm', point=Point(x=float('inf')), duration=second)),
+                             ('torque', dict(link='forearm', torque=Vector3(y=1e12), duration=second)),
+                             ('duration', dict(link='forearm', duration=rospy.Duration(-1)))]:
+            answer = self.push(**request)
+            self.assertFalse(answer.success)
+            self.assertIn(why, answer.message)
+
     # ---- topics and rates ----
+
+    def test_the_rate_can_be_changed(self):
+        for factor in (-1.0, 1e-6, float('nan'), float('inf')):
+            answer = self.set_rate(factor)
+            self.assertFalse(answer.success)
+            self.assertIn('expected 0', answer.message)
+        self.addCleanup(self.set_rate, 1.0)
+        self.assertTrue(self.set_rate(0.1).success)
+        self.pause(False)
+        time.sleep(0.2)
+        begin, count = time.time(), len(self.clock.messages)
+        time.sleep(2.0)
+        passed = (self.clock.messages[-1].clock - self.clock.messages[count - 1].clock).to_sec()
+        self.assertLess(passed / (time.time() - begin), 0.15)
+        self.assertGreater(passed, 0.0)
 
     def test_publishes_states_and_clock_in_real_time(self):
         self.pause(False)

@@ -8,9 +8,6 @@
 
 namespace {
 
-/// Real-time factor below which one cycle takes many seconds.
-constexpr double kSlowest = 1e-3;
-
 /// @return whether the word says that motion capture measures the ball joints
 bool measured_by_cameras(const std::string& key, const XmlRpc::XmlRpcValue& value) {
   const std::string word = anthrob::text_of(key, value);
@@ -54,7 +51,7 @@ int main(int argc, char** argv) {
     }
     SimulatorNode::Options options;
     take(settings, "rate", nonnegative_number_of, options.rate);
-    if (options.rate > 0.0 && options.rate < kSlowest) {
+    if (options.rate > 0.0 && options.rate < SimulatorNode::kSlowest) {
       throw BadInput("parameter ~rate: " + std::to_string(options.rate) +
                      ": expected 0, for as fast as possible, or at least 0.001");
     }

@@ -45,7 +45,8 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       steps_per_cycle_(std::min(steps_per_state_, steps_in(kHearing))),
       steps_to_state_(steps_per_state_),
       nh_(nh),
-      surfaces_(nh_, sim_.model()) {
+      surfaces_(nh_, sim_.model()),
+      pushes_(nh_, sim_) {
   advertise_topics();
   subscribe_to_commands();
   offer_services();
@@ -104,6 +105,7 @@ void SimulatorNode::offer_services() {
           [this](auto& request, auto& response) { return on_gains(request, response); }),
       nh_.advertiseService("sim/pause", &SimulatorNode::on_pause, this),
       nh_.advertiseService("sim/step", &SimulatorNode::on_step, this),
+      nh_.advertiseService("sim/set_rate", &SimulatorNode::on_set_rate, this),
       nh_.advertiseService("sim/reset", &SimulatorNode::on_reset, this),
       advertise_bounded<anthrob_msgs::SetState>(
           nh_, "sim/set_state",
@@ -306,6 +308,21 @@ bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
   return true;
 }
 
+bool SimulatorNode::on_set_rate(anthrob_msgs::SetRate::Request& request,
+                                anthrob_msgs::SetRate::Response& response) {
+  const double factor = request.factor;
+  response.success = std::isfinite(factor) && (factor == 0.0 || factor >= kSlowest);
+  if (!response.success) {
+    response.message = "factor: " + std::to_string(factor) +
+                       ": expected 0, for as fast as possible, or at least 0.001";
+    return true;
+  }
+  options_.rate = factor;
+  deadline_ = Clock::now();
+  response.message = factor > 0.0 ? "real-time factor " + text(factor) : "as fast as possible";
+  return true;
+}
+
 bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   start_anew();
   last_command_stamp_ = ros::Time();
@@ -421,6 +438,7 @@ void SimulatorNode::publish(bool all) {
   joints_.publish(joint_states(sim_, now));
   spherical_joints_.publish(spherical_joint_states(sim_, now));
   if (touch_) touch_.publish(touch_states(sim_, now));
+  pushes_.publish(now);
   const double period = steps_per_state_ * sim_.step_length();  // [s]
   const int states_per_tf =
       std::max(1, static_cast<int>(std::lround(1.0 / (options_.tf_rate * period))));

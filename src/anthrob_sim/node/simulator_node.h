@@ -2,6 +2,7 @@
 
 #include <anthrob_msgs/Gains.h>
 #include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/SetRate.h>
 #include <anthrob_msgs/SetState.h>
 #include <anthrob_msgs/Step.h>
 #include <diagnostic_msgs/DiagnosticStatus.h>
@@ -22,6 +23,7 @@
 #include "anthrob_ros/descriptor_watch.h"
 #include "anthrob_ros/registration_watch.h"
 #include "anthrob_sim/simulation.h"
+#include "external_pushes.h"
 #include "interrupts.h"
 #include "report/solved_path.h"
 #include "simulation/driven_joints.h"
@@ -35,6 +37,9 @@ namespace anthrob {
 /// no message and no call can delay them.
 class SimulatorNode {
  public:
+  /// Real-time factor below which one cycle takes many seconds.
+  static constexpr double kSlowest = 0.001;
+
   struct Options {
     double rate = 1.0;          ///< real-time factor; 0: as fast as possible
     double state_rate = 500.0;  ///< [Hz of simulated time] states and clock
@@ -82,6 +87,8 @@ class SimulatorNode {
   bool on_clear_faults(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_step(anthrob_msgs::Step::Request& request, anthrob_msgs::Step::Response& response);
+  bool on_set_rate(anthrob_msgs::SetRate::Request& request,
+                   anthrob_msgs::SetRate::Response& response);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_set_state(anthrob_msgs::SetState::Request& request,
                     anthrob_msgs::SetState::Response& response);
@@ -133,6 +140,7 @@ class SimulatorNode {
   ros::Publisher clock_, muscles_, joints_, spherical_joints_, muscle_paths_, touch_, solved_paths_,
       diagnostics_;
   SurfaceDisplay surfaces_;
+  ExternalPushes pushes_;
   tf2_ros::TransformBroadcaster transforms_;
 
   Clock::time_point deadline_, report_time_, marker_time_, clock_time_;

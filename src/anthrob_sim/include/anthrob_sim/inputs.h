@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "anthrob_ecu/control_law.h"
 #include "anthrob_ecu/parameters.h"
+#include "anthrob_sim/skeleton/kinematic_tree.h"
 #include "anthrob_sim/skeleton/skeleton_model.h"
 
 namespace anthrob {
@@ -79,6 +81,50 @@ class ImposedPosture {
   const SkeletonModel& skeleton_;
   const ReadingChain& readings_;
   std::vector<double> q_;
+};
+
+/// A force and a torque on a link, from outside.
+struct Wrench {
+  int frame = -1;                ///< the link, as of SkeletonModel::find_frame()
+  Vec3 point = Vec3::Zero();     ///< where the force acts, in the link's frame [m]
+  Vec3 force = Vec3::Zero();     ///< world [N]
+  Vec3 torque = Vec3::Zero();    ///< world [Nm]
+  std::uint64_t steps_left = 1;  ///< for how long
+};
+
+/// What pushes the links of a simulation from outside; Simulation::external_wrenches().
+class ExternalWrenches {
+ public:
+  static constexpr std::size_t kMost = 1000;
+
+  explicit ExternalWrenches(const SkeletonModel& skeleton) : skeleton_(skeleton) {}
+
+  /// Pushes from the next step on, beside all others; instead of one at the same point of the same
+  /// link. None at this point if there are no steps. The world may be pushed, too: it stays.
+  /// @throws BadInput for an unknown link, numbers that are not sensible, or more than kMost at
+  /// once; nothing has changed then
+  void push(const Wrench& wrench);
+  void release() { acting_.clear(); }
+  /// Those of the next step.
+  const std::vector<Wrench>& acting() const { return acting_; }
+
+  /// What one step of them does to a body: force [N] and torque about its centre of mass [Nm].
+  struct OnBody {
+    int body;
+    Vec3 force_W, torque_W;
+  };
+  OnBody on_body(const Wrench& wrench, const std::vector<BodyState>& bodies) const;
+  /// Adds the generalised forces of all of them: as KinematicTree's velocities.
+  void add_generalised(const KinematicTree& tree, const std::vector<BodyState>& bodies,
+                       Eigen::VectorXd& tau) const;
+
+ private:
+  friend class Simulation;  // restores them, and lets them end
+
+  void count_step();
+
+  const SkeletonModel& skeleton_;
+  std::vector<Wrench> acting_;
 };
 
 }  // namespace anthrob

@@ -18,6 +18,7 @@ struct Snapshot {
   std::vector<BodyState> bodies;
   std::vector<double> q, effort, load;  ///< of joints
   std::vector<double> posture;          ///< imposed posture; empty: none
+  std::vector<Wrench> wrenches;         ///< that push from outside
 };
 
 /// A robot in motion. Deterministic: same model, same calls, same bits. Does not allocate while
@@ -58,10 +59,14 @@ class Simulation {
   ImposedPosture& imposed_posture();
   const ImposedPosture& imposed_posture() const;
 
+  /// What pushes its links.
+  ExternalWrenches& external_wrenches();
+  const ExternalWrenches& external_wrenches() const;
+
   /// Puts the robot at rest into a posture, with its actuators at given positions and relaxed
   /// springs. Muscles move there from the rest posture in small steps, so that wrapping states are
   /// those of a continuous motion. Commands, time and noise continue; an imposed posture is
-  /// released.
+  /// released, and so are wrenches.
   /// @param q joint positions, size position_count
   /// @param positions actuator positions, one per muscle [rad]
   /// @throws BadInput for other sizes, numbers that are not finite, or positions that an actuator

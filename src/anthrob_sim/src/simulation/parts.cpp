@@ -20,6 +20,7 @@ Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
       readings_(*model_, store_),
       muscle_inputs_(muscles_, readings_, model_->step),
       posture_(*model_->skeleton, readings_),
+      wrenches_(*model_->skeleton),
       q_(model_->skeleton->rest_configuration()),
       effort_(model_->skeleton->joints.size(), 0.0),
       load_(model_->skeleton->joints.size(), 0.0),
@@ -104,6 +105,7 @@ void Simulation::Parts::step_once() {
     tau_[joint.velocity_offset] += effort_[i] + load_[i];
   }
   if (!model_->joint_torques.empty()) add_joint_torques();
+  wrenches_.add_generalised(tree_, skeleton_.bodies(), tau_);
   for (Muscle& muscle : muscles_) muscle.prepare_sliding(tree_, tau_);
   if (!posture_.active()) {
     resistance_.solve(tree_, q_, tau_, sliding_,
@@ -180,6 +182,10 @@ void Simulation::Parts::apply_wrenches() {
       apply(path.obstacles()[i].body, segment.from_W, pull);
       apply(path.obstacles()[i + 1].body, segment.to_W, -pull);
     }
+  }
+  for (const Wrench& wrench : wrenches_.acting()) {
+    const ExternalWrenches::OnBody on = wrenches_.on_body(wrench, bodies);
+    if (on.body != 0) skeleton_.add_wrench(on.body, on.force_W, on.torque_W);
   }
   apply_joint_efforts();
 }

@@ -54,6 +54,7 @@ class Simulation::Parts {
   ReadingChain readings_;
   MuscleInputs muscle_inputs_;
   ImposedPosture posture_;
+  ExternalWrenches wrenches_;
   std::vector<SlidingTendon*> sliding_;
   std::vector<Sensor> joint_sensors_;
   std::vector<double> q_, effort_, load_;

@@ -64,6 +64,14 @@ const ImposedPosture& Simulation::imposed_posture() const {
   return parts_->posture_;
 }
 
+ExternalWrenches& Simulation::external_wrenches() {
+  return parts_->wrenches_;
+}
+
+const ExternalWrenches& Simulation::external_wrenches() const {
+  return parts_->wrenches_;
+}
+
 void Simulation::apply_effort(int joint, double effort) {
   check_joint(joint);
   if (!parts_->model_->skeleton->joints[joint].driven) {
@@ -100,6 +108,7 @@ void Simulation::check_place(const std::vector<double>& q,
 void Simulation::place(const std::vector<double>& q, const std::vector<double>& positions) {
   check_place(q, positions);
   parts_->posture_.release();
+  parts_->wrenches_.release();
   const SkeletonModel& skeleton = *parts_->model_->skeleton;
   const std::vector<double> rest = skeleton.rest_configuration();
   std::vector<BodyState> bodies;
@@ -135,7 +144,10 @@ void Simulation::skip(std::uint64_t steps) {
 }
 
 void Simulation::step(int count) {
-  for (int i = 0; i < count; ++i) parts_->step_once();
+  for (int i = 0; i < count; ++i) {
+    parts_->step_once();
+    parts_->wrenches_.count_step();
+  }
 }
 
 std::size_t Simulation::muscle_count() const {
@@ -228,8 +240,9 @@ Simulation::LastStep Simulation::last_step() const {
 }
 
 Snapshot Simulation::snapshot() const {
-  return {parts_->step_index_, parts_->store_.data(), parts_->skeleton_.bodies(), parts_->q_,
-          parts_->effort_,     parts_->load_,         parts_->posture_.q_};
+  return {parts_->step_index_, parts_->store_.data(),    parts_->skeleton_.bodies(),
+          parts_->q_,          parts_->effort_,          parts_->load_,
+          parts_->posture_.q_, parts_->wrenches_.acting_};
 }
 
 void Simulation::restore(const Snapshot& snapshot) {
@@ -246,6 +259,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   parts_->effort_ = snapshot.effort;
   parts_->load_ = snapshot.load;
   parts_->posture_.q_ = snapshot.posture;
+  parts_->wrenches_.acting_ = snapshot.wrenches;
   parts_->skeleton_.set_bodies(snapshot.bodies);
   parts_->tree_.update(parts_->skeleton_.bodies(), parts_->q_);
   // Paths are scratch memory: the same posture and states give the same paths.
