@@ -2,6 +2,7 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -65,6 +66,7 @@ class ColladaCheck {
     check_text(element);
     for (auto child = element.FirstChildElement(); child; child = child->NextSiblingElement())
       check(*child);
+    if (std::string_view(element.Name()) == "triangles") check_triangles(element);
   }
 
   void check_attributes(const XMLElement& element) {
@@ -86,6 +88,25 @@ class ColladaCheck {
     const std::string name = element.Name();
     if (name == "float_array") check_numbers(element);
     if (name == "p" || name == "h" || name == "vcount") check_indices(element);
+  }
+
+  /// The library ends the program, by an assertion, where there are others than announced.
+  static void check_triangles(const XMLElement& element) {
+    std::uint64_t stride = 1;
+    for (auto input = element.FirstChildElement("input"); input;
+         input = input->NextSiblingElement("input")) {
+      const char* offset = input->Attribute("offset");
+      stride = std::max(stride, 1 + (offset ? whole_number(offset).value_or(0) : 0));
+    }
+    std::size_t indices = 0;
+    for (auto p = element.FirstChildElement("p"); p; p = p->NextSiblingElement("p"))
+      indices += words_of(*p).size();
+    const char* count = element.Attribute("count");
+    if (count == nullptr) fail(element, "expected a count");
+    if (3 * stride * whole_number(count).value_or(0) != indices) {
+      fail(element, std::string("count=\"") + count + "\": but it has " + std::to_string(indices) +
+                        " indices");
+    }
   }
 
   static void check_numbers(const XMLElement& element) {

@@ -57,6 +57,8 @@ TEST(ColladaCheck, SaysLineElementAndWhatWasExpected) {
   EXPECT_EQ(refusal_with("<p>0 2 1", "<p>0 2(1"), "line 10: <p>: '2(1': expected a whole number");
   EXPECT_EQ(refusal_with("source=\"#a\"", "source=\"#b\""),
             "line 6: <accessor>: source=\"#b\": expected the id of an element");
+  EXPECT_EQ(refusal_with("<p>0 2 1 0 1 3 0 3 2 1 2 3</p>", ""),
+            "line 9: <triangles>: count=\"4\": but it has 0 indices");
   EXPECT_NE(refusal_with("</mesh>", "").find("not XML"), std::string::npos);
 }
 
