@@ -5,10 +5,12 @@
 
 namespace anthrob {
 
-// Quantities that a recording may contain of a muscle, a ball joint, and any other joint.
+// Quantities that a recording may contain of a muscle, a ball joint, any other joint, and a link
+// that is pushed.
 bool is_muscle_quantity(const std::string& quantity);
 bool is_ball_quantity(const std::string& quantity);
 bool is_joint_quantity(const std::string& quantity);
+bool is_push_quantity(const std::string& quantity);
 
 /// Quantities that a column may hold.
 bool is_known_quantity(const std::string& quantity);

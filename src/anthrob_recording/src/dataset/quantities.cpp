@@ -30,8 +30,16 @@ bool is_joint_quantity(const std::string& quantity) {
   return kAll.count(quantity) > 0;
 }
 
+bool is_push_quantity(const std::string& quantity) {
+  static const std::set<std::string> kAll = {"force_x",  "force_y",  "force_z",
+                                             "torque_x", "torque_y", "torque_z",
+                                             "point_x",  "point_y",  "point_z"};
+  return kAll.count(quantity) > 0;
+}
+
 bool is_known_quantity(const std::string& quantity) {
-  return is_muscle_quantity(quantity) || is_ball_quantity(quantity) || is_joint_quantity(quantity);
+  return is_muscle_quantity(quantity) || is_ball_quantity(quantity) ||
+         is_joint_quantity(quantity) || is_push_quantity(quantity);
 }
 
 bool holds_words(const std::string& quantity) {

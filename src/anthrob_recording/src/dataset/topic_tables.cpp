@@ -14,7 +14,10 @@ const std::map<std::string, std::set<std::string>>& quantities_by_topic() {
       {"muscles",
        {"position", "velocity", "current", "voltage", "force", "reference", "mode", "ecu_state"}},
       {"joints", {"position", "velocity", "effort"}},
-      {"spherical_joints", {"w", "x", "y", "z", "wx", "wy", "wz"}}};
+      {"spherical_joints", {"w", "x", "y", "z", "wx", "wy", "wz"}},
+      {"wrenches",
+       {"force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z", "point_x", "point_y",
+        "point_z"}}};
   return kQuantities;
 }
 
@@ -84,7 +87,9 @@ class Dealer {
   /// By what it is, whatever file it stands in.
   std::string topic_of(const Column& column) const {
     const std::string q = column.quantity();
-    if (has_place("spherical_joints", q)) return "spherical_joints";
+    for (const char* topic : {"spherical_joints", "wrenches"}) {
+      if (has_place(topic, q)) return topic;
+    }
     return q != "effort" && muscles_.count(column.owner()) ? "muscles" : "joints";
   }
 

@@ -9,8 +9,8 @@ namespace anthrob {
 
 /// A recording, split by the topics that it is written to.
 struct TopicTables {
-  /// Named commands, muscles, joints or spherical_joints; several may have one name. A row without
-  /// any cell is a message without names.
+  /// Named commands, muscles, joints, spherical_joints or wrenches; several may have one name. A
+  /// row without any cell is a message without names.
   std::vector<Table> tables;
   std::vector<std::string> not_carried;  ///< columns that no topic has: "joints.csv: elbow/load"
   std::vector<std::string> remarks;      ///< columns for another topic than their file's, one each

@@ -20,6 +20,7 @@ bool is_of_muscles(const std::string& quantity) {
 /// The file where such a quantity is expected first; readers find it in any.
 std::string table_of(const std::string& quantity, bool muscle) {
   if (quantity == "reference") return "commands";
+  if (is_push_quantity(quantity)) return "wrenches";
   if (is_of_muscles(quantity)) return "muscles";
   if (quantity == "position" || quantity == "velocity") return muscle ? "muscles" : "joints";
   return quantity == "effort" || quantity == "load" ? "joints" : "spherical_joints";

@@ -25,6 +25,7 @@ namespace anthrob {
 
 namespace {
 
+using anthrob_msgs::ExternalWrenches;
 using anthrob_msgs::MuscleCommand;
 using anthrob_msgs::MuscleStates;
 using anthrob_msgs::SphericalJointStates;
@@ -59,15 +60,16 @@ class TableBuilder {
   template <class Message>
   void add(const Message& message, const ros::Time& arrival, const std::string& node) {
     Cells cells;
-    if (!are_column_owners(message.name) || !to_cells(message, cells)) {
+    const std::vector<std::string> owners = owners_of(message);
+    if (!are_column_owners(owners) || !to_cells(message, cells)) {
       ++malformed_;
       return;
     }
-    if (cells.empty() && !message.name.empty()) ++bare_;
+    if (cells.empty() && !owners.empty()) ++bare_;
     Nanoseconds bag_time = to_nanoseconds(arrival);
     if (bag_time == kFirstBagTime) bag_time = 0;
     const Nanoseconds stamp = to_nanoseconds(message.header.stamp);
-    publishers_.add(message.name, node);
+    publishers_.add(owners, node);
     const std::size_t row = table_.t.size();
     table_.t.push_back(stamp != 0 ? stamp : bag_time);
     table_.stamp.push_back(stamp);
@@ -171,7 +173,8 @@ const std::pair<const char*, const char*> kTopics[] = {
     {"muscle_command", "commands"},
     {"muscle_states", "muscles"},
     {"joint_states", "joints"},
-    {"spherical_joint_states", "spherical_joints"}};
+    {"spherical_joint_states", "spherical_joints"},
+    {"external_wrenches", "wrenches"}};
 
 template <class Message>
 void add_all(rosbag::Bag& bag, const std::vector<std::string>& topics, TableBuilder& builder) {
@@ -274,6 +277,7 @@ BagContents contents_of(const std::string& file) {
     if (name == "muscle_states") add_all<MuscleStates>(bag, chosen[name], builder);
     if (name == "joint_states") add_all<JointState>(bag, chosen[name], builder);
     if (name == "spherical_joint_states") add_all<SphericalJointStates>(bag, chosen[name], builder);
+    if (name == "external_wrenches") add_all<ExternalWrenches>(bag, chosen[name], builder);
     builder.finish(chosen[name].front(), contents);
   }
   if (contents.dataset.tables.empty()) throw BadInput(file + ": its topics hold no messages");
@@ -392,6 +396,8 @@ BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
       if (table.name == "spherical_joints") {
         write_rows<SphericalJointStates>(table, dataset, prefix + "spherical_joint_states", *bag);
       }
+      if (table.name == "wrenches")
+        write_rows<ExternalWrenches>(table, dataset, prefix + "external_wrenches", *bag);
     }
     bag->close();
     keep_on_disk(part.path());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -11,6 +12,7 @@ namespace anthrob {
 
 namespace {
 
+using anthrob_msgs::ExternalWrenches;
 using anthrob_msgs::MuscleCommand;
 using anthrob_msgs::MuscleStates;
 using anthrob_msgs::SphericalJointStates;
@@ -27,6 +29,13 @@ void put(const std::vector<std::string>& names, const Numbers& numbers, const st
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     cells.emplace_back(names[i] + "/" + quantity, static_cast<double>(numbers[i]));
   }
+}
+
+template <class M>
+void put_vector(const std::string& owner, const M& vector, Cells& cells) {
+  cells.emplace_back(owner + "_x", vector.x);
+  cells.emplace_back(owner + "_y", vector.y);
+  cells.emplace_back(owner + "_z", vector.z);
 }
 
 /// One row of a table, seen by owner.
@@ -55,6 +64,17 @@ class RowView {
     if (!numbers.empty() && numbers.size() != owners_.size()) {
       fail("'" + quantity +
            "' is given for some names only; a message needs it for all names or for none");
+    }
+  }
+
+  /// x, y and z of one owner; zero where there is no cell.
+  template <class M>
+  void get_vector(const std::string& name, M& vector) const {
+    const std::pair<const char*, double*> parts[] = {
+        {"_x", &vector.x}, {"_y", &vector.y}, {"_z", &vector.z}};
+    for (const auto& [part, value] : parts) {
+      const Column* column = table_.find(name + part);
+      *value = column && column->present[row_] ? column->values[row_] : 0.0;
     }
   }
 
@@ -114,6 +134,27 @@ bool to_cells(const SphericalJointStates& m, Cells& cells) {
     const auto& w = m.angular_velocity[i];
     cells.insert(cells.end(),
                  {{m.name[i] + "/wx", w.x}, {m.name[i] + "/wy", w.y}, {m.name[i] + "/wz", w.z}});
+  }
+  return true;
+}
+
+std::vector<std::string> owners_of(const ExternalWrenches& m) {
+  std::vector<std::string> owners;
+  std::map<std::string, int> counts;
+  for (const std::string& link : m.link) {
+    const int count = ++counts[link];
+    owners.push_back(count == 1 ? link : link + ":" + std::to_string(count));
+  }
+  return owners;
+}
+
+bool to_cells(const ExternalWrenches& m, Cells& cells) {
+  if (!fits(m.link, m.wrench, false) || !fits(m.link, m.point, false)) return false;
+  const std::vector<std::string> owners = owners_of(m);
+  for (std::size_t i = 0; i < owners.size(); ++i) {
+    put_vector(owners[i] + "/force", m.wrench[i].force, cells);
+    put_vector(owners[i] + "/torque", m.wrench[i].torque, cells);
+    put_vector(owners[i] + "/point", m.point[i], cells);
   }
   return true;
 }
@@ -178,6 +219,19 @@ void from_row(const Table& table, std::size_t index, SphericalJointStates& m) {
   for (std::size_t i = 0; i < wx.size(); ++i) {
     m.angular_velocity[i].x = wx[i], m.angular_velocity[i].y = wy[i],
     m.angular_velocity[i].z = wz[i];
+  }
+}
+
+void from_row(const Table& table, std::size_t index, ExternalWrenches& m) {
+  const RowView row(table, index);
+  for (const std::string& owner : row.owners()) {
+    m.link.push_back(owner.substr(0, owner.find(':')));
+    m.point.emplace_back();
+    m.wrench.emplace_back();
+    row.get_vector(owner + "/force", m.wrench.back().force);
+    row.get_vector(owner + "/torque", m.wrench.back().torque);
+    row.get_vector(owner + "/point", m.point.back());
+    m.left.emplace_back(0.0);
   }
 }
 

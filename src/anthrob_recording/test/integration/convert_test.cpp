@@ -1,4 +1,5 @@
-// bag -> dataset folder -> bag keeps every value and stamp of the four topics, bit for bit.
+// bag -> dataset folder -> bag keeps every value and stamp of the five topics, bit for bit.
+#include <anthrob_msgs/ExternalWrenches.h>
 #include <anthrob_msgs/MuscleCommand.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SphericalJointStates.h>
@@ -89,6 +90,19 @@ void write_original(const std::string& file) {
     }
     bag.write("/anthrob/spherical_joint_states", arrival, balls);
 
+    if (i >= 100 && i <= 110) {
+      anthrob_msgs::ExternalWrenches pushes;
+      pushes.header.stamp = stamp;
+      if (i < 110) pushes.link = {"forearm", "forearm", "humerus"};  // then they end
+      for (std::size_t k = 0; k < pushes.link.size(); ++k) {
+        pushes.point.emplace_back().z = any_double();
+        pushes.wrench.emplace_back().force.x = any_double();
+        pushes.wrench.back().torque.y = any_double();
+        pushes.left.emplace_back(0.0);
+      }
+      bag.write("/anthrob/external_wrenches", arrival, pushes);
+    }
+
     if (i % 50 == 0) {
       anthrob_msgs::MuscleCommand command;
       if (i % 100 == 0) command.header.stamp = stamp;  // rostopic pub leaves the stamp at zero
@@ -139,7 +153,7 @@ TEST(Convert, BagToFolderToBagIsBitForBit) {
   EXPECT_TRUE(contents.not_carried.empty());
   EXPECT_EQ(contents.dataset.meta.robot, "anthrob");
   contents.dataset.save(folder / "set");
-  for (const char* name : {"muscles", "commands", "joints", "spherical_joints"}) {
+  for (const char* name : {"muscles", "commands", "joints", "spherical_joints", "wrenches"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / ("set/" + std::string(name) + ".csv"))) << name;
   }
   write_bag(Dataset::load(folder / "set"), folder / "b.bag");
@@ -151,6 +165,8 @@ TEST(Convert, BagToFolderToBagIsBitForBit) {
                                                   "/anthrob/spherical_joint_states", 400);
   expect_same<anthrob_msgs::MuscleCommand>(folder / "a.bag", folder / "b.bag",
                                            "/anthrob/muscle_command", 8);
+  expect_same<anthrob_msgs::ExternalWrenches>(folder / "a.bag", folder / "b.bag",
+                                              "/anthrob/external_wrenches", 11);
 }
 
 TEST(Convert, ReplacesOnlyRecordings) {
@@ -481,7 +497,8 @@ TEST(Convert, ARobotKeepsItsName) {
   };
   // As recorded by whole names; as other writers of bags have them; of a robot among others.
   for (const auto& [topic, robot] :
-       {std::pair<std::string, std::string>("/rig/joint_states", "rig"), {"rig/joint_states", "rig"},
+       {std::pair<std::string, std::string>("/rig/joint_states", "rig"),
+        {"rig/joint_states", "rig"},
         {"/lab/rig/joint_states", "lab/rig"}}) {
     record("a", topic);
     const Dataset dataset = read_bag(folder / "a.bag").dataset;

@@ -7,6 +7,7 @@
 #include "anthrob_ecu/state_machine.h"
 #include "anthrob_recording/quantities.h"
 #include "anthrob_recording/resolution.h"
+#include "replay/recorded_pushes.h"
 #include "replay/replay_modes.h"
 
 namespace anthrob {
@@ -27,7 +28,10 @@ double position_uncertainty(std::vector<double> values) {
 }  // namespace
 
 Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording, ReplayMode mode)
-    : model_(std::move(model)), mode_(mode), meta_(recording.meta) {
+    : model_(std::move(model)),
+      mode_(mode),
+      meta_(recording.meta),
+      pushes_(recorded_pushes(*model_->skeleton, recording)) {
   check_names(recording);
   check_inputs(recording);
   for (const auto& [muscle, position] : meta_.start_position) {
@@ -103,6 +107,7 @@ void Replay::posture_at(double time, std::vector<double>& q) const {
 
 void Replay::check_names(const Dataset& recording) const {
   for (const Table& table : recording.tables) {
+    if (table.name == "wrenches") continue;  // recorded_pushes() has seen it
     for (const Column& column : table.columns) {
       const int joint = model_->skeleton->find_joint(column.owner());
       const bool ball = joint >= 0 && model_->skeleton->joints[joint].type == JointType::kBall;
@@ -140,6 +145,7 @@ Replay::Use Replay::use_of(const Dataset& recording, const Column& column) const
 
 void Replay::check_inputs(const Dataset& recording) const {
   for (const Table& table : recording.tables) {
+    if (table.name == "wrenches") continue;
     for (const Column& column : table.columns) {
       const Use use = use_of(recording, column);
       const bool mode = column.quantity() == "mode";
@@ -196,6 +202,7 @@ void Replay::Run::drive(double time) {
     replay_.posture_at(time + sim_.imposed_posture().delay() + sim_.step_length(), posture_);
     sim_.imposed_posture().impose_reading(posture_);
   }
+  push(now);
   for (JointRun& joint : joints_) {
     const JointInput& input = *joint.input;
     if (joint.driven && !input.effort.empty() && joint.effort.advance(now)) {
@@ -205,6 +212,13 @@ void Replay::Run::drive(double time) {
       sim_.apply_load(input.joint, input.load.acting_at(now));
     }
   }
+}
+
+void Replay::Run::push(double now) {
+  const std::vector<PushRow>& rows = replay_.pushes_;
+  while (next_push_ < rows.size() && rows[next_push_].t <= now) ++next_push_;
+  if (next_push_ == 0) return;
+  for (const Wrench& wrench : rows[next_push_ - 1].wrenches) sim_.external_wrenches().push(wrench);
 }
 
 void Replay::Run::command(MuscleRun& muscle, double now) {

@@ -18,6 +18,7 @@ std::vector<Table> output_tables(const RobotModel& model, const Dataset& recordi
   std::set<std::string> have;
   const Table* densest = nullptr;
   for (const Table& table : recording.tables) {
+    if (table.name == "wrenches") continue;  // no reading: see copy_pushes()
     Table copy;
     copy.name = table.name;
     copy.t = table.t;
@@ -79,6 +80,23 @@ void restore_commands(const Dataset& recording, Dataset& out) {
   }
 }
 
+/// What pushed is the same, up to where the replay came.
+void copy_pushes(const Dataset& recording, double duration, Dataset& out) {
+  const Table* pushes = recording.find_table("wrenches");
+  if (!pushes) return;
+  Table copy = *pushes;
+  std::size_t rows = 0;
+  while (rows < copy.t.size() && seconds(copy.t[rows] - recording.begin()) <= duration) ++rows;
+  for (auto* times : {&copy.t, &copy.stamp, &copy.bag_time}) {
+    if (!times->empty()) times->resize(rows);
+  }
+  for (Column& column : copy.columns) {
+    column.values.resize(rows);
+    column.present.resize(rows);
+  }
+  out.tables.push_back(std::move(copy));
+}
+
 /// Where positions are imposed, no motor runs: it has neither voltage nor current.
 void leave_out_imposed(const Dataset& recording, Dataset& out) {
   for (Table& table : out.tables) {
@@ -134,6 +152,7 @@ Dataset replay(const std::shared_ptr<const RobotModel>& model, const Dataset& re
   }
   for (auto& sampler : samplers) out.tables.push_back(sampler.take());
   restore_commands(recording, out);
+  copy_pushes(recording, static_cast<double>(done) * model->step + 1e-9, out);
   if (imposes_positions(mode)) leave_out_imposed(recording, out);
   return out;
 }

@@ -589,5 +589,66 @@ TEST(Replay, StopsWhenToldTo) {
   EXPECT_EQ(calls, 3);
 }
 
+/// 2 s in which the rod is pushed at two points from 0.5 s on, and at one from 1 s to 1.5 s.
+Dataset pushed() {
+  Dataset recording = loaded(0.0);
+  recording.table("joints").columns.pop_back();
+  Table& wrenches = recording.table("wrenches");
+  for (const double t : {0.5, 1.0, 1.5}) wrenches.t.push_back(std::llround(t * 1e9));
+  wrenches.columns = {{"arm/force_x", {1.0, 2.0, 0.0}, {1, 1, 0}},
+                      {"arm/point_z", {-0.1, -0.05, 0.0}, {1, 1, 0}},
+                      {"arm:2/torque_y", {0.02, 0.0, 0.0}, {1, 0, 0}}};
+  return recording;
+}
+
+TEST(Replay, PushesLinksAsRecorded) {
+  const auto model = rig();
+  const int arm = model->skeleton->find_frame("arm");
+  ASSERT_GE(arm, 0);
+  Simulation sim(model);
+  const Dataset recording = pushed();
+  const Replay input(model, recording, ReplayMode::kReference);
+  ASSERT_TRUE(input.start(sim));
+  std::vector<double> angles;
+  for (int i = 0; i < 3000; ++i) {
+    if (i % 10 == 0) angles.push_back(sim.read_positions()[0]);
+    ExternalWrenches& wrenches = sim.external_wrenches();
+    if (i >= 500 && i < 1000) {
+      wrenches.push({arm, Vec3(0, 0, -0.1), Vec3(1, 0, 0), Vec3::Zero(), 1});
+      wrenches.push({arm, Vec3::Zero(), Vec3::Zero(), Vec3(0, 0.02, 0), 1});
+    } else if (i >= 1000 && i < 1500) {
+      wrenches.push({arm, Vec3(0, 0, -0.05), Vec3(2, 0, 0), Vec3::Zero(), 1});
+    }
+    sim.step();
+  }
+  angles.push_back(sim.read_positions()[0]);
+  const Dataset replayed = replay(model, recording, ReplayMode::kReference);
+  EXPECT_EQ(replayed.find_table("joints")->find("hinge/position")->values, angles);
+  EXPECT_GT(std::abs(angles[99] - angles[49]), 1e-3);
+  EXPECT_EQ(replayed.find_table("wrenches")->t, recording.find_table("wrenches")->t);
+}
+
+TEST(Replay, RefusesPushesOfWhatIsNoLink) {
+  const auto why = [](const std::string& column, double value) -> std::string {
+    Dataset recording = pushed();
+    recording.folder = "run";
+    recording.table("wrenches").columns.push_back({column, {value, 0, 0}, {1, 0, 0}});
+    try {
+      Replay(rig(), recording, ReplayMode::kReference);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(why("arm:3/force_z", 1.0), "accepted");
+  EXPECT_EQ(why("amr/force_x", 1.0),
+            "run/wrenches.csv: column 'amr/force_x': expected LINK/force_x, torque_x, point_x, ... "
+            "of a link of the robot");
+  EXPECT_NE(why("arm/position", 1.0).find("expected LINK/force_x"), std::string::npos);
+  EXPECT_EQ(why("arm/force_y", std::nan("")),
+            "run/wrenches.csv: row 1: arm/force_y: nan: expected a finite number: it drives the "
+            "replay");
+}
+
 }  // namespace
 }  // namespace anthrob

@@ -11,6 +11,12 @@
 
 namespace anthrob {
 
+/// What pushes a robot's links from `t` on, until the next row.
+struct PushRow {
+  double t;  ///< [s] since the start of the recording
+  std::vector<Wrench> wrenches;
+};
+
 /// Which part of a recording drives the simulation.
 enum class ReplayMode {
   kReference,  ///< commands, as followed_commands has them: the ECU's references
@@ -21,8 +27,8 @@ enum class ReplayMode {
 
 /// Feeds the inputs of a recording to simulations of one robot, whose parameters may differ. For
 /// each simulation call start() and then create a Run. Inputs hold from their row to the next;
-/// imposed positions are interpolated. Efforts and loads of hinges and prismatic joints are applied
-/// in every mode.
+/// imposed positions are interpolated. Efforts and loads of hinges and prismatic joints and pushes
+/// of links are applied in every mode.
 class Replay {
  public:
   /// @throws BadInput if the recording names muscles or joints that the robot does not have, has no
@@ -130,6 +136,7 @@ class Replay {
   std::vector<MuscleInput> muscles_;
   std::vector<JointInput> joints_;
   std::vector<BallInput> balls_;  ///< of kPosture, and of robots without muscles
+  std::vector<PushRow> pushes_;
   double duration_ = 0.0;
 };
 
@@ -153,6 +160,8 @@ class Replay::Run {
     bool driven;
     HeldSeries effort, load;
   };
+  /// For one step, as the last row says.
+  void push(double now);
   void command(MuscleRun& muscle, double now);
   void impose(const MuscleInput& input, double time);
 
@@ -161,6 +170,7 @@ class Replay::Run {
   std::vector<MuscleRun> muscles_;
   std::vector<JointRun> joints_;
   std::vector<double> posture_;  ///< scratch
+  std::size_t next_push_ = 0;    ///< row of pushes that is still to come
 };
 
 /// Replays a whole recording and samples the simulation, with ideal sensors, at the recording's
