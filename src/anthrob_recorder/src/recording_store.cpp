@@ -135,25 +135,32 @@ void RecordingStore::finish(const std::string& name, DatasetMeta meta, const Sam
   fs::remove(file(name + ".yaml"));
   fs::rename(partial_bag(name), file(name + ".bag"));
   write_file_atomically(file(name + ".yaml"), meta_text(meta));
+  samples_.erase(name);  // of an earlier run of that name
 }
 
-std::vector<RecordingStore::Entry> RecordingStore::entries() const {
+const Sample& RecordingStore::sample_of(const std::string& name) {
+  const auto known = samples_.find(name);
+  if (known != samples_.end()) return known->second;
+  const ConfigNode node = ConfigNode::load(file(name + ".yaml"));
+  return samples_[name] = read_sample(node.at("sample"), *model_);
+}
+
+std::vector<RecordingStore::Entry> RecordingStore::entries() {
   std::vector<Entry> list;
   for (int repeat = 1; repeat <= protocol_.repeats; ++repeat) {
     for (const Protocol::Target& target : protocol_.targets) {
       const auto recorded = names(target, repeat);
       for (std::size_t i = 0; i < recorded.size(); ++i) {
         if (!complete(recorded[i])) continue;
-        const ConfigNode node = ConfigNode::load(file(recorded[i] + ".yaml"));
         const std::string to = i == 0 ? target.name : protocol_.rest.name + " from " + target.name;
-        list.push_back({recorded[i], to, read_sample(node.at("sample"), *model_)});
+        list.push_back({recorded[i], to, sample_of(recorded[i])});
       }
     }
   }
   return list;
 }
 
-void RecordingStore::summarise() const {
+void RecordingStore::summarise() {
   const std::vector<Entry> all = entries();
   write_samples(all);
   write_repeatability(all);

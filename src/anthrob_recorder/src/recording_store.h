@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,7 +45,7 @@ class RecordingStore {
   void set_baseline(const Sample& rest);
 
   /// Writes samples.csv and repeatability.csv for the complete recordings.
-  void summarise() const;
+  void summarise();
 
  private:
   struct Entry {
@@ -53,7 +54,9 @@ class RecordingStore {
   };
   std::string file(const std::string& name) const { return folder_ + "/" + name; }
   std::string session_text() const;
-  std::vector<Entry> entries() const;
+  std::vector<Entry> entries();
+  /// Of a complete recording; each description is read once.
+  const Sample& sample_of(const std::string& name);
   void write_samples(const std::vector<Entry>& entries) const;
   void write_repeatability(const std::vector<Entry>& entries) const;
 
@@ -64,6 +67,7 @@ class RecordingStore {
   std::string time_;
   std::optional<std::string> simulated_;  ///< name and fingerprint, if known
   Sample baseline_;
+  std::map<std::string, Sample> samples_;  ///< of recordings, as far as they are known
 };
 
 }  // namespace anthrob

@@ -94,7 +94,7 @@ TEST_F(RecordingStoreTest, WhatIsNeverMeasuredOfALigamentIsLeftOut) {
     store.summarise();
   }
   EXPECT_EQ(content(folder + "/samples.csv").find("nan"), std::string::npos);
-  const RecordingStore again(folder, model, protocol, "true");
+  RecordingStore again(folder, model, protocol, "true");
   ASSERT_NE(again.baseline(), nullptr);
   EXPECT_TRUE(std::isnan(again.baseline()->force[8]));
   EXPECT_EQ(again.baseline()->force[7], 3.0);
@@ -177,6 +177,24 @@ TEST_F(RecordingStoreTest, SaysWhatIsWrongWithAFolder) {
   EXPECT_THROW(RecordingStore(folder, model, protocol, "true"), BadInput);
   std::ofstream(folder + "/session.yaml") << "";
   EXPECT_THROW(RecordingStore(folder, model, protocol, "true"), BadInput);
+}
+
+TEST_F(RecordingStoreTest, ARecordingThatIsMadeAgainHasItsNewSample) {
+  std::optional<RecordingStore> store;
+  store.emplace(folder, model, protocol, "true");
+  record(*store, "E0_to_E3_run1", 0.10);
+  store->summarise();
+  const std::string before = content(folder + "/samples.csv");
+  record(*store, "E0_to_E3_run1", 0.20);
+  store->summarise();
+  EXPECT_NE(content(folder + "/samples.csv"), before);
+  // As whoever reads it anew.
+  const std::string after = content(folder + "/samples.csv");
+  std::filesystem::remove(folder + "/samples.csv");
+  store.reset();  // it holds the folder
+  store.emplace(folder, model, protocol, "true");
+  store->summarise();
+  EXPECT_EQ(content(folder + "/samples.csv"), after);
 }
 
 TEST_F(RecordingStoreTest, TellsHowFarRepeatedRunsAreApart) {
