@@ -1,5 +1,6 @@
 #include "recorder.h"
 
+#include <anthrob_msgs/ExternalWrenches.h>
 #include <anthrob_msgs/GoTo.h>
 
 #include <chrono>
@@ -24,6 +25,16 @@ constexpr double kPatience = 30.0;
 
 }  // namespace
 
+template <class Message>
+void Recorder::listen(const char* topic) {
+  subscribers_.push_back(nh_.subscribe<Message>(
+      topic, 2000,
+      [this, topic](const boost::shared_ptr<const Message>& message) {
+        bags_.write(topic, *message);
+      },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+}
+
 Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<const RobotModel> model,
                    const Protocol& protocol, const std::string& folder,
                    const RobotLink::Options& options, double approach_speed,
@@ -45,12 +56,11 @@ Recorder::Recorder(ros::NodeHandle nh, ros::NodeHandle own, std::shared_ptr<cons
   link_.on_joints = measure("joint_states");
   link_.on_ball_joints = measure("spherical_joint_states");
   link_.on_muscles = measure("muscle_states");
+  // Who pushes the simulated robot, as a hand would, belongs to the recording.
+  listen<anthrob_msgs::ExternalWrenches>("external_wrenches");
   if (protocol_.kind != Protocol::Kind::kZeroGravity) return;
   // The controller commands; what it says belongs to the recording.
-  subscribers_ = {nh_.subscribe<anthrob_msgs::MuscleCommand>(
-      "muscle_command", 2000,
-      [this](const anthrob_msgs::MuscleCommandConstPtr& m) { bags_.write("muscle_command", *m); },
-      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())};
+  listen<anthrob_msgs::MuscleCommand>("muscle_command");
   if (protocol_.by_hand) sample_ = own.advertiseService("sample", &Recorder::on_sample, this);
 }
 

@@ -57,6 +57,9 @@ class Recorder {
   DatasetMeta describe(const Visit& visit, const Protocol::Target& target, int repeat,
                        int recording) const;
   void report(const std::string& name, const Visit& visit);
+  /// Records a topic that is not measured.
+  template <class Message>
+  void listen(const char* topic);
   bool on_sample(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   ros::NodeHandle nh_;
