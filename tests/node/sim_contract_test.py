@@ -12,8 +12,9 @@ import rospkg
 import rospy
 import rostest
 import yaml
-from anthrob_msgs.msg import ExternalWrenches, MuscleCommand, MusclePaths, MuscleStates, SphericalJointStates
-from anthrob_msgs.srv import ApplyWrench, ApplyWrenchRequest, SetRate, SetState, SetStateRequest, Step
+from anthrob_msgs.msg import ExternalWrenches, MomentArms, MuscleCommand, MusclePaths, MuscleStates, Quantities, SphericalJointStates
+from anthrob_msgs.srv import (
+    ApplyWrench, ApplyWrenchRequest, ChooseQuantities, SetRate, SetState, SetStateRequest, Snapshot, Step)
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point, Quaternion, Vector3
 from rosgraph_msgs.msg import Clock
@@ -56,7 +57,7 @@ class SimContract(unittest.TestCase):
         cls.command = rospy.Publisher('muscle_command', MuscleCommand, queue_size=10, tcp_nodelay=True)
         cls.stop_topic = rospy.Publisher('emergency_stop', Empty, queue_size=1)
         for name in ['enable', 'home', 'disable', 'emergency_stop', 'clear_faults', 'sim/pause', 'sim/step', 'sim/reset',
-                     'sim/set_state', 'sim/set_rate', 'sim/apply_wrench']:
+                     'sim/set_state', 'sim/set_rate', 'sim/apply_wrench', 'sim/choose_quantities', 'sim/save', 'sim/restore']:
             rospy.wait_for_service(name, 30)
         cls.enable = rospy.ServiceProxy('enable', Trigger)
         cls.home = rospy.ServiceProxy('home', Trigger)
@@ -70,6 +71,9 @@ class SimContract(unittest.TestCase):
         cls.set_state = rospy.ServiceProxy('sim/set_state', SetState)
         cls.set_rate = rospy.ServiceProxy('sim/set_rate', SetRate)
         cls.apply_wrench = rospy.ServiceProxy('sim/apply_wrench', ApplyWrench)
+        cls.choose = rospy.ServiceProxy('sim/choose_quantities', ChooseQuantities)
+        cls.save = rospy.ServiceProxy('sim/save', Snapshot)
+        cls.restore = rospy.ServiceProxy('sim/restore', Snapshot)
         cls.wrenches = Collector('external_wrenches', ExternalWrenches)
         wait_for(lambda: cls.states.messages and cls.command.get_num_connections() > 0
                  and cls.stop_topic.get_num_connections() > 0, 30, 'connections')
@@ -100,20 +104,24 @@ class SimContract(unittest.TestCase):
     def push(self, **request):
         return self.apply_wrench(ApplyWrenchRequest(**request))
 
+    def pushed(self):
+        return list(self.wrenches.last().link) if self.wrenches.messages else None
+
     def test_a_link_is_pushed_for_as_long_as_asked(self):
         self.disable()
         self.advance(10)
         before = self.joints.last().position[0]
-        lift = dict(link='forearm', point=Point(z=-0.2), force=Vector3(z=60.0))
+        lift = dict(link='forearm', point=Point(z=-0.2), force=Vector3(y=-30.0))
         self.assertTrue(self.push(duration=rospy.Duration(0.3), **lift).success)
         self.assertTrue(self.push(link='humerus', torque=Vector3(x=0.1), duration=rospy.Duration(0.1)).success)
         self.advance(200)
+        wait_for(lambda: self.pushed() == ['forearm'], 5, 'the push')
         acting = self.wrenches.last()
-        self.assertEqual((acting.header.frame_id, acting.link), ('base', ['forearm']))
-        self.assertEqual((acting.point[0].z, acting.wrench[0].force.z), (-0.2, 60.0))
+        self.assertEqual(acting.header.frame_id, 'world')
+        self.assertEqual((acting.point[0].z, acting.wrench[0].force.y), (-0.2, -30.0))
         self.assertAlmostEqual(acting.left[0].to_sec(), 0.1, delta=1e-6)
         self.advance(100)
-        wait_for(lambda: not self.wrenches.last().link, 5, 'the end of the pushes')
+        wait_for(lambda: self.pushed() == [], 5, 'the end of the pushes')
         self.assertGreater(self.joints.last().position[0], before + 0.1)
         count = len(self.wrenches.messages)
         self.advance(20)
@@ -123,14 +131,14 @@ class SimContract(unittest.TestCase):
         for end in (lambda: self.push(link='forearm', point=Point(z=-0.2)), self.reset):
             self.push(link='forearm', point=Point(z=-0.2), force=Vector3(z=1.0), duration=rospy.Duration(1000))
             self.advance(1)
-            wait_for(lambda: self.wrenches.last().link == ['forearm'], 5, 'the push')
+            wait_for(lambda: self.pushed() == ['forearm'], 5, 'the push')
             end()
             self.advance(1)
-            wait_for(lambda: not self.wrenches.last().link, 5, 'its end')
+            wait_for(lambda: self.pushed() == [], 5, 'its end')
 
     def test_a_push_that_is_none_is_refused(self):
         second = rospy.Duration(1)
-        for why, request in [("link 'elbow': unknown; expected one of base, ", dict(link='elbow', duration=second)),
+        for why, request in [("link 'elbow': unknown; expected one of world, base, ", dict(link='elbow', duration=second)),
                              ('force', dict(link='forearm', force=Vector3(x=float('nan')), duration=second)),
                              ('point', dict(link='forearm', point=Point(x=float('inf')), duration=second)),
                              ('torque', dict(link='forearm', torque=Vector3(y=1e12), duration=second)),
@@ -138,6 +146,80 @@ class SimContract(unittest.TestCase):
             answer = self.push(**request)
             self.assertFalse(answer.success)
             self.assertIn(why, answer.message)
+
+    # ---- snapshots ----
+
+    def state_after(self, steps):
+        state, joints = self.advance(steps), self.joints
+        wait_for(lambda: joints.last().header.stamp == state.header.stamp, 5, 'the joints of the same time')
+        return state.header.stamp, state.position + joints.last().position + state.reference
+
+    def test_a_snapshot_is_restored_and_goes_on_as_before(self):
+        self.send(['lateral_deltoid', 'brachialis'], [0, 0], [6.0, 4.0])
+        self.advance(200)
+        self.push(link='forearm', force=Vector3(y=20.0), duration=rospy.Duration(0.1))
+        self.assertTrue(self.save('lifted').success)
+        first = self.state_after(150)
+        self.reset()
+        self.unstepped = rospy.Time()
+        answer = self.restore('lifted')
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn('lifted', answer.saved)
+        again = self.state_after(150)
+        self.assertGreater(again[0], first[0])  # time goes on
+        for a, b in zip(first[1], again[1]):
+            self.assertAlmostEqual(a, b, delta=1e-3)  # sensors have another noise
+
+    def test_a_snapshot_enables_nothing(self):
+        self.send(['lateral_deltoid'], [0], [6.0])
+        self.assertEqual(self.advance(10).voltage[0], 6.0)
+        self.assertTrue(self.save('pulls').success)
+        self.emergency_stop()
+        self.assertTrue(self.restore('pulls').success)
+        state = self.advance(5)
+        self.assertEqual(state.voltage[0], 0.0)
+        self.assertEqual(set(state.ecu_state), {MuscleStates.STOPPING})
+
+    def test_a_snapshot_that_is_none_is_refused(self):
+        self.save('lifted')
+        answer = self.restore('liftd')
+        self.assertFalse(answer.success)
+        self.assertIn("did you mean 'lifted'?", answer.message)
+        self.assertFalse(self.save('').success)
+
+    # ---- quantities ----
+
+    def test_quantities_are_those_that_were_chosen(self):
+        quantities = Collector('sim/quantities', Quantities)
+        arms = Collector('moment_arms', MomentArms)
+        every = self.choose([])
+        self.assertTrue(every.success)
+        self.assertEqual(every.chosen, [])
+        chosen = ['elbow/position', 'brachialis/voltage', 'elbow/reaction/z', 'energy/elastic']
+        self.assertLessEqual(set(chosen), set(every.available))
+        self.assertTrue(self.choose(chosen).success)
+        wait_for(lambda: quantities.subscriber.get_num_connections() > 0 and arms.subscriber.get_num_connections() > 0,
+                 5, 'connections')
+        self.send(['brachialis'], [0], [2.5])
+        self.advance(100)
+        wait_for(lambda: quantities.last() is not None
+                 and quantities.last().header.stamp == self.joints.last().header.stamp, 5, 'quantities')
+        values = dict(zip(quantities.last().name, quantities.last().value))
+        self.assertEqual(list(quantities.last().name), chosen)
+        self.assertAlmostEqual(values['elbow/position'], self.joints.last().position[0], delta=1e-2)
+        self.assertEqual(values['brachialis/voltage'], 2.5)
+        self.assertNotEqual(values['elbow/reaction/z'], 0.0)
+        refused = self.choose(['elbow/positon'])
+        self.assertFalse(refused.success)
+        self.assertIn("did you mean 'elbow/position'?", refused.message)
+        self.assertEqual(list(refused.chosen), chosen)
+        wait_for(lambda: arms.last() is not None, 5, 'moment arms')
+        self.assertEqual(list(arms.last().muscle), MUSCLES)
+        self.assertEqual(list(arms.last().axis), ['shoulder_x', 'shoulder_y', 'shoulder_z', 'elbow'])
+        brachialis = MUSCLES.index('brachialis')
+        self.assertEqual(len(arms.last().arm), 4 * len(MUSCLES))
+        self.assertEqual(arms.last().arm[4 * brachialis:4 * brachialis + 3], (0.0, 0.0, 0.0))
+        self.assertGreater(arms.last().arm[4 * brachialis + 3], 5e-3)  # it flexes the elbow
 
     # ---- topics and rates ----
 

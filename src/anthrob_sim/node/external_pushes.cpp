@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "anthrob_core/text.h"
+#include "anthrob_core/nearest_name.h"
+#include "anthrob_ros/bounded_connection.h"
 #include "anthrob_sim/core/errors.h"
 
 namespace anthrob {
@@ -33,7 +34,7 @@ Wrench wrench_of(const anthrob_msgs::ApplyWrench::Request& request, const Simula
   if (wrench.frame < 0) {
     std::vector<std::string> names;
     for (const FrameModel& frame : skeleton.frames) names.push_back(frame.name);
-    throw BadInput("link '" + request.link + "': unknown; expected one of " + joined(names));
+    throw BadInput("link '" + request.link + "': unknown" + expected_names(request.link, names));
   }
   if (request.duration < ros::Duration(0))
     throw BadInput("duration: expected zero or more, in seconds of simulated time");
@@ -50,7 +51,9 @@ Wrench wrench_of(const anthrob_msgs::ApplyWrench::Request& request, const Simula
 ExternalPushes::ExternalPushes(ros::NodeHandle& nh, Simulation& sim)
     : sim_(sim),
       publisher_(nh.advertise<anthrob_msgs::ExternalWrenches>("external_wrenches", 100)),
-      service_(nh.advertiseService("sim/apply_wrench", &ExternalPushes::on_apply, this)) {}
+      service_(advertise_bounded<anthrob_msgs::ApplyWrench>(
+          nh, "sim/apply_wrench",
+          [this](auto& request, auto& response) { return on_apply(request, response); })) {}
 
 bool ExternalPushes::on_apply(anthrob_msgs::ApplyWrench::Request& request,
                               anthrob_msgs::ApplyWrench::Response& response) {

@@ -1,5 +1,10 @@
 #include <ros/ros.h>
 
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "anthrob_core/errors.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
@@ -15,6 +20,11 @@ bool measured_by_cameras(const std::string& key, const XmlRpc::XmlRpcValue& valu
   if (word == "none") return false;
   throw anthrob::BadInput("parameter ~" + key + ": '" + word +
                           "': expected virtual or none (launch files: true or false, too)");
+}
+
+std::vector<std::string> words_of(const std::string& key, const XmlRpc::XmlRpcValue& value) {
+  std::istringstream text(anthrob::text_of(key, value));
+  return {std::istream_iterator<std::string>(text), {}};
 }
 
 }  // namespace
@@ -34,6 +44,7 @@ int main(int argc, char** argv) {
       {"mocap",
        "virtual: cameras measure the ball joints, and the simulator's own go to "
        "sim/spherical_joint_states; none: they do not (default: none)"},
+      {"quantities", "paths of what sim/quantities publishes, separated by spaces (default: none)"},
       {"auto_enable", "enable the motors at the start (default: true)"},
       {"command_timeout",
        "motors stop after this time without commands [s], 0: never (default: 0.5)"},
@@ -58,6 +69,7 @@ int main(int argc, char** argv) {
     take(settings, "state_rate", number_of, options.state_rate);
     take(settings, "paused", truth_of, options.paused);
     take(settings, "mocap", measured_by_cameras, options.motion_capture);
+    take(settings, "quantities", words_of, options.quantities);
     options.supervisor.auto_enable = true;
     take(settings, "auto_enable", truth_of, options.supervisor.auto_enable);
     take(settings, "command_timeout", nonnegative_number_of, options.supervisor.command_timeout);

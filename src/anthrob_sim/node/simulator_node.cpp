@@ -46,7 +46,11 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       steps_to_state_(steps_per_state_),
       nh_(nh),
       surfaces_(nh_, sim_.model()),
-      pushes_(nh_, sim_) {
+      pushes_(nh_, sim_),
+      quantities_(nh_, sim_, options.quantities),
+      snapshots_(
+          nh_, sim_, [this] { return failure_; },
+          [this](const Snapshot& snapshot) { restore(snapshot); }) {
   advertise_topics();
   subscribe_to_commands();
   offer_services();
@@ -65,6 +69,7 @@ void SimulatorNode::advertise_topics() {
     touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);
   }
   solved_paths_ = nh_.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
+  moment_arms_ = nh_.advertise<anthrob_msgs::MomentArms>("moment_arms", 10);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
 }
 
@@ -342,6 +347,18 @@ void SimulatorNode::skip_to_new_instant() {
   }
 }
 
+void SimulatorNode::restore(const Snapshot& snapshot) {
+  const double before = sim_.time();
+  sim_.skip(steps_in(kNewInstant));
+  sim_.restore_in_present(snapshot);
+  for (ecu::Supervisor* watch : {&supervisor_, &driven_.supervisor()}) {
+    watch->skip(sim_.time() - before);
+  }
+  failure_.clear();
+  apply_supervision();  // who was stopped since then remains so
+  publish(true);
+}
+
 void SimulatorNode::start_anew() {
   skip_to_new_instant();
   sim_.reset();
@@ -439,12 +456,14 @@ void SimulatorNode::publish(bool all) {
   spherical_joints_.publish(spherical_joint_states(sim_, now));
   if (touch_) touch_.publish(touch_states(sim_, now));
   pushes_.publish(now);
+  quantities_.publish(now);
   const double period = steps_per_state_ * sim_.step_length();  // [s]
   const int states_per_tf =
       std::max(1, static_cast<int>(std::lround(1.0 / (options_.tf_rate * period))));
   if (all || states_ % static_cast<std::uint64_t>(states_per_tf) == 0) {
     transforms_.sendTransform(ball_joint_transforms(sim_, now));
     if (solved_paths_.getNumSubscribers() > 0) solved_paths_.publish(solved_paths(sim_, now));
+    if (moment_arms_.getNumSubscribers() > 0) moment_arms_.publish(moment_arms(sim_, now));
   }
   const Clock::time_point wall = Clock::now();
   if (all ||

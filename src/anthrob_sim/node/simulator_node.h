@@ -25,8 +25,10 @@
 #include "anthrob_sim/simulation.h"
 #include "external_pushes.h"
 #include "interrupts.h"
+#include "quantity_topic.h"
 #include "report/solved_path.h"
 #include "simulation/driven_joints.h"
+#include "snapshots.h"
 #include "surface_display.h"
 
 namespace anthrob {
@@ -48,6 +50,7 @@ class SimulatorNode {
     bool paused = false;
     /// Cameras measure the ball joints: their own positions go to sim/ then.
     bool motion_capture = false;
+    std::vector<std::string> quantities;  ///< on sim/quantities from the start
     ecu::Supervisor::Options supervisor;
   };
 
@@ -106,6 +109,8 @@ class SimulatorNode {
   void cycle();
   /// So that tf shows what is placed next.
   void skip_to_new_instant();
+  /// What was saved, at an instant of its own.
+  void restore(const Snapshot& snapshot);
   /// Rest, at an instant of its own; what failed is forgotten.
   void start_anew();
   void publish(bool all);
@@ -138,9 +143,11 @@ class SimulatorNode {
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher clock_, muscles_, joints_, spherical_joints_, muscle_paths_, touch_, solved_paths_,
-      diagnostics_;
+      moment_arms_, diagnostics_;
   SurfaceDisplay surfaces_;
   ExternalPushes pushes_;
+  QuantityTopic quantities_;
+  Snapshots snapshots_;
   tf2_ros::TransformBroadcaster transforms_;
 
   Clock::time_point deadline_, report_time_, marker_time_, clock_time_;

@@ -1,5 +1,6 @@
 #include "tendon_display.h"
 
+#include <anthrob_msgs/MomentArms.h>
 #include <anthrob_msgs/MusclePaths.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -35,6 +36,7 @@ TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeH
       surfaces_(nh, sim_.model()) {
   paths_ = nh.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
   solved_paths_ = nh.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
+  moment_arms_ = nh.advertise<anthrob_msgs::MomentArms>("moment_arms", 10);
   if (joint_tf) transforms_.emplace();
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
@@ -117,6 +119,7 @@ void TendonDisplay::draw() {
   paths_.publish(markers);
   if (transforms_) transforms_->sendTransform(ball_joint_transforms(sim_, oldest));
   if (solved_paths_.getNumSubscribers() > 0) tell(oldest);
+  if (moment_arms_.getNumSubscribers() > 0) moment_arms_.publish(moment_arms(sim_, oldest));
 }
 
 void TendonDisplay::tell(const ros::Time& stamp) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <anthrob_msgs/MomentArms.h>
 #include <anthrob_msgs/MusclePaths.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SetState.h>
@@ -42,6 +43,8 @@ std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulat
 
 /// What the muscles' paths are: contacts, tensions on both sides.
 anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& stamp);
+/// Of all muscles over all axes.
+anthrob_msgs::MomentArms moment_arms(const Simulation& sim, const ros::Time& stamp);
 /// Forces in the springs of all muscles [N].
 std::vector<double> spring_tensions(const Simulation& sim);
 /// Muscles along their solved paths, blue to red by force.

@@ -112,9 +112,22 @@ class Simulation {
     int solver_iterations;     ///< sweeps of the solver of resistances
   };
   LastStep last_step() const;
+  /// Generalised forces of a joint's friction and stops in the last step [Nm, N]: one number, or
+  /// three in the child's axes.
+  Vec3 joint_resistance(int joint) const;
+  /// From the next step on, the forces that joints carry are computed; see joint_reaction().
+  void observe_reactions();
+  /// The force with which the parent held the child in the last step [N], in the parent link's
+  /// axes: the weight of what hangs on it, if that is at rest. Zero before the first step.
+  /// @throws BadInput if nobody called observe_reactions()
+  Vec3 joint_reaction(int joint) const;
 
   Snapshot snapshot() const;
+  /// @throws BadInput for a snapshot of another model
   void restore(const Snapshot& snapshot);
+  /// The same, but time continues, by less than a tick: so much that controllers and sensors tick
+  /// as they did then. Noise is that of the new time.
+  void restore_in_present(const Snapshot& snapshot);
 
  private:
   class Parts;

@@ -226,6 +226,18 @@ anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& s
   return paths;
 }
 
+anthrob_msgs::MomentArms moment_arms(const Simulation& sim, const ros::Time& stamp) {
+  anthrob_msgs::MomentArms message;
+  message.header.stamp = stamp;
+  for (const SweepAxis& axis : sweep_axes(*sim.model().skeleton)) message.axis.push_back(axis.name);
+  for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+    message.muscle.push_back(sim.model().muscles[m].name);
+    const std::vector<double> arms = sim.moment_arms(static_cast<int>(m));
+    message.arm.insert(message.arm.end(), arms.begin(), arms.end());
+  }
+  return message;
+}
+
 std::vector<double> spring_tensions(const Simulation& sim) {
   std::vector<double> tensions;
   for (std::size_t i = 0; i < sim.muscle_count(); ++i) {

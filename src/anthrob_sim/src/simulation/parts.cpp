@@ -140,8 +140,13 @@ void Simulation::Parts::move_skeleton() {
     return;
   }
   if (joint_loads_.wanted()) joint_loads_.before(skeleton_);
+  if (reactions_) reactions_->before(skeleton_);
   skeleton_.step();
-  if (joint_loads_.wanted()) joint_loads_.after(skeleton_, store_.at(loads_offset_).data());
+  if (reactions_) reactions_->after(skeleton_);
+  if (joint_loads_.wanted()) {
+    joint_loads_.after(skeleton_);
+    joint_loads_.write(store_.at(loads_offset_).data());
+  }
 }
 
 void Simulation::Parts::add_joint_torques() {

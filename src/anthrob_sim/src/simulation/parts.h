@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "anthrob_sim/muscle/muscle.h"
@@ -64,6 +65,7 @@ class Simulation::Parts {
   std::size_t measured_offset_;      ///< measured joint positions
   std::vector<std::size_t> joint_sensor_offsets_;
   Eigen::VectorXd tau_;
+  std::optional<JointLoads> reactions_;  ///< once somebody asked for them
   // Of effects: empty in a plain model.
   JointLoads joint_loads_;
   Eigen::VectorXd joint_torque_;  ///< of joint_torques

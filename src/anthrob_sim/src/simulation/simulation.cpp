@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "anthrob_sim/skeleton/skeleton_model.h"
 #include "simulation/checks.h"
@@ -239,6 +240,28 @@ Simulation::LastStep Simulation::last_step() const {
   return {parts_->store_.at(parts_->dissipation_offset_)[0], parts_->resistance_.iterations()};
 }
 
+Vec3 Simulation::joint_resistance(int joint) const {
+  check_joint(joint);
+  const JointModel& model = parts_->model_->skeleton->joints[joint];
+  const auto all = parts_->resistance_.joint_torque().segment(model.velocity_offset, model.dof());
+  if (model.type != JointType::kBall) return {all[0], 0.0, 0.0};
+  return parts_->tree_.joint(joint).R_WC.transpose() * Vec3(all);
+}
+
+void Simulation::observe_reactions() {
+  if (parts_->reactions_) return;
+  parts_->reactions_.emplace(*parts_->model_->skeleton, parts_->model_->gravity,
+                             parts_->model_->step, JointLoads::Of::kAll);
+}
+
+Vec3 Simulation::joint_reaction(int joint) const {
+  check_joint(joint);
+  if (!parts_->reactions_) throw BadInput("joint reactions: call observe_reactions() first");
+  const SkeletonModel& skeleton = *parts_->model_->skeleton;
+  const int parent = skeleton.find_frame(skeleton.joints[joint].parent_link);
+  return link_pose(parent).R.transpose() * parts_->reactions_->carried()[joint];
+}
+
 Snapshot Simulation::snapshot() const {
   return {parts_->step_index_, parts_->store_.data(),    parts_->skeleton_.bodies(),
           parts_->q_,          parts_->effort_,          parts_->load_,
@@ -266,6 +289,15 @@ void Simulation::restore(const Snapshot& snapshot) {
   for (Muscle& muscle : parts_->muscles_) muscle.refresh_path(parts_->skeleton_.bodies());
   // refresh_path() writes to the state; restore it again.
   parts_->store_.assign(snapshot.state);
+}
+
+void Simulation::restore_in_present(const Snapshot& snapshot) {
+  std::uint64_t period = static_cast<std::uint64_t>(model().sensors.steps_per_tick);
+  for (const MuscleModel& muscle : model().muscles)
+    period = std::lcm(period, static_cast<std::uint64_t>(muscle.steps_per_tick));
+  const std::uint64_t now = parts_->step_index_;
+  restore(snapshot);
+  parts_->step_index_ = now + (period + snapshot.step_index % period - now % period) % period;
 }
 
 }  // namespace anthrob

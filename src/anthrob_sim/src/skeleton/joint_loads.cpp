@@ -2,10 +2,10 @@
 
 namespace anthrob {
 
-JointLoads::JointLoads(const SkeletonModel& model, const Vec3& gravity, double step)
+JointLoads::JointLoads(const SkeletonModel& model, const Vec3& gravity, double step, Of joints)
     : model_(model), gravity_(gravity), step_(step) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    if (model.joints[i].friction.load_radius == 0.0) continue;
+    if (joints == Of::kLoadFriction && model.joints[i].friction.load_radius == 0.0) continue;
     joints_.push_back(static_cast<int>(i));
     std::vector<int> bodies;
     for (int b = model.joints[i].child; b < static_cast<int>(model.bodies.size()); ++b) {
@@ -15,7 +15,7 @@ JointLoads::JointLoads(const SkeletonModel& model, const Vec3& gravity, double s
     }
     beyond_.push_back(bodies);
   }
-  carried_.resize(joints_.size());
+  carried_.assign(joints_.size(), Vec3::Zero());
 }
 
 void JointLoads::reset(double* loads) const {
@@ -36,13 +36,16 @@ void JointLoads::before(const Skeleton& skeleton) {
   }
 }
 
-void JointLoads::after(const Skeleton& skeleton, double* loads) {
+void JointLoads::after(const Skeleton& skeleton) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     for (const int b : beyond_[i]) {
       carried_[i] += model_.bodies[b].mass * skeleton.bodies()[b].v_W / step_;
     }
-    loads[joints_[i]] = carried_[i].norm();
   }
+}
+
+void JointLoads::write(double* loads) const {
+  for (std::size_t i = 0; i < joints_.size(); ++i) loads[joints_[i]] = carried_[i].norm();
 }
 
 }  // namespace anthrob

@@ -115,7 +115,9 @@ TEST(ExternalWrenches, MustOvercomeDryFriction) {
       <inertia ixx="1e-2" ixy="0" ixz="0" iyy="1e-2" iyz="0" izz="1e-2"/></inertial></link>
     </robot>)",
       "robot: robot.urdf\ngravity: [0, 0, -9.81]\njoints:\n"
-      "  slide: {friction: {static: 8, kinetic: 8}, stop: {stiffness: 2000, damping: 2}}\n");
+      "  slide: {friction: {static: 8, kinetic: 8, viscous: 0, stribeck_velocity: 0.05}, stop: "
+      "{stiffness: 2000, damping: "
+      "2}}\n");
   for (const double excess : {-0.1, 0.1}) {
     Simulation sim(robot.load());
     const int rod = sim.model().skeleton->find_frame("rod");
