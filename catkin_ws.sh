@@ -17,7 +17,7 @@ needed_packages=(
   libstd-srvs-dev libvisualization-msgs-dev
   ros-robot-state-publisher rviz topic-tools
   librviz-dev pluginlib-dev qtbase5-dev
-  libimage-transport-dev
+  libimage-transport-dev libactionlib-dev python3-actionlib python3-actionlib-msgs
   build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
   nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev

@@ -5,9 +5,11 @@ import math
 import time
 import unittest
 
+import actionlib
 import rospy
 import rostest
-from anthrob_msgs.msg import MuscleStates, SphericalJointStates
+from actionlib_msgs.msg import GoalStatus
+from anthrob_msgs.msg import GoToAction, GoToGoal, MuscleStates, SphericalJointStates
 from anthrob_msgs.srv import GoTo, GoToRequest
 from geometry_msgs.msg import Quaternion
 from sensor_msgs.msg import JointState
@@ -80,6 +82,50 @@ class ComputedForce(unittest.TestCase):
                   (drift, abs(math.degrees(sum(self.elbow[-20:]) / 20 - elbow_start))))
             self.assertLess(drift, 2.0)
             self.assertLess(abs(math.degrees(sum(self.elbow[-20:]) / 20 - elbow_start)), 2.0)
+
+    def goal_of(self, posture, duration):
+        (w, x, y, z), elbow = posture
+        return GoToGoal(joint_name=['elbow'], joint_position=[elbow], ball_joint_name=['shoulder'],
+                        ball_joint_orientation=[Quaternion(x, y, z, w)], duration=duration)
+
+    def ended(self, client):
+        self.wait_for(lambda: client.get_state() not in (GoalStatus.PENDING, GoalStatus.ACTIVE), 'the end of go_to')
+        return client.get_state()
+
+    def test_an_action_tells_what_is_left_and_when_it_is_there(self):
+        client = actionlib.SimpleActionClient('go_to', GoToAction)
+        self.assertTrue(client.wait_for_server(rospy.Duration(30)))
+        feedback = []
+        client.send_goal(self.goal_of(POSTURES[0], 2.0), feedback_cb=feedback.append)
+        self.assertEqual(self.ended(client), GoalStatus.SUCCEEDED)
+        result = client.get_result()
+        self.assertTrue(result.success)
+        self.assertLess(result.error, 0.06)
+        self.assertLess(angle(self.shoulder[-1][1], POSTURES[0][0]), 4.0)
+        self.assertGreater(len(feedback), 5)
+        self.assertGreater(feedback[0].error, feedback[-1].error)
+        self.assertGreater(feedback[0].time_left, feedback[-1].time_left)
+        client.send_goal(self.goal_of((POSTURES[0][0], 99.0), 2.0))
+        self.assertEqual(self.ended(client), GoalStatus.ABORTED)
+        self.assertIn('limits', client.get_result().message)
+
+    def test_an_action_that_is_cancelled_holds_the_arm_where_it_is(self):
+        client = actionlib.SimpleActionClient('go_to', GoToAction)
+        self.assertTrue(client.wait_for_server(rospy.Duration(30)))
+        moved = []
+        client.send_goal(self.goal_of(POSTURES[1], 6.0), feedback_cb=moved.append)
+        self.wait_for(lambda: moved and moved[-1].time_left < 4.0, 'a third of the way')
+        client.cancel_goal()
+        self.assertEqual(self.ended(client), GoalStatus.PREEMPTED)
+        self.simulate(1.0)
+        self.assertEqual(set(self.muscles[-1].mode), {3})
+        start = self.shoulder[-1][1]
+        self.assertLess(max(angle(start, q) for q in self.simulate(2.0)), 2.0)
+        client.send_goal(self.goal_of(POSTURES[1], 6.0))
+        self.wait_for(lambda: client.get_state() == GoalStatus.ACTIVE, 'another way')
+        self.assertTrue(self.zero_gravity().success)
+        self.assertEqual(self.ended(client), GoalStatus.ABORTED)
+        self.assertIn('another request', client.get_result().message)
 
     def test_refuses_nonsense(self):
         cases = [

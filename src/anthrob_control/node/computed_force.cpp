@@ -12,14 +12,16 @@
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
 #include "anthrob_sim/placement.h"
+#include "go_to_action.h"
 
 namespace {
 
 using anthrob::BadInput;
 
 /// @param q positions of the joints that the request does not name   @throws BadInput
-std::vector<double> posture_of(const anthrob_msgs::GoTo::Request& request,
-                               const anthrob::RobotModel& model, const std::vector<double>& q) {
+template <class Request>
+std::vector<double> posture_of(const Request& request, const anthrob::RobotModel& model,
+                               const std::vector<double>& q) {
   if (request.joint_name.size() != request.joint_position.size() ||
       request.ball_joint_name.size() != request.ball_joint_orientation.size()) {
     throw BadInput(
@@ -55,7 +57,10 @@ class ComputedForceNode {
         options_(options),
         controller_(model, settings),
         link_(nh, model, options),
-        diagnostics_(nh.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
+        diagnostics_(nh.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
+        action_(nh, {[this](const auto& goal, auto& posture) { return send(goal, posture); },
+                     [this] { controller_.zero_gravity(); },
+                     [this](const auto& posture) { return distance_to(posture); }}) {
     services_ = {nh.advertiseService("controller/zero_gravity", &ComputedForceNode::on_zero, this),
                  anthrob::advertise_bounded<anthrob_msgs::GoTo>(
                      nh, "controller/go_to", [this](auto& request, auto& response) {
@@ -82,6 +87,7 @@ class ComputedForceNode {
       } else {
         control();
       }
+      action_.update(link_.dt(), refused_ ? refused_ : hindrance());
       report();
     }
   }
@@ -155,28 +161,41 @@ class ComputedForceNode {
   bool on_zero(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
     const std::optional<std::string> why = hindrance();
     response.success = !why;
-    response.message = why.value_or("");
+    response.message = why.value_or("zero gravity");
     if (response.success) {
       controller_.zero_gravity();
       refused_.reset();
+      action_.superseded();
     }
     return true;
   }
 
   bool on_go_to(anthrob_msgs::GoTo::Request& request, anthrob_msgs::GoTo::Response& response) {
-    if (const auto why = hindrance()) {
-      response.message = *why;
-      return true;
-    }
-    try {
-      controller_.go_to(posture_of(request, controller_.model(), controller_.target()),
-                        request.duration);
-      refused_.reset();
-      response.success = true;
-    } catch (const BadInput& error) {
-      response.message = error.what();
-    }
+    std::vector<double> posture;
+    const std::optional<std::string> why = send(request, posture);
+    response.success = !why;
+    response.message = why.value_or("on the way");
+    if (!why) action_.superseded();
     return true;
+  }
+
+  /// Sends the arm to a posture. @return why not
+  template <class Request>
+  std::optional<std::string> send(const Request& request, std::vector<double>& posture) {
+    if (const auto why = hindrance()) return why;
+    try {
+      posture = posture_of(request, controller_.model(), controller_.target());
+      controller_.go_to(posture, request.duration);
+      refused_.reset();
+      return std::nullopt;
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+  }
+
+  double distance_to(const std::vector<double>& posture) const {
+    return anthrob::posture_distance(*controller_.model().skeleton, link_.state().measurement().q,
+                                     posture);
   }
 
   void report() {
@@ -220,6 +239,7 @@ class ComputedForceNode {
   anthrob::ComputedForce controller_;
   anthrob::RobotLink link_;
   ros::Publisher diagnostics_;
+  anthrob::GoToAction action_;
   std::vector<ros::ServiceServer> services_;
   std::optional<std::string> trouble_ = "nothing measured yet";  ///< why nothing is sent
   std::optional<std::string> reported_trouble_;
