@@ -25,6 +25,8 @@ struct ServiceRequest {
   double limit = 5.0;   ///< [s] of wall time
   bool pause = false;   ///< of sim/pause
   int steps = 1;        ///< of sim/step
+  double factor = 1.0;  ///< of sim/set_rate
+  std::string name;     ///< of sim/save and sim/restore
 };
 
 /// A robot as a panel sees it. Nothing here waits, and all is called by the GUI's thread, except

@@ -32,6 +32,8 @@ RobotPanel::RobotPanel(std::unique_ptr<RobotConnection> connection, const std::s
       simulator_(new QGroupBox("Simulator")),
       real_time_(new QLabel),
       steps_(new QSpinBox),
+      rate_(new QDoubleSpinBox),
+      snapshot_(new QLineEdit("here")),
       tree_(new DiagnosticsTree),
       key_([this] { stop(); }) {
   column()->addWidget(state_);
@@ -61,6 +63,8 @@ void RobotPanel::add_services() {
       ->setToolTip("Clears faults and a latched stop; moves nothing");
   add_button(line, "Home", "home", {"home", kHomeLimit})
       ->setToolTip("Pulls all tendons to a common tension, and sets the zero there");
+  add_button(line, "Zero gravity", "zero_gravity", {"controller/zero_gravity", kLimit})
+      ->setToolTip("The computed-force controller, where one runs, lets the arm be moved by hand");
   column()->addLayout(line);
 }
 
@@ -72,7 +76,17 @@ void RobotPanel::add_simulator() {
   add_button(first, "Pause", "pause", pause);
   add_button(first, "Continue", "continue", go_on);
   add_button(first, "Reset", "reset", {"sim/reset", kLimit})->setToolTip("Back to rest");
-  auto* second = new QHBoxLayout;
+  lines->addLayout(first);
+  add_steps(lines);
+  add_rate(lines);
+  add_snapshots(lines);
+  simulator_->setObjectName("simulator");
+  simulator_->hide();
+  column()->addWidget(simulator_);
+}
+
+void RobotPanel::add_steps(QVBoxLayout* lines) {
+  auto* line = new QHBoxLayout;
   auto* step = new QPushButton("Step");
   step->setObjectName("step");
   step->setToolTip("Pauses, and takes so many steps of the simulation");
@@ -81,16 +95,51 @@ void RobotPanel::add_simulator() {
   });
   steps_->setObjectName("steps");
   steps_->setRange(1, 10000);
-  second->addWidget(step);
-  second->addWidget(steps_);
-  second->addWidget(real_time_, 1);
+  line->addWidget(step);
+  line->addWidget(steps_);
+  line->addWidget(real_time_, 1);
   real_time_->setObjectName("real_time");
   real_time_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  lines->addLayout(first);
-  lines->addLayout(second);
-  simulator_->setObjectName("simulator");
-  simulator_->hide();
-  column()->addWidget(simulator_);
+  lines->addLayout(line);
+}
+
+void RobotPanel::add_rate(QVBoxLayout* lines) {
+  auto* line = new QHBoxLayout;
+  auto* set = new QPushButton("Set rate");
+  set->setObjectName("set_rate");
+  set->setToolTip("How many times faster than real time; 0: as fast as possible");
+  connect(set, &QPushButton::clicked, this, [this] {
+    ServiceRequest request{"sim/set_rate", kLimit};
+    request.factor = rate_->value();
+    call(request);
+  });
+  rate_->setObjectName("rate");
+  rate_->setRange(0.0, 100.0);
+  rate_->setDecimals(3);
+  rate_->setSingleStep(0.1);
+  rate_->setValue(1.0);
+  line->addWidget(set);
+  line->addWidget(rate_, 1);
+  lines->addLayout(line);
+}
+
+void RobotPanel::add_snapshots(QVBoxLayout* lines) {
+  auto* line = new QHBoxLayout;
+  snapshot_->setObjectName("snapshot");
+  snapshot_->setToolTip("Name of a snapshot");
+  line->addWidget(snapshot_, 1);
+  for (const auto& [text, service] :
+       {std::pair("Save", "sim/save"), std::pair("Restore", "sim/restore")}) {
+    auto* button = new QPushButton(text);
+    button->setObjectName(QString(text).toLower());
+    connect(button, &QPushButton::clicked, this, [this, service = std::string(service)] {
+      ServiceRequest request{service, kLimit};
+      request.name = snapshot_->text().toStdString();
+      call(request);
+    });
+    line->addWidget(button);
+  }
+  lines->addLayout(line);
 }
 
 QPushButton* RobotPanel::add_button(QLayout* line, const char* text, const char* name,

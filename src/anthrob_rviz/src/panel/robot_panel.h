@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <memory>
@@ -30,6 +31,9 @@ class RobotPanel final : public ConnectedPanel {
   void add_stop();
   void add_services();
   void add_simulator();
+  void add_steps(QVBoxLayout* lines);
+  void add_rate(QVBoxLayout* lines);
+  void add_snapshots(QVBoxLayout* lines);
   QPushButton* add_button(QLayout* line, const char* text, const char* name,
                           const ServiceRequest& request);
   void call(const ServiceRequest& request);
@@ -43,6 +47,8 @@ class RobotPanel final : public ConnectedPanel {
   QWidget* simulator_;
   QLabel* real_time_;
   QSpinBox* steps_;
+  QDoubleSpinBox* rate_;
+  QLineEdit* snapshot_;
   DiagnosticsTree* tree_;
   StopKey key_;
 };

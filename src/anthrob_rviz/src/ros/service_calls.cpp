@@ -1,5 +1,7 @@
 #include "ros/service_calls.h"
 
+#include <anthrob_msgs/SetRate.h>
+#include <anthrob_msgs/Snapshot.h>
 #include <anthrob_msgs/Step.h>
 #include <ros/service.h>
 #include <std_srvs/SetBool.h>
@@ -28,6 +30,16 @@ TimedCalls::Call call_of(const std::string& name, const ServiceRequest& request)
     anthrob_msgs::Step step;
     step.request.steps = static_cast<std::uint32_t>(request.steps);
     return [=] { return result_of(name, service, step); };
+  }
+  if (service == "sim/set_rate") {
+    anthrob_msgs::SetRate rate;
+    rate.request.factor = request.factor;
+    return [=] { return result_of(name, service, rate); };
+  }
+  if (service == "sim/save" || service == "sim/restore") {
+    anthrob_msgs::Snapshot snapshot;
+    snapshot.request.name = request.name;
+    return [=] { return result_of(name, service, snapshot); };
   }
   return [=] { return result_of(name, service, std_srvs::Trigger()); };
 }

@@ -80,8 +80,9 @@ TEST_F(RobotPanelTest, AStopWithoutAnswerIsShouted) {
 }
 
 TEST_F(RobotPanelTest, ButtonsCallServicesAndShowTheirAnswers) {
-  for (const char* button : {"enable", "clear", "home"}) click(button);
-  EXPECT_EQ(called(), (std::vector<std::string>{"enable", "clear_faults", "home"}));
+  for (const char* button : {"enable", "clear", "home", "zero_gravity"}) click(button);
+  EXPECT_EQ(called(), (std::vector<std::string>{"enable", "clear_faults", "home",
+                                                "controller/zero_gravity"}));
   robot_->answers = {{"enable", false, "emergency stop: clear faults first"}};
   EXPECT_EQ(answer(), "enable: failed, emergency stop: clear faults first");
   robot_->answers = {{"enable", true, ""}};
@@ -104,6 +105,18 @@ TEST_F(RobotPanelTest, TheSimulatorHasButtonsWhereThereIsOne) {
   QTest::qWait(200);
   EXPECT_FALSE(child<QWidget>(panel_.get(), "simulator")->isVisible());
   EXPECT_TRUE(child<QPushButton>(panel_.get(), "stop")->isVisible());
+}
+
+TEST_F(RobotPanelTest, TheSimulatorsRateIsSetAndItsStateSavedAndRestored) {
+  child<QDoubleSpinBox>(panel_.get(), "rate")->setValue(0.25);
+  child<QLineEdit>(panel_.get(), "snapshot")->setText("lifted");
+  for (const char* button : {"set_rate", "save", "restore"}) click(button);
+  ASSERT_EQ(robot_->calls.size(), 3U);
+  EXPECT_EQ(robot_->calls[0].service, "sim/set_rate");
+  EXPECT_EQ(robot_->calls[0].factor, 0.25);
+  EXPECT_EQ(robot_->calls[1].service, "sim/save");
+  EXPECT_EQ(robot_->calls[2].service, "sim/restore");
+  EXPECT_EQ(robot_->calls[2].name, "lifted");
 }
 
 TEST_F(RobotPanelTest, SaysThatThereIsNoRobot) {
