@@ -15,7 +15,7 @@ KEYS = {
     'BulletDynamics': 'bullet', 'CGAL': 'cgal', 'CLI': 'cli11', 'Eigen': 'eigen', 'LinearMath': 'bullet', 'XmlRpcValue.h': 'roscpp',
     'arv.h': 'aravis-dev', 'assimp': 'assimp', 'boost': 'boost', 'btBulletDynamicsCommon.h': 'bullet', 'ceres': 'libceres-dev',
     'console_bridge': 'libconsole-bridge-dev', 'dc1394': 'libdc1394-dev', 'gtest': 'rosunit', 'image_transport': 'image_transport',
-    'nlohmann': 'nlohmann-json-dev', 'nlopt.hpp': 'libnlopt-cxx-dev', 'opencv2': 'libopencv-dev', 'pluginlib': 'pluginlib', 'ros': 'roscpp',
+    'interactive_markers': 'interactive_markers', 'nlohmann': 'nlohmann-json-dev', 'nlopt.hpp': 'libnlopt-cxx-dev', 'opencv2': 'libopencv-dev', 'pluginlib': 'pluginlib', 'ros': 'roscpp',
     'rosbag': 'rosbag_storage', 'rviz': 'rviz', 'tbb': 'tbb', 'tf2_ros': 'tf2_ros', 'tinyxml2.h': 'tinyxml2', 'unsupported': 'eigen', 'urdf_model': 'liburdfdom-headers-dev',
     'urdf_parser': 'liburdfdom-dev', 'xmlrpcpp': 'roscpp', 'yaml-cpp': 'yaml-cpp',
     **dict.fromkeys(('benchmark', 'dlfcn.h', 'elf.h', 'fcntl.h', 'link.h', 'linux', 'malloc.h', 'mpi.h', 'mujoco', 'net', 'netdb.h', 'netinet', 'pagmo',
