@@ -21,6 +21,7 @@ NODES = {
     'anthrob_control': ['anthrob_computed_force', 'anthrob_hold_posture', 'anthrob_posture_player'],
     'anthrob_recorder': ['anthrob_recorder'],
     'anthrob_mocap': ['anthrob_mocap', 'anthrob_virtual_cameras'],
+    'anthrob_rviz': ['anthrob_touch'],
 }
 
 

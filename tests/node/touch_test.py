@@ -3,14 +3,16 @@
 import math
 import os
 import signal
+import subprocess
 import unittest
 import xmlrpc.client
 
 import rosgraph
+import rospkg
 import rospy
 import rostest
 from anthrob_msgs.msg import ExternalWrenches
-from geometry_msgs.msg import Point
+from geometry_msgs.msg import Point, Quaternion
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit, Marker, MarkerArray
@@ -23,8 +25,19 @@ SILENCE = 0.5            # [s] without a word from RViz
 DURATION = 0.2           # [s] of a push that is not renewed
 
 
+CONFIG = os.path.join(rospkg.RosPack().get_path('anthrob_bringup'), 'config', 'anthrob')
+GO_THERE, FORGET = 1, 2  # entries of the menu
+
+
 def size(vector):
     return math.sqrt(vector.x ** 2 + vector.y ** 2 + vector.z ** 2)
+
+
+def forearm_at(elbow):
+    """Orientation of the forearm in the world while the humerus hangs as at rest."""
+    yaw, roll = math.pi / 4 + 2.2707982412787193, math.pi / 2 - elbow
+    z, x = (math.cos(yaw / 2), math.sin(yaw / 2)), (math.cos(roll / 2), math.sin(roll / 2))
+    return Quaternion(w=z[0] * x[0], x=z[0] * x[1], y=z[1] * x[1], z=z[1] * x[0])
 
 
 class Touch(unittest.TestCase):
@@ -133,7 +146,49 @@ class Touch(unittest.TestCase):
         rospy.sleep(0.3)
         self.assertEqual(self.pushes(), [])
 
-    def test_f_a_push_ends_when_the_node_dies(self):
+    def test_f_a_ghost_is_turned_and_the_arm_follows(self):
+        handles, ghosts = [], []
+        watchers = [rospy.Subscriber('posture/update_full', InteractiveMarkerInit, handles.append, queue_size=10),
+                    rospy.Subscriber('posture/ghost', MarkerArray, ghosts.append, queue_size=100)]
+        feedback = rospy.Publisher('posture/feedback', InteractiveMarkerFeedback, queue_size=10)
+        controller = subprocess.Popen(['rosrun', 'anthrob_control', 'anthrob_computed_force',
+                                       '_model:=' + os.path.join(CONFIG, 'model_II.yaml'),
+                                       '_settings:=' + os.path.join(CONFIG, 'control.yaml')])
+        self.addCleanup(controller.wait)
+        self.addCleanup(controller.terminate)
+
+        def say(event, elbow=0.0, entry=0):
+            message = InteractiveMarkerFeedback(client_id='touch_test', marker_name='forearm', control_name='axis_0')
+            message.header.frame_id = 'world'
+            message.event_type = getattr(InteractiveMarkerFeedback, event)
+            message.pose.orientation = forearm_at(elbow)
+            message.menu_entry_id = entry
+            feedback.publish(message)
+
+        def remark():
+            return ([m.text for m in ghosts[-1].markers if m.ns == 'remark'] + [''])[0] if ghosts else ''
+
+        wait_for(lambda: handles and handles[-1].markers and feedback.get_num_connections(), 15, 'handles on the joints')
+        rings = {marker.name: len([c for c in marker.controls if c.interaction_mode == c.ROTATE_AXIS])
+                 for marker in handles[-1].markers}
+        self.assertEqual(rings, {'humerus': 3, 'forearm': 1})
+
+        say('MOUSE_DOWN')
+        say('POSE_UPDATE', 3.0)
+        wait_for(lambda: remark() == 'elbow: at its stop', 5, 'a ghost at the stop')
+        say('MENU_SELECT', entry=FORGET)
+        wait_for(lambda: ghosts[-1].markers[0].action == Marker.DELETEALL, 5, 'no ghost')
+
+        say('POSE_UPDATE', 0.8)
+        say('MOUSE_UP')
+        wait_for(lambda: remark().startswith('right-click'), 5, 'a ghost')
+        self.assertLess(self.elbow, 0.2)  # nothing moves before the menu is asked
+        say('MENU_SELECT', entry=GO_THERE)
+        wait_for(lambda: abs(self.elbow - 0.8) < 0.1, 10, 'the arm where the ghost is')
+        wait_for(lambda: ghosts[-1].markers[0].action == Marker.DELETEALL, 5, 'no ghost')
+        del watchers[:]
+
+    def test_z_a_push_ends_when_the_node_dies(self):
         self.drag(0.1, 0.1)
         wait_for(self.pushes, 2, 'the push')
         node = xmlrpc.client.ServerProxy(rosgraph.Master('/touch_test').lookupNode('/anthrob/touch'))

@@ -114,14 +114,7 @@ void LinkPulls::release(const std::string& name) {
   server_.setPose(name, message_of(Pose()));  // back onto the link
   server_.applyChanges();
   visualization_msgs::MarkerArray arrows;
-  for (const int id : {0, 1}) {
-    visualization_msgs::Marker marker;
-    marker.header.frame_id = skeleton_.links()[0].name;  // RViz waits for ever without
-    marker.ns = name;
-    marker.id = id;
-    marker.action = visualization_msgs::Marker::DELETE;
-    arrows.markers.push_back(marker);
-  }
+  arrows.markers = erased_arrow(skeleton_.links()[0].name, name);
   arrows_.publish(arrows);
 }
 

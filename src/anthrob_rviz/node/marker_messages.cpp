@@ -1,5 +1,7 @@
 #include "marker_messages.h"
 
+#include <cmath>
+
 #include "anthrob_core/text.h"
 
 namespace anthrob {
@@ -82,6 +84,14 @@ geometry_msgs::Pose message_of(const Pose& pose) {
   return message;
 }
 
+std::optional<Pose> pose_from(const geometry_msgs::Pose& message) {
+  const geometry_msgs::Quaternion& o = message.orientation;
+  const Quat q(o.w, o.x, o.y, o.z);
+  const Vec3 p(message.position.x, message.position.y, message.position.z);
+  if (!p.allFinite() || !(std::abs(q.norm() - 1.0) < 1e-3)) return std::nullopt;
+  return Pose{q.normalized().toRotationMatrix(), p};
+}
+
 std::vector<Marker> markers_of(const SkeletonLink& link, double growth,
                                const std_msgs::ColorRGBA& colour) {
   std::vector<Marker> markers;
@@ -125,14 +135,80 @@ std::vector<Marker> arrow_of(const std::string& root, const std::string& link,
   arrow.scale.y = 0.014;
   arrow.scale.z = 0.03;
   arrow.color = pull.limited ? colour_of(1.0, 0.3, 0.2, 1.0) : colour_of(1.0, 0.8, 0.2, 1.0);
-  Marker size = arrow;
+  Marker size =
+      text_at(root, link, mouse_W + Vec3(0.0, 0.0, 0.03),
+              significant(pull.force_W.norm(), 2) + " N" + (pull.limited ? " (limit)" : ""));
   size.id = 1;
-  size.type = Marker::TEXT_VIEW_FACING;
-  size.points.clear();
-  size.pose.position = point_of(mouse_W + Vec3(0.0, 0.0, 0.03));
-  size.scale.z = 0.03;
-  size.text = significant(pull.force_W.norm(), 2) + " N" + (pull.limited ? " (limit)" : "");
+  size.color = arrow.color;
   return {arrow, size};
+}
+
+std::vector<Marker> erased_arrow(const std::string& root, const std::string& link) {
+  Marker marker;
+  marker.header.frame_id = root;  // RViz waits for ever without
+  marker.ns = link;
+  marker.action = Marker::DELETE;
+  std::vector<Marker> both(2, marker);
+  both[1].id = 1;
+  return both;
+}
+
+Marker text_at(const std::string& root, const std::string& ns, const Vec3& point_W,
+               const std::string& text) {
+  Marker marker;
+  marker.header.frame_id = root;
+  marker.ns = ns;
+  marker.type = Marker::TEXT_VIEW_FACING;
+  marker.pose.position = point_of(point_W);
+  marker.pose.orientation.w = 1.0;
+  marker.scale.z = 0.03;
+  marker.color = colour_of(1.0, 1.0, 1.0, 1.0);
+  marker.text = text;
+  return marker;
+}
+
+visualization_msgs::InteractiveMarker joint_handle(const std::string& root,
+                                                   const SkeletonLink& link) {
+  visualization_msgs::InteractiveMarker marker;
+  marker.header.frame_id = root;
+  marker.name = link.name;
+  marker.pose.orientation.w = 1.0;
+  marker.scale = link.joint.kind == JointKind::kBall ? 0.16F : 0.12F;
+  InteractiveMarkerControl control;
+  control.interaction_mode = link.joint.kind == JointKind::kSlide
+                                 ? InteractiveMarkerControl::MOVE_AXIS
+                                 : InteractiveMarkerControl::ROTATE_AXIS;
+  std::vector<Vec3> axes{link.joint.axis};
+  if (link.joint.kind == JointKind::kBall) axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  for (const Vec3& axis : axes) {
+    Pose turned;
+    turned.R = Quat::FromTwoVectors(Vec3::UnitX(), axis).toRotationMatrix();
+    control.name = "axis_" + std::to_string(marker.controls.size());
+    control.orientation = message_of(turned).orientation;
+    marker.controls.push_back(control);
+  }
+  return marker;
+}
+
+Pose handle_pose(const LinkJoint& joint, const Pose& X_WL) {
+  return {X_WL.R, X_WL * joint.center};
+}
+
+std::vector<Marker> ghost_of(const Skeleton& skeleton, const std::vector<Pose>& X_WL,
+                             const std_msgs::ColorRGBA& colour) {
+  std::vector<Marker> ghost;
+  for (std::size_t i = 0; i < X_WL.size(); ++i) {
+    const SkeletonLink& link = skeleton.links()[i];
+    if (!link.moves) continue;
+    for (Marker& marker : markers_of(link, 0.0, colour)) {
+      marker.header.frame_id = skeleton.links()[0].name;
+      marker.ns = "ghost";
+      marker.id = static_cast<int>(ghost.size());
+      marker.pose = message_of(X_WL[i] * pose_from(marker.pose).value());
+      ghost.push_back(marker);
+    }
+  }
+  return ghost;
 }
 
 }  // namespace anthrob

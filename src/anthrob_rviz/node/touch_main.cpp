@@ -4,6 +4,7 @@
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
 #include "link_pulls.h"
+#include "posture_goals.h"
 #include "touch/ball_centers.h"
 
 namespace anthrob {
@@ -29,9 +30,13 @@ int run(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const Skeleton skeleton = skeleton_of(nh, settings);
   PostureInput input(nh, skeleton);
   LinkPulls pulls(nh, skeleton, input, spring_of(settings));
+  PostureGoals goals(nh, skeleton, input);
   input.on_posture = [&] { pulls.renew(); };
-  const ros::SteadyTimer timer = nh.createSteadyTimer(
-      ros::WallDuration(kLook), [&](const ros::SteadyTimerEvent&) { pulls.look(); });
+  const ros::SteadyTimer timer =
+      nh.createSteadyTimer(ros::WallDuration(kLook), [&](const ros::SteadyTimerEvent&) {
+        pulls.look();
+        goals.look();
+      });
   ros::spin();
   return 0;
 }
@@ -42,7 +47,8 @@ int run(ros::NodeHandle& nh, ros::NodeHandle& settings) {
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "touch";
-  info.purpose = "Lets the mouse in RViz pull the links of a simulated robot.";
+  info.purpose =
+      "Lets the mouse in RViz pull the links of a simulated robot, and send a robot to postures.";
   info.parameters = {{"model", "path of a model file, for the centres of ball joints (required)"},
                      {"stiffness", "of the spring between link and mouse [N/m] (default: 100)"},
                      {"damping", "of the grabbed point [Ns/m] (default: 2)"},
