@@ -110,9 +110,10 @@ as_root() {
 
 # Prints those of the named packages that are not installed.
 lacking() {
-  local package
+  local installed package
+  installed="$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null)"
   for package in "$@"; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || printf '%s ' "$package"
+    [[ $'\n'"$installed"$'\n' == *$'\n'"$package installed"$'\n'* ]] || printf '%s ' "$package"
   done
 }
 
@@ -161,22 +162,50 @@ extras() {
   done
 }
 
+# A line that changes with the name, size or time of any file that a build reads: sources, this script, installed packages.
+# Robots and launch files are read where they are.
+sources_stamp() {
+  {
+    echo "${ANTHROB_WERROR:-OFF}"
+    find -L src catkin_ws.sh /var/lib/dpkg/status \( -path src/anthrob_bringup/config -o -path src/anthrob_bringup/launch \
+      -o -path src/CMakeLists.txt -o -name __pycache__ \) -prune -o ! -type d -printf '%p %s %T@ %C@\n' 2>&1 | sort
+  } | sha256sum
+}
+
+# The same of what it makes.
+products_stamp() {
+  find devel -name __pycache__ -prune -o ! -type d -printf '%p %s %T@\n' 2>&1 | sort | sha256sum
+}
+
+# Builds unless all is as the last build without further arguments has left it.
+build_if_changed() {
+  if [ -f devel/setup.bash ] && [ -f build/stamp ] && [ "$(sources_stamp; products_stamp)" = "$(cat build/stamp)" ]; then
+    ros_environment
+  else
+    build
+  fi
+}
+
 build() {
   deps
   ros_environment
   mkdir -p build
+  rm -f build/stamp
+  local sources
+  sources="$(sources_stamp)"  # before: what changes meanwhile may have been read already
   say "building (log: build/build.log)"
   catkin_make -DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3 \
     -DPython3_EXECUTABLE=/usr/bin/python3 -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -j"$(nproc)" \
     -DCMAKE_COMPILE_WARNING_AS_ERROR="${ANTHROB_WERROR:-OFF}" "$@" >build/build.log 2>&1 ||
     { grep -m5 -E 'error|Error' build/build.log >&2; die "the build failed: see build/build.log"; }
+  [ $# -gt 0 ] || { echo "$sources"; products_stamp; } >build/stamp
   source_file devel/setup.bash
 }
 
 have_display() { [ -n "${DISPLAY:-}" ]; }
 
 sim() {
-  build
+  build_if_changed
   local rviz=false
   have_display && rviz=true
   exec roslaunch anthrob_bringup sim.launch rviz:=$rviz "$@"
@@ -184,7 +213,7 @@ sim() {
 
 demo() {
   extras
-  build
+  build_if_changed
   local out="$here/build/demo" rviz=false
   have_display && rviz=true
   rm -rf "$out" && mkdir -p "$out" || die "cannot write $out"
@@ -307,13 +336,13 @@ study() {
       cd scripts/study && ls -- [!_]*.py | sed 's/\.py$//' | tr '\n' ' '
     )"
   shift
-  build
+  build_if_changed
   mkdir -p build/study
   scripts/study/"$name".py "$@"
 }
 
 shell() {
-  build
+  build_if_changed
   say "this shell knows the workspace; leave it with exit"
   bash --rcfile <(echo "[ -f ~/.bashrc ] && . ~/.bashrc; export PATH='$PATH'; . '$here/devel/setup.bash'") -i
 }

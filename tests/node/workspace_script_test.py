@@ -2,7 +2,9 @@
 """What ./catkin_ws.sh does on other systems and beside another ROS. Commands that it would run are functions here, which a
 shell takes before programs: nothing is installed."""
 import os
+import shutil
 import subprocess
+import tempfile
 import unittest
 
 import rostest
@@ -11,14 +13,15 @@ TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__)
 UBUNTU = 'PRETTY_NAME="Ubuntu 20.04.6 LTS"\nVERSION_CODENAME=focal'
 DEBIAN = 'PRETTY_NAME="Debian GNU/Linux 12 (bookworm)"\nVERSION_CODENAME=bookworm'
 NOTHING = {'dpkg-query': 'false'}
+ALL = {'dpkg-query': 'shift 3; printf "%s installed\\n" "$@"'}
 # Whether as root or through sudo: says what it was asked for, and fails.
 FAKES = {'apt-get': 'echo asked: apt-get "$@"; false', 'sudo': 'echo asked: "$@"; false'}
 
 
-def run(command, functions, **environment):
-    """Status and all that ./catkin_ws.sh said."""
+def run(command, functions, script=os.path.join(TOP, 'catkin_ws.sh'), **environment):
+    """Status and all that ./catkin_ws.sh said. @param command with its arguments, if it has some"""
     names = {'BASH_FUNC_%s%%%%' % name: '() { %s; }' % body for name, body in {**FAKES, **functions}.items()}
-    done = subprocess.run(['bash', os.path.join(TOP, 'catkin_ws.sh'), command], env={**os.environ, **names, **environment},
+    done = subprocess.run(['bash', script, *([command] if isinstance(command, str) else command)], env={**os.environ, **names, **environment},
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=50)
     return done.returncode, done.stdout
 
@@ -46,7 +49,12 @@ class WorkspaceScript(unittest.TestCase):
         self.assertIn('apt-get update failed', said)
 
     def test_asks_for_no_system_where_all_is_there(self):
-        self.assertEqual(run('deps', {'dpkg-query': 'echo install ok installed', **system(UBUNTU)}), (0, ''))
+        self.assertEqual(run('deps', {**ALL, **system(UBUNTU)}), (0, ''))
+
+    def test_installs_what_is_not_there(self):
+        some = ALL['dpkg-query'].replace('"$@"', '"${@:2}"')
+        status, said = run('deps', {'dpkg-query': some, **system(DEBIAN), 'apt-get': 'echo asked: "$@"', 'env': 'echo asked: "$@"'})
+        self.assertIn('--no-install-recommends catkin\n', said)
 
     def environment_with(self, distribution):
         """What a command of the script sees of variables that a ROS of /elsewhere has set."""
@@ -67,5 +75,79 @@ class WorkspaceScript(unittest.TestCase):
         self.assertEqual(left, list(names))
 
 
+class Rebuilding(unittest.TestCase):
+    """What is built before a command that needs the workspace, in one whose catkin_make only makes a setup file and a program."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+        shutil.copy(os.path.join(TOP, 'catkin_ws.sh'), self.folder)
+        self.write('src/arm/arm.cpp', '1')
+        self.write('src/arm/CMakeLists.txt', 'one')
+        self.write('config/arm/model_I.yaml', 'one')
+        os.makedirs(self.path('src/anthrob_bringup'))
+        os.symlink('../../config', self.path('src/anthrob_bringup/config'))
+        self.write('scripts/study/nothing.py', '#!/bin/sh\n')
+        os.chmod(self.path('scripts/study/nothing.py'), 0o755)
+        self.catkin_make = 'mkdir -p devel; : >devel/setup.bash; echo program >devel/program'
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), 'w') as file:
+            file.write(text)
+
+    def builds(self, **environment):
+        """Whether a study builds first."""
+        status, said = run(('study', 'nothing'), {**ALL, 'catkin_make': self.catkin_make},
+                           script=self.path('catkin_ws.sh'), **environment)
+        self.assertEqual(status, 0, said)
+        return 'building' in said
+
+    def test_only_what_changed(self):
+        self.assertTrue(self.builds())
+        self.assertFalse(self.builds())
+        for change in (lambda: self.write('src/arm/arm.cpp', '2'),
+                       lambda: os.utime(self.path('src/arm/arm.cpp'), (1e9, 1e9)),
+                       lambda: self.write('src/arm/hand.h', ''),
+                       lambda: os.rename(self.path('src/arm/hand.h'), self.path('src/arm/fist.h')),
+                       lambda: os.remove(self.path('src/arm/fist.h')),
+                       lambda: self.write('src/arm/CMakeLists.txt', 'two'),
+                       lambda: os.utime(self.path('catkin_ws.sh')),
+                       lambda: os.remove(self.path('devel/program')),
+                       lambda: os.remove(self.path('devel/setup.bash')),
+                       lambda: shutil.rmtree(self.path('build'))):
+            change()
+            self.assertTrue(self.builds())
+        self.assertFalse(self.builds())
+        self.assertTrue(self.builds(ANTHROB_WERROR='ON'))
+
+    def test_not_for_what_is_read_where_it_is(self):
+        self.builds()
+        self.write('config/arm/model_I.yaml', 'two')
+        self.write('src/arm/__pycache__/arm.pyc', '')
+        self.assertFalse(self.builds())
+
+    def test_again_after_a_build_that_failed_or_was_overtaken(self):
+        self.builds()
+        self.write('src/arm/arm.cpp', '3')
+        making, self.catkin_make = self.catkin_make, 'false'
+        with self.assertRaises(AssertionError):
+            self.builds()
+        self.catkin_make = making + '; echo 4 >src/arm/arm.cpp'
+        self.assertTrue(self.builds())
+        self.catkin_make = making
+        self.assertTrue(self.builds())
+        self.assertFalse(self.builds())
+
+    def test_again_after_a_build_with_arguments(self):
+        self.builds()
+        run(('build', '-DCMAKE_BUILD_TYPE=Debug'), {**ALL, 'catkin_make': self.catkin_make},
+            script=self.path('catkin_ws.sh'))
+        self.assertTrue(self.builds())
+
+
 if __name__ == '__main__':
-    rostest.rosrun('anthrob_tests', 'workspace_script', WorkspaceScript)
+    rostest.rosrun('anthrob_tests', 'workspace_script', '__main__')
