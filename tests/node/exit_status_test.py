@@ -72,6 +72,15 @@ class ExitStatus(unittest.TestCase):
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn('standard output: cannot be written', done.stderr)
 
+    def test_version(self):
+        version = rospkg.RosPack().get_manifest('anthrob_core').version
+        for package, name in (('calib', 'calibrate'), ('calib', 'identify'), ('calib', 'virtual_rig'), ('control', 'gains'),
+                              ('discovery', 'discover'), ('driver', 'can_check'), ('driver', 'driver'), ('emulator', 'emulator'),
+                              ('mocap', 'mocap_offline'), ('recording', 'convert'), ('sim', 'muscles'), ('sim', 'simulator'),
+                              ('virtual_robot', 'blind_case')):
+            done = run(program('anthrob_' + package, 'anthrob_' + name), '--version')
+            self.assertEqual((done.returncode, done.stdout), (0, 'anthrob_%s %s\n' % (name, version)), done.stderr)
+
     def test_folder_for_a_file(self):
         said = self.refused(program('anthrob_sim', 'anthrob_replay'), '--model', CONFIG, '--in', CONFIG, '--out', '/tmp/none')
         self.assertIn(CONFIG + ': expected a YAML file, not a folder', said)

@@ -16,6 +16,7 @@
 #include "anthrob_core/errors.h"
 #include "anthrob_core/monotonic_clock.h"
 #include "anthrob_core/signals.h"
+#include "anthrob_core/version.h"
 
 namespace anthrob {
 namespace tool {
@@ -59,6 +60,7 @@ bool read_number(const std::string& text, double& value) {
 
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body, int stopped) {
   if (listening == 0) leave_when_stopped(stopped);
+  app.set_version_flag("--version", version_of(app.get_name()), "print the version and end");
   std::vector<char*> arguments;
   std::copy_if(argv, argv + argc, std::back_inserter(arguments),
                [](const char* argument) { return !is_remapping(argument); });

@@ -6,6 +6,7 @@
 
 #include "anthrob_core/errors.h"
 #include "anthrob_core/signals.h"
+#include "anthrob_core/version.h"
 #include "anthrob_ros/descriptor_watch.h"
 #include "anthrob_ros/master_uri.h"
 #include "anthrob_ros/parameters.h"
@@ -25,6 +26,10 @@ const NodeInfo::Parameter kBackEndParameter = {
 
 bool asks_for_help(const std::string& argument) {
   return argument == "--help" || argument == "-h";
+}
+
+std::string program_of(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
 }
 
 std::string keys_of(const NodeInfo& info) {
@@ -87,7 +92,7 @@ bool NodeInfo::has(const std::string& key) const {
 std::string help_of(const NodeInfo& info, const std::string& program) {
   std::size_t width = 0;
   for (const auto& parameter : info.parameters) width = std::max(width, parameter.key.size());
-  std::string text = info.purpose + "\nUsage: " + program.substr(program.rfind('/') + 1) +
+  std::string text = info.purpose + "\nUsage: " + program_of(program) +
                      " _PARAMETER:=VALUE ... [__ns:=ROBOT] [__name:=NAME]\n\nParameters:\n";
   for (const auto& [key, meaning] : info.parameters) {
     text += "  _" + key + std::string(width + 2 - key.size(), ' ') + meaning + "\n";
@@ -100,7 +105,7 @@ std::optional<std::string> wrong_argument(const NodeInfo& info,
   for (const std::string& argument : arguments) {
     const std::size_t assignment = argument.find(":=");
     if (assignment == std::string::npos) {
-      return "argument '" + argument + "': expected _PARAMETER:=VALUE, or --help";
+      return "argument '" + argument + "': expected _PARAMETER:=VALUE, --help or --version";
     }
     const bool is_parameter = argument[0] == '_' && argument[1] != '_';
     const std::string key = argument.substr(1, assignment - 1);
@@ -117,6 +122,10 @@ int run_node(int argc, char** argv, NodeInfo info, const NodeBody& body) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (std::any_of(arguments.begin(), arguments.end(), asks_for_help)) {
     std::cout << help_of(info, argv[0]);
+    return 0;
+  }
+  if (std::find(arguments.begin(), arguments.end(), "--version") != arguments.end()) {
+    std::cout << version_of(program_of(argv[0])) << "\n";
     return 0;
   }
   if (const auto wrong = wrong_argument(info, arguments)) {

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "anthrob_core/version.h"
 #include "anthrob_ros/master_uri.h"
 
 namespace anthrob {
@@ -35,7 +36,8 @@ TEST(RunNode, MisspeltParameterIsTold) {
 TEST(RunNode, ArgumentThatRosWouldPassOverIsTold) {
   for (const char* argument : {"--rate", "model.yaml", "", "_model=d.yaml"}) {
     EXPECT_EQ(wrong_argument(simulator(), {argument}),
-              std::string("argument '") + argument + "': expected _PARAMETER:=VALUE, or --help");
+              std::string("argument '") + argument +
+                  "': expected _PARAMETER:=VALUE, --help or --version");
   }
 }
 
@@ -54,6 +56,11 @@ TEST(RunNode, AnswersWithoutMaster) {
   char program[] = "program", help[] = "--help", wrong[] = "--rate";
   char* asked[] = {program, help};
   EXPECT_EQ(run_node(2, asked, simulator(), body), 0);
+  char version[] = "--version";
+  char* of_what[] = {program, version};
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_node(2, of_what, simulator(), body), 0);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), version_of("program") + "\n");
   char* mistaken[] = {program, wrong};
   EXPECT_EQ(run_node(2, mistaken, simulator(), body), 2);
 }

@@ -12,7 +12,7 @@ namespace tool {
 enum Exit { kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130 };
 
 /// Parses the command line and runs `body`. Turns every error into one line on standard error and
-/// an exit status. Ignores the arguments that roslaunch adds.
+/// an exit status. Ignores the arguments that roslaunch adds. Every command has --version.
 /// @param stopped exit status if the program is stopped (signals.h) before it listens
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
         int stopped = kInterrupted);
