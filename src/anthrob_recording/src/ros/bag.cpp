@@ -18,7 +18,7 @@
 #include "dataset/clocks.h"
 #include "dataset/sources.h"
 #include "dataset/topic_tables.h"
-#include "ros/bag_records.h"
+#include "anthrob_recording/bag_records.h"
 #include "ros/bag_rows.h"
 
 namespace anthrob {

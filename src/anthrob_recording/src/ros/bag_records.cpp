@@ -1,4 +1,4 @@
-#include "ros/bag_records.h"
+#include "anthrob_recording/bag_records.h"
 
 #include <rosbag/chunked_file.h>
 #include <rosbag/stream.h>

@@ -1,5 +1,5 @@
 // Bags that are damaged, or made to take memory.
-#include "ros/bag_records.h"
+#include "anthrob_recording/bag_records.h"
 
 #include <anthrob_msgs/MuscleStates.h>
 #include <gtest/gtest.h>
