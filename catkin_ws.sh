@@ -16,7 +16,7 @@ needed_packages=(
   libdiagnostic-msgs-dev libgeometry-msgs-dev libros-rosgraph-msgs-dev libsensor-msgs-dev libstd-msgs-dev
   libstd-srvs-dev libvisualization-msgs-dev
   ros-robot-state-publisher rviz topic-tools
-  librviz-dev libinteractive-markers-dev pluginlib-dev qtbase5-dev
+  librviz-dev libinteractive-markers-dev libqcustomplot-dev pluginlib-dev qtbase5-dev
   libimage-transport-dev libactionlib-dev python3-actionlib python3-actionlib-msgs
   build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev

@@ -19,7 +19,7 @@ KEYS = {
     'rosbag': 'rosbag_storage', 'rviz': 'rviz', 'tbb': 'tbb', 'tf2_ros': 'tf2_ros', 'tinyxml2.h': 'tinyxml2', 'unsupported': 'eigen', 'urdf_model': 'liburdfdom-headers-dev',
     'urdf_parser': 'liburdfdom-dev', 'xmlrpcpp': 'roscpp', 'yaml-cpp': 'yaml-cpp',
     **dict.fromkeys(('benchmark', 'dlfcn.h', 'elf.h', 'fcntl.h', 'link.h', 'linux', 'malloc.h', 'mpi.h', 'mujoco', 'net', 'netdb.h', 'netinet', 'pagmo',
-                     'poll.h', 'pthread.h', 'sched.h', 'signal.h', 'spawn.h', 'stdlib.h', 'sys', 'unistd.h'))}
+                     'poll.h', 'pthread.h', 'qcustomplot.h', 'sched.h', 'signal.h', 'spawn.h', 'stdlib.h', 'sys', 'unistd.h'))}
 MODULES = {'rosbag': 'rosbag', 'roslaunch': 'roslaunch', 'roslib': 'roslib', 'rospy': 'rospy', 'rostest': 'rostest', 'yaml': 'python3-yaml'}
 
 

@@ -4,7 +4,9 @@
 
 #include "panel/muscles_panel.h"
 #include "panel/robot_panel.h"
+#include "panel/scope_panel.h"
 #include "ros/ros_connection.h"
+#include "ros/scope/scope_over_ros.h"
 
 namespace anthrob {
 
@@ -15,7 +17,10 @@ MusclesPanel::MusclesPanel()
     : MusclesPanel(std::make_unique<RosConnection>(RosConnection::Role::kCommander),
                    default_robot()) {}
 
+ScopePanel::ScopePanel() : ScopePanel(scope_over_ros()) {}
+
 }  // namespace anthrob
 
 PLUGINLIB_EXPORT_CLASS(anthrob::RobotPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::MusclesPanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(anthrob::ScopePanel, rviz::Panel)

@@ -14,6 +14,8 @@
 #include "panel/gui.h"
 #include "panel/muscles_panel.h"
 #include "panel/robot_panel.h"
+#include "plot/scope_widget.h"
+#include "ros/scope/scope_over_ros.h"
 
 namespace anthrob {
 namespace {
@@ -150,6 +152,28 @@ TEST_F(PanelsOnRobot, APausedSimulatorIsSilentAndEndsAHold) {
   EXPECT_TRUE(
       wait_for([&] { return child<QLabel>(&muscles_, "status")->text().contains("11 m"); }));
   EXPECT_EQ(commands_within(0.3), 0);
+}
+
+TEST_F(PanelsOnRobot, TheScopePlotsWhatTheRobotSends) {
+  ASSERT_TRUE(connected());
+  ScopeWidget scope(scope_over_ros());
+  scope.show();
+  const std::string topic = nh_.resolveName("muscle_states"), path = topic + "/force/" + kMuscle;
+  ASSERT_TRUE(wait_for([&] { return scope.model().master().topics.count(topic) > 0; }));
+  scope.model().look_into({topic});
+  ASSERT_TRUE(wait_for([&] { return scope.model().quantities().count(path) > 0; }));
+  EXPECT_EQ(scope.model().quantities().at(path).unit, "N");
+  scope.tick({path});
+  const auto samples = [&] {
+    const auto curves = scope.model().curves();
+    return curves.empty() ? SampleSpan() : curves[0].samples;
+  };
+  ASSERT_TRUE(wait_for([&] { return samples().size() > 500; }));
+  // None is lost: the simulator sends one every 2 ms.
+  const SampleSpan all = samples();
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    ASSERT_EQ(all.begin()[i].t - all.begin()[i - 1].t, 2000000) << i;
+  }
 }
 
 }  // namespace
