@@ -12,7 +12,8 @@ import rospkg
 import rospy
 import rostest
 import yaml
-from anthrob_msgs.msg import ExternalWrenches, MomentArms, MuscleCommand, MusclePaths, MuscleStates, Quantities, SphericalJointStates
+from anthrob_msgs.msg import (
+    ExternalWrenches, MomentArms, MuscleCommand, MusclePaths, MuscleStates, Quantities, SphericalJointStates, TendonPaths)
 from anthrob_msgs.srv import (
     ApplyWrench, ApplyWrenchRequest, ChooseQuantities, SetRate, SetState, SetStateRequest, Snapshot, Step)
 from diagnostic_msgs.msg import DiagnosticArray
@@ -278,6 +279,17 @@ class SimContract(unittest.TestCase):
                     if contact.touching:
                         self.assertLess(min(math.dist((p.x, p.y, p.z), (end.x, end.y, end.z)) for p in points), 1e-4)
         self.assertGreater(contacts, 0)
+
+    def test_tendons_are_told_by_link_to_who_asks_also_while_time_stands_still(self):
+        self.advance(10)
+        told = Collector('tendon_paths', TendonPaths)
+        wait_for(lambda: len(told.messages) > 2, 5, 'tendons of a paused simulator')
+        told.subscriber.unregister()
+        self.assertEqual(told.last().header.stamp, self.clock.last().clock)
+        self.assertEqual([path.name for path in told.last().muscles], MUSCLES)
+        biceps = told.last().muscles[MUSCLES.index('biceps_brachii')]
+        self.assertEqual((biceps.link[0], biceps.link[-1]), ('world', 'forearm'))
+        self.assertEqual(len(biceps.link), len(biceps.point))
 
     def test_stamps_are_the_clock_and_grow(self):
         self.advance(10)

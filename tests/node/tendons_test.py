@@ -6,7 +6,7 @@ import unittest
 
 import rospy
 import rostest
-from anthrob_msgs.msg import MusclePaths, MuscleStates
+from anthrob_msgs.msg import MusclePaths, MuscleStates, TendonPaths
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 from waiting import wait_for
@@ -17,9 +17,10 @@ ANGLE = 0.6  # [rad]
 class Tendons(unittest.TestCase):
 
     def setUp(self):
-        self.drawn, self.told = [], []
+        self.drawn, self.told, self.carried = [], [], []
         rospy.Subscriber('muscle_paths', MarkerArray, self.drawn.append)
         rospy.Subscriber('solved_paths', MusclePaths, self.told.append)
+        rospy.Subscriber('tendon_paths', TendonPaths, self.carried.append)
         self.joints = rospy.Publisher('joint_states', JointState, queue_size=1)
         self.muscles = rospy.Publisher('muscle_states', MuscleStates, queue_size=1)
         end = time.time() + 20
@@ -83,6 +84,13 @@ class Tendons(unittest.TestCase):
         self.assertAlmostEqual(path.length, drawn, delta=1e-4)
         self.assertFalse(path.slack)
         self.assertTrue(math.isnan(path.velocity) and math.isnan(path.spring_expansion))
+
+        # By link, a point stays where it is; a tendon is slack where its force is small.
+        flexor, extensor = self.carried[-1].muscles
+        self.assertEqual((flexor.link[0], flexor.link[-1], extensor.link[-1]), ('world', 'arm', 'arm'))
+        end = flexor.point[-1]
+        self.assertLess(math.dist((end.x, end.y, end.z), (0.02, 0.0, -0.08)), 1e-9)
+        self.assertEqual((flexor.force, flexor.slack, extensor.slack), (40.0, False, True))
 
         # Half a second later the robot may be anywhere.
         time.sleep(1.0)

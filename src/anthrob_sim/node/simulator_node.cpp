@@ -50,7 +50,8 @@ SimulatorNode::SimulatorNode(std::shared_ptr<const RobotModel> model, const Opti
       quantities_(nh_, sim_, options.quantities),
       snapshots_(
           nh_, sim_, [this] { return failure_; },
-          [this](const Snapshot& snapshot) { restore(snapshot); }) {
+          [this](const Snapshot& snapshot) { restore(snapshot); }),
+      tendons_(nh_, sim_, options.marker_rate, [this] { return failure_.empty(); }) {
   advertise_topics();
   subscribe_to_commands();
   offer_services();

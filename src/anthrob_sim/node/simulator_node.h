@@ -30,6 +30,7 @@
 #include "simulation/driven_joints.h"
 #include "snapshots.h"
 #include "surface_display.h"
+#include "tendon_publisher.h"
 
 namespace anthrob {
 
@@ -148,6 +149,7 @@ class SimulatorNode {
   ExternalPushes pushes_;
   QuantityTopic quantities_;
   Snapshots snapshots_;
+  TendonPublisher tendons_;
   tf2_ros::TransformBroadcaster transforms_;
 
   Clock::time_point deadline_, report_time_, marker_time_, clock_time_;

@@ -2,6 +2,7 @@
 
 #include <anthrob_msgs/MomentArms.h>
 #include <anthrob_msgs/MusclePaths.h>
+#include <anthrob_msgs/TendonPaths.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
@@ -35,6 +36,7 @@ TendonDisplay::TendonDisplay(std::shared_ptr<const RobotModel> model, ros::NodeH
       stamps_(sim_.model().skeleton->joints.size()),
       surfaces_(nh, sim_.model()) {
   paths_ = nh.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
+  tendon_paths_ = nh.advertise<anthrob_msgs::TendonPaths>("tendon_paths", 2);
   solved_paths_ = nh.advertise<anthrob_msgs::MusclePaths>("solved_paths", 10);
   moment_arms_ = nh.advertise<anthrob_msgs::MomentArms>("moment_arms", 10);
   if (joint_tf) transforms_.emplace();
@@ -118,6 +120,9 @@ void TendonDisplay::draw() {
   for (auto& marker : markers.markers) marker.lifetime = ros::Duration(kStaleAfter);
   paths_.publish(markers);
   if (transforms_) transforms_->sendTransform(ball_joint_transforms(sim_, oldest));
+  if (tendon_paths_.getNumSubscribers() > 0) {
+    tendon_paths_.publish(tendon_paths(sim_, forces_, kSlackForce, oldest));
+  }
   if (solved_paths_.getNumSubscribers() > 0) tell(oldest);
   if (moment_arms_.getNumSubscribers() > 0) moment_arms_.publish(moment_arms(sim_, oldest));
 }

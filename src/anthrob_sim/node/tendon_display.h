@@ -44,7 +44,7 @@ class TendonDisplay {
   ros::Time forces_stamp_;
   std::vector<ros::Time> stamps_;  ///< of all joints
   SurfaceDisplay surfaces_;
-  ros::Publisher paths_, solved_paths_, moment_arms_;
+  ros::Publisher paths_, tendon_paths_, solved_paths_, moment_arms_;
   std::optional<tf2_ros::TransformBroadcaster> transforms_;  ///< of ball joints
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;

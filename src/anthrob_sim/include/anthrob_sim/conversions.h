@@ -5,6 +5,7 @@
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SetState.h>
 #include <anthrob_msgs/SphericalJointStates.h>
+#include <anthrob_msgs/TendonPaths.h>
 #include <anthrob_msgs/TouchStates.h>
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <geometry_msgs/TransformStamped.h>
@@ -52,6 +53,12 @@ std::vector<double> spring_tensions(const Simulation& sim);
 visualization_msgs::MarkerArray muscle_markers(const Simulation& sim,
                                                const std::vector<double>& forces,
                                                const ros::Time& stamp);
+/// The same paths, each point in the frame of the link that carries it: its body's link, which is
+/// a frame of tf.
+/// @param forces of all muscles [N]; NaN: not measured
+/// @param slack_force up to which a tendon counts as slack [N]
+anthrob_msgs::TendonPaths tendon_paths(const Simulation& sim, const std::vector<double>& forces,
+                                       double slack_force, const ros::Time& stamp);
 /// Wrapping surfaces, fixed to their links.
 visualization_msgs::MarkerArray surface_markers(const RobotModel& model);
 

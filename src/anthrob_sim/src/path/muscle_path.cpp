@@ -174,18 +174,26 @@ void MusclePath::add_moment_arms(std::size_t i, double scale, const KinematicTre
   }
 }
 
-std::vector<Vec3> MusclePath::polyline(const std::vector<BodyState>& bodies) const {
+std::vector<CarriedPoint> MusclePath::carried_points() const {
   const auto& list = model_.obstacles();
-  std::vector<Vec3> points, on_surface;
+  std::vector<CarriedPoint> points;
+  std::vector<Vec3> on_surface;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Pose& X_WB = bodies[list[i].body].X_WB;
     if (!list[i].surface) {
-      points.push_back(X_WB * list[i].point_B);
+      points.push_back({list[i].body, list[i].point_B});
     } else if (contacts_[i].touching) {
       on_surface.clear();
       list[i].surface->trace(contacts_[i], on_surface);
-      for (const Vec3& point : on_surface) points.push_back(X_WB * point);
+      for (const Vec3& point : on_surface) points.push_back({list[i].body, point});
     }
+  }
+  return points;
+}
+
+std::vector<Vec3> MusclePath::polyline(const std::vector<BodyState>& bodies) const {
+  std::vector<Vec3> points;
+  for (const CarriedPoint& point : carried_points()) {
+    points.push_back(bodies[point.body].X_WB * point.point_B);
   }
   return points;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthrob_core/force_colour.h"
 #include "anthrob_ecu/fault.h"
 #include "anthrob_ros/diagnostics.h"
 #include "path/cylinder.h"
@@ -168,22 +169,6 @@ std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulat
 namespace {
 
 constexpr double kTendonWidth = 0.0022;    // [m] thicker than real, to be seen
-constexpr double kFullColourForce = 40.0;  // [N] where the scale ends
-
-std_msgs::ColorRGBA colour_of(double force) {
-  std_msgs::ColorRGBA colour;
-  if (std::isnan(force)) {
-    colour.r = colour.g = colour.b = 0.6f, colour.a = 1.0f;
-    return colour;
-  }
-  const double x = std::min(1.0, std::max(0.0, force / kFullColourForce));
-  // Blue, green, yellow, red.
-  colour.r = static_cast<float>(std::min(1.0, std::max(0.0, 3.0 * x - 1.0)));
-  colour.g = static_cast<float>(x < 2.0 / 3.0 ? std::min(1.0, 0.25 + 2.25 * x) : 3.0 * (1.0 - x));
-  colour.b = static_cast<float>(std::max(0.0, 1.0 - 3.0 * x));
-  colour.a = 1.0f;
-  return colour;
-}
 
 geometry_msgs::Point to_point(const Vec3& p) {
   geometry_msgs::Point point;
@@ -259,12 +244,35 @@ visualization_msgs::MarkerArray muscle_markers(const Simulation& sim,
     marker.type = visualization_msgs::Marker::LINE_STRIP;
     marker.pose.orientation.w = 1.0;
     marker.scale.x = kTendonWidth;
-    marker.color = colour_of(forces[i]);
+    const Colour colour = force_colour(forces[i]);
+    marker.color.r = colour.r, marker.color.g = colour.g, marker.color.b = colour.b;
+    marker.color.a = 1.0f;
     for (const Vec3& point : muscle.path().polyline(sim.bodies()))
       marker.points.push_back(to_point(point));
     markers.markers.push_back(marker);
   }
   return markers;
+}
+
+anthrob_msgs::TendonPaths tendon_paths(const Simulation& sim, const std::vector<double>& forces,
+                                       double slack_force, const ros::Time& stamp) {
+  const std::vector<BodyModel>& bodies = sim.model().skeleton->bodies;
+  anthrob_msgs::TendonPaths paths;
+  paths.header.stamp = stamp;
+  for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
+    const Muscle& muscle = sim.muscle(static_cast<int>(i));
+    anthrob_msgs::TendonPath path;
+    path.name = muscle.model().name;
+    path.force = forces[i];
+    path.slack = forces[i] <= slack_force;
+    for (const CarriedPoint& point : muscle.path().carried_points()) {
+      const BodyModel& body = bodies[point.body];
+      path.link.push_back(body.name);
+      path.point.push_back(to_point(body.X_LB * point.point_B));
+    }
+    paths.muscles.push_back(path);
+  }
+  return paths;
 }
 
 namespace {

@@ -118,5 +118,93 @@ TEST(SurfaceMarkers, MeshesLieWhereMusclesTouchThem) {
   EXPECT_GT(touching, 0);
 }
 
+/// Points of a tendon, put where the links are now.
+std::vector<Vec3> placed(const anthrob_msgs::TendonPath& path, const Simulation& sim) {
+  const SkeletonModel& skeleton = *sim.model().skeleton;
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k < path.point.size(); ++k) {
+    points.push_back(sim.link_pose(skeleton.find_frame(path.link.at(k))) *
+                     vector_of(path.point[k]));
+  }
+  return points;
+}
+
+std::vector<double> bent(const Simulation& sim) {
+  std::vector<double> q = sim.configuration();
+  for (const JointModel& joint : sim.model().skeleton->joints) {
+    if (joint.type == JointType::kBall) {
+      const Quat turned(Eigen::AngleAxisd(0.5, Vec3(1.0, 0.5, 0.2).normalized()));
+      const double values[] = {turned.w(), turned.x(), turned.y(), turned.z()};
+      std::copy(values, values + 4, q.begin() + joint.position_offset);
+    } else {
+      q[joint.position_offset] += 0.7;
+    }
+  }
+  return q;
+}
+
+TEST(TendonPaths, PlacedByLinksTheyAreTheMarkers) {
+  for (const char* file :
+       {"anthrob/model_II.yaml", "anthrob/model_III.yaml", "torso_100/model_II.yaml"}) {
+    Simulation sim(load_robot_model(config(file)));
+    const std::vector<double> positions(sim.muscle_count(), 0.0);
+    for (const bool moved : {false, true}) {
+      if (moved) sim.place(bent(sim), positions);
+      const auto forces = spring_tensions(sim);
+      const auto markers = muscle_markers(sim, forces, ros::Time(1.0)).markers;
+      const auto paths = tendon_paths(sim, forces, 0.0, ros::Time(1.0)).muscles;
+      ASSERT_EQ(paths.size(), markers.size());
+      for (std::size_t m = 0; m < paths.size(); ++m) {
+        EXPECT_EQ(paths[m].name, markers[m].ns);
+        const auto points = placed(paths[m], sim);
+        ASSERT_EQ(points.size(), markers[m].points.size());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+          EXPECT_LT((points[k] - vector_of(markers[m].points[k])).norm(), 1e-9)
+              << file << ": " << paths[m].name << " point " << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(TendonPaths, EndsStayAtTheirAnchorsWhileTheArmMoves) {
+  Simulation sim(load_robot_model(config("anthrob/model_II.yaml")));
+  const auto told = [&] {
+    return tendon_paths(sim, spring_tensions(sim), 0.0, ros::Time(1.0)).muscles;
+  };
+  const auto before = told();
+  const Vec3 end_before = placed(before[0], sim).back();
+  sim.place(bent(sim), std::vector<double>(sim.muscle_count(), 0.0));
+  const auto after = told();
+  EXPECT_GT((placed(after[0], sim).back() - end_before).norm(), 0.02);
+  for (std::size_t m = 0; m < after.size(); ++m) {
+    EXPECT_EQ(after[m].link.front(), before[m].link.front());
+    EXPECT_EQ(after[m].link.back(), before[m].link.back());
+    EXPECT_EQ(after[m].point.front(), before[m].point.front());
+    EXPECT_EQ(after[m].point.back(), before[m].point.back());
+  }
+  // From the model file: origin and insertion of the lateral deltoid. The base, fixed to the
+  // world, is one body with it.
+  EXPECT_EQ(after[0].link.front(), "world");
+  const Pose X_WBase = sim.link_pose(sim.model().skeleton->find_frame("base"));
+  EXPECT_LT((placed(after[0], sim).front() - X_WBase * Vec3(-0.0060, -0.0287, 0.4656)).norm(),
+            1e-9);
+  EXPECT_EQ(after[0].link.back(), "humerus");
+  EXPECT_LT((vector_of(after[0].point.back()) - Vec3(-0.0090, 0.1475, -0.0090)).norm(), 1e-9);
+}
+
+TEST(TendonPaths, SlackUpToAForceAndNotWhereNoneIsMeasured) {
+  const Simulation sim(load_robot_model(config("anthrob/model_II.yaml")));
+  std::vector<double> forces(sim.muscle_count(), 5.0);
+  forces[1] = 0.2, forces[2] = NAN;
+  const auto paths = tendon_paths(sim, forces, 1.0, ros::Time(3.0));
+  EXPECT_EQ(paths.header.stamp, ros::Time(3.0));
+  EXPECT_EQ(paths.muscles[0].force, 5.0);
+  EXPECT_FALSE(paths.muscles[0].slack);
+  EXPECT_TRUE(paths.muscles[1].slack);
+  EXPECT_TRUE(std::isnan(paths.muscles[2].force));
+  EXPECT_FALSE(paths.muscles[2].slack);
+}
+
 }  // namespace
 }  // namespace anthrob

@@ -65,6 +65,12 @@ class PathModel {
   std::vector<char> static_;
 };
 
+/// A point of a path that moves with a body.
+struct CarriedPoint {
+  int body;
+  Vec3 point_B;  ///< in the body's principal frame [m]
+};
+
 /// A muscle's path in one posture: lines 1-10 of Algorithm 4.1. Scratch memory; what must survive a
 /// step is in the state.
 class MusclePath {
@@ -80,7 +86,9 @@ class MusclePath {
   const std::vector<PathSegment>& segments() const { return segments_; }
   const std::vector<ObstacleState>& obstacles() const { return obstacles_; }
   const PathModel& model() const { return model_; }
-  /// The path for drawing: points and, on surfaces, points along the way, in the world [m].
+  /// The path for drawing: points and, on surfaces, points along the way.
+  std::vector<CarriedPoint> carried_points() const;
+  /// The same in the world [m].
   std::vector<Vec3> polyline(const std::vector<BodyState>& bodies) const;
 
   /// Adds `scale` times the moment arms of one segment (-dl/dq, joints beyond world axes) to
