@@ -24,6 +24,8 @@ MODULES = {'rosbag': 'rosbag', 'roslaunch': 'roslaunch', 'roslib': 'roslib', 'ro
 
 
 def key(name):
+    if name.startswith('Ogre') or name == 'Overlay':
+        return 'libogre-dev'
     return name if name.endswith(('_msgs', '_srvs')) else KEYS.get(name)
 
 

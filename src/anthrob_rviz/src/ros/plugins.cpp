@@ -1,4 +1,4 @@
-// RViz makes panels without arguments: these are connected over ROS.
+// What RViz makes by name. Panels without arguments are connected over ROS.
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -7,6 +7,7 @@
 #include "panel/scope_panel.h"
 #include "ros/ros_connection.h"
 #include "ros/scope/scope_over_ros.h"
+#include "ros/tendons_display.h"
 
 namespace anthrob {
 
@@ -24,3 +25,4 @@ ScopePanel::ScopePanel() : ScopePanel(scope_over_ros()) {}
 PLUGINLIB_EXPORT_CLASS(anthrob::RobotPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::MusclesPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::ScopePanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(anthrob::TendonsDisplay, rviz::Display)

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <QImage>
+
+namespace anthrob {
+
+/// What the colours and thicknesses of tendons mean.
+/// @param full_force where the scale ends [N]
+QImage force_legend(double full_force);
+
+}  // namespace anthrob
