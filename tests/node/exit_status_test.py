@@ -81,6 +81,14 @@ class ExitStatus(unittest.TestCase):
             done = run(program('anthrob_' + package, 'anthrob_' + name), '--version')
             self.assertEqual((done.returncode, done.stdout), (0, 'anthrob_%s %s\n' % (name, version)), done.stderr)
 
+    def test_models_by_name(self):
+        named = run(program('anthrob_sim', 'anthrob_effects'), '--model', 'driven_axis/I')
+        file = os.path.join(ROOT, 'config', 'driven_axis', 'model_I.yaml')
+        self.assertEqual((named.returncode, named.stdout), (0, run(program('anthrob_sim', 'anthrob_effects'), '--model', file).stdout))
+        said = self.refused(program('anthrob_sim', 'anthrob_effects'), '--model', 'anthrob/IX')
+        self.assertIn('model IX: no file', said)
+        self.assertIn('this robot has: ', said)
+
     def test_folder_for_a_file(self):
         said = self.refused(program('anthrob_sim', 'anthrob_replay'), '--model', CONFIG, '--in', CONFIG, '--out', '/tmp/none')
         self.assertIn(CONFIG + ': expected a YAML file, not a folder', said)

@@ -280,7 +280,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--validation", a.validation,
                  "folder of held-out recordings: evaluated, never fitted");
   app.add_option("--out", a.out, "folder for model.yaml, result.json, report.html")->required();
-  app.add_option("--model", a.model, "model file, instead of the configuration's");
+  app.add_option("--model", a.model, "model, instead of the configuration's")
+      ->transform(tool::model_or_file());
   app.add_option("--start", a.start, "result.json of earlier calibrations to start from");
   auto* resume = app.add_flag("--resume", a.resume, "continue an interrupted search");
   app.add_flag("--evaluate", a.evaluate, "no search: only compute the errors of the given model")

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/robots.h"
 #include "anthrob_sim/tool.h"
 #include "virtual_rig/eyelet_pull.h"
 #include "virtual_rig/load_resistor.h"
@@ -15,7 +16,7 @@ namespace {
 using namespace virtual_rig;
 
 std::string rig_folder(const std::string& robot) {
-  return std::filesystem::path(tool::find_model_file(robot, "I")).parent_path().string();
+  return std::filesystem::path(find_model_file(robot, "I")).parent_path().string();
 }
 
 void save(const Dataset& data, const std::string& folder) {

@@ -264,7 +264,8 @@ int main(int argc, char** argv) {
   info.role = anthrob::NodeInfo::Role::kCommander;
   info.purpose = "Computed-force control of the joints: zero gravity, and going to postures.";
   info.parameters = {
-      {"model", "path of the model file that the controller computes with (required)"},
+      {"model",
+       "model that the controller computes with: a file, or a name such as anthrob/II (required)"},
       {"settings", "path of the controller's settings, such as control.yaml (required)"},
       {"lock_step", "true: the controller steps the simulator (default: false)"},
       {"steps", "with lock_step: simulation steps per control period (default: 5)"},
@@ -274,7 +275,7 @@ int main(int argc, char** argv) {
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     const auto model =
-        anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
+        anthrob::load_robot_model(anthrob::required_model(settings));
     const auto control = anthrob::ControlSettings::load(
         anthrob::required(settings, "settings", "a settings file"), *model);
     anthrob::RobotLink::Options options;

@@ -84,8 +84,7 @@ void require_enabled(ros::NodeHandle& nh, const anthrob::RobotModel& model) {
 /// @return whether the posture was commanded
 bool hold(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const std::string wanted = anthrob::required(settings, "posture", "the name of a posture");
-  const auto model =
-      anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
+  const auto model = anthrob::load_robot_model(anthrob::required_model(settings));
   const auto sequence = anthrob::PostureSequence::load(
       anthrob::required(settings, "postures", "a posture file"), *model);
   const auto step = std::find_if(sequence.steps.begin(), sequence.steps.end(),
@@ -132,7 +131,7 @@ int main(int argc, char** argv) {
       "Puts a running simulator into one posture of a file, at equilibrium, and commands it once.";
   info.options = ros::init_options::AnonymousName;
   info.parameters = {
-      {"model", "path of a model file (required)"},
+      {"model", "model file, or a name such as anthrob/II (required)"},
       {"postures", "path of a posture file (required)"},
       {"posture", "name of a posture in that file; must be given by joints (required)"},
   };

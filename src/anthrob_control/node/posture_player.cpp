@@ -68,8 +68,7 @@ bool wait_for_states(anthrob::RobotLink& link) {
 
 /// @return false when ROS shuts down
 bool play(ros::NodeHandle& nh, ros::NodeHandle& settings) {
-  const auto model =
-      anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
+  const auto model = anthrob::load_robot_model(anthrob::required_model(settings));
   const auto sequence = anthrob::PostureSequence::load(
       anthrob::required(settings, "postures", "a posture file"), *model);
   double speed = anthrob::Approach::kSpeed;
@@ -132,7 +131,7 @@ int main(int argc, char** argv) {
   info.role = anthrob::NodeInfo::Role::kCommander;
   info.purpose = "Moves the robot through the postures of a file.";
   info.parameters = {
-      {"model", "path of a model file (required)"},
+      {"model", "model file, or a name such as anthrob/II (required)"},
       {"postures", "path of a posture file (required)"},
       {"approach_speed", "[rad/s] of the motors on the way to the first posture (default: 1)"},
       {"simulator_rate",

@@ -155,7 +155,8 @@ int main(int argc, char** argv) {
   app.add_option("--robot", arguments.robot, "namespace of the robot")->capture_default_str();
   app.add_option("--save", arguments.save,
                  "model file to write: extends --model by the gains that differ from it");
-  app.add_option("--model", arguments.model, "model file that the robot was started with");
+  app.add_option("--model", arguments.model, "model that the robot was started with")
+      ->transform(anthrob::tool::model_or_file());
   return anthrob::tool::run(app, argc, argv, [&] {
     if (wrong) throw BadInput(*wrong);
     return run(arguments);

@@ -15,6 +15,7 @@
 
 #include "anthrob_core/errors.h"
 #include "anthrob_core/monotonic_clock.h"
+#include "anthrob_core/robots.h"
 #include "anthrob_core/signals.h"
 #include "anthrob_core/version.h"
 
@@ -99,6 +100,14 @@ CLI::Validator within(double lowest, double highest) {
     return text + ": expected " + range;
   };
   return CLI::Validator(check, range.str());
+}
+
+CLI::Validator model_or_file() {
+  CLI::Validator named("FILE, or a name such as anthrob/II");
+  return named.operation([](std::string& text) {
+    text = find_model_file(text);
+    return std::string();  // nothing to complain of
+  });
 }
 
 bool interrupted() {

@@ -1,6 +1,5 @@
 #include "require_file.h"
 
-#include <filesystem>
 #include <optional>
 #include <regex>
 #include <set>
@@ -24,18 +23,6 @@ std::optional<std::string> model_name(const fs::path& file) {
   return match[1].str();
 }
 
-/// Separated by commas.
-std::string models_in(const fs::path& folder) {
-  std::set<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (const auto name = model_name(entry.path())) names.insert(*name);
-  }
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 }  // namespace
 
 void require_file(const std::string& path) {
@@ -52,6 +39,17 @@ void require_file(const std::string& path) {
   const std::string models = is_model ? models_in(fs::absolute(path).parent_path()) : "";
   throw BadInput(path + ": no such file" +
                  (models.empty() ? "" : "; its folder has the models " + models));
+}
+
+std::string models_in(const fs::path& folder) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (const auto name = model_name(entry.path())) names.insert(*name);
+  }
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
 }  // namespace anthrob

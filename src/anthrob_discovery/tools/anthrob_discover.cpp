@@ -54,7 +54,9 @@ struct Arguments {
 void add_options(CLI::App& app, Arguments& a) {
   discovery::Question& question = a.question;
   question.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  app.add_option("--model", question.model_file, "model file to examine")->required();
+  app.add_option("--model", question.model_file, "model to examine")
+      ->required()
+      ->transform(anthrob::tool::model_or_file());
   app.add_option("--train", a.train, "recordings that are fitted: bags or dataset folders")
       ->required();
   app.add_option("--test", a.test,
@@ -89,7 +91,8 @@ void add_options(CLI::App& app, Arguments& a) {
          "--close-the-loop", a.robot_file,
          "if the robot is itself a simulation: MODEL is the model file of that simulated robot; "
          "it is recorded to tell rivals apart, and the search is repeated")
-      ->type_name("MODEL");
+      ->type_name("MODEL")
+      ->transform(anthrob::tool::model_or_file());
 }
 
 /// Refuses an output folder in which what is written would overwrite what is read.

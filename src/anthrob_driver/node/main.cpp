@@ -1,6 +1,7 @@
 #include <ros/ros.h>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/robots.h"
 #include "anthrob_ros/clock_wait.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
@@ -89,6 +90,7 @@ int main(int argc, char** argv) {
     const Hardware hardware = load_hardware(file, hand);
     std::string model;
     take(settings, "model", text_of, model);
+    if (!model.empty()) model = find_model_file(model);
     const auto other_than_wired =
         model.empty() ? std::nullopt : difference(hardware, load_hardware(file, hand, model));
     if (other_than_wired) {

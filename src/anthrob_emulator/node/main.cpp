@@ -132,9 +132,9 @@ int main(int argc, char** argv) {
   anthrob::Arguments arguments;
   CLI::App app("Emulated ECUs of a robot on a CAN interface", "anthrob_emulator");
   app.add_option("--hardware", arguments.hardware, "hardware.yaml of the robot")->required();
-  app.add_option(
-      "--model", arguments.model,
-      "model file for the simulator's physics; default: a test bench of motors and springs");
+  app.add_option("--model", arguments.model,
+                 "model for the simulator's physics; default: a test bench of motors and springs")
+      ->transform(anthrob::tool::model_or_file());
   app.add_option("--can", arguments.can, "CAN interface; must be a vcan, see --physical")
       ->capture_default_str();
   app.add_flag("--physical", arguments.physical,

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   info.role = anthrob::NodeInfo::Role::kCommander;
   info.purpose = "Records equilibria or trajectories of a robot by protocol.";
   info.parameters = {
-      {"model", "path of a model file (required)"},
+      {"model", "model file, or a name such as anthrob/II (required)"},
       {"protocol", "path of a protocol file (required)"},
       {"out", "folder to record into, as a whole path (required)"},
       {"robot_model",
@@ -50,8 +50,7 @@ int main(int argc, char** argv) {
       {"steps", "with lock_step: simulation steps per reference (default: 5)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
-    const auto model =
-        anthrob::load_robot_model(anthrob::required(settings, "model", "a model file"));
+    const auto model = anthrob::load_robot_model(anthrob::required_model(settings));
     const auto protocol = anthrob::Protocol::load(
         anthrob::required(settings, "protocol", "a protocol file (launch files: protocol:=NAME)"),
         model);

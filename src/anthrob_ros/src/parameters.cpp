@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/robots.h"
 
 namespace anthrob {
 
@@ -81,6 +82,10 @@ std::string required(const ros::NodeHandle& settings, const std::string& key,
   take(settings, key, text_of, value);
   if (value.empty()) throw BadInput("parameter ~" + key + ": missing; expected " + what);
   return value;
+}
+
+std::string required_model(const ros::NodeHandle& settings) {
+  return find_model_file(required(settings, "model", "a model file, or a name such as anthrob/II"));
 }
 
 // NOLINTEND(performance-unnecessary-value-param)

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
       "The simulated robot: simulates physics, sensors and controllers instead of the hardware.";
   info.role = anthrob::NodeInfo::Role::kBackEnd;
   info.parameters = {
-      {"model", "path of a model file (required)"},
+      {"model", "model file, or a name such as anthrob/II (required)"},
       {"step", "simulation step [s], in [1e-07, 0.1] (default: 0.001)"},
       {"rate", "real-time factor, 0: as fast as possible (default: 1)"},
       {"state_rate", "rate of states and clock [Hz of simulated time], at least 1 (default: 500)"},
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     using namespace anthrob;
     // First of all: whatever else is wrong, our launch file may have set the time of a robot.
     const ros::Publisher claim = claim_robot(nh);
-    const std::string file = required(settings, "model", "the path of a model file");
+    const std::string file = required_model(settings);
     LoadOptions load;
     take(settings, "step", number_of, load.step);
     if (!(load.step >= kMinimumStep && load.step <= kMaximumStep)) {

@@ -10,11 +10,11 @@ int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "tendons";
   info.purpose = "Publishes the tendons of a robot as markers for RViz.";
-  info.parameters = {{"model", "path of a model file (required)"},
+  info.parameters = {{"model", "model file, or a name such as anthrob/II (required)"},
                      {"joint_tf", "publish ball joints in tf, too (default: false)"},
                      {"back_end", "name of the only back end that may be shown (default: any)"}};
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
-    const std::string file = anthrob::required(settings, "model", "the path of a model file");
+    const std::string file = anthrob::required_model(settings);
     std::string back_end;
     anthrob::take(settings, "back_end", anthrob::text_of, back_end);
     anthrob::refuse_other_back_ends(nh, back_end);

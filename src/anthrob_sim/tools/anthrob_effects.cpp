@@ -174,7 +174,8 @@ int main(int argc, char** argv) {
   std::string id, model_file, format = "text";
   app.add_option("id", id, "explain this effect; without an id, list all effects");
   app.add_option("--model", model_file,
-                 "model file (path): show at which places of this robot each effect can act");
+                 "model: show at which places of this robot each effect can act")
+      ->transform(tool::model_or_file());
   app.add_option("--format", format, "output format")
       ->check(CLI::IsMember({"text", "json", "markdown"}))
       ->capture_default_str();

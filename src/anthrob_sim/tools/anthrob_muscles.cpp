@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anthrob_core/files.h"
+#include "anthrob_core/robots.h"
 #include "anthrob_recording/dataset.h"
 #include "anthrob_sim/placement.h"
 #include "anthrob_sim/simulation.h"
@@ -256,8 +257,8 @@ int main(int argc, char** argv) {
   app.add_option("--robot", robot, "name of a robot folder under config/, or the path of one")
       ->capture_default_str();
   app.add_option("--model", model_name,
-                 "II for model_II.yaml in the robot's folder, or the path of a .yaml file (then "
-                 "--robot is not used)")
+                 "II for model_II.yaml in the robot's folder; anthrob/II or the path of a .yaml "
+                 "file: --robot is not used")
       ->capture_default_str();
   app.add_option(
       "--joint", joints,
@@ -277,7 +278,7 @@ int main(int argc, char** argv) {
   app.add_flag("--csv", csv, "print comma-separated values in SI units");
   app.add_flag("--json", json, "print JSON in SI units")->excludes("--csv");
   return tool::run(app, argc, argv, [&]() -> int {
-    const auto model = tool::load_model(app, tool::find_model_file(robot, model_name));
+    const auto model = tool::load_model(app, find_model_file(robot, model_name));
     Placement placement(*model);
     const std::vector<std::string> named = names_of("--joint", joints);
     names_of("--position", positions);

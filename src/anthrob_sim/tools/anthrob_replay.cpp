@@ -34,8 +34,9 @@ int main(int argc, char** argv) {
       "anthrob_replay");
   std::string model_file, in, out, mode = "reference";
   double step = 0.001;
-  app.add_option("--model", model_file, "model file (path), e.g. config/anthrob/model_II.yaml")
-      ->required();
+  app.add_option("--model", model_file, "model to simulate")
+      ->required()
+      ->transform(tool::model_or_file());
   app.add_option("--in", in, "recording: a bag or a dataset folder")->required();
   app.add_option("--out", out, "dataset folder to write")->required();
   app.add_option("--dt", step, "simulation step [s]")->capture_default_str();

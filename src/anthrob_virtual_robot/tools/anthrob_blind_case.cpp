@@ -91,8 +91,8 @@ int main(int argc, char** argv) {
                  "ID@PLACE: hide this instead of what --case selects; may be repeated")
       ->excludes(kind_option)
       ->excludes(number_option);
-  app.add_option("--model", model,
-                 "model of the robot without what is hidden: .../config/anthrob/model_I.yaml");
+  app.add_option("--model", model, "model of the robot without what is hidden")
+      ->transform(anthrob::tool::model_or_file());
   app.add_option("--config", config, "settings; default: virtual_robot.yaml beside the model");
   app.add_option("--out", out, "folder for recordings and model.yaml");
   app.add_option("--truth", truth, "file for the truth, outside of --out");

@@ -18,8 +18,9 @@ int main(int argc, char** argv) {
   app.add_option("--tier", tier, "1: forearm detached, 2: the whole arm")
       ->check(CLI::IsMember({1, 2}));
   app.add_option("--model", model,
-                 "model file, to which errors are added: .../config/anthrob/model_II.yaml")
-      ->required();
+                 "model, to which errors are added; its folder has the other files that are read")
+      ->required()
+      ->transform(anthrob::tool::model_or_file());
   app.add_option("--config", config,
                  "settings; default: virtual_robot_tables.yaml beside the model");
   app.add_option("--out", out, "folder for equilibria, trajectories, validation")->required();

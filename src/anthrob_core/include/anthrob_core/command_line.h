@@ -20,6 +20,9 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
 /// Checks that an option is a number from `lowest` to `highest`. (CLI::Range accepts "nan".)
 CLI::Validator within(double lowest, double highest);
 
+/// For an option that takes a model file: also takes the name of a model (robots.h).
+CLI::Validator model_or_file();
+
 /// Whether the program was stopped (signals.h). The first call starts listening.
 bool interrupted();
 

@@ -31,4 +31,8 @@ void take(const ros::NodeHandle& settings, const std::string& key, Read read, T&
 std::string required(const ros::NodeHandle& settings, const std::string& key,
                      const std::string& what);
 
+/// The file of the parameter ~model, which may also be a name such as anthrob/II.
+/// @throws BadInput if it is missing, or there is no such model
+std::string required_model(const ros::NodeHandle& settings);
+
 }  // namespace anthrob

@@ -53,47 +53,6 @@ TEST(Tool, SaysNothingAboutASoundModel) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(FindModelFile, TakesANameInTheRobotsFolderOrThePathOfAFile) {
-  const std::string folder = testing_support::config("anthrob");
-  const std::string file = folder + "/model_III.yaml";
-  EXPECT_EQ(tool::find_model_file(folder, "III"), file);
-  // With the path of a file, the robot is not looked up.
-  EXPECT_EQ(tool::find_model_file(folder, file), file);
-  EXPECT_EQ(tool::find_model_file("no_such_robot", file), file);
-}
-
-std::string refusal_of(const std::string& robot, const std::string& model) {
-  try {
-    return tool::find_model_file(robot, model) + " (accepted)";
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-}
-
-TEST(FindModelFile, NamesWhatItDidNotFind) {
-  const std::string folder = testing_support::config("driven_axis");
-  EXPECT_EQ(refusal_of(folder, "II")
-                .find("--model II: no file " + folder + "/model_II.yaml; this robot has: "),
-            0u);
-  EXPECT_EQ(refusal_of(folder, "nowhere/model_I.yaml"),
-            "--model nowhere/model_I.yaml: no such file; expected an existing .yaml file, or a "
-            "name such as II");
-  EXPECT_EQ(refusal_of(folder, folder),
-            "--model " + folder +
-                ": no such file; expected an existing .yaml file, or a name such as II");
-  EXPECT_EQ(refusal_of("nowhere/robot", "I"),
-            "--robot nowhere/robot: no such folder: nowhere/robot");
-}
-
-TEST(FindModelFile, SaysWhereAFolderIsNoRobots) {
-  const fs::path folder = fs::temp_directory_path() / ("anthrob_empty_" + std::to_string(getpid()));
-  fs::create_directories(folder);
-  EXPECT_EQ(refusal_of(folder.string(), "II"),
-            "--model II: no file " + folder.string() +
-                "/model_II.yaml; expected a folder of a robot, with a file model_NAME.yaml");
-  fs::remove_all(folder);
-}
-
 TEST(ParseRange, SplitsNameEndsAndPoints) {
   const tool::Range range = tool::parse_range("--sweep", "shoulder_x=-1:1.5:100000");
   EXPECT_EQ(range.name, "shoulder_x");
