@@ -225,7 +225,7 @@ demo() {
   [ -f "$out/demo.bag" ] || die "nothing was recorded: see build/demo/demo.log"
   rosrun anthrob_recording anthrob_convert "$out/demo.bag" "$out/recording" >>"$out/demo.log" ||
     die "converting the bag failed: see above"
-  rosrun anthrob_recording anthrob_plot "$out/recording" --out "$out" || die "drawing failed: see above"
+  rosrun anthrob_recording anthrob_plot "$out/recording" --out "$out" >>"$out/demo.log" || die "drawing failed: see above"
   if ! command -v xvfb-run >/dev/null || ! command -v import >/dev/null; then
     say "no pictures: xvfb or imagemagick is missing; the rest is in build/demo/"
     return 0

@@ -7,12 +7,17 @@
 #include "anthrob_core/files.h"
 #include "anthrob_recording/bag.h"
 #include "anthrob_recording/dataset.h"
+#include "anthrob_recording/extent.h"
 #include "foreign/foreign_csv.h"
 
 namespace {
 
 void say_not_carried(const std::vector<std::string>& list) {
   for (const std::string& what : list) std::cout << "not converted: " << what << "\n";
+}
+
+void say_written(const std::string& out, const anthrob::Dataset& data) {
+  std::cout << "wrote " << out << ": " << anthrob::extent_of(data) << "\n";
 }
 
 /// Refuses to write a dataset folder over the files that it is made from.
@@ -50,6 +55,7 @@ int main(int argc, char** argv) {
       const Dataset made = read_foreign_csv(in, ForeignColumns::load(columns));
       keep_inputs(made, out, {in, columns});
       made.save(out);
+      say_written(out, made);
       return tool::kDone;
     }
     const auto is_bag = [](const std::string& path) {
@@ -66,6 +72,7 @@ int main(int argc, char** argv) {
       tool::say(app, recording.remarks);
       keep_folder(in, out);
       const BagRemarks done = write_bag(recording, out);
+      say_written(out, recording);
       tool::say(app, done.remarks);
       say_not_carried(done.not_carried);
       return tool::kDone;
@@ -73,6 +80,7 @@ int main(int argc, char** argv) {
     const BagContents contents = read_bag(in);
     tool::say(app, contents.dataset.remarks);
     contents.dataset.save(out);
+    say_written(out, contents.dataset);
     say_not_carried(contents.not_carried);
     return tool::kDone;
   });

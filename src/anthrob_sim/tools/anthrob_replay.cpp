@@ -5,6 +5,7 @@
 
 #include "anthrob_core/files.h"
 #include "anthrob_recording/bag.h"
+#include "anthrob_recording/extent.h"
 #include "anthrob_recording/unanswered.h"
 #include "anthrob_sim/replay/replay.h"
 #include "anthrob_sim/tool.h"
@@ -73,6 +74,7 @@ int main(int argc, char** argv) {
     const auto cut = result.meta.other.find("cut_short");
     if (cut == result.meta.other.end()) {
       result.save(out);
+      std::cout << "wrote " << out << ": " << extent_of(result) << "\n";
       return tool::kDone;
     }
     const bool any = std::any_of(result.tables.begin(), result.tables.end(),

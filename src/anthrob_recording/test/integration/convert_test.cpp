@@ -561,12 +561,16 @@ TEST(ConvertTool, TellsWhatIsOddAndWhatItDoesNotCarry) {
   data.save(folder / "set");
   std::ofstream(folder / "set/meta.yaml", std::ios::app) << "weather: fine\n";
   ASSERT_EQ(convert(folder, folder / "set", folder / "a.bag"), 0);
-  EXPECT_EQ(content(folder / "said.txt"), "not converted: joints.csv: hinge/load\n");
+  EXPECT_EQ(content(folder / "said.txt"), "wrote " + (folder / "a.bag") +
+                                              ": 1 table, 2 rows, 0.005 s\n"
+                                              "not converted: joints.csv: hinge/load\n");
   EXPECT_EQ(content(folder / "errors.txt"),
             "anthrob_convert: " + (folder / "set/meta.yaml") + ": weather: unknown key, kept\n");
   ASSERT_EQ(convert(folder, folder / "a.bag", folder / "back"), 0);
   EXPECT_EQ(content(folder / "errors.txt"),
             "anthrob_convert: " + (folder / "a.yaml") + ": weather: unknown key, kept\n");
+  EXPECT_EQ(content(folder / "said.txt"),
+            "wrote " + (folder / "back") + ": 1 table, 2 rows, 0.005 s\n");
   EXPECT_EQ(Dataset::load(folder / "back").meta.other.at("weather"), "fine\n");
 }
 
@@ -670,8 +674,10 @@ TEST(Plot, AFigureWithoutLinesIsNotDrawn) {
   const Folder folder;
   hinge().save(folder / "set");
   const std::string command = std::string(ANTHROB_PLOT) + " " + (folder / "set") + " --out " +
-                              (folder / "figures") + " 2>" + (folder / "errors.txt");
+                              (folder / "figures") + " >" + (folder / "said.txt") + " 2>" +
+                              (folder / "errors.txt");
   ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(content(folder / "said.txt"), "wrote " + (folder / "figures/joint_angles.svg\n"));
   EXPECT_EQ(content(folder / "errors.txt"),
             "anthrob_plot: no actuator_positions.svg: the recording has no positions of muscles\n"
             "anthrob_plot: no muscle_forces.svg: the recording has no forces of muscles\n");
