@@ -76,7 +76,7 @@ class ExitStatus(unittest.TestCase):
         version = rospkg.RosPack().get_manifest('anthrob_core').version
         for package, name in (('calib', 'calibrate'), ('calib', 'identify'), ('calib', 'virtual_rig'), ('control', 'gains'),
                               ('discovery', 'discover'), ('driver', 'can_check'), ('driver', 'driver'), ('emulator', 'emulator'),
-                              ('mocap', 'mocap_offline'), ('recording', 'convert'), ('sim', 'muscles'), ('sim', 'simulator'),
+                              ('mocap', 'mocap_offline'), ('recording', 'compare'), ('sim', 'muscles'), ('sim', 'simulator'),
                               ('virtual_robot', 'blind_case')):
             done = run(program('anthrob_' + package, 'anthrob_' + name), '--version')
             self.assertEqual((done.returncode, done.stdout), (0, 'anthrob_%s %s\n' % (name, version)), done.stderr)
