@@ -204,11 +204,33 @@ build() {
 
 have_display() { [ -n "${DISPLAY:-}" ]; }
 
+# Where there is no session, Qt takes this folder, but warns of it first.
+runtime_folder() {
+  [ -z "${XDG_RUNTIME_DIR:-}" ] || return 0
+  export XDG_RUNTIME_DIR="${TMPDIR:-/tmp}/runtime-$(id -un)"
+  mkdir -p -m 700 "$XDG_RUNTIME_DIR"
+}
+
+# What to try once the robot of sim's arguments runs.
+first_command() {
+  local argument robot=anthrob
+  for argument in "$@"; do
+    [[ "$argument" != robot:=* ]] || robot="${argument#robot:=}"
+  done
+  if [ "$robot" = anthrob ]; then
+    printf '%s' 'in ./catkin_ws.sh shell, raise the arm: rostopic pub -r 10 /anthrob/muscle_command' \
+      ' anthrob_msgs/MuscleCommand "{name: [lateral_deltoid], mode: [1], reference: [6.0]}"'
+  else
+    printf '%s' "in ./catkin_ws.sh shell, look at it: rostopic echo -n1 /$robot/muscle_states"
+  fi
+}
+
 sim() {
   build_if_changed
   local rviz=false
-  have_display && rviz=true
-  exec roslaunch anthrob_bringup sim.launch rviz:=$rviz "$@"
+  have_display && rviz=true && runtime_folder
+  export ROSCONSOLE_STDOUT_LINE_BUFFERED=1  # also where it goes to a file
+  exec roslaunch --skip-log-check --no-summary anthrob_bringup sim.launch rviz:=$rviz "hint:=$(first_command "$@")" "$@"
 }
 
 demo() {

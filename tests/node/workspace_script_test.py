@@ -2,6 +2,7 @@
 """What ./catkin_ws.sh does on other systems and beside another ROS. Commands that it would run are functions here, which a
 shell takes before programs: nothing is installed."""
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -141,6 +142,22 @@ class Rebuilding(unittest.TestCase):
         self.catkin_make = making
         self.assertTrue(self.builds())
         self.assertFalse(self.builds())
+
+    def test_that_the_simulator_says_what_to_try(self):
+        self.write('bin/roslaunch', '#!/bin/sh\nprintf "<%s>" "$@"\n')
+        os.chmod(self.path('bin/roslaunch'), 0o755)
+        self.catkin_make = 'mkdir -p devel; echo "PATH=$PWD/bin:$PATH" >devel/setup.bash'
+        for arguments, expected in (((), 'rostopic pub -r 10 /anthrob/muscle_command anthrob_msgs/MuscleCommand "{'),
+                                    (('robot:=rig', 'rate:=0'), 'rostopic echo -n1 /rig/muscle_states>')):
+            status, said = run(('sim', *arguments), {**ALL, 'catkin_make': self.catkin_make}, script=self.path('catkin_ws.sh'), DISPLAY='')
+            self.assertEqual(status, 0, said)
+            self.assertRegex(said, '<anthrob_bringup><sim.launch><rviz:=false><hint:=')
+            self.assertIn(expected, said)
+            if not arguments:
+                with open(os.path.join(TOP, 'README.md')) as readme:
+                    command = re.search(r'(rostopic pub[^>]*)>', said).group(1)
+                    self.assertTrue(command in re.sub(r'[\\\s]+', ' ', readme.read()), command)
+            self.assertTrue(said.endswith(''.join('<%s>' % argument for argument in arguments)), said)
 
     def test_again_after_a_build_with_arguments(self):
         self.builds()

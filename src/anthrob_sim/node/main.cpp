@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
       {"auto_enable", "enable the motors at the start (default: true)"},
       {"command_timeout",
        "motors stop after this time without commands [s], 0: never (default: 0.5)"},
+      {"hint", "what to try next, said once the robot runs (default: nothing)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
     using namespace anthrob;
@@ -73,6 +74,7 @@ int main(int argc, char** argv) {
     options.supervisor.auto_enable = true;
     take(settings, "auto_enable", truth_of, options.supervisor.auto_enable);
     take(settings, "command_timeout", nonnegative_number_of, options.supervisor.command_timeout);
+    take(settings, "hint", text_of, options.hint);
     if (!(options.state_rate >= 1.0))
       throw BadInput("parameter ~state_rate: " + std::to_string(options.state_rate) +
                      ": expected a number >= 1 [Hz]");

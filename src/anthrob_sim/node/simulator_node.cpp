@@ -571,6 +571,7 @@ void SimulatorNode::run() {
   stops.start();
   deadline_ = report_time_ = Clock::now();
   publish(true);
+  ROS_INFO_STREAM("ready" << (options_.hint.empty() ? "" : "; " + options_.hint));
   while (ros::ok()) {
     hear();
     cycle();

@@ -52,6 +52,7 @@ class SimulatorNode {
     /// Cameras measure the ball joints: their own positions go to sim/ then.
     bool motion_capture = false;
     std::vector<std::string> quantities;  ///< on sim/quantities from the start
+    std::string hint;  ///< said once it publishes
     ecu::Supervisor::Options supervisor;
   };
 
