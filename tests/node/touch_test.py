@@ -44,7 +44,7 @@ class Touch(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.wrenches, cls.arrows, cls.elbow = [], [], None
+        cls.wrenches, cls.arrows, cls.markers, cls.elbow = [], [], [], None
         cls.subscribers = [
             rospy.Subscriber('external_wrenches', ExternalWrenches, cls.wrenches.append, queue_size=1000, tcp_nodelay=True),
             rospy.Subscriber('push/force', MarkerArray, cls.arrows.append, queue_size=100),
@@ -52,7 +52,6 @@ class Touch(unittest.TestCase):
             rospy.Subscriber('joint_states', JointState, cls.see_joints, queue_size=1, tcp_nodelay=True)]
         cls.feedback = rospy.Publisher('push/feedback', InteractiveMarkerFeedback, queue_size=10)
         cls.reset = rospy.ServiceProxy('sim/reset', Trigger)
-        cls.markers = []
         wait_for(lambda: 'forearm' in cls.markers and cls.feedback.get_num_connections() and cls.elbow is not None, 20,
                  'a marker on the forearm')
 

@@ -81,6 +81,7 @@ void LinkPulls::renew() {
   const double time = input_.history().newest_time();
   if (time >= renewed_ && time < renewed_ + kRenewal) return;
   renewed_ = time;
+  period_.renewed(time);
   const auto held = held_;  // a call that fails ends them
   for (const auto& [name, link] : held) {
     if (held_.count(name) > 0 && !link.drag.abandoned(monotonic_now())) renew(link);
@@ -91,8 +92,8 @@ void LinkPulls::renew(const Held& held) {
   const PostureHistory& history = input_.history();
   const Vec3& point_L = held.drag.point_L();
   const Vec3 grabbed_W = skeleton_.pose(held.link, history.newest()) * point_L;
-  const Pull pull = pull_of(spring_, grabbed_W, history.velocity(skeleton_, held.link, point_L),
-                            held.drag.mouse_W());
+  const Pull pull = pull_of(softened(spring_, period_.mean()), grabbed_W,
+                            history.velocity(skeleton_, held.link, point_L), held.drag.mouse_W());
   const SkeletonLink& link = skeleton_.links()[held.link];
   if (!apply(link, point_L, pull.force_W, kDuration)) return;
   const double now = monotonic_now();

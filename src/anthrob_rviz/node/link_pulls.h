@@ -57,6 +57,7 @@ class LinkPulls {
   bool told_ = false;  ///< that there is nothing to push
   double begun_, next_survey_ = 0.0;
   double renewed_ = 0.0;  ///< [s] of the robot's time
+  RenewalPeriod period_;
   double drawn_ = 0.0;
 };
 

@@ -14,7 +14,11 @@ constexpr double kLook = 0.02;  // [s] of wall time
 
 Skeleton skeleton_of(const ros::NodeHandle& nh, const ros::NodeHandle& settings) {
   const std::string model = required(settings, "model", "the path of a model file");
-  const std::string urdf = required(nh, "robot_description", "the robot's URDF");
+  std::string urdf;
+  if (!nh.getParam("robot_description", urdf)) {
+    throw BadInput("parameter " + nh.resolveName("robot_description") +
+                   ": missing; expected the robot's URDF, as sim.launch and robot.launch set it");
+  }
   return {urdf, ball_centers(model)};
 }
 

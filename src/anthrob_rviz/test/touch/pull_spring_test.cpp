@@ -31,5 +31,28 @@ TEST(PullSpring, TheLimitHoldsForTheDamperToo) {
   EXPECT_NEAR((pull.force_W - Vec3(-30.0, 0.0, 0.0)).norm(), 0.0, 1e-12);
 }
 
+TEST(PullSpring, IsSofterWhereItIsRenewedSeldom) {
+  const PullSpring spring{100.0, 2.0, 30.0};
+  EXPECT_EQ(softened(spring, 0.0).stiffness, 100.0);
+  EXPECT_EQ(softened(spring, 0.004).damping, 2.0);
+  const PullSpring soft = softened(spring, 0.012);
+  EXPECT_NEAR(soft.stiffness, 25.0, 1e-9);
+  EXPECT_NEAR(soft.damping, 1.0, 1e-9);
+  EXPECT_EQ(soft.limit, 30.0);
+}
+
+TEST(RenewalPeriod, IsTheMeanOfTheLast) {
+  RenewalPeriod period;
+  EXPECT_EQ(period.mean(), 0.0);
+  double time = 100.0;  // the first one has none before it
+  for (int i = 0; i < 100; ++i) period.renewed(time += 0.01);
+  EXPECT_NEAR(period.mean(), 0.01, 1e-5);
+  period.renewed(time += 60.0);  // nothing was held
+  period.renewed(time -= 5.0);   // time went back
+  EXPECT_NEAR(period.mean(), 0.01, 1e-5);
+  for (int i = 0; i < 100; ++i) period.renewed(time += 0.004);
+  EXPECT_NEAR(period.mean(), 0.004, 1e-5);
+}
+
 }  // namespace
 }  // namespace anthrob
