@@ -97,6 +97,21 @@ TEST(Skeleton, RefusesWhatIsNoRobotOfThisSuite) {
   }
 }
 
+TEST(Skeleton, ReadsEveryRobotOfTheSuite) {
+  for (const std::string robot :
+       {"anthrob/robot_hand", "anthrob/robot_tier1", "torso_100/robot", "driven_axis/robot",
+        "two_muscle_rig/robot", "rig_ecu_load/robot", "rig_eyelet_pull/robot"}) {
+    const Skeleton skeleton(text_of_file(ANTHROB_CONFIG_DIR "/" + robot + ".urdf"), {});
+    EXPECT_GT(skeleton.links().size(), 1u) << robot;
+    for (const auto& link : skeleton.links()) {
+      const JointKind kind = link.joint.kind;
+      const bool has_axis = kind == JointKind::kHinge || kind == JointKind::kSlide;
+      EXPECT_NEAR(link.joint.axis.norm(), has_axis || !link.parent ? 1.0 : 0.0, 1e-9)
+          << robot << link.name;
+    }
+  }
+}
+
 TEST(BallCenters, ComeFromTheModelAndWhatItExtends) {
   const auto centers = ball_centers(kFolder + "model_II.yaml");
   ASSERT_EQ(centers.size(), 1u);
