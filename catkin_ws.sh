@@ -68,7 +68,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
                     soak: watch memory, descriptors and threads of the nodes; --hours N; it begins anew
                     hours of computing; an interrupted study continues; results go to build/study/ and overwrite
                     studies/, or go to FOLDER with --out FOLDER
-  shell             open a shell in which rosrun, roslaunch and rostopic know the workspace
+  shell             open a shell in which rosrun, roslaunch and rostopic know the workspace; Tab completes names and options
   clean             remove build/ (but not build/study), devel/ and install/, with any results you keep there
   help              print this text
 TEXT
@@ -366,7 +366,8 @@ study() {
 shell() {
   build_if_changed
   say "this shell knows the workspace; leave it with exit"
-  bash --rcfile <(echo "[ -f ~/.bashrc ] && . ~/.bashrc; export PATH='$PATH'; . '$here/devel/setup.bash'") -i
+  bash --rcfile <(echo "[ -f ~/.bashrc ] && . ~/.bashrc; export PATH='$PATH'; . '$here/devel/setup.bash'
+    . '$here/scripts/completion.bash'") -i
 }
 
 clean() {
