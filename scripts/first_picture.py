@@ -74,10 +74,13 @@ def run(folder):
         os.killpg(process.pid, signal.SIGINT)
         process.wait()
         os.close(terminal)
-    return times, said
+    return times
 
 
 def main():
+    if len(sys.argv) > 2 or not all(word.isdigit() and int(word) > 0 for word in sys.argv[1:]):
+        print("first_picture.py: expected a number of RUNS, or nothing", file=sys.stderr)
+        sys.exit(2)
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 10
     with tempfile.TemporaryDirectory() as folder:
         server = subprocess.Popen(["Xvfb", DISPLAY, "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", folder],
@@ -87,12 +90,10 @@ def main():
                 time.sleep(0.1)
             all_times = []
             for number in range(runs):
-                times, said = run(folder)
+                times = run(folder)
                 all_times.append(times)
                 print(f"run {number + 1}: " + ", ".join(f"{phase} {t:.2f}" for phase, t in sorted(times.items(), key=lambda i: i[1])),
                       flush=True)
-                if "-v" in sys.argv:
-                    print(said.decode())
                 time.sleep(2)
         finally:
             server.terminate()
