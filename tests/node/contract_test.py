@@ -197,6 +197,11 @@ class Contract(unittest.TestCase):
         frames = lambda: {(t.header.frame_id, t.child_frame_id) for m in self.tf.messages for t in m.transforms}
         self.wait_for(lambda: {('base', 'humerus'), ('humerus', 'forearm')} <= frames(), 'frames of the arm')
 
+    def test_no_frame_is_empty(self):
+        self.wait_for(lambda: self.joints.last() and self.balls.last(), 'joints')
+        for topic in self.states, self.joints, self.balls:
+            self.assertEqual(topic.last().header.frame_id, 'world')
+
     def test_diagnostics_name_every_ecu(self):
         self.wait_for(lambda: self.diagnostics.last() is not None, 'diagnostics')
         names = [s.name for s in self.diagnostics.last().status]
@@ -219,6 +224,13 @@ class Contract(unittest.TestCase):
                       'the refusal in diagnostics')
         rejected = int(self.diagnosed('rejected_commands'))
         self.wait_for(lambda: int(self.diagnosed('rejected_commands')) > rejected, 'more refusals in diagnostics')
+
+    def test_successes_say_what_happened(self):
+        for name in 'enable', 'disable', 'emergency_stop', 'clear_faults', 'enable':
+            reply = self.call(name)
+            self.assertTrue(reply.success, reply.message)
+            self.assertNotEqual(reply.message, '', name)
+        self.assertNotEqual(self.gains([], [], []).message, '')
 
     def test_home_wants_enabled_motors(self):
         self.call('disable')

@@ -13,6 +13,7 @@
 #include "anthrob_core/monotonic_clock.h"
 #include "anthrob_ros/bounded_connection.h"
 #include "anthrob_ros/diagnostics.h"
+#include "anthrob_ros/replies.h"
 #include "driver_diagnostics.h"
 #include "publishing/measurement_age.h"
 #include "routine/home.h"
@@ -24,14 +25,18 @@ namespace driver {
 
 namespace {
 
+/// The frame of what is measured, though it is in none; as the root of our robots' URDFs.
+const char* const kBase = "world";
 constexpr std::chrono::milliseconds kPause{2};  ///< between two looks at what a call waits for
 /// One call that waits does not hold up the others.
 constexpr std::uint32_t kRequestThreads = 4;
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 
-void answer(const RobotDriver::Outcome& outcome, std_srvs::Trigger::Response& response) {
+void answer(const RobotDriver::Outcome& outcome, std_srvs::Trigger::Response& response,
+            const char* done) {
   response.success = outcome.accepted;
   response.message = outcome.reason;
+  say_done(response, done);
 }
 
 std::int64_t wall_clock_ns() {
@@ -128,7 +133,7 @@ DriverNode::Outcome DriverNode::carry_out(const Step& begin, const Step& look, C
 bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
   // Where nobody finds this node, nobody can stop it.
   if (const auto lost = registration_->lost()) {
-    answer({false, *lost}, response);
+    answer({false, *lost}, response, done::kEnabled);
     return true;
   }
   const auto begin = [](RobotDriver& driver, double now, Outcome& outcome) {
@@ -139,7 +144,7 @@ bool DriverNode::on_enable(Trigger::Request&, Trigger::Response& response) {
     outcome = driver.last_outcome();
     return driver.phase() == RobotDriver::Phase::kEnabling;
   };
-  answer(carry_out(begin, look, Commands::kRefused), response);
+  answer(carry_out(begin, look, Commands::kRefused), response, done::kEnabled);
   return true;
 }
 
@@ -153,19 +158,22 @@ bool DriverNode::on_home(Trigger::Request&, Trigger::Response& response) {
     outcome = {!failure, failure.value_or("")};
     return driver.home().running();
   };
-  answer(carry_out(begin, look, Commands::kRefused), response);
+  answer(carry_out(begin, look, Commands::kRefused), response, done::kHomed);
   return true;
 }
 
 bool DriverNode::on_disable(TriggerEvent& event) {
-  thread_.call([&](RobotDriver& driver, double) { answer(driver.disable(), event.getResponse()); });
+  thread_.call([&](RobotDriver& driver, double) {
+    answer(driver.disable(), event.getResponse(), done::kDisabled);
+  });
   ROS_WARN_STREAM("disabled by " << event.getCallerName());
   return true;
 }
 
 bool DriverNode::on_emergency_stop(TriggerEvent& event) {
-  thread_.call(
-      [&](RobotDriver& driver, double) { answer(driver.emergency_stop(), event.getResponse()); });
+  thread_.call([&](RobotDriver& driver, double) {
+    answer(driver.emergency_stop(), event.getResponse(), done::kStopped);
+  });
   ROS_WARN_STREAM("emergency stop by " << event.getCallerName());
   return true;
 }
@@ -197,7 +205,7 @@ bool DriverNode::on_clear_faults(Trigger::Request&, Trigger::Response& response)
     if (const auto left = driver.not_cleared()) outcome = {false, *left};
     return false;
   };
-  answer(carry_out(begin, look, Commands::kTaken), response);
+  answer(carry_out(begin, look, Commands::kTaken), response, done::kCleared);
   return true;
 }
 
@@ -217,6 +225,7 @@ bool DriverNode::on_gains(anthrob_msgs::Gains::Request& request,
   const Outcome outcome = carry_out(begin, look, Commands::kTaken);
   response.success = outcome.accepted;
   response.message = outcome.reason;
+  say_done(response, done::kGains);
   thread_.call([&](RobotDriver& driver, double) {
     for (const ecu::Gain& gain : ecu::gains_of(driver.supervisor().muscles())) {
       const auto& muscle = driver.hardware().muscles[static_cast<std::size_t>(gain.muscle)];
@@ -275,6 +284,7 @@ void DriverNode::publish(const Sample& sample, const ros::Time& stamp) {
   longest_round_trip_ = std::max(longest_round_trip_, sample.round_trip);
   anthrob_msgs::MuscleStates states;
   states.header.stamp = stamp;
+  states.header.frame_id = kBase;
   for (std::size_t m = 0; m < sample.muscles.size(); ++m) {
     const MuscleSample& muscle = sample.muscles[m];
     states.name.push_back(hardware_.muscles[m].name);
@@ -296,6 +306,7 @@ void DriverNode::publish_joints(const std::vector<AnalogSample>& readings) {
   if (!measured) return;
   sensor_msgs::JointState states;
   states.header.stamp = *measured;
+  states.header.frame_id = kBase;
   for (const AnalogSample& reading : readings) {
     states.name.push_back(hardware_.joints[reading.sensor].joint);
     states.position.push_back(reading.value);
@@ -310,6 +321,7 @@ void DriverNode::publish_touch(const std::vector<AnalogSample>& readings) {
   if (!measured) return;
   anthrob_msgs::TouchStates touch;
   touch.header.stamp = *measured;
+  touch.header.frame_id = kBase;
   for (const AnalogSample& reading : readings) {
     touch.name.push_back(hardware_.touch[reading.sensor].name);
     touch.force.push_back(reading.value);

@@ -10,6 +10,7 @@
 #include "anthrob_ecu/gains.h"
 #include "anthrob_ros/bounded_connection.h"
 #include "anthrob_ros/diagnostics.h"
+#include "anthrob_ros/replies.h"
 #include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/conversions.h"
 #include "anthrob_sim/placement.h"
@@ -227,6 +228,7 @@ bool SimulatorNode::on_enable(std_srvs::Trigger::Request&, std_srvs::Trigger::Re
     return true;
   }
   supervise([this](ecu::Supervisor& all) { return all.enable(sim_.time()); }, &response);
+  say_done(response, done::kEnabled);
   return true;
 }
 
@@ -244,18 +246,21 @@ bool SimulatorNode::on_home(std_srvs::Trigger::Request&, std_srvs::Trigger::Resp
 
 bool SimulatorNode::on_disable(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   supervise_between_steps([](ecu::Supervisor& all) { return all.disable(); }, response);
+  say_done(response, done::kDisabled);
   return true;
 }
 
 bool SimulatorNode::on_emergency_stop(std_srvs::Trigger::Request&,
                                       std_srvs::Trigger::Response& response) {
   supervise_between_steps(kEmergencyStop, response);
+  say_done(response, done::kStopped);
   return true;
 }
 
 bool SimulatorNode::on_clear_faults(std_srvs::Trigger::Request&,
                                     std_srvs::Trigger::Response& response) {
   supervise([](ecu::Supervisor& all) { return all.clear_faults(); }, &response);
+  say_done(response, done::kCleared);
   stopped_for_.reset();
   return true;
 }
@@ -267,6 +272,7 @@ bool SimulatorNode::on_gains(anthrob_msgs::Gains::Request& request,
                                               request.value, changes);
   response.success = !refused;
   response.message = refused.value_or("");
+  say_done(response, done::kGains);
   for (const ecu::GainChange& change : changes) {
     sim_.muscle_inputs().set_gain(change.gain.muscle, change.gain.parameter, change.value);
   }
@@ -308,6 +314,7 @@ bool SimulatorNode::on_step(anthrob_msgs::Step::Request& request,
   } else {
     response.success = advance(static_cast<int>(request.steps));
     response.message = failure_;
+    say_done(response, "done");
     publish(true);
   }
   response.stamp = stamp();
@@ -380,6 +387,7 @@ bool SimulatorNode::on_set_state(anthrob_msgs::SetState::Request& request,
     sim_.place(placement.q(), placement.positions());
     publish(true);
     response.success = true;
+    response.message = "placed";
   } catch (const BadInput& error) {
     response.message = error.what();
   }

@@ -13,6 +13,15 @@
 
 namespace anthrob {
 
+namespace {
+
+/// The frame in which nothing moves.
+const std::string& base_of(const Simulation& sim) {
+  return sim.model().skeleton->bodies[0].name;
+}
+
+}  // namespace
+
 std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model) {
   std::vector<ecu::MuscleChannel> channels;
   for (const MuscleModel& muscle : model.muscles) {
@@ -61,6 +70,7 @@ anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Super
                                          const ros::Time& stamp) {
   anthrob_msgs::MuscleStates states;
   states.header.stamp = stamp;
+  states.header.frame_id = base_of(sim);
   for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
     const Muscle& muscle = sim.muscle(static_cast<int>(i));
     const ecu::Measurement& measured = muscle.measured();
@@ -80,6 +90,7 @@ anthrob_msgs::MuscleStates muscle_states(const Simulation& sim, const ecu::Super
 sensor_msgs::JointState joint_states(const Simulation& sim, const ros::Time& stamp) {
   sensor_msgs::JointState states;
   states.header.stamp = stamp;
+  states.header.frame_id = base_of(sim);
   const auto& joints = sim.model().skeleton->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (joints[j].type == JointType::kBall) continue;
@@ -95,6 +106,7 @@ anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
                                                           const ros::Time& stamp) {
   anthrob_msgs::SphericalJointStates states;
   states.header.stamp = stamp;
+  states.header.frame_id = base_of(sim);
   const auto& joints = sim.model().skeleton->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (joints[j].type != JointType::kBall) continue;
@@ -114,6 +126,7 @@ anthrob_msgs::SphericalJointStates spherical_joint_states(const Simulation& sim,
 anthrob_msgs::TouchStates touch_states(const Simulation& sim, const ros::Time& stamp) {
   anthrob_msgs::TouchStates states;
   states.header.stamp = stamp;
+  states.header.frame_id = base_of(sim);
   for (const TouchPadModel& pad : sim.model().touch_pads) {
     states.name.push_back(pad.name);
     states.force.push_back(pad_force(pad, sim.tree(), sim.configuration()));
@@ -181,7 +194,7 @@ geometry_msgs::Point to_point(const Vec3& p) {
 anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& stamp) {
   anthrob_msgs::MusclePaths paths;
   paths.header.stamp = stamp;
-  paths.header.frame_id = sim.model().skeleton->bodies[0].name;
+  paths.header.frame_id = base_of(sim);
   for (std::size_t i = 0; i < sim.muscle_count(); ++i) {
     const SolvedPath solved = solved_path(sim, static_cast<int>(i));
     anthrob_msgs::MusclePath path;
@@ -239,7 +252,7 @@ visualization_msgs::MarkerArray muscle_markers(const Simulation& sim,
     const Muscle& muscle = sim.muscle(static_cast<int>(i));
     visualization_msgs::Marker marker;
     marker.header.stamp = stamp;
-    marker.header.frame_id = sim.model().skeleton->bodies[0].name;
+    marker.header.frame_id = base_of(sim);
     marker.ns = muscle.model().name;
     marker.type = visualization_msgs::Marker::LINE_STRIP;
     marker.pose.orientation.w = 1.0;
