@@ -30,7 +30,7 @@ needed_packages=(
 extra_packages=(
   libbenchmark-dev libmujoco-dev  # the second is a peer in benchmarks
   opencv-doc                      # stereo pictures of a real checkerboard
-  xvfb xauth imagemagick libgl1-mesa-dri
+  xvfb xauth imagemagick ffmpeg libgl1-mesa-dri
   user-mode-linux kmod iproute2   # CAN where the kernel has none
   clang-tidy git                  # checks of the files that changed
 )
@@ -60,6 +60,10 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
                     robot:=anthrob model:=II rviz:=false rate:=1 (0: as fast as possible)
   demo              simulate the arm as it rises, bends and returns; bag, figures and pictures (one of them moves) go to
                     build/demo/
+  picture OUT.png [POSTURE...]
+                    a picture of the robot in postures of its demo_postures.yaml; none: as it starts
+  movie OUT.mp4|OUT.gif [POSTURE...]
+                    a moving picture of the robot between postures; both take robot:= and model:=
   test [PACKAGE...] run all tests, or those of the named packages; the last line counts them
   bench             run the benchmarks, also of MuJoCo and OpenCV for comparison; writes build/bench.json
   study NAME        calibration: repeat chapter 8 of the thesis with virtual robots
@@ -252,14 +256,50 @@ demo() {
     say "no pictures: xvfb or imagemagick is missing; the rest is in build/demo/"
     return 0
   fi
-  say "taking pictures of the arm in three postures"  # on a virtual screen, which shows nothing else
-  xvfb-run -a -s "-screen 0 1280x960x24" scripts/picture_postures.sh "$out/postures.png" rest abducted flexed >>"$out/demo.log" 2>&1 ||
+  say "taking pictures of the arm in three postures"
+  on_virtual_screen scripts/picture_postures.sh "$out/postures.png" rest abducted flexed >>"$out/demo.log" 2>&1 ||
     die "the picture failed: see build/demo/demo.log"
   say "taking a moving picture"
-  xvfb-run -a -s "-screen 0 1280x960x24" scripts/moving_picture.py "$out/arm.gif" rest abducted flexed diagonal >>"$out/demo.log" 2>&1 ||
+  on_virtual_screen scripts/moving_picture.py "$out/arm.gif" rest abducted flexed diagonal >>"$out/demo.log" 2>&1 ||
     die "the moving picture failed: see build/demo/demo.log"
   say "done: build/demo/ holds"
   (cd "$out" && ls -1 -- *.bag *.svg *.png *.gif && echo "recording/")
+}
+
+# Runs a script that looks at RViz on a virtual screen, which shows nothing else. Its arguments may have robot:= and model:=.
+on_virtual_screen() {
+  local argument arguments=()
+  for argument in "$@"; do
+    case "$argument" in
+      robot:=*) export ROBOT="${argument#*:=}" ;;
+      model:=*) export MODEL="${argument#*:=}" ;;
+      *) arguments+=("$argument") ;;
+    esac
+  done
+  xvfb-run -a -s "-screen 0 1280x960x24" "${arguments[@]}"
+}
+
+picture() {
+  [[ "${1:-}" == *.png ]] || refuse "picture: expected OUT.png [POSTURE...] [robot:=NAME] [model:=NAME]"
+  extras
+  build_if_changed
+  on_virtual_screen scripts/picture_postures.sh "$@" || die "no picture was taken: see above"
+  say "wrote $1"
+}
+
+movie() {
+  [[ "${1:-}" == *.mp4 || "${1:-}" == *.gif ]] ||
+    refuse "movie: expected OUT.mp4 or OUT.gif, then [POSTURE...] [robot:=NAME] [model:=NAME]"
+  extras
+  build_if_changed
+  local out="$1" argument shown=()
+  shift
+  for argument in "$@"; do
+    [[ "$argument" == *:=* ]] || shown+=("$argument")
+  done
+  [ ${#shown[@]} -gt 0 ] || set -- rest abducted flexed diagonal "$@"  # those of the demo
+  on_virtual_screen scripts/moving_picture.py "$out" "$@" || die "no movie was made: see above"
+  say "wrote $out"
 }
 
 # usage: ctest_of KINDS PACKAGES ARGUMENT...
@@ -380,7 +420,7 @@ command="${1:-help}"
 [ $# -gt 0 ] && shift
 clean_environment
 case "$command" in
-  deps | build | sim | demo | bench | study | shell | clean | help) "$command" "$@" ;;
+  deps | build | sim | demo | picture | movie | bench | study | shell | clean | help) "$command" "$@" ;;
   test) tests "$@" ;;
   -h | --help) help ;;
   *) refuse "unknown command '$command': run ./catkin_ws.sh help for a list" ;;

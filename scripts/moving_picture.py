@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""A moving picture of the simulated robot in RViz, as GIF:
-  scripts/moving_picture.py OUT.gif POSTURE...      postures by name, from the robot's demo_postures.yaml
+"""A moving picture of the simulated robot in RViz:
+  scripts/moving_picture.py OUT.gif|OUT.mp4 POSTURE...      postures by name, from the robot's demo_postures.yaml
 
 The robot moves from one posture to the next and at last back to the first. It is stepped frame by frame, so that the
-motion does not depend on how fast the computer is. ROBOT and MODEL in the environment choose another robot. Needs an X
-display of its own (xvfb-run gives one), imagemagick, and the workspace's environment.
+motion does not depend on how fast the computer is. ROBOT and MODEL in the environment choose another robot. Needs an X display of its own (xvfb-run gives
+one), imagemagick, ffmpeg unless for a GIF, and the workspace's environment.
 """
 
 import math
@@ -22,36 +22,19 @@ from anthrob_msgs.msg import MuscleCommand, MuscleStates
 from anthrob_msgs.srv import Step
 from std_srvs.srv import SetBool
 
+from picture_view import view
+
 PORT = 11398  # beside a simulation that may be running already
 FRAME_STEPS = 100  # of 1 ms
 MOVE_FRAMES, HOLD_FRAMES = 16, 6  # a posture: 1.6 s to it, 0.6 s there
 DRAWN = 0.3  # [s] of wall time until RViz has drawn what was published
 CROP, WIDTH, COLOURS = "600x640+310+175", 360, 32
+WHOLE = "1280x840+0+30"  # of robots whose size is not known here
+LOADING = 5  # [s] until RViz has loaded meshes
 
 
 def refuse(message):
     sys.exit(f"moving_picture.py: {message}")
-
-
-def view(source):
-    """The view only: without panels and names of frames, in a window that the virtual screen holds, and nearer."""
-    lines, shown = ["Panels: []\n"], False
-    with open(source) as file:
-        for line in file:
-            shown = shown or line.startswith("Visualization Manager:")
-            if not shown:
-                continue
-            key = line.strip().split(":")[0]
-            if key in ("Show Names", "Show Axes"):
-                line = line.replace("true", "false")
-            elif line.startswith("  QMainWindow State:"):
-                continue  # where the panels are
-            elif line.startswith(("  Height:", "  Width:")):
-                line = "  %s: %d\n" % (key, {"Height": 900, "Width": 1280}[key])
-            elif key == "Distance":
-                line = line[:line.index(":")] + ": 0.95\n"
-            lines.append(line)
-    return "".join(lines)
 
 
 class Robot:
@@ -96,9 +79,17 @@ def motion(postures):
             yield {name: (1.0 - share) * start[name] + share * end[name] for name in start}
 
 
+def wait_for_view():
+    """RViz begins with a picture of its own."""
+    while b"#F6F7F9" not in subprocess.run(["import", "-window", "root", "-crop", "1x1+1250+200", "-depth", "8", "txt:-"],
+                                           stdout=subprocess.PIPE).stdout.upper():
+        time.sleep(0.5)
+    time.sleep(LOADING)
+
+
 def film(robot, postures, folder):
     robot.hold(postures[0])
-    time.sleep(10)  # RViz loads meshes and draws its first frames
+    wait_for_view()
     held = []
     for posture in postures[1:] + postures[:1]:
         robot.hold(posture)
@@ -107,20 +98,38 @@ def film(robot, postures, folder):
     for number, references in enumerate(motion(held[-1:] + held[:-1])):
         robot.step(references)
         time.sleep(DRAWN)
-        subprocess.run(["import", "-window", "root", "-crop", CROP, "+repage", "-resize", str(WIDTH),
-                        f"{folder}/{number:04}.png"], check=True)
+        subprocess.run(["import", "-window", "root", "-crop", crop(robot.name), "+repage", f"{folder}/{number:04}.png"],
+                       check=True)
+
+
+def crop(robot):
+    return CROP if robot == "anthrob" else WHOLE
+
+
+def write(folder, out, rate):
+    """The frames of a folder as one file."""
+    if out.endswith(".gif"):
+        # Every frame holds what changed only: a third of the size.
+        subprocess.run(["convert", "-delay", str(round(100 / rate)), "-loop", "0", f"{folder}/*.png", "-resize", str(WIDTH),
+                        "+dither", "-colors", str(COLOURS), "-layers", "OptimizeTransparency", f"{folder}/all.gif"], check=True)
+        shutil.move(f"{folder}/all.gif", out)
+    else:
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-framerate", str(rate), "-pattern_type", "glob", "-i", f"{folder}/*.png",
+                        "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", f"{folder}/all.mp4"], check=True)
+        shutil.move(f"{folder}/all.mp4", out)
 
 
 def main():
-    if len(sys.argv) < 4 or not sys.argv[1].endswith(".gif"):
-        refuse("expected OUT.gif and two or more postures")
+    if len(sys.argv) < 4 or not sys.argv[1].endswith((".gif", ".mp4")):
+        print("moving_picture.py: expected OUT.gif or OUT.mp4, and two or more postures", file=sys.stderr)
+        sys.exit(2)
     out, postures = os.path.abspath(sys.argv[1]), sys.argv[2:]
     name, model = os.environ.get("ROBOT", "anthrob"), os.environ.get("MODEL", "II")
     bringup = rospkg.RosPack().get_path("anthrob_bringup")
     os.environ.update(ROS_MASTER_URI=f"http://localhost:{PORT}", LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1")
     folder = tempfile.mkdtemp()
     with open(f"{folder}/view.rviz", "w") as file:
-        file.write(view(f"{bringup}/launch/anthrob.rviz"))
+        file.write(view(name))
     with open(f"{folder}/launch.log", "w") as log:
         launch = subprocess.Popen(["roslaunch", "-p", str(PORT), "anthrob_bringup", "sim.launch", f"robot:={name}",
                                    f"model:={model}", "rviz:=true", f"rviz_config:={folder}/view.rviz",
@@ -128,14 +137,11 @@ def main():
     try:
         while subprocess.run(["rosnode", "list"], capture_output=True).returncode:
             if launch.poll() is not None:
-                refuse("the simulator did not start: " + open(f"{folder}/launch.log").read()[-500:])
+                refuse("it did not start: " + open(f"{folder}/launch.log").read()[-500:])
             time.sleep(0.5)
         rospy.init_node("moving_picture", disable_signals=True)
         film(Robot(name, model, bringup), postures, folder)
-        # Every frame holds what changed only: a third of the size.
-        subprocess.run(["convert", "-delay", str(FRAME_STEPS // 10), "-loop", "0", f"{folder}/*.png", "+dither",
-                        "-colors", str(COLOURS), "-layers", "OptimizeTransparency", f"{folder}/all.gif"], check=True)
-        shutil.move(f"{folder}/all.gif", out)
+        write(folder, out, 1000 / FRAME_STEPS)
     finally:
         launch.send_signal(signal.SIGINT)
         launch.wait()

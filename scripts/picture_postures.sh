@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # A picture of the robot in RViz, one posture beside the other:
-#   scripts/picture_postures.sh OUT.png POSTURE...      postures by name, from the robot's demo_postures.yaml
+#   scripts/picture_postures.sh OUT.png [POSTURE...]    postures by name, from the robot's demo_postures.yaml; none: as it starts
 # ROBOT and MODEL in the environment choose another robot. Needs an X display of its own (xvfb-run gives one)
 # and the workspace's environment.
 set -u
-if [ $# -lt 2 ]; then
-  echo "picture_postures.sh: expected OUT.png POSTURE..." >&2
+if [ $# -lt 1 ] || [[ "$1" != *.png ]]; then
+  echo "picture_postures.sh: expected OUT.png [POSTURE...]" >&2
   exit 2
 fi
 out="$1"
@@ -15,13 +15,10 @@ model="${MODEL:-II}"
 config="$(rospack find anthrob_bringup)"
 # Beside a simulation that may be running already.
 export ROS_MASTER_URI="http://localhost:11399" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1
+export ROSCONSOLE_STDOUT_LINE_BUFFERED=1 # what the simulator says is waited for
 work="$(mktemp -d)"
 
-# The view only, without panels, as large as the virtual screen, and nearer.
-sed -e 's/^\( *Distance:\) .*/\1 0.95/' \
-  -e 's/^\(  Height:\) .*/\1 900/' -e 's/^\(  Width:\) .*/\1 1280/' -e '/^  QMainWindow State:/d' \
-  -e '/^Panels:/,/^Visualization Manager:/{/^Visualization Manager:/!d}; 1i Panels: []' \
-  "$config/launch/anthrob.rviz" >"$work/view.rviz"
+"$(dirname "$0")/picture_view.py" "$robot" >"$work/view.rviz" || exit 1
 roslaunch -p 11399 anthrob_bringup sim.launch "robot:=$robot" "model:=$model" rviz:=true \
   "rviz_config:=$work/view.rviz" command_timeout:=0 >"$work/launch.log" 2>&1 &
 launch=$!
@@ -35,14 +32,30 @@ hold() {
   }
 }
 
-hold "$1"
-sleep 8 # RViz loads meshes and draws its first frames
+take() {
+  import -window root "$work/$1.png" || exit 1
+  # The arm, or all that is not background.
+  if [ "$robot" = anthrob ]; then
+    convert "$work/$1.png" -crop 780x760+250+90 +repage "$work/$1.png" || exit 1
+  else
+    convert "$work/$1.png" -shave 0x40 -trim -bordercolor '#f6f7f9' -border 20 +repage "$work/$1.png" || exit 1
+  fi
+  pictures+=("$work/$1.png")
+}
+
 pictures=()
+[ $# -eq 0 ] || hold "$1"
+# Until the simulator publishes, and where RViz begins with a picture of its own there is its light background.
+until grep -q '\bready\b' "$work/launch.log" &&
+  import -window root -crop 1x1+1250+200 -depth 8 txt:- 2>/dev/null | grep -qi '#F6F7F9'; do
+  kill -0 $launch 2>/dev/null || { cat "$work/launch.log" >&2; exit 1; }
+  sleep 0.5
+done
+sleep 5 # RViz loads meshes
+[ $# -gt 0 ] || take start
 for posture in "$@"; do
   hold "$posture"
   sleep 2
-  import -window root "$work/$posture.png" || exit 1
-  convert "$work/$posture.png" -crop 780x760+250+90 +repage "$work/$posture.png" || exit 1
-  pictures+=("$work/$posture.png")
+  take "$posture"
 done
 convert "${pictures[@]}" +append "$work/all.png" && mv "$work/all.png" "$out"

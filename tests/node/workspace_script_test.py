@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 import rostest
+import yaml
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 UBUNTU = 'PRETTY_NAME="Ubuntu 20.04.6 LTS"\nVERSION_CODENAME=focal'
@@ -56,6 +57,23 @@ class WorkspaceScript(unittest.TestCase):
         some = ALL['dpkg-query'].replace('"$@"', '"${@:2}"')
         status, said = run('deps', {'dpkg-query': some, **system(DEBIAN), 'apt-get': 'echo asked: "$@"', 'env': 'echo asked: "$@"'})
         self.assertIn('--no-install-recommends catkin\n', said)
+
+    def test_refuses_pictures_of_another_form(self):
+        for command, expected in ((('picture',), 'expected OUT.png'), (('picture', 'arm.jpg', 'rest'), 'expected OUT.png'),
+                                  (('movie', 'arm.png'), 'expected OUT.mp4 or OUT.gif')):
+            status, said = run(command, {})
+            self.assertEqual(status, 2)
+            self.assertIn(expected, said)
+
+    def test_pictures_show_the_robot_only(self):
+        for robot, distance in ('anthrob', 0.95), ('two_muscle_rig', 1.15):
+            shown = yaml.safe_load(subprocess.check_output([os.path.join(TOP, 'scripts', 'picture_view.py'), robot]))
+            manager, window = shown['Visualization Manager'], shown['Window Geometry']
+            self.assertEqual((shown['Panels'], window), ([], {'Height': 900, 'Width': 1280}))
+            self.assertEqual(manager['Global Options']['Background Color'], '246; 247; 249')
+            self.assertEqual(manager['Views']['Current']['Distance'], distance)
+            frames, = [one for one in manager['Displays'] if one['Class'] == 'rviz/TF']
+            self.assertFalse(frames['Show Names'] or frames['Show Axes'])
 
     def environment_with(self, distribution):
         """What a command of the script sees of variables that a ROS of /elsewhere has set."""
