@@ -19,7 +19,7 @@ from anthrob_msgs.srv import (
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point, Quaternion, Vector3
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import JointState, MultiDOFJointState
 from std_msgs.msg import Empty
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
@@ -297,6 +297,13 @@ class SimContract(unittest.TestCase):
         stamps = [m.header.stamp for m in self.states.messages]
         self.assertTrue(all(a <= b for a, b in zip(stamps, stamps[1:])))
         wait_for(lambda: self.clock.last().clock == self.states.last().header.stamp, 2, 'the same time')
+
+    def test_ball_joints_in_the_message_of_ros(self):
+        same = Collector('multi_dof_joint_states', MultiDOFJointState)
+        wait_for(lambda: self.advance(1) and same.messages, 10, 'ball joints in the message of ROS')
+        self.assertEqual(same.last().joint_names, self.balls.last().name)
+        self.assertAlmostEqual(same.last().transforms[0].rotation.w, self.balls.last().orientation[0].w, delta=0.01)
+        self.assertEqual(same.last().header.frame_id, 'world')
 
     def test_diagnostics_name_every_ecu(self):
         wait_for(lambda: self.diagnostics.last() is not None, 5, 'diagnostics')

@@ -1,6 +1,5 @@
 // All ECUs of a robot in software on a CAN interface: what `backend:=emulated` starts, and a bench
 // to try adapters and drivers with no robot and no ROS master.
-#include <anthrob_msgs/SphericalJointStates.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
@@ -15,6 +14,7 @@
 #include "anthrob_driver/emulation/emulator.h"
 #include "anthrob_driver/emulation/tendon_plant.h"
 #include "anthrob_driver/realtime.h"
+#include "anthrob_ros/ball_joint_publisher.h"
 #include "anthrob_ros/master_uri.h"
 #include "anthrob_ros/single_backend.h"
 #include "anthrob_sim/conversions.h"
@@ -34,10 +34,8 @@ struct Arguments {
 /// sensors see them.
 class BallJoints {
  public:
-  explicit BallJoints(const Simulation& simulation) : simulation_(simulation) {
-    publisher_ = ros::NodeHandle().advertise<anthrob_msgs::SphericalJointStates>(
-        "spherical_joint_states", 10);
-  }
+  explicit BallJoints(const Simulation& simulation)
+      : simulation_(simulation), publisher_(robot_, "", 10) {}
 
   void publish() {
     const ros::Time now = ros::Time::now();
@@ -49,7 +47,8 @@ class BallJoints {
 
  private:
   const Simulation& simulation_;
-  ros::Publisher publisher_;
+  ros::NodeHandle robot_;
+  BallJointPublisher publisher_;
   tf2_ros::TransformBroadcaster transforms_;
 };
 

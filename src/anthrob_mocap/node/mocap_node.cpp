@@ -51,7 +51,7 @@ MocapNode::~MocapNode() = default;
 
 void MocapNode::advertise() {
   const std::uint32_t queue = options_.recorded ? 0 : 100;  // 0: without a limit
-  joints_ = nh_.advertise<anthrob_msgs::SphericalJointStates>("spherical_joint_states", queue);
+  joints_ = BallJointPublisher(nh_, "", queue);
   markers_ = images_.advertise<visualization_msgs::MarkerArray>("markers", 2);
   debug_ = images_.advertise<sensor_msgs::Image>("debug_image", 1);
   diagnostics_ = nh_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
@@ -160,7 +160,7 @@ void MocapNode::log_missing() const {
 
 bool MocapNode::heard() const {
   const auto listened = [](const ros::Publisher& p) { return p.getNumSubscribers() > 0; };
-  return listened(joints_) || std::any_of(target_poses_.begin(), target_poses_.end(), listened) ||
+  return joints_.heard() || std::any_of(target_poses_.begin(), target_poses_.end(), listened) ||
          std::any_of(joint_estimates_.begin(), joint_estimates_.end(), listened);
 }
 
@@ -171,9 +171,8 @@ void MocapNode::wait_for_listeners() const {
     ros::WallDuration(kOthers).sleep();
   } else if (ros::ok()) {
     const std::string topics = images_.getNamespace();
-    ROS_WARN_STREAM("no subscriber to " << joints_.getTopic() << ", " << topics
-                                        << "/targets/... or " << topics
-                                        << "/joints/...: starting anyway; later "
+    ROS_WARN_STREAM("no subscriber to " << joints_.topic() << ", " << topics << "/targets/... or "
+                                        << topics << "/joints/...: starting anyway; later "
                                         << "subscribers miss the beginning");
   }
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "anthrob_ros/ball_joint_publisher.h"
 #include "pipeline/tracker.h"
 #include "render/setup.h"
 #include "source/frame_source.h"
@@ -66,7 +67,8 @@ class MocapNode {
   std::optional<Setup> setup_;
   Options options_;
 
-  ros::Publisher joints_, markers_, debug_, diagnostics_;
+  BallJointPublisher joints_;
+  ros::Publisher markers_, debug_, diagnostics_;
   std::vector<ros::Publisher> target_poses_, joint_estimates_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;

@@ -64,8 +64,7 @@ void SimulatorNode::advertise_topics() {
   refuse_other_clocks();
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>("muscle_states", 100);
   joints_ = nh_.advertise<sensor_msgs::JointState>("joint_states", 100);
-  spherical_joints_ = nh_.advertise<anthrob_msgs::SphericalJointStates>(
-      options_.motion_capture ? "sim/spherical_joint_states" : "spherical_joint_states", 100);
+  spherical_joints_ = BallJointPublisher(nh_, options_.motion_capture ? "sim/" : "", 100);
   muscle_paths_ = nh_.advertise<visualization_msgs::MarkerArray>("muscle_paths", 2);
   if (!sim_.model().touch_pads.empty()) {
     touch_ = nh_.advertise<anthrob_msgs::TouchStates>("touch", 100);

@@ -20,6 +20,7 @@
 #include <string>
 
 #include "anthrob_ecu/supervisor.h"
+#include "anthrob_ros/ball_joint_publisher.h"
 #include "anthrob_ros/descriptor_watch.h"
 #include "anthrob_ros/registration_watch.h"
 #include "anthrob_sim/simulation.h"
@@ -144,8 +145,9 @@ class SimulatorNode {
   std::map<std::string, ros::WallTime> last_warnings_;  ///< by topic
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
-  ros::Publisher clock_, muscles_, joints_, spherical_joints_, muscle_paths_, touch_, solved_paths_,
-      moment_arms_, diagnostics_;
+  ros::Publisher clock_, muscles_, joints_, muscle_paths_, touch_, solved_paths_, moment_arms_,
+      diagnostics_;
+  BallJointPublisher spherical_joints_;
   SurfaceDisplay surfaces_;
   ExternalPushes pushes_;
   QuantityTopic quantities_;
