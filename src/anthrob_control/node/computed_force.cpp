@@ -274,8 +274,7 @@ int main(int argc, char** argv) {
        "above 0 and at most 1, since otherwise measurements come too late (default: 1)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
-    const auto model =
-        anthrob::load_robot_model(anthrob::required_model(settings));
+    const auto model = anthrob::load_robot_model(anthrob::required_model(settings));
     const auto control = anthrob::ControlSettings::load(
         anthrob::required(settings, "settings", "a settings file"), *model);
     anthrob::RobotLink::Options options;
