@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 #include <QStringList>
+#include <vector>
 
 namespace anthrob {
 namespace {

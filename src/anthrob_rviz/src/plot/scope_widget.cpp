@@ -153,6 +153,8 @@ QWidget* ScopeWidget::build_right() {
   values_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   values_->hide();
   page->addWidget(values_);
+  page->setChildrenCollapsible(false);
+  plots_->setMinimumHeight(120);
   page->setStretchFactor(0, 4);
   page->setStretchFactor(1, 1);
   stack_->addWidget(page);

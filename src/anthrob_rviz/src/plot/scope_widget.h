@@ -22,6 +22,11 @@
 #include "plot/trigger_bar.h"
 #include "scope/scope_model.h"
 
+class QDragEnterEvent;
+class QDropEvent;
+class QHBoxLayout;
+class QVBoxLayout;
+
 namespace anthrob {
 
 /// Any number of any topic over time: of a running robot, of recordings, or of both.
@@ -60,16 +65,16 @@ class ScopeWidget final : public QWidget {
   void refresh();
 
  private:
-  void build_toolbar(class QVBoxLayout* column);
+  void build_toolbar(QVBoxLayout* column);
   QWidget* build_left();
   QWidget* build_right();
-  QPushButton* add_switch(class QHBoxLayout* line, const char* text, const char* name,
+  QPushButton* add_switch(QHBoxLayout* line, const char* text, const char* name,
                           const char* tip);
-  void add_menu(class QHBoxLayout* line);
+  void add_menu(QHBoxLayout* line);
   void connect_parts();
 
-  void dragEnterEvent(class QDragEnterEvent* event) override;
-  void dropEvent(class QDropEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
   void refresh_tree();
   void redraw();

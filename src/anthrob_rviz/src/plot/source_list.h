@@ -7,6 +7,7 @@
 
 #include "scope/scope_model.h"
 
+class QCheckBox;
 class QGridLayout;
 
 namespace anthrob {
@@ -30,7 +31,7 @@ class SourceList final : public QWidget {
 
   QWidget* rows_ = nullptr;
   QGridLayout* grid_ = nullptr;
-  class QCheckBox* live_ = nullptr;
+  QCheckBox* live_ = nullptr;
   std::vector<std::string> shown_paths_;
   std::function<void(std::size_t, bool)> on_show_;
   std::function<void(std::size_t, double)> on_shift_;

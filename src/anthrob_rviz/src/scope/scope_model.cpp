@@ -121,7 +121,8 @@ void ScopeModel::keep(const LiveMessage& message) {
   const auto& quantities = message.numbers.contents->quantities;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (ticked_.count(quantities[i].path) == 0) continue;
-    if (!live_zero_) live_zero_ = message.t;
+    // Simulated time begins anew when the simulator is reset.
+    live_zero_ = std::min(live_zero_.value_or(message.t), message.t);
     windows_.try_emplace(quantities[i].path, kWindow)
         .first->second.add({message.t, message.numbers.values[i]});
   }

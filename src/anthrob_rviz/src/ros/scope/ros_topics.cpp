@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/monotonic_clock.h"
 
 namespace anthrob {
 namespace {
@@ -23,6 +24,7 @@ constexpr std::uint32_t kQueueSize =
 constexpr std::size_t kMostWaiting = 200000;  // messages, should nobody take them
 constexpr auto kAskPeriod = std::chrono::milliseconds(100);
 constexpr int kListEvery = 20;        // times of the above
+constexpr double kPatience = 1.0;     // [s] with threads that end
 constexpr double kReadPeriod = 0.02;  // [s]
 
 Nanoseconds since_epoch(const ros::Time& t) {
@@ -39,6 +41,7 @@ struct RosTopics::Shared {
   std::vector<LiveMessage> messages;
   std::vector<std::string> remarks;
   std::atomic<bool> ends{false};
+  std::atomic<int> threads{2};
 
   ros::CallbackQueue queue;
   // Of the asking thread:
@@ -151,15 +154,21 @@ RosTopics::RosTopics() : shared_(std::make_shared<Shared>()) {
     }
     shared->subscribers.clear();
     shared->nh.reset();
+    --shared->threads;
   }).detach();
   std::thread([shared = shared_] {
     while (!shared->ends && ros::ok()) shared->queue.callAvailable(ros::WallDuration(kReadPeriod));
+    --shared->threads;
   }).detach();
 }
 
 RosTopics::~RosTopics() {
   shared_->ends = true;
   shared_->queue.disable();
+  // A program that ends takes away what they use; one that waits for a lost master is left behind.
+  const double patience = monotonic_now() + kPatience;
+  while (shared_->threads > 0 && monotonic_now() < patience)
+    std::this_thread::sleep_for(kAskPeriod / 10);
 }
 
 MasterView RosTopics::master() const {
