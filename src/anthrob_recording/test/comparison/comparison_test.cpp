@@ -24,7 +24,7 @@ Dataset recording(const std::string& column, const Law& law, double begin = 0.0)
   return data;
 }
 
-void add(Dataset& data, const std::string& column, const Law& law) {
+void add_law(Dataset& data, const std::string& column, const Law& law) {
   Table& table = data.table("muscles");
   Column& values = table.column(column);
   for (std::size_t i = 0; i < table.t.size(); ++i) {
@@ -67,7 +67,7 @@ TEST(Comparison, CountsTimeFromEachBeginning) {
 TEST(Comparison, LeavesOutWhereOnlyOneMeasured) {
   Dataset a = recording("m/force", [](double) { return 1.0; });
   Dataset b = a;
-  add(b, "n/force", [](double) { return 0.0; });
+  add_law(b, "n/force", [](double) { return 0.0; });
   Column& short_one = b.table("muscles").column("m/force");
   for (int i = 51; i <= 100; ++i) short_one.present[i] = 0;
   const Comparison found = compare(a, b);
@@ -89,9 +89,9 @@ TEST(Comparison, HoldsReferences) {
 
 Dataset turning(double angle, double sign) {
   Dataset data = recording("s/w", [&](double) { return sign * std::cos(angle / 2); });
-  add(data, "s/x", [](double) { return 0.0; });
-  add(data, "s/y", [&](double) { return sign * std::sin(angle / 2); });
-  add(data, "s/z", [](double) { return 0.0; });
+  add_law(data, "s/x", [](double) { return 0.0; });
+  add_law(data, "s/y", [&](double) { return sign * std::sin(angle / 2); });
+  add_law(data, "s/z", [](double) { return 0.0; });
   return data;
 }
 
