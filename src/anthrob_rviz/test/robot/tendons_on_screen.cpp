@@ -83,7 +83,7 @@ class TendonsOnScreen : public testing::Test {
 
   /// To and fro and sideways.
   void push_arm() {
-    static const double kPushes[][2] = {{12.0, 0.0}, {-12.0, 8.0}, {0.0, -12.0}, {0.0, 8.0}};
+    static const double kPushes[][2] = {{35.0, 0.0}, {-35.0, 20.0}, {0.0, -35.0}, {0.0, 20.0}};
     const double* force = kPushes[pushes_++ % 4];
     anthrob_msgs::ApplyWrench push;
     push.request.link = "forearm";
