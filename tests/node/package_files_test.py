@@ -12,6 +12,7 @@ SOURCES = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', 
 
 # Folder or name in an include, and the rosdep key; None: of the system, optional, or without a key (the package.xml says so).
 KEYS = {
+    'actionlib': 'actionlib', 'topic_tools': 'topic_tools',
     'BulletDynamics': 'bullet', 'CGAL': 'cgal', 'CLI': 'cli11', 'Eigen': 'eigen', 'LinearMath': 'bullet', 'XmlRpcValue.h': 'roscpp',
     'arv.h': 'aravis-dev', 'assimp': 'assimp', 'boost': 'boost', 'btBulletDynamicsCommon.h': 'bullet', 'ceres': 'libceres-dev',
     'console_bridge': 'libconsole-bridge-dev', 'dc1394': 'libdc1394-dev', 'gtest': 'rosunit', 'image_transport': 'image_transport',
@@ -20,7 +21,7 @@ KEYS = {
     'urdf_parser': 'liburdfdom-dev', 'xmlrpcpp': 'roscpp', 'yaml-cpp': 'yaml-cpp',
     **dict.fromkeys(('benchmark', 'dlfcn.h', 'elf.h', 'fcntl.h', 'link.h', 'linux', 'malloc.h', 'mpi.h', 'mujoco', 'net', 'netdb.h', 'netinet', 'pagmo',
                      'poll.h', 'pthread.h', 'qcustomplot.h', 'sched.h', 'signal.h', 'spawn.h', 'stdlib.h', 'sys', 'unistd.h'))}
-MODULES = {'rosbag': 'rosbag', 'roslaunch': 'roslaunch', 'roslib': 'roslib', 'rospy': 'rospy', 'rostest': 'rostest', 'yaml': 'python3-yaml'}
+MODULES = {'actionlib': 'actionlib', 'rosbag': 'rosbag', 'roslaunch': 'roslaunch', 'roslib': 'roslib', 'rospy': 'rospy', 'rostest': 'rostest', 'yaml': 'python3-yaml'}
 
 
 def key(name):

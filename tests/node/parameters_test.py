@@ -51,6 +51,8 @@ class Parameters(unittest.TestCase):
             folder = os.path.join(rospkg.RosPack().get_path(package), 'node', '*.cpp')
             source = ''.join(open(file).read() for file in glob.glob(folder))
             read = set(re.findall(r'(?:take|required|optional_text)\(\s*settings,\s*"(\w+)"', source))
+            if 'required_model(settings)' in source:
+                read.add('model')
             self.assertTrue(read, package)
             if 'Role::kCommander' in source:
                 read.add('back_end')  # by run_node()

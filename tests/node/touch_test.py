@@ -11,7 +11,7 @@ import rosgraph
 import rospkg
 import rospy
 import rostest
-from anthrob_msgs.msg import ExternalWrenches
+from anthrob_msgs.msg import ExternalWrenches, SphericalJointStates
 from geometry_msgs.msg import Point, Quaternion
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -44,15 +44,17 @@ class Touch(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.wrenches, cls.arrows, cls.markers, cls.elbow = [], [], [], None
+        cls.wrenches, cls.arrows, cls.markers, cls.elbow, cls.shoulder = [], [], [], None, None
         cls.subscribers = [
             rospy.Subscriber('external_wrenches', ExternalWrenches, cls.wrenches.append, queue_size=1000, tcp_nodelay=True),
             rospy.Subscriber('push/force', MarkerArray, cls.arrows.append, queue_size=100),
             rospy.Subscriber('push/update_full', InteractiveMarkerInit, cls.see_markers, queue_size=10),
+            rospy.Subscriber('spherical_joint_states', SphericalJointStates, cls.see_shoulder, queue_size=1, tcp_nodelay=True),
             rospy.Subscriber('joint_states', JointState, cls.see_joints, queue_size=1, tcp_nodelay=True)]
         cls.feedback = rospy.Publisher('push/feedback', InteractiveMarkerFeedback, queue_size=10)
         cls.reset = rospy.ServiceProxy('sim/reset', Trigger)
-        wait_for(lambda: 'forearm' in cls.markers and cls.feedback.get_num_connections() and cls.elbow is not None, 20,
+        wait_for(lambda: 'forearm' in cls.markers and cls.feedback.get_num_connections() and cls.elbow is not None
+                 and cls.shoulder is not None, 20,
                  'a marker on the forearm')
 
     @classmethod
@@ -62,6 +64,14 @@ class Touch(unittest.TestCase):
     @classmethod
     def see_joints(cls, message):
         cls.elbow = message.position[message.name.index('elbow')]
+
+    @classmethod
+    def see_shoulder(cls, message):
+        cls.shoulder = 2.0 * math.acos(min(1.0, message.orientation[0].w))
+
+    def turned(self):
+        """How far the arm is from rest [rad]: the humerus may swing rather than the elbow bend."""
+        return abs(self.elbow) + self.shoulder
 
     def setUp(self):
         self.say('MOUSE_UP')
@@ -107,7 +117,7 @@ class Touch(unittest.TestCase):
 
     def test_b_a_drag_lifts_the_arm_and_its_end_lets_it_go(self):
         self.drag(0.15, 0.2)
-        self.hold_until(lambda: self.elbow > 0.5, 'the elbow bends')
+        self.hold_until(lambda: self.turned() > 0.2, 'the arm is lifted')
         first = next(m for m in self.pushes() if size(m.wrench[0].force) > 1.0)  # from when the mouse moved
         self.assertEqual(first.link, ['forearm'])
         self.assertEqual(first.point[0], WRIST)
@@ -117,10 +127,10 @@ class Touch(unittest.TestCase):
         # The mouse stands still in the world, so that the force falls as the arm follows.
         self.hold_until(lambda: size(self.pushes()[-1].wrench[0].force) < 0.8 * STIFFNESS * 0.25, 'a smaller force')
         wait_for(lambda: any('N' in marker.text for array in self.arrows for marker in array.markers), 5, 'the force as text')
-        bent = self.elbow
+        lifted = self.turned()
         self.say('MOUSE_UP')
         wait_for(self.ended, 0.5, 'the end of the push')
-        wait_for(lambda: self.elbow < bent - 0.1, 5, 'the arm falls')
+        wait_for(lambda: self.turned() < lifted - 0.1, 5, 'the arm falls')
         self.assertTrue(self.ended())
         self.assertEqual([(m.action, m.header.frame_id) for m in self.arrows[-1].markers], 2 * [(Marker.DELETE, 'world')])
 
