@@ -21,12 +21,12 @@ struct News {
 
 /// A call of one of the robot's services.
 struct ServiceRequest {
-  std::string service;  ///< in the robot's namespace: "sim/pause"
-  double limit = 5.0;   ///< [s] of wall time
-  bool pause = false;   ///< of sim/pause
-  int steps = 1;        ///< of sim/step
-  double factor = 1.0;  ///< of sim/set_rate
-  std::string name;     ///< of sim/save and sim/restore
+  std::string service;    ///< in the robot's namespace: "sim/pause"
+  double limit = 5.0;     ///< [s] of wall time
+  bool pause = false;     ///< of sim/pause
+  int steps = 1;          ///< of sim/step
+  double factor = 1.0;    ///< of sim/set_rate
+  std::string name = {};  ///< of sim/save and sim/restore
 };
 
 /// A robot as a panel sees it. Nothing here waits, and all is called by the GUI's thread, except
