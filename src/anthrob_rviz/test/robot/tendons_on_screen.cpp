@@ -143,8 +143,10 @@ class TendonsOnScreen : public testing::Test {
     }
     ++seen.ends;
     for (int row = y - kPixels; row <= y + kPixels; ++row) {
+      const std::size_t begin =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(screen.width());
       for (int column = x - kPixels; column <= x + kPixels; ++column) {
-        if (picture[static_cast<std::size_t>(row * screen.width() + column)] != 0u) return;
+        if (picture[begin + static_cast<std::size_t>(column)] != 0u) return;
       }
     }
     ++seen.unseen;
