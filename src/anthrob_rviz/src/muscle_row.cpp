@@ -102,7 +102,7 @@ void MuscleRow::follow_measurement() {
   const double now_measured = measured(reading_, mode_);
   const bool begins_there = mode_ != ControlMode::kVoltage && std::isfinite(now_measured);
   const double begin = begins_there ? now_measured : 0.0;
-  const Range own = limits_.of(mode_);
+  const ReferenceRange own = limits_.of(mode_);
   range_ = mode_ == ControlMode::kPosition ? own.with(begin) : own;
   target_ = range_.clipped(begin);
 }

@@ -42,7 +42,7 @@ class MuscleRow {
   const MuscleReading& reading() const { return reading_; }
   ControlMode mode() const { return mode_; }
   double target() const { return target_; }
-  Range range() const { return range_; }
+  ReferenceRange range() const { return range_; }
   bool held() const { return held_; }
   /// Its commands are repeated.
   bool active() const { return held_ || pressed_; }
@@ -63,7 +63,7 @@ class MuscleRow {
   MuscleReading reading_;
   ReferenceLimits limits_;
   ControlMode mode_ = ControlMode::kPosition;
-  Range range_;
+  ReferenceRange range_;
   double target_ = 0.0;
   bool pressed_ = false, held_ = false;
   bool followed_ = false;               ///< was enabled since the first command

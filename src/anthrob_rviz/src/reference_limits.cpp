@@ -6,11 +6,11 @@
 
 namespace anthrob {
 
-double Range::clipped(double value) const {
+double ReferenceRange::clipped(double value) const {
   return std::min(std::max(value, low), high);
 }
 
-Range Range::with(double value) const {
+ReferenceRange ReferenceRange::with(double value) const {
   return {std::min(low, value), std::max(high, value)};
 }
 

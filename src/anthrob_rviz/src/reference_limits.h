@@ -8,13 +8,13 @@
 namespace anthrob {
 
 /// From the lowest to the highest reference.
-struct Range {
+struct ReferenceRange {
   double low = 0.0;
   double high = 0.0;
 
   double clipped(double value) const;
   /// The range and the value in it.
-  Range with(double value) const;
+  ReferenceRange with(double value) const;
 };
 
 /// How far the sliders go. A robot does not publish the limits of its model file, and refuses what
@@ -27,15 +27,15 @@ class ReferenceLimits {
   ///            the model's +-30 rad would make each pixel a visible jump
   ///  FORCE     0 to 100 N: what Anthrob's weaker motors accept
   ///  VOLTAGE   -12 to 12 V: the supply
-  Range of(ControlMode mode) const { return ranges_.at(mode); }
+  ReferenceRange of(ControlMode mode) const { return ranges_.at(mode); }
 
   /// @param limit largest reference, > 0; the lowest one is its opposite, of FORCE zero
   void set(ControlMode mode, double limit);
 
  private:
-  std::map<ControlMode, Range> ranges_ = {{ControlMode::kPosition, {-10.0, 10.0}},
-                                          {ControlMode::kForce, {0.0, 100.0}},
-                                          {ControlMode::kVoltage, {-12.0, 12.0}}};
+  std::map<ControlMode, ReferenceRange> ranges_ = {{ControlMode::kPosition, {-10.0, 10.0}},
+                                                   {ControlMode::kForce, {0.0, 100.0}},
+                                                   {ControlMode::kVoltage, {-12.0, 12.0}}};
 };
 
 /// The parameter below command_limits/ with the limit of a mode: "position", "force", "voltage".

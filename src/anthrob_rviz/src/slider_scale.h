@@ -11,7 +11,7 @@ class SliderScale {
  public:
   static constexpr int kSteps = 2000;  ///< finer than any slider has pixels
 
-  explicit SliderScale(const Range& range) : range_(range) {}
+  explicit SliderScale(const ReferenceRange& range) : range_(range) {}
   int step(double value) const {
     return static_cast<int>(std::lround((range_.clipped(value) - range_.low) / width() * kSteps));
   }
@@ -20,7 +20,7 @@ class SliderScale {
  private:
   double width() const { return range_.high - range_.low; }
 
-  Range range_;
+  ReferenceRange range_;
 };
 
 }  // namespace anthrob

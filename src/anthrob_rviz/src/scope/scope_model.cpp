@@ -201,7 +201,7 @@ std::vector<CurvePair> pairs_of(const std::vector<Curve>& curves) {
     const Curve& a = curves[i];
     const Curve& b = curves[i + 1];
     if (a.quantity.path != b.quantity.path || a.source != first || b.source != second) continue;
-    auto comparison = compare(a.samples, b.samples, a.zero - b.zero);
+    auto comparison = difference_between(a.samples, b.samples, a.zero - b.zero);
     if (comparison) pairs.push_back({a, b, std::move(*comparison)});
   }
   return pairs;

@@ -8,10 +8,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scope/comparison.h"
 #include "scope/live_topics.h"
 #include "scope/recording_source.h"
 #include "scope/samples.h"
+#include "scope/series_difference.h"
 
 namespace anthrob {
 
@@ -104,7 +104,7 @@ class ScopeModel {
 /// How far apart the curves of one quantity are in two sources.
 struct CurvePair {
   Curve first, second;
-  Comparison comparison;  ///< second - first, at the times of the first
+  SeriesDifference comparison;  ///< second - first, at the times of the first
 };
 
 /// Of the quantities that the first two shown sources of the curves both have.

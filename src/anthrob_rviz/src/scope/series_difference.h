@@ -9,7 +9,7 @@
 namespace anthrob {
 
 /// How far two series are apart.
-struct Comparison {
+struct SeriesDifference {
   std::vector<Sample> difference;  ///< second - first, at the times of the first
   double rms = 0.0;                ///< root of the mean of its squares, one weight a sample
   double largest = 0.0;            ///< absolute value
@@ -22,6 +22,7 @@ std::optional<double> value_at(SampleSpan samples, Nanoseconds t);
 /// interpolated linearly there. NaN of either is left out.
 /// @param later is added to the times of the second one
 /// @return none if no time is left
-std::optional<Comparison> compare(SampleSpan first, SampleSpan second, Nanoseconds later);
+std::optional<SeriesDifference> difference_between(SampleSpan first, SampleSpan second,
+                                                   Nanoseconds later);
 
 }  // namespace anthrob

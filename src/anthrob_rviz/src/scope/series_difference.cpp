@@ -1,4 +1,4 @@
-#include "scope/comparison.h"
+#include "scope/series_difference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,9 @@ std::optional<double> value_at(SampleSpan samples, Nanoseconds t) {
   return between(samples, samples.at_or_after(t), t);
 }
 
-std::optional<Comparison> compare(SampleSpan first, SampleSpan second, Nanoseconds later) {
-  Comparison result;
+std::optional<SeriesDifference> difference_between(SampleSpan first, SampleSpan second,
+                                                   Nanoseconds later) {
+  SeriesDifference result;
   double sum = 0.0;
   const Sample* after = second.begin();
   for (const Sample& sample : first) {
