@@ -10,12 +10,13 @@ namespace {
 using visualization_msgs::InteractiveMarkerControl;
 using visualization_msgs::Marker;
 
-geometry_msgs::Vector3 scale_of(const Vec3& vector) {
-  geometry_msgs::Vector3 scale;
-  scale.x = vector.x();
-  scale.y = vector.y();
-  scale.z = vector.z();
-  return scale;
+template <class Message>
+Message vector_message(const Vec3& vector) {
+  Message message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
 }
 
 int type_of(LinkShape::Kind kind) {
@@ -47,8 +48,8 @@ Marker marker_of(const LinkShape& shape, double growth, const std_msgs::ColorRGB
   Marker marker;
   marker.type = type_of(shape.kind);
   marker.pose = message_of(shape.X_LS);
-  marker.scale =
-      scale_of(mesh ? Vec3(kMeshGrowth * shape.size) : Vec3(shape.size.array() + 2.0 * growth));
+  marker.scale = vector_message<geometry_msgs::Vector3>(
+      mesh ? Vec3(kMeshGrowth * shape.size) : Vec3(shape.size.array() + 2.0 * growth));
   marker.mesh_resource = shape.mesh;
   marker.color = colour;
   return marker;
@@ -66,11 +67,7 @@ std_msgs::ColorRGBA colour_of(double r, double g, double b, double a) {
 }
 
 geometry_msgs::Point point_of(const Vec3& vector) {
-  geometry_msgs::Point point;
-  point.x = vector.x();
-  point.y = vector.y();
-  point.z = vector.z();
-  return point;
+  return vector_message<geometry_msgs::Point>(vector);
 }
 
 geometry_msgs::Pose message_of(const Pose& pose) {
