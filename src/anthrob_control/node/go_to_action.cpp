@@ -1,6 +1,7 @@
 #include "go_to_action.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "anthrob_ros/diagnostics.h"
 
@@ -11,6 +12,7 @@ namespace {
 constexpr double kThere = 0.05;          // [rad] three degrees: what friction may keep the arm from
 constexpr double kSettling = 3.0;        // [s] after the planned motion, until springs are at rest
 constexpr double kFeedbackPeriod = 0.1;  // [s]
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -23,7 +25,7 @@ GoToAction::GoToAction(const ros::NodeHandle& nh, Controller controller)
 
 void GoToAction::on_goal() {
   const auto goal = server_.acceptNewGoal();  // ends the one before
-  if (const auto why = controller_.send(*goal, posture_)) return end(false, *why, 0.0);
+  if (const auto why = controller_.send(*goal, posture_)) return end(false, *why, kUnknown);
   left_ = goal->duration;
   silent_ = 0.0;
 }
@@ -45,7 +47,7 @@ void GoToAction::superseded() {
 
 void GoToAction::update(double dt, const std::optional<std::string>& obstacle) {
   if (!server_.isActive()) return;
-  if (obstacle) return end(false, *obstacle, 0.0);
+  if (obstacle) return end(false, *obstacle, kUnknown);
   left_ -= dt;
   const double error = controller_.distance(posture_);
   give_feedback(dt, error);
