@@ -45,6 +45,7 @@ void QuantityTopic::publish(const ros::Time& stamp) const {
   if (chosen_.empty() || publisher_.getNumSubscribers() == 0) return;
   anthrob_msgs::Quantities message;
   message.header.stamp = stamp;
+  message.header.frame_id = sim_.model().skeleton->bodies[0].name;
   for (const Quantity& quantity : chosen_) {
     message.name.push_back(quantity.path);
     message.value.push_back(quantity.read(sim_));

@@ -181,7 +181,7 @@ std::vector<geometry_msgs::TransformStamped> ball_joint_transforms(const Simulat
 
 namespace {
 
-constexpr double kTendonWidth = 0.0022;    // [m] thicker than real, to be seen
+constexpr double kTendonWidth = 0.0022;  // [m] thicker than real, to be seen
 
 geometry_msgs::Point to_point(const Vec3& p) {
   geometry_msgs::Point point;
@@ -227,6 +227,7 @@ anthrob_msgs::MusclePaths solved_paths(const Simulation& sim, const ros::Time& s
 anthrob_msgs::MomentArms moment_arms(const Simulation& sim, const ros::Time& stamp) {
   anthrob_msgs::MomentArms message;
   message.header.stamp = stamp;
+  message.header.frame_id = base_of(sim);
   for (const SweepAxis& axis : sweep_axes(*sim.model().skeleton)) message.axis.push_back(axis.name);
   for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
     message.muscle.push_back(sim.model().muscles[m].name);
