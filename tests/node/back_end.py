@@ -81,7 +81,9 @@ def begins_anew_if_a_unit_is_lost(test):
                 self.start()
                 return test(self)
             except AssertionError as failure:
-                lost = self.back_end.unit_lost_by_now() if left else None
+                # What a wait has seen is not asked for again: start() may have cleared it since.
+                seen = isinstance(failure, UnitLost) and str(failure)
+                lost = (seen or self.back_end.unit_lost_by_now()) if left else None
                 if not lost:
                     raise
                 rospy.logwarn('%s begins anew: %s (%s)', test.__name__, lost, str(failure).split('\n')[0])

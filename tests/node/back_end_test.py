@@ -97,6 +97,19 @@ class BackEnd(unittest.TestCase):
         robot.test_moves()
         self.assertEqual((robot.started, robot.recovered), (4, 3))
 
+    def test_begins_anew_though_the_loss_is_cleared_by_now(self):
+        class Late(Robot):
+            @back_end.begins_anew_if_a_unit_is_lost
+            def test_moves(self):
+                if self.started == 1:  # a report that was made before start() and came after it
+                    self.back_end.receive(report(1, LOST[1], 'bus_silent'))
+                    self.back_end.unit_lost_by_now = lambda: None
+                    waiting.wait_for(self.back_end.unless_lost(lambda: False), 30.0, 'what does not come')
+
+        robot = Late()
+        robot.test_moves()
+        self.assertEqual((robot.started, robot.recovered), (2, 1))
+
     def test_has_failed_for_another_reason(self):
         for reason in STOPPED:
             robot = Robot(reason)
