@@ -8,6 +8,16 @@ namespace anthrob {
 namespace {
 
 constexpr double kTwoPi = 2.0 * M_PI;
+
+/// A tendon with an end inside is not wound on: where both ways round are equally long, at odd half
+/// turns, it takes the other one.
+void wind_no_further(double last, CircleWrap::State& state) {
+  const double most = M_PI + kTwoPi * std::ceil(std::max(0.0, last - M_PI) / kTwoPi);
+  if (std::abs(state.theta) <= most) return;
+  state.theta -= std::copysign(2.0 * most, state.theta);
+  state.side = -state.side;
+}
+
 }  // namespace
 
 CircleWrap::CircleWrap(double radius, WrapStart start, int half_turns)
@@ -50,7 +60,9 @@ CircleWrap::Result CircleWrap::update(double angle, double l1, double l2, State&
     state.theta = angle;
     if (std::abs(angle) > reach) state.side = angle < 0 ? -1.0 : 1.0;
   } else {
+    const double last = std::abs(state.theta);
     state.theta = angle + kTwoPi * std::round((state.theta - angle) / kTwoPi);
+    if (result.penetration > 0.0) wind_no_further(last, state);
   }
   const double alpha = state.side * state.theta - reach;
   if (state.side == 0.0 || alpha <= 0.0) {

@@ -55,8 +55,10 @@ class CircleWrap {
   /// at share s (2 - s): nearly on the circle if it is a little inside, at the centre if it is
   /// there. The tendon then follows the circle through the lifted point that is nearer to the
   /// centre. So the length is unique and has a bounded gradient everywhere. It has a kink only
-  /// where a point crosses the circle while the tendon does not touch, and where both points are
-  /// equally deep inside.
+  /// where a point crosses the circle while the tendon does not touch, where both points are
+  /// equally deep inside, and where a tendon with a point inside would be wound on by a turn: it
+  /// goes the other way round instead. Near the centre turns cost no length, and a tendon that had
+  /// many would be pulled to the centre by forces without bounds.
   /// @param distance from the centre [m]
   Lift lift(double distance) const;
 

@@ -242,6 +242,48 @@ TEST(Sphere, PointsInsideDoNoWork) {
   expect_no_work_of_its_own(false, 12);
 }
 
+/// A point inside that goes round and round winds no tendon on; the length stays continuous, and
+/// its gradient is the pull.
+void expect_no_winding_from_inside(const std::shared_ptr<const WrappingSurface>& surface,
+                                   double start, double most) {
+  const Vec3 fixed(0.1, 0, 0);
+  const auto at = [](double distance, double q) {
+    return Vec3(distance * std::cos(q), distance * std::sin(q), 0.0);
+  };
+  Tendon tendon(surface);
+  tendon.start(fixed, at(0.03, start));
+  for (double q = start; q < most - 0.5; q += 0.01) tendon.move(fixed, at(0.03, q));
+  const double outside = most - 0.5;
+  for (double d = 0.03; d > 0.010; d -= 1e-4) tendon.move(fixed, at(d, outside));
+  const double step = 1e-4;
+  double last = tendon.length();
+  int reversed = 0;
+  for (int i = 1; i < 700000; ++i) {
+    const double q = outside + step * i;
+    tendon.move(fixed, at(0.010, q));
+    const Vec3 way = 0.010 * step * Vec3(-std::sin(q), std::cos(q), 0.0);
+    const double growth = tendon.length() - last, pulled = tendon.contact().pull_out.dot(way);
+    ASSERT_LE(tendon.contact().wrap_angle, most) << q;
+    ASSERT_NEAR(growth, 0.0, 2.1 * 0.010 * step) << q;
+    if (std::abs(growth - pulled) > 1e-3 * step * 0.010) ++reversed;
+    last = tendon.length();
+  }
+  // The ridge where both ways round are equally long is met once in each round, and it touches down
+  // and lifts off on each side.
+  EXPECT_GE(reversed, 10);
+  EXPECT_LE(reversed, 3 * 12);
+}
+
+TEST(Cylinder, APointInsideWindsNothingOn) {
+  expect_no_winding_from_inside(cylinder_z(0.015), 1.0, M_PI);
+}
+TEST(Cylinder, APointInsideWindsNothingOnToAWoundTendon) {
+  expect_no_winding_from_inside(cylinder_z(0.015, WrapStart::kPositive), 3.0, 3.0 * M_PI);
+}
+TEST(Sphere, APointInsideWindsNothingOn) {
+  expect_no_winding_from_inside(sphere(0.015), 1.0, M_PI);
+}
+
 /// A point 10 mm from the axis of a surface of 15 mm and one that turns about it at 100 mm.
 void expect_smooth_touch_down(const std::shared_ptr<const WrappingSurface>& surface) {
   const double step = 1e-4;

@@ -48,6 +48,32 @@ std::vector<double> posture_of_chain(Random& random) {
   return {ball.w(), ball.x(), ball.y(), ball.z(), random.uniform(-3, 3), random.uniform(-1, 1)};
 }
 
+/// Pushes of 35 N at the wrist, for a forearm of 0.1 kg, in any direction, again and again: the arm
+/// is thrown where its bones would not let it go, and its eyelets come to lie inside its cylinders.
+TEST(ExternalWrenches, ThrowTheArmAboutWithoutEnd) {
+  Simulation sim(load_robot_model(testing_support::config("anthrob/model_II.yaml")));
+  const int forearm = sim.model().skeleton->find_frame("forearm");
+  const int half_a_second = static_cast<int>(0.5 / sim.step_length());
+  Random random(1);
+  double deepest = 0.0;
+  for (int i = 0; i < 150; ++i) {
+    Wrench push;
+    push.frame = forearm, push.point = Vec3(0, -0.21, 0), push.force = 35.0 * random.direction();
+    push.steps_left = half_a_second;
+    sim.external_wrenches().push(push);
+    for (int k = 0; k < 2 * half_a_second; ++k) {
+      sim.step();
+      for (std::size_t m = 0; m < sim.muscle_count(); ++m) {
+        for (const ObstacleState& obstacle : sim.muscle(static_cast<int>(m)).path().obstacles()) {
+          deepest = std::max(deepest, obstacle.penetration);
+          ASSERT_LT(obstacle.wrap_angle, 5.0 * M_PI) << sim.time();
+        }
+      }
+    }
+  }
+  EXPECT_GT(deepest, 0.01);  // or it shows nothing
+}
+
 TEST(ExternalWrenches, ThatCarryEachWeightKeepTheRobotAtRest) {
   Simulation sim(chain().load());
   const SkeletonModel& skeleton = *sim.model().skeleton;
