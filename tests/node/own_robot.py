@@ -22,6 +22,7 @@ EMULATED = 'backend:=emulated' in sys.argv
 PACE = float(os.environ.get('ANTHROB_PACE', '1.0')) if EMULATED else 1.0  # seconds of the robot in one of the wall clock
 NODE = '/anthrob/driver' if EMULATED else '/anthrob/simulator'
 MUSCLE = 'lateral_deltoid'
+PULL = 1.0  # [V] for a minute, by which no unit sees too large a force
 # For what takes milliseconds, or at most some seconds by the watches of the node: the rest is for a busy machine.
 PATIENCE = 15.0 / PACE
 PORT = free_port()
@@ -43,7 +44,7 @@ class Core:
 
 
 class OwnRobot(unittest.TestCase):
-    """Each test begins with a motor at 2.2 V, by commands that go on."""
+    """Each test begins with a motor at PULL, by commands that go on."""
     command = None
 
     @classmethod
@@ -102,8 +103,8 @@ class OwnRobot(unittest.TestCase):
     def start(self):
         self.recover()
         wait_for(lambda: self.call('enable').success, 30 / PACE, 'enable')
-        OwnRobot.command = MuscleCommand(name=[MUSCLE], mode=[0], reference=[2.2])
-        self.wait_for(lambda: abs(self.volts() - 2.2) < 0.02, PATIENCE, '2.2 V')
+        OwnRobot.command = MuscleCommand(name=[MUSCLE], mode=[0], reference=[PULL])
+        self.wait_for(lambda: abs(self.volts() - PULL) < 0.02, PATIENCE, '%g V' % PULL)
 
     def wait_for(self, condition, seconds, what):
         wait_for(self.back_end.unless_lost(condition), seconds, what)
