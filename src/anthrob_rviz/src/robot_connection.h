@@ -19,14 +19,15 @@ struct News {
   std::vector<CallResult> answers;
 };
 
-/// A call of one of the robot's services.
+/// A call of one of the robot's services, or of the tool that saves its gains: "save_gains".
 struct ServiceRequest {
   std::string service;    ///< in the robot's namespace: "sim/pause"
   double limit = 5.0;     ///< [s] of wall time
   bool pause = false;     ///< of sim/pause
   int steps = 1;          ///< of sim/step
   double factor = 1.0;    ///< of sim/set_rate
-  std::string name = {};  ///< of sim/save and sim/restore
+  std::string name = {};  ///< of sim/save and sim/restore; file of save_gains
+  std::vector<Gain> gains = {};  ///< of gains: to be changed
 };
 
 /// A robot as a panel sees it. Nothing here waits, and all is called by the GUI's thread, except

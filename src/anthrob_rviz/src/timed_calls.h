@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gains/gain.h"
+
 namespace anthrob {
 
 /// How a call of a service ended.
@@ -12,6 +14,7 @@ struct CallResult {
   std::string service;
   bool success = false;
   std::string message;
+  std::vector<Gain> gains = {};  ///< that are held; of the service gains
 };
 
 /// Calls that may never return, each in a thread of its own, with a time limit. ROS 1 has none: a

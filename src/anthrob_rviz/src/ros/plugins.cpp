@@ -2,6 +2,7 @@
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "panel/gains_panel.h"
 #include "panel/muscles_panel.h"
 #include "panel/robot_panel.h"
 #include "panel/scope_panel.h"
@@ -18,11 +19,15 @@ MusclesPanel::MusclesPanel()
     : MusclesPanel(std::make_unique<RosConnection>(RosConnection::Role::kCommander),
                    default_robot()) {}
 
+GainsPanel::GainsPanel()
+    : GainsPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {}
+
 ScopePanel::ScopePanel() : ScopePanel(scope_over_ros()) {}
 
 }  // namespace anthrob
 
 PLUGINLIB_EXPORT_CLASS(anthrob::RobotPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::MusclesPanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(anthrob::GainsPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::ScopePanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::TendonsDisplay, rviz::Display)

@@ -9,6 +9,7 @@
 
 #include "anthrob_core/monotonic_clock.h"
 #include "anthrob_ros/bounded_connection.h"
+#include "ros/gains_tool.h"
 #include "ros/messages.h"
 #include "ros/service_calls.h"
 
@@ -122,6 +123,10 @@ void RosConnection::send(const std::vector<Reference>& references) {
 }
 
 bool RosConnection::call(const ServiceRequest& request) {
+  if (request.service == "save_gains") {
+    return calls_.start(request.service, call_of_gains_tool(nh_.getNamespace(), request.name),
+                        request.limit, monotonic_now());
+  }
   return calls_.start(request.service, call_of(nh_.resolveName(request.service), request),
                       request.limit, monotonic_now());
 }

@@ -1,11 +1,14 @@
 #include "ros/service_calls.h"
 
+#include <anthrob_msgs/Gains.h>
 #include <anthrob_msgs/SetRate.h>
 #include <anthrob_msgs/Snapshot.h>
 #include <anthrob_msgs/Step.h>
 #include <ros/service.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+
+#include <algorithm>
 
 namespace anthrob {
 namespace {
@@ -15,6 +18,26 @@ CallResult result_of(const std::string& name, const std::string& service, Servic
   if (!ros::service::exists(name, false)) return {service, false, "there is no service " + name};
   if (!ros::service::call(name, call)) return {service, false, "the call failed"};
   return {service, static_cast<bool>(call.response.success), call.response.message};
+}
+
+CallResult result_of_gains(const std::string& name, anthrob_msgs::Gains call) {
+  CallResult result;
+  result.service = "gains";
+  if (!ros::service::exists(name, false)) {
+    result.message = "there is no service " + name;
+  } else if (!ros::service::call(name, call)) {
+    result.message = "the call failed";
+  } else {
+    const auto& held = call.response;
+    result.success = held.success != 0;
+    result.message = held.message;
+    const std::size_t count =
+        std::min({held.held_muscle.size(), held.held_gain.size(), held.held_value.size()});
+    for (std::size_t i = 0; i < count; ++i) {
+      result.gains.push_back({held.held_muscle[i], held.held_gain[i], held.held_value[i]});
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -40,6 +63,15 @@ TimedCalls::Call call_of(const std::string& name, const ServiceRequest& request)
     anthrob_msgs::Snapshot snapshot;
     snapshot.request.name = request.name;
     return [=] { return result_of(name, service, snapshot); };
+  }
+  if (service == "gains") {
+    anthrob_msgs::Gains gains;
+    for (const Gain& gain : request.gains) {
+      gains.request.muscle.push_back(gain.muscle);
+      gains.request.gain.push_back(gain.name);
+      gains.request.value.push_back(gain.value);
+    }
+    return [=] { return result_of_gains(name, gains); };
   }
   return [=] { return result_of(name, service, std_srvs::Trigger()); };
 }

@@ -1,16 +1,23 @@
 // The real panels on a running robot: what a hand on the mouse does, asserted on topics. Started in
 // the robot's namespace by tests/node/rviz_panels.test.
+#include <anthrob_msgs/Gains.h>
 #include <anthrob_msgs/MuscleCommand.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <ros/service.h>
 #include <sensor_msgs/JointState.h>
+#include <unistd.h>
 
 #include <QPushButton>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
 
 #include "anthrob_core/monotonic_clock.h"
+#include "panel/gains_panel.h"
 #include "panel/gui.h"
 #include "panel/muscles_panel.h"
 #include "panel/robot_panel.h"
@@ -152,6 +159,45 @@ TEST_F(PanelsOnRobot, APausedSimulatorIsSilentAndEndsAHold) {
   EXPECT_TRUE(
       wait_for([&] { return child<QLabel>(&muscles_, "status")->text().contains("11 m"); }));
   EXPECT_EQ(commands_within(0.3), 0);
+}
+
+TEST_F(PanelsOnRobot, GainsAreChangedUndoneAndSaved) {
+  ASSERT_TRUE(connected());
+  GainsPanel gains;
+  gains.show();
+  auto* muscle = child<QComboBox>(&gains, "muscle");
+  ASSERT_TRUE(wait_for([&] { return muscle->findText(kMuscle) > 0; }));
+  muscle->setCurrentIndex(muscle->findText(kMuscle));
+  wait(0.3);
+  const auto held = [&] {
+    anthrob_msgs::Gains call;
+    EXPECT_TRUE(ros::service::call(nh_.resolveName("gains"), call));
+    for (std::size_t i = 0; i < call.response.held_muscle.size(); ++i) {
+      if (call.response.held_muscle[i] == kMuscle &&
+          call.response.held_gain[i] == "position_proportional") {
+        return call.response.held_value[i];
+      }
+    }
+    return std::nan("");
+  };
+  const double before = held();
+  auto* number = child<QDoubleSpinBox>(&gains, "position_proportional");
+  EXPECT_NEAR(number->value(), before, 1e-5);
+  number->setValue(before + 0.5);
+  EXPECT_TRUE(wait_for([&] { return std::abs(held() - before - 0.5) < 1e-5; })) << held();
+  const std::string file = "/tmp/anthrob_gains_" + std::to_string(getpid()) + ".yaml";
+  gains.save_as(file);
+  auto* answer = child<QLabel>(&gains, "answer");
+  EXPECT_TRUE(wait_for([&] { return answer->text().startsWith("done: " + QString(file.c_str())); }))
+      << answer->text().toStdString();
+  std::ifstream saved(file);
+  const std::string text((std::istreambuf_iterator<char>(saved)), {});
+  EXPECT_NE(text.find("position_proportional"), std::string::npos) << text;
+  std::remove(file.c_str());
+  auto* undo = child<QPushButton>(&gains, "undo");
+  ASSERT_TRUE(wait_for([&] { return undo->isEnabled(); }));
+  QTest::mouseClick(undo, Qt::LeftButton);
+  EXPECT_TRUE(wait_for([&] { return std::abs(held() - before) < 1e-6; })) << held();
 }
 
 TEST_F(PanelsOnRobot, TheScopePlotsWhatTheRobotSends) {
