@@ -11,6 +11,11 @@ std::optional<std::string> Diagnosis::value(const std::string& key) const {
   return std::nullopt;
 }
 
+bool Diagnosis::names(const std::string& muscle) const {
+  return std::any_of(values.begin(), values.end(),
+                     [&](const auto& entry) { return entry.first.rfind(muscle + " ", 0) == 0; });
+}
+
 void Diagnostics::hear(const Diagnosis& diagnosis, double now) {
   const auto same = std::find_if(last_.begin(), last_.end(), [&](const Heard& heard) {
     return heard.diagnosis.name == diagnosis.name;
@@ -44,11 +49,7 @@ std::optional<Diagnosis> Diagnostics::unit_of_muscle(const std::string& robot,
                                                      const std::string& muscle, double now) const {
   for (const Diagnosis& diagnosis : all(now)) {
     if (whole_and_part(diagnosis.name).first != robot) continue;
-    // "biceps_brachii temperature"
-    const bool names_it =
-        std::any_of(diagnosis.values.begin(), diagnosis.values.end(),
-                    [&](const auto& entry) { return entry.first.rfind(muscle + " ", 0) == 0; });
-    if (names_it) return diagnosis;
+    if (diagnosis.names(muscle)) return diagnosis;
   }
   return std::nullopt;
 }

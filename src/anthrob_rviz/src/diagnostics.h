@@ -18,6 +18,8 @@ struct Diagnosis {
   std::vector<std::pair<std::string, std::string>> values;
 
   std::optional<std::string> value(const std::string& key) const;
+  /// Whether it is about a muscle, too, as the driver's units are: "biceps_brachii temperature".
+  bool names(const std::string& muscle) const;
 };
 
 /// What was last said about everything on /diagnostics.

@@ -50,6 +50,12 @@ void MuscleBoard::relax_all() {
   hold_all_in(ControlMode::kVoltage);
 }
 
+void MuscleBoard::tighten_all() {
+  constexpr double kPretension = 5.0;  // [N]
+  hold_all_in(ControlMode::kForce);
+  for (MuscleRow& row : rows_) row.set_target(std::max(row.target(), kPretension));
+}
+
 void MuscleBoard::hold_all_in(ControlMode mode) {
   for (MuscleRow& row : rows_) {
     row.let_go();

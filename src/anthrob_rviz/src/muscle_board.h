@@ -28,6 +28,8 @@ class MuscleBoard {
   void hold_here();
   /// Zero volts for all muscles: they yield as far as their gears let them, and nothing winds.
   void relax_all();
+  /// FORCE for all muscles: at least 5 N, the pretension at which tendons lie in their pulleys.
+  void tighten_all();
 
   /// What is to be repeated from now on; empty if nothing is.
   std::vector<Reference> take(double now);

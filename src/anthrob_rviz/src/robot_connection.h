@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnostics.h"
+#include "muscle_groups.h"
 #include "muscle_reading.h"
 #include "muscle_row.h"
 #include "reference_limits.h"
@@ -17,16 +18,17 @@ struct News {
   std::optional<MuscleReadings> muscles;  ///< the newest
   std::vector<Diagnosis> diagnostics;
   std::vector<CallResult> answers;
+  std::vector<MuscleGroup> antagonists;  ///< once, soon after connect()
 };
 
 /// A call of one of the robot's services, or of the tool that saves its gains: "save_gains".
 struct ServiceRequest {
-  std::string service;    ///< in the robot's namespace: "sim/pause"
-  double limit = 5.0;     ///< [s] of wall time
-  bool pause = false;     ///< of sim/pause
-  int steps = 1;          ///< of sim/step
-  double factor = 1.0;    ///< of sim/set_rate
-  std::string name = {};  ///< of sim/save and sim/restore; file of save_gains
+  std::string service;           ///< in the robot's namespace: "sim/pause"
+  double limit = 5.0;            ///< [s] of wall time
+  bool pause = false;            ///< of sim/pause
+  int steps = 1;                 ///< of sim/step
+  double factor = 1.0;           ///< of sim/set_rate
+  std::string name = {};         ///< of sim/save and sim/restore; file of save_gains
   std::vector<Gain> gains = {};  ///< of gains: to be changed
 };
 

@@ -89,6 +89,19 @@ TEST(MuscleBoard, RelaxAllAsksForNoVolts) {
   EXPECT_TRUE(board.all_held());
 }
 
+TEST(MuscleBoard, TightenAllAsksForThePretensionAndLoosensNone) {
+  MuscleBoard board = board_at(0.0);
+  auto muscles = two_muscles(1.0);
+  muscles[0].force = 30.0, muscles[1].force = 0.5;
+  board.hear(muscles, 0.0);
+  board.tighten_all();
+  const auto references = board.take(0.0);
+  ASSERT_EQ(references.size(), 2U);
+  EXPECT_EQ(references[0].mode, ControlMode::kForce);
+  EXPECT_EQ(references[0].value, 30.0);
+  EXPECT_EQ(references[1].value, 5.0);
+}
+
 TEST(MuscleBoard, OtherMusclesAreOtherRows) {
   MuscleBoard board = board_at(0.0);
   board.hold_all(true);

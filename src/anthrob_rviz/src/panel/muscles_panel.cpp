@@ -4,14 +4,21 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSignalBlocker>
+#include <algorithm>
 #include <utility>
 
 namespace anthrob {
+namespace {
+
+const char* const kAllMuscles = "all muscles";
+
+}  // namespace
 
 MusclesPanel::MusclesPanel(std::unique_ptr<RobotConnection> connection, const std::string& robot)
     : ConnectedPanel(std::move(connection), robot),
       status_(text_label("status")),
       search_(new QLineEdit),
+      group_(new QComboBox),
       hold_all_(new QCheckBox("hold all")),
       list_(new QVBoxLayout),
       commands_([this](const std::vector<Reference>& r) { this->connection().send(r); }) {
@@ -25,21 +32,33 @@ void MusclesPanel::add_buttons() {
   search_->setObjectName("search");
   search_->setPlaceholderText("Search");
   search_->setClearButtonEnabled(true);
+  group_->setObjectName("group");
+  group_->addItem(kAllMuscles);
+  group_->setToolTip("Shows those that turn a joint one way, +, their antagonists, -, or those of "
+                     "one motor unit");
+  auto* chosen = new QHBoxLayout;
+  chosen->addWidget(group_, 1);
+  chosen->addWidget(search_, 1);
+  column()->addLayout(chosen);
   auto* here = new QPushButton("Hold here");
   here->setObjectName("hold_here");
   here->setToolTip("All muscles: POSITION where they are, and hold");
   auto* relax = new QPushButton("Relax all");
   relax->setObjectName("relax_all");
   relax->setToolTip("All muscles: VOLTAGE 0 V, and hold; the arm sinks");
+  auto* tighten = new QPushButton("Tighten all");
+  tighten->setObjectName("tighten_all");
+  tighten->setToolTip("All muscles: FORCE of at least 5 N, and hold");
   hold_all_->setObjectName("hold_all");
   hold_all_->setToolTip("Repeats the commands of all muscles 20 times a second");
-  line->addWidget(search_, 1);
   for (QWidget* widget : {static_cast<QWidget*>(here), static_cast<QWidget*>(relax),
-                          static_cast<QWidget*>(hold_all_)}) {
+                          static_cast<QWidget*>(tighten), static_cast<QWidget*>(hold_all_)}) {
     line->addWidget(widget);
   }
   column()->addLayout(line);
-  connect(search_, &QLineEdit::textChanged, this, [this](const QString& text) { filter(text); });
+  connect(search_, &QLineEdit::textChanged, this, [this] { filter(); });
+  connect(group_, &QComboBox::currentTextChanged, this, [this] { filter(); });
+  connect(tighten, &QPushButton::clicked, this, [this] { board_.tighten_all(); });
   connect(here, &QPushButton::clicked, this, [this] { board_.hold_here(); });
   connect(relax, &QPushButton::clicked, this, [this] { board_.relax_all(); });
   connect(hold_all_, &QCheckBox::toggled, this, [this](bool held) { board_.hold_all(held); });
@@ -67,11 +86,13 @@ void MusclesPanel::end() {
 void MusclesPanel::begin() {
   board_.clear();
   diagnostics_.clear();
+  antagonists_.clear();
   make_rows();
 }
 
 void MusclesPanel::hear(const News& news, double now) {
   for (const Diagnosis& diagnosis : news.diagnostics) diagnostics_.hear(diagnosis, now);
+  if (!news.antagonists.empty()) antagonists_ = news.antagonists;
   if (news.muscles && board_.hear(*news.muscles, now)) make_rows();
 }
 
@@ -83,13 +104,37 @@ void MusclesPanel::make_rows() {
         new MuscleRowWidget(name, [this, i]() -> MuscleRow& { return board_.rows().at(i); }));
     list_->addWidget(rows_.back());
   }
-  filter(search_->text());
+  filter();
 }
 
-void MusclesPanel::filter(const QString& text) {
+void MusclesPanel::filter() {
+  const std::string chosen = group_->currentText().toStdString();
+  const auto group = std::find_if(groups_.begin(), groups_.end(),
+                                  [&](const MuscleGroup& each) { return each.name == chosen; });
   for (MuscleRowWidget* row : rows_) {
-    row->setVisible(row->name().contains(text.trimmed(), Qt::CaseInsensitive));
+    row->setVisible(row->name().contains(search_->text().trimmed(), Qt::CaseInsensitive) &&
+                    (group == groups_.end() || group->has(row->name().toStdString())));
   }
+}
+
+/// The list changes seldom; what is chosen stays, if it is still there.
+void MusclesPanel::show_groups(double now) {
+  std::vector<std::string> muscles;
+  for (const MuscleRow& row : board_.rows()) muscles.push_back(row.reading().name);
+  groups_ = antagonists_;
+  for (MuscleGroup& group : groups_by_unit(diagnostics_, robot(), muscles, now)) {
+    groups_.push_back(std::move(group));
+  }
+  QStringList names{kAllMuscles}, shown;
+  for (const MuscleGroup& group : groups_) names << QString::fromStdString(group.name);
+  for (int i = 0; i < group_->count(); ++i) shown << group_->itemText(i);
+  if (names == shown) return;
+  const QString chosen = group_->currentText();
+  const QSignalBlocker quiet(group_);
+  group_->clear();
+  group_->addItems(names);
+  group_->setCurrentIndex(std::max(0, group_->findText(chosen)));
+  filter();
 }
 
 void MusclesPanel::act(double now) {
@@ -104,6 +149,7 @@ void MusclesPanel::refresh(double now) {
     if (rows_[i]->visibleRegion().isEmpty()) continue;
     rows_[i]->show_row(board_.fresh(now), remark_of(board_.rows()[i], now), force_limit);
   }
+  show_groups(now);
   const QSignalBlocker quiet(hold_all_);
   hold_all_->setChecked(board_.all_held());
   show_status(now);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QVBoxLayout>
@@ -11,6 +12,7 @@
 #include "command_thread.h"
 #include "diagnostics.h"
 #include "muscle_board.h"
+#include "muscle_groups.h"
 #include "panel/connected_panel.h"
 #include "panel/muscle_row_widget.h"
 
@@ -34,7 +36,8 @@ class MusclesPanel final : public ConnectedPanel {
   void add_buttons();
   void add_list();
   void make_rows();
-  void filter(const QString& text);
+  void filter();
+  void show_groups(double now);
   void show_status(double now);
   std::string remark_of(const MuscleRow& row, double now) const;
   std::string last_rejection(double now) const;
@@ -43,9 +46,11 @@ class MusclesPanel final : public ConnectedPanel {
   Diagnostics diagnostics_;
   QLabel* status_;
   QLineEdit* search_;
+  QComboBox* group_;
   QCheckBox* hold_all_;
   QVBoxLayout* list_;
   std::vector<MuscleRowWidget*> rows_;
+  std::vector<MuscleGroup> antagonists_, groups_;
   CommandThread commands_;
 };
 

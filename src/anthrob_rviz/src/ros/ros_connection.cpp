@@ -1,5 +1,6 @@
 #include "ros/ros_connection.h"
 
+#include <anthrob_msgs/MomentArms.h>
 #include <anthrob_msgs/MuscleCommand.h>
 #include <ros/service.h>
 #include <std_msgs/Empty.h>
@@ -76,11 +77,20 @@ void RosConnection::subscribe() {
         hear_muscles(message);
       },
       {}, ros::TransportHints().tcpNoDelay()));
+  arms_ = subscribe_bounded<anthrob_msgs::MomentArms>(
+      nh_, "moment_arms", 1,
+      [this](const anthrob_msgs::MomentArms& message, const std::string&) { hear_arms(message); });
   subscribers_.push_back(subscribe_bounded<diagnostic_msgs::DiagnosticArray>(
       nh_, "/diagnostics", 20,
       [this](const diagnostic_msgs::DiagnosticArray& message, const std::string&) {
         hear_diagnostics(message);
       }));
+}
+
+/// One message says enough, and each costs its sender time.
+void RosConnection::hear_arms(const anthrob_msgs::MomentArms& message) {
+  news_.antagonists = groups_by_axis(message.muscle, message.axis, message.arm);
+  arms_.shutdown();
 }
 
 void RosConnection::hear_muscles(const anthrob_msgs::MuscleStates& message) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <anthrob_msgs/MomentArms.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/callback_queue.h>
@@ -35,6 +36,7 @@ class RosConnection final : public RobotConnection {
 
   void subscribe();
   void survey(double now);
+  void hear_arms(const anthrob_msgs::MomentArms& message);
   void hear_muscles(const anthrob_msgs::MuscleStates& message);
   void hear_diagnostics(const diagnostic_msgs::DiagnosticArray& message);
 
@@ -42,6 +44,7 @@ class RosConnection final : public RobotConnection {
   ros::CallbackQueue queue_;
   ros::NodeHandle nh_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber arms_;
   ros::Publisher commands_, stop_;
   News news_;
   TimedCalls calls_;

@@ -20,6 +20,7 @@ struct FakeRobot {
   std::vector<ServiceRequest> calls;
   std::vector<Diagnosis> diagnostics;
   std::vector<CallResult> answers;
+  std::vector<MuscleGroup> antagonists;
   int shouts = 0;
 
   /// Commands come from another thread.
@@ -48,6 +49,7 @@ class FakeConnection final : public RobotConnection {
     if (robot_->talks) news.muscles = robot_->muscles;
     news.diagnostics = std::exchange(robot_->diagnostics, {});
     news.answers = std::exchange(robot_->answers, {});
+    news.antagonists = std::exchange(robot_->antagonists, {});
     return news;
   }
   void send(const std::vector<Reference>& references) override { robot_->receive(references); }

@@ -82,6 +82,27 @@ TEST_F(MusclesPanelTest, AHiddenPanelCommandsNothingAndForgetsItsHolds) {
   EXPECT_EQ(status(), "Commands ended: the panel was hidden");
 }
 
+TEST_F(MusclesPanelTest, AGroupHidesTheOthers) {
+  auto* group = child<QComboBox>(panel_.get(), "group");
+  EXPECT_EQ(group->count(), 1);
+  robot_->antagonists = {{"elbow +", {"flexor"}}, {"elbow -", {"extensor"}}};
+  QTest::qWait(200);
+  ASSERT_EQ(group->count(), 3);
+  group->setCurrentIndex(group->findText("elbow -"));
+  EXPECT_FALSE(row("flexor")->isVisible());
+  EXPECT_TRUE(row("extensor")->isVisible());
+  child<QLineEdit>(panel_.get(), "search")->setText("flex");
+  EXPECT_FALSE(row("extensor")->isVisible());
+  child<QLineEdit>(panel_.get(), "search")->clear();
+  robot_->diagnostics = {{"/anthrob: ecu_1", Level::kOk, "", {{"flexor temperature", "25"}}}};
+  QTest::qWait(200);
+  EXPECT_EQ(group->count(), 4);
+  EXPECT_EQ(group->currentText(), "elbow -");
+  group->setCurrentIndex(group->findText("ecu_1"));
+  EXPECT_TRUE(row("flexor")->isVisible());
+  EXPECT_FALSE(row("extensor")->isVisible());
+}
+
 TEST_F(MusclesPanelTest, APressedSliderDoesNotOutliveItsPanel) {
   press_slider();
   EXPECT_GE(commands_within(500), kFewest / 2);
@@ -130,6 +151,7 @@ TEST_F(MusclesPanelTest, TheButtonsHoldAllMuscles) {
   auto* all = child<QCheckBox>(panel_.get(), "hold_all");
   EXPECT_TRUE(all->isChecked());
   all->setChecked(false);
+  QTest::qWait(50);
   EXPECT_EQ(commands_within(300), 0U);
 }
 

@@ -161,6 +161,22 @@ TEST_F(PanelsOnRobot, APausedSimulatorIsSilentAndEndsAHold) {
   EXPECT_EQ(commands_within(0.3), 0);
 }
 
+TEST_F(PanelsOnRobot, AntagonistsAreThoseOfTheModel) {
+  ASSERT_TRUE(connected());
+  auto* group = child<QComboBox>(&muscles_, "group");
+  ASSERT_TRUE(wait_for([&] { return group->findText("elbow -") > 0; }));
+  const auto shown = [&](const char* muscle) {
+    return child<QWidget>(&muscles_, muscle)->isVisible();
+  };
+  for (const bool flexors : {true, false}) {
+    group->setCurrentIndex(group->findText(flexors ? "elbow +" : "elbow -"));
+    EXPECT_EQ(shown("biceps_brachii"), flexors);
+    EXPECT_EQ(shown("brachialis"), flexors);
+    EXPECT_EQ(shown("triceps_brachii"), !flexors);
+    EXPECT_FALSE(shown("lateral_deltoid"));
+  }
+}
+
 TEST_F(PanelsOnRobot, GainsAreChangedUndoneAndSaved) {
   ASSERT_TRUE(connected());
   GainsPanel gains;
