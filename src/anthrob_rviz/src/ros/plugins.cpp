@@ -4,6 +4,7 @@
 
 #include "panel/gains_panel.h"
 #include "panel/muscles_panel.h"
+#include "panel/record_panel.h"
 #include "panel/robot_panel.h"
 #include "panel/scope_panel.h"
 #include "ros/ros_connection.h"
@@ -22,6 +23,10 @@ MusclesPanel::MusclesPanel()
 GainsPanel::GainsPanel()
     : GainsPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {}
 
+RecordPanel::RecordPanel()
+    : RecordPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {
+}
+
 ScopePanel::ScopePanel() : ScopePanel(scope_over_ros()) {}
 
 }  // namespace anthrob
@@ -29,5 +34,6 @@ ScopePanel::ScopePanel() : ScopePanel(scope_over_ros()) {}
 PLUGINLIB_EXPORT_CLASS(anthrob::RobotPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::MusclesPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::GainsPanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(anthrob::RecordPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::ScopePanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::TendonsDisplay, rviz::Display)

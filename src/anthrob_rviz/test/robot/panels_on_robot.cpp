@@ -5,10 +5,13 @@
 #include <anthrob_msgs/MuscleStates.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <ros/service.h>
 #include <sensor_msgs/JointState.h>
 #include <unistd.h>
 
+#include <QFile>
 #include <QPushButton>
 #include <algorithm>
 #include <cmath>
@@ -20,6 +23,7 @@
 #include "panel/gains_panel.h"
 #include "panel/gui.h"
 #include "panel/muscles_panel.h"
+#include "panel/record_panel.h"
 #include "panel/robot_panel.h"
 #include "plot/scope_widget.h"
 #include "ros/scope/scope_over_ros.h"
@@ -175,6 +179,38 @@ TEST_F(PanelsOnRobot, AntagonistsAreThoseOfTheModel) {
     EXPECT_EQ(shown("triceps_brachii"), !flexors);
     EXPECT_FALSE(shown("lateral_deltoid"));
   }
+}
+
+TEST_F(PanelsOnRobot, ARecordingIsABagThatIsWhole) {
+  ASSERT_TRUE(connected());
+  const std::string file = "/tmp/anthrob_record_" + std::to_string(getpid()) + ".bag";
+  auto panel = std::make_unique<RecordPanel>();
+  panel->show();
+  wait(0.3);  // until it is connected
+  child<QLineEdit>(panel.get(), "file")->setText(file.c_str());
+  auto* button = child<QPushButton>(panel.get(), "record");
+  auto* answer = child<QLabel>(panel.get(), "answer");
+  QTest::mouseClick(button, Qt::LeftButton);
+  ASSERT_TRUE(wait_for([&] { return QFile::exists((file + ".active").c_str()); }))
+      << answer->text().toStdString();
+  wait(1.5);
+  EXPECT_TRUE(answer->text().startsWith("recording " + QString(file.c_str())));
+  QTest::mouseClick(button, Qt::LeftButton);
+  EXPECT_TRUE(wait_for([&] { return answer->text().startsWith("wrote " + QString(file.c_str())); }))
+      << answer->text().toStdString();
+  const auto states_in = [](const std::string& bag) {
+    return rosbag::View(rosbag::Bag(bag), rosbag::TopicQuery("/anthrob/muscle_states")).size();
+  };
+  EXPECT_GT(states_in(file), 100U);
+  std::remove(file.c_str());
+  // And if the panel closes meanwhile.
+  child<QLineEdit>(panel.get(), "file")->setText(file.c_str());
+  QTest::mouseClick(button, Qt::LeftButton);
+  ASSERT_TRUE(wait_for([&] { return QFile::exists((file + ".active").c_str()); }));
+  wait(1.5);
+  panel.reset();
+  EXPECT_GT(states_in(file), 100U);
+  std::remove(file.c_str());
 }
 
 TEST_F(PanelsOnRobot, GainsAreChangedUndoneAndSaved) {
