@@ -32,6 +32,8 @@ def view(robot):
                 line = f"{key}: {GRID}\n"
             elif name in WINDOW and key.startswith("  ") and not key.startswith("   "):
                 line = f"{key}: {WINDOW[name]}\n"
+            elif name == "Fit View" and robot == "anthrob":
+                line = f"{key}: false\n"  # its pictures do without the stand's foot
             elif name == "Distance" and robot == "anthrob":
                 line = f"{key}: {NEAR}\n"
             lines.append(line)

@@ -8,6 +8,7 @@
 #include <rviz/properties/string_property.h>
 
 #include "anthrob_core/monotonic_clock.h"
+#include "display/fitted_camera.h"
 #include "display/force_legend.h"
 #include "ros/tendon_message.h"
 
@@ -41,6 +42,10 @@ TendonsDisplay::TendonsDisplay()
                                           "Force at which the scale of colours ends.", this)),
       names_(new rviz::BoolProperty("Names", false, "Write the muscles' names.", this)),
       legend_shown_(new rviz::BoolProperty("Legend", true, "Show what the colours mean.", this)),
+      fit_view_(new rviz::BoolProperty(
+          "Fit View", true,
+          "Move the orbiting camera once, when the robot is there, so that all of it is seen.",
+          this)),
       tf_prefix_(new rviz::StringProperty(
           "TF Prefix", "", "As of the display RobotModel: before the links' names in tf.", this)) {
   thickness_->setMin(0.0f);
@@ -72,6 +77,8 @@ void TendonsDisplay::reset() {
   heard_.reset();
   wrong_.reset();
   fitting_.reset();
+  whole_.reset();
+  view_fitted_ = false;
   if (legend_) legend_->hide();
   legend_force_.reset();
 }
@@ -142,6 +149,7 @@ void TendonsDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
   const PlacedTendons placed = place(tendons_, [this](const auto& link) { return pose_of(link); });
   if (!tendons_.empty()) show_status("Links", link_status(placed.links, placed.lost));
   draw(placed, now.is_old() || now.wrong);
+  fit_view(placed);
   show_legend();
   context_->queueRender();
 }
@@ -169,6 +177,20 @@ double TendonsDisplay::thickness(const PlacedTendons& placed) {
     fitting_ = fitting_thickness(placed.lines);
   }
   return fitting_.value_or(fitting_thickness(placed.lines));
+}
+
+/// RViz has loaded the meshes some frames after all links are known.
+void TendonsDisplay::fit_view(const PlacedTendons& placed) {
+  constexpr double kLoading = 1.0;  // [s]
+  if (view_fitted_ || !fit_view_->getBool()) return;
+  if (tendons_.empty() || !placed.lost.empty()) return whole_.reset();
+  const double now = monotonic_now();
+  if (!whole_) whole_ = now;
+  if (now - *whole_ < kLoading) return;
+  const auto box = robot_box(*context_, *scene_node_);
+  if (!box) return;
+  fit_camera(*context_, *box);
+  view_fitted_ = true;
 }
 
 void TendonsDisplay::show_legend() {

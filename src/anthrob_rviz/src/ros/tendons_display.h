@@ -50,12 +50,13 @@ class TendonsDisplay : public rviz::Display {
   std::optional<Pose> pose_of(const std::string& link) const;
   void draw(const PlacedTendons& placed, bool old);
   double thickness(const PlacedTendons& placed);
+  void fit_view(const PlacedTendons& placed);
   void show_legend();
   void show_status(const char* name, const StatusLine& line);
 
   rviz::RosTopicProperty* topic_;
   rviz::FloatProperty *thickness_, *full_force_;
-  rviz::BoolProperty *names_, *legend_shown_;
+  rviz::BoolProperty *names_, *legend_shown_, *fit_view_;
   rviz::StringProperty* tf_prefix_;
 
   ros::Subscriber subscriber_;
@@ -64,6 +65,8 @@ class TendonsDisplay : public rviz::Display {
   std::optional<std::string> wrong_;  ///< what was, with it
   std::vector<std::unique_ptr<TendonVisual>> visuals_;
   std::optional<double> fitting_;  ///< [m] thickness for this robot
+  std::optional<double> whole_;    ///< [s] since when all of the robot is there
+  bool view_fitted_ = false;
   std::unique_ptr<ScreenOverlay> legend_;
   std::optional<double> legend_force_;  ///< [N] of the legend that is shown
 };
