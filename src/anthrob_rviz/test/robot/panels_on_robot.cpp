@@ -5,9 +5,9 @@
 #include <anthrob_msgs/MuscleStates.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <ros/service.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <ros/service.h>
 #include <sensor_msgs/JointState.h>
 #include <unistd.h>
 
@@ -32,7 +32,7 @@ namespace anthrob {
 namespace {
 
 const char* const kMuscle = "biceps_brachii";
-constexpr double kPatience = 20.0;  // [s] of wall time, also beside other programs
+constexpr double kPatience = 20.0;  // [s] of the robot, also beside other programs
 
 class PanelsOnRobot : public testing::Test {
  protected:
@@ -56,7 +56,7 @@ class PanelsOnRobot : public testing::Test {
 
   template <class Condition>
   bool wait_for(Condition condition) {
-    const double end = monotonic_now() + kPatience;
+    const double end = monotonic_now() + kPatience / ros::param::param("~pace", 1.0);
     while (!condition() && monotonic_now() < end) wait(0.02);
     return condition();
   }
@@ -108,6 +108,8 @@ class PanelsOnRobot : public testing::Test {
 TEST_F(PanelsOnRobot, ASliderMovesTheArmAndStopStopsIt) {
   ASSERT_TRUE(connected());
   EXPECT_EQ(commands_within(0.5), 0);
+  click("enable");  // a simulator is enabled from the start
+  EXPECT_TRUE(answered("enable: done")) << answer();
   const double begin = position_, angle = elbow_;
   drag_slider();
   EXPECT_TRUE(wait_for([&] { return position_ > begin + 1.0; })) << position_;
@@ -201,7 +203,7 @@ TEST_F(PanelsOnRobot, ARecordingIsABagThatIsWhole) {
   const auto states_in = [](const std::string& bag) {
     return rosbag::View(rosbag::Bag(bag), rosbag::TopicQuery("/anthrob/muscle_states")).size();
   };
-  EXPECT_GT(states_in(file), 100U);
+  EXPECT_GT(states_in(file), 10U);
   std::remove(file.c_str());
   // And if the panel closes meanwhile.
   child<QLineEdit>(panel.get(), "file")->setText(file.c_str());
@@ -209,7 +211,7 @@ TEST_F(PanelsOnRobot, ARecordingIsABagThatIsWhole) {
   ASSERT_TRUE(wait_for([&] { return QFile::exists((file + ".active").c_str()); }));
   wait(1.5);
   panel.reset();
-  EXPECT_GT(states_in(file), 100U);
+  EXPECT_GT(states_in(file), 10U);
   std::remove(file.c_str());
 }
 
