@@ -16,6 +16,8 @@ namespace {
 constexpr double kHeard = 0.05;
 /// States of a cycle may show a command that came while they were on their way [s].
 constexpr double kAhead = 0.02;
+/// Commands that are repeated more seldom end by their time-out [s].
+constexpr double kRepeated = 0.5;
 
 struct Command {
   double t, mode, reference;
@@ -132,6 +134,25 @@ bool commanded(const Command& in_force, const std::vector<Command>& commands) {
   return false;
 }
 
+/// Of a command that is repeated, the first ones may be missing: rosbag was still connecting. The
+/// unit tells since when it followed it.
+void put_in_missed(const std::vector<State>& states, std::vector<Command>& commands) {
+  const std::vector<Command> recorded = commands;
+  for (const State& s : states) {
+    if (!s.enabled || commanded(s.in_force, commands)) continue;
+    const auto next =
+        std::upper_bound(recorded.begin(), recorded.end(), s.in_force.t,
+                         [](double t, const Command& command) { return t < command.t; });
+    const bool repeated =
+        next != recorded.end() && next->t <= s.in_force.t + kRepeated && same(*next, s.in_force);
+    if (!repeated) continue;
+    const auto at =
+        std::upper_bound(commands.begin(), commands.end(), s.in_force.t,
+                         [](double t, const Command& command) { return t < command.t; });
+    commands.insert(at, s.in_force);
+  }
+}
+
 std::vector<Command> rows_of(const CommandSeries& series) {
   std::vector<Command> commands;
   for (std::size_t i = 0; i < series.reference.t.size(); ++i) {
@@ -166,6 +187,7 @@ CommandSeries followed_commands(const Dataset& recording, const std::string& mus
     }
   }
   put_in_stops(states, commands);
+  put_in_missed(states, commands);
   return series_of(commands);
 }
 

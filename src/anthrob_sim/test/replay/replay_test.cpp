@@ -256,6 +256,29 @@ TEST(Replay, LeavesOutCommandsThatWereRefused) {
   EXPECT_LT(session.replay_error(), 0.02);
 }
 
+/// As rosbag records commands that begin while it connects.
+void record_without_the_first(Session& session, double missing) {
+  session.run(0.3);
+  session.sim().command(0, ecu::Mode::kPosition, 3.0);
+  session.run(missing);
+  for (int i = 0; i < 5; ++i) {
+    session.command(ecu::Mode::kPosition, 3.0);
+    session.run(0.1);
+  }
+}
+
+TEST(Replay, BeginsARepeatedCommandWhereItsUnitDid) {
+  Session session;
+  record_without_the_first(session, 0.2);
+  EXPECT_LT(session.replay_error(), 0.02);
+}
+
+TEST(Replay, RefusesACommandThatComesMuchLater) {
+  Session session;
+  record_without_the_first(session, 0.7);
+  EXPECT_THROW(session.replay_error(), BadInput);
+}
+
 TEST(Replay, RefusesWhatNobodyCommanded) {
   Session session;
   session.command(ecu::Mode::kPosition, 1.0);
