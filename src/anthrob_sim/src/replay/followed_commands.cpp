@@ -16,8 +16,6 @@ namespace {
 constexpr double kHeard = 0.05;
 /// States of a cycle may show a command that came while they were on their way [s].
 constexpr double kAhead = 0.02;
-/// Commands that are repeated more seldom end by their time-out [s].
-constexpr double kRepeated = 0.5;
 
 struct Command {
   double t, mode, reference;
@@ -74,29 +72,42 @@ std::vector<State>::const_iterator from(const std::vector<State>& states, double
                           [](const State& s, double time) { return s.in_force.t < time; });
 }
 
-/// Whether a run of equal commands never came into force, though there was time to see it.
-bool refused(const Command& first, double next, const std::vector<State>& states) {
-  if (next < first.t + kHeard) return false;
+/// Whether a command never came into force, though there was time to see it before the next other.
+bool refused(const Command& command, double next, const std::vector<State>& states) {
+  if (next < command.t + kHeard) return false;
   bool seen_any = false;
-  for (auto s = from(states, first.t); s != states.end() && s->in_force.t <= first.t + kHeard;
+  for (auto s = from(states, command.t); s != states.end() && s->in_force.t <= command.t + kHeard;
        ++s) {
-    if (!s->enabled || same(s->in_force, first)) return false;
+    if (!s->enabled || same(s->in_force, command)) return false;
     seen_any = true;
   }
   return seen_any;
 }
 
+using Commands = std::vector<Command>::const_iterator;
+
+/// Those of a run of equal commands that a unit heard: it may miss the first ones while it
+/// connects.
+Commands first_heard(Commands first, Commands end, double next, const std::vector<State>& states) {
+  if (!refused(*first, next, states)) return first;
+  const auto last = from(states, next);
+  const auto shown = std::find_if(from(states, first->t), last, [&](const State& s) {
+    return s.enabled && same(s.in_force, *first);
+  });
+  if (shown == last) return end;
+  return std::upper_bound(first, end, shown->in_force.t,
+                          [](double t, const Command& command) { return t < command.t; });
+}
+
 void leave_out_refused(const std::vector<State>& states, std::vector<Command>& commands) {
   std::vector<Command> kept;
-  for (std::size_t i = 0; i < commands.size();) {
-    std::size_t next = i + 1;
-    while (next < commands.size() && same(commands[next], commands[i])) ++next;
-    const double end = next < commands.size() ? commands[next].t : HUGE_VAL;
-    if (!refused(commands[i], end, states)) {
-      kept.insert(kept.end(), commands.begin() + static_cast<long>(i),
-                  commands.begin() + static_cast<long>(next));
-    }
-    i = next;
+  const Commands all = commands.cend();
+  for (Commands first = commands.cbegin(); first != all;) {
+    const Commands end =
+        std::find_if(first, all, [&](const Command& c) { return !same(c, *first); });
+    const double next = end != all ? end->t : HUGE_VAL;
+    kept.insert(kept.end(), first_heard(first, end, next, states), end);
+    first = end;
   }
   commands = std::move(kept);
 }
@@ -135,22 +146,19 @@ bool commanded(const Command& in_force, const std::vector<Command>& commands) {
 }
 
 /// Of a command that is repeated, the first ones may be missing: rosbag was still connecting. The
-/// unit tells since when it followed it.
+/// unit tells since when it followed it, up to the first that was recorded.
 void put_in_missed(const std::vector<State>& states, std::vector<Command>& commands) {
-  const std::vector<Command> recorded = commands;
-  for (const State& s : states) {
-    if (!s.enabled || commanded(s.in_force, commands)) continue;
-    const auto next =
-        std::upper_bound(recorded.begin(), recorded.end(), s.in_force.t,
-                         [](double t, const Command& command) { return t < command.t; });
-    const bool repeated =
-        next != recorded.end() && next->t <= s.in_force.t + kRepeated && same(*next, s.in_force);
-    if (!repeated) continue;
-    const auto at =
-        std::upper_bound(commands.begin(), commands.end(), s.in_force.t,
-                         [](double t, const Command& command) { return t < command.t; });
-    commands.insert(at, s.in_force);
+  std::vector<Command> missed;
+  bool heard = false;  // whether the next state shows a command that was recorded
+  for (auto s = states.rbegin(); s != states.rend(); ++s) {
+    const bool recorded = s->enabled && commanded(s->in_force, commands);
+    const bool before = heard && s->enabled && same(s->in_force, std::prev(s)->in_force);
+    if (before && !recorded) missed.push_back(s->in_force);
+    heard = recorded || before;
   }
+  commands.insert(commands.end(), missed.begin(), missed.end());
+  std::stable_sort(commands.begin(), commands.end(),
+                   [](const Command& a, const Command& b) { return a.t < b.t; });
 }
 
 std::vector<Command> rows_of(const CommandSeries& series) {
