@@ -68,7 +68,8 @@ class FirstSteps(unittest.TestCase):
     def run_all(self, block):
         done = subprocess.run(['bash', '-e', '-c', '\n'.join(block)], cwd=self.folder, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, universal_newlines=True, timeout=120)
-        self.assertEqual(done.returncode, 0, done.stdout)
+        lines = done.stdout.splitlines()
+        self.assertEqual(done.returncode, 0, '\n'.join(lines[-1:] + lines))  # why it failed comes last; some see one line only
         return done.stdout
 
     def told(self, pattern):
