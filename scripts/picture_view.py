@@ -26,6 +26,8 @@ def view(robot):
                 display = line.split(":")[1].strip()
             if name in ("Show Names", "Show Axes"):
                 line = f"{key}: false\n"
+            elif name == "Theme":
+                line = f"{key}: light\n"
             elif name == "Background Color":
                 line = f"{key}: {BACKGROUND}\n"
             elif name == "Color" and display == "rviz/Grid":

@@ -42,15 +42,14 @@ void paint_sample(QPainter& painter, int left, int thickness, const QColor& colo
 
 }  // namespace
 
-QImage force_legend(double full_force) {
+QImage force_legend(double full_force, const Theme& theme) {
   QImage image(kWidth, kHeight, QImage::Format_ARGB32);
-  // A ground of its own, so that it can be read on a dark and on a light background.
-  image.fill(QColor(24, 26, 30, 200));
+  image.fill(theme.legend);  // so that it can be read over the robot
   QPainter painter(&image);
   QFont font("Sans");
   font.setPixelSize(kLetters);
   painter.setFont(font);
-  painter.setPen(Qt::white);
+  painter.setPen(theme.text);
   painter.drawText(QRect(kMargin, 0, kWidth, kScaleTop), Qt::AlignVCenter, "Force of tendons");
   paint_scale(painter, full_force);
   paint_sample(painter, kMargin, 6, to_qt(force_colour(std::nan(""))), "not measured");

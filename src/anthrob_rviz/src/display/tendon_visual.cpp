@@ -63,6 +63,9 @@ void TendonVisual::draw_name(const std::vector<Vec3>& line, const TendonStyle& s
   if (!label_) return;
   label_->setVisible(shown);
   if (!shown) return;
+  label_->setColor(Ogre::ColourValue(static_cast<float>(style.text.redF()),
+                                     static_cast<float>(style.text.greenF()),
+                                     static_cast<float>(style.text.blueF())));
   label_->setCharacterHeight(static_cast<float>(kLetterHeight * style.thickness));
   const Vec3 middle = middle_of(line);
   label_node_->setPosition(static_cast<float>(middle.x()), static_cast<float>(middle.y()),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QColor>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct TendonStyle {
   double thickness = 0.003;              ///< [m]
   double full_force = kFullColourForce;  ///< [N] where the scale of colours ends
   bool names = false;
+  QColor text = Qt::white;  ///< of names
 };
 
 /// One tendon in RViz's scene: its tube, its name, and what a selection of it tells.

@@ -2,7 +2,10 @@
 
 #include <OgreSceneNode.h>
 #include <rviz/display_context.h>
+#include <rviz/display_group.h>
 #include <rviz/frame_manager.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
 #include <rviz/properties/string_property.h>
@@ -15,6 +18,8 @@
 namespace anthrob {
 
 namespace {
+
+enum ThemeOption { kOwn, kDark, kLight };
 
 std::string next_legend_name() {
   static int count = 0;
@@ -40,6 +45,11 @@ TendonsDisplay::TendonsDisplay()
                                          this)),
       full_force_(new rviz::FloatProperty("Full colour [N]", static_cast<float>(kFullColourForce),
                                           "Force at which the scale of colours ends.", this)),
+      theme_(
+          new rviz::EnumProperty("Theme", "own",
+                                 "Colours of background, legend and names; own: the background is "
+                                 "that of the Global Options.",
+                                 this)),
       names_(new rviz::BoolProperty("Names", false, "Write the muscles' names.", this)),
       legend_shown_(new rviz::BoolProperty("Legend", true, "Show what the colours mean.", this)),
       fit_view_(new rviz::BoolProperty(
@@ -50,6 +60,11 @@ TendonsDisplay::TendonsDisplay()
           "TF Prefix", "", "As of the display RobotModel: before the links' names in tf.", this)) {
   thickness_->setMin(0.0f);
   full_force_->setMin(0.001f);
+  for (const auto& [name, option] :
+       {std::pair("own", kOwn), std::pair("dark", kDark), std::pair("light", kLight)}) {
+    theme_->addOption(name, option);
+  }
+  QObject::connect(theme_, &rviz::Property::changed, this, [this] { take_theme(); });
   QObject::connect(topic_, &rviz::Property::changed, this, [this] {
     if (isEnabled()) subscribe();
   });
@@ -59,6 +74,7 @@ TendonsDisplay::~TendonsDisplay() = default;
 
 void TendonsDisplay::onInitialize() {
   legend_ = std::make_unique<ScreenOverlay>(next_legend_name());
+  take_theme();
 }
 
 void TendonsDisplay::onEnable() {
@@ -159,6 +175,7 @@ void TendonsDisplay::draw(const PlacedTendons& placed, bool old) {
   style.thickness = thickness(placed);
   style.full_force = static_cast<double>(full_force_->getFloat());
   style.names = names_->getBool();
+  style.text = theme().text;
   for (std::size_t i = 0; i < visuals_.size(); ++i) {
     TendonFacts facts;
     facts.name = tendons_[i].name;
@@ -193,6 +210,17 @@ void TendonsDisplay::fit_view(const PlacedTendons& placed) {
   view_fitted_ = true;
 }
 
+Theme TendonsDisplay::theme() const {
+  return theme_->getOptionInt() == kLight ? light_theme() : dark_theme();
+}
+
+void TendonsDisplay::take_theme() {
+  legend_force_.reset();  // is painted anew
+  if (context_ == nullptr || theme_->getOptionInt() == kOwn) return;
+  rviz::Property* options = context_->getRootDisplayGroup()->subProp("Global Options");
+  options->subProp("Background Color")->setValue(theme().background);
+}
+
 void TendonsDisplay::show_legend() {
   if (!legend_shown_->getBool()) {
     legend_->hide();
@@ -201,7 +229,7 @@ void TendonsDisplay::show_legend() {
   }
   const double full = static_cast<double>(full_force_->getFloat());
   if (legend_force_ == full) return;
-  legend_->show(force_legend(full));
+  legend_->show(force_legend(full, theme()));
   legend_force_ = full;
 }
 

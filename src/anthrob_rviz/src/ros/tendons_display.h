@@ -10,10 +10,12 @@
 
 #include "display/screen_overlay.h"
 #include "display/tendon_visual.h"
+#include "display/theme.h"
 #include "tendon.h"
 #include "tendon_status.h"
 
 namespace rviz {
+class EnumProperty;
 class FloatProperty;
 class RosTopicProperty;
 class StringProperty;
@@ -51,11 +53,14 @@ class TendonsDisplay : public rviz::Display {
   void draw(const PlacedTendons& placed, bool old);
   double thickness(const PlacedTendons& placed);
   void fit_view(const PlacedTendons& placed);
+  Theme theme() const;
+  void take_theme();
   void show_legend();
   void show_status(const char* name, const StatusLine& line);
 
   rviz::RosTopicProperty* topic_;
   rviz::FloatProperty *thickness_, *full_force_;
+  rviz::EnumProperty* theme_;
   rviz::BoolProperty *names_, *legend_shown_, *fit_view_;
   rviz::StringProperty* tf_prefix_;
 
