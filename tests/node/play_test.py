@@ -10,9 +10,11 @@ import unittest
 import rosbag
 import rospy
 import rostest
-from anthrob_msgs.msg import MuscleCommand, MuscleStates, SphericalJointStates
+from anthrob_msgs.msg import MuscleCommand, MuscleStates, PlayerState, SphericalJointStates
+from anthrob_msgs.srv import Seek, SetRate
 from geometry_msgs.msg import Quaternion, Vector3
 from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 from waiting import wait_for
@@ -35,6 +37,12 @@ def write_recording(file):
                                    ('muscle_states', muscles), ('muscle_command', command)):
                 message.header.stamp = stamp
                 bag.write('/anthrob/' + topic, message, t=stamp)
+
+
+def turned_by(turned):
+    """[rad] from rest, of the last that was seen of the shoulder."""
+    a, b = turned[0].transform.rotation, turned[-1].transform.rotation
+    return 2.0 * math.acos(min(1.0, abs(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z)))
 
 
 class Play(unittest.TestCase):
@@ -68,17 +76,42 @@ class Play(unittest.TestCase):
         rospy.Subscriber('joint_states', JointState, lambda m: stamps.append(m.header.stamp))
         self.launch()
         wait_for(lambda: turned and drawn, 40, 'shoulder and tendons')
-
-        def turned_by():
-            """[rad] from rest, of the last that was seen of the shoulder."""
-            a, b = turned[0].transform.rotation, turned[-1].transform.rotation
-            return 2.0 * math.acos(min(1.0, abs(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z)))
-        wait_for(lambda: abs(turned_by() - 2.0 * HALF) < 1e-6, 10, 'the raised arm')
+        wait_for(lambda: abs(turned_by(turned) - 2.0 * HALF) < 1e-6, 10, 'the raised arm')
         self.assertEqual(len({marker.ns for marker in drawn[-1].markers}), 11)
         wait_for(lambda: any(b < a for a, b in zip(stamps, stamps[1:])), 20, 'the second time')
         drawn.clear()
         wait_for(lambda: drawn, 10, 'tendons once more')
         self.assertFalse(commanded)
+
+    def test_every_message_is_played_once(self):
+        played = []
+        rospy.Subscriber('joint_states', JointState, lambda m: played.append(m.header.stamp.to_sec()), queue_size=1000)
+        self.launch('loop:=false').communicate(timeout=60)
+        whole = [round(0.005 * i, 4) for i in range(400)]
+        self.assertGreater(len(played), 300)  # this node may connect late
+        self.assertEqual([round(t - 1000.0, 4) for t in played], whole[-len(played):])
+
+    def test_goes_to_any_place(self):
+        turned, states = [], []
+        rospy.Subscriber('/tf', TFMessage, lambda m: turned.extend(t for t in m.transforms if t.child_frame_id == 'humerus'))
+        rospy.Subscriber('player/state', PlayerState, states.append)
+        self.launch()
+        wait_for(lambda: turned and states, 40, 'shoulder and player')
+        self.assertEqual((states[-1].bag, round(states[-1].duration, 3)), (self.bag, 1.995))
+        call = {name: rospy.ServiceProxy('player/' + name, kind) for name, kind in (('pause', SetBool), ('seek', Seek), ('set_rate', SetRate))}
+        self.assertTrue(call['pause'](True).success)
+        for position, turn in (1.5, HALF), (0.5, 0.0), (1.9, HALF):  # back, too, though the clock stands
+            self.assertTrue(call['seek'](position).success)
+            wait_for(lambda: abs(turned_by(turned) - 2.0 * turn) < 1e-6, 10, 'the shoulder at %s s' % position)
+            self.assertTrue(states[-1].paused)
+        self.assertTrue(call['set_rate'](0.1).success)
+        wait_for(lambda: states[-1].rate == 0.1, 10, 'the rate')
+        self.assertFalse(call['set_rate'](0.0).success)
+        self.assertFalse(call['seek'](math.nan).success)
+
+    def test_a_bag_of_another_robot_is_refused(self):
+        said, _ = self.launch('robot:=two_muscle_rig', 'model:=I').communicate(timeout=60)
+        self.assertIn("is of the robot 'anthrob'; expected one of 'two_muscle_rig'", said)
 
     def test_a_robot_that_is_there_is_left_alone(self):
         states = rospy.Publisher('muscle_states', MuscleStates, queue_size=1)

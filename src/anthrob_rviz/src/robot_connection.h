@@ -8,6 +8,7 @@
 #include "muscle_groups.h"
 #include "muscle_reading.h"
 #include "muscle_row.h"
+#include "player_reading.h"
 #include "reference_limits.h"
 #include "timed_calls.h"
 
@@ -19,15 +20,17 @@ struct News {
   std::vector<Diagnosis> diagnostics;
   std::vector<CallResult> answers;
   std::vector<MuscleGroup> antagonists;  ///< once, soon after connect()
+  std::optional<PlayerReading> player;   ///< the newest, where a recording is played
 };
 
 /// A call of one of the robot's services, or of the tool that saves its gains: "save_gains".
 struct ServiceRequest {
   std::string service;           ///< in the robot's namespace: "sim/pause"
   double limit = 5.0;            ///< [s] of wall time
-  bool pause = false;            ///< of sim/pause
+  bool pause = false;            ///< of sim/pause and player/pause
   int steps = 1;                 ///< of sim/step
-  double factor = 1.0;           ///< of sim/set_rate
+  double factor = 1.0;           ///< of sim/set_rate and player/set_rate
+  double position = 0.0;         ///< of player/seek [s]
   std::string name = {};         ///< of sim/save and sim/restore; file of save_gains
   std::vector<Gain> gains = {};  ///< of gains: to be changed
 };

@@ -31,6 +31,10 @@ std::optional<MuscleReadings> readings_of(const anthrob_msgs::MuscleStates& mess
   return readings;
 }
 
+PlayerReading reading_of(const anthrob_msgs::PlayerState& message) {
+  return {message.bag, message.duration, message.position, message.rate, message.paused != 0};
+}
+
 Diagnosis diagnosis_of(const diagnostic_msgs::DiagnosticStatus& status) {
   Diagnosis diagnosis;
   diagnosis.name = status.name;

@@ -2,6 +2,7 @@
 
 #include <anthrob_msgs/MuscleCommand.h>
 #include <anthrob_msgs/MuscleStates.h>
+#include <anthrob_msgs/PlayerState.h>
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include <optional>
@@ -10,11 +11,13 @@
 #include "diagnostics.h"
 #include "muscle_reading.h"
 #include "muscle_row.h"
+#include "player_reading.h"
 
 namespace anthrob {
 
 /// None of a message whose lists have different lengths.
 std::optional<MuscleReadings> readings_of(const anthrob_msgs::MuscleStates& message);
+PlayerReading reading_of(const anthrob_msgs::PlayerState& message);
 Diagnosis diagnosis_of(const diagnostic_msgs::DiagnosticStatus& status);
 /// Without a stamp.
 anthrob_msgs::MuscleCommand command_of(const std::vector<Reference>& references);

@@ -4,6 +4,7 @@
 
 #include "panel/gains_panel.h"
 #include "panel/muscles_panel.h"
+#include "panel/play_panel.h"
 #include "panel/record_panel.h"
 #include "panel/robot_panel.h"
 #include "panel/scope_panel.h"
@@ -27,6 +28,9 @@ RecordPanel::RecordPanel()
     : RecordPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {
 }
 
+PlayPanel::PlayPanel()
+    : PlayPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {}
+
 ScopePanel::ScopePanel() : ScopePanel(scope_over_ros()) {}
 
 }  // namespace anthrob
@@ -35,5 +39,6 @@ PLUGINLIB_EXPORT_CLASS(anthrob::RobotPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::MusclesPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::GainsPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::RecordPanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(anthrob::PlayPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::ScopePanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::TendonsDisplay, rviz::Display)

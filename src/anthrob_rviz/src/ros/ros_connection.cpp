@@ -2,6 +2,7 @@
 
 #include <anthrob_msgs/MomentArms.h>
 #include <anthrob_msgs/MuscleCommand.h>
+#include <anthrob_msgs/PlayerState.h>
 #include <ros/service.h>
 #include <std_msgs/Empty.h>
 
@@ -77,6 +78,10 @@ void RosConnection::subscribe() {
         hear_muscles(message);
       },
       {}, ros::TransportHints().tcpNoDelay()));
+  subscribers_.push_back(subscribe_bounded<anthrob_msgs::PlayerState>(
+      nh_, "player/state", 1, [this](const anthrob_msgs::PlayerState& message, const std::string&) {
+        news_.player = reading_of(message);
+      }));
   arms_ = subscribe_bounded<anthrob_msgs::MomentArms>(
       nh_, "moment_arms", 1,
       [this](const anthrob_msgs::MomentArms& message, const std::string&) { hear_arms(message); });

@@ -1,6 +1,7 @@
 #include "ros/service_calls.h"
 
 #include <anthrob_msgs/Gains.h>
+#include <anthrob_msgs/Seek.h>
 #include <anthrob_msgs/SetRate.h>
 #include <anthrob_msgs/Snapshot.h>
 #include <anthrob_msgs/Step.h>
@@ -44,7 +45,7 @@ CallResult result_of_gains(const std::string& name, anthrob_msgs::Gains call) {
 
 TimedCalls::Call call_of(const std::string& name, const ServiceRequest& request) {
   const std::string& service = request.service;
-  if (service == "sim/pause") {
+  if (service == "sim/pause" || service == "player/pause") {
     std_srvs::SetBool pause;
     pause.request.data = request.pause;
     return [=] { return result_of(name, service, pause); };
@@ -54,10 +55,15 @@ TimedCalls::Call call_of(const std::string& name, const ServiceRequest& request)
     step.request.steps = static_cast<std::uint32_t>(request.steps);
     return [=] { return result_of(name, service, step); };
   }
-  if (service == "sim/set_rate") {
+  if (service == "sim/set_rate" || service == "player/set_rate") {
     anthrob_msgs::SetRate rate;
     rate.request.factor = request.factor;
     return [=] { return result_of(name, service, rate); };
+  }
+  if (service == "player/seek") {
+    anthrob_msgs::Seek seek;
+    seek.request.position = request.position;
+    return [=] { return result_of(name, service, seek); };
   }
   if (service == "sim/save" || service == "sim/restore") {
     anthrob_msgs::Snapshot snapshot;

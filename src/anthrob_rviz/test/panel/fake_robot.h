@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@ struct FakeRobot {
   std::vector<Diagnosis> diagnostics;
   std::vector<CallResult> answers;
   std::vector<MuscleGroup> antagonists;
+  std::optional<PlayerReading> player;
   int shouts = 0;
 
   /// Commands come from another thread.
@@ -50,6 +52,7 @@ class FakeConnection final : public RobotConnection {
     news.diagnostics = std::exchange(robot_->diagnostics, {});
     news.answers = std::exchange(robot_->answers, {});
     news.antagonists = std::exchange(robot_->antagonists, {});
+    news.player = robot_->player;
     return news;
   }
   void send(const std::vector<Reference>& references) override { robot_->receive(references); }
