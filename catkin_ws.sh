@@ -61,9 +61,10 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
   demo              simulate the arm as it rises, bends and returns; bag, figures and pictures (one of them moves) go to
                     build/demo/
   picture OUT.png [POSTURE...]
-                    a picture of the robot in postures of its demo_postures.yaml; none: as it starts
+                    a picture of the robot in postures of its demo_postures.yaml; none: as it starts; also hand:=true
   movie OUT.mp4|OUT.gif [POSTURE...]
-                    a moving picture of the robot between postures; both take robot:= and model:=
+                    a moving picture of the robot between postures, or of a recording by bag:=FILE; both take robot:= and
+                    model:=
   test [PACKAGE...] run all tests, or those of the named packages; the last line counts them
   bench             run the benchmarks, also of MuJoCo and OpenCV for comparison; writes build/bench.json
   study NAME        calibration: repeat chapter 8 of the thesis with virtual robots
@@ -266,13 +267,16 @@ demo() {
   (cd "$out" && ls -1 -- *.bag *.svg *.png *.gif && echo "recording/")
 }
 
-# Runs a script that looks at RViz on a virtual screen, which shows nothing else. Its arguments may have robot:= and model:=.
+# Runs a script that looks at RViz on a virtual screen, which shows nothing else. Its arguments may have robot:=, model:=,
+# hand:= and bag:=.
 on_virtual_screen() {
   local argument arguments=()
   for argument in "$@"; do
     case "$argument" in
       robot:=*) export ROBOT="${argument#*:=}" ;;
       model:=*) export MODEL="${argument#*:=}" ;;
+      hand:=*) export HAND="${argument#*:=}" ;;
+      bag:=*) export BAG="${argument#*:=}" ;;
       *) arguments+=("$argument") ;;
     esac
   done
@@ -280,7 +284,7 @@ on_virtual_screen() {
 }
 
 picture() {
-  [[ "${1:-}" == *.png ]] || refuse "picture: expected OUT.png [POSTURE...] [robot:=NAME] [model:=NAME]"
+  [[ "${1:-}" == *.png ]] || refuse "picture: expected OUT.png [POSTURE...] [robot:=NAME] [model:=NAME] [hand:=true]"
   extras
   build_if_changed
   on_virtual_screen scripts/picture_postures.sh "$@" || die "no picture was taken: see above"
@@ -295,7 +299,7 @@ movie() {
   local out="$1" argument shown=()
   shift
   for argument in "$@"; do
-    [[ "$argument" == *:=* ]] || shown+=("$argument")
+    [[ "$argument" == *:=* && "$argument" != bag:=* ]] || shown+=("$argument")
   done
   [ ${#shown[@]} -gt 0 ] || set -- rest abducted flexed diagonal "$@"  # those of the demo
   on_virtual_screen scripts/moving_picture.py "$out" "$@" || die "no movie was made: see above"
