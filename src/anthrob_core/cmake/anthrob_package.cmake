@@ -14,6 +14,7 @@ macro(anthrob_package)
   # Several sources are compiled as one: most of the time goes into headers. For work on few files: -DCMAKE_UNITY_BUILD=OFF.
   if(NOT DEFINED CMAKE_UNITY_BUILD)
     set(CMAKE_UNITY_BUILD ON)
+    set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
   endif()
   # Every library names all that it needs.
   add_link_options(-Wl,--no-undefined)
