@@ -19,7 +19,7 @@ NODES = {
     'anthrob_sim': ['anthrob_simulator', 'anthrob_tendons'],
     'anthrob_driver': ['anthrob_driver'],
     'anthrob_control': ['anthrob_computed_force', 'anthrob_hold_posture', 'anthrob_posture_player'],
-    'anthrob_recorder': ['anthrob_recorder'],
+    'anthrob_recorder': ['anthrob_player', 'anthrob_recorder'],
     'anthrob_mocap': ['anthrob_mocap', 'anthrob_virtual_cameras'],
     'anthrob_rviz': ['anthrob_touch'],
 }
@@ -142,6 +142,10 @@ class Parameters(unittest.TestCase):
         self.check('anthrob_recorder', 'anthrob_recorder',
                    [model, ('protocol', os.path.join(CONFIG, 'record_tier1_equilibria.yaml')), ('out', '/nowhere')],
                    [('out', 'relative'), ('lock_step', '1'), ('steps', 'many'), ('enable', '1'), ('approach_speed', '0')])
+
+    def test_player_of_recordings(self):
+        self.check('anthrob_recorder', 'anthrob_player', [('bag', '/nowhere/run.bag')],
+                   [('rate', 'fast'), ('rate', '0.0'), ('rate', '.nan'), ('loop', '1'), ('bag', '7')])
 
     def test_player(self):
         self.check('anthrob_control', 'anthrob_posture_player',
