@@ -229,6 +229,7 @@ class Records {
 }  // namespace
 
 void check_bag_records(const std::string& file) {
+  if (!std::filesystem::exists(file)) throw BadInput(file + ": no such bag");
   Records(file).check();
 }
 

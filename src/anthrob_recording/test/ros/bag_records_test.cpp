@@ -86,6 +86,15 @@ TEST_F(DamagedBag, AsItWasIsAccepted) {
   }
 }
 
+TEST(BagRecords, OfNoFileAreRefused) {
+  try {
+    check_bag_records("/nowhere/run.bag");
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_STREQ(error.what(), "/nowhere/run.bag: no such bag");
+  }
+}
+
 TEST_F(DamagedBag, ThatIsCutOffIsRefused) {
   for (const std::size_t length : {5000u, 6000u, 7001u}) {
     ASSERT_LT(length, bytes_.size());
