@@ -245,7 +245,7 @@ void PlotArea::fill(Pane& pane, const PlotContents& contents) {
 void PlotArea::fill_line(Line& line, SampleSpan samples, double origin, Nanoseconds zero) {
   const Nanoseconds begin = zero + nanoseconds_in(range_.begin + origin),
                     end = zero + nanoseconds_in(range_.end + origin);
-  const std::vector<Sample> drawn = decimated(samples, begin, end, columns());
+  const std::vector<Sample> drawn = decimated(samples, begin, end, columns(line));
   QVector<QCPGraphData> points;
   points.reserve(static_cast<int>(drawn.size()));
   for (const Sample& sample : drawn) {
@@ -283,8 +283,12 @@ void PlotArea::fit(Pane& pane) const {
   pane.rect->axis(QCPAxis::atLeft)->setRange(least - room, greatest + room);
 }
 
-int PlotArea::columns() const {
-  return std::clamp(plot_->width(), 200, 4000);
+/// As many as the plot has pixels; half as many where so many lines lie upon each other that nobody
+/// sees the difference.
+int PlotArea::columns(const Line& line) const {
+  const QCPAxisRect* rect = line.graph->keyAxis()->axisRect();
+  const int width = rect->width() > 0 ? rect->width() : plot_->width();  // before it is laid out
+  return std::clamp(line.graph->antialiased() ? width : width / 2, 200, 4000);
 }
 
 void PlotArea::resizeEvent(QResizeEvent* event) {

@@ -106,7 +106,7 @@ class PlotArea final : public QWidget {
   void press(QMouseEvent* event);
   void move(QMouseEvent* event);
   void release();
-  int columns() const;
+  int columns(const Line& line) const;
 
   QCustomPlot* plot_;
   QCPMarginGroup* margins_;
