@@ -32,6 +32,7 @@ MOVE_FRAMES, HOLD_FRAMES = 16, 6  # a posture: 1.6 s to it, 0.6 s there
 DRAWN = 0.3  # [s] of wall time until RViz has drawn what was published
 CROP, WIDTH, COLOURS = "600x640+310+175", 360, 32
 WHOLE = "1280x840+0+30"  # of robots whose size is not known here
+VIEW = 60  # [s] until RViz must show something
 LOADING = 5  # [s] until RViz has loaded meshes
 
 
@@ -74,7 +75,6 @@ class Simulated:
             refuse(reply.message)
         self.now = reply.stamp
 
-
     def frames(self):
         """Yields once the robot stands where the next frame shows it."""
         self.hold(self.postures[0])
@@ -112,9 +112,12 @@ def motion(postures):
 
 
 def wait_for_view():
-    """RViz begins with a picture of its own."""
+    """RViz begins with a picture of its own, and may die."""
+    end = time.time() + VIEW
     while b"#F6F7F9" not in subprocess.run(["import", "-window", "root", "-crop", "1x1+1250+200", "-depth", "8", "txt:-"],
                                            stdout=subprocess.PIPE).stdout.upper():
+        if time.time() > end:
+            refuse(f"RViz shows no view after {VIEW} s")
         time.sleep(0.5)
     time.sleep(LOADING)
 
