@@ -12,6 +12,7 @@ import rosbag
 import rostest
 import yaml
 from free_port import free_port
+from waiting import wait_for
 
 PROTOCOL = '''
 protocol: %(protocol)s
@@ -75,6 +76,36 @@ class Recorder(unittest.TestCase):
         self.assertTrue(common[0] == common[1], 'the runs differ')
         self.assertGreater(len(common[0]), 0.98 * max(len(a), len(b)))
 
+    def run_tool(self, *command):
+        done = subprocess.run(['rosrun', *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def check_serves(self, bag):
+        """What is recorded can be converted forth and back, replayed, and played under the robot's names."""
+        folder, back, again = self.path('folder'), self.path('back.bag'), self.path('again')
+        self.run_tool('anthrob_recording', 'anthrob_convert', bag, folder)
+        self.run_tool('anthrob_recording', 'anthrob_convert', folder, back)
+        self.assertEqual({topic for topic, _, _ in self.messages(back)}, {topic for topic, _, _ in self.messages(bag)})
+        model = os.path.join(os.path.dirname(self.values['postures']), 'model_II_tier1.yaml')
+        self.run_tool('anthrob_sim', 'anthrob_replay', '--model', model, '--in', folder, '--out', again)
+        with open(os.path.join(again, 'meta.yaml')) as file:
+            self.assertEqual(yaml.safe_load(file)['robot'], 'anthrob')
+        environment = dict(os.environ, ROS_MASTER_URI='http://localhost:' + self.port)
+        play = subprocess.Popen(['roslaunch', '-p', self.port, 'anthrob_bringup', 'play.launch', 'bag:=' + back, 'model:=II_tier1',
+                                 'rviz:=false'], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+        def is_heard(name):  # an error as long as there is no master
+            return not subprocess.run(['timeout', '20', 'rostopic', 'echo', '-n', '1', '/anthrob/' + name], env=environment,
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+
+        try:
+            for name in 'joint_states', 'muscle_states':
+                wait_for(lambda: is_heard(name), 60, name)
+        finally:
+            play.send_signal(signal.SIGINT)
+            said = play.communicate(timeout=60)[0]
+        self.assertNotIn('has died', said)
+
     def test_interrupted_and_gone_on_with(self):
         whole, parts = self.path('whole'), self.path('parts')
         output = self.record(whole)
@@ -91,6 +122,7 @@ class Recorder(unittest.TestCase):
             meta = yaml.safe_load(file)
         self.assertEqual((meta['kind'], meta['posture'], meta['from']), ('equilibrium', 'E7', 'E0'))
         self.assertEqual(len(meta['sample']['position']), 8)
+        self.check_serves(os.path.join(whole, 'E7_run1.bag'))
 
         process = self.start(parts)
         end = time.time() + 60
