@@ -66,10 +66,14 @@ if grep -qw amx_tile /proc/cpuinfo; then
   cc -shared -fPIC -O1 -o "$xstate" "$(dirname "$0")/uml_xstate.c" -ldl || { rm -f "$xstate"; xstate=; }
 fi
 
+# Ahead of all else on this machine, where that is allowed: an emulated robot that has to wait looks dead.
+ahead=()
+! chrt --fifo 1 true 2>/dev/null || ahead=(chrt --fifo 1)
+
 # In a process group of its own and in the background, so that a signal gets through and ends all of it.
 exec 3> >(sed -u 's/\r//g; /^Halting\.$/d; /reboot: System halted$/d')
 TMPDIR=/tmp LD_PRELOAD="$xstate" \
-  setsid linux.uml mem="${ANTHROB_VCAN_MEMORY:-768M}" rootfstype=hostfs rootflags=/ rw "init=$script" \
+  setsid "${ahead[@]}" linux.uml mem="${ANTHROB_VCAN_MEMORY:-768M}" rootfstype=hostfs rootflags=/ rw "init=$script" \
   con=null con0=null,fd:1 quiet loglevel=0 </dev/null 2>"$out/.kernel" >&3 &
 uml=$!
 trap 'kill -KILL -- -$uml 2>/dev/null; rm -f "$script" ${xstate:+"$xstate"}' EXIT
