@@ -88,7 +88,9 @@ const char kMeta[] = "robot: two_muscle_rig\nmodel: I\nkind: trajectory\nrate: 1
 const char kForeignMap[] =
     "time: {column: time, scale: 0.001}\nrobot: two_muscle_rig\nseparator: ';'\ncolumns:\n"
     "  - {from: angle, to: elbow/position, scale: 0.0174532925}\n"
-    "  - {from: pull, to: flexor/force, scale: 9.81}\n";
+    "  - {from: pull, to: flexor/force, scale: 9.81}\n"
+    "  - {from: {derivative: {clip: angle, low: 0}, over: 0.06}, to: elbow/velocity}\n"
+    "split: {train: [0, 0.025]}\n";
 const char kForeignTable[] = "time;angle;pull\n0;10.5;1\n10;11.5;2\n20;12.5;\n30;13;3\n";
 
 const char kCamera[] =

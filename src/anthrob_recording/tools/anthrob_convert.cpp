@@ -29,6 +29,28 @@ void keep_inputs(const anthrob::Dataset& made, const std::string& out,
   anthrob::require_kept(out, written, read);
 }
 
+/// CSV files of another program, as one dataset folder or, split, as one for each piece.
+void convert_foreign(const std::string& in, const std::string& map, const std::string& out) {
+  const anthrob::ForeignColumns columns = anthrob::ForeignColumns::load(map);
+  const anthrob::Dataset whole = anthrob::read_foreign_csv(in, columns);
+  std::vector<std::string> inputs = {map};
+  for (const anthrob::ForeignStream& stream : columns.streams) {
+    inputs.push_back(stream.file.empty() ? in : (std::filesystem::path(in) / stream.file).string());
+  }
+  std::vector<std::pair<std::string, anthrob::Dataset>> made;
+  for (const anthrob::Piece& piece : columns.split) {
+    made.emplace_back((std::filesystem::path(out) / piece.name).string(),
+                      anthrob::cut(whole, piece));
+  }
+  if (made.empty()) made.emplace_back(out, whole);
+  for (const auto& [folder, data] : made) keep_inputs(data, folder, inputs);
+  for (const auto& [folder, data] : made) data.require_place(folder);
+  for (const auto& [folder, data] : made) {
+    data.save(folder);
+    say_written(folder, data);
+  }
+}
+
 /// The same of a bag, whose description is written beside it.
 void keep_folder(const std::string& in, const std::filesystem::path& bag) {
   const std::string described = bag.stem().string() + ".yaml";
@@ -43,19 +65,16 @@ int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
       "Converts a bag to a dataset folder or back; the bag is the one that ends in .bag. With "
-      "--columns, converts a CSV file of another program to a dataset folder.",
+      "--columns, converts CSV files of another program to dataset folders.",
       "anthrob_convert");
   std::string in, out, columns;
-  app.add_option("IN", in, "bag, dataset folder, or CSV file")->required();
+  app.add_option("IN", in, "bag, dataset folder, CSV file, or folder of CSV files")->required();
   app.add_option("OUT", out, "dataset folder or bag")->required();
   app.add_option("--columns", columns,
                  "YAML file that says what the columns of the CSV file are (docs/files.md)");
   return tool::run(app, argc, argv, [&]() -> int {
     if (!columns.empty()) {
-      const Dataset made = read_foreign_csv(in, ForeignColumns::load(columns));
-      keep_inputs(made, out, {in, columns});
-      made.save(out);
-      say_written(out, made);
+      convert_foreign(in, columns, out);
       return tool::kDone;
     }
     const auto is_bag = [](const std::string& path) {

@@ -1,9 +1,11 @@
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
 #include "anthrob_recording/quantities.h"
 #include "foreign/foreign_csv.h"
 
@@ -38,10 +40,8 @@ std::string load_table(const ConfigNode& node, const std::string& otherwise) {
   return table;
 }
 
-ForeignColumns::Entry load_entry(const ConfigNode& node) {
-  ForeignColumns::Entry entry;
-  entry.from = node.text("from");
-  entry.to = node.text("to");
+ForeignStream::Entry load_entry(const ConfigNode& node) {
+  ForeignStream::Entry entry{ForeignValue::load(node.at("from")), node.text("to")};
   const Column named{entry.to, {}, {}};
   if (entry.to.find('/') == std::string::npos || !is_known_quantity(named.quantity()) ||
       holds_words(named.quantity())) {
@@ -59,8 +59,8 @@ bool is_order(const std::string& text) {
          text[0] != text[1] && text[1] != text[2];
 }
 
-ForeignColumns::Orientation load_orientation(const ConfigNode& node) {
-  ForeignColumns::Orientation orientation;
+ForeignStream::Orientation load_orientation(const ConfigNode& node) {
+  ForeignStream::Orientation orientation;
   orientation.joint = node.text("to");
   if (orientation.joint.find('/') != std::string::npos) {
     node.at("to").fail_expected("the name of a ball joint");
@@ -69,7 +69,7 @@ ForeignColumns::Orientation load_orientation(const ConfigNode& node) {
   const ConfigNode angles = node.at(euler ? "euler" : "rotation_vector");
   const std::vector<ConfigNode> from = angles.at("from").items();
   if (from.size() != 3) angles.at("from").fail("expected three columns");
-  for (std::size_t i = 0; i < 3; ++i) orientation.from[i] = from[i].as_text();
+  for (const ConfigNode& item : from) orientation.from.push_back(ForeignValue::load(item));
   if (euler) {
     orientation.order = angles.text("order");
     if (!is_order(orientation.order)) {
@@ -93,16 +93,18 @@ int mode_of(const ConfigNode& node) {
 }
 
 /// Gives references their modes, one for all or by muscle.
-void load_modes(const ConfigNode& node, std::vector<ForeignColumns::Entry>& entries) {
+void load_modes(const ConfigNode& node, std::vector<ForeignStream>& streams) {
   const auto give = [&](const ConfigNode& word, const std::string& muscle) {
     const int mode = mode_of(word);
     bool any = false;
-    for (ForeignColumns::Entry& entry : entries) {
-      const Column named{entry.to, {}, {}};
-      if (named.quantity() != "reference") continue;
-      if (!muscle.empty() && named.owner() != muscle) continue;
-      entry.mode = mode;
-      any = true;
+    for (ForeignStream& stream : streams) {
+      for (ForeignStream::Entry& entry : stream.entries) {
+        const Column named{entry.to, {}, {}};
+        if (named.quantity() != "reference") continue;
+        if (!muscle.empty() && named.owner() != muscle) continue;
+        entry.mode = mode;
+        any = true;
+      }
     }
     if (!any) word.fail("no column has to: " + (muscle.empty() ? "MUSCLE" : muscle) + "/reference");
   };
@@ -112,18 +114,138 @@ void load_modes(const ConfigNode& node, std::vector<ForeignColumns::Entry>& entr
 
 /// Chooses the tables that are not given, by whether the list has a quantity of muscles under that
 /// name.
-void choose_tables(std::vector<ForeignColumns::Entry>& entries) {
+void choose_tables(std::vector<ForeignStream>& streams) {
   std::set<std::string> muscles;
-  for (const ForeignColumns::Entry& entry : entries) {
-    const Column named{entry.to, {}, {}};
-    if (is_of_muscles(named.quantity())) muscles.insert(named.owner());
-  }
-  for (ForeignColumns::Entry& entry : entries) {
-    const Column named{entry.to, {}, {}};
-    if (entry.table.empty()) {
-      entry.table = table_of(named.quantity(), muscles.count(named.owner()) > 0);
+  for (const ForeignStream& stream : streams) {
+    for (const ForeignStream::Entry& entry : stream.entries) {
+      const Column named{entry.to, {}, {}};
+      if (is_of_muscles(named.quantity())) muscles.insert(named.owner());
     }
   }
+  for (ForeignStream& stream : streams) {
+    for (ForeignStream::Entry& entry : stream.entries) {
+      const Column named{entry.to, {}, {}};
+      if (entry.table.empty()) {
+        entry.table = table_of(named.quantity(), muscles.count(named.owner()) > 0);
+      }
+    }
+  }
+}
+
+/// Streams keep their clocks: a table that two of them would share becomes one for each,
+/// joints_encoder and joints_torque.
+void part_tables(std::vector<ForeignStream>& streams) {
+  std::map<std::string, std::set<std::string>> users;
+  const auto each = [&](const auto& use) {
+    for (ForeignStream& stream : streams) {
+      for (ForeignStream::Entry& entry : stream.entries) use(stream, entry.table);
+      for (ForeignStream::Orientation& joint : stream.orientations) use(stream, joint.table);
+    }
+  };
+  each([&](const ForeignStream& stream, std::string& table) { users[table].insert(stream.name); });
+  each([&](const ForeignStream& stream, std::string& table) {
+    if (users[table].size() > 1) table += "_" + stream.name;
+  });
+}
+
+char load_character(const ConfigNode& node, const std::string& key, char otherwise) {
+  const std::string text = node.text_or(key, std::string(1, otherwise));
+  if (text.size() != 1) node.at(key).fail_expected("one character");
+  return text[0];
+}
+
+ForeignFormat load_format(const ConfigNode& node) {
+  ForeignFormat format;
+  format.map = node.file();
+  format.separator = load_character(node, "separator", format.separator);
+  format.decimal = load_character(node, "decimal", format.decimal);
+  if (format.decimal != '.' && format.decimal != ',') {
+    node.at("decimal").fail_expected("\".\" or \",\"");
+  }
+  if (format.decimal == format.separator) {
+    node.at("decimal").fail_expected("another character than the separator");
+  }
+  if (node.has("header")) format.header = node.at("header").as_integer(0, 100000);
+  if (node.has("skip")) format.skip = node.at("skip").as_integer(0, 100000);
+  if (node.has("time") && node.has("rate")) {
+    node.at("rate").fail("beside 'time': expected only one of them");
+  }
+  if (node.has("time")) {
+    const ConfigNode time = node.at("time");
+    format.time = load_foreign_column(time);
+    format.time_scale = time.number_or("scale", 1.0, Bounds::positive(), "s");
+    format.time_offset = time.number_or("offset", 0.0, Bounds::any(), "s");
+  } else if (!node.has("rate")) {
+    node.fail("expected the key 'time' or, if there is no column of times, 'rate' [Hz]");
+  } else {
+    format.rate = node.number("rate", Bounds::positive(), "Hz");
+  }
+  return format;
+}
+
+/// @param seen gets what the stream measures, which no other may
+ForeignStream load_stream(const ConfigNode& node, std::set<std::string>& seen) {
+  ForeignStream stream;
+  stream.format = load_format(node);
+  const auto refuse_twice = [&](const ConfigNode& item, const std::string& to) {
+    if (!seen.insert(to).second) item.at("to").fail("used twice; expected each quantity once");
+  };
+  for (const ConfigNode& item : node.at("columns").items()) {
+    if (item.has("euler") || item.has("rotation_vector")) {
+      stream.orientations.push_back(load_orientation(item));
+      for (const char* part : {"/w", "/x", "/y", "/z"}) {
+        refuse_twice(item, stream.orientations.back().joint + part);
+      }
+    } else {
+      stream.entries.push_back(load_entry(item));
+      refuse_twice(item, stream.entries.back().to);
+    }
+  }
+  if (stream.entries.empty() && stream.orientations.empty()) {
+    node.at("columns").fail_expected("at least one column");
+  }
+  return stream;
+}
+
+std::vector<ForeignStream> load_streams(const ConfigNode& node) {
+  std::set<std::string> seen;
+  if (!node.has("streams")) return {load_stream(node, seen)};
+  for (const char* key : {"time", "rate", "columns", "separator", "decimal", "header", "skip"}) {
+    if (node.has(key)) node.at(key).fail("beside 'streams': expected it in each of them");
+  }
+  std::vector<ForeignStream> streams;
+  for (const auto& [name, part] : node.at("streams").entries()) {
+    if (!is_snake_case(name)) part.fail("expected a lower-case name of letters, digits and _");
+    streams.push_back(load_stream(part, seen));
+    streams.back().name = name;
+    streams.back().file = part.text("file");
+  }
+  if (streams.empty()) node.at("streams").fail("expected at least one stream");
+  return streams;
+}
+
+/// When a push ends is told by a row without it, which a time base does not have.
+void refuse_pushes(const ConfigNode& rows, const std::vector<ForeignStream>& streams) {
+  for (const ForeignStream& stream : streams) {
+    for (const ForeignStream::Entry& entry : stream.entries) {
+      if (!is_push_quantity(Column{entry.to, {}, {}}.quantity())) continue;
+      rows.fail("beside " + entry.to + ": expected pushes with times of their own, without rows");
+    }
+  }
+}
+
+std::vector<Piece> load_split(const ConfigNode& node) {
+  std::vector<Piece> pieces;
+  for (const auto& [name, interval] : node.entries()) {
+    if (!is_snake_case(name)) interval.fail("expected a lower-case name of letters, digits and _");
+    const std::vector<double> ends = interval.as_numbers(2, "s");
+    if (ends[0] < 0.0 || ends[0] >= ends[1]) {
+      interval.fail("expected [from, to] in seconds since the first row, from below to");
+    }
+    pieces.push_back({name, ends[0], ends[1]});
+  }
+  if (pieces.empty()) node.fail("expected {name: [from, to], ...}");
+  return pieces;
 }
 
 }  // namespace
@@ -142,39 +264,18 @@ ForeignColumns ForeignColumns::load(const std::string& file) {
       node.number_or("settle_s", columns.meta.settle_s, Bounds::nonnegative(), "s");
   if (node.has("start")) columns.meta.load_start_reference(node.at("start"));
   if (node.has("notes")) columns.meta.other["notes"] = node.at("notes").to_yaml();
-  const std::string separator = node.text_or("separator", ",");
-  if (separator.size() != 1) node.at("separator").fail_expected("one character");
-  columns.separator = separator[0];
-  if (node.has("time") && node.has("rate")) {
-    node.at("rate").fail("beside 'time': expected only one of them");
-  }
-  if (node.has("time")) {
-    columns.time = node.at("time").text("column");
-    columns.time_scale = node.at("time").number_or("scale", 1.0, Bounds::positive(), "s");
-  } else if (!node.has("rate")) {
-    node.fail("expected the key 'time' or, if there is no column of times, 'rate' [Hz]");
+  columns.streams = load_streams(node);
+  if (columns.streams.size() == 1) columns.meta.rate = columns.streams.front().format.rate;
+  choose_tables(columns.streams);
+  if (node.has("rows")) {
+    columns.rows = node.number("rows", Bounds::between(1e-3, 1e6), "Hz");
+    columns.meta.rate = columns.rows;
+    refuse_pushes(node.at("rows"), columns.streams);
   } else {
-    columns.rate = node.number("rate", Bounds::positive(), "Hz");
-    columns.meta.rate = columns.rate;
+    part_tables(columns.streams);
   }
-  std::set<std::string> seen;
-  const auto refuse_twice = [&](const ConfigNode& item, const std::string& to) {
-    if (!seen.insert(to).second) item.at("to").fail("used twice; expected each quantity once");
-  };
-  for (const ConfigNode& item : node.at("columns").items()) {
-    if (item.has("euler") || item.has("rotation_vector")) {
-      columns.orientations.push_back(load_orientation(item));
-      for (const char* part : {"/w", "/x", "/y", "/z"}) {
-        refuse_twice(item, columns.orientations.back().joint + part);
-      }
-    } else {
-      columns.entries.push_back(load_entry(item));
-      refuse_twice(item, columns.entries.back().to);
-    }
-  }
-  if (seen.empty()) node.at("columns").fail_expected("at least one column");
-  choose_tables(columns.entries);
-  if (node.has("mode")) load_modes(node.at("mode"), columns.entries);
+  if (node.has("mode")) load_modes(node.at("mode"), columns.streams);
+  if (node.has("split")) columns.split = load_split(node.at("split"));
   node.refuse_unknown_keys();
   return columns;
 }

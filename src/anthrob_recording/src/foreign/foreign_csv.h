@@ -1,40 +1,48 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "anthrob_recording/dataset.h"
+#include "foreign/foreign_sheet.h"
+#include "foreign/foreign_value.h"
+#include "foreign/pieces.h"
 
 namespace anthrob {
 
-/// Meaning of the columns of a CSV file of another program: the file MAP.yaml of
-/// `anthrob_convert --columns MAP.yaml FILE.csv DIR`.
-struct ForeignColumns {
+/// A CSV file of another program, with a clock of its own.
+struct ForeignStream {
   struct Entry {
-    std::string from;                  ///< as in the file's header
+    ForeignValue from;                 ///< what is taken or made of the file's columns
     std::string to;                    ///< `<joint>/position`, ...
-    double scale = 1.0, offset = 0.0;  ///< value = scale * cell + offset
-    std::string table;                 ///< file of the dataset folder it goes to
-    std::optional<int> mode;           ///< of a reference, if given
+    double scale = 1.0, offset = 0.0;  ///< value = scale * from + offset
+    std::string table = {};            ///< file of the dataset folder it goes to
+    std::optional<int> mode = {};      ///< of a reference, if given
   };
   /// A ball joint's orientation from three columns.
   struct Orientation {
     std::string joint;
-    std::array<std::string, 3> from;  ///< as in the file's header
-    std::string order;                ///< of Euler angles, "xyz"; empty: a rotation vector
-    double unit = 1.0;                ///< [rad] of the columns
+    std::vector<ForeignValue> from;  ///< three
+    std::string order;               ///< of Euler angles, "xyz"; empty: a rotation vector
+    double unit = 1.0;               ///< [rad] of the columns
     std::string table;
   };
-  std::string file;         ///< of the map, for messages
-  std::string time;         ///< column of the time; empty: rows are evenly spaced
-  double time_scale = 1.0;  ///< seconds per unit of that column
-  double rate = 0.0;        ///< [Hz] without a time column
-  char separator = ',';
+  std::string name;  ///< among the streams; empty: the only one
+  std::string file;  ///< in the folder that is converted; empty: the file that is converted
+  ForeignFormat format;
   std::vector<Entry> entries;
   std::vector<Orientation> orientations;
+};
+
+/// Meaning of the columns of CSV files of another program: the file MAP.yaml of
+/// `anthrob_convert --columns MAP.yaml FILE.csv DIR`.
+struct ForeignColumns {
+  std::string file;  ///< of the map, for messages
+  std::vector<ForeignStream> streams;
+  double rows = 0.0;         ///< [Hz] of the time base of all streams; 0: each keeps its own
+  std::vector<Piece> split;  ///< what becomes data sets of their own; empty: the whole
   DatasetMeta meta;
 
   /// @throws BadInput
@@ -48,8 +56,10 @@ Eigen::Quaterniond from_euler(const std::string& order, const Eigen::Vector3d& a
 /// @param rotation axis times angle [rad]   @return unit, w >= 0
 Eigen::Quaterniond from_rotation_vector(const Eigen::Vector3d& rotation);
 
-/// Reads a CSV file of another program; empty cells count as not measured.
+/// Reads CSV files of another program; empty cells count as not measured. The whole recording, not
+/// split.
+/// @param path the file, or the folder of the files that `streams` names
 /// @throws BadInput naming file, line and column
-Dataset read_foreign_csv(const std::string& file, const ForeignColumns& columns);
+Dataset read_foreign_csv(const std::string& path, const ForeignColumns& columns);
 
 }  // namespace anthrob

@@ -221,11 +221,11 @@ TEST_F(ForeignCsv, TextOfOtherProgramsIsRefusedWithTheReason) {
   EXPECT_NE(error(kMap, old_mac).find("data.csv:1: lines end with CR alone, as on old Macs"),
             std::string::npos);
   EXPECT_NE(error(kMap, utf16).find("data.csv:1: not text in UTF-8"), std::string::npos);
-  EXPECT_NE(error(kMap, "t [ms],\"y\n[mm]\",u\n0,1,2\n1,2,3\n").find(
-                "data.csv:1: a quote that has no end in its line"),
+  EXPECT_NE(error(kMap, "t [ms],\"y\n[mm]\",u\n0,1,2\n1,2,3\n")
+                .find("data.csv:1: a quote that has no end in its line"),
             std::string::npos);
-  EXPECT_NE(error(kMap, "t [ms],y [mm],u\n0,\"1,2\n1,2,3\n").find(
-                "data.csv:2: a quote that has no end in its line"),
+  EXPECT_NE(error(kMap, "t [ms],y [mm],u\n0,\"1,2\n1,2,3\n")
+                .find("data.csv:2: a quote that has no end in its line"),
             std::string::npos);
   // Those of Windows are read.
   EXPECT_EQ(error(kMap, "t [ms],y [mm],u\r\n0,1,2\r\n1,2,3\r\n"), "no error");
@@ -264,6 +264,111 @@ TEST_F(ForeignCsv, WhatIsWrongIsSaidInOneLine) {
         << table;
   }
   EXPECT_NE(error("robot: r\nrate: 1\ncolums: []\n", "u\n1\n").find("columns"), std::string::npos);
+}
+
+const std::string kDriveMap =
+    "robot: screw\nseparator: \";\"\nheader: 3\nskip: 1\n"
+    "time: {place: 1, scale: 0.001}\n"
+    "columns:\n"
+    "  - {from: Velocity, to: screw/velocity, scale: 0.1}\n"
+    "  - {from: {integral: {column: Velocity, scale: 0.1}}, to: screw/position}\n"
+    "  - {from: \"Torque, averaged\", to: screw/effort, scale: 9.84e-5}\n";
+const std::string kDriveData =
+    "Date:;2020-07-08;\"Firmware:;0x0120\"\n\"Sampling period:\";40.000\n"
+    ";Velocity;\"Torque, averaged\"\nms;rpm;%\n0.000;0;0.0\n40.000;10;-25.5\n80.000;30;1\n";
+
+TEST_F(ForeignCsv, FilesAsProgramsOfDrivesWriteThem) {
+  const Dataset dataset = read(kDriveMap, kDriveData);
+  EXPECT_EQ(dataset.series("screw/velocity").values, (std::vector<double>{0.0, 1.0, 3.0}));
+  const Series position = dataset.series("screw/position");
+  EXPECT_EQ(position.t, (std::vector<double>{0.0, 0.04, 0.08}));
+  EXPECT_NEAR(position.values[2], 0.02 * 1.0 + 0.02 * 4.0, 1e-15);
+  EXPECT_EQ(dataset.series("screw/effort").values[1], 9.84e-5 * -25.5);
+
+  const auto expect = [&](const std::string& from, const std::string& to, const std::string& said) {
+    std::string map = kDriveMap;
+    map.replace(map.find(from), from.size(), to);
+    EXPECT_NE(error(map, kDriveData).find(said), std::string::npos) << error(map, kDriveData);
+  };
+  expect("header: 3\n", "", "data.csv:1, but in line 3; expected header: 3?");
+  expect("header: 3", "header: 300", "has 7 lines; expected one that names columns");
+  expect("skip: 1\n", "", "data.csv:4: column 1: 'ms': expected a number; a row of units?");
+  expect("separator: \";\"\n", "", "(is separator: \";\" missing?)");
+}
+
+TEST_F(ForeignCsv, CommasMayBePoints) {
+  const std::string map =
+      "robot: r\nrate: 10\nheader: 0\nseparator: \";\"\ndecimal: \",\"\n"
+      "columns: [{from: {place: 2}, to: j/position}]\n";
+  const Dataset dataset = read(map, "1;2,5\n3;-4,25e1\n");
+  EXPECT_EQ(dataset.series("j/position").values, (std::vector<double>{2.5, -42.5}));
+  EXPECT_NE(error(map, "1;2.5\n3;4\n").find("'2.5': expected a number"), std::string::npos);
+  EXPECT_NE(error("robot: r\nrate: 10\nseparator: ;\ncolumns: [{from: a, to: j/position}]\n",
+                  "a;b\n1;2\n1,5;2\n")
+                .find("is decimal: \",\" missing?"),
+            std::string::npos);
+  EXPECT_NE(
+      error("robot: r\nrate: 10\ndecimal: \",\"\ncolumns: [{from: a, to: j/position}]\n", "a\n")
+          .find("decimal: ,: expected another character than the separator"),
+      std::string::npos);
+}
+
+const std::string kStreams =
+    "robot: r\n"
+    "streams:\n"
+    "  encoder: {file: encoder.csv, rate: 100, columns: [{from: q, to: j/position}]}\n"
+    "  torque:\n"
+    "    file: torque.csv\n"
+    "    time: {column: t, offset: 0.001}\n"
+    "    columns: [{from: u, to: j/effort}, {from: u, to: j/velocity}]\n";
+
+TEST_F(ForeignCsv, StreamsKeepTheirClocksOrGetOneTimeBase) {
+  write("encoder.csv", "q\n0\n1\n2\n3\n");
+  write("torque.csv", "t,u\n0,5\n0.013,6\n0.02,7\n");
+  const auto of = [&](const std::string& map) {
+    return read_foreign_csv(folder_.string(), ForeignColumns::load(write("map.yaml", map)));
+  };
+  Dataset dataset = of(kStreams);
+  ASSERT_NE(dataset.find_table("joints_encoder"), nullptr);
+  ASSERT_NE(dataset.find_table("joints_torque"), nullptr);
+  EXPECT_EQ(dataset.find_table("joints_torque")->t[1], 14000000);
+  EXPECT_EQ(dataset.find_table("joints_encoder")->t[1], 10000000);
+  dataset = of(kStreams + "rows: 200\n");
+  ASSERT_EQ(dataset.tables.size(), 1u);
+  EXPECT_EQ(dataset.tables.front().name, "joints");
+  EXPECT_EQ(dataset.tables.front().t.size(), 7u);
+  EXPECT_EQ(dataset.tables.front().find("j/position")->present,
+            (std::vector<char>{1, 0, 1, 0, 1, 0, 1}));
+  EXPECT_EQ(dataset.series("j/position").values, (std::vector<double>{0, 1, 2, 3}));
+  EXPECT_EQ(dataset.meta.rate, 200.0);
+}
+
+TEST_F(ForeignCsv, WhatIsWrongWithStreamsAndPiecesIsSaid) {
+  write("encoder.csv", "q\n0\n1\n2\n3\n");
+  write("torque.csv", "t,u\n0,5\n0.013,6\n0.02,7\n");
+  const auto expect = [&](const std::string& from, const std::string& to, const std::string& said) {
+    std::string map = kStreams, what = "no error";
+    map.replace(map.find(from), from.size(), to);
+    try {
+      read_foreign_csv(folder_.string(), ForeignColumns::load(write("map.yaml", map)));
+    } catch (const BadInput& bad) {
+      what = bad.what();
+    }
+    EXPECT_NE(what.find(said), std::string::npos) << what;
+  };
+  expect("torque.csv", "nowhere.csv", "nowhere.csv: cannot be read");
+  expect("to: j/velocity", "to: j/position", "streams.torque.columns.1.to: used twice");
+  expect("robot: r\n", "robot: r\nrate: 5\n", "rate: beside 'streams': expected it in each");
+  expect("  torque:", "  Torque:", "streams.Torque: expected a lower-case name");
+  expect("offset: 0.001", "offset: 1000", "not synchronised with the other files");
+  expect("robot: r\n", "robot: r\nsplit: {train: [3, 1]}\n", "split.train: expected [from, to]");
+  expect("robot: r\n", "robot: r\nsplit: {}\n", "split: expected {name: [from, to], ...}");
+  EXPECT_NE(error(kStreams, "q\n1\n2\n").find("expected the folder of the files that 'streams'"),
+            std::string::npos);
+  EXPECT_NE(
+      error("robot: r\nrate: 5\nrows: 5\ncolumns: [{from: a, to: base/force_x}]\n", "a\n1\n2\n")
+          .find("rows: beside base/force_x: expected pushes with times of their own"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+// anthrob_convert on files of other programs.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "anthrob_recording/bag.h"
+
+namespace anthrob {
+namespace {
+
+class ConvertTool : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = (std::filesystem::temp_directory_path() /
+               ("anthrob_convert_tool_" + std::to_string(getpid())))
+                  .string();
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& file, const std::string& text) const {
+    std::ofstream(folder_ + "/" + file) << text;
+  }
+  int run(const std::string& arguments) const {
+    const std::string command =
+        "cd " + folder_ + " && " ANTHROB_CONVERT " " + arguments + " >said.txt 2>errors.txt";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string content(const std::string& file) const {
+    std::ifstream in(folder_ + "/" + file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  std::string folder_;
+};
+
+TEST_F(ConvertTool, OneFileBecomesSeveralDataSets) {
+  std::string rows = "q,u\n";
+  for (int i = 0; i < 100; ++i) rows += std::to_string(i) + "," + std::to_string(-i) + "\n";
+  write("run.csv", rows);
+  const std::string map =
+      "robot: r\nrate: 10\ncolumns: [{from: q, to: j/position}, {from: u, to: j/effort}]\n";
+  write("map.yaml", map + "split: {train: [0, 4], test: [4, 8], repeat: [8, 60]}\n");
+  ASSERT_EQ(run("--columns map.yaml run.csv out"), 0) << content("errors.txt");
+  EXPECT_EQ(
+      content("said.txt"),
+      "wrote out/train: 1 table, 40 rows, 3.900 s\nwrote out/test: 1 table, 40 rows, 3.900 s\n"
+      "wrote out/repeat: 1 table, 20 rows, 1.900 s\n");
+  EXPECT_EQ(load_recordings(folder_ + "/out").size(), 3u);
+  EXPECT_EQ(load_recording(folder_ + "/out/test").series("j/position").values.front(), 40.0);
+
+  // One piece is wrong: nothing is written.
+  write("map.yaml", map + "split: {train: [0, 4], test: [40, 80]}\n");
+  EXPECT_EQ(run("--columns map.yaml run.csv none"), 2);
+  EXPECT_EQ(content("errors.txt").find("anthrob_convert: run.csv: split: test: fewer than two"), 0u)
+      << content("errors.txt");
+  EXPECT_FALSE(std::filesystem::exists(folder_ + "/none"));
+}
+
+}  // namespace
+}  // namespace anthrob
