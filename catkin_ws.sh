@@ -20,7 +20,7 @@ needed_packages=(
   libimage-transport-dev libactionlib-dev python3-actionlib python3-actionlib-msgs
   build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
-  nlohmann-json3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
+  nlohmann-json3-dev libsqlite3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libpagmo-dev libopenmpi-dev openmpi-bin
   libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libusb-1.0-0-dev
   libdc1394-dev pkg-config python3-numpy python3-jinja2

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "anthrob_calib/resume/result_file.h"
+#include "anthrob_core/errors.h"
 #include "anthrob_recording/dataset.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "calibration/calibration_config.h"
@@ -13,6 +14,8 @@
 #include "foreign/foreign_csv.h"
 #include "optimiser/journal.h"
 #include "path/mesh_file.h"
+#include "ros2/cdr_reader.h"
+#include "ros2/ros2_messages.h"
 #include "source/image_file.h"
 
 namespace anthrob {
@@ -92,6 +95,24 @@ const char kForeignMap[] =
     "  - {from: {derivative: {clip: angle, low: 0}, over: 0.06}, to: elbow/velocity}\n"
     "split: {train: [0, 0.025]}\n";
 const char kForeignTable[] = "time;angle;pull\n0;10.5;1\n10;11.5;2\n20;12.5;\n30;13;3\n";
+
+/// JointState of ROS 2: 5.5 s, frame "", of "elbow" the position 0.5, no velocity, the effort -2.
+const char kJointState[] =
+    "\0\1\0\0"
+    "\5\0\0\0"
+    "\0\x65\xcd\x1d"
+    "\1\0\0\0"
+    "\0\0\0\0"
+    "\1\0\0\0"
+    "\6\0\0\0"
+    "elbow\0"
+    "\0\0"
+    "\1\0\0\0"
+    "\0\0\0\0"
+    "\0\0\0\0\0\0\xe0\x3f"
+    "\0\0\0\0"
+    "\1\0\0\0"
+    "\0\0\0\0\0\0\0\xc0";
 
 const char kCamera[] =
     "image_width: 648\nimage_height: 488\ncamera_name: left\n"
@@ -189,6 +210,16 @@ std::vector<Reader> all_readers(const std::string& config, const std::string& wo
   add("map", "map.yaml", {kForeignMap}, [=](const std::string& file) {
     read_foreign_csv(folder(file) + "/table.csv", ForeignColumns::load(file));
   });
+
+  add("ros2", "message", {std::string(kJointState, sizeof(kJointState) - 1)},
+      [](const std::string& file) {
+        const std::string bytes = content(file);
+        try {
+          read_ros2_message("joint_states", bytes.data(), bytes.size());
+        } catch (const CdrError& error) {
+          throw BadInput(error.what());
+        }
+      });
 
   add("camera", "left.yaml", {kCamera},
       [](const std::string& file) { mocap::CameraModel::load(file); });

@@ -17,7 +17,7 @@ KEYS = {
     'arv.h': 'aravis-dev', 'assimp': 'assimp', 'boost': 'boost', 'btBulletDynamicsCommon.h': 'bullet', 'ceres': 'libceres-dev',
     'console_bridge': 'libconsole-bridge-dev', 'dc1394': 'libdc1394-dev', 'gtest': 'rosunit', 'image_transport': 'image_transport',
     'interactive_markers': 'interactive_markers', 'nlohmann': 'nlohmann-json-dev', 'nlopt.hpp': 'libnlopt-cxx-dev', 'opencv2': 'libopencv-dev', 'pluginlib': 'pluginlib', 'ros': 'roscpp',
-    'rosbag': 'rosbag_storage', 'rviz': 'rviz', 'tbb': 'tbb', 'tf2_ros': 'tf2_ros', 'tinyxml2.h': 'tinyxml2', 'unsupported': 'eigen', 'urdf_model': 'liburdfdom-headers-dev',
+    'rosbag': 'rosbag_storage', 'rviz': 'rviz', 'sqlite3.h': 'sqlite3', 'tbb': 'tbb', 'tf2_ros': 'tf2_ros', 'tinyxml2.h': 'tinyxml2', 'unsupported': 'eigen', 'urdf_model': 'liburdfdom-headers-dev',
     'urdf_parser': 'liburdfdom-dev', 'xmlrpcpp': 'roscpp', 'yaml-cpp': 'yaml-cpp',
     **dict.fromkeys(('benchmark', 'dlfcn.h', 'elf.h', 'fcntl.h', 'link.h', 'linux', 'malloc.h', 'mpi.h', 'mujoco', 'net', 'netdb.h', 'netinet', 'pagmo',
                      'poll.h', 'pthread.h', 'qcustomplot.h', 'sched.h', 'signal.h', 'spawn.h', 'stdlib.h', 'sys', 'unistd.h'))}

@@ -9,6 +9,7 @@
 #include "anthrob_recording/dataset.h"
 #include "anthrob_recording/extent.h"
 #include "foreign/foreign_csv.h"
+#include "ros2/ros2_bag.h"
 
 namespace {
 
@@ -55,8 +56,11 @@ void convert_foreign(const std::string& in, const std::string& map, const std::s
 void keep_folder(const std::string& in, const std::filesystem::path& bag) {
   const std::string described = bag.stem().string() + ".yaml";
   const std::string folder = bag.has_parent_path() ? bag.parent_path().string() : ".";
-  anthrob::require_kept(folder, {described},
-                        {anthrob::place_of(std::filesystem::path(in) / "meta.yaml").string()});
+  const std::filesystem::path from(in);
+  const std::filesystem::path meta = std::filesystem::is_directory(from)
+                                         ? from / "meta.yaml"
+                                         : std::filesystem::path(from).replace_extension(".yaml");
+  anthrob::require_kept(folder, {described}, {anthrob::place_of(meta).string()});
 }
 
 }  // namespace
@@ -64,11 +68,13 @@ void keep_folder(const std::string& in, const std::filesystem::path& bag) {
 int main(int argc, char** argv) {
   using namespace anthrob;
   CLI::App app(
-      "Converts a bag to a dataset folder or back; the bag is the one that ends in .bag. With "
+      "Converts a bag to a dataset folder or back; the bag is the one that ends in .bag. A bag of "
+      "ROS 2 (.db3, or the folder of one) becomes either. With "
       "--columns, converts CSV files of another program to dataset folders.",
       "anthrob_convert");
   std::string in, out, columns;
-  app.add_option("IN", in, "bag, dataset folder, CSV file, or folder of CSV files")->required();
+  app.add_option("IN", in, "bag (of ROS 1 or 2), dataset folder, CSV file, or folder of CSV files")
+      ->required();
   app.add_option("OUT", out, "dataset folder or bag")->required();
   app.add_option("--columns", columns,
                  "YAML file that says what the columns of the CSV file are (docs/files.md)");
@@ -82,12 +88,15 @@ int main(int argc, char** argv) {
     };
     if (!std::filesystem::exists(in))
       throw BadInput(in + ": no such recording; expected a bag or a dataset folder");
-    if (is_bag(in) == is_bag(out)) {
+    if (is_ros2_bag(out)) {
+      throw BadInput("OUT " + out + ": bags of ROS 2 are read only; expected a dataset folder");
+    }
+    if (!is_ros2_bag(in) && is_bag(in) == is_bag(out)) {
       throw BadInput("IN " + in + ", OUT " + out +
                      ": expected one of them to end in .bag; for a CSV file, give --columns");
     }
-    if (!is_bag(in)) {
-      const Dataset recording = Dataset::load(in);
+    if (is_bag(out)) {
+      const Dataset recording = load_recording(in);
       tool::say(app, recording.remarks);
       keep_folder(in, out);
       const BagRemarks done = write_bag(recording, out);
@@ -96,7 +105,12 @@ int main(int argc, char** argv) {
       say_not_carried(done.not_carried);
       return tool::kDone;
     }
-    const BagContents contents = read_bag(in);
+    BagContents contents;
+    if (is_ros2_bag(in)) {
+      contents.dataset = read_ros2_bag(in, &contents.not_carried);
+    } else {
+      contents = read_bag(in);
+    }
     tool::say(app, contents.dataset.remarks);
     contents.dataset.save(out);
     say_written(out, contents.dataset);

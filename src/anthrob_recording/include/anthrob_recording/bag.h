@@ -38,7 +38,8 @@ BagContents read_bag(const std::string& file);
 /// incomplete orientation or command, a time before 0), or if no column has a topic
 BagRemarks write_bag(const Dataset& dataset, const std::string& file);
 
-/// A recording from a dataset folder or from a bag (by its ending `.bag`).
+/// A recording from a dataset folder, a bag (by its ending `.bag`) or a bag of ROS 2: a file that
+/// ends in `.db3`, or a folder with metadata.yaml.
 /// @throws BadInput with one line
 Dataset load_recording(const std::string& path);
 

@@ -7,19 +7,19 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <numeric>
-#include <set>
 
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/errors.h"
 #include "anthrob_core/files.h"
-#include "anthrob_core/publishers.h"
+#include "anthrob_recording/bag_records.h"
 #include "anthrob_ros/bounded_message.h"
 #include "dataset/clocks.h"
+#include "dataset/recorded_topics.h"
 #include "dataset/sources.h"
+#include "dataset/topic_rows.h"
 #include "dataset/topic_tables.h"
-#include "anthrob_recording/bag_records.h"
 #include "ros/bag_rows.h"
+#include "ros2/ros2_bag.h"
 
 namespace anthrob {
 
@@ -30,10 +30,6 @@ using anthrob_msgs::MuscleCommand;
 using anthrob_msgs::MuscleStates;
 using anthrob_msgs::SphericalJointStates;
 using sensor_msgs::JointState;
-
-/// How far commands of several publishers may overtake each other: no longer than a robot waits for
-/// the next one. Beyond, a clock was put back.
-constexpr Nanoseconds kMostOvertaken = 500000000;
 
 /// Bags cannot hold time 0; the first representable instant stands for it.
 constexpr Nanoseconds kFirstBagTime = 1;
@@ -52,132 +48,8 @@ ros::Time to_ros(Nanoseconds t) {
 
 // ---- bag to dataset -----------------------------------------------------------------------------
 
-/// Collects the messages of one topic into a table.
-class TableBuilder {
- public:
-  explicit TableBuilder(const std::string& name) { table_.name = name; }
-
-  template <class Message>
-  void add(const Message& message, const ros::Time& arrival, const std::string& node) {
-    Cells cells;
-    const std::vector<std::string> owners = owners_of(message);
-    if (!are_column_owners(owners) || !to_cells(message, cells)) {
-      ++malformed_;
-      return;
-    }
-    if (cells.empty() && !owners.empty()) ++bare_;
-    Nanoseconds bag_time = to_nanoseconds(arrival);
-    if (bag_time == kFirstBagTime) bag_time = 0;
-    const Nanoseconds stamp = to_nanoseconds(message.header.stamp);
-    publishers_.add(owners, node);
-    const std::size_t row = table_.t.size();
-    table_.t.push_back(stamp != 0 ? stamp : bag_time);
-    table_.stamp.push_back(stamp);
-    table_.bag_time.push_back(bag_time);
-    if (row == 0) frame_ = message.header.frame_id;
-    frames_differ_ = frames_differ_ || message.header.frame_id != frame_;
-    for (const auto& [name, value] : cells) {
-      Column& column = column_of(name);
-      column.values.resize(row, 0.0);
-      column.present.resize(row, 0);
-      column.values.push_back(value);
-      column.present.push_back(1);
-    }
-  }
-
-  /// Puts the finished table into the dataset and says what could not be carried.
-  void finish(const std::string& topic, BagContents& contents) {
-    if (malformed_ > 0) {
-      contents.not_carried.push_back(topic + " (" + std::to_string(malformed_) +
-                                     " malformed messages)");
-    }
-    if (bare_ > 0) {
-      contents.not_carried.push_back(topic + " (" + std::to_string(bare_) +
-                                     " messages with names only)");
-    }
-    if (table_.t.empty()) return;
-    // Commands may have several senders; a measurement has one.
-    if (publishers_.conflict() && table_.name != "commands") {
-      throw BadInput(contents.dataset.folder + ": " + topic + ": " + *publishers_.conflict() +
-                     "; expected one publisher of each measurement");
-    }
-    for (Column& column : table_.columns) {
-      column.values.resize(table_.t.size(), 0.0);
-      column.present.resize(table_.t.size(), 0);
-    }
-    put_in_order(topic, contents.dataset);
-    if (table_.stamp == table_.t) table_.stamp.clear();
-    if (table_.bag_time == table_.t) table_.bag_time.clear();
-    if (frames_differ_)
-      contents.not_carried.push_back(topic + ": frame_id, because it changes during the recording");
-    if (!frames_differ_ && !frame_.empty()) {
-      contents.dataset.meta.other["frame_id_" + table_.name] = frame_ + "\n";
-    }
-    contents.dataset.tables.push_back(std::move(table_));
-  }
-
- private:
-  Column& column_of(const std::string& name) {
-    const auto found = index_.find(name);
-    if (found != index_.end()) return table_.columns[found->second];
-    index_[name] = table_.columns.size();
-    table_.columns.push_back({name, {}, {}});
-    return table_.columns.back();
-  }
-
-  /// Two publishers of commands may overtake each other; what one robot measures comes in order.
-  void put_in_order(const std::string& topic, Dataset& dataset) {
-    const std::vector<Nanoseconds> t = table_.t;
-    Nanoseconds latest = t.front(), worst = 0;
-    int late = 0;
-    for (const Nanoseconds stamp : t) {
-      latest = std::max(latest, stamp);
-      worst = std::max(worst, latest - stamp);
-      late += stamp < latest;
-    }
-    if (late == 0) return;
-    if (table_.name != "commands" || worst > kMostOvertaken) {
-      throw BadInput(dataset.folder + ": " + topic + ": time goes backwards by " +
-                     time_text(worst) + " s; expected a recording of one run");
-    }
-    std::vector<std::size_t> order(t.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return t[a] < t[b]; });
-    for (auto* times : {&table_.t, &table_.stamp, &table_.bag_time}) permute(*times, order);
-    for (Column& column : table_.columns) {
-      permute(column.values, order);
-      permute(column.present, order);
-    }
-    dataset.remarks.push_back(dataset.folder + ": " + topic + ": " + std::to_string(late) + " of " +
-                              std::to_string(t.size()) + " messages came out of order, by up to " +
-                              time_text(worst) + " s: sorted by their stamps");
-  }
-
-  template <class List>
-  static void permute(List& list, const std::vector<std::size_t>& order) {
-    const List old = list;
-    for (std::size_t i = 0; i < order.size(); ++i) list[i] = old[order[i]];
-  }
-
-  Table table_;
-  std::map<std::string, std::size_t> index_;
-  std::string frame_;
-  bool frames_differ_ = false;
-  Publishers publishers_;
-  int malformed_ = 0;
-  int bare_ = 0;  ///< messages with names and no values
-};
-
-const std::pair<const char*, const char*> kTopics[] = {
-    {"muscle_command", "commands"},
-    {"muscle_states", "muscles"},
-    {"joint_states", "joints"},
-    {"spherical_joint_states", "spherical_joints"},
-    {"external_wrenches", "wrenches"}};
-
 template <class Message>
-void add_all(rosbag::Bag& bag, const std::vector<std::string>& topics, TableBuilder& builder) {
+void add_all(rosbag::Bag& bag, const std::vector<std::string>& topics, TopicTable& table) {
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topics))) {
     const auto message = instance.instantiate<Bounded<Message>>();
     if (!message) {
@@ -188,32 +60,20 @@ void add_all(rosbag::Bag& bag, const std::vector<std::string>& topics, TableBuil
     if (message->refusal)
       throw BadInput(bag.getFileName() + ": topic " + instance.getTopic() + ": " +
                      *message->refusal);
-    builder.add(message->message, instance.getTime(), instance.getCallerId());
+    TopicRow row;
+    row.stamp = to_nanoseconds(message->message.header.stamp);
+    row.arrival = to_nanoseconds(instance.getTime());
+    if (row.arrival == kFirstBagTime) row.arrival = 0;
+    row.frame = message->message.header.frame_id;
+    row.node = instance.getCallerId();
+    row.owners = owners_of(message->message);
+    row.complete = to_cells(message->message, row.cells);
+    table.add(row);
   }
 }
 
 std::string meta_beside(const std::string& bag) {
   return std::filesystem::path(bag).replace_extension(".yaml").string();
-}
-
-std::string leaf(const std::string& topic) {
-  return topic.substr(topic.rfind('/') + 1);
-}
-std::string parent(const std::string& topic) {
-  const auto slash = topic.rfind('/');
-  return slash == std::string::npos || slash == 0 ? "" : topic.substr(0, slash);
-}
-/// Not all writers of bags begin a topic with a slash.
-std::string without_leading_slash(const std::string& topic) {
-  return topic.substr(topic.rfind('/', 0) == 0 ? 1 : 0);
-}
-/// "anthrob" of "/anthrob/joint_states"; empty if there is no namespace.
-std::string namespace_of(const std::string& topic) {
-  return without_leading_slash(parent(topic));
-}
-bool is_of_a_recording(const std::string& topic) {
-  return std::any_of(std::begin(kTopics), std::end(kTopics),
-                     [name = leaf(topic)](const auto& known) { return name == known.first; });
 }
 
 BagContents contents_of(const std::string& file) {
@@ -222,63 +82,23 @@ BagContents contents_of(const std::string& file) {
   BagContents contents;
   contents.dataset.folder = file;
 
-  std::map<std::string, std::uint32_t> counts;
+  std::map<std::string, std::uint64_t> counts;
   rosbag::View everything(bag);
   for (const rosbag::ConnectionInfo* connection : everything.getConnections())
     counts[connection->topic];
   for (const rosbag::MessageInstance& instance : everything) ++counts[instance.getTopic()];
 
-  std::set<std::string> namespaces;
-  std::map<std::string, std::vector<std::string>> chosen;
-  for (const auto& [topic, count] : counts) {
-    if (is_of_a_recording(topic)) namespaces.insert(namespace_of(topic));
-  }
-  // What stands below a robot's namespace (sim/...) is beside its contract.
-  const std::set<std::string> all = namespaces;
-  for (const std::string& outer : all) {
-    for (const std::string& inner : all) {
-      const bool below = inner.compare(0, outer.size() + 1, outer + "/") == 0;
-      if (!outer.empty() && below) namespaces.erase(inner);
+  for (const RecordedTopic& topic :
+       choose_topics(counts, file, meta_beside(file), contents.dataset, contents.not_carried)) {
+    TopicTable table(topic.table);
+    if (topic.leaf == "muscle_command") add_all<MuscleCommand>(bag, topic.topics, table);
+    if (topic.leaf == "muscle_states") add_all<MuscleStates>(bag, topic.topics, table);
+    if (topic.leaf == "joint_states") add_all<JointState>(bag, topic.topics, table);
+    if (topic.leaf == "spherical_joint_states") {
+      add_all<SphericalJointStates>(bag, topic.topics, table);
     }
-  }
-  for (const auto& [topic, count] : counts) {
-    if (is_of_a_recording(topic) && namespaces.count(namespace_of(topic))) {
-      chosen[leaf(topic)].push_back(topic);
-    } else {
-      contents.not_carried.push_back(topic + " (" + std::to_string(count) + " messages)");
-    }
-  }
-  if (namespaces.empty()) {
-    throw BadInput(file +
-                   ": contains no topic of a recording; expected muscle_command, muscle_states, "
-                   "joint_states or spherical_joint_states in the namespace of a robot");
-  }
-  if (namespaces.size() > 1) {
-    throw BadInput(file + ": topics of several robots: " + *namespaces.begin() + " and " +
-                   *std::next(namespaces.begin()) + "; expected one robot per bag");
-  }
-  const std::string robot = *namespaces.begin();
-  const std::string beside = meta_beside(file);
-  if (std::filesystem::exists(beside))
-    contents.dataset.meta = load_meta(beside, &contents.dataset.remarks);
-  if (!robot.empty()) contents.dataset.meta.robot = robot;
-  if (contents.dataset.meta.robot.empty()) {
-    contents.dataset.remarks.push_back(
-        file +
-        ": its topics are in no robot's namespace, so that the robot is not known; give its "
-        "name by robot: in meta.yaml, or in " +
-        leaf(beside) + " beside the bag");
-  }
-  for (const auto& [topic, table] : kTopics) {
-    if (!chosen.count(topic)) continue;
-    TableBuilder builder(table);
-    const std::string name(topic);
-    if (name == "muscle_command") add_all<MuscleCommand>(bag, chosen[name], builder);
-    if (name == "muscle_states") add_all<MuscleStates>(bag, chosen[name], builder);
-    if (name == "joint_states") add_all<JointState>(bag, chosen[name], builder);
-    if (name == "spherical_joint_states") add_all<SphericalJointStates>(bag, chosen[name], builder);
-    if (name == "external_wrenches") add_all<ExternalWrenches>(bag, chosen[name], builder);
-    builder.finish(chosen[name].front(), contents);
+    if (topic.leaf == "external_wrenches") add_all<ExternalWrenches>(bag, topic.topics, table);
+    table.finish(topic.topics.front(), contents.dataset, contents.not_carried);
   }
   if (contents.dataset.tables.empty()) throw BadInput(file + ": its topics hold no messages");
   check_clocks(contents.dataset);
@@ -417,6 +237,7 @@ BagRemarks write_bag(const Dataset& dataset, const std::string& file) {
 }
 
 Dataset load_recording(const std::string& path) {
+  if (is_ros2_bag(path)) return read_ros2_bag(path);
   if (std::filesystem::is_directory(path)) return Dataset::load(path);
   if (!std::filesystem::exists(path))
     throw BadInput(path + ": no such recording; expected a bag or a dataset folder");
@@ -451,6 +272,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 std::vector<Dataset> load_recordings(const std::string& folder) {
   std::vector<std::string> paths;
   const bool is_recording = std::filesystem::path(folder).extension() == ".bag" ||
+                            is_ros2_bag(folder) ||
                             std::filesystem::exists(std::filesystem::path(folder) / "meta.yaml");
   if (is_recording) {
     paths.push_back(folder);
@@ -463,7 +285,8 @@ std::vector<Dataset> load_recordings(const std::string& folder) {
         throw BadInput(entry.path().string() +
                        ": a link to something that is not there; mend or remove it");
       }
-      if (entry.is_directory() || entry.path().extension() == ".bag") {
+      const std::string kind = entry.path().extension().string();
+      if (entry.is_directory() || kind == ".bag" || kind == ".db3") {
         paths.push_back(entry.path().string());
       }
     }

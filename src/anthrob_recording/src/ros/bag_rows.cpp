@@ -159,16 +159,6 @@ bool to_cells(const ExternalWrenches& m, Cells& cells) {
   return true;
 }
 
-bool are_column_owners(const std::vector<std::string>& names) {
-  const auto bad = [](const std::string& name) {
-    return name.find_first_of("/,\r\n") != std::string::npos ||
-           (!name.empty() && (std::isspace(static_cast<unsigned char>(name.front())) ||
-                              std::isspace(static_cast<unsigned char>(name.back()))));
-  };
-  return std::none_of(names.begin(), names.end(), bad) &&
-         std::set<std::string_view>(names.begin(), names.end()).size() == names.size();
-}
-
 void from_row(const Table& table, std::size_t index, MuscleCommand& m) {
   const RowView row(table, index);
   m.name = row.owners();

@@ -12,11 +12,9 @@
 #include <vector>
 
 #include "anthrob_recording/table.h"
+#include "dataset/topic_rows.h"
 
 namespace anthrob {
-
-/// Cells of one row: column name and value.
-using Cells = std::vector<std::pair<std::string, double>>;
 
 /// Whose values a message holds, as columns are called. Further pushes of the same link are LINK:2
 /// and so on.
@@ -33,9 +31,6 @@ bool to_cells(const anthrob_msgs::MuscleStates& m, Cells& cells);
 bool to_cells(const sensor_msgs::JointState& m, Cells& cells);
 bool to_cells(const anthrob_msgs::SphericalJointStates& m, Cells& cells);
 bool to_cells(const anthrob_msgs::ExternalWrenches& m, Cells& cells);
-
-/// Whether names can head columns, and which value is whose: no separators in them, none twice.
-bool are_column_owners(const std::vector<std::string>& names);
 
 /// Fills a message, except for its header, from a row of a table.
 /// @throws BadInput if a quantity is given for some names only, or if an orientation, an angular

@@ -12,7 +12,7 @@
 namespace anthrob {
 namespace {
 
-class ConvertTool : public ::testing::Test {
+class ConvertOtherFiles : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = (std::filesystem::temp_directory_path() /
@@ -39,7 +39,7 @@ class ConvertTool : public ::testing::Test {
   std::string folder_;
 };
 
-TEST_F(ConvertTool, OneFileBecomesSeveralDataSets) {
+TEST_F(ConvertOtherFiles, OneFileBecomesSeveralDataSets) {
   std::string rows = "q,u\n";
   for (int i = 0; i < 100; ++i) rows += std::to_string(i) + "," + std::to_string(-i) + "\n";
   write("run.csv", rows);
@@ -60,6 +60,17 @@ TEST_F(ConvertTool, OneFileBecomesSeveralDataSets) {
   EXPECT_EQ(content("errors.txt").find("anthrob_convert: run.csv: split: test: fewer than two"), 0u)
       << content("errors.txt");
   EXPECT_FALSE(std::filesystem::exists(folder_ + "/none"));
+}
+
+TEST_F(ConvertOtherFiles, BagsOfRos2AreRead) {
+  write("run.db3", "no database");
+  EXPECT_EQ(run("run.db3 out"), 2);
+  EXPECT_EQ(content("errors.txt"),
+            "anthrob_convert: run.db3: cannot be read as a database of SQLite: file is not a "
+            "database\n");
+  EXPECT_EQ(run("out run.db3"), 2);
+  EXPECT_EQ(run("run.db3 other.db3"), 2);
+  EXPECT_NE(content("errors.txt").find("bags of ROS 2 are read only"), std::string::npos);
 }
 
 }  // namespace
