@@ -20,6 +20,7 @@ import _study  # noqa: E402
 import calibration  # noqa: E402
 import discovery  # noqa: E402
 import fuzz  # noqa: E402
+import real  # noqa: E402
 import soak  # noqa: E402
 
 # Hides "law" everywhere; lists three laws.
@@ -157,6 +158,101 @@ class FuzzStudy(Study):
         with self.assertRaises(SystemExit) as ended:
             self.study('--reader', 'step')
         self.assertEqual(ended.exception.code, 2)
+
+
+CONVERTER = '''#!/bin/sh
+[ "$1" = --columns ] && echo "converted $3" >> calls || echo converted >> calls
+while [ $# -gt 1 ]; do shift; done
+mkdir -p "$1"
+'''
+# Names "law" at an elbow, or what the file `named` in the folder of the model says.
+EXAMINER = '''#!/bin/sh
+echo "examined $*" >> calls
+named=$(cat "$(dirname "$2")/named" 2>/dev/null || echo law)
+[ "$named" = refused ] && { echo "anthrob_discover: too short" >&2; exit 2; }
+while [ "$1" != --out ]; do shift; done
+mkdir -p "$2"
+echo '{"verdict": "effects_found", "improbable": [], "remarks": [], "gap": {"test": {"before": 9, "recalibrated": 5.5, "after": 1.25}},
+  "effects": [{"id": "'$named'", "place": "elbow", "probability": 0.97, "rivals": [{"id": "cousin", "place": "elbow"}],
+  "parameters": {"x": {"value": 1.5, "ci95": [1.25, 1.75], "unit": "Nm"}, "v": {"value": 1, "known": true}}}]}' > "$2/report.json"
+'''
+
+
+class RealStudy(Study):
+    study_of = real
+
+    def programs(self):
+        return {'CONVERT': self.program('converter', CONVERTER), 'DISCOVER': self.program('examiner', EXAMINER)}
+
+    def case(self, name, text, named='law'):
+        os.makedirs('data/' + name, exist_ok=True)
+        for file, content in (('case.yaml', text), ('named', named), ('model_I.yaml', ''), ('a.csv', ''), ('m.yaml', '')):
+            with open(os.path.join('data', name, file), 'w') as out:
+                out.write(content)
+
+    def run_all(self, *arguments):
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            self.study('--data', 'data', '--jobs', '1', *arguments)
+        return printed.getvalue().splitlines()
+
+    BEGIN = ('model: model_I.yaml\nconvert: [{from: a.csv, columns: m.yaml, to: one}]\ntrain: [one/train]\ntest: [one/test]\n'
+             'options: {max_effects: 2, effects: [law, b]}\n')
+
+    def test_what_is_run_and_told(self):
+        self.case('bench', self.BEGIN + 'expected: [{id: [other, law], place: elbow, sizes: {x: [1, 2]}}]\n')
+        rows = self.run_all()
+        self.assertRegex(rows[0], r'^bench \| other or law elbow \| law elbow \(0.97\) \| x 1.5 \[1.25, 1.75\] Nm \| '
+                         r'9 / 5.5 / 1.25 \| \d+ s \| right$')
+        with open('calls') as calls:
+            told = calls.read().split('\n')
+        self.assertEqual(told[0], 'converted data/bench/a.csv')
+        self.assertIn('--model data/bench/model_I.yaml --train out/real/bench/data/one/train --test out/real/bench/data/one/test '
+                      '--effects law b --max-effects 2 --out out/real/bench/found', told[1])
+        self.assertEqual(self.run_all(), rows)  # from what is stored
+        self.assertEqual(self.calls(), 2)
+        self.case('bench', self.BEGIN + 'expected: [{id: law}]\n')
+        self.run_all()
+        self.assertEqual(self.calls(), 4)
+        with open('out/real.md') as page:
+            self.assertIn('- judged: 1 right', page.read())
+        self.assertEqual(_study.load('out/real.json')[0]['verdict'], 'effects_found')
+
+    def test_a_bag_needs_no_columns(self):
+        self.case('bag', self.BEGIN.replace('columns: m.yaml, ', ''))
+        self.assertEqual(len(self.run_all()), 1)
+        with open('calls') as calls:
+            self.assertEqual(calls.readline(), 'converted\n')
+
+    def test_judgements(self):
+        for name, expected, named, judged in (
+                ('a', '[{id: law}]', 'other', 'wrong'), ('b', '[{id: cousin}]', 'law', 'in class'),
+                ('c', '[{id: law, sizes: {x: [2, 3]}}]', 'law', 'wrong size'), ('d', '[{id: law, place: hip}]', 'law', 'wrong'),
+                ('e', 'no_missing_effect', 'law', 'wrong'), ('f', '[{id: law}]', 'refused', 'failed'), ('g', 'null', 'law', ''),
+                ('h', '[{id: law}, {id: second}]', 'law', 'wrong')):
+            self.case(name, self.BEGIN + 'expected: %s\n' % expected, named)
+        rows = self.run_all()
+        self.assertEqual([row.split(' | ')[-1].strip() for row in rows],
+                         ['wrong', 'in class', 'wrong size', 'wrong', 'wrong', 'failed', '', 'wrong'])
+        self.assertIn('anthrob_discover: too short', rows[5])
+        self.assertEqual(len(self.run_all('--case', 'c')), 1)
+
+    def test_what_is_wrong_is_said_before_anything_runs(self):
+        for text, said in ((self.BEGIN + 'expectd: x\n', 'case.yaml: expectd: x: expected one of the keys'),
+                           ('model: m\ntest: [a]\n', 'case.yaml: train: None: expected a list of recordings'),
+                           (self.BEGIN + 'expected: something\n', 'case.yaml: expected: something: expected no_missing_effect'),
+                           (self.BEGIN + 'expected: [{place: x}]\n', 'expected.0.id: None: expected the id of an effect'),
+                           (self.BEGIN + 'expected: [{id: a, sizes: {x: 3}}]\n', 'sizes.x: 3: expected [low, high]'),
+                           (self.BEGIN.replace('to: one', 'to: ../one'), 'convert.0.to: ../one: expected the name'),
+                           ('train: [', 'case.yaml: while parsing')):
+            self.case('bench', text)
+            heard = io.StringIO()
+            with self.assertRaises(SystemExit) as ended, contextlib.redirect_stderr(heard):
+                self.run_all()
+            self.assertEqual(ended.exception.code, 2)
+            self.assertIn(said, heard.getvalue())
+            self.assertEqual(heard.getvalue().count('\n'), 1)
+        self.assertFalse(os.path.exists('calls'))
 
 
 class SoakStudy(Study):
