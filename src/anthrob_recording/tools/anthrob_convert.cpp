@@ -60,6 +60,7 @@ void keep_folder(const std::string& in, const std::filesystem::path& bag) {
   const std::filesystem::path meta = std::filesystem::is_directory(from)
                                          ? from / "meta.yaml"
                                          : std::filesystem::path(from).replace_extension(".yaml");
+  if (!std::filesystem::exists(meta)) return;  // a bag of ROS 2 need not have one
   anthrob::require_kept(folder, {described}, {anthrob::place_of(meta).string()});
 }
 

@@ -8,6 +8,8 @@
 #include <fstream>
 
 #include "anthrob_recording/bag.h"
+#include "ros2/cdr_bytes.h"
+#include "ros2/db3.h"
 
 namespace anthrob {
 namespace {
@@ -62,7 +64,33 @@ TEST_F(ConvertOtherFiles, OneFileBecomesSeveralDataSets) {
   EXPECT_FALSE(std::filesystem::exists(folder_ + "/none"));
 }
 
-TEST_F(ConvertOtherFiles, BagsOfRos2AreRead) {
+TEST_F(ConvertOtherFiles, BagsOfRos2BecomeFoldersAndBags) {
+  {
+    Db3 db(folder_ + "/rig.db3");
+    db.topic(1, "/rig/joint_states", "sensor_msgs/msg/JointState");
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      db.message(1, 1000000000 + i,
+                 CdrBytes(true)
+                     .header(1, i, "")
+                     .texts({"hinge"})
+                     .numbers({0.5 * i})
+                     .numbers({})
+                     .numbers({})
+                     .all());
+    }
+  }
+  ASSERT_EQ(run("rig.db3 rig"), 0) << content("errors.txt");
+  ASSERT_EQ(run("rig.db3 rig.bag"), 0) << content("errors.txt");
+  for (const char* made : {"/rig", "/rig.bag"}) {
+    EXPECT_EQ(load_recording(folder_ + made).series("hinge/position").values,
+              (std::vector<double>{0.0, 0.5, 1.0}));
+  }
+  // rig.yaml is now the description of both: it would be replaced.
+  EXPECT_EQ(run("rig.db3 rig.bag"), 2);
+  EXPECT_NE(content("errors.txt").find("rig.yaml is an input of this run"), std::string::npos);
+}
+
+TEST_F(ConvertOtherFiles, WhatIsNoBagOfRos2IsRefused) {
   write("run.db3", "no database");
   EXPECT_EQ(run("run.db3 out"), 2);
   EXPECT_EQ(content("errors.txt"),
