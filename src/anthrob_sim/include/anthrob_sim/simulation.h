@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "anthrob_sim/core/errors.h"
+#include "anthrob_sim/friction/friction_law.h"
 #include "anthrob_sim/inputs.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "anthrob_sim/muscle/muscle.h"
@@ -115,6 +116,18 @@ class Simulation {
   /// Generalised forces of a joint's friction and stops in the last step [Nm, N]: one number, or
   /// three in the child's axes.
   Vec3 joint_resistance(int joint) const;
+  /// Inverse dynamics: what a joint lacks in the last step to follow the imposed posture by itself.
+  struct LackingEffort {
+    double inertial;   ///< of `range`: mass matrix times acceleration
+    ForceRange range;  ///< that must be added to effort and load; wide where the joint may be held
+  };
+  /// Acceleration is the change of velocity in the step: mass matrix times acceleration plus bias
+  /// forces, less effort, load, wrenches, joint torques, friction and stops. All states evolve
+  /// along the imposed motion.
+  /// @param rest [rad/s, m/s] a joint that is not faster may be at rest: its dry friction is then
+  /// any that can hold it
+  /// @throws BadInput for a ball joint, a robot with muscles, or if no posture was imposed
+  LackingEffort lacking_effort(int joint, double rest) const;
   /// From the next step on, the forces that joints carry are computed; see joint_reaction().
   void observe_reactions();
   /// The force with which the parent held the child in the last step [N], in the parent link's

@@ -91,6 +91,30 @@ void ResistanceSolver::follow(const KinematicTree& tree, const std::vector<doubl
   iterations_ = 0;
 }
 
+ForceRange ResistanceSolver::resistance_at(const std::vector<double>& q, int joint, double velocity,
+                                           double rest, double load) const {
+  const JointModel& model = model_.joints[joint];
+  double force = -model.friction.viscous * velocity;
+  if (model.stop.enabled) {
+    const double position = q[model.position_offset];
+    const Stop above = stop_of(model, Vec3::UnitX(), position - model.stop.upper),
+               below = stop_of(model, -Vec3::UnitX(), model.stop.lower - position);
+    force -= std::max(0.0, above.inside + above.slope * velocity);
+    force += std::max(0.0, below.inside - below.slope * velocity);
+  }
+  const JointFrictionModel& friction = model.friction;
+  if (!friction.is_dry()) return {force, force};
+  if (std::abs(velocity) <= rest) {
+    const double limit = std::max(friction.static_torque, friction.kinetic_torque);
+    return {force - limit - extra_dry_friction(friction, 1.0, load),
+            force + limit + extra_dry_friction(friction, -1.0, load)};
+  }
+  const double level = dry_friction(friction, velocity) +
+                       extra_dry_friction(friction, std::copysign(1.0, velocity), load);
+  force -= std::copysign(level, velocity);
+  return {force, force};
+}
+
 void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& tau) {
   u_ = Eigen::Map<const Eigen::VectorXd>(tree.velocities().data(), u_.size());
   constant_.noalias() = tree.mass_matrix() * u_;
@@ -129,8 +153,8 @@ void ResistanceSolver::find_stops(const KinematicTree& tree, const std::vector<d
     if (!joint.stop.enabled) continue;
     const double* position = &q[joint.position_offset];
     if (joint.type != JointType::kBall) {
-      add_stop(joint, Vec3::UnitX(), position[0] - joint.stop.upper);
-      add_stop(joint, -Vec3::UnitX(), joint.stop.lower - position[0]);
+      stops_.push_back(stop_of(joint, Vec3::UnitX(), position[0] - joint.stop.upper));
+      stops_.push_back(stop_of(joint, -Vec3::UnitX(), joint.stop.lower - position[0]));
       continue;
     }
     // Rotation from rest: its angle grows with the velocity along its axis.
@@ -138,17 +162,23 @@ void ResistanceSolver::find_stops(const KinematicTree& tree, const std::vector<d
     const double sine = axis.norm();
     if (sine < 1e-9) continue;
     const Mat3& R_WC = tree.joint(static_cast<int>(&joint - model_.joints.data())).R_WC;
-    add_stop(joint, R_WC * (axis / sine), 2.0 * std::atan2(sine, position[0]) - joint.stop.upper);
+    stops_.push_back(stop_of(joint, R_WC * (axis / sine),
+                             2.0 * std::atan2(sine, position[0]) - joint.stop.upper));
   }
 }
 
-void ResistanceSolver::add_stop(const JointModel& joint, const Vec3& direction, double depth) {
+ResistanceSolver::Stop ResistanceSolver::stop_of(const JointModel& joint, const Vec3& direction,
+                                                 double depth) const {
   // The damper works on the way inside the stop only. If it worked on the whole step, its force
   // would set in at once where the stop begins, and some steps would have no solution.
   const JointStopModel& stop = joint.stop;
   const double inside = stop.stiffness * depth + stop.damping * std::min(0.0, depth) / step_;
-  stops_.push_back({joint.velocity_offset, joint.dof(), direction, inside,
-                    step_ * stop.stiffness + stop.damping, 0.0});
+  return {joint.velocity_offset,
+          joint.dof(),
+          direction,
+          inside,
+          step_ * stop.stiffness + stop.damping,
+          0.0};
 }
 
 double ResistanceSolver::push_of(const Stop& stop) const {

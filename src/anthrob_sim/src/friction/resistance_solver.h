@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "anthrob_sim/friction/friction_law.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 #include "friction/sliding_tendon.h"
 
@@ -37,6 +38,14 @@ class ResistanceSolver {
   void follow(const KinematicTree& tree, const std::vector<double>& velocity,
               const std::vector<SlidingTendon*>& tendons);
 
+  /// Generalised forces of friction and stops of one joint, hinge or prismatic, at a given velocity
+  /// at the end of the step, of which only so much is certain.
+  /// @param velocity as in follow()   @param rest speed below which the joint may be at rest: dry
+  /// friction is then any of those that can hold it [rad/s, m/s]
+  /// @param load as in solve() [N]
+  ForceRange resistance_at(const std::vector<double>& q, int joint, double velocity, double rest,
+                           double load = 0.0) const;
+
   /// Velocity at the end of the step.
   const Eigen::VectorXd& velocity() const { return u_; }
   /// Generalised forces of joint friction and stops that belong to it.
@@ -66,7 +75,7 @@ class ResistanceSolver {
 
   void start(const KinematicTree& tree, const Eigen::VectorXd& tau);
   void find_stops(const KinematicTree& tree, const std::vector<double>& q);
-  void add_stop(const JointModel& joint, const Vec3& direction, double depth);
+  Stop stop_of(const JointModel& joint, const Vec3& direction, double depth) const;
   double push_of(const Stop& stop) const;
   void slide(SlidingTendon& tendon, bool first);
   void assemble(const KinematicTree& tree, const std::vector<SlidingTendon*>& tendons);

@@ -43,6 +43,9 @@ Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
   }
   tau_.setZero(skeleton.velocity_count);
   way_.setZero(skeleton.velocity_count);
+  inertial_.setZero(skeleton.velocity_count);
+  lacking_.setZero(skeleton.velocity_count);
+  left_ = q_;
   heading_.resize(static_cast<std::size_t>(skeleton.velocity_count));
   arriving_.reserve(skeleton.bodies.size());
   reserve_effects();
@@ -113,6 +116,7 @@ void Simulation::Parts::step_once() {
   } else {
     head_for_posture();
     resistance_.follow(tree_, heading_, sliding_);
+    find_lacking_efforts();
   }
   // Work within the step goes with the mean of the velocities at its ends.
   const Eigen::Map<const Eigen::VectorXd> start(tree_.velocities().data(), tau_.size());
@@ -129,6 +133,24 @@ void Simulation::Parts::step_once() {
   for (Muscle& muscle : muscles_) muscle.update(skeleton_.bodies(), tree_);
   check_finite();
   sense();
+}
+
+void Simulation::Parts::find_lacking_efforts() {
+  const auto size = tau_.size();
+  const Eigen::Map<const Eigen::VectorXd> before(tree_.velocities().data(), size),
+      after(heading_.data(), size);
+  lacking_ = (after - before) / model_->step;
+  inertial_.noalias() = tree_.mass_matrix() * lacking_;
+  lacking_ = inertial_ + tree_.bias() - tau_;
+  left_ = q_;
+}
+
+Simulation::LackingEffort Simulation::Parts::lacking_effort(int joint, double rest) const {
+  const int dof = model_->skeleton->joints[joint].velocity_offset;
+  const double load = joint_loads_.wanted() ? store_.at(loads_offset_)[joint] : 0.0;
+  const ForceRange resistance =
+      resistance_.resistance_at(left_, joint, heading_[static_cast<std::size_t>(dof)], rest, load);
+  return {inertial_[dof], {lacking_[dof] - resistance.high, lacking_[dof] - resistance.low}};
 }
 
 void Simulation::Parts::move_skeleton() {

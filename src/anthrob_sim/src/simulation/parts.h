@@ -27,6 +27,8 @@ class Simulation::Parts {
   ecu::Measurement reading(std::size_t muscle) const {
     return readings_.empty() ? muscles_[muscle].truth() : readings_.muscle(muscle);
   }
+  /// Simulation::lacking_effort()
+  LackingEffort lacking_effort(int joint, double rest) const;
   const double* read_positions() const {
     return readings_.empty() ? q_.data() : readings_.positions();
   }
@@ -38,6 +40,8 @@ class Simulation::Parts {
   void reset_effects();
   void add_joint_torques();
   void head_for_posture();
+  /// Efforts that the joints lack to go on with `heading_`, without friction and stops.
+  void find_lacking_efforts();
   void move_skeleton();
   void advance_actuators();
   ReadingChain::Truth truth() const { return {muscles_, q_, tree_}; }
@@ -65,6 +69,8 @@ class Simulation::Parts {
   std::size_t measured_offset_;      ///< measured joint positions
   std::vector<std::size_t> joint_sensor_offsets_;
   Eigen::VectorXd tau_;
+  Eigen::VectorXd inertial_, lacking_;   ///< by generalised velocity, while a posture is imposed
+  std::vector<double> left_;             ///< scratch: joint positions before it was imposed
   std::optional<JointLoads> reactions_;  ///< once somebody asked for them
   // Of effects: empty in a plain model.
   JointLoads joint_loads_;

@@ -248,6 +248,17 @@ Vec3 Simulation::joint_resistance(int joint) const {
   return parts_->tree_.joint(joint).R_WC.transpose() * Vec3(all);
 }
 
+Simulation::LackingEffort Simulation::lacking_effort(int joint, double rest) const {
+  check_joint(joint);
+  const JointModel& model = parts_->model_->skeleton->joints[joint];
+  if (model.type == JointType::kBall || muscle_count() > 0 || !parts_->posture_.active()) {
+    throw BadInput("joint " + model.name +
+                   ": the effort that it lacks is computed of hinges and prismatic joints of "
+                   "robots without muscles, while a posture is imposed");
+  }
+  return parts_->lacking_effort(joint, rest);
+}
+
 void Simulation::observe_reactions() {
   if (parts_->reactions_) return;
   parts_->reactions_.emplace(*parts_->model_->skeleton, parts_->model_->gravity,

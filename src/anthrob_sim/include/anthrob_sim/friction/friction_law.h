@@ -8,6 +8,11 @@
 
 namespace anthrob {
 
+/// A generalised force of which only the limits are known, as that of static friction [Nm, N].
+struct ForceRange {
+  double low = 0.0, high = 0.0;
+};
+
 /// Friction coefficient of a tendon that slides over an eyelet or a surface, for the capstan
 /// equation
 ///   f_origin = f_insertion exp(mu alpha)
