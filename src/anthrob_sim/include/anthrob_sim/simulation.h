@@ -128,6 +128,8 @@ class Simulation {
   /// any that can hold it
   /// @throws BadInput for a ball joint, a robot with muscles, or if no posture was imposed
   LackingEffort lacking_effort(int joint, double rest) const;
+  /// What presliding friction of joints could give back now [J].
+  double presliding_energy() const;
   /// From the next step on, the forces that joints carry are computed; see joint_reaction().
   void observe_reactions();
   /// The force with which the parent held the child in the last step [N], in the parent link's
@@ -150,7 +152,8 @@ class Simulation {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Energies of the skeleton, springs on joints included; those of muscles are in Muscle.
+/// Energies of the skeleton, springs and presliding friction on joints included; those of muscles
+/// are in Muscle.
 struct EnergyAudit {
   double kinetic, potential;  ///< [J]
 };

@@ -12,6 +12,8 @@ const char* const kAll = "all";
 /// 100 rad.
 constexpr double kForcePerTorque = 100.0;
 constexpr double kMetresPerRadian = 0.1;
+/// Periods a metre for one period a turn: racks, magnets and balls of guides repeat in centimetres.
+constexpr double kPerMetre = 10.0;
 
 bool is_inner(const PathObstacle& obstacle, const std::vector<PathObstacle>& path) {
   return &obstacle != &path.front() && &obstacle != &path.back();
@@ -25,6 +27,8 @@ struct UnitOfSlides {
 const UnitOfSlides kUnitsOfSlides[] = {
     {"Nm", "N", kForcePerTorque},
     {"Nms/rad", "Ns/m", kForcePerTorque / kMetresPerRadian},
+    {"Nms2/rad2", "Ns2/m2", kForcePerTorque / kMetresPerRadian / kMetresPerRadian},
+    {"1/turn", "1/m", kPerMetre},
     {"Nm/rad", "N/m", kForcePerTorque / kMetresPerRadian},
     {"rad", "m", kMetresPerRadian},
     {"rad/s", "m/s", kMetresPerRadian},

@@ -13,12 +13,17 @@ inline double dry_friction(const JointFrictionModel& friction, double speed) {
                                        std::exp(-std::abs(speed) / friction.stribeck_velocity);
 }
 
-/// Additional dry friction: direction-dependent part (single-dof joints) plus load-dependent part
-/// [Nm or N].
-/// @param direction of motion   @param load force that the joint carries [N]
-inline double extra_dry_friction(const JointFrictionModel& friction, double direction,
-                                 double load) {
-  return (direction > 0.0 ? friction.forward : friction.backward) + friction.load_radius * load;
+/// Dry friction in proportion to what a joint carries and to what drives it [Nm or N].
+/// @param load force that the joint carries [N]   @param effort that drives it [Nm or N]
+inline double proportional_friction(const JointFrictionModel& friction, double load,
+                                    double effort) {
+  return friction.load_radius * load + friction.effort_share * std::abs(effort);
+}
+
+/// Direction-dependent part of dry friction (single-dof joints) [Nm or N].
+/// @param direction of motion
+inline double one_way_friction(const JointFrictionModel& friction, double direction) {
+  return direction > 0.0 ? friction.forward : friction.backward;
 }
 
 }  // namespace anthrob

@@ -15,7 +15,8 @@ constexpr int kMaxIterations = 40;
 constexpr double kTolerance = 1e-5;
 /// A joint slower than this at the start of a step counts as at rest [rad/s, m/s].
 constexpr double kAtRest = 1e-9;
-/// If friction was predicted with this accuracy, the tangent is used [1].
+/// If friction was predicted with this accuracy, the tangent is used [1]; of bristles, of their
+/// torque.
 constexpr double kForeseen = 1e-6;
 /// Factor by which a sweep is extrapolated where speeds are unstable.
 constexpr double kLeap = 6.0;
@@ -26,10 +27,10 @@ constexpr double kLeap = 6.0;
 /// friction that it led to chooses between them (the primal-dual method of Chan, Golub and Mulet,
 /// 1999): predicted well, the tangent; not at all, the chord; with the wrong sign, steeper than the
 /// chord.
-double trusted_slope(const SlidingTendon::Contact& contact, double speed,
-                     const FrictionLaw::Value& friction, double foreseen) {
-  if (std::abs(foreseen - friction.mu) < kForeseen) return friction.slope;
-  const double rest = contact.law->coefficient(0.0, contact.state);
+/// @param rest friction at rest   @param accuracy with which it counts as predicted well
+double trusted_slope(double rest, double speed, const FrictionLaw::Value& friction, double foreseen,
+                     double accuracy) {
+  if (std::abs(foreseen - friction.mu) < accuracy) return friction.slope;
   const double grown = friction.mu - rest;
   if (speed == 0.0 || grown == 0.0) return friction.slope;
   const double chord = grown / speed;
@@ -45,9 +46,19 @@ ResistanceSolver::ResistanceSolver(const SkeletonModel& model, double step)
     if (model.joints[i].friction.is_dry()) {
       dry_.push_back({static_cast<int>(i), true, Vec3::Zero(), 0.0, 0.0, 0.0});
     }
+    const JointFrictionModel& friction = model.joints[i].friction;
+    if (friction.presliding_torque > 0.0) {
+      bristles_.push_back({static_cast<int>(i),
+                           model.joints[i].velocity_offset,
+                           {friction.presliding_torque, friction.presliding_distance, step},
+                           0.0,
+                           0.0,
+                           0.0,
+                           0.0});
+    }
   }
   held_.resize(n, 0);
-  for (auto* v : {&constant_, &rhs_, &u_, &next_, &joint_torque_, &surprise_}) {
+  for (auto* v : {&constant_, &rhs_, &u_, &next_, &joint_torque_, &surprise_, &damping_}) {
     v->setZero(n);
   }
   stops_.reserve(2 * model.joints.size());
@@ -57,14 +68,20 @@ ResistanceSolver::ResistanceSolver(const SkeletonModel& model, double step)
 
 void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double>& q,
                              const Eigen::VectorXd& tau, const std::vector<SlidingTendon*>& tendons,
-                             const double* loads) {
-  if (loads) {
-    for (DryJoint& dry : dry_) dry.load = loads[dry.joint];
+                             const JointInputs& inputs) {
+  for (DryJoint& dry : dry_) {
+    dry.proportional = proportional_friction(model_.joints[dry.joint].friction,
+                                             inputs.loads ? inputs.loads[dry.joint] : 0.0,
+                                             inputs.efforts ? inputs.efforts[dry.joint] : 0.0);
   }
   start(tree, tau);
   find_stops(tree, q);
   falling_ = false;
   for (SlidingTendon* tendon : tendons) slide(*tendon, true);
+  for (BristleJoint& bristle : bristles_) {
+    bristle.state = inputs.bristles[bristle.joint];
+    bend(bristle, true);
+  }
   for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
     assemble(tree, tendons);
     const bool stable = solve_linear();
@@ -74,27 +91,31 @@ void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double
     const bool revised = revise_dry_friction();
     surprise_.setZero();
     for (SlidingTendon* tendon : tendons) slide(*tendon, false);
+    for (BristleJoint& bristle : bristles_) bend(bristle, false);
     if (stable && !revised && is_solved(tree)) break;
   }
-  finish(tendons);
+  finish(tendons, inputs);
 }
 
 void ResistanceSolver::follow(const KinematicTree& tree, const std::vector<double>& velocity,
-                              const std::vector<SlidingTendon*>& tendons) {
+                              const std::vector<SlidingTendon*>& tendons,
+                              const JointInputs& inputs) {
   u_ = Eigen::Map<const Eigen::VectorXd>(tree.velocities().data(), u_.size());
   falling_ = false;
   for (SlidingTendon* tendon : tendons) slide(*tendon, true);
   u_ = Eigen::Map<const Eigen::VectorXd>(velocity.data(), u_.size());
   for (SlidingTendon* tendon : tendons) slide(*tendon, false);
-  commit(tendons);
+  commit(tendons, inputs);
   joint_torque_.setZero();
   iterations_ = 0;
 }
 
 ForceRange ResistanceSolver::resistance_at(const std::vector<double>& q, int joint, double velocity,
-                                           double rest, double load) const {
+                                           double rest, const JointInputs& inputs) const {
   const JointModel& model = model_.joints[joint];
-  double force = -model.friction.viscous * velocity;
+  const JointFrictionModel& friction = model.friction;
+  double force = -(friction.viscous + friction.quadratic * std::abs(velocity)) * velocity;
+  if (inputs.bristles) force -= friction.presliding_torque * inputs.bristles[joint];
   if (model.stop.enabled) {
     const double position = q[model.position_offset];
     const Stop above = stop_of(model, Vec3::UnitX(), position - model.stop.upper),
@@ -102,15 +123,16 @@ ForceRange ResistanceSolver::resistance_at(const std::vector<double>& q, int joi
     force -= std::max(0.0, above.inside + above.slope * velocity);
     force += std::max(0.0, below.inside - below.slope * velocity);
   }
-  const JointFrictionModel& friction = model.friction;
   if (!friction.is_dry()) return {force, force};
+  const double proportional =
+      proportional_friction(friction, inputs.loads ? inputs.loads[joint] : 0.0,
+                            inputs.efforts ? inputs.efforts[joint] : 0.0);
   if (std::abs(velocity) <= rest) {
-    const double limit = std::max(friction.static_torque, friction.kinetic_torque);
-    return {force - limit - extra_dry_friction(friction, 1.0, load),
-            force + limit + extra_dry_friction(friction, -1.0, load)};
+    const double limit = std::max(friction.static_torque, friction.kinetic_torque) + proportional;
+    return {force - limit - friction.forward, force + limit + friction.backward};
   }
-  const double level = dry_friction(friction, velocity) +
-                       extra_dry_friction(friction, std::copysign(1.0, velocity), load);
+  const double level =
+      dry_friction(friction, velocity) + one_way_friction(friction, velocity) + proportional;
   force -= std::copysign(level, velocity);
   return {force, force};
 }
@@ -119,6 +141,12 @@ void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& t
   u_ = Eigen::Map<const Eigen::VectorXd>(tree.velocities().data(), u_.size());
   constant_.noalias() = tree.mass_matrix() * u_;
   constant_ += step_ * (tau - tree.bias());
+  for (const JointModel& joint : model_.joints) {
+    // Quadratic drag is -drag |u| u', linear in the end's velocity: it cannot turn a motion round.
+    const double speed = u_.segment(joint.velocity_offset, joint.dof()).norm();
+    damping_.segment(joint.velocity_offset, joint.dof())
+        .setConstant(joint.friction.viscous + joint.friction.quadratic * speed);
+  }
   for (DryJoint& dry : dry_) {
     const JointModel& joint = model_.joints[dry.joint];
     const auto speed = u_.segment(joint.velocity_offset, joint.dof());
@@ -128,7 +156,7 @@ void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& t
     dry.direction.setZero();
     if (!dry.held) dry.direction.head(joint.dof()) = speed / norm;
     dry.level = dry_friction(joint.friction, norm) +
-                extra_dry_friction(joint.friction, dry.direction.x(), dry.load);
+                one_way_friction(joint.friction, dry.direction.x()) + dry.proportional;
   }
 }
 
@@ -136,11 +164,10 @@ void ResistanceSolver::assemble(const KinematicTree& tree,
                                 const std::vector<SlidingTendon*>& tendons) {
   system_ = tree.mass_matrix();
   rhs_ = constant_;
-  for (const JointModel& joint : model_.joints) {
-    for (int k = 0; k < joint.dof(); ++k) {
-      const int dof = joint.velocity_offset + k;
-      system_(dof, dof) += step_ * joint.friction.viscous;
-    }
+  system_.diagonal() += step_ * damping_;
+  for (const BristleJoint& b : bristles_) {
+    system_(b.dof, b.dof) += step_ * b.slope;
+    rhs_[b.dof] -= step_ * (b.torque - b.slope * b.speed);
   }
   for (Stop& stop : stops_) add_push(stop);
   for (const SlidingTendon* tendon : tendons) add_tendon(*tendon);
@@ -211,7 +238,8 @@ void ResistanceSolver::slide(SlidingTendon& tendon, bool first) {
       tendon.start_speed[j] = speed;
     } else {
       const double faster = speed - tendon.slide_speed[j];
-      slope = trusted_slope(contact, speed, friction, tendon.mu[j] + tendon.slope[j] * faster);
+      slope = trusted_slope(contact.law->coefficient(0.0, contact.state), speed, friction,
+                            tendon.mu[j] + tendon.slope[j] * faster, kForeseen);
       const double unforeseen = after - tendon.tension_after[j] + tendon.steepness[j] * faster;
       const double* piece = &tendon.piece_arms[j * nd];
       for (std::size_t a = 0; a < nd; ++a) surprise_[tendon.dofs[a]] += unforeseen * piece[a];
@@ -224,6 +252,22 @@ void ResistanceSolver::slide(SlidingTendon& tendon, bool first) {
     tendon.tension_after[j] = after;
     tension = after;
   }
+}
+
+void ResistanceSolver::bend(BristleJoint& bristle, bool first) {
+  const double speed = u_[bristle.dof];
+  const FrictionLaw::Value friction = {bristle.law.friction(speed, bristle.state),
+                                       bristle.law.slope(speed, bristle.state)};
+  double slope = friction.slope;
+  if (!first) {
+    const double foreseen = bristle.torque + bristle.slope * (speed - bristle.speed);
+    slope = trusted_slope(bristle.law.torque * bristle.state, speed, friction, foreseen,
+                          kForeseen * bristle.law.torque);
+    surprise_[bristle.dof] += friction.mu - foreseen;
+  }
+  bristle.torque = friction.mu;
+  bristle.slope = slope;
+  bristle.speed = speed;
 }
 
 void ResistanceSolver::add_tendon(const SlidingTendon& tendon) {
@@ -325,7 +369,7 @@ bool ResistanceSolver::revise_dry_friction() {
         hold[k] = (system_.row(dof + k).dot(u_) - rhs_[dof + k]) / step_;
       const double norm = hold.norm();
       const double limit = std::max(joint.friction.static_torque, joint.friction.kinetic_torque) +
-                           extra_dry_friction(joint.friction, -hold.x(), dry.load);
+                           one_way_friction(joint.friction, -hold.x()) + dry.proportional;
       if (norm <= limit) continue;
       dry.held = false;
       dry.direction = -hold / norm;
@@ -344,7 +388,7 @@ bool ResistanceSolver::revise_dry_friction() {
     const double norm = speed.norm();
     const Vec3 direction = speed / norm;
     const double level = dry_friction(joint.friction, norm) +
-                         extra_dry_friction(joint.friction, direction.x(), dry.load);
+                         one_way_friction(joint.friction, direction.x()) + dry.proportional;
     if ((direction - dry.direction).norm() > 1e-9 ||
         std::abs(level - dry.level) > 1e-9 * dry.level) {
       revised = true;
@@ -356,7 +400,12 @@ bool ResistanceSolver::revise_dry_friction() {
   return revised;
 }
 
-void ResistanceSolver::commit(const std::vector<SlidingTendon*>& tendons) {
+void ResistanceSolver::commit(const std::vector<SlidingTendon*>& tendons,
+                              const JointInputs& inputs) {
+  for (const BristleJoint& bristle : bristles_) {
+    double& state = inputs.bristles[bristle.joint];
+    state = bristle.law.bend(u_[bristle.dof], state);
+  }
   for (const SlidingTendon* tendon : tendons) {
     for (std::size_t j = 0; j < tendon->contacts.size(); ++j) {
       tendon->contacts[j].law->commit(tendon->slide_speed[j], tendon->contacts[j].state);
@@ -364,13 +413,11 @@ void ResistanceSolver::commit(const std::vector<SlidingTendon*>& tendons) {
   }
 }
 
-void ResistanceSolver::finish(const std::vector<SlidingTendon*>& tendons) {
-  commit(tendons);
-  for (const JointModel& joint : model_.joints) {
-    const int dof = joint.velocity_offset;
-    joint_torque_.segment(dof, joint.dof()) =
-        -joint.friction.viscous * u_.segment(dof, joint.dof());
-  }
+void ResistanceSolver::finish(const std::vector<SlidingTendon*>& tendons,
+                              const JointInputs& inputs) {
+  commit(tendons, inputs);
+  joint_torque_ = -damping_.cwiseProduct(u_);
+  for (const BristleJoint& bristle : bristles_) joint_torque_[bristle.dof] -= bristle.torque;
   for (const Stop& stop : stops_) {
     joint_torque_.segment(stop.dof, stop.count) -= push_of(stop) * stop.direction.head(stop.count);
   }

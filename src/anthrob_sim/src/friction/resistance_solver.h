@@ -5,14 +5,15 @@
 
 #include "anthrob_sim/friction/friction_law.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
+#include "friction/bristle.h"
 #include "friction/sliding_tendon.h"
 
 namespace anthrob {
 
 /// Finds, in joint coordinates, the velocity at the end of a step under everything that resists
-/// motion: viscous and dry joint friction (3.6), joint stops, tendons sliding over eyelets (4.75),
-/// (4.76). All are taken at the end of the step, so that steep friction neither rings nor creeps at
-/// a step of 1 ms:
+/// motion: viscous and dry joint friction (3.6), drag, joint stops, tendons sliding over eyelets
+/// (4.75), (4.76). All are taken at the end of the step, so that steep friction neither rings nor
+/// creeps at a step of 1 ms:
 ///   M (u' - u) = h (tau - bias + resistance(u'))
 /// Newton's method on that equation, primal-dual in the friction of tendons; joints held by dry
 /// friction are an active set. Where friction falls with speed faster than inertia allows, the
@@ -24,27 +25,33 @@ namespace anthrob {
 /// (3.7), (3.8) take a box.
 class ResistanceSolver {
  public:
+  /// What friction depends on beside motion, by joint; null: nothing of that kind.
+  struct JointInputs {
+    const double* loads = nullptr;    ///< forces that joints carry [N]
+    const double* efforts = nullptr;  ///< that drive them [Nm, N]
+    double* bristles = nullptr;       ///< state of presliding friction, see friction/bristle.h
+  };
+
   ResistanceSolver(const SkeletonModel& model, double step);
 
   /// @param tau generalised forces that do not depend on the solution, without bias forces [Nm, N]
   /// @param tendons get their tensions and sliding speeds filled in
   /// @param q joint positions
-  /// @param loads forces that joints carry [N], for friction that grows with them; or null
   void solve(const KinematicTree& tree, const std::vector<double>& q, const Eigen::VectorXd& tau,
-             const std::vector<SlidingTendon*>& tendons, const double* loads = nullptr);
+             const std::vector<SlidingTendon*>& tendons, const JointInputs& inputs);
 
   /// The same for a given velocity at the end of the step, with which the tendons slide. Joint
   /// friction and stops could not change that velocity and are left out.
   void follow(const KinematicTree& tree, const std::vector<double>& velocity,
-              const std::vector<SlidingTendon*>& tendons);
+              const std::vector<SlidingTendon*>& tendons, const JointInputs& inputs);
 
   /// Generalised forces of friction and stops of one joint, hinge or prismatic, at a given velocity
   /// at the end of the step, of which only so much is certain.
   /// @param velocity as in follow()   @param rest speed below which the joint may be at rest: dry
   /// friction is then any of those that can hold it [rad/s, m/s]
-  /// @param load as in solve() [N]
+  /// @param inputs as in solve(), after the step
   ForceRange resistance_at(const std::vector<double>& q, int joint, double velocity, double rest,
-                           double load = 0.0) const;
+                           const JointInputs& inputs) const;
 
   /// Velocity at the end of the step.
   const Eigen::VectorXd& velocity() const { return u_; }
@@ -58,10 +65,18 @@ class ResistanceSolver {
   struct DryJoint {
     int joint;
     bool held;
-    Vec3 direction;  ///< of motion while sliding, unit; x only for one degree of freedom
-    double level;    ///< friction while sliding [Nm]
-    double load;     ///< that the joint carries [N]
-    double speed;    ///< to which `direction` belongs; 0 when it comes from rest [rad/s, m/s]
+    Vec3 direction;       ///< of motion while sliding, unit; x only for one degree of freedom
+    double level;         ///< friction while sliding [Nm]
+    double proportional;  ///< part of it that goes with load and effort [Nm]
+    double speed;         ///< to which `direction` belongs; 0 when it comes from rest [rad/s, m/s]
+  };
+
+  /// A joint with presliding friction, and what the last sweep took for it.
+  struct BristleJoint {
+    int joint, dof;
+    Bristle law;
+    double state;
+    double torque, slope, speed;  ///< [Nm], [Nms], [rad/s]
   };
 
   /// One side of a joint stop; constant in all sweeps of a step except for `push`. The push along
@@ -74,6 +89,7 @@ class ResistanceSolver {
   };
 
   void start(const KinematicTree& tree, const Eigen::VectorXd& tau);
+  void bend(BristleJoint& bristle, bool first);
   void find_stops(const KinematicTree& tree, const std::vector<double>& q);
   Stop stop_of(const JointModel& joint, const Vec3& direction, double depth) const;
   double push_of(const Stop& stop) const;
@@ -87,16 +103,19 @@ class ResistanceSolver {
   void leave_unstable_speed(const KinematicTree& tree, const std::vector<SlidingTendon*>& tendons);
   bool revise_dry_friction();
   bool is_solved(const KinematicTree& tree) const;
-  void finish(const std::vector<SlidingTendon*>& tendons);
-  static void commit(const std::vector<SlidingTendon*>& tendons);
+  void finish(const std::vector<SlidingTendon*>& tendons, const JointInputs& inputs);
+  void commit(const std::vector<SlidingTendon*>& tendons, const JointInputs& inputs);
 
   const SkeletonModel& model_;
   double step_;
   std::vector<DryJoint> dry_;
+  std::vector<BristleJoint> bristles_;
   std::vector<Stop> stops_;
   std::vector<char> held_;  ///< by generalised velocity
   Eigen::VectorXd constant_, rhs_, u_, next_, joint_torque_;
-  Eigen::VectorXd surprise_;  ///< torque of tendons that the last sweep did not predict [Nm, N]
+  Eigen::VectorXd damping_;  ///< of this step, viscous and quadratic [Nms/rad, Ns/m]
+  Eigen::VectorXd
+      surprise_;  ///< torque of tendons and bristles that the last sweep did not predict [Nm, N]
   Eigen::MatrixXd system_, factor_;  ///< above the diagonal complete only where joints are dry
   int iterations_ = 0;
   bool falling_ = false;  ///< allow negative friction slopes in the linearisation

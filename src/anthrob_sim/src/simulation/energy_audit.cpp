@@ -17,6 +17,7 @@ EnergyAudit audit_energy(const Simulation& sim) {
   for (const auto& torque : model.joint_torques) {
     audit.potential += torque->energy(sim.configuration());
   }
+  audit.potential += sim.presliding_energy();
   return audit;
 }
 

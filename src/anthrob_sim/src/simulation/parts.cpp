@@ -1,5 +1,7 @@
 #include "simulation/parts.h"
 
+#include <algorithm>
+
 #include "anthrob_sim/skeleton/skeleton_model.h"
 #include "simulation/checks.h"
 
@@ -24,6 +26,7 @@ Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
       q_(model_->skeleton->rest_configuration()),
       effort_(model_->skeleton->joints.size(), 0.0),
       load_(model_->skeleton->joints.size(), 0.0),
+      acting_(model_->skeleton->joints.size(), 0.0),
       joint_loads_(*model_->skeleton, model_->gravity, model_->step) {
   const SkeletonModel& skeleton = *model_->skeleton;
   muscles_.reserve(model_->muscles.size());
@@ -54,6 +57,10 @@ Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
 void Simulation::Parts::reserve_effects() {
   const SkeletonModel& skeleton = *model_->skeleton;
   if (joint_loads_.wanted()) loads_offset_ = store_.reserve(skeleton.joints.size());
+  for (const JointModel& joint : skeleton.joints) {
+    has_bristles_ = has_bristles_ || joint.friction.presliding_torque > 0.0;
+  }
+  if (has_bristles_) bristles_offset_ = store_.reserve(skeleton.joints.size());
   if (!model_->joint_torques.empty()) joint_torque_.setZero(skeleton.velocity_count);
   if (!model_->power_effects.empty()) lines_.resize(muscles_.size());
   for (const auto& effect : model_->power_effects) {
@@ -63,6 +70,9 @@ void Simulation::Parts::reserve_effects() {
 
 void Simulation::Parts::reset_effects() {
   if (joint_loads_.wanted()) joint_loads_.reset(store_.at(loads_offset_).data());
+  if (has_bristles_) {
+    std::fill_n(store_.at(bristles_offset_).data(), model_->skeleton->joints.size(), 0.0);
+  }
   for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
     model_->power_effects[i]->reset(store_.at(power_offsets_[i]));
   }
@@ -98,6 +108,26 @@ void Simulation::Parts::settle_in(const std::vector<BodyState>& bodies) {
   sense();
 }
 
+ResistanceSolver::JointInputs Simulation::Parts::joint_inputs() const {
+  ResistanceSolver::JointInputs inputs;
+  if (joint_loads_.wanted()) inputs.loads = store_.at(loads_offset_).data();
+  inputs.efforts = acting_.data();
+  if (has_bristles_) inputs.bristles = store_.at(bristles_offset_).data();
+  return inputs;
+}
+
+double Simulation::Parts::bristle_energy() const {
+  double sum = 0.0;
+  const auto& joints = model_->skeleton->joints;
+  for (std::size_t i = 0; has_bristles_ && i < joints.size(); ++i) {
+    const JointFrictionModel& friction = joints[i].friction;
+    if (friction.presliding_torque == 0.0) continue;
+    const Bristle law{friction.presliding_torque, friction.presliding_distance, model_->step};
+    sum += law.energy(store_.at(bristles_offset_)[i]);
+  }
+  return sum;
+}
+
 void Simulation::Parts::step_once() {
   for (Muscle& muscle : muscles_) muscle.control(step_index_);
 
@@ -105,17 +135,17 @@ void Simulation::Parts::step_once() {
   tau_.setZero();
   for (const JointModel& joint : model_->skeleton->joints) {
     const std::size_t i = &joint - model_->skeleton->joints.data();
-    tau_[joint.velocity_offset] += effort_[i] + load_[i];
+    acting_[i] = joint.effort_gain * effort_[i];
+    tau_[joint.velocity_offset] += acting_[i] + load_[i];
   }
   if (!model_->joint_torques.empty()) add_joint_torques();
   wrenches_.add_generalised(tree_, skeleton_.bodies(), tau_);
   for (Muscle& muscle : muscles_) muscle.prepare_sliding(tree_, tau_);
   if (!posture_.active()) {
-    resistance_.solve(tree_, q_, tau_, sliding_,
-                      joint_loads_.wanted() ? store_.at(loads_offset_).data() : nullptr);
+    resistance_.solve(tree_, q_, tau_, sliding_, joint_inputs());
   } else {
     head_for_posture();
-    resistance_.follow(tree_, heading_, sliding_);
+    resistance_.follow(tree_, heading_, sliding_, joint_inputs());
     find_lacking_efforts();
   }
   // Work within the step goes with the mean of the velocities at its ends.
@@ -147,9 +177,8 @@ void Simulation::Parts::find_lacking_efforts() {
 
 Simulation::LackingEffort Simulation::Parts::lacking_effort(int joint, double rest) const {
   const int dof = model_->skeleton->joints[joint].velocity_offset;
-  const double load = joint_loads_.wanted() ? store_.at(loads_offset_)[joint] : 0.0;
-  const ForceRange resistance =
-      resistance_.resistance_at(left_, joint, heading_[static_cast<std::size_t>(dof)], rest, load);
+  const ForceRange resistance = resistance_.resistance_at(
+      left_, joint, heading_[static_cast<std::size_t>(dof)], rest, joint_inputs());
   return {inertial_[dof], {lacking_[dof] - resistance.high, lacking_[dof] - resistance.low}};
 }
 
@@ -167,7 +196,7 @@ void Simulation::Parts::move_skeleton() {
   if (reactions_) reactions_->after(skeleton_);
   if (joint_loads_.wanted()) {
     joint_loads_.after(skeleton_);
-    joint_loads_.write(store_.at(loads_offset_).data());
+    joint_loads_.write(skeleton_, store_.at(loads_offset_).data());
   }
 }
 
@@ -228,7 +257,7 @@ void Simulation::Parts::apply_joint_efforts() {
       torque = resistance_.joint_torque().segment<3>(joint.velocity_offset);
       if (joint_torque_.size() > 0) torque += joint_torque_.segment<3>(joint.velocity_offset);
     } else {
-      double effort = resistance_.joint_torque()[joint.velocity_offset] + effort_[i] + load_[i];
+      double effort = resistance_.joint_torque()[joint.velocity_offset] + acting_[i] + load_[i];
       if (joint_torque_.size() > 0) effort += joint_torque_[joint.velocity_offset];
       (joint.type == JointType::kHinge ? torque : force) = effort * view.axis_W;
     }

@@ -29,6 +29,7 @@ class Simulation::Parts {
   }
   /// Simulation::lacking_effort()
   LackingEffort lacking_effort(int joint, double rest) const;
+  double bristle_energy() const;
   const double* read_positions() const {
     return readings_.empty() ? q_.data() : readings_.positions();
   }
@@ -39,6 +40,7 @@ class Simulation::Parts {
   void reserve_effects();
   void reset_effects();
   void add_joint_torques();
+  ResistanceSolver::JointInputs joint_inputs() const;
   void head_for_posture();
   /// Efforts that the joints lack to go on with `heading_`, without friction and stops.
   void find_lacking_efforts();
@@ -63,6 +65,7 @@ class Simulation::Parts {
   std::vector<SlidingTendon*> sliding_;
   std::vector<Sensor> joint_sensors_;
   std::vector<double> q_, effort_, load_;
+  std::vector<double> acting_;       ///< scratch: efforts that act
   Eigen::VectorXd way_;              ///< scratch: velocities to the imposed posture, child axes
   std::vector<double> heading_;      ///< scratch: the same, ball joints in world axes
   std::vector<BodyState> arriving_;  ///< scratch: body states at it
@@ -77,6 +80,8 @@ class Simulation::Parts {
   Eigen::VectorXd joint_torque_;  ///< of joint_torques
   std::vector<PowerLine> lines_;  ///< scratch of power_effects
   std::size_t loads_offset_ = 0;
+  bool has_bristles_ = false;
+  std::size_t bristles_offset_ = 0;
   std::vector<std::size_t> power_offsets_;
   std::size_t dissipation_offset_ = 0;
   std::uint64_t step_index_ = 0;

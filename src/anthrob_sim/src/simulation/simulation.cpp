@@ -196,6 +196,10 @@ Vec3 Simulation::read_ball_velocity(int joint) const {
   return {w[0], w[1], w[2]};
 }
 
+double Simulation::presliding_energy() const {
+  return parts_->bristle_energy();
+}
+
 double Simulation::joint_effort(int joint) const {
   check_joint(joint);
   return parts_->effort_[joint];

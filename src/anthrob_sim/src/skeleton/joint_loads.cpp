@@ -44,8 +44,19 @@ void JointLoads::after(const Skeleton& skeleton) {
   }
 }
 
-void JointLoads::write(double* loads) const {
-  for (std::size_t i = 0; i < joints_.size(); ++i) loads[joints_[i]] = carried_[i].norm();
+void JointLoads::write(const Skeleton& skeleton, double* loads) const {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const JointModel& joint = model_.joints[joints_[i]];
+    if (joint.type != JointType::kPrismatic) {
+      loads[joints_[i]] = carried_[i].norm();
+      continue;
+    }
+    // A guide carries what is across it.
+    const Mat3 R_WL =
+        skeleton.bodies()[joint.child].X_WB.R * model_.bodies[joint.child].X_LB.R.transpose();
+    const Vec3 axis_W = R_WL * joint.axis_C;
+    loads[joints_[i]] = (carried_[i] - carried_[i].dot(axis_W) * axis_W).norm();
+  }
 }
 
 }  // namespace anthrob

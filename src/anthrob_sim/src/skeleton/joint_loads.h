@@ -23,8 +23,9 @@ class JointLoads {
   /// To be called right before and right after Skeleton::step.
   void before(const Skeleton& skeleton);
   void after(const Skeleton& skeleton);
-  /// @param loads by joint [N]; those of joints that are not wanted stay unchanged
-  void write(double* loads) const;
+  /// @param loads by joint [N], of prismatic joints across their axes; those of joints that are not
+  /// wanted stay unchanged
+  void write(const Skeleton& skeleton, double* loads) const;
 
  private:
   const SkeletonModel& model_;

@@ -52,7 +52,13 @@ const std::set<std::string> kIds = {"eyelet_friction",
                                     "force_crosstalk",
                                     "joint_offset_torque",
                                     "joint_coulomb_asymmetric",
-                                    "joint_viscous"};
+                                    "joint_viscous",
+                                    "joint_quadratic_drag",
+                                    "joint_presliding",
+                                    "joint_load_friction",
+                                    "joint_effort_friction",
+                                    "joint_ripple",
+                                    "effort_gain"};
 
 const char* const kRobots[] = {"two_muscle_rig/model_I.yaml",    "two_muscle_rig/model_II.yaml",
                                "two_muscle_rig/model_hill.yaml", "anthrob/model_I.yaml",

@@ -15,14 +15,20 @@ struct JointFrictionModel {
   double static_torque = 0.0;       ///< [Nm] or [N]
   double kinetic_torque = 0.0;      ///< [Nm] or [N]
   double viscous = 0.0;             ///< [Nms/rad] or [Ns/m]
+  double quadratic = 0.0;           ///< drag per square of speed [Nms^2/rad^2] or [Ns^2/m^2]
   double stribeck_velocity = 0.05;  ///< [rad/s] or [m/s]
-  double forward = 0.0;      ///< more dry friction while moving forward [Nm] or [N]; not for balls
-  double backward = 0.0;     ///< the same while moving backward
-  double load_radius = 0.0;  ///< dry friction per force that the joint carries [m]
+  double forward = 0.0;   ///< more dry friction while moving forward [Nm] or [N]; not for balls
+  double backward = 0.0;  ///< the same while moving backward
+  /// Dry friction per force that the joint carries [m]; of a prismatic joint per force across its
+  /// axis [1].
+  double load_radius = 0.0;
+  double effort_share = 0.0;         ///< dry friction per effort of a driven joint [1]
+  double presliding_torque = 0.0;    ///< of friction that bends before it slides (Dahl) [Nm] or [N]
+  double presliding_distance = 0.0;  ///< in which 63 % of it are back [rad] or [m]
 
   bool is_dry() const {
     return static_torque > 0.0 || kinetic_torque > 0.0 || forward > 0.0 || backward > 0.0 ||
-           load_radius > 0.0;
+           load_radius > 0.0 || effort_share > 0.0;
   }
 };
 
@@ -46,7 +52,8 @@ struct JointModel {
   Vec3 axis_C = Vec3::UnitZ();  ///< unit axis in the child link frame (not for a ball joint)
   JointFrictionModel friction;
   JointStopModel stop;
-  bool driven = false;  ///< takes an applied effort from outside
+  bool driven = false;       ///< takes an applied effort from outside
+  double effort_gain = 1.0;  ///< effort that acts, over the applied one
 
   int position_offset = 0;  ///< in a configuration: 1 number, or w, x, y, z of a ball joint
   int velocity_offset = 0;  ///< in generalised velocities: 1 number, or 3 of a ball joint
