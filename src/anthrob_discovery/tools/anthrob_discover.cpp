@@ -145,7 +145,7 @@ void write_answer(const discovery::Answer& answer, const discovery::Evaluator& e
                   const Arguments& a, double runtime) {
   const discovery::Question& question = a.question;
   OutputFiles files = separating_files(answer, *evaluator.model());
-  files.merge(report_files(answer, question, runtime));
+  files.merge(report_files(answer, question, runtime, evaluator.model().get()));
   files["model.yaml"] = model_text(answer, evaluator, question, a.out);
   write_files(a.out, files);
   remove_other_figures(a.out, discovery::kinds_of_figures(), files);

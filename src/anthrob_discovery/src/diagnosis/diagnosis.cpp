@@ -97,8 +97,9 @@ Diagnosis diagnose(const Hypotheses& hypotheses, const Admission& admission, con
   observer.stage("locating the gap");
   return {
       gaps, locate_gap(hypotheses, admission, scales, variables, found),
-      examples_of(*admission.test.front(), hypotheses.test.whitening(), found.recalibrated.test,
-                  found.extended.test, gaps.per_channel, hypotheses.options.diagnosis.examples),
+      examples_of(*admission.test.front(), admission.question.test.front(),
+                  hypotheses.test.whitening(), found.recalibrated.test, found.extended.test,
+                  gaps.per_channel, hypotheses.options.diagnosis.examples),
       remarks_on(gaps, !admission.question.repeats.empty(), hypotheses.options.diagnosis.too_good)};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace anthrob {
 namespace discovery {
@@ -43,9 +44,21 @@ std::string label_of(const Channel& channel) {
   return channel.name() + "/" + "xyz"[channel.component];
 }
 
+/// Mean in the bin, with which simulations were compared.
+double mean_in(const Series& series, double begin, double end) {
+  const auto first = std::lower_bound(series.t.begin(), series.t.end(), begin);
+  const auto last = std::lower_bound(first, series.t.end(), end);
+  if (first == last) return series.at(0.5 * (begin + end));
+  const auto value = series.values.begin();
+  return std::accumulate(value + (first - series.t.begin()), value + (last - series.t.begin()),
+                         0.0) /
+         static_cast<double>(last - first);
+}
+
 }  // namespace
 
-std::vector<Example> examples_of(const Experiment& experiment, const Eigen::VectorXf& whitener,
+std::vector<Example> examples_of(const Experiment& experiment, const Dataset& recording,
+                                 const Eigen::VectorXf& whitener,
                                  const Eigen::VectorXf& recalibrated, const Eigen::VectorXf& after,
                                  const std::map<std::string, Gap>& gaps, std::size_t most) {
   std::vector<std::string> names = by_change(gaps);
@@ -54,7 +67,8 @@ std::vector<Example> examples_of(const Experiment& experiment, const Eigen::Vect
   for (const std::string& name : names) {
     const Channel* channel = most_changed(experiment, name, recalibrated, after);
     if (!channel) continue;
-    Example example{label_of(*channel), channel->unit, {}, {}, {}};
+    Example example{label_of(*channel), channel->unit, {}, {}, {}, {}};
+    const Series measured = recording.series(channel->name());
     for (std::size_t b = 0; b < channel->count; ++b) {
       const auto k = static_cast<Eigen::Index>(channel->offset + b);
       const double factor = whitener[k];
@@ -62,6 +76,9 @@ std::vector<Example> examples_of(const Experiment& experiment, const Eigen::Vect
       example.t.push_back(experiment.bin_time(b));
       example.recalibrated.push_back(recalibrated[k] / factor);
       example.after.push_back(after[k] / factor);
+      if (measured.empty()) continue;
+      const double begin = static_cast<double>(b) * experiment.bin();
+      example.measured.push_back(mean_in(measured, begin, begin + experiment.bin()));
     }
     examples.push_back(std::move(example));
   }

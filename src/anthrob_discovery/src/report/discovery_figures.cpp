@@ -11,6 +11,8 @@ namespace discovery {
 
 namespace {
 
+constexpr int kBlack = 9;  ///< in the palette of SvgFigure
+
 /// "0.05 Nm", not to be broken between lines; without unit where there is none.
 std::string with_unit(double value, const std::string& unit) {
   return short_number(value) + (unit == "1" || unit.empty() ? "" : "\u00a0" + unit);
@@ -21,8 +23,20 @@ std::string in_unit(const std::string& unit) {
 }
 
 std::string example_figure(const Example& example, bool any_effect) {
-  SvgFigure figure("simulated minus measured, held-out recording");
-  auto& panel = figure.add_panel("time [s]", example.channel + " [" + example.unit + "]");
+  SvgFigure figure(example.channel + ", held-out recording");
+  if (!example.measured.empty()) {
+    const auto simulated = [&](std::vector<double> difference) {
+      for (std::size_t i = 0; i < difference.size(); ++i) difference[i] += example.measured[i];
+      return difference;
+    };
+    auto& values = figure.add_panel("time [s]", "value" + in_unit(example.unit));
+    values.lines.push_back({"recalibrated", example.t, simulated(example.recalibrated)});
+    if (any_effect) {
+      values.lines.push_back({"with what was found", example.t, simulated(example.after)});
+    }
+    values.lines.push_back({"measured", example.t, example.measured, true, kBlack});
+  }
+  auto& panel = figure.add_panel("time [s]", "simulated minus measured" + in_unit(example.unit));
   panel.lines.push_back({"recalibrated", example.t, example.recalibrated});
   if (any_effect) panel.lines.push_back({"with what was found", example.t, example.after});
   return figure.render();
@@ -81,7 +95,7 @@ OutputFiles discovery_figures(const Answer& answer, const DiagnosisOptions& opti
 }
 
 const std::set<std::string>& kinds_of_figures() {
-  static const std::set<std::string> kinds = {"example", "gap", "rest"};
+  static const std::set<std::string> kinds = {"example", "gap", "rest", "robot"};
   return kinds;
 }
 

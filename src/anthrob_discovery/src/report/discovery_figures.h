@@ -12,9 +12,9 @@ namespace anthrob {
 namespace discovery {
 
 /// Figures of the report, figures/NAME.svg:
-/// example_1, ...: simulated minus measured over time, of the held-out channels that changed most;
-/// gap_1, ...: the residual of the recalibrated model over the quantities on which it depends most,
-/// at places with a gap; rest_1, ...: the same of the extended model.
+/// example_1, ...: measured and simulated over time, and their difference, of the held-out channels
+/// that changed most; gap_1, ...: the residual of the recalibrated model over the quantities on
+/// which it depends most, at places with a gap; rest_1, ...: the same of the extended model.
 OutputFiles discovery_figures(const Answer& answer, const DiagnosisOptions& options);
 
 /// "example", ...

@@ -8,6 +8,7 @@
 #include "report/discovery_report.h"
 #include "report/discovery_summary.h"
 #include "report/options_json.h"
+#include "report/robot_figure.h"
 #include "report/separating_files.h"
 #include "separation/separating_experiment.h"
 
@@ -284,6 +285,16 @@ const char* search_end_name(SearchEnd end) {
   return "no_more";
 }
 
+/// Where what was found acts, or else where the largest part of the gap is.
+std::vector<std::string> marked_places(const Answer& answer) {
+  std::vector<std::string> places;
+  for (const FoundEffect& effect : answer.effects) places.push_back(effect.place);
+  if (places.empty() && !answer.diagnosis.where.empty()) {
+    places.push_back(answer.diagnosis.where.front().place);
+  }
+  return places;
+}
+
 /// Levels by which the page chooses its words.
 Json criteria_json(const Answer& answer, const JudgementOptions& options) {
   return {{"real_gap", options.real_gap},
@@ -349,8 +360,11 @@ std::string report_json(const Answer& answer, const Question& question, double r
   return report.dump(2) + "\n";
 }
 
-OutputFiles report_files(const Answer& answer, const Question& question, double runtime) {
+OutputFiles report_files(const Answer& answer, const Question& question, double runtime,
+                         const RobotModel* robot) {
   OutputFiles files = discovery_figures(answer, question.options.diagnosis);
+  const std::string drawn = robot ? robot_figure(*robot, marked_places(answer)) : "";
+  if (!drawn.empty()) files["figures/robot_1.svg"] = drawn;
   files["report.json"] = report_json(answer, question, runtime, files);
   return files;
 }

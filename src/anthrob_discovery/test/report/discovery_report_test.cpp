@@ -470,12 +470,12 @@ TEST(Examples, OfABallJointShowTheComponentThatChangesMost) {
   after << 0.1f, 0.0f, 0.3f;
   const std::map<std::string, Gap> gaps = {{"shoulder/orientation", {1.0, 2.0, 1.0, 1.0}}};
   const Eigen::VectorXf ones = Eigen::VectorXf::Ones(3);
-  const auto changed = examples_of(Turn(), ones, recalibrated, after, gaps, 3);
+  const auto changed = examples_of(Turn(), Dataset{}, ones, recalibrated, after, gaps, 3);
   ASSERT_EQ(changed.size(), 1u);
   EXPECT_EQ(changed[0].channel, "shoulder/orientation/y");
   ASSERT_EQ(changed[0].after.size(), 1u);
   EXPECT_FLOAT_EQ(changed[0].recalibrated[0], 0.2f);
-  const auto still = examples_of(Turn(), ones, recalibrated, recalibrated, gaps, 3);
+  const auto still = examples_of(Turn(), Dataset{}, ones, recalibrated, recalibrated, gaps, 3);
   EXPECT_EQ(still.at(0).channel, "shoulder/orientation/z");  // the largest gap
 }
 
