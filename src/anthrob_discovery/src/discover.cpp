@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "admission/admission.h"
+#include "anthrob_core/text.h"
 #include "baseline/baseline.h"
 #include "conclusion/conclusion.h"
 #include "detectability/detectability.h"
@@ -27,6 +28,18 @@ void say_remarks(const Admission& admission, const Observer& observer) {
   }
 }
 
+/// Recordings as the model's sensors would have them. What was given is judged first, so that
+/// nothing that cannot answer is corrected until it can.
+/// @return and how they were taken
+std::pair<Admission, Measurement> admit_as_taken(const Evaluator& evaluator,
+                                                 const Question& question) {
+  Admission admission = admit(evaluator, question);
+  Description description = describe(evaluator, question);
+  if (description.corrected) admission = admit(evaluator, description.question);
+  append(description.remarks, admission.remarks);
+  return {std::move(admission), std::move(description.measurement)};
+}
+
 }  // namespace
 
 Answer discover(const Evaluator& evaluator, const Question& question, const Observer& observer) {
@@ -35,8 +48,7 @@ Answer discover(const Evaluator& evaluator, const Question& question, const Obse
   // A wrong effect is told at once.
   std::vector<Candidate> candidates = list_candidates(evaluator, question.effects);
 
-  const Admission admission = admit(evaluator, question);
-  const Measurement measurement = describe(admission);
+  const auto [admission, measurement] = admit_as_taken(evaluator, question);
   const Scales scales = measure_scales(evaluator, admission.train, admission.repeats,
                                        admission.lags, options.experiment);
   const auto variables =

@@ -1,10 +1,15 @@
 #include "measurement/measurement.h"
 
+#include "measurement/hold_correction.h"
+
 namespace anthrob {
 namespace discovery {
 
-Measurement describe(const Admission&) {
-  return {};
+Description describe(const Evaluator& evaluator, const Question& question) {
+  Description description;
+  description.question = question;
+  correct_holds(*evaluator.model(), description);
+  return description;
 }
 
 }  // namespace discovery

@@ -12,6 +12,7 @@
 #include "options/hypotheses.h"
 #include "options/judgement.h"
 #include "options/loop.h"
+#include "options/measurement.h"
 #include "options/search.h"
 #include "options/separation.h"
 
@@ -22,6 +23,7 @@ namespace discovery {
 /// report.json, and docs/discovery_method.md is made from them.
 struct Options {
   AdmissionOptions admission;
+  MeasurementOptions measurement;
   ExperimentOptions experiment;
   JudgementOptions judgement;
   FitOptions fit;
@@ -36,6 +38,7 @@ struct Options {
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
     visit("admission", options.admission);
+    visit("measurement", options.measurement);
     visit("experiment", options.experiment);
     visit("judgement", options.judgement);
     visit("fit", options.fit);

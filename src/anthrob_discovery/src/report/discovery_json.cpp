@@ -226,6 +226,21 @@ Json improbable_json(const Answer& answer) {
   return list;
 }
 
+/// How the recordings were taken.
+Json measurement_json(const Measurement& measurement) {
+  Json list = Json::array();
+  for (const MeasurementProperty& property : measurement) {
+    list.push_back({{"channel_kind", property.channel_kind},
+                    {"place", property.place},
+                    {"what", property.what},
+                    {"value", number(property.value)},
+                    {"ci95", {number(property.ci95[0]), number(property.ci95[1])}},
+                    {"unit", property.unit},
+                    {"source", property.source}});
+  }
+  return list;
+}
+
 Json one_sided_json(const std::vector<OneSidedGap>& gaps) {
   Json list = Json::array();
   for (const OneSidedGap& gap : gaps) {
@@ -321,6 +336,7 @@ std::string report_json(const Answer& answer, const Question& question, double r
   report["remarks"] = answer.remarks;
   const std::string cap = cap_remark(answer, question);
   if (!cap.empty()) report["remarks"].push_back(cap);
+  report["measurement"] = measurement_json(answer.measurement);
   report["alternatives"] = alternatives_json(answer);
   report["improbable"] = improbable_json(answer);
   report["dropped"] = answer.search.dropped;
