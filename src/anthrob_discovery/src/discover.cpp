@@ -12,6 +12,7 @@
 #include "detectability/detectability.h"
 #include "diagnosis/diagnosis.h"
 #include "hypotheses/hypotheses.h"
+#include "hypotheses/periods_from_data.h"
 #include "hypotheses/screening.h"
 #include "measurement/measurement.h"
 #include "search/search.h"
@@ -40,6 +41,12 @@ std::pair<Admission, Measurement> admit_as_taken(const Evaluator& evaluator,
   return {std::move(admission), std::move(description.measurement)};
 }
 
+std::string no_period_of(const std::string& candidate) {
+  return candidate +
+         ": not looked for, as no effort of a driven joint repeats along its way in these "
+         "recordings";
+}
+
 }  // namespace
 
 Answer discover(const Evaluator& evaluator, const Question& question, const Observer& observer) {
@@ -48,11 +55,16 @@ Answer discover(const Evaluator& evaluator, const Question& question, const Obse
   // A wrong effect is told at once.
   std::vector<Candidate> candidates = list_candidates(evaluator, question.effects);
 
-  const auto [admission, measurement] = admit_as_taken(evaluator, question);
+  auto [admission, measurement] = admit_as_taken(evaluator, question);
   const Scales scales = measure_scales(evaluator, admission.train, admission.repeats,
                                        admission.lags, options.experiment);
   const auto variables =
       measured_variables(admission.train, admission.question.train, options.experiment);
+  const std::vector<std::string> taken_out = take_periods_from_data(
+      evaluator, admission.train, variables, options.hypotheses.periods, candidates);
+  if (!question.effects.empty()) {
+    for (const std::string& name : taken_out) admission.remarks.push_back(no_period_of(name));
+  }
   const Hypotheses hypotheses = pose(evaluator, std::move(candidates), admission, scales);
   say_remarks(admission, observer);
 

@@ -124,6 +124,39 @@ struct ComparisonOptions {
   }
 };
 
+/// Periods of an effort over the position of a driven joint.
+struct PeriodOptions {
+  double least_periods = 1.5;  ///< within the way, below which a period is a slope or a bend
+  /// [periods] between two frequencies that are tried, over the whole way: a peak loses a twentieth
+  double spacing = 0.25;
+  std::size_t most_frequencies = 8000;  ///< that are tried: a second of computing
+  /// [periods] a bin moves at most over, in half of the bins: faster ripple is averaged out
+  Share fastest = 0.4;
+  /// times the way of a bin that three quarters do not exceed: more is a start or a return
+  double rush = 3.0;
+  /// of the peak's height, which a whole number of periods a turn must have to be taken instead
+  Share whole = 0.9;
+  std::size_t blocks = 20;  ///< of time; a curve is fitted to every second and judged on the others
+  /// of the squared effort that is left before it: what a period must predict; twice what the best
+  /// of thousands does by chance in 600 bins
+  Share least_share = 0.05;
+  /// of what other laws of the motion leave: the same of all periods; below, none is looked for
+  Share least_together = 0.2;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& options, Visitor&& visit) {
+    visit("least_periods", options.least_periods);
+    visit("spacing", options.spacing);
+    visit("most_frequencies", options.most_frequencies);
+    visit("fastest", options.fastest);
+    visit("rush", options.rush);
+    visit("whole", options.whole);
+    visit("blocks", options.blocks);
+    visit("least_share", options.least_share);
+    visit("least_together", options.least_together);
+  }
+};
+
 /// How candidates are weighed.
 struct HypothesisOptions {
   LongerStepOptions fits = {2.0, 3.0};    ///< of sensitivities
@@ -132,6 +165,7 @@ struct HypothesisOptions {
   TrialOptions trials;
   UnknownOptions unknowns;
   ComparisonOptions comparison;
+  PeriodOptions periods;
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
@@ -141,6 +175,7 @@ struct HypothesisOptions {
     visit("trials", options.trials);
     visit("unknowns", options.unknowns);
     visit("comparison", options.comparison);
+    visit("periods", options.periods);
   }
 };
 

@@ -26,6 +26,21 @@ const std::vector<Separation>& separations() {
         "joint_coulomb_asymmetric"},
        "repeat one motion at three levels of co-contraction: dry joint friction stays the same, "
        "friction of tendons and of loaded joints grows; then do so at a second posture"},
+      {{"joint_presliding", "joint_coulomb", "joint_coulomb_asymmetric"},
+       "move the joint to and fro by ever smaller strokes, down to a tenth of a degree or of a "
+       "millimetre, slowly: what bends gives back, what only rubs does not"},
+      {{"joint_quadratic_drag", "joint_viscous", "joint_coulomb"},
+       "turn at five constant speeds, 1 : 2 : 4 : 8 : 16, in both directions, and compare the "
+       "efforts that it takes"},
+      {{"effort_gain", "joint_effort_friction", "joint_coulomb", "joint_viscous", "payload"},
+       "let a known weight pull at the joint, and move it up and down slowly: a wrong gain is the "
+       "same both ways, friction is not; then repeat this with twice the weight"},
+      {{"joint_load_friction", "joint_coulomb", "joint_coulomb_asymmetric"},
+       "repeat one slow motion with a known mass added to the joint: only friction that goes with "
+       "the load grows"},
+      {{"joint_ripple", "joint_coulomb", "joint_offset_torque", "cable_drag"},
+       "move slowly over the whole range, to and fro: what depends on the position comes back at "
+       "the same places, in both directions"},
       {{"eyelet_presliding", "joint_coulomb", "pwm_dead_zone", "eyelet_friction"},
        "stop after motion from either side and wait, then make tiny reversals of less than a "
        "millimetre of tendon"},
