@@ -9,8 +9,10 @@
 #include "anthrob_core/text.h"
 #include "baseline/baseline.h"
 #include "conclusion/conclusion.h"
+#include "conclusion/withheld.h"
 #include "detectability/detectability.h"
 #include "diagnosis/diagnosis.h"
+#include "hypotheses/axis_doses.h"
 #include "hypotheses/hypotheses.h"
 #include "hypotheses/periods_from_data.h"
 #include "hypotheses/screening.h"
@@ -56,6 +58,8 @@ Answer discover(const Evaluator& evaluator, const Question& question, const Obse
   std::vector<Candidate> candidates = list_candidates(evaluator, question.effects);
 
   auto [admission, measurement] = admit_as_taken(evaluator, question);
+  scale_doses(*evaluator.model(), admission.question.train, options.hypotheses.axis_doses,
+              candidates);
   const Scales scales = measure_scales(evaluator, admission.train, admission.repeats,
                                        admission.lags, options.experiment);
   const auto variables =
@@ -79,8 +83,9 @@ Answer discover(const Evaluator& evaluator, const Question& question, const Obse
   observer.stage("checking which effects these recordings can show");
   Detectability detectability = detect(hypotheses, base, screening, scores);
 
-  const SearchResult found =
-      search(hypotheses, baseline, screening, std::move(scores), question.max_effects, observer);
+  const SearchResult found = withhold(
+      hypotheses, scales,
+      search(hypotheses, baseline, screening, std::move(scores), question.max_effects, observer));
   const Diagnosis diagnosis =
       diagnose(hypotheses, admission, scales, variables, baseline, found, observer);
   Answer answer = conclude(hypotheses, admission, scales, variables, baseline, found, diagnosis);

@@ -11,6 +11,7 @@
 #include "admission/synchronisation.h"
 #include "anthrob_core/errors.h"
 #include "anthrob_core/text.h"
+#include "experiment/axis_plan.h"
 #include "experiment/chain_experiment.h"
 #include "judgement/judge.h"
 
@@ -119,7 +120,13 @@ Admission admit(const Evaluator& evaluator, const Question& asked) {
   }
 
   ReplayScope scope;
-  scope.bin = robot.muscles.empty() ? options.admission.axis_bin : options.admission.finest_bin;
+  scope.bin = options.admission.finest_bin;
+  if (robot.muscles.empty()) {
+    const AxisPlan plan = plan_axes(robot, question.train, options.experiment.axis);
+    scope.bin = plan.bin;
+    scope.hidden_inertia = plan.hidden_inertia;
+    append(remarks_on_plan(robot, plan), admitted.remarks);
+  }
   const double channels = 4.0 * static_cast<double>(robot.muscles.size()) + 4.0;
   scope.bin *= std::max(
       1.0, std::ceil(length.seconds / scope.bin * channels / options.admission.most_differences));

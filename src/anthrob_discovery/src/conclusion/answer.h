@@ -16,9 +16,10 @@ enum class Verdict {
   kNoMissingEffect,
   kEffectsFound,
   kUnexplained,  ///< a gap is left that no effect of the catalogue explains
+  kCannotTell,   ///< effects would explain it, but no better than noise may (withhold())
 };
 
-/// "no_missing_effect", "effects_found", "unexplained"
+/// "no_missing_effect", "effects_found", "unexplained", "cannot_tell"
 std::string verdict_name(Verdict verdict);
 
 struct FoundParameter {

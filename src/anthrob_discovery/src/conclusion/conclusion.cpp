@@ -30,6 +30,7 @@ Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const 
   const auto sizes = measure_sizes(hypotheses, variables, found, admission.question.seed);
   Answer answer;
   answer.verdict = verdict_on(!found.named.empty(), diagnosis, options.conclusion);
+  if (found.named.empty() && !found.record.withheld.empty()) answer.verdict = Verdict::kCannotTell;
   for (std::size_t e = 0; e < found.named.size(); ++e) {
     FoundEffect effect{found.named[e].found, sizes[e], {}, {}};
     answer.effects.push_back(with_separation(trusted(std::move(effect), options.judgement.trust),
@@ -44,6 +45,7 @@ Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const 
   answer.diagnosis = diagnosis;
   answer.remarks = admission.remarks;
   append(remarks_on_ordinary_parameters(admission.question), answer.remarks);
+  append(found.record.withheld, answer.remarks);
   append(diagnosis.remarks, answer.remarks);
   return answer;
 }

@@ -42,6 +42,8 @@ std::string verdict_name(Verdict verdict) {
       return "effects_found";
     case Verdict::kUnexplained:
       return "unexplained";
+    case Verdict::kCannotTell:
+      return "cannot_tell";
   }
   return {};
 }

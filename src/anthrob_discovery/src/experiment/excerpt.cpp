@@ -15,6 +15,7 @@ Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
     if (e > 0 && seconds < options.shortest_excerpt) break;
     ReplayScope scope;
     scope.bin = whole[e]->bin();
+    scope.hidden_inertia = whole[e]->hidden_inertia();
     scope.seconds =
         std::max(options.shortest_excerpt, seconds / static_cast<double>(whole.size() - e));
     part.experiments.push_back(scope.seconds < whole[e]->duration()

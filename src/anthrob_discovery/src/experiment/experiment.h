@@ -45,6 +45,10 @@ class Experiment {
   std::size_t size() const { return present_.size(); }
   /// Whether anything was measured in a bin.
   const std::vector<char>& present() const { return present_; }
+  /// Whether a bin shows how the channel scatters: a joint that friction holds shows nothing.
+  const std::vector<char>& telling() const { return telling_.empty() ? present_ : telling_; }
+  /// Driven joints whose inertia does not count; see AxisPlan.
+  const std::vector<int>& hidden_inertia() const { return hidden_inertia_; }
   double bin() const { return bin_; }            ///< [s]
   double duration() const { return duration_; }  ///< [s]
   /// Of the recording and how it is replayed.
@@ -62,6 +66,8 @@ class Experiment {
   std::uint64_t fingerprint_ = 0;
   std::vector<Channel> channels_;
   std::vector<char> present_;
+  std::vector<char> telling_;  ///< empty: all that are present
+  std::vector<int> hidden_inertia_;
 };
 
 using Experiments = std::vector<std::shared_ptr<const Experiment>>;
@@ -80,6 +86,7 @@ struct ReplayScope {
   /// chain.
   std::optional<ReplayMode> mode = {};
   double seconds = std::numeric_limits<double>::infinity();  ///< used, from the beginning
+  std::vector<int> hidden_inertia = {};                      ///< driven joints; see AxisPlan
 };
 
 /// Replays all of a recording's commands, the whole chain from the controllers on. Robots whose

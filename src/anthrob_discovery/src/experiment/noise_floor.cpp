@@ -29,16 +29,39 @@ void for_each_channel(const Experiments& experiments, Visit visit) {
   }
 }
 
-/// Values of a channel where it was measured.
-Eigen::VectorXf measured(const Experiment& experiment, const Channel& channel,
-                         const Eigen::VectorXf& values, Eigen::Index offset) {
+/// Values of a channel in the bins that are marked.
+Eigen::VectorXf marked(const std::vector<char>& marks, const Channel& channel,
+                       const Eigen::VectorXf& values, Eigen::Index offset) {
   std::vector<float> found;
   for (std::size_t b = 0; b < channel.count; ++b) {
-    if (experiment.present()[channel.offset + b]) {
+    if (marks[channel.offset + b]) {
       found.push_back(values[offset + static_cast<Eigen::Index>(b)]);
     }
   }
   return Eigen::Map<Eigen::VectorXf>(found.data(), static_cast<Eigen::Index>(found.size()));
+}
+
+/// Where a channel was measured.
+Eigen::VectorXf measured(const Experiment& experiment, const Channel& channel,
+                         const Eigen::VectorXf& values, Eigen::Index offset) {
+  return marked(experiment.present(), channel, values, offset);
+}
+
+/// Root mean square of differences between repeats, some of which may be larger than noise makes
+/// them: a motion that turns back a moment later meets friction of the other sign.
+double rms_of_repeats(std::vector<float> differences, const ExperimentOptions& options) {
+  const auto rms = [](const std::vector<float>& values, std::size_t count) {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < count; ++i) squares += double(values[i]) * values[i];
+    return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
+  };
+  std::sort(differences.begin(), differences.end(),
+            [](float a, float b) { return std::abs(a) < std::abs(b); });
+  const auto count = static_cast<double>(differences.size());
+  const auto most =
+      static_cast<std::size_t>(count - std::floor(options.torn_repeats.value * count));
+  return std::min(rms(differences, differences.size()),
+                  options.normal_tails * rms(differences, most));
 }
 
 /// Whether a channel is of a sensor whose resolution the controllers see (Variant).
@@ -59,11 +82,12 @@ Variant with_counts(const RobotModel& robot, const Experiments& experiments) {
 }
 
 void from_repeats(const Evaluator& evaluator, const Experiments& train, const Experiments& repeats,
-                  const std::vector<long>& lags, Scales& scales) {
+                  const std::vector<long>& lags, const ExperimentOptions& options, Scales& scales) {
   const Experiment& first = *train.front();
   const Variant given{};
   const Differences base = evaluator.compare({given}, {train.front()}).front();
   std::map<std::string, Moments> moments;
+  std::map<std::string, std::vector<float>> lacking;  // efforts of driven joints
   std::map<std::string, std::vector<double>> lengths;
   std::map<std::string, double> averaged;  // bins, each divided by its measurements
   for (std::size_t r = 0; r < repeats.size(); ++r) {
@@ -91,11 +115,12 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
       for (long i = begin; i < end; ++i) {
         const auto k = a.offset + static_cast<std::size_t>(i);
         const auto l = b.offset + static_cast<std::size_t>(i + lag);
-        if (!first.present()[k] || !repeat->present()[l]) continue;
+        if (!first.telling()[k] || !repeat->telling()[l]) continue;
         both.push_back((base[static_cast<Eigen::Index>(k)] - other[static_cast<Eigen::Index>(l)]) /
                        std::sqrt(2.0f));
         moments[a.name()].squares += double(both.back()) * both.back();
         moments[a.name()].count += 1.0;
+        if (a.quantity == "effort") lacking[a.name()].push_back(both.back());
         averaged[a.name()] += 0.5 / a.rows + 0.5 / b.rows;
       }
       lengths[a.name()].push_back(correlation_length(
@@ -104,7 +129,8 @@ void from_repeats(const Evaluator& evaluator, const Experiments& train, const Ex
   }
   for (auto& [name, scale] : scales) {
     if (!moments.count(name)) continue;
-    scale.floor = moments[name].rms();
+    scale.floor =
+        lacking.count(name) ? rms_of_repeats(lacking[name], options) : moments[name].rms();
     if (averaged[name] > 0.0) scale.rows = moments[name].count / averaged[name];
     double mean = 0.0;
     for (const double length : lengths[name]) mean += length;
@@ -154,7 +180,7 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
         scales[channel.name()].unit = channel.unit;
         scales[channel.name()].fewer_rows = options.fewer_rows;
         const auto own = measured(experiment, channel, both[0], offset);
-        const double sigma = white_noise(own);
+        const double sigma = white_noise(marked(experiment.telling(), channel, both[0], offset));
         noise[channel.name()].squares += sigma * sigma * static_cast<double>(own.size());
         noise[channel.name()].count += static_cast<double>(own.size());
         averaged[channel.name()] += static_cast<double>(own.size()) / channel.rows;
@@ -173,7 +199,7 @@ Scales measure_scales(const Evaluator& evaluator, const Experiments& train,
     scale.floor = noise[name].rms();
     if (averaged[name] > 0.0) scale.rows = noise[name].count / averaged[name];
   }
-  if (!repeats.empty()) from_repeats(evaluator, train, repeats, lags, scales);
+  if (!repeats.empty()) from_repeats(evaluator, train, repeats, lags, options, scales);
   std::map<std::string, double> roundings, counted;  // of its sensor; where controllers see it
   for (const auto& experiment : train) {
     for (const Channel& channel : experiment->channels()) {

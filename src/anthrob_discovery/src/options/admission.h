@@ -137,10 +137,8 @@ struct ClockOptions {
 
 /// How recordings are cut and what is refused or remarked.
 struct AdmissionOptions {
-  double shortest = 2.0;     ///< [s] of all training or of all held-out recordings
-  double finest_bin = 0.02;  ///< [s] over which differences are averaged, at least
-  /// [s] of driven axes: the velocity that is missing after it shows the effort
-  double axis_bin = 0.025;
+  double shortest = 2.0;          ///< [s] of all training or of all held-out recordings
+  double finest_bin = 0.02;       ///< [s] over which differences are averaged, at least
   double most_differences = 4e5;  ///< of the training recordings; with more, bins are longer
   double quick_look = 20.0;       ///< [s] along which doses of quick effects are simulated
   /// [s] the same of slow effects, and of driven axes, which are simulated fast enough
@@ -156,7 +154,6 @@ struct AdmissionOptions {
   static void visit(Self& options, Visitor&& visit) {
     visit("shortest", options.shortest);
     visit("finest_bin", options.finest_bin);
-    visit("axis_bin", options.axis_bin);
     visit("most_differences", options.most_differences);
     visit("quick_look", options.quick_look);
     visit("slow_look", options.slow_look);

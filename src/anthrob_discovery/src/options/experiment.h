@@ -7,13 +7,27 @@
 namespace anthrob {
 namespace discovery {
 
-/// Motion of a driven axis from its measured positions.
+/// Motion of a driven axis from its measured positions, and the bins in which its effort is
+/// compared.
 struct AxisOptions {
-  double smoothing = 0.006;  ///< [s] half the width of the parabolas
+  Share smoothing = 0.5;  ///< [bins] half the width of the parabolas: each sample is in one
   /// [sampling periods] longest distance of two samples that a parabola bridges
   double most_periods = 3.5;
-  int fewest_samples = 4;        ///< of a parabola
+  int fewest_samples = 3;        ///< of a parabola
   std::size_t fewest_bins = 10;  ///< of a recording
+  /// [standard errors] of a speed, up to which the joint may be at rest
+  double surely_moves = 4.0;
+  double shortest_bin = 0.002;  ///< [s] faster than the current of a motor settles
+  double longest_bin = 0.2;     ///< [s] longer than a reversal takes
+  double ratio_of_bins = 1.4;   ///< of two lengths that are tried
+  /// [1] logarithm of the scatter, by which a shorter bin must be better: estimates of it scatter
+  double clearly_better = 0.05;
+  /// of the effort, rms: with a smaller inertial effort, the axis shows no inertia. That of the
+  /// lead screw is below 0.1, that of the EMPS drive above 0.5
+  Share inertia_shows = 0.25;
+  double most_inertia = 1e12;      ///< times the model's that is looked for
+  int inertia_steps = 100;         ///< of that search: halving alone reaches the last bit
+  double inertia_settled = 1e-12;  ///< of the factor
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
@@ -21,6 +35,15 @@ struct AxisOptions {
     visit("most_periods", options.most_periods);
     visit("fewest_samples", options.fewest_samples);
     visit("fewest_bins", options.fewest_bins);
+    visit("surely_moves", options.surely_moves);
+    visit("shortest_bin", options.shortest_bin);
+    visit("longest_bin", options.longest_bin);
+    visit("ratio_of_bins", options.ratio_of_bins);
+    visit("clearly_better", options.clearly_better);
+    visit("inertia_shows", options.inertia_shows);
+    visit("most_inertia", options.most_inertia);
+    visit("inertia_steps", options.inertia_steps);
+    visit("inertia_settled", options.inertia_settled);
   }
 };
 
@@ -70,6 +93,10 @@ struct ExperimentOptions {
   /// times the rows of the recording of the floor: what gaps and the end of a recording change
   /// does not raise a floor
   double fewer_rows = 1.1;
+  /// of the bins of a driven axis, in which repeats may differ by more than noise makes them
+  Share torn_repeats = 0.1;
+  /// rms of normal numbers over that of those that are left without so many of the largest
+  double normal_tails = 1.267;
   AxisOptions axis;
   CutOffOptions cut_off;
   PostureNoiseOptions postures;
@@ -80,6 +107,8 @@ struct ExperimentOptions {
     visit("rate_reach", options.rate_reach);
     visit("recording_period", options.recording_period);
     visit("fewer_rows", options.fewer_rows);
+    visit("torn_repeats", options.torn_repeats);
+    visit("normal_tails", options.normal_tails);
     visit("axis", options.axis);
     visit("cut_off", options.cut_off);
     visit("postures", options.postures);

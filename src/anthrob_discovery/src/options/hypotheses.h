@@ -157,10 +157,21 @@ struct PeriodOptions {
   }
 };
 
+/// Doses at driven joints of robots without muscles.
+struct AxisDoseOptions {
+  Share share = 0.2;  ///< of the rms effort; of it over speed, and over half the range of motion
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& options, Visitor&& visit) {
+    visit("share", options.share);
+  }
+};
+
 /// How candidates are weighed.
 struct HypothesisOptions {
   LongerStepOptions fits = {2.0, 3.0};    ///< of sensitivities
   LongerStepOptions scans = {4.0, 20.0};  ///< of doses and trials, which only choose what is fitted
+  AxisDoseOptions axis_doses;
   ScreeningOptions screening;
   TrialOptions trials;
   UnknownOptions unknowns;
@@ -171,6 +182,7 @@ struct HypothesisOptions {
   static void visit(Self& options, Visitor&& visit) {
     visit("fits", options.fits);
     visit("scans", options.scans);
+    visit("axis_doses", options.axis_doses);
     visit("screening", options.screening);
     visit("trials", options.trials);
     visit("unknowns", options.unknowns);

@@ -49,6 +49,8 @@ struct SearchRecord {
   std::vector<Alternative> alternatives;
   std::vector<Improbable> improbable;
   std::vector<std::string> dropped;  ///< named first, but no longer needed beside the others
+  /// why effects of driven axes were taken back that the recordings cannot tell
+  std::vector<std::string> withheld;
   std::optional<Refused> refused;    ///< empty: the search did not end by refusing one
   SearchEnd end = SearchEnd::kNoMore;
 };

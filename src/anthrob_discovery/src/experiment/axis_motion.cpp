@@ -1,0 +1,127 @@
+#include "experiment/axis_motion.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "anthrob_recording/resolution.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+struct SampleRange {
+  std::ptrdiff_t from, to;
+};
+
+/// Samples of a parabola at `time`: those within its half width, and at least so many.
+SampleRange samples_around(const Series& series, double time, double half_width,
+                           const AxisOptions& options) {
+  const double reach = half_width * (1.0 + 1e-9);
+  const auto first = std::lower_bound(series.t.begin(), series.t.end(), time - reach);
+  const auto last = std::upper_bound(series.t.begin(), series.t.end(), time + reach);
+  SampleRange range{first - series.t.begin(), last - series.t.begin()};
+  const auto size = static_cast<std::ptrdiff_t>(series.t.size());
+  while (range.to - range.from < options.fewest_samples && (range.from > 0 || range.to < size)) {
+    if (range.from > 0) --range.from;
+    if (range.to < size) ++range.to;
+  }
+  return range;
+}
+
+/// Position and velocity at `time` by a parabola through the samples around it.
+std::pair<double, double> parabola_at(const Series& series, double time, double half_width,
+                                      const AxisOptions& options) {
+  const auto [from, to] = samples_around(series, time, half_width, options);
+  Eigen::MatrixXd basis(to - from, 3);
+  Eigen::VectorXd values(to - from);
+  // From the first value on, so that a small motion far from zero keeps its digits; times in half
+  // widths, so that the fit is well conditioned.
+  const double origin = series.values[static_cast<std::size_t>(from)];
+  for (auto i = from; i < to; ++i) {
+    const double dt = (series.t[static_cast<std::size_t>(i)] - time) / half_width;
+    basis.row(i - from) << 1.0, dt, dt * dt;
+    values[i - from] = series.values[static_cast<std::size_t>(i)] - origin;
+  }
+  const Eigen::VectorXd parabola = basis.colPivHouseholderQr().solve(values);
+  return {origin + parabola[0], parabola[1] / half_width};
+}
+
+/// Speed that noise and counts of the sensor alone may show at an edge.
+double speed_of_noise(const Series& series, double half_width, const AxisOptions& options) {
+  const double count = resolution_of(series.values);
+  Eigen::VectorXf moved(static_cast<Eigen::Index>(series.values.size()));
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    moved[static_cast<Eigen::Index>(i)] =
+        static_cast<float>(series.values[i] - series.values.front());
+  }
+  const double noise = std::max(white_noise(moved), count / std::sqrt(12.0));
+  const double period = usual_period(series);
+  const double samples = std::max(static_cast<double>(options.fewest_samples),
+                                  2.0 * std::floor(half_width / period) + 1.0);
+  const double lever = period * std::sqrt(samples * (samples * samples - 1.0) / 12.0);
+  // Counts are no white noise: a slow motion keeps one for long.
+  return std::max(options.surely_moves * noise / lever, count / (samples * period));
+}
+
+}  // namespace
+
+AxisMotion::AxisMotion(const Series& position, double bin, std::size_t bins,
+                       const AxisOptions& options)
+    : bin_(bin) {
+  const double half_width = options.smoothing.value * bin;
+  for (std::size_t edge = 0; edge <= bins; ++edge) {
+    const auto [q, u] = parabola_at(position, static_cast<double>(edge) * bin, half_width, options);
+    position_.push_back(q);
+    velocity_.push_back(u);
+  }
+  rest_speed_ = speed_of_noise(position, half_width, options);
+}
+
+double AxisMotion::position(double time) const {
+  if (time <= 0.0) return position_.front() + time * velocity_.front();
+  const auto last = position_.size() - 2;
+  const auto b = std::min(last, static_cast<std::size_t>(time / bin_));
+  const double s = time / bin_ - static_cast<double>(b);
+  const double moved = position_[b + 1] - position_[b];
+  // Cubic of Hermite, from the bin's first edge on.
+  return position_[b] + moved * s * s * (3.0 - 2.0 * s) +
+         bin_ * s * (1.0 - s) * (velocity_[b] * (1.0 - s) - velocity_[b + 1] * s);
+}
+
+bool AxisMotion::moves(std::size_t b) const {
+  const double direction = std::copysign(1.0, mean_velocity(b));
+  return direction * velocity_[b] > rest_speed_ && direction * velocity_[b + 1] > rest_speed_ &&
+         direction * mean_velocity(b) > rest_speed_;
+}
+
+double usual_period(const Series& series) {
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < series.t.size(); ++i) {
+    periods.push_back(series.t[i] - series.t[i - 1]);
+  }
+  if (periods.empty()) return 0.0;
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle;
+}
+
+std::vector<std::pair<double, double>> holes_of(const Series& series, double end, double bin,
+                                                const AxisOptions& options) {
+  const double period = usual_period(series);
+  if (period == 0.0) return {{0.0, end}};
+  const double longest =
+      std::max(2.0 * options.smoothing.value * bin, options.most_periods * period);
+  std::vector<std::pair<double, double>> holes;
+  const auto add = [&](double from, double to) {
+    if (to - from > longest) holes.emplace_back(from, to);
+  };
+  add(0.0, series.t.front());
+  for (std::size_t i = 1; i < series.t.size(); ++i) add(series.t[i - 1], series.t[i]);
+  add(series.t.back(), end);
+  return holes;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

@@ -1,0 +1,189 @@
+#include "experiment/axis_plan.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "experiment/axis_motion.h"
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// One axis in all recordings, in bins.
+struct BinnedAxis {
+  std::vector<std::vector<double>> effort, acceleration, velocity, position;  ///< by recording
+  std::vector<std::vector<char>> moves;
+};
+
+/// Mean of what is held between samples, less what acts before the first.
+double mean_effort(const Series& series, double from, double to, double period) {
+  if (series.empty()) return 0.0;
+  const int points = std::clamp(static_cast<int>(std::ceil((to - from) / period)), 1, 400);
+  double sum = 0.0;
+  for (int i = 0; i < points; ++i) {
+    sum += series.acting_at(from + (to - from) * (i + 0.5) / points);
+  }
+  return sum / points;
+}
+
+BinnedAxis binned(const std::string& joint, const std::vector<Dataset>& recordings, double bin,
+                  const AxisOptions& options) {
+  BinnedAxis axis;
+  for (const Dataset& recording : recordings) {
+    const Series position = recording.series(joint + "/position"),
+                 effort = recording.series(joint + "/effort"),
+                 load = recording.series(joint + "/load");
+    std::vector<double> u, a, v, q;
+    std::vector<char> moves;
+    const double length = seconds(recording.end() - recording.begin());
+    const auto bins = static_cast<std::size_t>(std::floor(length / bin + 1e-9));
+    if (position.t.size() > 2 && !effort.empty() && bins > 0) {
+      const AxisMotion motion(position, bin, bins, options);
+      const double period = std::max(1e-4, usual_period(effort));
+      for (std::size_t b = 0; b < bins; ++b) {
+        const double from = static_cast<double>(b) * bin;
+        u.push_back(mean_effort(effort, from, from + bin, period) +
+                    mean_effort(load, from, from + bin, period));
+        a.push_back(motion.mean_acceleration(b));
+        v.push_back(motion.mean_velocity(b));
+        q.push_back(0.5 * (motion.position_at_edge(b) + motion.position_at_edge(b + 1)));
+        moves.push_back(motion.moves(b) ? 1 : 0);
+      }
+    }
+    axis.effort.push_back(u);
+    axis.acceleration.push_back(a);
+    axis.velocity.push_back(v);
+    axis.position.push_back(q);
+    axis.moves.push_back(moves);
+  }
+  return axis;
+}
+
+/// What a plain axis explains of its effort while it moves: inertia, dry and viscous friction, an
+/// offset and, of a hinge, weight.
+struct Inertia {
+  double value = 0.0;  ///< [kg m^2, kg]
+  double share = 0.0;  ///< rms of the inertial effort over that of the effort, less its mean
+};
+
+Inertia estimated(const BinnedAxis& axis, bool hinge, const AxisOptions& options) {
+  const Eigen::Index columns = hinge ? 6 : 4;
+  std::vector<Eigen::VectorXd> rows;
+  std::vector<double> efforts;
+  for (std::size_t r = 0; r < axis.effort.size(); ++r) {
+    for (std::size_t b = 0; b < axis.effort[r].size(); ++b) {
+      if (!axis.moves[r][b]) continue;
+      Eigen::VectorXd row(columns);
+      row.head(4) << axis.acceleration[r][b], std::copysign(1.0, axis.velocity[r][b]),
+          axis.velocity[r][b], 1.0;
+      if (hinge) row.tail(2) << std::sin(axis.position[r][b]), std::cos(axis.position[r][b]);
+      rows.push_back(row);
+      efforts.push_back(axis.effort[r][b]);
+    }
+  }
+  Inertia found;
+  if (rows.size() < options.fewest_bins) return found;
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd basis(count, columns);
+  for (Eigen::Index i = 0; i < count; ++i) basis.row(i) = rows[static_cast<std::size_t>(i)];
+  const Eigen::Map<const Eigen::VectorXd> effort(efforts.data(), count);
+  // In units of their own size, so that none is lost beside another.
+  Eigen::VectorXd size = basis.colwise().norm().transpose();
+  for (double& s : size) s = s > 0.0 ? s : 1.0;
+  const Eigen::VectorXd fit =
+      (basis * size.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(effort);
+  found.value = std::max(0.0, fit[0] / size[0]);
+  const Eigen::VectorXd inertial = found.value * basis.col(0);
+  const double all = effort.norm();
+  found.share = all > 0.0 ? inertial.norm() / all : 0.0;
+  return found;
+}
+
+/// Scatter of an effort about a smooth curve, from third differences within motions; nothing if
+/// there are too few.
+std::optional<double> scatter_of(const BinnedAxis& axis, double inertia,
+                                 const AxisOptions& options) {
+  std::vector<double> third;
+  for (std::size_t r = 0; r < axis.effort.size(); ++r) {
+    const auto rest = [&](std::size_t b) {
+      return axis.effort[r][b] - inertia * axis.acceleration[r][b];
+    };
+    for (std::size_t b = 3; b < axis.effort[r].size(); ++b) {
+      const auto& moves = axis.moves[r];
+      if (!(moves[b] && moves[b - 1] && moves[b - 2] && moves[b - 3])) continue;
+      third.push_back(std::abs(rest(b) - 3.0 * rest(b - 1) + 3.0 * rest(b - 2) - rest(b - 3)));
+    }
+  }
+  if (third.size() < options.fewest_bins) return std::nullopt;
+  const auto middle = third.begin() + static_cast<std::ptrdiff_t>(third.size() / 2);
+  std::nth_element(third.begin(), middle, third.end());
+  return 1.4826 * *middle / std::sqrt(20.0);
+}
+
+/// Lengths to choose from, whole sampling periods where these are long.
+std::vector<double> lengths_of_bins(const RobotModel& model, const std::vector<Dataset>& recordings,
+                                    const AxisOptions& options) {
+  double period = 0.0;  // the slowest
+  for (const JointModel& joint : model.skeleton->joints) {
+    if (!joint.driven) continue;
+    for (const Dataset& recording : recordings) {
+      period = std::max({period, usual_period(recording.series(joint.name + "/position")),
+                         usual_period(recording.series(joint.name + "/effort"))});
+    }
+  }
+  std::vector<double> lengths;
+  const double least = std::max(options.shortest_bin, period);
+  for (double length = options.longest_bin; length > 0.999 * least;
+       length /= options.ratio_of_bins) {
+    double whole = length;
+    if (period > 0.0) whole = std::round(length / period) * period;
+    if (!lengths.empty() && whole > 0.999 * lengths.back()) continue;
+    lengths.push_back(whole);
+  }
+  if (lengths.empty()) lengths.push_back(least);
+  return lengths;
+}
+
+}  // namespace
+
+AxisPlan plan_axes(const RobotModel& model, const std::vector<Dataset>& recordings,
+                   const AxisOptions& options) {
+  AxisPlan plan;
+  std::optional<double> best;
+  for (const double bin : lengths_of_bins(model, recordings, options)) {
+    std::optional<double> score;
+    std::vector<int> hidden;
+    for (std::size_t j = 0; j < model.skeleton->joints.size(); ++j) {
+      const JointModel& joint = model.skeleton->joints[j];
+      if (!joint.driven) continue;
+      const BinnedAxis axis = binned(joint.name, recordings, bin, options);
+      const Inertia inertia = estimated(axis, joint.type == JointType::kHinge, options);
+      if (inertia.share < options.inertia_shows.value) hidden.push_back(static_cast<int>(j));
+      const auto scatter = scatter_of(axis, inertia.value, options);
+      if (!scatter || !(*scatter > 0.0)) continue;
+      score = score.value_or(0.0) + std::log(*scatter * std::sqrt(bin));
+    }
+    // Longest first: a shorter one must be better, not only as good.
+    const bool better = score && (!best || *score < *best - options.clearly_better);
+    if (plan.bin > 0.0 && !better) continue;
+    plan = {bin, hidden};
+    best = score;
+  }
+  return plan;
+}
+
+std::vector<std::string> remarks_on_plan(const RobotModel& model, const AxisPlan& plan) {
+  std::vector<std::string> remarks;
+  for (const int joint : plan.hidden_inertia) {
+    remarks.push_back(model.skeleton->joints[static_cast<std::size_t>(joint)].name +
+                      ": its effort hardly depends on its acceleration; these recordings do not "
+                      "tell its inertia, and that of the model does not count");
+  }
+  return remarks;
+}
+
+}  // namespace discovery
+}  // namespace anthrob

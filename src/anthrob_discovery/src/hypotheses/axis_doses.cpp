@@ -1,0 +1,74 @@
+#include "hypotheses/axis_doses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace anthrob {
+namespace discovery {
+
+namespace {
+
+/// How a driven joint was used.
+struct Use {
+  double effort = 0.0;  ///< rms [Nm, N]
+  double range = 0.0;   ///< of positions, half [rad, m]
+  double speed = 0.0;   ///< way over time, while it was not at rest [rad/s, m/s]
+};
+
+Use use_of(const std::string& joint, const std::vector<Dataset>& recordings) {
+  double squares = 0.0, count = 0.0, low = HUGE_VAL, high = -HUGE_VAL, way = 0.0, time = 0.0;
+  for (const Dataset& recording : recordings) {
+    for (const double effort : recording.series(joint + "/effort").values) {
+      squares += effort * effort;
+      count += 1.0;
+    }
+    const Series position = recording.series(joint + "/position");
+    for (std::size_t i = 0; i < position.values.size(); ++i) {
+      low = std::min(low, position.values[i]);
+      high = std::max(high, position.values[i]);
+      if (i == 0 || position.values[i] == position.values[i - 1]) continue;
+      way += std::abs(position.values[i] - position.values[i - 1]);
+      time += position.t[i] - position.t[i - 1];
+    }
+  }
+  Use use;
+  if (count > 0.0) use.effort = std::sqrt(squares / count);
+  if (high > low) use.range = 0.5 * (high - low);
+  if (time > 0.0) use.speed = way / time;
+  return use;
+}
+
+/// A natural size of a quantity of that unit; 0: there is none.
+double natural(const std::string& unit, const Use& use) {
+  if (unit == "Nm" || unit == "N") return use.effort;
+  if ((unit == "Nms/rad" || unit == "Ns/m") && use.speed > 0.0) return use.effort / use.speed;
+  if ((unit == "Nm/rad" || unit == "N/m") && use.range > 0.0) return use.effort / use.range;
+  return 0.0;
+}
+
+}  // namespace
+
+void scale_doses(const RobotModel& model, const std::vector<Dataset>& recordings,
+                 const AxisDoseOptions& options, std::vector<Candidate>& candidates) {
+  if (!model.muscles.empty()) return;
+  std::map<std::string, Use> uses;
+  for (const JointModel& joint : model.skeleton->joints) {
+    if (joint.driven) uses[joint.name] = use_of(joint.name, recordings);
+  }
+  for (Candidate& candidate : candidates) {
+    const auto use = uses.find(candidate.place);
+    if (use == uses.end()) continue;
+    for (EffectParameter& p : candidate.parameters) {
+      const double size = options.share.value * natural(p.unit, use->second);
+      if (p.kind != EffectParameter::kSize || !(size > 0.0)) continue;
+      const bool up = p.typical >= p.neutral;
+      const double room = 0.5 * (up ? p.bounds.hi - p.neutral : p.neutral - p.bounds.lo);
+      p.typical = p.neutral + std::copysign(std::min(size, room), up ? 1.0 : -1.0);
+    }
+  }
+}
+
+}  // namespace discovery
+}  // namespace anthrob
