@@ -1,6 +1,7 @@
 #include "measurement/measurement.h"
 
 #include "measurement/hold_correction.h"
+#include "measurement/stamp_correction.h"
 
 namespace anthrob {
 namespace discovery {
@@ -9,6 +10,7 @@ Description describe(const Evaluator& evaluator, const Question& question) {
   Description description;
   description.question = question;
   correct_holds(*evaluator.model(), description);
+  correct_controller_stamps(*evaluator.model(), description);
   return description;
 }
 
