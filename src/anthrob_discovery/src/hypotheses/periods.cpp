@@ -10,7 +10,9 @@ namespace discovery {
 
 namespace {
 
-constexpr double kTurn = 2.0 * M_PI;
+double phase_of(double periods) {
+  return 2.0 * M_PI * periods;
+}
 
 /// Frequencies that are tried.
 struct FrequencyGrid {
@@ -123,7 +125,7 @@ class FourierFit {
   void replace(std::size_t k, double number) {
     const auto column = static_cast<Eigen::Index>(6 + 2 * k);
     for (Eigen::Index i = 0; i < columns_.rows(); ++i) {
-      const double phase = kTurn * number * data_.position[static_cast<std::size_t>(i)];
+      const double phase = phase_of(number * data_.position[static_cast<std::size_t>(i)]);
       columns_(i, column) = std::sin(phase);
       columns_(i, column + 1) = std::cos(phase);
     }
@@ -166,7 +168,7 @@ class FourierFit {
 double height(const EffortAlongWay& data, const Eigen::VectorXd& residual, double number) {
   std::complex<double> sum = 0.0;
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    sum += std::polar(residual[i], kTurn * number * data.position[static_cast<std::size_t>(i)]);
+    sum += std::polar(residual[i], phase_of(number * data.position[static_cast<std::size_t>(i)]));
   }
   return std::norm(sum);
 }
@@ -178,8 +180,8 @@ double strongest(const EffortAlongWay& data, const Eigen::VectorXd& residual,
   std::vector<std::complex<double>> now(rows), turn(rows);
   for (std::size_t i = 0; i < rows; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    now[i] = std::polar(residual[k], kTurn * grid.first * data.position[i]);
-    turn[i] = std::polar(1.0, kTurn * grid.spacing * data.position[i]);
+    now[i] = std::polar(residual[k], phase_of(grid.first * data.position[i]));
+    turn[i] = std::polar(1.0, phase_of(grid.spacing * data.position[i]));
   }
   double best = grid.first, most = -1.0;
   for (std::size_t f = 0; f < grid.count; ++f) {
