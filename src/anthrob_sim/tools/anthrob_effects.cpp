@@ -1,6 +1,8 @@
 // The effect catalogue: lists and explains, and says where an effect can sit on a robot.
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -148,11 +150,16 @@ void print_row(const View& view) {
   std::string parameters;
   for (const EffectParameter& p : info.parameters) {
     char text[128];
+    // Of terms of a series, the first and the names of the last.
+    const auto number = p.name.rfind('_') + 1;
+    if (number > 0 && std::atoi(p.name.c_str() + number) > 1) continue;
     std::snprintf(text, sizeof(text), "%s`%s` %g %s", parameters.empty() ? "" : ", ",
                   p.name.c_str(), p.typical, p.unit == "1" ? "" : p.unit.c_str());
     parameters += text;
     while (parameters.back() == ' ') parameters.pop_back();
   }
+  const std::string& last = info.parameters.back().name;
+  if (std::isdigit(static_cast<unsigned char>(last.back()))) parameters += ", ... `" + last + "`";
   std::string where = info.where;
   for (std::size_t at; (at = where.find(" | ")) != std::string::npos;) where.replace(at, 3, ", ");
   std::string equation = info.equation;

@@ -55,8 +55,9 @@ bool contains(const std::string& wide, const std::string& narrow) {
 }  // namespace
 
 bool is_nested_in(const Candidate& part, const Candidate& whole) {
-  return part.place == whole.place && part.effect->info().seam == whole.effect->info().seam &&
-         part.sizes().size() < whole.sizes().size();
+  const EffectInfo &a = part.effect->info(), &b = whole.effect->info();
+  if (part.place != whole.place || a.seam != b.seam) return false;
+  return part.sizes().size() < whole.sizes().size() || a.id == b.limit;
 }
 
 double share_of_simpler(const Candidate& part, const Candidate& whole,

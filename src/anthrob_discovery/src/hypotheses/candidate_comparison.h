@@ -32,8 +32,8 @@ struct ShortList {
   double none = 0.0;  ///< probability that none of them is right
 };
 
-/// Whether `part` is a law of fewer sizes than `whole` at the same place and in the same part of
-/// the chain.
+/// Whether `part` is a law of fewer sizes than `whole`, or what that becomes in a limit, at the
+/// same place and in the same part of the chain.
 bool is_nested_in(const Candidate& part, const Candidate& whole);
 
 /// The share of the gain of `whole` that `part` must bring alone to be named first because it is

@@ -53,6 +53,10 @@ TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
                   asymmetric = candidate("joint_coulomb_asymmetric", "elbow", 2);
   EXPECT_EQ(share_of_simpler(coulomb, asymmetric, {}), 0.75);
   EXPECT_EQ(share_of_simpler(asymmetric, coulomb, {}), 1.0);
+  // Of as many sizes, but what the other becomes over long ways.
+  const Candidate presliding = candidate("joint_presliding", "elbow", 1);
+  EXPECT_EQ(share_of_simpler(coulomb, presliding, {}), 0.75);
+  EXPECT_EQ(share_of_simpler(presliding, coulomb, {}), 1.0);
   EXPECT_EQ(share_of_simpler(candidate("joint_coulomb", "shoulder", 1), asymmetric, {}), 1.0);
 }
 

@@ -64,6 +64,8 @@ struct EffectInfo {
   bool dissipates = false;
   bool slow = false;                  ///< builds up over minutes
   bool once_a_muscle = false;         ///< refused twice on a muscle: two would not add up
+  /// Id of the law that it becomes where one of its shapes ends; empty: none. That one is simpler.
+  std::string limit;
   std::vector<std::string> channels;  ///< where it is visible: position, current, force, joint, ...
   std::vector<EffectParameter> parameters;
 

@@ -19,6 +19,7 @@ EffectInfo describe() {
   i.seam = Seam::kJoints;
   i.stage = Stage::kSkeleton;
   i.dissipates = true;
+  i.limit = "joint_coulomb";
   i.channels = {"joint", "force"};
   i.parameters = {
       {"torque", "Nm", "while sliding", 0.0, 0.1, {0.0, 10.0}},
