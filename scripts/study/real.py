@@ -18,7 +18,7 @@ from _study import OUT, OneLineParser, commit, load, machine, markdown_page, ref
 
 CONVERT = "devel/lib/anthrob_recording/anthrob_convert"
 DISCOVER = "devel/lib/anthrob_discovery/anthrob_discover"
-VERDICTS = ["effects_found", "no_missing_effect", "unexplained"]
+VERDICTS = ["effects_found", "no_missing_effect", "unexplained", "cannot_tell"]
 HEAD = ["case", "expected", "answer", "size", "gap", "time", ""]
 KEYS = {"model", "convert", "train", "test", "repeat", "calibration", "options", "expected", "notes"}
 OPTIONS = {"effects", "max_effects", "seed", "dt"}  # of anthrob_discover
