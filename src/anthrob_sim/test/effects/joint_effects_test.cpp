@@ -13,9 +13,9 @@ using namespace testing_support;
 constexpr double kInertia = 0.01;  // of the spinner [kg m^2]
 
 /// A driven shaft without friction, or a carriage of 2 kg on a level guide.
-class Bench {
+class JointBench {
  public:
-  explicit Bench(bool slides = false)
+  explicit JointBench(bool slides = false)
       : robot_(std::string("<robot name=\"s\"><link name=\"world\"/><joint name=\"axis\" type=\"") +
                    (slides ? "prismatic" : "continuous") +
                    "\"><parent link=\"world\"/><child link=\"rotor\"/><axis xyz=\"" +
@@ -49,7 +49,7 @@ class Bench {
 };
 
 TEST(JointQuadraticDrag, ComesToItsTerminalSpeedAsTheClosedFormSays) {
-  const Bench bench;
+  const JointBench bench;
   const double drag = 0.004, torque = 0.1, seconds = 0.4;
   // w = sqrt(T / c) tanh(t sqrt(T c) / I)
   const double expected =
@@ -70,13 +70,13 @@ TEST(JointQuadraticDrag, ComesToItsTerminalSpeedAsTheClosedFormSays) {
 
 TEST(JointRipple, IsTheSeriesAndTheSlopeOfItsEnergy) {
   for (const bool slides : {false, true}) {
-    const auto robot = Bench(slides).with({"joint_ripple",
-                                           "axis",
-                                           {{"periods_1", 7.0},
-                                            {"sine_1", 0.3},
-                                            {"cosine_1", -0.2},
-                                            {"periods_4", 12.0},
-                                            {"cosine_4", 0.1}}});
+    const auto robot = JointBench(slides).with({"joint_ripple",
+                                                "axis",
+                                                {{"periods_1", 7.0},
+                                                 {"sine_1", 0.3},
+                                                 {"cosine_1", -0.2},
+                                                 {"periods_4", 12.0},
+                                                 {"cosine_4", 0.1}}});
     const JointTorque& ripple = *robot->joint_torques.at(0);
     Simulation sim(robot);
     const double per_period = slides ? 2.0 * M_PI : 1.0;
@@ -95,7 +95,7 @@ TEST(JointRipple, IsTheSeriesAndTheSlopeOfItsEnergy) {
 }
 
 TEST(JointRipple, ConservesEnergyAndAveragesOutAtSpeed) {
-  const Bench bench;
+  const JointBench bench;
   const EffectInstance effect = {
       "joint_ripple", "axis", {{"periods_1", 12.0}, {"sine_1", 0.01}, {"cosine_1", 0.005}}};
   for (const double speed : {0.5, 3.0, 200.0}) {
@@ -115,7 +115,7 @@ TEST(JointRipple, ConservesEnergyAndAveragesOutAtSpeed) {
 }
 
 TEST(JointPresliding, BendsAsDahlSaysAndThenSlides) {
-  const Bench bench;
+  const JointBench bench;
   const double torque = 0.5, distance = 0.02;
   const EffectInstance effect = {
       "joint_presliding", "axis", {{"torque", torque}, {"distance", distance}}};
@@ -138,7 +138,7 @@ TEST(JointPresliding, BendsAsDahlSaysAndThenSlides) {
 }
 
 TEST(JointPresliding, OfNoDistanceIsDryFriction) {
-  const Bench bench;
+  const JointBench bench;
   const double torque = 0.5;
   const EffectInstance short_way = {
       "joint_presliding", "axis", {{"torque", torque}, {"distance", 1e-5}}};
@@ -153,7 +153,7 @@ TEST(JointPresliding, OfNoDistanceIsDryFriction) {
 }
 
 TEST(JointLoadFriction, OfAGuideGoesWithTheWeightAcrossIt) {
-  const Bench bench(true);
+  const JointBench bench(true);
   const double mass = 2.0, weight = mass * 9.81, mu = 0.2;
   const EffectInstance effect = {"joint_load_friction", "axis", {{"mu", mu}}};
   EXPECT_EQ(bench.speed(effect, 0.95 * mu * weight, 0.2), 0.0);
@@ -163,7 +163,7 @@ TEST(JointLoadFriction, OfAGuideGoesWithTheWeightAcrossIt) {
 }
 
 TEST(JointLoadFriction, OfAShaftGoesWithItsRadius) {
-  const Bench bench;
+  const JointBench bench;
   const double weight = 2.0 * 9.81, mu = 0.2, radius = 0.03;
   const EffectInstance effect = {"joint_load_friction", "axis", {{"mu", mu}, {"radius", radius}}};
   const double torque = mu * radius * weight;
@@ -172,7 +172,7 @@ TEST(JointLoadFriction, OfAShaftGoesWithItsRadius) {
 }
 
 TEST(JointEffortFriction, TakesItsShareWhicheverWayTheJointMoves) {
-  const Bench bench;
+  const JointBench bench;
   const EffectInstance effect = {"joint_effort_friction", "axis", {{"share", 0.3}}};
   EXPECT_NEAR(bench.speed(effect, 0.1, 0.5), 0.7 * 0.1 / kInertia * 0.5, 1e-6);
   EXPECT_NEAR(bench.speed(effect, -0.1, 0.5), -0.7 * 0.1 / kInertia * 0.5, 1e-6);
@@ -187,7 +187,7 @@ TEST(JointEffortFriction, TakesItsShareWhicheverWayTheJointMoves) {
 }
 
 TEST(EffortGain, ScalesTheEffortThatActs) {
-  const Bench bench;
+  const JointBench bench;
   EXPECT_NEAR(bench.speed({"effort_gain", "axis", {{"gain", 0.8}}}, 0.1, 0.5),
               0.8 * 0.1 / kInertia * 0.5, 1e-6);
   // The load from outside is what it is.
