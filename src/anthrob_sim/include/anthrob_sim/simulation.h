@@ -119,11 +119,11 @@ class Simulation {
   /// Inverse dynamics: what a joint lacks in the last step to follow the imposed posture by itself.
   struct LackingEffort {
     double inertial;   ///< of `range`: mass matrix times acceleration
-    ForceRange range;  ///< that must be added to effort and load; wide where the joint may be held
+    ForceRange range;  ///< that must be added to its effort; wide where the joint may be held
   };
   /// Acceleration is the change of velocity in the step: mass matrix times acceleration plus bias
-  /// forces, less effort, load, wrenches, joint torques, friction and stops. All states evolve
-  /// along the imposed motion.
+  /// forces, less effort, load, wrenches, joint torques, friction and stops, over the part of an
+  /// effort that reaches the joint. All states evolve along the imposed motion.
   /// @param rest [rad/s, m/s] a joint that is not faster may be at rest: its dry friction is then
   /// any that can hold it
   /// @throws BadInput for a ball joint, a robot with muscles, or if no posture was imposed

@@ -1,6 +1,7 @@
 #include "simulation/parts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "anthrob_sim/skeleton/skeleton_model.h"
 #include "simulation/checks.h"
@@ -176,10 +177,18 @@ void Simulation::Parts::find_lacking_efforts() {
 }
 
 Simulation::LackingEffort Simulation::Parts::lacking_effort(int joint, double rest) const {
-  const int dof = model_->skeleton->joints[joint].velocity_offset;
-  const ForceRange resistance = resistance_.resistance_at(
-      left_, joint, heading_[static_cast<std::size_t>(dof)], rest, joint_inputs());
-  return {inertial_[dof], {lacking_[dof] - resistance.high, lacking_[dof] - resistance.low}};
+  const JointModel& model = model_->skeleton->joints[joint];
+  const int dof = model.velocity_offset;
+  const double velocity = heading_[static_cast<std::size_t>(dof)];
+  const ForceRange resistance =
+      resistance_.resistance_at(left_, joint, velocity, rest, joint_inputs());
+  // What reaches the joint of a little more effort: a law that lets none through explains nothing.
+  double passed = model.effort_gain;
+  if (std::abs(velocity) > rest) {
+    passed *= 1.0 - std::copysign(model.friction.effort_share, acting_[joint] * velocity);
+  }
+  return {inertial_[dof] / passed,
+          {(lacking_[dof] - resistance.high) / passed, (lacking_[dof] - resistance.low) / passed}};
 }
 
 void Simulation::Parts::move_skeleton() {

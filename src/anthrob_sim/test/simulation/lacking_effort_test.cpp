@@ -62,6 +62,29 @@ TEST(LackingEffort, IsThatOfTheEquationOfMotion) {
   }
 }
 
+/// Of an effort, 0.8 acts, and a quarter of that is lost where it drives, gained where it brakes.
+TEST(LackingEffort, IsCountedAsEffortThatIsApplied) {
+  const auto robot = pendulum("{static: 0.0, kinetic: 0.0, viscous: 0.2, stribeck_velocity: 0.1}");
+  LoadOptions options;
+  options.step = kStep;
+  options.effects = {{"effort_gain", "hinge", {{"gain", 0.8}}},
+                     {"joint_effort_friction", "hinge", {{"share", 0.25}}}};
+  struct Motion {
+    double omega, effort;
+    int steps;
+  };
+  for (const Motion& m : {Motion{5.0, 0.7, 100}, Motion{2.0, 1.0, 1000}}) {
+    const auto lacks = [&](double effort) {
+      Simulation sim(load_robot_model(robot.file(), options));
+      sim.apply_effort(0, effort);
+      return lacking(sim, 0.3, m.omega, m.steps, 0.01).range.low;
+    };
+    const double more = lacks(m.effort);
+    EXPECT_GT(std::abs(more), 0.05);
+    EXPECT_NEAR(lacks(m.effort + more), 0.0, 1e-9) << m.omega;
+  }
+}
+
 TEST(LackingEffort, IsARangeWhereStaticFrictionMayHold) {
   const auto robot = pendulum("{static: 0.6, kinetic: 0.4, viscous: 0.0, stribeck_velocity: 0.1}");
   Simulation sim(robot.load(kStep));
