@@ -20,7 +20,8 @@ except ImportError:
 STEP = 1e-3                        # [s] of the data
 FORCE_CONSTANT = 35.15065188       # [N/V]
 KP, KV, LIMIT = 160.18, 243.45, 10.0
-KNOWN = ('joint_coulomb', 'joint_offset_torque')  # effects that residual and replay have
+KNOWN = ('joint_coulomb', 'joint_offset_torque', 'joint_presliding')  # effects that residual and replay have
+BEND = 1e-4                        # [m] of presliding that is taken as Coulomb friction: motions are of decimetres
 FINER = 20                         # steps of the replay in one of the data
 
 
@@ -53,9 +54,12 @@ def numbers_of(model):
         refuse('expected a model of config/driven_axis, with the joint axis')
     effects = {effect['id']: effect for effect in model.get('effects') or []}
     for unknown in sorted(set(effects) - set(KNOWN)):
-        refuse('effects: %s: expected only %s' % (unknown, ' and '.join(KNOWN)))
+        refuse('effects: %s: expected only %s' % (unknown, ', '.join(KNOWN)))
+    presliding = effects.get('joint_presliding', {})
+    if presliding.get('distance', 0.0) > BEND:
+        refuse('joint_presliding: distance: %g: expected at most %g m, which counts as Coulomb friction' % (presliding['distance'], BEND))
     return (95.1089, model['joints']['axis']['friction']['viscous'],
-            effects.get('joint_coulomb', {}).get('torque', 0.0),
+            effects.get('joint_coulomb', {}).get('torque', 0.0) + presliding.get('torque', 0.0),
             -effects.get('joint_offset_torque', {}).get('torque', 0.0))
 
 
