@@ -58,8 +58,7 @@ Answer discover(const Evaluator& evaluator, const Question& question, const Obse
   std::vector<Candidate> candidates = list_candidates(evaluator, question.effects);
 
   auto [admission, measurement] = admit_as_taken(evaluator, question);
-  scale_doses(*evaluator.model(), admission.question.train, options.hypotheses.axis_doses,
-              candidates);
+  scale_doses(evaluator, admission, options.hypotheses.axis_doses, candidates);
   const Scales scales = measure_scales(evaluator, admission.train, admission.repeats,
                                        admission.lags, options.experiment);
   const auto variables =

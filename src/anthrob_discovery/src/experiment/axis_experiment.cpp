@@ -14,7 +14,7 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
     : options_(options), step_(model.step) {
   name_ = recording.folder;
   steps_per_bin_ = static_cast<std::size_t>(std::lround(scope.bin / step_));
-  if (steps_per_bin_ == 0) {
+  if (step_ > scope.bin * (1.0 + 1e-9)) {
     throw BadInput("--dt " + std::to_string(step_) + ": expected a step of at most " +
                    std::to_string(scope.bin) +
                    " s, the length of the bins in which a driven axis is compared");
@@ -120,12 +120,14 @@ class AxisExperiment::Walk {
     HeldSeries effort, load;
   };
 
-  /// Measured positions at a time.
+  /// Measured positions half a step after a time: the change of velocity in a step is then that
+  /// of the time in which its effort acts.
   void put(double time) {
     for (const Input& input : inputs_) {
       const JointModel& joint =
           sim_.model().skeleton->joints[static_cast<std::size_t>(input.axis->joint)];
-      q_[static_cast<std::size_t>(joint.position_offset)] = input.axis->motion.position(time);
+      q_[static_cast<std::size_t>(joint.position_offset)] =
+          input.axis->motion.position(time + 0.5 * step_);
     }
   }
 

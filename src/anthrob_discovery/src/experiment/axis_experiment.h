@@ -19,7 +19,7 @@ namespace discovery {
 /// below 0, that leaves least: these recordings do not tell the inertia, and the given one must not
 /// stand in for what is missing.
 ///
-/// Bins next to a hole in the positions that no parabola may bridge are not compared.
+/// Bins next to a hole in the positions that no polynomial may bridge are not compared.
 class AxisExperiment final : public Experiment {
  public:
   AxisExperiment(const RobotModel& model, const Dataset& recording, const AxisOptions& options,

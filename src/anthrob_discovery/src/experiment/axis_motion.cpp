@@ -15,7 +15,7 @@ struct SampleRange {
   std::ptrdiff_t from, to;
 };
 
-/// Samples of a parabola at `time`: those within its half width, and at least so many.
+/// Samples of a polynomial at `time`: those within its half width, and at least so many.
 SampleRange samples_around(const Series& series, double time, double half_width,
                            const AxisOptions& options) {
   const double reach = half_width * (1.0 + 1e-9);
@@ -30,22 +30,24 @@ SampleRange samples_around(const Series& series, double time, double half_width,
   return range;
 }
 
-/// Position and velocity at `time` by a parabola through the samples around it.
-std::pair<double, double> parabola_at(const Series& series, double time, double half_width,
-                                      const AxisOptions& options) {
+/// Position and velocity at `time` by a polynomial through the samples around it: a cubic, which
+/// does not flatten the motion, where there are samples enough; else a parabola.
+std::pair<double, double> motion_at(const Series& series, double time, double half_width,
+                                    const AxisOptions& options) {
   const auto [from, to] = samples_around(series, time, half_width, options);
-  Eigen::MatrixXd basis(to - from, 3);
+  Eigen::MatrixXd basis(to - from, to - from < options.cubic_samples ? 3 : 4);
   Eigen::VectorXd values(to - from);
   // From the first value on, so that a small motion far from zero keeps its digits; times in half
   // widths, so that the fit is well conditioned.
   const double origin = series.values[static_cast<std::size_t>(from)];
   for (auto i = from; i < to; ++i) {
     const double dt = (series.t[static_cast<std::size_t>(i)] - time) / half_width;
-    basis.row(i - from) << 1.0, dt, dt * dt;
+    basis.row(i - from).head(3) << 1.0, dt, dt * dt;
+    if (basis.cols() > 3) basis(i - from, 3) = dt * dt * dt;
     values[i - from] = series.values[static_cast<std::size_t>(i)] - origin;
   }
-  const Eigen::VectorXd parabola = basis.colPivHouseholderQr().solve(values);
-  return {origin + parabola[0], parabola[1] / half_width};
+  const Eigen::VectorXd polynomial = basis.colPivHouseholderQr().solve(values);
+  return {origin + polynomial[0], polynomial[1] / half_width};
 }
 
 /// Speed that noise and counts of the sensor alone may show at an edge.
@@ -60,7 +62,9 @@ double speed_of_noise(const Series& series, double half_width, const AxisOptions
   const double period = usual_period(series);
   const double samples = std::max(static_cast<double>(options.fewest_samples),
                                   2.0 * std::floor(half_width / period) + 1.0);
-  const double lever = period * std::sqrt(samples * (samples * samples - 1.0) / 12.0);
+  // The slope of a cubic scatters by 2.5 times that of a parabola, for many samples.
+  const double lever = period * std::sqrt(samples * (samples * samples - 1.0) / 12.0) /
+                       (samples < options.cubic_samples ? 1.0 : 2.5);
   // Counts are no white noise: a slow motion keeps one for long.
   return std::max(options.surely_moves * noise / lever, count / (samples * period));
 }
@@ -72,7 +76,7 @@ AxisMotion::AxisMotion(const Series& position, double bin, std::size_t bins,
     : bin_(bin) {
   const double half_width = options.smoothing.value * bin;
   for (std::size_t edge = 0; edge <= bins; ++edge) {
-    const auto [q, u] = parabola_at(position, static_cast<double>(edge) * bin, half_width, options);
+    const auto [q, u] = motion_at(position, static_cast<double>(edge) * bin, half_width, options);
     position_.push_back(q);
     velocity_.push_back(u);
   }
@@ -118,6 +122,9 @@ std::vector<std::pair<double, double>> holes_of(const Series& series, double end
     if (to - from > longest) holes.emplace_back(from, to);
   };
   add(0.0, series.t.front());
+  // Before the first sample and after the last, a polynomial has samples on one side only.
+  holes.emplace_back(-HUGE_VAL, series.t.front() - period);
+  holes.emplace_back(series.t.back() + period, HUGE_VAL);
   for (std::size_t i = 1; i < series.t.size(); ++i) add(series.t[i - 1], series.t[i]);
   add(series.t.back(), end);
   return holes;

@@ -11,8 +11,9 @@ namespace anthrob {
 namespace discovery {
 
 /// The measured motion of a driven joint, continuous in position and velocity: at the edges of
-/// bins, parabolas through the measured positions around them; cubics between the edges. The change
-/// of velocity over a bin, and with it the inertial effort in its mean, is that of the edges.
+/// bins, polynomials through the measured positions around them; cubics between the edges. The
+/// change of velocity over a bin, and with it the inertial effort in its mean, is that of the
+/// edges.
 class AxisMotion {
  public:
   /// @param position measured, two samples or more   @param bin [s]
@@ -40,7 +41,7 @@ class AxisMotion {
 /// Usual distance of two samples [s].
 double usual_period(const Series& series);
 
-/// Begin and end [s] of each hole in a series that a parabola does not bridge.
+/// Begin and end [s] of each hole in a series that a polynomial does not bridge.
 /// @param end of the recording [s]   @param bin [s]
 std::vector<std::pair<double, double>> holes_of(const Series& series, double end, double bin,
                                                 const AxisOptions& options);

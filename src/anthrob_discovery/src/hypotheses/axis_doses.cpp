@@ -12,18 +12,14 @@ namespace {
 
 /// How a driven joint was used.
 struct Use {
-  double effort = 0.0;  ///< rms [Nm, N]
+  double effort = 0.0;  ///< that the given model lacks, rms [Nm, N]
   double range = 0.0;   ///< of positions, half [rad, m]
   double speed = 0.0;   ///< way over time, while it was not at rest [rad/s, m/s]
 };
 
 Use use_of(const std::string& joint, const std::vector<Dataset>& recordings) {
-  double squares = 0.0, count = 0.0, low = HUGE_VAL, high = -HUGE_VAL, way = 0.0, time = 0.0;
+  double low = HUGE_VAL, high = -HUGE_VAL, way = 0.0, time = 0.0;
   for (const Dataset& recording : recordings) {
-    for (const double effort : recording.series(joint + "/effort").values) {
-      squares += effort * effort;
-      count += 1.0;
-    }
     const Series position = recording.series(joint + "/position");
     for (std::size_t i = 0; i < position.values.size(); ++i) {
       low = std::min(low, position.values[i]);
@@ -34,10 +30,29 @@ Use use_of(const std::string& joint, const std::vector<Dataset>& recordings) {
     }
   }
   Use use;
-  if (count > 0.0) use.effort = std::sqrt(squares / count);
   if (high > low) use.range = 0.5 * (high - low);
   if (time > 0.0) use.speed = way / time;
   return use;
+}
+
+/// What the given model lacks at a joint, root mean square over the bins [Nm, N].
+double lacking(const std::string& joint, const Experiments& experiments,
+               const Differences& differences) {
+  double squares = 0.0, count = 0.0;
+  std::size_t offset = 0;
+  for (const auto& experiment : experiments) {
+    for (const Channel& channel : experiment->channels()) {
+      if (channel.place != joint) continue;
+      for (std::size_t b = channel.offset; b < channel.offset + channel.count; ++b) {
+        if (!experiment->present()[b]) continue;
+        const double value = differences[static_cast<Eigen::Index>(offset + b)];
+        squares += value * value;
+        count += 1.0;
+      }
+    }
+    offset += experiment->size();
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
 /// A natural size of a quantity of that unit; 0: there is none.
@@ -50,12 +65,17 @@ double natural(const std::string& unit, const Use& use) {
 
 }  // namespace
 
-void scale_doses(const RobotModel& model, const std::vector<Dataset>& recordings,
+void scale_doses(const Evaluator& evaluator, const Admission& admission,
                  const AxisDoseOptions& options, std::vector<Candidate>& candidates) {
+  const RobotModel& model = *evaluator.model();
   if (!model.muscles.empty()) return;
+  const Differences given = evaluator.compare({Variant{}}, admission.train).front();
+  if (given.size() == 0) return;  // told with the floors
   std::map<std::string, Use> uses;
   for (const JointModel& joint : model.skeleton->joints) {
-    if (joint.driven) uses[joint.name] = use_of(joint.name, recordings);
+    if (!joint.driven) continue;
+    uses[joint.name] = use_of(joint.name, admission.question.train);
+    uses[joint.name].effort = lacking(joint.name, admission.train, given);
   }
   for (Candidate& candidate : candidates) {
     const auto use = uses.find(candidate.place);

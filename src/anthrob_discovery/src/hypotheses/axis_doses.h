@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "anthrob_recording/dataset.h"
+#include "admission/admission.h"
+#include "experiment/evaluator.h"
 #include "fit/candidate.h"
 #include "options/hypotheses.h"
 
@@ -10,10 +11,10 @@ namespace anthrob {
 namespace discovery {
 
 /// Doses of candidates at driven joints, in the units of what was measured there: a share of the
-/// effort, of effort over speed, or of effort over range of motion. The catalogue's are those of a
-/// human arm; on a small screw, ten of its smallest doses would be above all efforts.
-/// @param recordings of `--train`
-void scale_doses(const RobotModel& model, const std::vector<Dataset>& recordings,
+/// effort that the given model lacks, of that over speed, or of that over range of motion. The
+/// catalogue's are those of a human arm; on a small screw, ten of its smallest doses would be above
+/// all efforts, and trials of sizes would begin far beyond what little is missing.
+void scale_doses(const Evaluator& evaluator, const Admission& admission,
                  const AxisDoseOptions& options, std::vector<Candidate>& candidates);
 
 }  // namespace discovery

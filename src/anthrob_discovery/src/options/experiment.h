@@ -10,10 +10,13 @@ namespace discovery {
 /// Motion of a driven axis from its measured positions, and the bins in which its effort is
 /// compared.
 struct AxisOptions {
-  Share smoothing = 0.5;  ///< [bins] half the width of the parabolas: each sample is in one
-  /// [sampling periods] longest distance of two samples that a parabola bridges
+  Share smoothing = 0.5;  ///< [bins] half the width of the polynomials: each sample is in one
+  /// [sampling periods] longest distance of two samples that a polynomial bridges
   double most_periods = 3.5;
-  int fewest_samples = 3;        ///< of a parabola
+  int fewest_samples = 3;  ///< of a parabola
+  /// of a cubic, whose slope scatters by 2.5 times that of a parabola, which flattens the motion;
+  /// of fewer, coarse encoders would see no motion
+  int cubic_samples = 24;
   std::size_t fewest_bins = 10;  ///< of a recording
   /// [standard errors] of a speed, up to which the joint may be at rest
   double surely_moves = 4.0;
@@ -34,6 +37,7 @@ struct AxisOptions {
     visit("smoothing", options.smoothing);
     visit("most_periods", options.most_periods);
     visit("fewest_samples", options.fewest_samples);
+    visit("cubic_samples", options.cubic_samples);
     visit("fewest_bins", options.fewest_bins);
     visit("surely_moves", options.surely_moves);
     visit("shortest_bin", options.shortest_bin);

@@ -159,7 +159,9 @@ struct PeriodOptions {
 
 /// Doses at driven joints of robots without muscles.
 struct AxisDoseOptions {
-  Share share = 0.2;  ///< of the rms effort; of it over speed, and over half the range of motion
+  /// of the rms effort that the given model lacks; of it over speed, and over half the way: trials
+  /// of sizes begin there
+  Share share = 0.5;
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {

@@ -11,8 +11,6 @@ namespace discovery {
 
 namespace {
 
-constexpr int kBlack = 9;  ///< in the palette of SvgFigure
-
 /// "0.05 Nm", not to be broken between lines; without unit where there is none.
 std::string with_unit(double value, const std::string& unit) {
   return short_number(value) + (unit == "1" || unit.empty() ? "" : "\u00a0" + unit);
@@ -34,7 +32,7 @@ std::string example_figure(const Example& example, bool any_effect) {
     if (any_effect) {
       values.lines.push_back({"with what was found", example.t, simulated(example.after)});
     }
-    values.lines.push_back({"measured", example.t, example.measured, true, kBlack});
+    values.lines.push_back({"measured", example.t, example.measured, true});
   }
   auto& panel = figure.add_panel("time [s]", "simulated minus measured" + in_unit(example.unit));
   panel.lines.push_back({"recalibrated", example.t, example.recalibrated});

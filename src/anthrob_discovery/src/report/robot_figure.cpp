@@ -13,7 +13,11 @@ namespace discovery {
 
 namespace {
 
-constexpr double kViewWidth = 450, kViewHeight = 380, kRim = 40;  // [px]
+/// Of one view [px].
+struct ViewSize {
+  double width = 450, height = 380, rim = 40;
+};
+const ViewSize view_size;
 
 enum class Part { kBone, kMuscle, kMarkedBone, kMarkedMuscle };
 
@@ -117,8 +121,8 @@ struct View {
   std::string at(const Vec3& p_W, const char* separator) const {
     char text[64];
     std::snprintf(text, sizeof(text), "%.1f%s%.1f",
-                  left + 0.5 * kViewWidth + scale * (p_W[across] - middle_W[across]), separator,
-                  0.5 * kViewHeight - scale * (p_W[2] - middle_W[2]));
+                  left + 0.5 * view_size.width + scale * (p_W[across] - middle_W[across]),
+                  separator, 0.5 * view_size.height - scale * (p_W[2] - middle_W[2]));
     return text;
   }
 };
@@ -150,7 +154,7 @@ std::string view_svg(const Drawing& drawing, const View& view) {
   char text[160];
   std::snprintf(text, sizeof(text),
                 "<text class=\"axes\" x=\"%.0f\" y=\"%.0f\">%c to the right, z up</text>\n",
-                view.left + 10, kViewHeight - 8, "xy"[view.across]);
+                view.left + 10, view_size.height - 8, "xy"[view.across]);
   return out + text;
 }
 
@@ -168,11 +172,11 @@ std::string robot_figure(const RobotModel& robot, const std::vector<std::string>
   if (box.isEmpty() || box.diagonal().norm() < 1e-6) return "";
   const double wide = std::max({box.sizes()[0], box.sizes()[1], 1e-9}),
                high = std::max(box.sizes()[2], 1e-9);
-  const double scale =
-      std::min((kViewWidth - 2.0 * kRim) / wide, (kViewHeight - 2.0 * kRim) / high);
+  const double scale = std::min((view_size.width - 2.0 * view_size.rim) / wide,
+                                (view_size.height - 2.0 * view_size.rim) / high);
   char size[96];
   std::snprintf(size, sizeof(size), "viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\"",
-                2.0 * kViewWidth, kViewHeight, 2.0 * kViewWidth, kViewHeight);
+                2.0 * view_size.width, view_size.height, 2.0 * view_size.width, view_size.height);
   return std::string("<svg xmlns=\"http://www.w3.org/2000/svg\" ") + size +
          " font-family=\"sans-serif\" font-size=\"13\">\n"
          "<style>.bone{stroke:#c9c2b4;stroke-width:9;stroke-linecap:round;fill:none}"
@@ -181,7 +185,7 @@ std::string robot_figure(const RobotModel& robot, const std::vector<std::string>
          ".mark{fill:none;stroke:#d62728;stroke-width:2.5}.axes{fill:#777;font-size:11px}</style>\n"
          "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
          view_svg(drawing, {0, 0.0, box.center(), scale}) +
-         view_svg(drawing, {1, kViewWidth, box.center(), scale}) + "</svg>\n";
+         view_svg(drawing, {1, view_size.width, box.center(), scale}) + "</svg>\n";
 }
 
 }  // namespace discovery

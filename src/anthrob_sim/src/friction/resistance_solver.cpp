@@ -111,10 +111,11 @@ void ResistanceSolver::follow(const KinematicTree& tree, const std::vector<doubl
 }
 
 ForceRange ResistanceSolver::resistance_at(const std::vector<double>& q, int joint, double velocity,
-                                           double rest, const JointInputs& inputs) const {
+                                           double sliding, double rest,
+                                           const JointInputs& inputs) const {
   const JointModel& model = model_.joints[joint];
   const JointFrictionModel& friction = model.friction;
-  double force = -(friction.viscous + friction.quadratic * std::abs(velocity)) * velocity;
+  double force = -(friction.viscous + friction.quadratic * std::abs(sliding)) * sliding;
   if (inputs.bristles) force -= friction.presliding_torque * inputs.bristles[joint];
   if (model.stop.enabled) {
     const double position = q[model.position_offset];
@@ -127,13 +128,13 @@ ForceRange ResistanceSolver::resistance_at(const std::vector<double>& q, int joi
   const double proportional =
       proportional_friction(friction, inputs.loads ? inputs.loads[joint] : 0.0,
                             inputs.efforts ? inputs.efforts[joint] : 0.0);
-  if (std::abs(velocity) <= rest) {
+  if (std::abs(sliding) <= rest) {
     const double limit = std::max(friction.static_torque, friction.kinetic_torque) + proportional;
     return {force - limit - friction.forward, force + limit + friction.backward};
   }
   const double level =
-      dry_friction(friction, velocity) + one_way_friction(friction, velocity) + proportional;
-  force -= std::copysign(level, velocity);
+      dry_friction(friction, sliding) + one_way_friction(friction, sliding) + proportional;
+  force -= std::copysign(level, sliding);
   return {force, force};
 }
 

@@ -47,11 +47,12 @@ class ResistanceSolver {
 
   /// Generalised forces of friction and stops of one joint, hinge or prismatic, at a given velocity
   /// at the end of the step, of which only so much is certain.
-  /// @param velocity as in follow()   @param rest speed below which the joint may be at rest: dry
+  /// @param velocity as in follow()   @param sliding velocity at which friction is taken
+  /// @param rest speed below which the joint may be at rest: dry
   /// friction is then any of those that can hold it [rad/s, m/s]
   /// @param inputs as in solve(), after the step
-  ForceRange resistance_at(const std::vector<double>& q, int joint, double velocity, double rest,
-                           const JointInputs& inputs) const;
+  ForceRange resistance_at(const std::vector<double>& q, int joint, double velocity, double sliding,
+                           double rest, const JointInputs& inputs) const;
 
   /// Velocity at the end of the step.
   const Eigen::VectorXd& velocity() const { return u_; }

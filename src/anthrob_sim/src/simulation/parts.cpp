@@ -49,6 +49,7 @@ Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
   way_.setZero(skeleton.velocity_count);
   inertial_.setZero(skeleton.velocity_count);
   lacking_.setZero(skeleton.velocity_count);
+  acceleration_.setZero(skeleton.velocity_count);
   left_ = q_;
   heading_.resize(static_cast<std::size_t>(skeleton.velocity_count));
   arriving_.reserve(skeleton.bodies.size());
@@ -170,8 +171,8 @@ void Simulation::Parts::find_lacking_efforts() {
   const auto size = tau_.size();
   const Eigen::Map<const Eigen::VectorXd> before(tree_.velocities().data(), size),
       after(heading_.data(), size);
-  lacking_ = (after - before) / model_->step;
-  inertial_.noalias() = tree_.mass_matrix() * lacking_;
+  acceleration_ = (after - before) / model_->step;
+  inertial_.noalias() = tree_.mass_matrix() * acceleration_;
   lacking_ = inertial_ + tree_.bias() - tau_;
   left_ = q_;
 }
@@ -180,12 +181,14 @@ Simulation::LackingEffort Simulation::Parts::lacking_effort(int joint, double re
   const JointModel& model = model_->skeleton->joints[joint];
   const int dof = model.velocity_offset;
   const double velocity = heading_[static_cast<std::size_t>(dof)];
+  // In the middle of the step, as effort and acceleration are.
+  const double sliding = velocity - 0.5 * model_->step * acceleration_[dof];
   const ForceRange resistance =
-      resistance_.resistance_at(left_, joint, velocity, rest, joint_inputs());
+      resistance_.resistance_at(left_, joint, velocity, sliding, rest, joint_inputs());
   // What reaches the joint of a little more effort: a law that lets none through explains nothing.
   double passed = model.effort_gain;
-  if (std::abs(velocity) > rest) {
-    passed *= 1.0 - std::copysign(model.friction.effort_share, acting_[joint] * velocity);
+  if (std::abs(sliding) > rest) {
+    passed *= 1.0 - std::copysign(model.friction.effort_share, acting_[joint] * sliding);
   }
   return {inertial_[dof] / passed,
           {(lacking_[dof] - resistance.high) / passed, (lacking_[dof] - resistance.low) / passed}};

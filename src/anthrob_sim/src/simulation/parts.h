@@ -72,7 +72,8 @@ class Simulation::Parts {
   std::size_t measured_offset_;      ///< measured joint positions
   std::vector<std::size_t> joint_sensor_offsets_;
   Eigen::VectorXd tau_;
-  Eigen::VectorXd inertial_, lacking_;   ///< by generalised velocity, while a posture is imposed
+  Eigen::VectorXd acceleration_, inertial_,
+      lacking_;                          ///< by generalised velocity, while a posture is imposed
   std::vector<double> left_;             ///< scratch: joint positions before it was imposed
   std::optional<JointLoads> reactions_;  ///< once somebody asked for them
   // Of effects: empty in a plain model.

@@ -49,7 +49,7 @@ TEST(LackingEffort, IsThatOfTheEquationOfMotion) {
   for (const int steps : {40, 100, 290, 300, 400, 700}) {
     const auto found = lacking(sim, amplitude, omega, steps, 0.01);
     const auto at = [&](int i) { return amplitude * std::sin(omega * i * kStep); };
-    const double q = at(steps - 1), speed = (at(steps) - q) / kStep;
+    const double q = at(steps - 1), speed = (at(steps) - at(steps - 2)) / (2.0 * kStep);
     const double acceleration = (at(steps) - 2.0 * q + at(steps - 2)) / (kStep * kStep);
     const double level = 0.4 + 0.2 * std::exp(-std::abs(speed) / 0.1);
     const double depth = std::abs(at(steps)) - 0.8;
