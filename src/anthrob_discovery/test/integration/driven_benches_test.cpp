@@ -68,6 +68,22 @@ TEST(DrivenBench, FrictionIsMeasuredFromSlowRowsAndByCoarseEncoders) {
   }
 }
 
+/// Its inertial effort is twenty times its friction.
+TEST(DrivenBench, FrictionOfAHeavyAxisIsNoPayload) {
+  DrivenBench bench;
+  bench.inertia = 50.0;
+  bench.coulomb = 8.0;
+  bench.viscous = 2.0;
+  bench.noise = 0.5;
+  bench.rate = 1000.0;
+  bench.bits = 20;
+  const Answer answer = ask(bench.question());
+  ASSERT_FALSE(answer.effects.empty()) << summary(answer);
+  EXPECT_EQ(answer.effects[0].id, "joint_coulomb") << summary(answer);
+  EXPECT_NEAR(size_of(answer, "joint_coulomb", "torque"), 8.0, 0.8) << summary(answer);
+  EXPECT_FALSE(names(answer, "payload")) << summary(answer);
+}
+
 TEST(DrivenBench, NothingIsNamedWhereNothingIsMissing) {
   DrivenBench bench = light(0.4);
   bench.coulomb = 0.0;
