@@ -7,6 +7,7 @@ residual is filtered (zero phase, 100 Hz for the position, 40 Hz for the force) 
 drive's own controller.
 """
 import argparse
+import math
 import os
 import sys
 
@@ -20,7 +21,7 @@ except ImportError:
 STEP = 1e-3                        # [s] of the data
 FORCE_CONSTANT = 35.15065188       # [N/V]
 KP, KV, LIMIT = 160.18, 243.45, 10.0
-KNOWN = ('joint_coulomb', 'joint_offset_torque', 'joint_presliding')  # effects that residual and replay have
+KNOWN = ('joint_coulomb', 'joint_offset_torque', 'joint_presliding', 'joint_ripple')  # effects that residual and replay have
 BEND = 1e-4                        # [m] of presliding that is taken as Coulomb friction: motions are of decimetres
 FINER = 20                         # steps of the replay in one of the data
 
@@ -49,7 +50,7 @@ def load_model(file):
 
 
 def numbers_of(model):
-    """Mass [kg], viscous [Ns/m], Coulomb [N] and offset friction [N]."""
+    """Mass [kg], viscous [Ns/m], Coulomb [N] and offset friction [N], ripple: its terms [rad/m, N, N]."""
     if 'axis' not in model.get('joints', {}):
         refuse('expected a model of config/driven_axis, with the joint axis')
     effects = {effect['id']: effect for effect in model.get('effects') or []}
@@ -60,7 +61,17 @@ def numbers_of(model):
         refuse('joint_presliding: distance: %g: expected at most %g m, which counts as Coulomb friction' % (presliding['distance'], BEND))
     return (95.1089, model['joints']['axis']['friction']['viscous'],
             effects.get('joint_coulomb', {}).get('torque', 0.0) + presliding.get('torque', 0.0),
-            -effects.get('joint_offset_torque', {}).get('torque', 0.0))
+            -effects.get('joint_offset_torque', {}).get('torque', 0.0), terms_of(effects.get('joint_ripple', {})))
+
+
+def terms_of(ripple):
+    numbers = [key.split('_')[1] for key in ripple if key.startswith('periods_')]
+    return [(2.0 * math.pi * ripple['periods_' + k], ripple.get('sine_' + k, 0.0), ripple.get('cosine_' + k, 0.0)) for k in numbers]
+
+
+def ripple_at(terms, position):
+    """Force that it adds [N]."""
+    return sum(sine * numpy.sin(rate * position) + cosine * numpy.cos(rate * position) for rate, sine, cosine in terms)
 
 
 def lowpass(values, corner):
@@ -72,16 +83,16 @@ def lowpass(values, corner):
 
 
 def force_residual(numbers, force, position):
-    mass, viscous, coulomb, offset = numbers
+    mass, viscous, coulomb, offset, terms = numbers
     velocity = numpy.gradient(lowpass(position, 100), STEP)
     acceleration = numpy.gradient(velocity, STEP)
-    model = mass * acceleration + viscous * velocity + coulomb * numpy.sign(velocity) + offset
+    model = mass * acceleration + viscous * velocity + coulomb * numpy.sign(velocity) + offset - ripple_at(terms, position)
     return lowpass(force - model, 40)[200:-200:12]
 
 
 def replay(numbers, position, reference, pulses):
     """Positions and forces of the drive under its controller."""
-    mass, viscous, coulomb, offset = numbers
+    mass, viscous, coulomb, offset, terms = numbers
     q, v = position[0], (position[1] - position[0]) / STEP
     before = mean_before = q
     positions, forces = [], []
@@ -94,7 +105,7 @@ def replay(numbers, position, reference, pulses):
         positions.append(q)
         forces.append(force)
         for _ in range(FINER):
-            drive = force - offset - viscous * v
+            drive = force - offset - viscous * v + ripple_at(terms, q)
             if v == 0.0 and abs(drive) <= coulomb:
                 break
             faster = v + STEP / FINER * (drive - coulomb * numpy.sign(v if v != 0.0 else drive)) / mass
@@ -126,7 +137,7 @@ def main():
     for file, data in recordings:
         if data.ndim != 2 or data.shape[1] < 5 or len(data) <= 400 or not numpy.isfinite(data).all():
             refuse('%s: expected more than 400 rows of t, u_vir, force, position, reference, all numbers' % file)
-    print('viscous %.1f Ns/m, Coulomb %.2f N, offset %.2f N' % numbers[1:])
+    print('viscous %.1f Ns/m, Coulomb %.2f N, offset %.2f N, ripple of %d terms' % (*numbers[1:4], len(numbers[4])))
     for file, data in recordings:
         force, position, reference = data[:, 2], data[:, 3], data[:, 4]
         pulses = data[:, 5] if data.shape[1] > 5 else numpy.zeros(len(data))
