@@ -52,9 +52,11 @@ import json, re, sys
 singles = []
 for entry in json.load(open(sys.argv[1])):
     together = []
+    # What gcc has compiled beforehand, clang cannot read.
+    command = re.sub(r'-include \S*cmake_pch\.hxx', '', entry['command'])
     if '/Unity/unity_' in entry['file']:
         together = re.findall(r'#include "(.*)"', open(entry['file']).read())
-    singles += [{'directory': entry['directory'], 'file': file, 'command': entry['command'].replace(entry['file'], file)}
+    singles += [{'directory': entry['directory'], 'file': file, 'command': command.replace(entry['file'], file)}
                 for file in together or [entry['file']]]
 json.dump(singles, open(sys.argv[2], 'w'), indent=2)
 PYTHON
