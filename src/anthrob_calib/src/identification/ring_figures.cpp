@@ -53,7 +53,7 @@ void add_relaxation(const RingRecording& recording, const ViscoelasticFit& fit, 
       recording.tests.begin(), recording.tests.end(), [&](const auto& a, const auto& b) {
         return std::abs(a.strain - strain) < std::abs(b.strain - strain);
       });
-  const auto force = predicted_force(fit.model(), fit.zero.value, recording, *nearest);
+  const auto force = predicted_force(fit.model(), fit.zero_or_none(), recording, *nearest);
   auto& panel = figure.add_panel("time [s]", "stress [MPa]");
   Line measured = curve("measured, strain " + significant(nearest->strain, 3), 10);
   Line model = curve("model", 1);

@@ -1,6 +1,7 @@
 #include "identification/ring_identification.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <tuple>
 
@@ -51,7 +52,7 @@ RingModelResult fit_model(const RingResult& ring, std::size_t arms) {
     result.failure = error.what();
     return result;
   }
-  add_errors(*result.fit, result.fit->zero.value, fitted, result.fit_error);
+  add_errors(*result.fit, result.fit->zero_or_none(), fitted, result.fit_error);
   for (std::size_t i = ring.fitted + 1; i < ring.recordings.size(); ++i) {
     if (!last_run_of_specimen(ring.recordings, i)) continue;
     add_errors(*result.fit, 0.0, ring.recordings[i], result.validation_error);
@@ -71,6 +72,22 @@ std::optional<double> RingModelResult::mean_validation_error() const {
 bool RingResult::has_fit() const {
   return std::any_of(models.begin(), models.end(),
                      [](const RingModelResult& model) { return model.fit.has_value(); });
+}
+
+const RingModelResult* RingResult::better() const {
+  const RingModelResult* best = nullptr;
+  for (const RingModelResult& model : models) {
+    if (!model.fit) continue;
+    if (!best) {
+      best = &model;
+      continue;
+    }
+    const auto error = [](const RingModelResult& of) {
+      return of.mean_validation_error().value_or(of.mean_fit_error().value_or(HUGE_VAL));
+    };
+    if (model.fit->shows_its_arms() && error(model) < error(*best)) best = &model;
+  }
+  return best;
 }
 
 std::vector<RingResult> identify_rings(std::vector<RingRecording> recordings) {

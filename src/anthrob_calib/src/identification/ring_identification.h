@@ -18,6 +18,7 @@ struct RingModelResult {
   /// Root mean square error [N] by strain: of the run that was fitted, and of the second specimen.
   std::map<double, double> fit_error, validation_error;
 
+  const char* name() const { return arms == 1 ? "zener" : "wiechert"; }
   /// Means over the strains used; nothing if there are none.
   std::optional<double> mean_fit_error() const;
   std::optional<double> mean_validation_error() const;
@@ -31,6 +32,9 @@ struct RingResult {
   std::vector<RingModelResult> models;    ///< Zener, Wiechert
 
   bool has_fit() const;  ///< of any model
+  /// The Zener model unless a second arm shows, and errs less: on the second specimen, if there is
+  /// one. Null if no model fits.
+  const RingModelResult* better() const;
 };
 
 /// Sorts recordings by ring, specimen and run, as section 7.2.3 uses them: fits the first

@@ -3,40 +3,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <optional>
 
 #include "anthrob_core/errors.h"
 #include "anthrob_core/text.h"
+#include "identification/estimate.h"
 #include "identification/number_text.h"
 #include "identification/rig_recording.h"
+#include "identification/ring_holds.h"
 
 namespace anthrob {
 namespace identification {
 
 namespace {
 
-/// Share of the target strain from which on the ring counts as held.
-constexpr double kReached = 0.95;
+/// Share of its time from which on a hold or a recovery counts as whole.
+constexpr double kWhole = 0.95;
 /// Share of a recovery, its last, in which the force sensor shows its offset.
 constexpr double kQuiet = 0.25;
-/// Of a recovery every so many samples are kept, but all just before the stretch.
+/// While a ring is held before a test, every so many samples are kept, but all just before the
+/// stretch.
 constexpr std::size_t kThinning = 50, kKept = 250;
 
-/// A stretch of rows with one reference.
-struct Phase {
-  std::size_t begin, end;
-  double reference;
-};
-
-std::vector<Phase> phases_of(const std::vector<double>& reference) {
-  std::vector<Phase> phases;
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    if (i == 0 || reference[i] != reference[i - 1]) phases.push_back({i, i, reference[i]});
-    phases.back().end = i + 1;
-  }
-  return phases;
-}
-
+/// How long the ring is to be held and released, if it is known [s].
 struct Protocol {
   double hold, recover;
 };
@@ -45,23 +34,23 @@ class Reader {
  public:
   explicit Reader(const Dataset& recording)
       : data_(recording),
-        columns_(read_columns(recording, "ring stretcher",
-                              {"ring/position", "ring/reference", "ring/force"})) {}
+        columns_(read_columns(recording, "ring stretcher", {"ring/position", "ring/force"})) {}
 
   RingRecording read() {
     result_.name = recording_name(data_);
     result_.period = columns_.period();
     read_meta();
-    const auto phases = phases_of(columns_.values[1]);
-    double released = phases.front().reference;
-    for (const Phase& phase : phases) released = std::min(released, phase.reference);
-    for (std::size_t i = 0; i < phases.size(); ++i) check_phase(phases, i, released);
-    find_offset(phases, released);
-    for (std::size_t i = 1; i < phases.size(); ++i) {
-      if (phases[i].reference > released) add_test(phases[i - 1], phases[i]);
+    holds_ = find_holds(columns_.t, position());
+    check_holds();
+    find_offset();
+    for (std::size_t i = 1; i < holds_.size(); ++i) {
+      if (!holds_[i].released) add_test(i);
     }
     if (result_.tests.empty()) {
-      throw BadInput(result_.name + ": no relaxation test: ring/reference never changes");
+      throw BadInput(result_.name +
+                     ": no relaxation test: ring/position is never held beyond its "
+                     "lowest value; expected a stretch that is held for at least "
+                     "half a second");
     }
     return std::move(result_);
   }
@@ -75,8 +64,7 @@ class Reader {
 
   void read_meta() {
     const ConfigNode meta = rig_meta(data_);
-    const ConfigNode specimen = meta.at("specimen"), rig = meta.at("rig"),
-                     protocol = meta.at("protocol");
+    const ConfigNode specimen = meta.at("specimen"), rig = meta.at("rig");
     RingSpecimen& ring = result_.specimen;
     ring.ring = specimen.text("ring");
     if (ring.ring.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -93,81 +81,109 @@ class Reader {
     result_.scale_sigma = rig.number_or("scale_sigma", 0.0, Bounds::between(0.0, 1.0), "1");
     if (rig.has("force_average"))
       result_.force_average = rig.at("force_average").as_integer(1, 10000);
-    protocol_ = {protocol.number("hold", Bounds::positive(), "s"),
-                 protocol.number("recover", Bounds::positive(), "s")};
-    for (const ConfigNode& part : {specimen, rig, protocol}) part.refuse_unknown_keys();
+    if (meta.has("protocol")) {
+      const ConfigNode protocol = meta.at("protocol");
+      protocol_ = {protocol.number("hold", Bounds::positive(), "s"),
+                   protocol.number("recover", Bounds::positive(), "s")};
+      protocol.refuse_unknown_keys();
+    }
+    for (const ConfigNode& part : {specimen, rig}) part.refuse_unknown_keys();
   }
 
-  double duration(const Phase& phase) const {
-    return columns_.t[phase.end - 1] - columns_.t[phase.begin] + result_.period;
+  const std::vector<double>& position() const { return columns_.values[0]; }
+  const std::vector<double>& force() const { return columns_.values[1]; }
+
+  /// Row in which the ring sets off for a hold.
+  std::size_t departure(std::size_t i) const { return i == 0 ? 0 : holds_[i - 1].end; }
+
+  void check_holds() const {
+    if (holds_.empty() || !holds_.front().released) {
+      fail(0,
+           "starts stretched: expected the ring released, and at rest for half a second, before "
+           "the first test");
+    }
+    if (holds_.back().end < position().size()) {
+      fail(holds_.back().end, "ends while the ring moves: is the recording cut off?");
+    }
+    for (std::size_t i = 0; protocol_ && i < holds_.size(); ++i) check_duration(i);
   }
 
-  /// Stretches and recoveries must take turns, each for its time.
-  void check_phase(const std::vector<Phase>& phases, std::size_t i, double released) const {
-    const Phase& phase = phases[i];
-    const bool stretched = phase.reference > released;
-    if (stretched && i == 0) {
-      fail(phase.begin, "starts stretched: expected the ring released before the first test");
-    }
-    if (stretched && phases[i - 1].reference > released) {
-      fail(phase.begin, "a stretch follows a stretch: expected the ring released in between");
-    }
-    const double due = stretched ? protocol_.hold : protocol_.recover;
+  void check_duration(std::size_t i) const {
+    const RingHold& hold = holds_[i];
     // The first release may be shorter, the last may be missing: nothing was before, or comes
     // after.
-    if ((i == 0 || i + 1 == phases.size()) && !stretched) return;
-    if (duration(phase) < kReached * due) {
+    if (hold.released && (i == 0 || i + 1 == holds_.size())) return;
+    const double due = hold.released ? protocol_->recover : protocol_->hold;
+    const double duration = columns_.t[hold.end - 1] - columns_.t[departure(i)] + result_.period;
+    if (duration < kWhole * due) {
       char text[96];
       std::snprintf(text, sizeof(text), "%s lasts %.2f s: expected %g s; is the recording cut off?",
-                    stretched ? "this test" : "this recovery", duration(phase), due);
-      fail(phase.begin, text);
+                    hold.released ? "this recovery" : "this test", duration, due);
+      fail(departure(i), text);
     }
   }
 
-  void find_offset(const std::vector<Phase>& phases, double released) {
+  void find_offset() {
     double sum = 0.0;
     std::size_t count = 0;
-    for (const Phase& phase : phases) {
-      if (phase.reference > released) continue;
-      const auto length = static_cast<double>(phase.end - phase.begin);
-      for (auto i = phase.end - static_cast<std::size_t>(std::ceil(kQuiet * length)); i < phase.end;
-           ++i, ++count) {
-        sum += columns_.values[2][i];
+    for (const RingHold& hold : holds_) {
+      if (!hold.released) continue;
+      const auto length = static_cast<double>(hold.end - hold.begin);
+      for (auto row = hold.end - static_cast<std::size_t>(std::ceil(kQuiet * length));
+           row < hold.end; ++row, ++count) {
+        sum += force()[row];
       }
     }
     result_.force_offset = sum / static_cast<double>(count);
   }
 
-  void add_test(const Phase& recovery, const Phase& stretch) {
-    RelaxationTest test;
-    const double l0 = result_.specimen.rest_length;
+  /// Rows before a test that its force depends on: since the ring was last released. All while it
+  /// moves, few while it is held.
+  std::vector<std::size_t> rows_before(std::size_t test) const {
+    std::size_t first = test - 1;
+    while (!holds_[first].released) --first;
+    const std::size_t begin = departure(test);
     const std::size_t dense = static_cast<std::size_t>(result_.force_average) + kKept;
-    std::size_t start = 0;
-    for (std::size_t i = recovery.begin; i < stretch.end; ++i) {
-      if (i + dense < stretch.begin && (i - recovery.begin) % kThinning != 0) continue;
-      if (i == stretch.begin) start = test.t.size();
-      test.t.push_back(columns_.t[i] - columns_.t[stretch.begin]);
-      test.expansion.push_back(start_length_ - l0 + radius_ * columns_.values[0][i]);
-      test.force.push_back(columns_.values[2][i] - result_.force_offset);
+    std::vector<std::size_t> rows;
+    for (std::size_t h = first; h < test; ++h) {
+      for (std::size_t row = h == first ? holds_[h].begin : departure(h); row < holds_[h].end;
+           ++row) {
+        const bool held = row > holds_[h].begin + dense && row + dense < holds_[h].end;
+        if (held && row + dense < begin && (row - holds_[h].begin) % kThinning != 0) continue;
+        rows.push_back(row);
+      }
     }
-    const std::size_t size = test.t.size();
-    const std::size_t half = start + (size - start) / 2;
-    const double held = std::accumulate(test.expansion.begin() + static_cast<std::ptrdiff_t>(half),
-                                        test.expansion.end(), 0.0) /
-                        static_cast<double>(size - half);
+    return rows;
+  }
+
+  void add_test(std::size_t i) {
+    const RingHold& hold = holds_[i];
+    const std::size_t begin = departure(i);
+    std::vector<std::size_t> rows = rows_before(i);
+    const std::size_t before = rows.size();
+    for (std::size_t row = begin; row < hold.end; ++row) rows.push_back(row);
+    RelaxationTest test;
+    test.hold = before + (hold.begin - begin);
+    const double l0 = result_.specimen.rest_length;
+    for (const std::size_t row : rows) {
+      test.t.push_back(columns_.t[row] - columns_.t[begin]);
+      test.expansion.push_back(start_length_ - l0 + radius_ * position()[row]);
+      test.force.push_back(force()[row] - result_.force_offset);
+    }
+    const std::size_t half = test.hold + (test.t.size() - test.hold) / 2;
+    const double held = mean(test.expansion, half, test.expansion.size());
     if (!(held > 0.0)) {
-      fail(stretch.begin, "the ring is not stretched although ring/reference increased");
+      fail(begin, "the ring is held at " + significant(1000.0 * (held + l0), 3) +
+                      " mm, shorter than its rest length of " + significant(1000.0 * l0, 3) +
+                      " mm: is rig.start_length right?");
     }
-    for (test.hold = start; test.expansion[test.hold] < kReached * held;) ++test.hold;
     test.strain = held / l0;
     test.used = test.strain > kEllipseStrain;
-    const double force = std::accumulate(test.force.begin() + static_cast<std::ptrdiff_t>(half),
-                                         test.force.end(), 0.0) /
-                         static_cast<double>(size - half);
-    if (test.used && !(force > 0.0)) {  // else noise may hide it
-      fail(stretch.begin, "ring/force: " + significant(force, 3) +
-                              " N more while stretched than released: expected a positive "
-                              "number; reverse the sign of the column");
+    const double pull = mean(test.force, half, test.force.size());
+    if (test.used && !(pull > 0.0)) {  // else noise may hide it
+      fail(begin, "ring/force: " + significant(pull, 3) +
+                      " N more while stretched than released: expected a positive "
+                      "number; reverse the sign of the column");
     }
     result_.tests.push_back(std::move(test));
   }
@@ -175,7 +191,8 @@ class Reader {
   const Dataset& data_;
   RigColumns columns_;
   RingRecording result_;
-  Protocol protocol_{};
+  std::vector<RingHold> holds_;
+  std::optional<Protocol> protocol_;
   double radius_ = 0.0, start_length_ = 0.0;
 };
 

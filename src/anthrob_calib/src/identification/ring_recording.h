@@ -22,18 +22,19 @@ struct RingSpecimen {
 /// Strains up to this are not used in fits: the ring bends into an ellipse first (7.2).
 constexpr double kEllipseStrain = 0.57;
 
-/// One relaxation test: recovery, then a stretch to a strain that is held. The recovery is thinned
-/// out: little happens in it.
+/// One relaxation test: what went before since the ring was last released, then a stretch to a
+/// strain that is held. What was held before is thinned out: little happens in it.
 struct RelaxationTest {
   double strain = 0.0;            ///< mean while held
   std::vector<double> t;          ///< [s]
   std::vector<double> expansion;  ///< beyond l_0, by the spindle [m]
   std::vector<double> force;      ///< without the sensor's offset [N]
-  std::size_t hold = 0;           ///< first sample at which the strain is reached
+  std::size_t hold = 0;           ///< first sample of the hold
   bool used = true;               ///< strain > kEllipseStrain
 };
 
-/// A recording run of the protocol of section 7.2.3.
+/// A recording of one test or many: as in section 7.2.3 with recoveries between them, or as a
+/// staircase.
 struct RingRecording {
   std::string name;
   RingSpecimen specimen;
@@ -44,8 +45,8 @@ struct RingRecording {
   double force_offset = 0.0;  ///< shown while nothing pulls [N]
   std::vector<RelaxationTest> tests;
 
-  /// Reads columns `ring/position`, `ring/reference`, `ring/force` and the keys `specimen`, `rig`,
-  /// `protocol` and `run` of meta.yaml (docs/calibration.md).
+  /// Reads columns `ring/position` and `ring/force` and the keys `specimen`, `rig`, `protocol` and
+  /// `run` of meta.yaml (docs/calibration.md).
   /// @throws BadInput with one line if it is not such a recording, or a part of it is missing
   static RingRecording read(const Dataset& recording);
 };

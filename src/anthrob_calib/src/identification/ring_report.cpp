@@ -7,6 +7,7 @@
 #include "anthrob_recording/page.h"
 #include "identification/number_text.h"
 #include "identification/ring_figures.h"
+#include "identification/ring_remarks.h"
 
 namespace anthrob {
 namespace identification {
@@ -14,10 +15,6 @@ namespace identification {
 namespace {
 
 using nlohmann::ordered_json;
-
-const char* model_name(const RingModelResult& model) {
-  return model.arms == 1 ? "zener" : "wiechert";
-}
 
 std::string commented(const Estimate& estimate, const std::string& unit, const std::string& name) {
   return significant(estimate.value, 6) + "  # [" + unit + "] " + name +
@@ -28,7 +25,7 @@ std::string spring_yaml(const RingResult& ring, const RingModelResult& model) {
   const RingSpecimen& specimen = ring.recordings[ring.fitted].specimen;
   const auto& p = model.fit->parameters;
   std::string out = "  ring_" + ring.ring + (model.arms == 1 ? "" : "_wiechert") + ":\n";
-  out += std::string("    type: ") + model_name(model) + "\n";
+  out += std::string("    type: ") + model.name() + "\n";
   out += "    rest_length: " + significant(specimen.rest_length, 6) + "  # [m]\n";
   out += "    section_diameter: " + significant(specimen.section_diameter, 6) + "  # [m]\n";
   out += "    strands: " + std::to_string(specimen.strands) + "\n";
@@ -72,7 +69,7 @@ ordered_json level_json(const LevelFit& level, const std::vector<std::string>& n
 }
 
 ordered_json model_json(const RingModelResult& model) {
-  ordered_json out = {{"model", model_name(model)}};
+  ordered_json out = {{"model", model.name()}};
   if (!model.fit) {
     out["failure"] = model.failure;
     return out;
@@ -85,7 +82,7 @@ ordered_json model_json(const RingModelResult& model) {
                                      {"deviation", fit.over_levels[i].deviation},
                                      {"unit", unit_of(names[i])}};
   }
-  out["zero"] = as_json(fit.zero, "m");
+  if (fit.zero) out["zero"] = as_json(*fit.zero, "m");
   if (const auto error = model.mean_fit_error()) out["rmse"]["fit_N"] = *error;
   if (const auto error = model.mean_validation_error()) out["rmse"]["validation_N"] = *error;
   out["strains"] = ordered_json::array();
@@ -104,6 +101,8 @@ ordered_json ring_json(const RingResult& ring) {
                       {"force_offset_N", fitted.force_offset},
                       {"models", ordered_json::array()}};
   for (const RingModelResult& model : ring.models) out["models"].push_back(model_json(model));
+  if (ring.better()) out["better"] = ring.better()->name();
+  out["remarks"] = remarks_on(ring);
   return out;
 }
 
@@ -121,7 +120,7 @@ OutputFiles report_rings(const std::vector<RingResult>& rings) {
     files["stress_strain_" + ring.ring + ".svg"] = stress_strain_figure(ring);
     for (const RingModelResult& model : ring.models) {
       if (!model.fit) continue;
-      files[std::string(model_name(model)) + "_" + ring.ring + ".svg"] = model_figure(ring, model);
+      files[std::string(model.name()) + "_" + ring.ring + ".svg"] = model_figure(ring, model);
     }
   }
   if (rings.size() > 1) files["errors.svg"] = error_figure(rings);
@@ -138,7 +137,7 @@ std::string summary_of_rings(const std::vector<RingResult>& rings) {
   std::string out;
   for (const RingResult& ring : rings) {
     for (const RingModelResult& model : ring.models) {
-      out += ring.ring + " " + model_name(model) + ":";
+      out += ring.ring + " " + model.name() + ":";
       if (!model.fit) {
         out += " no fit: " + model.failure + "\n";
         continue;
@@ -153,6 +152,8 @@ std::string summary_of_rings(const std::vector<RingResult>& rings) {
       out += "; RMSE " + error_text(model.mean_fit_error()) + ", second specimen " +
              error_text(model.mean_validation_error()) + "\n";
     }
+    if (ring.better()) out += ring.ring + ": take " + ring.better()->name() + "\n";
+    for (const std::string& remark : remarks_on(ring)) out += "remark: " + remark + "\n";
   }
   return out;
 }

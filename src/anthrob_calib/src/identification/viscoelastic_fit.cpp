@@ -174,6 +174,11 @@ ViscoelasticModel ViscoelasticFit::model() const {
   return ViscoelasticModel::from_parameters(values.data(), values.size() / 2);
 }
 
+bool ViscoelasticFit::shows_its_arms() const {
+  return std::none_of(parameters.begin() + 1, parameters.end(),
+                      [](const Estimate& p) { return p.sigma > 0.5 * std::abs(p.value); });
+}
+
 ViscoelasticFit fit_viscoelastic(const RingRecording& recording, std::size_t arms) {
   std::vector<const RelaxationTest*> used;
   ViscoelasticFit result;
@@ -189,19 +194,20 @@ ViscoelasticFit fit_viscoelastic(const RingRecording& recording, std::size_t arm
         over_levels[i].push_back(level->parameters[i].value);
       }
     }
-    if (used.size() < 2) {
-      throw BadInput(recording.name + ": " + std::to_string(used.size()) +
-                     " tests above strain 0.57: expected two or more");
+    if (used.empty()) {
+      throw BadInput(recording.name +
+                     ": no test above strain 0.57, below which a ring bends into "
+                     "an ellipse: expected one or more");
     }
     for (const auto& list : over_levels) result.over_levels.push_back(spread(list));
-    const Fit fit = fit_tests(recording, used, arms, true);
+    const Fit fit = fit_tests(recording, used, arms, used.size() > 1);
     if (fit.at_bound) {
       auto names = parameter_names(arms);
       names.push_back("the zero of the expansion");
       throw std::runtime_error(names[*fit.at_bound] + " ends at the bound of the fit");
     }
     result.parameters = estimates_of(fit, recording, count);
-    result.zero = fit.estimate(count);
+    if (used.size() > 1) result.zero = fit.estimate(count);
   } catch (const BadInput&) {
     throw;
   } catch (const std::runtime_error& error) {

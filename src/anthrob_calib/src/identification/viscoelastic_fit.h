@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,16 @@ struct ViscoelasticFit {
   /// Stage 2: one set for all strains used. The thesis takes the mean; here all samples are fitted
   /// at once, together with the zero of the expansion, which otherwise bends E_0 over the strain.
   std::vector<Estimate> parameters;
-  Estimate zero;  ///< [m]
+  std::optional<Estimate> zero;  ///< [m]; one strain alone does not tell it
 
   ViscoelasticModel model() const;
+  double zero_or_none() const { return zero ? zero->value : 0.0; }
+  /// Whether no modulus or time of an arm may as well be nothing.
+  bool shows_its_arms() const;
 };
 
 /// @param arms 1 or 2
-/// @throws BadInput if fewer than two tests lie above kEllipseStrain
+/// @throws BadInput if no test lies above kEllipseStrain
 /// @throws std::runtime_error naming the recording if a fit fails
 ViscoelasticFit fit_viscoelastic(const RingRecording& recording, std::size_t arms);
 

@@ -118,7 +118,7 @@ TEST(RingIdentification, ExactDataGiveExactParameters) {
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_NEAR(fit.parameters[i].value / truth.parameters[i], 1.0, 1e-5) << i;
   }
-  EXPECT_NEAR(fit.zero.value, 0.0, 1e-8);
+  EXPECT_NEAR(fit.zero_or_none(), 0.0, 1e-8);
   EXPECT_NEAR(fit.levels[0].r_squared, 1.0, 1e-9);
 }
 
