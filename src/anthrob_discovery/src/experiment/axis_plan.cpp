@@ -102,10 +102,15 @@ Inertia estimated(const BinnedAxis& axis, bool hinge, const AxisOptions& options
   return found;
 }
 
+struct Scatter {
+  double logarithm = 0.0;
+  double error = 0.0;  ///< standard error of the logarithm
+};
+
 /// Scatter of an effort about a smooth curve, from third differences within motions; nothing if
 /// there are too few.
-std::optional<double> scatter_of(const BinnedAxis& axis, double inertia,
-                                 const AxisOptions& options) {
+std::optional<Scatter> scatter_of(const BinnedAxis& axis, double inertia,
+                                  const AxisOptions& options) {
   std::vector<double> third;
   for (std::size_t r = 0; r < axis.effort.size(); ++r) {
     const auto rest = [&](std::size_t b) {
@@ -120,7 +125,10 @@ std::optional<double> scatter_of(const BinnedAxis& axis, double inertia,
   if (third.size() < options.fewest_bins) return std::nullopt;
   const auto middle = third.begin() + static_cast<std::ptrdiff_t>(third.size() / 2);
   std::nth_element(third.begin(), middle, third.end());
-  return 1.4826 * *middle / std::sqrt(20.0);
+  if (!(*middle > 0.0)) return std::nullopt;
+  // Of normal noise, by the median of its sizes.
+  return Scatter{std::log(1.4826 * *middle / std::sqrt(20.0)),
+                 1.17 / std::sqrt(static_cast<double>(third.size()))};
 }
 
 /// Lengths to choose from, whole sampling periods where these are long.
@@ -147,32 +155,95 @@ std::vector<double> lengths_of_bins(const RobotModel& model, const std::vector<D
   return lengths;
 }
 
+/// All driven joints in bins of one length.
+struct PlannedBins {
+  double length = 0.0;  ///< [s]
+  std::vector<BinnedAxis> axes;
+  std::vector<Inertia> inertias;  ///< as these bins show them
+};
+
+PlannedBins planned(const RobotModel& model, const std::vector<Dataset>& recordings, double length,
+                    const AxisOptions& options) {
+  PlannedBins plan;
+  plan.length = length;
+  for (const JointModel& joint : model.skeleton->joints) {
+    if (!joint.driven) continue;
+    plan.axes.push_back(binned(joint.name, recordings, length, options));
+    plan.inertias.push_back(estimated(plan.axes.back(), joint.type == JointType::kHinge, options));
+  }
+  return plan;
+}
+
+/// What scatters in each second, of all axes.
+struct PlanScore {
+  double value = 0.0;  ///< logarithm
+  double error = 0.0;  ///< its standard error
+};
+
+std::optional<PlanScore> score_of(const PlannedBins& plan, const std::vector<Inertia>& inertias,
+                                  const AxisOptions& options) {
+  std::optional<PlanScore> score;
+  for (std::size_t a = 0; a < plan.axes.size(); ++a) {
+    const auto scatter = scatter_of(plan.axes[a], inertias[a].value, options);
+    if (!scatter) continue;
+    if (!score) score.emplace();
+    score->value += scatter->logarithm + 0.5 * std::log(plan.length);
+    score->error = std::hypot(score->error, scatter->error);
+  }
+  return score;
+}
+
+/// Begins and ends of motions, each of which is in one bin, for each bin that moves.
+double mixed_share(const PlannedBins& plan) {
+  std::size_t moving = 0, mixed = 0;
+  for (const BinnedAxis& axis : plan.axes) {
+    for (const std::vector<char>& moves : axis.moves) {
+      for (std::size_t b = 0; b < moves.size(); ++b) {
+        moving += moves[b] ? 1 : 0;
+        mixed += b > 0 && moves[b] != moves[b - 1] ? 1 : 0;
+      }
+    }
+  }
+  return moving > 0 ? static_cast<double>(mixed) / static_cast<double>(moving) : 0.0;
+}
+
+std::vector<int> joints_of_hidden_inertia(const RobotModel& model, const PlannedBins& plan,
+                                          const AxisOptions& options) {
+  std::vector<int> hidden;
+  std::size_t axis = 0;
+  for (std::size_t j = 0; j < model.skeleton->joints.size(); ++j) {
+    if (!model.skeleton->joints[j].driven) continue;
+    if (plan.inertias[axis++].share < options.inertia_shows.value) {
+      hidden.push_back(static_cast<int>(j));
+    }
+  }
+  return hidden;
+}
+
 }  // namespace
 
 AxisPlan plan_axes(const RobotModel& model, const std::vector<Dataset>& recordings,
                    const AxisOptions& options) {
-  AxisPlan plan;
-  std::optional<double> best;
-  for (const double bin : lengths_of_bins(model, recordings, options)) {
-    std::optional<double> score;
-    std::vector<int> hidden;
-    for (std::size_t j = 0; j < model.skeleton->joints.size(); ++j) {
-      const JointModel& joint = model.skeleton->joints[j];
-      if (!joint.driven) continue;
-      const BinnedAxis axis = binned(joint.name, recordings, bin, options);
-      const Inertia inertia = estimated(axis, joint.type == JointType::kHinge, options);
-      if (inertia.share < options.inertia_shows.value) hidden.push_back(static_cast<int>(j));
-      const auto scatter = scatter_of(axis, inertia.value, options);
-      if (!scatter || !(*scatter > 0.0)) continue;
-      score = score.value_or(0.0) + std::log(*scatter * std::sqrt(bin));
-    }
-    // Longest first: a shorter one must be better, not only as good.
-    const bool better = score && (!best || *score < *best - options.clearly_better);
-    if (plan.bin > 0.0 && !better) continue;
-    plan = {bin, hidden};
-    best = score;
+  const std::vector<double> lengths = lengths_of_bins(model, recordings, options);
+  std::vector<PlannedBins> plans;
+  for (const double length : lengths) plans.push_back(planned(model, recordings, length, options));
+  // Longest first: a shorter one must be better, not only as good.
+  std::size_t chosen = 0;
+  for (std::size_t i = 1; i < plans.size(); ++i) {
+    const auto best = score_of(plans[chosen], plans[chosen].inertias, options),
+               score = score_of(plans[i], plans[i].inertias, options);
+    if (score && (!best || score->value < best->value - options.clearly_better)) chosen = i;
   }
-  return plan;
+  // But in long bins, rest and motion mix: then one that is about as good, for the same inertia.
+  const std::vector<Inertia> inertias = plans[chosen].inertias;
+  const auto best = score_of(plans[chosen], inertias, options);
+  for (std::size_t i = chosen; best && i < plans.size(); ++i) {
+    const auto score = score_of(plans[i], inertias, options);
+    if (!score || score->value > best->value + best->error) continue;
+    chosen = i;
+    if (mixed_share(plans[i]) <= options.most_mixed.value) break;
+  }
+  return {lengths[chosen], joints_of_hidden_inertia(model, plans[chosen], options)};
 }
 
 std::vector<std::string> remarks_on_plan(const RobotModel& model, const AxisPlan& plan) {

@@ -22,7 +22,8 @@ struct AxisPlan {
 ///
 /// Short bins leave the noise of the encoder in the acceleration, long ones blur the motion. Taken
 /// is the length for which the effort that is left of a smooth curve, for an inertia that is
-/// estimated with it, tells most: scatter times the square root of the length is smallest.
+/// estimated with it, tells most: scatter times the square root of the length is smallest. Where in
+/// such bins many motions begin or end, a shorter one that is about as good.
 /// @param recordings of `--train`
 AxisPlan plan_axes(const RobotModel& model, const std::vector<Dataset>& recordings,
                    const AxisOptions& options);

@@ -36,6 +36,20 @@ TEST(AxisPlan, BinsAreLongerForCoarseEncodersAndNoShorterThanARow) {
   EXPECT_GE(plan(bench).bin, 0.04 - 1e-9);
 }
 
+TEST(AxisPlan, BinsAreShortWhereTheEffortAloneScatters) {
+  // White noise of the effort tells as much in bins of any length; rest and motion mix in long
+  // ones.
+  DrivenBench bench;
+  bench.inertia = 2e-6;
+  bench.viscous = 3e-5;
+  bench.coulomb = 3e-3;
+  bench.noise = 3e-4;
+  bench.rate = 25.0;
+  EXPECT_LT(plan(bench).bin, 0.1);
+  bench.rate = 500.0;
+  EXPECT_LT(plan(bench).bin, 0.05);
+}
+
 TEST(AxisMotion, FollowsACurveAndKnowsRest) {
   DrivenBench bench;
   bench.rate = 1000.0;
