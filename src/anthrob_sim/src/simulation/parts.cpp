@@ -195,16 +195,16 @@ Simulation::LackingEffort Simulation::Parts::lacking_effort(int joint, double re
 }
 
 void Simulation::Parts::move_skeleton() {
+  if (joint_loads_.wanted()) joint_loads_.before(skeleton_);
+  if (reactions_) reactions_->before(skeleton_);
   if (posture_.active()) {
     tree_.place(posture_.q(), heading_, arriving_);
     skeleton_.set_bodies(arriving_);
     // Body poses do not show whole turns of a hinge; continue counting from the imposed angle.
     q_ = posture_.q();
-    return;
+  } else {
+    skeleton_.step();
   }
-  if (joint_loads_.wanted()) joint_loads_.before(skeleton_);
-  if (reactions_) reactions_->before(skeleton_);
-  skeleton_.step();
   if (reactions_) reactions_->after(skeleton_);
   if (joint_loads_.wanted()) {
     joint_loads_.after(skeleton_);

@@ -1,6 +1,7 @@
 // Inverse dynamics: what a joint lacks to follow an imposed motion.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "anthrob_sim/simulation.h"
@@ -92,6 +93,63 @@ TEST(LackingEffort, IsARangeWhereStaticFrictionMayHold) {
   const auto held = lacking(sim, 0.0, 1.0, 3, 0.01);
   EXPECT_NEAR(held.range.low, -0.6 - 0.25, 1e-9);
   EXPECT_NEAR(held.range.high, 0.6 - 0.25, 1e-9);
+}
+
+/// A bearing carries weight and inertia of the motion that is imposed on it.
+TEST(LackingEffort, KnowsTheLoadOfABearingThatIsMoved) {
+  const auto robot = pendulum("{static: 0.0, kinetic: 0.0, viscous: 0.0, stribeck_velocity: 0.1}");
+  const double mu = 0.5, radius = 0.1, omega = 5.0, amplitude = 0.7;
+  LoadOptions options;
+  options.step = kStep;
+  options.effects = {{"joint_load_friction", "hinge", {{"mu", mu}, {"radius", radius}}}};
+  double least = HUGE_VAL, most = 0.0;
+  for (const int steps : {10, 100, 200, 290, 340, 420, 628}) {
+    Simulation sim(load_robot_model(robot.file(), options));
+    const auto found = lacking(sim, amplitude, omega, steps, 0.0);
+    const double phase = omega * (steps - 0.5) * kStep, q = amplitude * std::sin(phase);
+    const double speed = amplitude * omega * std::cos(phase), acceleration = -omega * omega * q;
+    const double along = kMass * (9.81 * std::cos(q) + kArm * speed * speed),
+                 across = kMass * (9.81 * std::sin(q) + kArm * acceleration);
+    const double friction = mu * radius * std::hypot(along, across);
+    const double needed = kTotal * acceleration + kMass * kArm * 9.81 * std::sin(q);
+    EXPECT_NEAR(found.range.low - needed, std::copysign(friction, speed), 0.02) << steps;
+    EXPECT_EQ(found.range.low, found.range.high);
+    least = std::min(least, friction), most = std::max(most, friction);
+  }
+  EXPECT_GT(most, 1.3 * least);
+}
+
+TEST(LackingEffort, KnowsTheLoadAcrossAGuideThatIsMoved) {
+  const double tilt = 0.6, mass = 2.0, mu = 0.3;
+  const testing_support::TemporaryRobot robot(
+      R"(<robot name="s"><link name="base"/>
+    <joint name="slide" type="prismatic"><parent link="base"/><child link="block"/>
+      <origin rpy="0 0.6 0"/><axis xyz="1 0 0"/>
+      <limit lower="-5" upper="5" effort="1" velocity="1"/></joint>
+    <link name="block"><inertial><mass value="2.0"/>
+      <inertia ixx="0.05" iyy="0.05" izz="0.05" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>)",
+      R"(robot: robot.urdf
+gravity: [0, 0, -9.81]
+joints:
+  slide: {driven: true, stop: {stiffness: 500.0, damping: 0.0}}
+)");
+  LoadOptions options;
+  options.step = kStep;
+  options.effects = {{"joint_load_friction", "slide", {{"mu", mu}}}};
+  Simulation sim(load_robot_model(robot.file(), options));
+  sim.apply_effort(0, 4.0);
+  sim.apply_load(0, 1.0);
+  const double acceleration = 3.0;
+  const auto at = [&](int i) { return 0.5 * acceleration * kStep * kStep * i * i; };
+  sim.place({at(0)}, {});
+  for (int i = 1; i <= 50; ++i) {
+    sim.imposed_posture().impose({at(i)});
+    sim.step();
+  }
+  // Down the slope: neither acceleration nor efforts press it against the guide.
+  const double needed = mass * acceleration - mass * 9.81 * std::sin(tilt) +
+                        mu * mass * 9.81 * std::cos(tilt) - 4.0 - 1.0;
+  EXPECT_NEAR(sim.lacking_effort(0, 1e-6).range.low, needed, 1e-6);
 }
 
 TEST(LackingEffort, IsNothingAlongAMotionThatWasSimulated) {
