@@ -7,6 +7,7 @@
 #include "anthrob_recording/bag.h"
 #include "anthrob_recording/extent.h"
 #include "anthrob_recording/unanswered.h"
+#include "anthrob_sim/model/recorded_model.h"
 #include "anthrob_sim/replay/replay.h"
 #include "anthrob_sim/tool.h"
 
@@ -45,8 +46,10 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"reference", "voltage", "position", "posture"}))
       ->capture_default_str();
   return tool::run(app, argc, argv, [&]() -> int {
-    const auto model = tool::load_model(app, model_file, {step, {}});
+    const RobotDescription robot = RobotDescription::load(model_file);
     Dataset recording = load_recording(in);
+    const auto model = build_recorded(robot, recording, {step, {}});
+    tool::say(app, model->remarks);
     tool::say(app, recording.remarks);
     leave_out_unanswered(recording);
     const ReplayMode replay_mode = mode == "reference"  ? ReplayMode::kReference

@@ -43,6 +43,7 @@ class RunReader {
       fail("fewer than two rows; expected a recording");
     }
     check_model();
+    check_same_robot();
     const Replay names_are_known(model, recording, ReplayMode::kReference);
     check_start();
     for (const JointModel& joint : model_.skeleton->joints) check_loads(joint);
@@ -99,6 +100,16 @@ class RunReader {
                      ": has no controller; calibration needs a motor under position control at "
                      "each muscle");
     }
+  }
+
+  /// All runs are simulated with one model, some of them one after the other.
+  void check_same_robot() const {
+    if (recording_.meta.model.empty()) return;
+    const auto& [path, value] = *recording_.meta.model.begin();
+    fail("meta.yaml: model." + path + ": " + exact_text(value) +
+         ": calibration simulates one robot in all recordings; expected none, and a model file "
+         "that extends " +
+         model_.file + " by these numbers for the recordings that have them");
   }
 
   /// A replay leaves motors that are not named without voltage; calibration only knows motors that

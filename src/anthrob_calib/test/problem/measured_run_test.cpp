@@ -93,6 +93,9 @@ TEST(MeasuredRun, RefusesBadRecordingsWithOneLine) {
   expect("no such quantity",
          [](Dataset& d) { d.tables[0].column("flexor/force").name = "biceps/force"; });
   expect("meta.yaml: start.settle_s: ", [](Dataset& d) { d.meta.settle_s = 1e9; });
+  expect("meta.yaml: model.gravity.2: -3: calibration simulates one robot", [](Dataset& d) {
+    d.meta.model = {{"gravity.2", -3.0}};
+  });
   expect("expected equilibrium or trajectory", [](Dataset& d) { d.meta.kind = "rig"; });
   expect("after its first command", [](Dataset& d) {
     Table& table = d.tables[0];

@@ -11,6 +11,7 @@
 #include "admission/synchronisation.h"
 #include "anthrob_core/errors.h"
 #include "anthrob_core/text.h"
+#include "anthrob_recording/table.h"
 #include "experiment/axis_plan.h"
 #include "experiment/chain_experiment.h"
 #include "judgement/judge.h"
@@ -80,6 +81,16 @@ std::vector<std::string> remarks_on(const RobotModel& robot, const Question& que
   return remarks;
 }
 
+/// Numbers of the model that are others in a recording: the answer rests on them.
+std::vector<std::string> remarks_on_known_numbers(const Dataset& recording) {
+  std::string list;
+  for (const auto& [path, value] : recording.meta.model) {
+    list += (list.empty() ? "" : ", ") + path + " " + exact_text(value);
+  }
+  if (list.empty()) return {};
+  return {recording.folder + ": simulated with what its meta.yaml says of the robot: " + list};
+}
+
 }  // namespace
 
 Admission admit(const Evaluator& evaluator, const Question& asked) {
@@ -90,8 +101,10 @@ Admission admit(const Evaluator& evaluator, const Question& asked) {
     throw BadInput("--test: expected at least one recording to judge by, which is not fitted");
   }
   for (const auto* group : {&asked.train, &asked.test, &asked.repeats}) {
-    for (const Dataset& recording : *group)
+    for (const Dataset& recording : *group) {
       refuse_nonsense(robot, recording, options.admission.soundness);
+      evaluator.require_buildable(recording);
+    }
   }
   const Length length = refuse_shortness(asked.train, "--train", options);
   const Length held_out = refuse_shortness(asked.test, "--test", options);
@@ -114,6 +127,7 @@ Admission admit(const Evaluator& evaluator, const Question& asked) {
   }
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) {
+      append(remarks_on_known_numbers(recording), admitted.remarks);
       append(remarks_on_stamps(recording, options.admission.soundness), admitted.remarks);
       append(remarks_on_clocks(robot, recording, options.admission), admitted.remarks);
     }

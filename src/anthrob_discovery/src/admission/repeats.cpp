@@ -230,6 +230,10 @@ std::vector<Motion> motions_of(const RobotModel& robot, const std::string& drivi
 
 double lateness_of_repeat(const RobotModel& robot, const Dataset& first, const Dataset& repeat,
                           const RepeatOptions& options) {
+  if (repeat.meta.model != first.meta.model) {
+    throw BadInput(repeat.folder + ": meta.yaml: model: differs from that of " + first.folder +
+                   "; expected a repeat with the same robot");
+  }
   const ReplayMode mode = mode_of(robot, first);
   const bool commanded = mode == ReplayMode::kReference;
   const char* const driving = commanded                      ? ""
@@ -250,6 +254,7 @@ double lateness_of_repeat(const RobotModel& robot, const Dataset& first, const D
 bool have_same_commands(const RobotModel& robot, const Dataset& first, const Dataset& other,
                         const RepeatOptions& options) {
   if (mode_of(robot, first) != ReplayMode::kReference) return false;
+  if (first.meta.model != other.meta.model) return false;  // another robot, another motion
   const Pair pair{first, other, command_lateness(robot, first, other, options)};
   return std::all_of(robot.muscles.begin(), robot.muscles.end(), [&](const MuscleModel& muscle) {
     return other_command(muscle, pair, options).empty();

@@ -60,11 +60,11 @@ std::vector<MeasuredVariable> wrap_angles(const Evaluator& evaluator,
   }
   if (variables.empty()) return {};
   try {
-    const auto model = evaluator.build(variant);
     std::vector<std::vector<std::vector<double>>> values(
         experiments.size(), std::vector<std::vector<double>>(variables.size()));
     evaluator.side_by_side(experiments.size(), [&](std::size_t e) {
-      follow(model, recordings[e], *experiments[e], options.experiment.postures, values[e]);
+      follow(evaluator.build(variant, recordings[e].meta.model), recordings[e], *experiments[e],
+             options.experiment.postures, values[e]);
     });
     for (std::size_t m = 0; m < variables.size(); ++m) {
       for (auto& own : values) variables[m].values.push_back(std::move(own[m]));

@@ -13,6 +13,7 @@ AxisExperiment::AxisExperiment(const RobotModel& model, const Dataset& recording
                                const AxisOptions& options, const ReplayScope& scope)
     : options_(options), step_(model.step) {
   name_ = recording.folder;
+  known_numbers_ = recording.meta.model;
   steps_per_bin_ = static_cast<std::size_t>(std::lround(scope.bin / step_));
   if (step_ > scope.bin * (1.0 + 1e-9)) {
     throw BadInput("--dt " + std::to_string(step_) + ": expected a step of at most " +

@@ -56,6 +56,7 @@ ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recordi
       mode_(scope.mode.value_or(mode_of(model, recording))),
       input_(std::make_shared<RobotModel>(model), recording, mode_) {
   name_ = recording.folder;
+  known_numbers_ = recording.meta.model;
   bin_ = scope.bin;
   duration_ = input_.duration();
   bins_ = bin_of(duration_) + 1;

@@ -8,6 +8,7 @@
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
+#include "anthrob_sim/model/recorded_model.h"
 
 namespace anthrob {
 namespace discovery {
@@ -23,6 +24,12 @@ std::shared_ptr<const RobotModel> without_noise(const std::shared_ptr<const Robo
   quiet->sensors.force.quantum = variant.force_count;
   return quiet;
 }
+
+/// One of the robots in a set of recordings.
+struct RecordedRobot {
+  std::shared_ptr<const RobotModel> model;
+  Starts starts;
+};
 
 std::uint64_t key_of(const Variant& variant,
                      const std::vector<std::shared_ptr<const Experiment>>& experiments) {
@@ -55,13 +62,21 @@ std::vector<double> Evaluator::initial_nuisances() const {
   return values;
 }
 
-std::shared_ptr<const RobotModel> Evaluator::build(const Variant& variant) const {
+std::shared_ptr<const RobotModel> Evaluator::build(
+    const Variant& variant, const std::map<std::string, double>& known) const {
   LoadOptions options;
   options.step = variant.step > 0.0 ? variant.step : step_;
   options.slow_controllers = options.step > step_;
   if (!variant.nuisances.empty()) options.overrides = overrides_of(nuisances_, variant.nuisances);
+  for (const auto& [path, value] : known) options.overrides[path] = value;
   options.effects = variant.effects;
   return without_noise(description_.build(options), variant);
+}
+
+void Evaluator::require_buildable(const Dataset& recording) const {
+  LoadOptions options;
+  options.step = step_;
+  build_recorded(description_, recording, options);
 }
 
 Journal& Evaluator::keep_journal(const std::string& file) {
@@ -80,12 +95,13 @@ Differences Evaluator::simulate(
     const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
   ++simulated_;
   try {
-    const auto model = build(variant);
+    std::map<std::map<std::string, double>, RecordedRobot> robots;
     Differences differences = Differences::Zero(static_cast<Eigen::Index>(total_size(experiments)));
     std::size_t offset = 0;
-    Starts starts;
     for (const auto& experiment : experiments) {
-      experiment->compare(model, starts, differences.data() + offset);
+      RecordedRobot& robot = robots[experiment->known_numbers()];
+      if (!robot.model) robot.model = build(variant, experiment->known_numbers());
+      experiment->compare(robot.model, robot.starts, differences.data() + offset);
       offset += experiment->size();
     }
     if (differences.allFinite()) return differences;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -70,8 +71,12 @@ class Evaluator {
   /// they throw.
   void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const;
 
+  /// @param known numbers of the model file that are not `variant`'s to choose, by key path
   /// @throws BadInput if it cannot be built
-  std::shared_ptr<const RobotModel> build(const Variant& variant) const;
+  std::shared_ptr<const RobotModel> build(const Variant& variant,
+                                          const std::map<std::string, double>& known = {}) const;
+  /// @throws BadInput if the robot of a recording cannot be built: see build_recorded()
+  void require_buildable(const Dataset& recording) const;
 
  private:
   Differences simulate(const Variant& variant,

@@ -49,6 +49,8 @@ class Experiment {
   const std::vector<char>& telling() const { return telling_.empty() ? present_ : telling_; }
   /// Driven joints whose inertia does not count; see AxisPlan.
   const std::vector<int>& hidden_inertia() const { return hidden_inertia_; }
+  /// Numbers of the model file that were others in this recording, by key path.
+  const std::map<std::string, double>& known_numbers() const { return known_numbers_; }
   double bin() const { return bin_; }            ///< [s]
   double duration() const { return duration_; }  ///< [s]
   /// Of the recording and how it is replayed.
@@ -56,7 +58,8 @@ class Experiment {
   double bin_time(std::size_t bin) const { return (static_cast<double>(bin) + 0.5) * bin_; }
 
   /// Simulated minus measured, channel after channel; 0 where nothing was measured.
-  /// @param starts of this model   @param out size()   @throws NumericalFailure
+  /// @param model with known_numbers()   @param starts of this model   @param out size()   @throws
+  /// NumericalFailure
   virtual void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
                        float* out) const = 0;
 
@@ -68,6 +71,7 @@ class Experiment {
   std::vector<char> present_;
   std::vector<char> telling_;  ///< empty: all that are present
   std::vector<int> hidden_inertia_;
+  std::map<std::string, double> known_numbers_;
 };
 
 using Experiments = std::vector<std::shared_ptr<const Experiment>>;

@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -43,12 +44,12 @@ std::string yaml_word(const std::string& word) {
   return out.c_str();
 }
 
-/// "{muscle: rad, ...}"
-std::string yaml_map(const std::map<std::string, double>& positions) {
+/// "{key: number, ...}"
+std::string yaml_map(const std::map<std::string, double>& numbers) {
   YAML::Emitter out;
   out << YAML::Flow << YAML::BeginMap;
-  for (const auto& [muscle, position] : positions) {
-    out << YAML::Key << muscle << YAML::Value << exact_text(position);
+  for (const auto& [key, number] : numbers) {
+    out << YAML::Key << key << YAML::Value << exact_text(number);
   }
   out << YAML::EndMap;
   return out.c_str();
@@ -81,6 +82,18 @@ void DatasetMeta::load_start_reference(const ConfigNode& reference) {
   }
 }
 
+void DatasetMeta::load_model(const ConfigNode& numbers) {
+  if (!numbers.is_map()) numbers.fail_expected("numbers of the model file, {key path: number}");
+  for (const auto& [path, value] : numbers.entries()) {
+    if (!value.is_scalar()) {
+      value.fail("expected a number; keys of the model file are joined by points in one key path");
+    }
+    const double number = value.as_number(Bounds::any(), "in the unit of the model file");
+    if (!std::isfinite(number)) value.fail_expected("a finite number");
+    model[path] = number;
+  }
+}
+
 DatasetMeta load_meta(const std::string& file, std::vector<std::string>* remarks) {
   DatasetMeta meta;
   const ConfigNode node = ConfigNode::load(file);
@@ -96,6 +109,8 @@ DatasetMeta load_meta(const std::string& file, std::vector<std::string>* remarks
       meta.rate = value.as_number(Bounds::positive(), "Hz");
     } else if (key == "start") {
       load_start(value, meta, remarks);
+    } else if (key == "model" && !value.is_scalar()) {  // else a name, as of other programs
+      meta.load_model(value);
     } else {
       meta.other[key] = value.to_yaml();
       if (!is_known_key(key)) {
@@ -115,6 +130,7 @@ std::string meta_text(const DatasetMeta& meta) {
       << "\n  reference: " << (meta.start == "given" ? yaml_map(meta.start_position) : meta.start)
       << "\n";
   for (const auto& [key, yaml] : meta.other_start) put_yaml("  ", key, yaml, out);
+  if (!meta.model.empty()) out << "model: " << yaml_map(meta.model) << "\n";
   for (const auto& [key, yaml] : meta.other) put_yaml("", key, yaml, out);
   return out.str();
 }

@@ -263,6 +263,7 @@ ForeignColumns ForeignColumns::load(const std::string& file) {
   columns.meta.settle_s =
       node.number_or("settle_s", columns.meta.settle_s, Bounds::nonnegative(), "s");
   if (node.has("start")) columns.meta.load_start_reference(node.at("start"));
+  if (node.has("model")) columns.meta.load_model(node.at("model"));
   if (node.has("notes")) columns.meta.other["notes"] = node.at("notes").to_yaml();
   columns.streams = load_streams(node);
   if (columns.streams.size() == 1) columns.meta.rate = columns.streams.front().format.rate;

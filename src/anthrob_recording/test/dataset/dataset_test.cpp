@@ -317,6 +317,42 @@ TEST(Dataset, OtherKeysOfTheDescriptionAreKept) {
   EXPECT_EQ(first.remarks[0], folder.path() + "/meta.yaml: operators: unknown key, kept");
 }
 
+TEST(Dataset, NumbersOfTheModelComeBackOrAreRefused) {
+  const TemporaryFolder folder;
+  folder.write("m.csv", "t,a/position\n0,1\n1,2\n");
+  folder.write("meta.yaml", std::string(kMeta) + "model: {effects.0.mass: 0.1, gravity.2: -3}\n");
+  const Dataset first = Dataset::load(folder.path());
+  EXPECT_TRUE(first.remarks.empty());
+  EXPECT_EQ(first.meta.model,
+            (std::map<std::string, double>{{"effects.0.mass", 0.1}, {"gravity.2", -3.0}}));
+  const TemporaryFolder copy;
+  first.save(copy.path());
+  EXPECT_EQ(Dataset::load(copy.path()).meta.model, first.meta.model);
+  for (const char* wrong : {"[1, 2]", "{a.b: heavy}", "{a: {b: 1}}", "{a: .nan}", "{a: .inf}"}) {
+    folder.write("meta.yaml", std::string(kMeta) + "model: " + wrong + "\n");
+    try {
+      Dataset::load(folder.path());
+      ADD_FAILURE() << wrong;
+    } catch (const BadInput& error) {
+      const std::string line = error.what();
+      EXPECT_NE(line.find("meta.yaml"), std::string::npos) << line;
+      EXPECT_NE(line.find("model"), std::string::npos) << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos);
+    }
+  }
+}
+
+TEST(Dataset, ANameOfAModelIsKeptAndMentioned) {
+  const TemporaryFolder folder;
+  folder.write("m.csv", "t,a/position\n0,1\n1,2\n");
+  folder.write("meta.yaml", std::string(kMeta) + "model: I\n");
+  const Dataset named = Dataset::load(folder.path());
+  EXPECT_TRUE(named.meta.model.empty());
+  EXPECT_EQ(named.meta.other.at("model"), "I\n");
+  ASSERT_EQ(named.remarks.size(), 1u);
+  EXPECT_NE(named.remarks[0].find("model: unknown key, kept"), std::string::npos);
+}
+
 TEST(Dataset, UnknownKeysOfTheStartAreKeptAndMentioned) {
   const TemporaryFolder folder;
   folder.write("meta.yaml",

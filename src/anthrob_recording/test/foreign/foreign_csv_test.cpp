@@ -69,6 +69,15 @@ TEST_F(ForeignCsv, SurvivesTheFolderBitForBit) {
   EXPECT_EQ(back.series("axis/effort").t, dataset.series("axis/effort").t);
 }
 
+TEST_F(ForeignCsv, MayKnowNumbersOfTheModel) {
+  const std::string csv = "t [ms],y [mm],u\n0,0.1,3\n1,0.7,4\n";
+  EXPECT_EQ(read(kMap + "model: {effects.0.mass: 1.3}\n", csv).meta.model,
+            (std::map<std::string, double>{{"effects.0.mass", 1.3}}));
+  const std::string wrong = error(kMap + "model: {effects.0.mass: heavy}\n", csv);
+  EXPECT_NE(wrong.find("map.yaml:6: model.effects.0.mass: heavy: expected"), std::string::npos)
+      << wrong;
+}
+
 TEST_F(ForeignCsv, RowsMayBeEvenlySpaced) {
   const Dataset dataset =
       read("robot: r\nrate: 400\nseparator: ;\ncolumns: [{from: f, to: flexor/force}]\n",
