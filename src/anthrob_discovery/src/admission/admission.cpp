@@ -14,6 +14,7 @@
 #include "anthrob_recording/table.h"
 #include "experiment/axis_plan.h"
 #include "experiment/chain_experiment.h"
+#include "experiment/poses.h"
 #include "judgement/judge.h"
 
 namespace anthrob {
@@ -91,10 +92,68 @@ std::vector<std::string> remarks_on_known_numbers(const Dataset& recording) {
   return {recording.folder + ": simulated with what its meta.yaml says of the robot: " + list};
 }
 
+/// Poses in an order and at times by which everything else may go.
+Question with_ordered_poses(const RobotModel& robot, Question question,
+                            std::vector<std::string>& remarks) {
+  const PoseOptions& options = question.options.experiment.poses;
+  for (auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (Dataset& recording : *group) {
+      if (!holds_poses(robot, recording)) continue;
+      refuse_nonsense(robot, recording, question.options.admission.soundness);
+      recording = ordered_poses(robot, recording, options, &remarks);
+      remarks.push_back(recording.folder + ": " +
+                        std::to_string(recording.tables.front().t.size()) +
+                        " poses at rest, in order of direction and position; where a time is "
+                        "told, each of them stands for " +
+                        short_number(options.seconds) + " s");
+    }
+  }
+  return question;
+}
+
+/// Directions are of poses: elsewhere, positions tell them.
+std::vector<std::string> remarks_on_directions(const RobotModel& robot, const Dataset& recording) {
+  std::vector<std::string> remarks;
+  if (holds_poses(robot, recording)) return remarks;
+  for (const Table& table : recording.tables) {
+    for (const Column& column : table.columns) {
+      if (column.quantity() != "direction") continue;
+      remarks.push_back(recording.folder + ": " + column.name +
+                        ": left out; it is used of poses at rest of driven joints only (`kind: "
+                        "equilibrium` in meta.yaml)");
+    }
+  }
+  return remarks;
+}
+
+/// A velocity tells positions but for a drift, which only who knows the robot may accept.
+void refuse_velocity_alone(const RobotModel& robot, const Dataset& recording) {
+  for (const JointModel& joint : robot.skeleton->joints) {
+    const std::string position = joint.name + "/position", velocity = joint.name + "/velocity";
+    if (!joint.driven || !recording.series(position).empty()) continue;
+    if (recording.series(velocity).empty()) continue;
+    throw BadInput(recording.folder + ": column '" + position + "' is missing, only " + velocity +
+                   " was measured; where nothing depends on the position, as of a hinge without "
+                   "gravity and stops, let anthrob_convert integrate it (`from: {integral: ...}`)");
+  }
+}
+
+/// Recordings in time, of which bins and inertia are planned.
+std::vector<Dataset> recordings_in_motion(const RobotModel& robot,
+                                          const std::vector<Dataset>& recordings) {
+  std::vector<Dataset> motions;
+  for (const Dataset& recording : recordings) {
+    if (!holds_poses(robot, recording)) motions.push_back(recording);
+  }
+  return motions;
+}
+
 }  // namespace
 
-Admission admit(const Evaluator& evaluator, const Question& asked) {
+Admission admit(const Evaluator& evaluator, const Question& given) {
   const RobotModel& robot = *evaluator.model();
+  std::vector<std::string> remarks_on_poses;
+  const Question asked = with_ordered_poses(robot, given, remarks_on_poses);
   const Options& options = asked.options;
   if (asked.train.empty()) throw BadInput("--train: expected at least one recording");
   if (asked.test.empty()) {
@@ -104,6 +163,7 @@ Admission admit(const Evaluator& evaluator, const Question& asked) {
     for (const Dataset& recording : *group) {
       refuse_nonsense(robot, recording, options.admission.soundness);
       evaluator.require_buildable(recording);
+      refuse_velocity_alone(robot, recording);
     }
   }
   const Length length = refuse_shortness(asked.train, "--train", options);
@@ -116,6 +176,7 @@ Admission admit(const Evaluator& evaluator, const Question& asked) {
   Admission admitted;
   admitted.question = asked;
   admitted.remarks = remarks_on(robot, asked);
+  append(remarks_on_poses, admitted.remarks);
   remark_on_few_blocks(length, "--train", options.judgement, admitted.remarks);
   remark_on_few_blocks(held_out, "--test", options.judgement, admitted.remarks);
   append(leave_out_frozen(robot, admitted.question), admitted.remarks);
@@ -128,6 +189,7 @@ Admission admit(const Evaluator& evaluator, const Question& asked) {
   for (const auto* group : {&question.train, &question.test, &question.repeats}) {
     for (const Dataset& recording : *group) {
       append(remarks_on_known_numbers(recording), admitted.remarks);
+      append(remarks_on_directions(robot, recording), admitted.remarks);
       append(remarks_on_stamps(recording, options.admission.soundness), admitted.remarks);
       append(remarks_on_clocks(robot, recording, options.admission), admitted.remarks);
     }
@@ -135,8 +197,9 @@ Admission admit(const Evaluator& evaluator, const Question& asked) {
 
   ReplayScope scope;
   scope.bin = options.admission.finest_bin;
-  if (robot.muscles.empty()) {
-    const AxisPlan plan = plan_axes(robot, question.train, options.experiment.axis);
+  const std::vector<Dataset> motions = recordings_in_motion(robot, question.train);
+  if (robot.muscles.empty() && !motions.empty()) {
+    const AxisPlan plan = plan_axes(robot, motions, options.experiment.axis);
     scope.bin = plan.bin;
     scope.hidden_inertia = plan.hidden_inertia;
     append(remarks_on_plan(robot, plan), admitted.remarks);

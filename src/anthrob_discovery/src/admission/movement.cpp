@@ -5,6 +5,7 @@
 
 #include "anthrob_core/errors.h"
 #include "anthrob_recording/resolution.h"
+#include "experiment/poses.h"
 
 namespace anthrob {
 namespace discovery {
@@ -59,6 +60,7 @@ bool moves(const Series& series, double least, const MovementOptions& options) {
 void refuse_stillness(const RobotModel& robot, const std::vector<Dataset>& recordings,
                       const MovementOptions& options) {
   for (const Dataset& recording : recordings) {
+    if (holds_poses(robot, recording)) return;  // they tell friction even at one place
     for (const MuscleModel& muscle : robot.muscles) {
       if (muscle_moves(recording, muscle.name, options)) return;
     }

@@ -8,6 +8,7 @@
 #include "anthrob_ecu/control_law.h"
 #include "anthrob_recording/quantities.h"
 #include "experiment/chain_experiment.h"
+#include "experiment/poses.h"
 
 namespace anthrob {
 namespace discovery {
@@ -234,14 +235,27 @@ double lateness_of_repeat(const RobotModel& robot, const Dataset& first, const D
     throw BadInput(repeat.folder + ": meta.yaml: model: differs from that of " + first.folder +
                    "; expected a repeat with the same robot");
   }
+  if (repeat.meta.kind != first.meta.kind && robot.muscles.empty()) {
+    throw BadInput(repeat.folder + ": meta.yaml: kind: " + repeat.meta.kind + ": expected " +
+                   first.meta.kind + ", as " + first.folder + ", which it repeats");
+  }
+  if (holds_poses(robot, first)) {
+    const std::size_t asked = first.tables.front().t.size(), again = repeat.tables.front().t.size();
+    if (asked != again) {
+      throw BadInput(repeat.folder + ": " + std::to_string(again) +
+                     " complete poses: expected the " + std::to_string(asked) + " of " +
+                     first.folder + ", which it repeats");
+    }
+  }
   const ReplayMode mode = mode_of(robot, first);
   const bool commanded = mode == ReplayMode::kReference;
   const char* const driving = commanded                      ? ""
                               : mode == ReplayMode::kVoltage ? "/voltage"
                                                              : "/position";
   const std::vector<Motion> motions = motions_of(robot, driving, first, repeat, options);
-  const double late = commanded ? command_lateness(robot, first, repeat, options)
-                                : motion_lateness(motions, options);
+  const double late = commanded                   ? command_lateness(robot, first, repeat, options)
+                      : holds_poses(robot, first) ? 0.0
+                                                  : motion_lateness(motions, options);
   for (const MuscleModel& muscle : robot.muscles) {
     if (!commanded) break;
     const std::string other = other_command(muscle, {first, repeat, late}, options);

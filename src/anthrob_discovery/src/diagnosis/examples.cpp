@@ -68,7 +68,7 @@ std::vector<Example> examples_of(const Experiment& experiment, const Dataset& re
     const Channel* channel = most_changed(experiment, name, recalibrated, after);
     if (!channel) continue;
     Example example{label_of(*channel), channel->unit, {}, {}, {}, {}};
-    const Series measured = recording.series(channel->name());
+    const Series measured = recording.series(channel->column());
     for (std::size_t b = 0; b < channel->count; ++b) {
       const auto k = static_cast<Eigen::Index>(channel->offset + b);
       const double factor = whitener[k];

@@ -4,6 +4,8 @@
 
 #include "experiment/axis_experiment.h"
 #include "experiment/chain_experiment.h"
+#include "experiment/pose_experiment.h"
+#include "experiment/poses.h"
 
 namespace anthrob {
 namespace discovery {
@@ -20,6 +22,9 @@ std::shared_ptr<const Experiment> make_experiment(const RobotModel& model, const
   if (!driven) {
     throw BadInput(model.file +
                    ": nothing to compare: expected muscles, or a joint with `driven: true`");
+  }
+  if (holds_poses(model, recording)) {
+    return std::make_shared<PoseExperiment>(model, recording, options.poses);
   }
   return std::make_shared<AxisExperiment>(model, recording, options.axis, scope);
 }

@@ -15,6 +15,9 @@
 namespace anthrob {
 namespace discovery {
 
+/// Quantity of driven joints in poses. Its floor is not that of efforts in motion.
+inline const char* const kEffortAtRest = "effort_at_rest";
+
 /// One measured quantity in one recording, averaged over short bins of time. An orientation is
 /// three of them: the rotation from measured to simulated, as a vector in the child's axes.
 struct Channel {
@@ -28,6 +31,10 @@ struct Channel {
   double digits = 0.0;                ///< step of its file's last digits; 0: they are many
 
   std::string name() const { return place + "/" + quantity; }
+  /// In which it was recorded.
+  std::string column() const {
+    return place + "/" + (quantity == kEffortAtRest ? "effort" : quantity);
+  }
 };
 
 /// Settled states of one model, by what they depend on (Replay::start_inputs()): recordings that
@@ -55,7 +62,12 @@ class Experiment {
   double duration() const { return duration_; }  ///< [s]
   /// Of the recording and how it is replayed.
   std::uint64_t fingerprint() const { return fingerprint_; }
-  double bin_time(std::size_t bin) const { return (static_cast<double>(bin) + 0.5) * bin_; }
+  /// Middle of a bin, or time of a pose.
+  double bin_time(std::size_t bin) const {
+    return (static_cast<double>(bin) + (of_poses_ ? 0.0 : 0.5)) * bin_;
+  }
+  /// Whether its bins are poses, whose times only put them in order (ordered_poses()).
+  bool of_poses() const { return of_poses_; }
 
   /// Simulated minus measured, channel after channel; 0 where nothing was measured.
   /// @param model with known_numbers()   @param starts of this model   @param out size()   @throws
@@ -66,6 +78,7 @@ class Experiment {
  protected:
   std::string name_;
   double bin_ = 0.0, duration_ = 0.0;
+  bool of_poses_ = false;
   std::uint64_t fingerprint_ = 0;
   std::vector<Channel> channels_;
   std::vector<char> present_;
@@ -94,7 +107,8 @@ struct ReplayScope {
 };
 
 /// Replays all of a recording's commands, the whole chain from the controllers on. Robots whose
-/// joints are driven from outside are compared bin by bin instead (see axis_experiment.h).
+/// joints are driven from outside are compared bin by bin instead (see axis_experiment.h), or pose
+/// by pose (see pose_experiment.h).
 /// @throws BadInput if there is nothing to replay or to compare
 std::shared_ptr<const Experiment> make_experiment(const RobotModel& model, const Dataset& recording,
                                                   const ExperimentOptions& options,

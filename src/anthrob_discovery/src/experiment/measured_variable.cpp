@@ -35,7 +35,7 @@ Series series_of(const Dataset& recording, const Column& column) {
 /// That of the channel of the same name: what is no channel has none here.
 std::string unit_of(const std::string& column, const Experiments& experiments) {
   for (const Channel& channel : channels_of(experiments)) {
-    if (channel.name() == column) return channel.unit;
+    if (channel.column() == column) return channel.unit;
   }
   return "";
 }
@@ -50,12 +50,19 @@ std::vector<double> rate_of(const std::vector<double>& values, double bin, std::
   return rate;
 }
 
-}  // namespace
+/// Of a joint in poses: the direction from which it came, as there is no rate.
+std::vector<double> directions_of(const Experiment& experiment, const Dataset& recording,
+                                  const std::string& joint) {
+  const Series series = recording.series(joint + "/direction");
+  if (!series.empty()) return at_bins(experiment, series);
+  return std::vector<double>(experiment.channels().front().count, 0.0);
+}
 
-std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
-                                                 const std::vector<Dataset>& recordings,
-                                                 const ExperimentOptions& options) {
-  std::vector<MeasuredVariable> variables;
+bool are_of_poses(const std::shared_ptr<const Experiment>& experiment) {
+  return experiment->of_poses();
+}
+
+MeasuredVariable time_of(const Experiments& experiments) {
   MeasuredVariable time{"time", "time", {}, false, "s"};
   for (const auto& experiment : experiments) {
     std::vector<double> t;
@@ -64,7 +71,18 @@ std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
     }
     time.values.push_back(t);
   }
-  variables.push_back(time);
+  return time;
+}
+
+}  // namespace
+
+std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
+                                                 const std::vector<Dataset>& recordings,
+                                                 const ExperimentOptions& options) {
+  std::vector<MeasuredVariable> variables;
+  const bool any_poses = std::any_of(experiments.begin(), experiments.end(), are_of_poses),
+             all_poses = std::all_of(experiments.begin(), experiments.end(), are_of_poses);
+  if (!any_poses) variables.push_back(time_of(experiments));
   const std::map<std::string, std::string> words = {
       {"position", "posture"}, {"force", "load"}, {"current", "current"}, {"effort", "load"},
       {"x", "posture"},        {"y", "posture"},  {"z", "posture"}};
@@ -86,10 +104,12 @@ std::vector<MeasuredVariable> measured_variables(const Experiments& experiments,
             sign{column.name, "sign of velocity", {}, true, ""};
         for (std::size_t e = 0; e < experiments.size(); ++e) {
           speed.values.push_back(
-              rate_of(variable.values[e], experiments[e]->bin(), options.rate_reach));
+              experiments[e]->of_poses()
+                  ? directions_of(*experiments[e], recordings[e], column.owner())
+                  : rate_of(variable.values[e], experiments[e]->bin(), options.rate_reach));
         }
         sign.values = speed.values;
-        variables.push_back(speed);
+        if (!all_poses) variables.push_back(speed);
         variables.push_back(sign);
       }
       variables.push_back(std::move(variable));

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "anthrob_core/text.h"
+#include "experiment/poses.h"
 #include "measurement/held_samples.h"
 
 namespace anthrob {
@@ -107,6 +108,7 @@ void correct_holds(const RobotModel& robot, Description& description) {
   for (const SensorColumns& sensor : sensors) ++places[sensor.kind];
   for (auto* group : {&question.train, &question.test, &question.repeats}) {
     for (Dataset& recording : *group) {
+      if (holds_poses(robot, recording)) continue;  // its times mean nothing
       for (const SensorColumns& sensor : sensors) {
         const Table* table = table_of(recording, sensor.columns);
         if (!table) continue;

@@ -55,6 +55,28 @@ struct AxisOptions {
   }
 };
 
+/// Poses of driven axes at rest.
+struct PoseOptions {
+  /// [s] that a pose stands for: it was approached afresh, so few of them make a block
+  double seconds = 0.5;
+  std::size_t fewest = 12;  ///< of a recording: three blocks
+  /// [rad or m] from how far a pose is approached where its direction is known: much further than
+  /// friction bends before it slides
+  double approach = 0.5;
+  int approach_steps = 10;  ///< of the simulation
+  /// [rad/s or m/s] at which it comes to rest: no speed by which friction changes
+  double creep = 1e-6;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& options, Visitor&& visit) {
+    visit("seconds", options.seconds);
+    visit("fewest", options.fewest);
+    visit("approach", options.approach);
+    visit("approach_steps", options.approach_steps);
+    visit("creep", options.creep);
+  }
+};
+
 /// Noise of a sensor that never reports less than zero.
 struct CutOffOptions {
   double window = 0.2;       ///< [s] in which a force changes little
@@ -106,6 +128,7 @@ struct ExperimentOptions {
   /// rms of normal numbers over that of those that are left without so many of the largest
   double normal_tails = 1.267;
   AxisOptions axis;
+  PoseOptions poses;
   CutOffOptions cut_off;
   PostureNoiseOptions postures;
 
@@ -118,6 +141,7 @@ struct ExperimentOptions {
     visit("torn_repeats", options.torn_repeats);
     visit("normal_tails", options.normal_tails);
     visit("axis", options.axis);
+    visit("poses", options.poses);
     visit("cut_off", options.cut_off);
     visit("postures", options.postures);
   }

@@ -355,6 +355,16 @@ TEST(Preparation, RefusesAPartOfARecordingBesideIt) {
       << refusal(axis);
 }
 
+TEST(Preparation, OfAnAxisSaysWhatVelocityAloneNeeds) {
+  Question question = axis_question(20.4, 0.0);
+  question.test[0].tables[0].columns[0].name = "axis/velocity";
+  const std::string line = refusal(question);
+  EXPECT_NE(line.find("column 'axis/position' is missing, only axis/velocity was measured"),
+            std::string::npos)
+      << line;
+  EXPECT_NE(line.find("integral"), std::string::npos) << line;
+}
+
 TEST(Preparation, OfAnAxisWithADeadEffortSensorIsRefused) {
   Question axis = axis_question(20.4, 0.0);
   change(axis.train[0], "effort", [](Table&, Column& column) {

@@ -26,7 +26,7 @@ bool is_ball_quantity(const std::string& quantity) {
 }
 
 bool is_joint_quantity(const std::string& quantity) {
-  static const std::set<std::string> kAll = {"position", "velocity", "effort", "load"};
+  static const std::set<std::string> kAll = {"position", "velocity", "effort", "load", "direction"};
   return kAll.count(quantity) > 0;
 }
 

@@ -62,7 +62,7 @@ class Dealer {
     const bool only_commands = has_only_commands(table);
     std::map<std::string, Table> parts;
     for (const Column& column : table.columns) {
-      if (column.quantity() == "load") {
+      if (column.quantity() == "load" || column.quantity() == "direction") {
         dealt_.not_carried.push_back(table.name + ".csv: " + column.name);
         continue;
       }

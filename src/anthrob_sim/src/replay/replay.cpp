@@ -32,6 +32,11 @@ Replay::Replay(std::shared_ptr<const RobotModel> model, const Dataset& recording
       mode_(mode),
       meta_(recording.meta),
       pushes_(recorded_pushes(*model_->skeleton, recording)) {
+  if (model_->muscles.empty() && meta_.kind == "equilibrium") {
+    throw BadInput(recording.folder +
+                   ": meta.yaml: kind: equilibrium: its rows are poses at rest, whose times mean "
+                   "nothing; expected a trajectory to replay");
+  }
   check_names(recording);
   check_inputs(recording);
   for (const auto& [muscle, position] : meta_.start_position) {
