@@ -197,6 +197,7 @@ Admission admit(const Evaluator& evaluator, const Question& given) {
 
   ReplayScope scope;
   scope.bin = options.admission.finest_bin;
+  scope.mode = question.feed;
   const std::vector<Dataset> motions = recordings_in_motion(robot, question.train);
   if (robot.muscles.empty() && !motions.empty()) {
     const AxisPlan plan = plan_axes(robot, motions, options.experiment.axis);
@@ -223,9 +224,9 @@ Admission admit(const Evaluator& evaluator, const Question& given) {
   admitted.quick =
       excerpt(robot, question.train, admitted.train,
               robot.muscles.empty() ? options.admission.slow_look : options.admission.quick_look,
-              options.experiment);
+              options.experiment, question.feed);
   admitted.slow = excerpt(robot, question.train, admitted.train, options.admission.slow_look,
-                          options.experiment);
+                          options.experiment, question.feed);
   return admitted;
 }
 

@@ -120,7 +120,9 @@ std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Admission& admi
   if (evaluator.model()->muscles.empty()) return {};
   const Question& question = admission.question;
   const Fed fed(evaluator, scales, variant, admission.train.front()->bin(), question.options);
-  const ChannelGaps commands = fed.gaps(question.train, ReplayMode::kReference),
+  // Of other controllers, the model's say nothing.
+  const ChannelGaps commands = question.feed ? ChannelGaps{}
+                                             : fed.gaps(question.train, ReplayMode::kReference),
                     voltages = fed.gaps(question.train, ReplayMode::kVoltage),
                     positions = fed.gaps(question.train, ReplayMode::kPosition),
                     postures = fed.gaps_of_postures(question.train, question.seed);
@@ -131,8 +133,8 @@ std::vector<SeamGap> seam_gaps(const Evaluator& evaluator, const Admission& admi
     gap.place = name.substr(0, slash);
     gap.channel = name.substr(slash + 1);
     gap.of_joint = evaluator.model()->skeleton->find_joint(gap.place) >= 0;
-    const auto value = [&](const ChannelGaps& gaps) -> std::optional<double> {
-      const auto found = gaps.find(name);
+    const auto value = [key = name](const ChannelGaps& gaps) -> std::optional<double> {
+      const auto found = gaps.find(key);
       if (found == gaps.end()) return std::nullopt;
       return found->second;
     };

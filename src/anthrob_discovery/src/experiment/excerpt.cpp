@@ -5,10 +5,9 @@
 namespace anthrob {
 namespace discovery {
 
-namespace {}  // namespace
-
 Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
-                const Experiments& whole, double seconds, const ExperimentOptions& options) {
+                const Experiments& whole, double seconds, const ExperimentOptions& options,
+                std::optional<ReplayMode> feed) {
   Excerpt part;
   std::size_t offset = 0;
   for (std::size_t e = 0; e < whole.size(); ++e) {
@@ -16,6 +15,7 @@ Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
     ReplayScope scope;
     scope.bin = whole[e]->bin();
     scope.hidden_inertia = whole[e]->hidden_inertia();
+    scope.mode = feed;
     scope.seconds =
         std::max(options.shortest_excerpt, seconds / static_cast<double>(whole.size() - e));
     part.experiments.push_back(scope.seconds < whole[e]->duration()

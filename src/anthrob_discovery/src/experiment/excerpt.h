@@ -23,8 +23,10 @@ struct Excerpt {
 
 /// Takes about the same length of every recording.
 /// @param whole the recordings as experiments, in the same order   @param seconds in all
+/// @param feed input that drives the replays, as of the whole ones
 Excerpt excerpt(const RobotModel& model, const std::vector<Dataset>& recordings,
-                const Experiments& whole, double seconds, const ExperimentOptions& options);
+                const Experiments& whole, double seconds, const ExperimentOptions& options,
+                std::optional<ReplayMode> feed = {});
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
-#include "anthrob_recording/dataset.h"
-#include "anthrob_sim/model/robot_model.h"
-#include "options/measurement.h"
+#include "measurement/controlled_muscles.h"
 
 namespace anthrob {
 namespace discovery {
@@ -42,49 +39,35 @@ class ControllerAlgebra {
                     const ControllerAlgebraOptions& options);
 
   /// Whether the recordings have what the law needs.
-  bool is_known() const { return noise_.size() >= options_.fewest_blocks && !muscles_.empty(); }
+  bool is_known() const { return data_.is_known(); }
   /// The shift that is certain; nothing if there is none, or another cause does as well.
   std::optional<StampShift> stamp_shift() const;
   /// Whether the shift leaves less of this recording than none does: it may be of another make.
   bool helps(const StampShift& shift, std::size_t recording) const;
   /// What is left at this shift, in standard deviations of the voltages' own noise.
   double left(const std::optional<StampShift>& shift) const;
+  Squares squares_at(const std::optional<StampShift>& shift) const;
+  /// Measurements or references that reach the controllers late, the one that leaves least: as late
+  /// as stamps can be, or as latencies (ControllerAlgebraOptions::longest_latency).
+  std::optional<StampShift> latency() const;
+  const ControlledMuscles& data() const { return data_; }
 
  private:
-  struct Muscle {
-    ecu::PositionGains gains;
-    Series voltage, reference, position, velocity, force;
-    double weight = 0.0;  ///< 1 / squared noise of the voltages [1/V^2]
-    /// Squared, of the measurements [rad^2, (rad/s)^2, N^2].
-    double position_noise = 0.0, velocity_noise = 0.0, force_noise = 0.0;
-    std::vector<std::size_t> rows;                ///< of `voltage`, that are looked at
-    std::size_t first_block = 0, last_block = 0;  ///< of its recording
-
-    std::size_t block_of(std::size_t row, double length) const;
-    /// Squares that this leaves in the voltages that these gains give [V^2].
-    double noise(const ecu::PositionGains& of, double position_variance,
-                 double force_variance) const;
-  };
   /// How much earlier than the row each term is taken [s].
   struct Shifts {
     double reference, position, force;
   };
-  using Squares = std::vector<double>;  ///< by block
 
-  void add(const MuscleModel& muscle, const Dataset& recording, std::size_t most_rows);
   Shifts shifts(LateStamp what, double late) const;
   Squares squares(const Shifts& shifts) const;
   /// With the gains of least squares.
   Squares squares_of_free_gains() const;
-  /// In standard errors over blocks, by how much the first leaves more than the second. Logarithms,
-  /// because most of the squares may be in few blocks.
-  double sureness(const Squares& first, const Squares& second) const;
+  /// The shift of one cause that leaves least; nothing if it is beyond these.
+  /// @param earliest, latest [ticks]
+  struct Cause;
+  std::optional<Cause> best_shift(LateStamp what, long earliest, long latest) const;
 
-  ControllerAlgebraOptions options_;
-  double tick_ = 0.0;
-  std::vector<std::size_t> first_blocks_;  ///< of each recording, and the number of all
-  Squares noise_;                          ///< that noise of the measurements leaves
-  std::vector<Muscle> muscles_;
+  ControlledMuscles data_;
 };
 
 }  // namespace discovery

@@ -17,7 +17,8 @@ struct MeasurementProperty {
   double value = 0.0;          ///< [unit]
   std::array<double, 2> ci95;  ///< [unit]
   std::string unit;
-  std::string source;  ///< meta | found | assumed
+  std::string source;    ///< meta | found | assumed
+  std::string law = {};  ///< of `controller`: which of its numbers
 };
 
 /// How the recordings were taken, as far as it is known.

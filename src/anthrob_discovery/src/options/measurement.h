@@ -40,6 +40,15 @@ struct ControllerAlgebraOptions {
   double interval = 1.96;         ///< standard errors to either side, for 95 %
   Share clipped = 0.98;           ///< of the largest voltage; beyond, the law is cut off
   double other_law = 3.0;         ///< times the noise of the voltages that no law of ours leaves
+  double longest_latency = 0.05;  ///< [s] until a controller gets references or measurements
+  double shortest_filter = 4.0;   ///< [ticks] time constant; a shorter one looks like another tick
+  double longest_filter = 0.3;    ///< [s] time constant; a slower one holds no posture
+  double filter_step = 1.1;       ///< ratio of time constants at which their search ends
+  /// of the noise of the voltages; less of a difference is below the floor of a bin of several rows
+  double least_law = 0.3;
+  Share least_gain = 0.02;   ///< of a gain by which another one differs
+  double noise_only = 1.0;   ///< times the noise of the voltages that the right law leaves at most
+  Share unexplained = 0.05;  ///< or of what the model's law leaves: filters leave hardly any noise
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
@@ -52,6 +61,14 @@ struct ControllerAlgebraOptions {
     visit("interval", options.interval);
     visit("clipped", options.clipped);
     visit("other_law", options.other_law);
+    visit("longest_latency", options.longest_latency);
+    visit("shortest_filter", options.shortest_filter);
+    visit("longest_filter", options.longest_filter);
+    visit("filter_step", options.filter_step);
+    visit("least_law", options.least_law);
+    visit("least_gain", options.least_gain);
+    visit("noise_only", options.noise_only);
+    visit("unexplained", options.unexplained);
   }
 };
 

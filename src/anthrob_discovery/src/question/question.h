@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "anthrob_core/parameter_list.h"
 #include "anthrob_recording/dataset.h"
+#include "anthrob_sim/replay/replay.h"
 #include "options/options.h"
 
 namespace anthrob {
@@ -21,6 +23,8 @@ struct Question {
   int jobs = 1;
   std::uint64_t seed = 1;
   double step = 0.001;  ///< of the simulation [s]
+  /// Input that drives the replays of robots with muscles; nothing: the earliest that was recorded.
+  std::optional<ReplayMode> feed = {};
   Options options;
   // For the report only:
   std::string calibration_file;         ///< that lists the nuisances; empty: none

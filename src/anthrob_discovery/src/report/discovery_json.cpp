@@ -237,6 +237,7 @@ Json measurement_json(const Measurement& measurement) {
                     {"ci95", {number(property.ci95[0]), number(property.ci95[1])}},
                     {"unit", property.unit},
                     {"source", property.source}});
+    if (!property.law.empty()) list.back()["law"] = property.law;
   }
   return list;
 }
