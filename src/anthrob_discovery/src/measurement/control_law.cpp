@@ -47,7 +47,7 @@ void refine_time_constant(const ControlledMuscles& data, double ratio, ControlLa
 }
 
 /// The best of a form, before the tick or after it.
-ControlLaw best_of(const ControlledMuscles& data, LawForm form, bool after_tick) {
+ControlLaw best_law(const ControlledMuscles& data, LawForm form, bool after_tick) {
   const ControllerAlgebraOptions& options = data.options();
   if (!is_filtered(form)) return fit_law(data, form, 0.0, after_tick);
   std::optional<ControlLaw> best;
@@ -93,7 +93,7 @@ std::optional<ControlLaw> find_control_law(const ControlledMuscles& data) {
   for (const LawForm form :
        {LawForm::kModel, LawForm::kDerivativeOnError, LawForm::kFilteredDerivative,
         LawForm::kFilteredVoltage, LawForm::kFilteredDerivativeOnError}) {
-    const ControlLaw before = best_of(data, form, false), after = best_of(data, form, true);
+    const ControlLaw before = best_law(data, form, false), after = best_law(data, form, true);
     const bool is_after = data.sureness(before.squares, after.squares) > options.clearly;
     laws.push_back(is_after ? after : before);
   }

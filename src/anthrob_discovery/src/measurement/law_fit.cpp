@@ -128,7 +128,7 @@ std::array<double, 4> model_numbers(const ControlledMuscle& muscle) {
 }
 
 /// By the jackknife over blocks.
-void add_errors(const PooledMuscle& pooled, bool has_noise, MuscleLaw& law) {
+void add_law_errors(const PooledMuscle& pooled, bool has_noise, MuscleLaw& law) {
   std::vector<Numbers> left;
   for (const auto& [block, own] : pooled.blocks) {
     if (const auto numbers = pooled.all.without(own).solved(has_noise)) left.push_back(*numbers);
@@ -174,7 +174,7 @@ MuscleLaw fit_muscle(const std::string& name, const PooledMuscle& pooled, Square
   law.is_determined = solved.has_value();
   if (solved) numbers = *solved;
   for (std::size_t i = 0; i < 4; ++i) law.found[i].value = numbers[static_cast<int>(i)];
-  if (law.is_determined) add_errors(pooled, has_noise, law);
+  if (law.is_determined) add_law_errors(pooled, has_noise, law);
   add_weights(pooled, law);
   for (const auto& [block, own] : pooled.blocks) {
     squares[block] += pooled.weights.at(block) *

@@ -1,5 +1,6 @@
 #include "measurement/measurement.h"
 
+#include "measurement/column_correction.h"
 #include "measurement/hold_correction.h"
 #include "measurement/stamp_correction.h"
 
@@ -9,6 +10,7 @@ namespace discovery {
 Description describe(const Evaluator& evaluator, const Question& question) {
   Description description;
   description.question = question;
+  correct_columns(*evaluator.model(), description);
   correct_holds(*evaluator.model(), description);
   correct_controller_stamps(*evaluator.model(), description);
   return description;

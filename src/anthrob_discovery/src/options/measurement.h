@@ -72,15 +72,41 @@ struct ControllerAlgebraOptions {
   }
 };
 
+/// Columns of a wrong sign or unit.
+struct ColumnOptions {
+  std::size_t fewest_rows = 200;  ///< of both columns
+  Share correlated = 0.7;  ///< squared correlation with what the column must be a multiple of
+  /// by which the multiple may differ from a factor between units: more than errors of a motor's
+  /// resistance or a reference that is hardly followed
+  Share near = 0.4;
+  std::size_t rows = 10;   ///< over which a velocity is integrated
+  double beside = 0.01;    ///< [s] to either side, for the velocity of a current's expectation
+  std::size_t blocks = 8;  ///< for a standard error
+  Share exactly = 0.02;    ///< of a velocity against its own position: 9.55 and 10 are units
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& options, Visitor&& visit) {
+    visit("fewest_rows", options.fewest_rows);
+    visit("correlated", options.correlated);
+    visit("near", options.near);
+    visit("rows", options.rows);
+    visit("beside", options.beside);
+    visit("blocks", options.blocks);
+    visit("exactly", options.exactly);
+  }
+};
+
 /// How recordings were taken.
 struct MeasurementOptions {
   HeldSampleOptions hold;
   ControllerAlgebraOptions controller;
+  ColumnOptions column;
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
     visit("hold", options.hold);
     visit("controller", options.controller);
+    visit("column", options.column);
   }
 };
 
