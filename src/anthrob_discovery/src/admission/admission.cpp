@@ -89,7 +89,7 @@ std::vector<std::string> remarks_on_known_numbers(const Dataset& recording) {
     list += (list.empty() ? "" : ", ") + path + " " + exact_text(value);
   }
   if (list.empty()) return {};
-  return {recording.folder + ": simulated with what its meta.yaml says of the robot: " + list};
+  return {recording.folder + ": simulated with numbers of its own: " + list};
 }
 
 /// Poses in an order and at times by which everything else may go.

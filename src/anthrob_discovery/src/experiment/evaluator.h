@@ -51,6 +51,7 @@ class Evaluator {
             int jobs);
 
   const std::shared_ptr<const RobotModel>& model() const { return plain_; }
+  const RobotDescription& description() const { return description_; }
   const std::vector<ModelParameter>& nuisances() const { return nuisances_; }
   std::vector<double> initial_nuisances() const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "anthrob_core/text.h"
 #include "measurement/stamp_report.h"
@@ -126,15 +127,6 @@ std::vector<Dataset*> all_of(Question& question) {
   return recordings;
 }
 
-double row_period(const RobotModel& robot, const Dataset& recording) {
-  for (const MuscleModel& muscle : robot.muscles) {
-    const Series voltage = recording.series(muscle.name + "/voltage");
-    if (voltage.t.size() < 2) continue;
-    return (voltage.t.back() - voltage.t.front()) / static_cast<double>(voltage.t.size() - 1);
-  }
-  return 0.0;
-}
-
 /// Whether a replay of positions is complete, and leaves anything to be compared.
 bool can_feed_positions(const RobotModel& robot, const Dataset& recording) {
   bool is_compared = false;
@@ -166,6 +158,44 @@ std::string go_on_behind_controllers(const RobotModel& robot, Description& descr
                       : "The search goes on from voltages, so nothing is said about controllers";
 }
 
+/// Gains of the model file that are others, by key path; nothing if the law is not of the model's
+/// form, or a gain is not the same for all muscles, which share controllers.
+std::optional<std::map<std::string, double>> gains_of(const ConfigNode& config,
+                                                      const ControlLaw& law,
+                                                      const ControllerAlgebraOptions& options) {
+  constexpr const char* kKeys[] = {"proportional", "derivative", "force_feedforward", ""};
+  if (law.form != LawForm::kModel) return {};
+  std::map<std::string, double> gains;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto common = common_number(law, k, options);
+    if (!common) {
+      const bool any =
+          std::any_of(law.muscles.begin(), law.muscles.end(),
+                      [&](const MuscleLaw& muscle) { return muscle.differs(k, options); });
+      if (any) return {};
+      continue;
+    }
+    if (!common->differs) continue;
+    if (*kKeys[k] == '\0') return {};
+    for (const MuscleLaw& muscle : law.muscles) {
+      const ConfigNode node = config.at("muscles").at(muscle.name);
+      if (node.has("gains")) return {};  // its own come before its controller's
+      const std::string controller = node.text("controller");
+      gains["controllers." + controller + ".position." + kKeys[k]] =
+          std::max(0.0, common->found.value);
+    }
+  }
+  return gains;
+}
+
+std::string go_on_with_gains(const std::map<std::string, double>& gains, Description& description) {
+  for (Dataset* recording : all_of(description.question)) {
+    recording->meta.model.insert(gains.begin(), gains.end());
+  }
+  description.corrected = true;
+  return "The search goes on with these gains";
+}
+
 }  // namespace
 
 std::optional<ControlLaw> other_law(const ControllerAlgebra& algebra,
@@ -185,8 +215,8 @@ std::optional<ControlLaw> other_law(const ControllerAlgebra& algebra,
   return law;
 }
 
-void go_on_without_controllers(const RobotModel& robot, const ControlLaw& law,
-                               Description& description) {
+void go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const ControlLaw& law,
+                        Description& description) {
   const ControllerAlgebraOptions& options = description.question.options.measurement.controller;
   LawReport report(options, description);
   report.add_form(law);
@@ -197,13 +227,15 @@ void go_on_without_controllers(const RobotModel& robot, const ControlLaw& law,
       move_earlier(robot, {"voltage"}, -law.tick, *recording);
     }
   }
-  const std::string goes_on = go_on_behind_controllers(robot, description);
+  const auto gains = gains_of(config, law, options);
+  const std::string goes_on =
+      gains ? go_on_with_gains(*gains, description) : go_on_behind_controllers(robot, description);
   description.remarks.push_back("controller: the voltages follow another law than the model's: " +
                                 joined(report.words(), "; ") + ". " + goes_on);
 }
 
-void remark_on_voltages(const RobotModel& robot, const ControllerAlgebra& algebra,
-                        const std::optional<StampShift>& shift, Description& description) {
+void remark_on_voltages(const ControllerAlgebra& algebra, const std::optional<StampShift>& shift,
+                        Description& description) {
   const ControllerAlgebraOptions& options = description.question.options.measurement.controller;
   const double left = algebra.left(shift);
   if (left < options.other_law) return;
@@ -218,16 +250,7 @@ void remark_on_voltages(const RobotModel& robot, const ControllerAlgebra& algebr
                                   significant(-1000.0 * latency->late, 3) + " ms late, they do");
     return;
   }
-  // Rows so far apart tell no law.
-  for (const Dataset* recording : all_of(description.question)) {
-    if (row_period(robot, *recording) <= options.longest) continue;
-    description.remarks.push_back(differ + "another law, other gains, or something that is late");
-    return;
-  }
-  const std::string goes_on = go_on_behind_controllers(robot, description);
-  description.remarks.push_back("controller: " + differ +
-                                "no gains, filter or lateness that are looked for explain it. " +
-                                goes_on);
+  description.remarks.push_back(differ + "another law, other gains, or something that is late");
 }
 
 }  // namespace discovery

@@ -14,14 +14,15 @@ namespace discovery {
 std::optional<ControlLaw> other_law(const ControllerAlgebra& algebra,
                                     const std::optional<StampShift>& shift);
 
-/// Reports the law, and lets the search go on from positions, or from voltages where positions
-/// leave nothing to be compared.
-void go_on_without_controllers(const RobotModel& robot, const ControlLaw& law,
-                               Description& description);
+/// Reports the law, and lets the search go on: with its gains, if these are all that is other; else
+/// from positions, or from voltages where positions leave nothing to be compared.
+/// @param config of the model file
+void go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const ControlLaw& law,
+                        Description& description);
 
-/// Where no law is found: what is late, or that the law is unknown, which ends its use, too.
-void remark_on_voltages(const RobotModel& robot, const ControllerAlgebra& algebra,
-                        const std::optional<StampShift>& shift, Description& description);
+/// Where no law is found: what is late, or that the law is unknown.
+void remark_on_voltages(const ControllerAlgebra& algebra, const std::optional<StampShift>& shift,
+                        Description& description);
 
 }  // namespace discovery
 }  // namespace anthrob

@@ -12,7 +12,7 @@ Description describe(const Evaluator& evaluator, const Question& question) {
   description.question = question;
   correct_columns(*evaluator.model(), description);
   correct_holds(*evaluator.model(), description);
-  correct_controller_stamps(*evaluator.model(), description);
+  correct_controller_stamps(*evaluator.model(), evaluator.description().config(), description);
   return description;
 }
 

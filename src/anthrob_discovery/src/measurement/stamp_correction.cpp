@@ -54,7 +54,8 @@ void correct_one_by_one(const RobotModel& robot, const std::vector<Dataset*>& re
 
 }  // namespace
 
-void correct_controller_stamps(const RobotModel& robot, Description& description) {
+void correct_controller_stamps(const RobotModel& robot, const ConfigNode& config,
+                               Description& description) {
   Question& question = description.question;
   const ControllerAlgebraOptions& options = question.options.measurement.controller;
   std::vector<Dataset*> recordings;
@@ -65,7 +66,7 @@ void correct_controller_stamps(const RobotModel& robot, Description& description
   if (!algebra.is_known()) return;
   const auto shift = algebra.stamp_shift();
   if (const auto law = other_law(algebra, shift)) {
-    go_on_without_controllers(robot, *law, description);
+    go_on_by_other_law(robot, config, *law, description);
     return;
   }
   if (shift) {
@@ -73,13 +74,12 @@ void correct_controller_stamps(const RobotModel& robot, Description& description
     for (std::size_t r = 0; r < recordings.size(); ++r) {
       if (algebra.helps(*shift, r)) correct(robot, *shift, *recordings[r], description);
     }
-    remark_on_voltages(robot, algebra, shift, description);
+    remark_on_voltages(algebra, shift, description);
     return;
   }
   correct_one_by_one(robot, recordings, options, description);
   // As they are now.
-  remark_on_voltages(robot, {robot, {recordings.begin(), recordings.end()}, options}, {},
-                     description);
+  remark_on_voltages({robot, {recordings.begin(), recordings.end()}, options}, {}, description);
 }
 
 }  // namespace discovery

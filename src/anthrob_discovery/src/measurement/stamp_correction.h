@@ -8,7 +8,9 @@ namespace discovery {
 
 /// Moves voltages, positions and forces to the times at which the controllers' law has them
 /// (ControllerAlgebra), and says where no shift makes the law give the recorded voltages.
-void correct_controller_stamps(const RobotModel& robot, Description& description);
+/// @param config of the model file
+void correct_controller_stamps(const RobotModel& robot, const ConfigNode& config,
+                               Description& description);
 
 }  // namespace discovery
 }  // namespace anthrob

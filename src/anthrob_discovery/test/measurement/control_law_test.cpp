@@ -23,6 +23,11 @@ std::shared_ptr<const RobotModel> law_rig() {
   return robot;
 }
 
+const ConfigNode& law_config() {
+  static const ConfigNode config = ConfigNode::load(kConfig + "/two_muscle_rig/model_I.yaml");
+  return config;
+}
+
 /// The controllers of a made robot: they compute as such units do, tick by tick.
 struct LawController {
   ecu::PositionGains gains = law_rig()->muscles[0].controller.position;
@@ -96,7 +101,7 @@ Description law_described(const LawController& how, bool smooth_reference = fals
   Description description;
   description.question.options.measurement.controller = law_rows();
   description.question.train = {law_recording(how, smooth_reference)};
-  correct_controller_stamps(*law_rig(), description);
+  correct_controller_stamps(*law_rig(), law_config(), description);
   return description;
 }
 
@@ -158,7 +163,12 @@ TEST(ControlLaw, OtherGainsAreFoundWithoutTheBiasOfNoise) {
     EXPECT_LT(half, 0.02 * std::max(0.3, gain.truth));
   }
   EXPECT_EQ(description.measurement.size(), 3u) << law_told(description);
-  EXPECT_EQ(description.question.feed, ReplayMode::kPosition);
+  // The search goes on with them.
+  EXPECT_FALSE(description.question.feed);
+  const auto& known = description.question.train[0].meta.model;
+  ASSERT_EQ(known.size(), 3u);
+  EXPECT_NEAR(known.at("controllers.pd.position.derivative"), how.gains.derivative, 0.01);
+  EXPECT_GE(known.at("controllers.pd.position.force_feedforward"), 0.0);
   ASSERT_EQ(description.remarks.size(), 1u);
   EXPECT_EQ(description.remarks[0].find("controller: the voltages follow another law"), 0u);
 }
@@ -211,14 +221,14 @@ TEST(ControlLaw, LateReferencesKeepTheControllers) {
   EXPECT_TRUE(description.measurement.empty()) << law_told(description);
 }
 
-TEST(ControlLaw, AnUnknownOneIsToldAndDoneWithout) {
+TEST(ControlLaw, AnUnknownOneIsTold) {
   LawController how;
   how.bend = 0.2;
   const Description description = law_described(how);
   ASSERT_FALSE(description.remarks.empty());
-  EXPECT_NE(description.remarks[0].find("no gains, filter or lateness"), std::string::npos)
+  EXPECT_NE(description.remarks[0].find("another law, other gains"), std::string::npos)
       << law_told(description);
-  EXPECT_EQ(description.question.feed, ReplayMode::kPosition);
+  EXPECT_FALSE(description.question.feed);
 }
 
 }  // namespace
