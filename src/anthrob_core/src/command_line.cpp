@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <csignal>
@@ -26,11 +27,21 @@ namespace {
 
 volatile std::sig_atomic_t listening = 0, interrupt_seen = 0;
 
-/// The second one of its kind ends a program that does not come to look. But a terminal that is
-/// closed says so twice: by its shell, and by itself.
+/// A stop is often said twice at once: timeout signals the program, then its group; a terminal that
+/// is closed does so through its shell and by itself. Nobody presses Ctrl-C twice within that.
+constexpr double kSaidTwice = 0.5;  // [s]
+std::atomic<double> first_heard{0.0};
+static_assert(std::atomic<double>::is_always_lock_free, "used by a signal handler");
+
+/// Ends a program that does not come to look.
+void on_repeated_interrupt(int) {
+  if (monotonic_now() - first_heard > kSaidTwice) _exit(kInterrupted);
+}
+
 void on_interrupt(int number) {
   interrupt_seen = 1;
-  if (number != SIGHUP) std::signal(number, [](int) { _exit(kInterrupted); });
+  first_heard = monotonic_now();
+  std::signal(number, on_repeated_interrupt);
 }
 
 std::string one_line(std::string text) {
