@@ -22,7 +22,7 @@ EffectInfo describe() {
   i.stage = Stage::kComponents;
   i.channels = {"joint", "force"};
   i.parameters = {
-      {"stiffness", "Nm/rad", "of the cables", 0.0, 0.05, {0.0, 5.0}},
+      {"stiffness", "Nm/rad", "of the cables", 0.0, 0.05, {0.0, 1e6}},
       {"rest",
        "rad",
        "joint position with relaxed cables; for a ball joint always its rest",

@@ -23,7 +23,7 @@ EffectInfo describe() {
   i.dissipates = true;
   i.channels = {"joint", "force"};
   i.parameters = {
-      {"torque", "Nm", "while sliding fast, F_c", 0.0, 0.1, {0.0, 10.0}},
+      {"torque", "Nm", "while sliding fast, F_c", 0.0, 0.1, {0.0, 1e6}},
       {"static_ratio",
        "1",
        "friction at rest over that, F_s / F_c",

@@ -22,8 +22,8 @@ EffectInfo describe() {
   i.dissipates = true;
   i.channels = {"joint", "force"};
   i.parameters = {
-      {"forward", "Nm", "more friction while moving forward", 0.0, 0.1, {0.0, 10.0}},
-      {"backward", "Nm", "more friction while moving backward", 0.0, 0.05, {0.0, 10.0}},
+      {"forward", "Nm", "more friction while moving forward", 0.0, 0.1, {0.0, 1e6}},
+      {"backward", "Nm", "more friction while moving backward", 0.0, 0.05, {0.0, 1e6}},
   };
   return i;
 }

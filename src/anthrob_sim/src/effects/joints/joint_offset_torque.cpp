@@ -18,7 +18,7 @@ EffectInfo describe() {
   i.seam = Seam::kJoints;
   i.stage = Stage::kComponents;
   i.channels = {"joint", "force"};
-  i.parameters = {{"torque", "Nm", "forward positive", 0.0, 0.1, {-10.0, 10.0}}};
+  i.parameters = {{"torque", "Nm", "forward positive", 0.0, 0.1, {-1e6, 1e6}}};
   return i;
 }
 

@@ -22,7 +22,7 @@ EffectInfo describe() {
   i.limit = "joint_coulomb";
   i.channels = {"joint", "force"};
   i.parameters = {
-      {"torque", "Nm", "while sliding", 0.0, 0.1, {0.0, 10.0}},
+      {"torque", "Nm", "while sliding", 0.0, 0.1, {0.0, 1e6}},
       {"distance",
        "rad",
        "way after which 63 % of friction is back",

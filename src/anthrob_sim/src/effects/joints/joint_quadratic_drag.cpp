@@ -19,7 +19,7 @@ EffectInfo describe() {
   i.stage = Stage::kSkeleton;
   i.dissipates = true;
   i.channels = {"joint", "force"};
-  i.parameters = {{"drag", "Nms2/rad2", "torque per square of speed", 0.0, 0.02, {0.0, 10.0}}};
+  i.parameters = {{"drag", "Nms2/rad2", "torque per square of speed", 0.0, 0.02, {0.0, 1e6}}};
   return i;
 }
 

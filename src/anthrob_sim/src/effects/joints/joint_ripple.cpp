@@ -41,9 +41,9 @@ EffectInfo describe() {
                             {0.0, 1e4, true},
                             EffectParameter::kGiven});
     i.parameters.push_back(
-        {numbered("sine", k), "Nm", "part that is 0 at position 0", 0.0, 0.02, {-10.0, 10.0}});
+        {numbered("sine", k), "Nm", "part that is 0 at position 0", 0.0, 0.02, {-1e6, 1e6}});
     i.parameters.push_back(
-        {numbered("cosine", k), "Nm", "the torque at position 0", 0.0, 0.02, {-10.0, 10.0}});
+        {numbered("cosine", k), "Nm", "the torque at position 0", 0.0, 0.02, {-1e6, 1e6}});
   }
   return i;
 }

@@ -18,7 +18,7 @@ EffectInfo describe() {
   i.stage = Stage::kSkeleton;
   i.dissipates = true;
   i.channels = {"joint", "force"};
-  i.parameters = {{"damping", "Nms/rad", "torque per speed", 0.0, 0.05, {0.0, 10.0}}};
+  i.parameters = {{"damping", "Nms/rad", "torque per speed", 0.0, 0.05, {0.0, 1e6}}};
   return i;
 }
 

@@ -18,7 +18,7 @@ EffectInfo describe() {
   i.stage = Stage::kSkeleton;
   i.channels = {"joint", "force"};
   i.parameters = {
-      {"mass", "kg", "of the payload", 0.0, 0.1, {-50.0, 50.0}},
+      {"mass", "kg", "of the payload", 0.0, 0.1, {-1e4, 1e4}},
       {"x",
        "m",
        "from the body's centre of mass, axes of its link",
