@@ -370,12 +370,13 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough, double riv
     // New slopes after the first iteration may bring more than it did.
     const bool hopeless = iteration > 0 && best.cost - (iterations - iteration - 1) * gain > rival;
     const bool done = hopeless || gain < enough * best.cost;
-    // Broyden's update, from what the step really changed.
+    // Broyden's update, from what the step really changed; a step that changes hardly anything would
+    // leave only what rounding makes of it.
     const Eigen::VectorXf step = best.step.cast<float>();
-    const float length = step.squaredNorm();
-    if (length > 0.0f) {
-      const Eigen::VectorXf surprise = best.residual - fitted.residual - fitted.sensitivity * step;
-      fitted.sensitivity += surprise * (step.transpose() / length);
+    const Eigen::VectorXf change = best.residual - fitted.residual;
+    if (change.norm() > options_.convergence.rounded.value * fitted.residual.norm()) {
+      const Eigen::VectorXf surprise = change - fitted.sensitivity * step;
+      fitted.sensitivity += surprise * (step.transpose() / step.squaredNorm());
     }
     fitted.variant = std::move(best.variant);
     fitted.residual = std::move(best.residual);

@@ -70,6 +70,7 @@ struct ConvergenceOptions {
   Share narrower = 0.1;  ///< of its scale, to which that of an effect shrinks in polishing, at most
   Share scale_of_size = 0.05;  ///< of the size of an effect: its scale in polishing, at least
   double at_bound = 1e-3;      ///< [scales] from a bound
+  Share rounded = 1e-5;        ///< of a residual: a smaller change is rounding, and shows no slope
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
@@ -90,6 +91,7 @@ struct ConvergenceOptions {
     visit("narrower", options.narrower);
     visit("scale_of_size", options.scale_of_size);
     visit("at_bound", options.at_bound);
+    visit("rounded", options.rounded);
   }
 };
 

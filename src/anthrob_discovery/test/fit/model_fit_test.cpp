@@ -147,6 +147,21 @@ TEST(ModelFit, ExactSlopesLeadOnWhereThoseOfTheCoarseStepMislead) {
   EXPECT_NEAR(fitted.variant.nuisances[0], 20.0, 0.1);
 }
 
+TEST(ModelFit, AStraightLineKeepsItsSlopeThoughStepsVanish) {
+  const MadeExperiment::Law law = of_elbow([](double x) { return 0.7 * (x - 30.0); });
+  const Problem problem([](double) { return 0.0; });
+  constexpr std::size_t kBins = 100;
+  const ModelFit fit(problem.evaluator, {std::make_shared<MadeExperiment>(law, law, kBins, 1)},
+                     Eigen::VectorXf::Ones(kBins), {});
+  auto unknowns = nuisance_unknowns(problem.evaluator);
+  unknowns[0].spread = 0.0;
+  Fitted fitted = fit.start(Variant{{80.0}}, unknowns);
+  fit.improve(fitted, 20, 0.0);
+  EXPECT_NEAR(fitted.variant.nuisances[0], 30.0, 0.5);
+  EXPECT_NEAR(fitted.sensitivity.col(0).minCoeff(), 0.7, 1e-3);
+  EXPECT_NEAR(fitted.sensitivity.col(0).maxCoeff(), 0.7, 1e-3);
+}
+
 TEST(ModelFit, SensitivitiesToWhatHardlyMovedAreKeptFromRoundToRound) {
   const Problem problem([](double x) { return x * x / 100.0; });
   Fitted fitted = problem.start(10.0);
