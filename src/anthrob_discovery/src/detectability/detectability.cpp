@@ -61,7 +61,7 @@ class Finder {
   /// number; infinite if it cannot be simulated or nothing is left
   double checked(const LikelihoodProfile& profile, const Score& score, double doses) const;
   Visibility visibility_of(const Score& score, double doses) const;
-  /// Whether a size so far from neutral is realistic: at most five doses, and within its bounds.
+  /// Whether a size so far from neutral is realistic, and within its bounds.
   bool is_met(const Score& score, double doses) const;
   double taken_for_ordinary(const Candidate& candidate) const;
 
@@ -140,7 +140,8 @@ bool Finder::is_met(const Score& score, double doses) const {
   const Candidate& candidate = candidates_[score.candidate];
   const EffectParameter& size = *candidate.sizes()[score.size];
   const double largest = std::max(size.bounds.hi - size.neutral, size.neutral - size.bounds.lo);
-  return doses <= options_.most_doses && visibility_of(score, doses).smallest_visible <= largest;
+  const double most = std::max(options_.most_doses, candidate.realistic_doses);
+  return doses <= most && visibility_of(score, doses).smallest_visible <= largest;
 }
 
 /// How much of an effect may be taken for an ordinary parameter that is the same quantity.

@@ -17,6 +17,8 @@ struct Candidate {
   /// Indices of ordinary parameters that are the same quantity. They are held at the model's values
   /// while the effect is fitted, so that the whole effect is found.
   std::vector<int> same_as;
+  /// Doses that are realistic, where they are scaled to recordings; 0: as many as of all others.
+  double realistic_doses = 0.0;
 
   std::string name() const { return effect->info().id + " @ " + place; }
   /// The muscle, joint or motor that its place belongs to; the first of two.

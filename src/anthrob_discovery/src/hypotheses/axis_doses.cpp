@@ -13,9 +13,21 @@ namespace {
 /// How a driven joint was used.
 struct Use {
   double effort = 0.0;  ///< that the given model lacks, rms [Nm, N]
+  double all = 0.0;     ///< that was recorded, rms [Nm, N]
   double range = 0.0;   ///< of positions, half [rad, m]
   double speed = 0.0;   ///< way over time, while it was not at rest [rad/s, m/s]
 };
+
+double rms(const std::vector<Dataset>& recordings, const std::string& column) {
+  double squares = 0.0, count = 0.0;
+  for (const Dataset& recording : recordings) {
+    for (const double value : recording.series(column).values) {
+      squares += value * value;
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
 
 Use use_of(const std::string& joint, const std::vector<Dataset>& recordings) {
   double low = HUGE_VAL, high = -HUGE_VAL, way = 0.0, time = 0.0;
@@ -30,6 +42,7 @@ Use use_of(const std::string& joint, const std::vector<Dataset>& recordings) {
     }
   }
   Use use;
+  use.all = rms(recordings, joint + "/effort");
   if (high > low) use.range = 0.5 * (high - low);
   if (time > 0.0) use.speed = way / time;
   return use;
@@ -59,7 +72,18 @@ double lacking(const std::string& joint, const Experiments& experiments,
 double natural(const std::string& unit, const Use& use) {
   if (unit == "Nm" || unit == "N") return use.effort;
   if ((unit == "Nms/rad" || unit == "Ns/m") && use.speed > 0.0) return use.effort / use.speed;
+  if ((unit == "Nms2/rad2" || unit == "Ns2/m2") && use.speed > 0.0) {
+    return use.effort / (use.speed * use.speed);
+  }
   if ((unit == "Nm/rad" || unit == "N/m") && use.range > 0.0) return use.effort / use.range;
+  return 0.0;
+}
+
+/// [kg]; 0 if there is no such body.
+double mass_of(const std::string& body, const SkeletonModel& skeleton) {
+  for (const BodyModel& b : skeleton.bodies) {
+    if (b.name == body) return b.mass;
+  }
   return 0.0;
 }
 
@@ -79,13 +103,18 @@ void scale_doses(const Evaluator& evaluator, const Admission& admission,
   }
   for (Candidate& candidate : candidates) {
     const auto use = uses.find(candidate.place);
-    if (use == uses.end()) continue;
+    const double mass = mass_of(candidate.place, *model.skeleton);
     for (EffectParameter& p : candidate.parameters) {
-      const double size = options.share.value * natural(p.unit, use->second);
+      const double size = p.unit == "kg"      ? options.share_of_mass.value * mass
+                          : use == uses.end() ? 0.0
+                                              : options.share.value * natural(p.unit, use->second);
       if (p.kind != EffectParameter::kSize || !(size > 0.0)) continue;
       const bool up = p.typical >= p.neutral;
       const double room = 0.5 * (up ? p.bounds.hi - p.neutral : p.neutral - p.bounds.lo);
       p.typical = p.neutral + std::copysign(std::min(size, room), up ? 1.0 : -1.0);
+      if (use == uses.end() || !(use->second.effort > 0.0)) continue;
+      // A law may well take as much as the drive gives.
+      candidate.realistic_doses = use->second.all / (options.share.value * use->second.effort);
     }
   }
 }

@@ -162,10 +162,12 @@ struct AxisDoseOptions {
   /// of the rms effort that the given model lacks; of it over speed, and over half the way: trials
   /// of sizes begin there
   Share share = 0.5;
+  Share share_of_mass = 0.1;  ///< of a body's mass: the same for a payload
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
     visit("share", options.share);
+    visit("share_of_mass", options.share_of_mass);
   }
 };
 

@@ -84,6 +84,38 @@ TEST(DrivenBench, FrictionOfAHeavyAxisIsNoPayload) {
   EXPECT_FALSE(names(answer, "payload")) << summary(answer);
 }
 
+/// Of machines larger and smaller than any arm: a law has no size of its own.
+TEST(DrivenBench, SizesAreFoundOverNineDecades) {
+  for (const double unit : {1e-5, 1e4}) {
+    DrivenBench bench;
+    bench.inertia = 0.02 * unit;
+    bench.viscous = 0.05 * unit;
+    bench.noise = 0.02 * unit;
+    bench.gravity = 0.1 * unit;
+    bench.rate = 100.0;
+    Question question = bench.question();
+    bench.coulomb = unit;
+    question.train = {bench.record(1)};
+    question.test = {bench.record(2)};
+    const Answer answer = ask(question);
+    ASSERT_FALSE(answer.effects.empty()) << unit << "\n" << summary(answer);
+    EXPECT_EQ(answer.effects[0].id, "joint_coulomb") << unit << "\n" << summary(answer);
+    EXPECT_NEAR(size_of(answer, "joint_coulomb", "torque"), unit, 0.1 * unit) << unit;
+
+    // A mass where that of the model is, 0.1 m from the axis.
+    bench.coulomb = 0.0;
+    const double mass = 2.0 * bench.gravity / 9.81 / 0.1;
+    bench.gravity *= 3.0;
+    bench.inertia += mass * 0.1 * 0.1;
+    question.train = {bench.record(1)};
+    question.test = {bench.record(2)};
+    const Answer loaded = ask(question);
+    ASSERT_FALSE(loaded.effects.empty()) << unit << "\n" << summary(loaded);
+    EXPECT_EQ(loaded.effects[0].id, "payload") << unit << "\n" << summary(loaded);
+    EXPECT_NEAR(size_of(loaded, "payload", "mass"), mass, 0.3 * mass) << unit;
+  }
+}
+
 TEST(DrivenBench, NothingIsNamedWhereNothingIsMissing) {
   DrivenBench bench = light(0.4);
   bench.coulomb = 0.0;
