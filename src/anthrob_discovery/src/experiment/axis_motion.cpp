@@ -30,43 +30,53 @@ SampleRange samples_around(const Series& series, double time, double half_width,
   return range;
 }
 
-/// Position and velocity at `time` by a polynomial through the samples around it: a cubic, which
-/// does not flatten the motion, where there are samples enough; else a parabola.
+/// Position and velocity at `time` by a polynomial through the samples around it.
 std::pair<double, double> motion_at(const Series& series, double time, double half_width,
-                                    const AxisOptions& options) {
+                                    int degree, const AxisOptions& options) {
   const auto [from, to] = samples_around(series, time, half_width, options);
-  Eigen::MatrixXd basis(to - from, to - from < options.cubic_samples ? 3 : 4);
+  Eigen::MatrixXd basis(to - from, std::min<std::ptrdiff_t>(degree + 1, to - from));
   Eigen::VectorXd values(to - from);
   // From the first value on, so that a small motion far from zero keeps its digits; times in half
   // widths, so that the fit is well conditioned.
   const double origin = series.values[static_cast<std::size_t>(from)];
   for (auto i = from; i < to; ++i) {
     const double dt = (series.t[static_cast<std::size_t>(i)] - time) / half_width;
-    basis.row(i - from).head(3) << 1.0, dt, dt * dt;
-    if (basis.cols() > 3) basis(i - from, 3) = dt * dt * dt;
+    double power = 1.0;
+    for (Eigen::Index k = 0; k < basis.cols(); ++k, power *= dt) basis(i - from, k) = power;
     values[i - from] = series.values[static_cast<std::size_t>(i)] - origin;
   }
   const Eigen::VectorXd polynomial = basis.colPivHouseholderQr().solve(values);
   return {origin + polynomial[0], polynomial[1] / half_width};
 }
 
-/// Speed that noise and counts of the sensor alone may show at an edge.
-double speed_of_noise(const Series& series, double half_width, const AxisOptions& options) {
-  const double count = resolution_of(series.values);
+/// How the slope of a polynomial scatters, for noise of 1 at samples of equal distances.
+struct SlopeScatter {
+  double parabola;     ///< variance [1/s^2]
+  double cubic = 0.0;  ///< what a cubic has more
+};
+
+/// By orthogonal polynomials: x and x^3 - (3 n^2 - 7) / 20 x.
+SlopeScatter slope_scatter(double samples, double period) {
+  const double n2 = samples * samples, once = samples * (n2 - 1.0) * period * period;
+  SlopeScatter scatter{12.0 / once};
+  const double slope = (3.0 * n2 - 7.0) / 20.0;
+  if (samples > 4.0) scatter.cubic = slope * slope * 2800.0 / (once * (n2 - 4.0) * (n2 - 9.0));
+  return scatter;
+}
+
+double noise_of(const Series& series) {
   Eigen::VectorXf moved(static_cast<Eigen::Index>(series.values.size()));
   for (std::size_t i = 0; i < series.values.size(); ++i) {
     moved[static_cast<Eigen::Index>(i)] =
         static_cast<float>(series.values[i] - series.values.front());
   }
-  const double noise = std::max(white_noise(moved), count / std::sqrt(12.0));
-  const double period = usual_period(series);
-  const double samples = std::max(static_cast<double>(options.fewest_samples),
-                                  2.0 * std::floor(half_width / period) + 1.0);
-  // The slope of a cubic scatters by 2.5 times that of a parabola, for many samples.
-  const double lever = period * std::sqrt(samples * (samples * samples - 1.0) / 12.0) /
-                       (samples < options.cubic_samples ? 1.0 : 2.5);
-  // Counts are no white noise: a slow motion keeps one for long.
-  return std::max(options.surely_moves * noise / lever, count / (samples * period));
+  return std::max(white_noise(moved), resolution_of(series.values) / std::sqrt(12.0));
+}
+
+double mean_square_of_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum / static_cast<double>(a.size());
 }
 
 }  // namespace
@@ -74,13 +84,39 @@ double speed_of_noise(const Series& series, double half_width, const AxisOptions
 AxisMotion::AxisMotion(const Series& position, double bin, std::size_t bins,
                        const AxisOptions& options)
     : bin_(bin) {
-  const double half_width = options.smoothing.value * bin;
+  const double half_width = options.smoothing.value * bin, period = usual_period(position);
+  const double samples = std::max(static_cast<double>(options.fewest_samples),
+                                  2.0 * std::floor(half_width / period + 1e-9) + 1.0);
+  const double noise = noise_of(position);
+  const SlopeScatter scatter = slope_scatter(samples, period);
+  take_edges(position, half_width, bins, 2, options);
+  double variance = scatter.parabola;
+  if (samples >= options.cubic_samples) {
+    AxisMotion cubic = *this;
+    cubic.take_edges(position, half_width, bins, 3, options);
+    // Of the two, the one that is less wrong: by flattening the motion, or by its noise, which is
+    // in their difference as well.
+    if (mean_square_of_difference(velocity_, cubic.velocity_) >
+        2.0 * scatter.cubic * noise * noise) {
+      *this = std::move(cubic);
+      variance += scatter.cubic;
+    }
+  }
+  // Counts are no white noise: a slow motion keeps one for long.
+  rest_speed_ = std::max(options.surely_moves * noise * std::sqrt(variance),
+                         resolution_of(position.values) / (samples * period));
+}
+
+void AxisMotion::take_edges(const Series& position, double half_width, std::size_t bins, int degree,
+                            const AxisOptions& options) {
+  position_.clear();
+  velocity_.clear();
   for (std::size_t edge = 0; edge <= bins; ++edge) {
-    const auto [q, u] = motion_at(position, static_cast<double>(edge) * bin, half_width, options);
+    const auto [q, u] =
+        motion_at(position, static_cast<double>(edge) * bin_, half_width, degree, options);
     position_.push_back(q);
     velocity_.push_back(u);
   }
-  rest_speed_ = speed_of_noise(position, half_width, options);
 }
 
 double AxisMotion::position(double time) const {

@@ -11,9 +11,9 @@ namespace anthrob {
 namespace discovery {
 
 /// The measured motion of a driven joint, continuous in position and velocity: at the edges of
-/// bins, polynomials through the measured positions around them; cubics between the edges. The
-/// change of velocity over a bin, and with it the inertial effort in its mean, is that of the
-/// edges.
+/// bins, parabolas through the measured positions around them, or cubics where parabolas flatten
+/// the motion by more than the noise of cubics; Hermite's cubics between the edges. The change of
+/// velocity over a bin, and with it the inertial effort in its mean, is that of the edges.
 class AxisMotion {
  public:
   /// @param position measured, two samples or more   @param bin [s]
@@ -33,9 +33,12 @@ class AxisMotion {
   bool moves(std::size_t b) const;
 
  private:
+  void take_edges(const Series& position, double half_width, std::size_t bins, int degree,
+                  const AxisOptions& options);
+
   double bin_;
   std::vector<double> position_, velocity_;  ///< at the edges
-  double rest_speed_;
+  double rest_speed_ = 0.0;
 };
 
 /// Usual distance of two samples [s].

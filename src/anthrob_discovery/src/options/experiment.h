@@ -13,10 +13,8 @@ struct AxisOptions {
   Share smoothing = 0.5;  ///< [bins] half the width of the polynomials: each sample is in one
   /// [sampling periods] longest distance of two samples that a polynomial bridges
   double most_periods = 3.5;
-  int fewest_samples = 3;  ///< of a parabola
-  /// of a cubic, whose slope scatters by 2.5 times that of a parabola, which flattens the motion;
-  /// of fewer, coarse encoders would see no motion
-  int cubic_samples = 24;
+  int fewest_samples = 3;        ///< of a parabola
+  int cubic_samples = 6;         ///< of a cubic, and more than it has coefficients
   std::size_t fewest_bins = 10;  ///< of a recording
   /// [standard errors] of a speed, up to which the joint may be at rest
   double surely_moves = 4.0;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "driven_bench.h"
 #include "experiment/axis_motion.h"
 
@@ -69,6 +71,36 @@ TEST(AxisMotion, FollowsACurveAndKnowsRest) {
   EXPECT_FALSE(motion.moves(5));  // it begins at rest
   EXPECT_GT(moving, 250u);
   EXPECT_LT(moving, 450u);
+}
+
+/// sin(5 t), 40 rows a second, read off an encoder.
+Series swing(double count) {
+  Series swing;
+  for (int i = 0; i < 400; ++i) {
+    const double t = i / 40.0;
+    swing.t.push_back(t);
+    swing.values.push_back(count * std::round(std::sin(5.0 * t) / count));
+  }
+  return swing;
+}
+
+/// rms error of the speed [rad/s], in bins of 0.2 s
+double speed_error(const Series& series) {
+  const AxisMotion motion(series, 0.2, 48, {});
+  double squares = 0.0;
+  for (std::size_t edge = 2; edge < 47; ++edge) {
+    const double t = 0.2 * static_cast<double>(edge);
+    squares += std::pow(motion.velocity_at_edge(edge) - 5.0 * std::cos(5.0 * t), 2) / 45.0;
+  }
+  return std::sqrt(squares);
+}
+
+TEST(AxisMotion, IsNotFlattenedByFewRowsOfAFineEncoderNorBentByThoseOfACoarseOne) {
+  // Of a parabola over 0.2 s: a tenth of the square of half of it times the third derivative.
+  const double flattened = 0.1 * 0.1 * 0.1 * 125.0 * std::sqrt(0.5);
+  EXPECT_LT(speed_error(swing(1e-5)), 0.1 * flattened);
+  EXPECT_NEAR(speed_error(swing(0.1)), flattened, flattened);
+  EXPECT_GT(speed_error(swing(0.1)), 0.7 * flattened);
 }
 
 }  // namespace
