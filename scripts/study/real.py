@@ -159,7 +159,8 @@ class Case:
                 break
         else:
             report = load(os.path.join(self.out, "found", "report.json"))
-            result.update({name: report[name] for name in ("verdict", "effects", "improbable", "remarks", "gap")})
+            result.update({name: report[name] for name in (
+                "verdict", "effects", "alternatives", "improbable", "remarks", "gap")})
         result["time_s"] = time.time() - began
         result["judgement"] = judgement(self.case.content.get("expected"), result)
         result["expected"] = self.case.content.get("expected")
@@ -171,9 +172,15 @@ class Case:
             return ([line.strip() for line in text if line.strip()] or ["failed without a word"])[-1]
 
 
-def is_answer(effect, wanted, laws):
+def is_answer(wanted, laws):
     """Whether one of these laws is the wanted one, at its place."""
     return any(law["id"] in wanted_ids(wanted) and wanted.get("place", law["place"]) == law["place"] for law in laws)
+
+
+def is_rival(wanted, result):
+    """Whether the report declares the wanted law to be as good as something that it names."""
+    return any(is_answer(wanted, effect["rivals"]) for effect in result["effects"]) or \
+        is_answer(wanted, result["alternatives"])
 
 
 def judgement(expected, result):
@@ -186,8 +193,8 @@ def judgement(expected, result):
         return "right" if result["verdict"] == expected else "wrong"
     worst = "right"
     for wanted in expected:
-        named = [effect for effect in result["effects"] if is_answer(effect, wanted, [effect])]
-        if not named and not any(is_answer(effect, wanted, effect["rivals"]) for effect in result["effects"]):
+        named = [effect for effect in result["effects"] if is_answer(wanted, [effect])]
+        if not named and not is_rival(wanted, result):
             return "wrong"
         if not named:
             worst = "in class"

@@ -12,11 +12,14 @@ import tempfile
 import unittest
 from unittest import mock
 
+import numpy
 import rostest
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 sys.path.insert(0, os.path.join(TOP, 'scripts', 'study'))
+import _bench  # noqa: E402
 import _study  # noqa: E402
+import axes  # noqa: E402
 import calibration  # noqa: E402
 import discovery  # noqa: E402
 import fuzz  # noqa: E402
@@ -172,7 +175,8 @@ named=$(cat "$(dirname "$2")/named" 2>/dev/null || echo law)
 [ "$named" = refused ] && { echo "anthrob_discover: too short" >&2; exit 2; }
 while [ "$1" != --out ]; do shift; done
 mkdir -p "$2"
-echo '{"verdict": "effects_found", "improbable": [], "remarks": [], "gap": {"test": {"before": 9, "recalibrated": 5.5, "after": 1.25}},
+echo '{"verdict": "effects_found", "improbable": [], "remarks": [], "alternatives":
+  [{"id": "single", "place": "elbow", "instead_of": []}], "gap": {"test": {"before": 9, "recalibrated": 5.5, "after": 1.25}},
   "effects": [{"id": "'$named'", "place": "elbow", "probability": 0.97, "rivals": [{"id": "cousin", "place": "elbow"}],
   "parameters": {"x": {"value": 1.5, "ci95": [1.25, 1.75], "unit": "Nm"}, "v": {"value": 1, "known": true}}}]}' > "$2/report.json"
 '''
@@ -229,11 +233,12 @@ class RealStudy(Study):
                 ('a', '[{id: law}]', 'other', 'wrong'), ('b', '[{id: cousin}]', 'law', 'in class'),
                 ('c', '[{id: law, sizes: {x: [2, 3]}}]', 'law', 'wrong size'), ('d', '[{id: law, place: hip}]', 'law', 'wrong'),
                 ('e', 'no_missing_effect', 'law', 'wrong'), ('f', '[{id: law}]', 'refused', 'failed'), ('g', 'null', 'law', ''),
+                ('i', '[{id: single}]', 'law', 'in class'),
                 ('h', '[{id: law}, {id: second}]', 'law', 'wrong')):
             self.case(name, self.BEGIN + 'expected: %s\n' % expected, named)
         rows = self.run_all()
         self.assertEqual([row.split(' | ')[-1].strip() for row in rows],
-                         ['wrong', 'in class', 'wrong size', 'wrong', 'wrong', 'failed', '', 'wrong'])
+                         ['wrong', 'in class', 'wrong size', 'wrong', 'wrong', 'failed', '', 'wrong', 'in class'])
         self.assertIn('anthrob_discover: too short', rows[5])
         self.assertEqual(len(self.run_all('--case', 'c')), 1)
 
@@ -253,6 +258,58 @@ class RealStudy(Study):
             self.assertIn(said, heard.getvalue())
             self.assertEqual(heard.getvalue().count('\n'), 1)
         self.assertFalse(os.path.exists('calls'))
+
+
+# Names dry friction of 0.001 Nm; of rivals, the law that bends before it slides; or one law instead of two.
+NAMER = '''#!/bin/sh
+echo examined >> calls
+while [ "$1" != --out ]; do shift; done
+mkdir -p "$2"
+echo '{"verdict": "effects_found", "improbable": [], "remarks": [], "gap": {"test": {"before": 9, "recalibrated": 5, "after": 1}},
+  "alternatives": [{"id": "joint_coulomb_asymmetric", "place": "axis", "instead_of": [{"id": "joint_coulomb"}, {"id": "b"}]}],
+  "effects": [{"id": "joint_coulomb", "place": "axis", "probability": 0.9, "rivals": [{"id": "joint_presliding", "place": "axis"}],
+  "parameters": {"torque": {"value": 0.001, "ci95": [0, 1e6], "unit": "Nm"}}}, {"id": "b", "place": "axis", "rivals": [],
+  "parameters": {}}]}' > "$2/report.json"
+'''
+
+
+class AxesStudy(Study):
+    study_of = axes
+
+    def programs(self):
+        patch = mock.patch.multiple(real, CONVERT=self.program('converter', CONVERTER),
+                                    DISCOVER=self.program('namer', NAMER))
+        patch.start()
+        self.addCleanup(patch.stop)
+        return {}
+
+    def test_what_is_named_and_what_is_as_good(self):
+        laws = ['none', 'joint_coulomb', 'joint_presliding', 'joint_coulomb_asymmetric', 'payload']
+        words = [word for law in laws for word in ('--law', law)]
+        self.study('--cases', '1', *words)
+        rows = {row['law']: row for row in _study.load('out/axes.json')}
+        self.assertEqual([rows[law]['named'] for law in laws], [False, True, False, False, False])
+        self.assertEqual([rows[law]['in_class'] for law in laws], [False, False, True, True, False])
+        self.assertEqual([rows[law]['more'] for law in laws], [0, 1, 1, 0, 2])
+        self.assertTrue(rows['joint_coulomb']['holds'])
+        self.assertFalse(os.path.exists('studies'))  # a part of the laws is no study
+        self.assertFalse(os.path.exists('out/axes/seed_1/made/00_none'))
+        self.study('--cases', '1', *words)
+        with open('calls') as calls:
+            self.assertEqual(calls.read().count('examined'), 5)
+
+    def test_a_bench_takes_what_its_parts_take(self):
+        for law, more in (('none', lambda v, q: 0.0 * v), ('joint_coulomb', lambda v, q: numpy.sign(v)),
+                          ('joint_quadratic_drag', lambda v, q: v * abs(v))):
+            bench = _bench.Bench(2, 3, law)  # of 206 rows a second, 19 bits
+            t, q, effort = bench.record('run_1').T
+            v = numpy.gradient(q, t)
+            parts = numpy.column_stack([numpy.gradient(v, t), v, numpy.sin(q), more(v, q)])
+            moves = abs(v) > 0.2 * abs(v).max()
+            found = numpy.linalg.lstsq(parts[moves], effort[moves], rcond=None)[0]
+            self.assertAlmostEqual(found[1] / bench.viscous, 1.0, delta=0.1)
+            for size in bench.truth.values():
+                self.assertAlmostEqual(found[3] / size, 1.0, delta=0.1)
 
 
 class SoakStudy(Study):
