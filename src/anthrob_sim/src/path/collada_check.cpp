@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -34,6 +35,21 @@ bool is_number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+/// The library that reads the file waits for ever at one that it takes for a part of a number.
+std::optional<std::string> control_character(const std::string& text) {
+  int line = 1;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x20 || c == '\t' || c == '\n' || c == '\r') continue;
+    std::ostringstream fault;
+    fault << "line " << line << ": control character " << static_cast<int>(code)
+          << ", which XML does not allow";
+    return fault.str();
+  }
+  return std::nullopt;
 }
 
 std::vector<std::string> words_of(const XMLElement& element) {
@@ -133,8 +149,11 @@ class ColladaCheck {
 }  // namespace
 
 std::optional<std::string> fault_of_collada(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  if (const auto fault = control_character(text)) return fault;
   tinyxml2::XMLDocument document;
-  if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     return "line " + std::to_string(document.ErrorLineNum()) +
            ": not XML: " + tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID());
   }

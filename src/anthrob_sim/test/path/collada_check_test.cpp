@@ -45,6 +45,16 @@ TEST(ColladaCheck, ASoundFileIsRead) {
   EXPECT_EQ(refusal_with("meter", "meter"), "");
 }
 
+TEST(ColladaCheck, RefusesControlCharacters) {
+  const std::string not_allowed = "which XML does not allow";
+  EXPECT_EQ(refusal_with("<p>0 2 1 0", "<p>0 2 1\f0"),
+            "line 10: control character 12, " + not_allowed);
+  EXPECT_EQ(refusal_with("meter", "me\vter"), "line 3: control character 11, " + not_allowed);
+  EXPECT_EQ(refusal_with("0.1 0 0", std::string("0.1\0 0", 6)),
+            "line 5: control character 0, " + not_allowed);
+  EXPECT_EQ(refusal_with("<p>0 2 1 0", "<p>0\t2\r1\n0"), "");
+}
+
 TEST(ColladaCheck, SaysLineElementAndWhatWasExpected) {
   EXPECT_EQ(refusal_with("count=\"12\"", "count=\",\""),
             "line 5: <float_array>: count=\",\": expected a whole number");
