@@ -72,6 +72,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
                     discovery: the blind test; with --slice K/N a part of it; also --list, --summary, --help
                     fuzz: give damaged files to every reader of files, with sanitizers
                     real: run discovery on the data of real machines; --data FOLDER
+                    threads: run on several threads, with a sanitizer; --tbb FOLDER
                     soak: watch memory, descriptors and threads of the nodes; --hours N; it begins anew
                     hours of computing; an interrupted study continues; results go to build/study/ and overwrite
                     studies/, or go to FOLDER with --out FOLDER

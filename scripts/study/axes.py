@@ -133,6 +133,7 @@ def main():
         text = page(rows, options, programs)
         write(f"{options.out}/axes.md", text)
     if of_the_study(options) and not (options.law or options.effects):
+        os.makedirs(os.path.dirname(DOCUMENT), exist_ok=True)
         write(DOCUMENT, text)
 
 

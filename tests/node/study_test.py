@@ -25,6 +25,7 @@ import discovery  # noqa: E402
 import fuzz  # noqa: E402
 import real  # noqa: E402
 import soak  # noqa: E402
+import threads  # noqa: E402
 
 # Hides "law" everywhere; lists three laws.
 MAKER = '''#!/bin/sh
@@ -310,6 +311,43 @@ class AxesStudy(Study):
             self.assertAlmostEqual(found[1] / bench.viscous, 1.0, delta=0.1)
             for size in bench.truth.values():
                 self.assertAlmostEqual(found[3] / size, 1.0, delta=0.1)
+
+
+# Passes three tests; where there is a file `race`, the sanitizer finds two of a kind.
+THREADED = '''#!/bin/sh
+echo "[  PASSED  ] 3 tests."
+[ ! -f race ] && exit
+for i in 1 2; do echo "WARNING: ThreadSanitizer: data race (pid=$i)"; done
+exit 66
+'''
+
+
+class ThreadsStudy(Study):
+    study_of = threads
+
+    def programs(self):
+        def build(_, folder):
+            os.makedirs(os.path.join(folder, 'build'), exist_ok=True)
+            for name in threads.TESTS:
+                self.program(os.path.join(folder, 'build', name), THREADED)
+
+        return {'build': build}
+
+    def test_what_is_found_is_told_once(self):
+        self.study('--tbb', 'tbb')
+        self.assertRegex(self.told(), r'\| search \| 3 \| nothing \| \d+ \|')
+        open('race', 'w').close()
+        with self.assertRaises(SystemExit) as ended:
+            self.study('--tbb', 'tbb')
+        self.assertEqual(ended.exception.code, 1)
+        self.assertRegex(self.told(), r'\| tracking \| 3 \| data race \| \d+ \|')
+
+    def test_without_the_source_of_the_library(self):
+        with self.assertRaises(SystemExit) as ended, mock.patch.object(threads, 'build', self.build):
+            self.study('--tbb', 'nowhere')
+        self.assertEqual(ended.exception.code, 2)
+
+    build = staticmethod(threads.build)
 
 
 class SoakStudy(Study):
