@@ -23,7 +23,6 @@ class Motion:
     """Moves of different lengths and heights, smooth up to the acceleration: q, v, a at the times t."""
 
     def __init__(self, draw, t):
-        self.t = t
         self.q, self.v, self.a = (numpy.zeros_like(t) for _ in range(3))
         begin, at = 0.2, 0.0
         while begin < t[-1]:
@@ -41,9 +40,9 @@ def rms(values):
     return float(numpy.sqrt(numpy.mean(numpy.square(values))))
 
 
-def held_at_rest(draw, motion, sliding):
-    """Friction [over its size]: sliding where it moves; at rest, what the controller happens to leave."""
-    friction = numpy.where(motion.moves, numpy.sign(motion.v) * sliding, 0.0)
+def dry_friction(draw, motion):
+    """Over its size [1]: against the motion; at rest, what the controller happens to leave."""
+    friction = numpy.sign(motion.v)
     edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[1], motion.moves, [1]]).astype(int)))
     for first, last in zip(edges[::2], edges[1::2]):
         friction[first:last] = draw.uniform(-1.0, 1.0)
@@ -115,18 +114,18 @@ class Bench:
         """What the motion takes [Nm]."""
         known, p = self.known(motion), self.truth
         if self.law == "joint_coulomb":
-            return known + p["torque"] * held_at_rest(draw, motion, 1.0)
+            return known + p["torque"] * dry_friction(draw, motion)
         if self.law == "joint_coulomb_asymmetric":
             sliding = numpy.where(motion.v > 0.0, p["forward"], p["backward"])
             least = min(p.values())
             return known + numpy.where(motion.moves, numpy.sign(motion.v) * sliding,
-                                       least * held_at_rest(draw, motion, 1.0))
+                                       least * dry_friction(draw, motion))
         if self.law == "joint_presliding":
             return known + p["torque"] * bristles(motion, p["distance"])
         if self.law == "joint_quadratic_drag":
             return known + p["drag"] * motion.v * abs(motion.v)
         if self.law == "joint_effort_friction":  # u - share |u| sign(v) = known
-            return known / (1.0 - p["share"] * numpy.sign(known) * held_at_rest(draw, motion, 1.0))
+            return known / (1.0 - p["share"] * numpy.sign(known) * dry_friction(draw, motion))
         if self.law == "joint_ripple":
             angle = p["periods_1"] * motion.q
             return known - p["sine_1"] * numpy.sin(angle) - p["cosine_1"] * numpy.cos(angle)
