@@ -63,9 +63,13 @@ BinnedAxis binned(const std::string& joint, const std::vector<Dataset>& recordin
 }
 
 /// What a plain axis explains of its effort while it moves: inertia, dry and viscous friction, an
-/// offset and, of a hinge, weight. @return its inertia [kg m^2, kg]; nothing if it moves too little
-std::optional<double> estimated_inertia(const BinnedAxis& axis, bool hinge,
-                                        const AxisOptions& options) {
+/// offset and, of a hinge, weight.
+struct Inertia {
+  double value = 0.0;  ///< [kg m^2, kg]
+  double share = 0.0;  ///< rms of the inertial effort over that of the effort, less its mean
+};
+
+Inertia estimated(const BinnedAxis& axis, bool hinge, const AxisOptions& options) {
   const Eigen::Index columns = hinge ? 6 : 4;
   std::vector<Eigen::VectorXd> rows;
   std::vector<double> efforts;
@@ -80,7 +84,8 @@ std::optional<double> estimated_inertia(const BinnedAxis& axis, bool hinge,
       efforts.push_back(axis.effort[r][b]);
     }
   }
-  if (rows.size() < options.fewest_bins) return std::nullopt;
+  Inertia found;
+  if (rows.size() < options.fewest_bins) return found;
   const auto count = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd basis(count, columns);
   for (Eigen::Index i = 0; i < count; ++i) basis.row(i) = rows[static_cast<std::size_t>(i)];
@@ -90,20 +95,11 @@ std::optional<double> estimated_inertia(const BinnedAxis& axis, bool hinge,
   for (double& s : size) s = s > 0.0 ? s : 1.0;
   const Eigen::VectorXd fit =
       (basis * size.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(effort);
-  return std::max(0.0, fit[0] / size[0]);
-}
-
-/// Rms of the inertial effort over that of the effort, while it moves.
-double inertial_share(const BinnedAxis& axis, double inertia) {
-  double inertial = 0.0, all = 0.0;
-  for (std::size_t r = 0; r < axis.effort.size(); ++r) {
-    for (std::size_t b = 0; b < axis.effort[r].size(); ++b) {
-      if (!axis.moves[r][b]) continue;
-      inertial += std::pow(inertia * axis.acceleration[r][b], 2);
-      all += axis.effort[r][b] * axis.effort[r][b];
-    }
-  }
-  return all > 0.0 ? std::sqrt(inertial / all) : 0.0;
+  found.value = std::max(0.0, fit[0] / size[0]);
+  const Eigen::VectorXd inertial = found.value * basis.col(0);
+  const double all = effort.norm();
+  found.share = all > 0.0 ? inertial.norm() / all : 0.0;
+  return found;
 }
 
 struct Scatter {
@@ -163,6 +159,7 @@ std::vector<double> lengths_of_bins(const RobotModel& model, const std::vector<D
 struct PlannedBins {
   double length = 0.0;  ///< [s]
   std::vector<BinnedAxis> axes;
+  std::vector<Inertia> inertias;  ///< as these bins show them
 };
 
 PlannedBins planned(const RobotModel& model, const std::vector<Dataset>& recordings, double length,
@@ -170,26 +167,11 @@ PlannedBins planned(const RobotModel& model, const std::vector<Dataset>& recordi
   PlannedBins plan;
   plan.length = length;
   for (const JointModel& joint : model.skeleton->joints) {
-    if (joint.driven) plan.axes.push_back(binned(joint.name, recordings, length, options));
+    if (!joint.driven) continue;
+    plan.axes.push_back(binned(joint.name, recordings, length, options));
+    plan.inertias.push_back(estimated(plan.axes.back(), joint.type == JointType::kHinge, options));
   }
   return plan;
-}
-
-/// Of all driven joints, from the longest bins in which they move: noise of the acceleration, which
-/// is large in short ones, would hide it.
-std::vector<double> inertias_of(const RobotModel& model, const std::vector<PlannedBins>& plans,
-                                const AxisOptions& options) {
-  std::vector<double> inertias;
-  for (const JointModel& joint : model.skeleton->joints) {
-    if (!joint.driven) continue;
-    std::optional<double> found;
-    for (std::size_t i = 0; i < plans.size() && !found; ++i) {
-      found = estimated_inertia(plans[i].axes[inertias.size()], joint.type == JointType::kHinge,
-                                options);
-    }
-    inertias.push_back(found.value_or(0.0));
-  }
-  return inertias;
 }
 
 /// What scatters in each second, of all axes.
@@ -198,11 +180,11 @@ struct PlanScore {
   double error = 0.0;  ///< its standard error
 };
 
-std::optional<PlanScore> score_of(const PlannedBins& plan, const std::vector<double>& inertias,
+std::optional<PlanScore> score_of(const PlannedBins& plan, const std::vector<Inertia>& inertias,
                                   const AxisOptions& options) {
   std::optional<PlanScore> score;
   for (std::size_t a = 0; a < plan.axes.size(); ++a) {
-    const auto scatter = scatter_of(plan.axes[a], inertias[a], options);
+    const auto scatter = scatter_of(plan.axes[a], inertias[a].value, options);
     if (!scatter) continue;
     if (!score) score.emplace();
     score->value += scatter->logarithm + 0.5 * std::log(plan.length);
@@ -226,15 +208,14 @@ double mixed_share(const PlannedBins& plan) {
 }
 
 std::vector<int> joints_of_hidden_inertia(const RobotModel& model, const PlannedBins& plan,
-                                          const std::vector<double>& inertias,
                                           const AxisOptions& options) {
   std::vector<int> hidden;
   std::size_t axis = 0;
   for (std::size_t j = 0; j < model.skeleton->joints.size(); ++j) {
     if (!model.skeleton->joints[j].driven) continue;
-    const double share = inertial_share(plan.axes[axis], inertias[axis]);
-    ++axis;
-    if (share < options.inertia_shows.value) hidden.push_back(static_cast<int>(j));
+    if (plan.inertias[axis++].share < options.inertia_shows.value) {
+      hidden.push_back(static_cast<int>(j));
+    }
   }
   return hidden;
 }
@@ -246,24 +227,23 @@ AxisPlan plan_axes(const RobotModel& model, const std::vector<Dataset>& recordin
   const std::vector<double> lengths = lengths_of_bins(model, recordings, options);
   std::vector<PlannedBins> plans;
   for (const double length : lengths) plans.push_back(planned(model, recordings, length, options));
-  const std::vector<double> inertias = inertias_of(model, plans, options);
-  std::vector<std::optional<PlanScore>> scores;
-  for (const PlannedBins& plan : plans) scores.push_back(score_of(plan, inertias, options));
   // Longest first: a shorter one must be better, not only as good.
   std::size_t chosen = 0;
   for (std::size_t i = 1; i < plans.size(); ++i) {
-    if (!scores[i]) continue;
-    const auto& best = scores[chosen];
-    if (!best || scores[i]->value < best->value - options.clearly_better) chosen = i;
+    const auto best = score_of(plans[chosen], plans[chosen].inertias, options),
+               score = score_of(plans[i], plans[i].inertias, options);
+    if (score && (!best || score->value < best->value - options.clearly_better)) chosen = i;
   }
-  // But in long bins, rest and motion mix: then one that is about as good.
-  const std::optional<PlanScore> best = scores[chosen];
+  // But in long bins, rest and motion mix: then one that is about as good, for the same inertia.
+  const std::vector<Inertia> inertias = plans[chosen].inertias;
+  const auto best = score_of(plans[chosen], inertias, options);
   for (std::size_t i = chosen; best && i < plans.size(); ++i) {
-    if (!scores[i] || scores[i]->value > best->value + best->error) continue;
+    const auto score = score_of(plans[i], inertias, options);
+    if (!score || score->value > best->value + best->error) continue;
     chosen = i;
     if (mixed_share(plans[i]) <= options.most_mixed.value) break;
   }
-  return {lengths[chosen], joints_of_hidden_inertia(model, plans[chosen], inertias, options)};
+  return {lengths[chosen], joints_of_hidden_inertia(model, plans[chosen], options)};
 }
 
 std::vector<std::string> remarks_on_plan(const RobotModel& model, const AxisPlan& plan) {
