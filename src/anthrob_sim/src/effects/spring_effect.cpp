@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/rising_root.h"
+
 namespace anthrob {
 
 ParallelForce::ParallelForce(std::shared_ptr<const SeriesElasticElement> inner,

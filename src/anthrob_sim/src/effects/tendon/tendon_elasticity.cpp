@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "anthrob_sim/effects/spring_effect.h"
+#include "core/rising_root.h"
 
 namespace anthrob {
 namespace {
