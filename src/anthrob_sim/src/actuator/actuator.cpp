@@ -36,6 +36,14 @@ std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const Conf
   return factory_of(kind)(kind, muscle, step);
 }
 
+std::shared_ptr<const Actuator> make_drive_motor(const ConfigNode& kind, double ratio,
+                                                 double step) {
+  if (kind.text("type") != "dc_motor") {
+    kind.at("type").fail_expected("dc_motor: only a motor drives a joint");
+  }
+  return DcMotor::build(kind, 1.0 / ratio, 0.0, step);
+}
+
 double read_rest_tendon_length(const ConfigNode& muscle) {
   return muscle.number("rest_tendon_length", {0.0, 10.0, true, false}, "m");
 }

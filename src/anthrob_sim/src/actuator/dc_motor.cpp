@@ -71,12 +71,14 @@ void DcMotor::advance_with_friction(double input, const GearLaw::Load& load, Sta
     return;
   }
   const double before = s.velocity;
-  const double position = s.position;
+  const double position = s.position, current = s.current;
   apply(input, load.torque + std::copysign(load.friction, before), s);
   if (before * s.velocity < 0.0) {
     // Friction brings the shaft to rest; whether it then moves on is for the next step to say.
     s.position = position + 0.5 * step_ * before * before / (before - s.velocity);
     s.velocity = 0.0;
+    // Without what turning back would have induced.
+    s.current = stuck_keep_ * current + stuck_gain_ * input;
   }
 }
 
@@ -104,6 +106,12 @@ double DcMotor::holding_input(double, double load) const {
 
 std::shared_ptr<const Actuator> DcMotor::load(const ConfigNode& kind, const ConfigNode& muscle,
                                               double step) {
+  const double radius = muscle.number("spindle_radius", {0.0, 0.5, true, false}, "m");
+  return build(kind, radius, read_rest_tendon_length(muscle), step);
+}
+
+std::shared_ptr<const Actuator> DcMotor::build(const ConfigNode& kind, double spindle_radius,
+                                               double rest_tendon_length, double step) {
   const ConfigNode motor = kind.at("motor"), gear = kind.at("gear");
   Parameters p;
   p.winding_resistance = motor.number("resistance", Bounds::positive(), "ohm");
@@ -116,8 +124,8 @@ std::shared_ptr<const Actuator> DcMotor::load(const ConfigNode& kind, const Conf
               gear.number("inertia", Bounds::nonnegative(), "kg m^2");
   p.ratio = gear.number("ratio", Bounds::positive(), "1");
   p.friction_torque = gear.number("friction_torque", Bounds::nonnegative(), "Nm");
-  p.spindle_radius = muscle.number("spindle_radius", {0.0, 0.5, true, false}, "m");
-  p.rest_tendon_length = read_rest_tendon_length(muscle);
+  p.spindle_radius = spindle_radius;
+  p.rest_tendon_length = rest_tendon_length;
   p.voltage_limit = kind.number("nominal_voltage", Bounds::positive(), "V");
   return std::make_shared<DcMotor>(p, make_gear_law(gear), step);
 }

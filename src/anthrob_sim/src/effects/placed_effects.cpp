@@ -45,10 +45,23 @@ std::vector<std::string> split_place(const std::string& place) {
   return parts;
 }
 
+bool acts_on(const EffectInfo& effect, const MuscleModel& muscle) {
+  if (!muscle.is_drive()) return true;
+  switch (effect.seam) {
+    case Seam::kSpindle:
+    case Seam::kTendon:
+    case Seam::kSpring:
+    case Seam::kPath:
+      return false;
+    default:
+      return true;
+  }
+}
+
 std::vector<std::string> MuscleEffect::places(const RobotModel& robot) const {
   std::vector<std::string> list;
   for (const MuscleModel& muscle : robot.muscles) {
-    if (fits(muscle)) list.push_back(muscle.name);
+    if (acts_on(info(), muscle) && fits(muscle)) list.push_back(muscle.name);
   }
   if (!list.empty()) list.push_back(kAll);
   return list;
@@ -57,7 +70,8 @@ std::vector<std::string> MuscleEffect::places(const RobotModel& robot) const {
 void MuscleEffect::build_in(const EffectSetting& setting, ModelDraft& draft) const {
   for (std::size_t i = 0; i < draft.robot.muscles.size(); ++i) {
     const MuscleModel& muscle = draft.robot.muscles[i];
-    if ((setting.place() == kAll || setting.place() == muscle.name) && fits(muscle)) {
+    const bool meant = setting.place() == kAll || setting.place() == muscle.name;
+    if (meant && acts_on(info(), muscle) && fits(muscle)) {
       change(setting, draft, i);
     }
   }
@@ -66,6 +80,7 @@ void MuscleEffect::build_in(const EffectSetting& setting, ModelDraft& draft) con
 std::vector<std::string> PathEffect::places(const RobotModel& robot) const {
   std::vector<std::string> list;
   for (const MuscleModel& muscle : robot.muscles) {
+    if (muscle.is_drive()) continue;
     bool any = false;
     const auto& obstacles = muscle.path->obstacles();
     for (const PathObstacle& obstacle : obstacles) {
@@ -82,7 +97,7 @@ std::vector<std::string> PathEffect::places(const RobotModel& robot) const {
 void PathEffect::build_in(const EffectSetting& setting, ModelDraft& draft) const {
   const std::vector<std::string> place = split_place(setting.place());
   for (MuscleModel& muscle : draft.robot.muscles) {
-    if (place[0] != kAll && place[0] != muscle.name) continue;
+    if (muscle.is_drive() || (place[0] != kAll && place[0] != muscle.name)) continue;
     std::vector<PathObstacle> obstacles = muscle.path->obstacles();
     for (PathObstacle& obstacle : obstacles) {
       const bool meant = place.size() == 1 || std::to_string(obstacle.entry) == place[1];

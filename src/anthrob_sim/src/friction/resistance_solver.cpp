@@ -18,6 +18,10 @@ constexpr double kAtRest = 1e-9;
 /// If friction was predicted with this accuracy, the tangent is used [1]; of bristles, of their
 /// torque.
 constexpr double kForeseen = 1e-6;
+/// Drives are solved one after the other, until none changes its joint's velocity by more [rad/s,
+/// m/s].
+constexpr double kShaftTolerance = 1e-9;
+constexpr int kMaxShaftRounds = 100;
 /// Factor by which a sweep is extrapolated where speeds are unstable.
 constexpr double kLeap = 6.0;
 
@@ -84,8 +88,8 @@ void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double
   }
   for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
     assemble(tree, tendons);
-    const bool stable = solve_linear();
-    if (!stable) leave_unstable_speed(tree, tendons);
+    const bool stable = solve_linear(inputs);
+    if (!stable) leave_unstable_speed(tree, tendons, inputs);
     falling_ = stable;
     u_ = next_;
     const bool revised = revise_dry_friction();
@@ -105,6 +109,9 @@ void ResistanceSolver::follow(const KinematicTree& tree, const std::vector<doubl
   for (SlidingTendon* tendon : tendons) slide(*tendon, true);
   u_ = Eigen::Map<const Eigen::VectorXd>(velocity.data(), u_.size());
   for (SlidingTendon* tendon : tendons) slide(*tendon, false);
+  if (inputs.shafts) {
+    for (DriveShaft* shaft : *inputs.shafts) shaft->solve(u_[shaft->dof()], 0.0);
+  }
   commit(tendons, inputs);
   joint_torque_.setZero();
   iterations_ = 0;
@@ -329,18 +336,19 @@ void ResistanceSolver::add_turning(const DryJoint& dry, const JointModel& joint)
 /// within this step. A sweep without negative slopes leads in the right direction, but hardly
 /// moves.
 void ResistanceSolver::leave_unstable_speed(const KinematicTree& tree,
-                                            const std::vector<SlidingTendon*>& tendons) {
+                                            const std::vector<SlidingTendon*>& tendons,
+                                            const JointInputs& inputs) {
   for (SlidingTendon* tendon : tendons) {
     for (double& steepness : tendon->steepness) steepness = std::max(0.0, steepness);
     for (double& slope : tendon->slope) slope = std::max(0.0, slope);
   }
   assemble(tree, tendons);
-  solve_linear();
+  solve_linear(inputs);
   next_ += (kLeap - 1.0) * (next_ - u_);
 }
 
 /// False if the system is not positive definite.
-bool ResistanceSolver::solve_linear() {
+bool ResistanceSolver::solve_linear(const JointInputs& inputs) {
   factor_ = system_;
   next_ = rhs_;
   if (!dry_.empty()) {
@@ -355,7 +363,36 @@ bool ResistanceSolver::solve_linear() {
   Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(factor_);
   if (cholesky.info() != Eigen::Success) return false;
   cholesky.solveInPlace(next_);
+  if (!inputs.shafts) return true;
+  const std::vector<DriveShaft*>& shafts = *inputs.shafts;
+  const Eigen::Index count = static_cast<Eigen::Index>(shafts.size());
+  responses_.setZero(next_.size(), count);
+  for (Eigen::Index s = 0; s < count; ++s) {
+    const int dof = shafts[s]->dof();
+    if (!held_[dof]) responses_(dof, s) = step_;
+  }
+  cholesky.solveInPlace(responses_);
+  for (Eigen::Index s = 0; s < count; ++s) next_ += shafts[s]->torque() * responses_.col(s);
+  turn_shafts(shafts);
+  for (const DriveShaft* shaft : shafts) rhs_[shaft->dof()] += step_ * shaft->torque();
   return true;
+}
+
+/// The drives' torques and the velocities that go with them. Each finds its own exactly, the others
+/// held: coordinate descent on a convex function, as motors resist being turned.
+void ResistanceSolver::turn_shafts(const std::vector<DriveShaft*>& shafts) {
+  for (int round = 0; round < kMaxShaftRounds; ++round) {
+    double largest = 0.0;
+    for (std::size_t s = 0; s < shafts.size(); ++s) {
+      DriveShaft& shaft = *shafts[s];
+      const auto column = responses_.col(static_cast<Eigen::Index>(s));
+      const double response = column[shaft.dof()];
+      const double change = shaft.solve(next_[shaft.dof()] - response * shaft.torque(), response);
+      next_ += change * column;
+      largest = std::max(largest, std::abs(change) * response);
+    }
+    if (largest < kShaftTolerance || shafts.size() == 1) break;
+  }
 }
 
 bool ResistanceSolver::revise_dry_friction() {

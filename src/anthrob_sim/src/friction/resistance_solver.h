@@ -6,14 +6,15 @@
 #include "anthrob_sim/friction/friction_law.h"
 #include "anthrob_sim/skeleton/kinematic_tree.h"
 #include "friction/bristle.h"
+#include "friction/drive_shaft.h"
 #include "friction/sliding_tendon.h"
 
 namespace anthrob {
 
 /// Finds, in joint coordinates, the velocity at the end of a step under everything that resists
 /// motion: viscous and dry joint friction (3.6), drag, joint stops, tendons sliding over eyelets
-/// (4.75), (4.76). All are taken at the end of the step, so that steep friction neither rings nor
-/// creeps at a step of 1 ms:
+/// (4.75), (4.76), and the motors of drives. All are taken at the end of the step, so that steep
+/// friction neither rings nor creeps at a step of 1 ms:
 ///   M (u' - u) = h (tau - bias + resistance(u'))
 /// Newton's method on that equation, primal-dual in the friction of tendons; joints held by dry
 /// friction are an active set. Where friction falls with speed faster than inertia allows, the
@@ -30,6 +31,7 @@ class ResistanceSolver {
     const double* loads = nullptr;    ///< forces that joints carry [N]
     const double* efforts = nullptr;  ///< that drive them [Nm, N]
     double* bristles = nullptr;       ///< state of presliding friction, see friction/bristle.h
+    const std::vector<DriveShaft*>* shafts = nullptr;  ///< of drives: get their torques
   };
 
   ResistanceSolver(const SkeletonModel& model, double step);
@@ -56,7 +58,7 @@ class ResistanceSolver {
 
   /// Velocity at the end of the step.
   const Eigen::VectorXd& velocity() const { return u_; }
-  /// Generalised forces of joint friction and stops that belong to it.
+  /// Generalised forces of joint friction and stops that belong to it, without those of drives.
   const Eigen::VectorXd& joint_torque() const { return joint_torque_; }
   /// How many sweeps the last solve took.
   int iterations() const { return iterations_; }
@@ -100,8 +102,10 @@ class ResistanceSolver {
   void add_tendon(const SlidingTendon& tendon);
   void add_dry_friction();
   void add_turning(const DryJoint& dry, const JointModel& joint);
-  bool solve_linear();
-  void leave_unstable_speed(const KinematicTree& tree, const std::vector<SlidingTendon*>& tendons);
+  bool solve_linear(const JointInputs& inputs);
+  void turn_shafts(const std::vector<DriveShaft*>& shafts);
+  void leave_unstable_speed(const KinematicTree& tree, const std::vector<SlidingTendon*>& tendons,
+                            const JointInputs& inputs);
   bool revise_dry_friction();
   bool is_solved(const KinematicTree& tree) const;
   void finish(const std::vector<SlidingTendon*>& tendons, const JointInputs& inputs);
@@ -117,6 +121,7 @@ class ResistanceSolver {
   Eigen::VectorXd damping_;  ///< of this step, viscous and quadratic [Nms/rad, Ns/m]
   Eigen::VectorXd
       surprise_;  ///< torque of tendons and bristles that the last sweep did not predict [Nm, N]
+  Eigen::MatrixXd responses_;        ///< of velocities to the torques of drives, by column
   Eigen::MatrixXd system_, factor_;  ///< above the diagonal complete only where joints are dry
   int iterations_ = 0;
   bool falling_ = false;  ///< allow negative friction slopes in the linearisation

@@ -163,6 +163,11 @@ class Builder {
     if (config_.has("muscles")) {
       for (const auto& [name, node] : config_.at("muscles").entries()) add_muscle(name, node);
     }
+    if (config_.has("joints")) {
+      for (const auto& [name, node] : config_.at("joints").entries()) {
+        if (node.has("drive")) add_drive(skeleton_->find_joint(name), node.at("drive"));
+      }
+    }
     read_unused_kinds();
   }
 
@@ -198,6 +203,49 @@ class Builder {
     model_->muscles.push_back(read_muscle(name, node));
   }
 
+  void add_drive(int joint, const ConfigNode& node) {
+    const JointModel& model = skeleton_->joints[joint];
+    if (model.type == JointType::kBall) {
+      node.fail("only hinge and prismatic joints can have a drive");
+    }
+    if (model.driven) {
+      node.fail("expected either 'drive', whose motor makes the effort, or 'driven: true'");
+    }
+    const bool slide = model.type == JointType::kPrismatic;
+    const std::string torque = slide ? "N" : "Nm", angle = slide ? "m" : "rad";
+    MuscleModel drive;
+    drive.name = model.name + "_drive";
+    drive.key = node.path();
+    if (model_->find_muscle(drive.name) >= 0) {
+      node.fail("a muscle has the name of this drive, '" + drive.name + "'");
+    }
+    Transmission transmission;
+    double ratio = 1.0;
+    if (node.has("transmission")) {
+      const ConfigNode shaft = node.at("transmission");
+      ratio = shaft.number_or("ratio", 1.0, Bounds::positive(), slide ? "1/m" : "1");
+      if (shaft.has("stiffness")) {
+        transmission.stiffness =
+            shaft.number("stiffness", Bounds::positive(), torque + "/" + angle);
+      } else if (shaft.has("damping")) {
+        shaft.at("damping").fail("a transmission without 'stiffness' is rigid: nothing damps it");
+      }
+      transmission.damping =
+          shaft.number_or("damping", 0.0, Bounds::nonnegative(), torque + "s/" + angle);
+    }
+    drive.transmit(transmission);
+    drive.actuator = make_drive_motor(kind("actuators", node.at("actuator")), ratio, options_.step);
+    drive.path = std::make_shared<PathModel>(*skeleton_, joint);
+    if (node.has("controller")) {
+      drive.has_controller = true;
+      read_controller(kind("controllers", node.at("controller")), drive);
+      ecu::read_gains(node, drive.controller);
+    } else if (node.has("gains")) {
+      node.at("gains").fail("only a drive with a controller has gains");
+    }
+    model_->muscles.push_back(std::move(drive));
+  }
+
   /// The entry of a library of kinds that a muscle names.
   ConfigNode kind(const std::string& library, const ConfigNode& choice) {
     const std::string name = choice.as_text();
@@ -211,6 +259,7 @@ class Builder {
   MuscleModel read_muscle(const std::string& name, const ConfigNode& node) {
     MuscleModel muscle;
     muscle.name = name;
+    muscle.key = node.path();
     muscle.actuator = make_actuator(kind("actuators", node.at("actuator")), node, options_.step);
     muscle.path = read_path(node);
     const int segments = static_cast<int>(muscle.path->segment_count());

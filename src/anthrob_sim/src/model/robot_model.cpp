@@ -3,8 +3,14 @@
 #include "anthrob_core/errors.h"
 #include "anthrob_core/nearest_name.h"
 #include "anthrob_sim/actuator/actuator.h"
+#include "spring/shaft_spring.h"
 
 namespace anthrob {
+
+void MuscleModel::transmit(const Transmission& by) {
+  transmission = by;
+  spring = std::make_shared<ShaftSpring>(by.stiffness, by.damping, by.backlash);
+}
 
 const GearedMotor* MuscleModel::motor() const {
   return dynamic_cast<const GearedMotor*>(actuator.get());

@@ -8,6 +8,7 @@
 #include "anthrob_sim/spring/series_elastic_element.h"
 #include "core/delay_line.h"
 #include "friction/sliding_tendon.h"
+#include "muscle/motor_shaft.h"
 
 namespace anthrob {
 
@@ -42,6 +43,10 @@ Muscle::Muscle(const MuscleModel& model, const SkeletonModel& skeleton, const Se
     command_delay_offset_ = store.reserve(command_delay_->state_size());
   }
 
+  if (model.is_drive()) {
+    shaft_ = std::make_unique<MotorShaft>(*model.actuator, *model.transmission,
+                                          skeleton.joints[path.joint()].velocity_offset, step);
+  }
   const auto spring = static_cast<std::size_t>(model.spring_segment);
   path_before_spring_moves_ = false;
   for (std::size_t i = 0; i < spring; ++i) {
@@ -85,11 +90,21 @@ void Muscle::place(const std::vector<BodyState>& bodies, double position) {
   for (std::size_t i = 0; i < model_.path->state_size(); ++i) path_state()[i] = 0.0;
   model_.actuator->place(position, actuator_state());
   path_.initialise(bodies, path_state());
+  turn_along();
   relax();
+}
+
+void Muscle::turn_along() {
+  if (!model_.is_drive() || std::isfinite(model_.transmission->stiffness)) return;
+  const double play = 0.5 * model_.transmission->backlash;
+  const double lag = std::clamp(expansion(), -play, play);
+  const double position = model_.actuator->position_for(path_.length() - lag);
+  model_.actuator->place(position, actuator_state());
 }
 
 void Muscle::follow(const std::vector<BodyState>& bodies) {
   path_.update(bodies, path_state());
+  turn_along();
   relax();
 }
 
@@ -187,9 +202,9 @@ void Muscle::sense(std::uint64_t step_index, const ecu::Measurement& seen) {
   m.position = measure(kPosition, seen.position);
   m.velocity = measure(kVelocity, seen.velocity);
   m.current = measure(kCurrent, seen.current);
+  memory().force_reading = m.force = measure(kForce, seen.force);
   // As the ECU: a tendon does not push, below zero there are only noise and offset.
-  memory().force_reading = measure(kForce, seen.force);
-  m.force = std::max(memory().force_reading, 0.0);
+  if (!model_.is_drive()) m.force = std::max(m.force, 0.0);
 }
 
 void Muscle::control(std::uint64_t step_index) {
@@ -228,7 +243,22 @@ void Muscle::delay_command(ecu::Mode& mode, double& reference) {
                                                        : command_delay_->nearest(1, state);
 }
 
+void Muscle::prepare_drive(const KinematicTree& tree, double input) {
+  if (!shaft_) return;
+  const Control& c = memory();
+  const int dof = shaft_->dof();
+  const MotorShaft::Motion motion = {input, drive() == Drive::kImposed, c.imposed_position,
+                                     c.imposed_velocity};
+  shaft_->prepare(actuator_state(), motion, expansion(), tension(0), tree.mass_matrix()(dof, dof),
+                  tree.velocities()[dof]);
+}
+
+DriveShaft* Muscle::shaft() {
+  return shaft_.get();
+}
+
 void Muscle::prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau) {
+  if (shaft_) return;
   const std::size_t first =
       sliding_obstacles_.empty() ? model_.path->segment_count() : sliding_obstacles_.front();
   for (std::size_t i = 0; i < first; ++i) {
@@ -262,6 +292,10 @@ void Muscle::prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau) {
 }
 
 void Muscle::finish_sliding() {
+  if (shaft_) {
+    tension_slot(0) = shaft_->torque();
+    return;
+  }
   double tension = spring_tension();
   std::size_t next = 0;
   for (std::size_t i = model_.spring_segment + 1; i < model_.path->segment_count(); ++i) {
@@ -288,7 +322,9 @@ void Muscle::update(const std::vector<BodyState>& bodies, const KinematicTree& t
   const double stretched = expansion();
   c.expansion_rate = (stretched - c.expansion) / step_;
   c.expansion = stretched;
-  tension_slot(model_.spring_segment) = model_.spring->advance(stretched, spring_state());
+  const double tension = model_.spring->advance(stretched, spring_state());
+  if (shaft_) return;  // its torque is of the motion within the step
+  tension_slot(model_.spring_segment) = tension;
   update_tensions_before_spring(tree);
 }
 

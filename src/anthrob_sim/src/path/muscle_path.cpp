@@ -35,6 +35,21 @@ PathModel::PathModel(const SkeletonModel& skeleton, std::vector<PathObstacle> ob
   }
 }
 
+PathModel::PathModel(const SkeletonModel& skeleton, int joint)
+    : joint_(joint), tree_(std::make_shared<KinematicTree>(skeleton)) {
+  const JointModel& model = skeleton.joints[joint];
+  obstacles_.resize(2);
+  obstacles_[0].body = model.parent;
+  obstacles_[0].point_B =
+      skeleton.bodies[model.parent].X_LB.inverse() * (model.X_PC_rest * model.center_C);
+  obstacles_[1].body = model.child;
+  obstacles_[1].point_B = skeleton.bodies[model.child].X_LB.inverse() * model.center_C;
+  state_offsets_ = {0, 0};
+  state_size_ = 1;  // the last position, for whole turns
+  joints_ = {{{joint, 1.0}}};
+  static_ = {false};
+}
+
 /// Neighbours on the surface's own body do not move in its frame.
 void PathModel::prepare_surface(std::size_t i) {
   if (!obstacles_[i].surface) return;
@@ -68,6 +83,7 @@ void MusclePath::initialise(const std::vector<BodyState>& bodies, StateView stat
 }
 
 void MusclePath::update(const std::vector<BodyState>& bodies, StateView state) {
+  if (model_.joint() >= 0) return update_drive(bodies, state);
   const auto& list = model_.obstacles();
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (list[i].surface) {
@@ -102,6 +118,12 @@ void MusclePath::update_point_segment(const std::vector<BodyState>& bodies, std:
   // Coincident points pull nowhere; any direction serves.
   segment.direction_W = segment.length > 0.0 ? Vec3(line / segment.length) : Vec3(Vec3::UnitX());
   segment.pull_W = segment.direction_W;
+}
+
+void MusclePath::update_drive(const std::vector<BodyState>& bodies, StateView state) {
+  update_point_segment(bodies, 0);
+  state[0] = model_.tree()->position(model_.joint(), bodies, state[0]);
+  length_ = -state[0];
 }
 
 /// Whether both ends of the piece between two points, to which a segment belongs, are one place.
@@ -151,6 +173,10 @@ void MusclePath::update_surface(const std::vector<BodyState>& bodies, StateView 
 
 void MusclePath::add_moment_arms(std::size_t i, double scale, const KinematicTree& tree,
                                  double* target) const {
+  if (model_.joint() >= 0) {
+    target[tree.model().joints[model_.joint()].velocity_offset] += scale;
+    return;
+  }
   const PathSegment& segment = segments_[i];
   for (const JointOnPath& step : model_.joints_of_segment(i)) {
     const JointModel& joint = tree.model().joints[step.joint];

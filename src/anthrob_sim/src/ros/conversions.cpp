@@ -33,7 +33,8 @@ std::vector<ecu::MuscleChannel> muscle_channels(const RobotModel& model) {
     if (muscle.has_controller) {
       const double volts = muscle.controller.voltage_limit;
       channel.modes = {true, true, true, muscle.has_force_sensor()};
-      channel.lowest = {-volts, -limits.position, -limits.current, 0.0};
+      const double lowest_force = muscle.is_drive() ? -limits.force : 0.0;
+      channel.lowest = {-volts, -limits.position, -limits.current, lowest_force};
       channel.highest = {volts, limits.position, limits.current, limits.force};
     } else {
       channel.modes = {channel.takes_commands, false, false, false};

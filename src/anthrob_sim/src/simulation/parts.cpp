@@ -37,7 +37,10 @@ Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
   }
   for (Muscle& muscle : muscles_) {
     if (!muscle.sliding().contacts.empty()) sliding_.push_back(&muscle.sliding());
+    if (muscle.shaft()) shafts_.push_back(muscle.shaft());
   }
+  lines_.resize(muscles_.size());
+  if (!shafts_.empty()) driving_.resize(skeleton.joints.size(), 0.0);
   dissipation_offset_ = store_.reserve(1);
   measured_offset_ = store_.reserve(skeleton.joints.size());
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
@@ -64,7 +67,6 @@ void Simulation::Parts::reserve_effects() {
   }
   if (has_bristles_) bristles_offset_ = store_.reserve(skeleton.joints.size());
   if (!model_->joint_torques.empty()) joint_torque_.setZero(skeleton.velocity_count);
-  if (!model_->power_effects.empty()) lines_.resize(muscles_.size());
   for (const auto& effect : model_->power_effects) {
     power_offsets_.push_back(store_.reserve(effect->state_size()));
   }
@@ -115,6 +117,7 @@ ResistanceSolver::JointInputs Simulation::Parts::joint_inputs() const {
   if (joint_loads_.wanted()) inputs.loads = store_.at(loads_offset_).data();
   inputs.efforts = acting_.data();
   if (has_bristles_) inputs.bristles = store_.at(bristles_offset_).data();
+  if (!shafts_.empty()) inputs.shafts = &shafts_;
   return inputs;
 }
 
@@ -132,6 +135,7 @@ double Simulation::Parts::bristle_energy() const {
 
 void Simulation::Parts::step_once() {
   for (Muscle& muscle : muscles_) muscle.control(step_index_);
+  find_voltages();
 
   tree_.update_dynamics(skeleton_.bodies(), model_->gravity);
   tau_.setZero();
@@ -142,7 +146,10 @@ void Simulation::Parts::step_once() {
   }
   if (!model_->joint_torques.empty()) add_joint_torques();
   wrenches_.add_generalised(tree_, skeleton_.bodies(), tau_);
-  for (Muscle& muscle : muscles_) muscle.prepare_sliding(tree_, tau_);
+  for (std::size_t m = 0; m < muscles_.size(); ++m) {
+    muscles_[m].prepare_sliding(tree_, tau_);
+    muscles_[m].prepare_drive(tree_, lines_[m].voltage);
+  }
   if (!posture_.active()) {
     resistance_.solve(tree_, q_, tau_, sliding_, joint_inputs());
   } else {
@@ -218,19 +225,20 @@ void Simulation::Parts::add_joint_torques() {
   tau_ += joint_torque_;
 }
 
-void Simulation::Parts::advance_actuators() {
-  if (model_->power_effects.empty()) {
-    for (Muscle& muscle : muscles_) muscle.advance_actuator(muscle.voltage());
-    return;
-  }
+void Simulation::Parts::find_voltages() {
+  for (std::size_t m = 0; m < muscles_.size(); ++m) lines_[m].voltage = muscles_[m].voltage();
+  if (model_->power_effects.empty()) return;
   for (std::size_t m = 0; m < muscles_.size(); ++m) {
     // A motor that is moved from outside draws nothing.
-    const bool imposed = muscles_[m].drive() == Drive::kImposed;
-    lines_[m] = {imposed ? 0.0 : muscles_[m].voltage(), muscles_[m].actuator().current};
+    if (muscles_[m].drive() == Drive::kImposed) lines_[m].voltage = 0.0;
+    lines_[m].current = muscles_[m].actuator().current;
   }
   for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
     model_->power_effects[i]->apply(lines_, store_.at(power_offsets_[i]));
   }
+}
+
+void Simulation::Parts::advance_actuators() {
   for (std::size_t m = 0; m < muscles_.size(); ++m) muscles_[m].advance_actuator(lines_[m].voltage);
 }
 
@@ -242,6 +250,7 @@ void Simulation::Parts::apply_wrenches() {
     skeleton_.add_wrench(body, force_W, (point_W - bodies[body].X_WB.p).cross(force_W));
   };
   for (const Muscle& muscle : muscles_) {
+    if (muscle.model().is_drive()) continue;
     const PathModel& path = *muscle.model().path;
     for (std::size_t i = 0; i < path.segment_count(); ++i) {
       if (path.joints_of_segment(i).empty()) continue;
@@ -261,6 +270,10 @@ void Simulation::Parts::apply_wrenches() {
 void Simulation::Parts::apply_joint_efforts() {
   const auto& bodies = skeleton_.bodies();
   const auto& joints = model_->skeleton->joints;
+  std::fill(driving_.begin(), driving_.end(), 0.0);
+  for (const Muscle& muscle : muscles_) {
+    if (muscle.model().is_drive()) driving_[muscle.model().path->joint()] += muscle.force();
+  }
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const JointModel& joint = joints[i];
     const KinematicTree::JointView& view = tree_.joint(static_cast<int>(i));
@@ -270,6 +283,7 @@ void Simulation::Parts::apply_joint_efforts() {
       if (joint_torque_.size() > 0) torque += joint_torque_.segment<3>(joint.velocity_offset);
     } else {
       double effort = resistance_.joint_torque()[joint.velocity_offset] + acting_[i] + load_[i];
+      if (!driving_.empty()) effort += driving_[i];
       if (joint_torque_.size() > 0) effort += joint_torque_[joint.velocity_offset];
       (joint.type == JointType::kHinge ? torque : force) = effort * view.axis_W;
     }
@@ -288,10 +302,20 @@ void Simulation::Parts::sense() {
   }
   const auto& joints = model_->skeleton->joints;
   for (std::size_t i = 0; i < joints.size(); ++i) {
+    const double position = read_positions()[joints[i].position_offset] - lead(i);
     store_.at(measured_offset_)[i] =
-        joint_sensors_[i].measure(read_positions()[joints[i].position_offset], step_index_,
-                                  store_.at(joint_sensor_offsets_[i]));
+        joint_sensors_[i].measure(position, step_index_, store_.at(joint_sensor_offsets_[i]));
   }
+}
+
+double Simulation::Parts::lead(std::size_t joint) const {
+  if (driving_.empty() || posture_.active()) return 0.0;
+  const auto turns = [joint](const Muscle& muscle) {
+    return muscle.model().path->joint() == static_cast<int>(joint);
+  };
+  if (std::none_of(muscles_.begin(), muscles_.end(), turns)) return 0.0;
+  const int dof = model_->skeleton->joints[joint].velocity_offset;
+  return 0.5 * model_->step * tree_.velocities()[dof];
 }
 
 void Simulation::Parts::check_finite() const {

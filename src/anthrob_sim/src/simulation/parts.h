@@ -45,11 +45,16 @@ class Simulation::Parts {
   /// Efforts that the joints lack to go on with `heading_`, without friction and stops.
   void find_lacking_efforts();
   void move_skeleton();
+  /// What arrives at the motors' terminals in this step.
+  void find_voltages();
   void advance_actuators();
   ReadingChain::Truth truth() const { return {muscles_, q_, tree_}; }
   void apply_wrenches();
   void apply_joint_efforts();
   void sense();
+  /// By how much the position of a joint with a drive is ahead: it advances by the velocity of the
+  /// step's end, which shows beside its motor, whose equations are solved exactly [rad, m].
+  double lead(std::size_t joint) const;
   void check_finite() const;
 
   std::shared_ptr<const RobotModel> model_;
@@ -63,6 +68,8 @@ class Simulation::Parts {
   ImposedPosture posture_;
   ExternalWrenches wrenches_;
   std::vector<SlidingTendon*> sliding_;
+  std::vector<DriveShaft*> shafts_;
+  std::vector<double> driving_;  ///< scratch: torques of drives, by joint; empty without drives
   std::vector<Sensor> joint_sensors_;
   std::vector<double> q_, effort_, load_;
   std::vector<double> acting_;       ///< scratch: efforts that act
@@ -79,7 +86,7 @@ class Simulation::Parts {
   // Of effects: empty in a plain model.
   JointLoads joint_loads_;
   Eigen::VectorXd joint_torque_;  ///< of joint_torques
-  std::vector<PowerLine> lines_;  ///< scratch of power_effects
+  std::vector<PowerLine> lines_;  ///< scratch: one a muscle
   std::size_t loads_offset_ = 0;
   bool has_bristles_ = false;
   std::size_t bristles_offset_ = 0;

@@ -108,19 +108,29 @@ void KinematicTree::update(const std::vector<BodyState>& bodies, std::vector<dou
       continue;
     }
     view.axis_W = parent.X_WB.R * g.axis_P;
+    p[0] = position(static_cast<int>(i), bodies, p[0]);
     if (joint.type == JointType::kHinge) {
       s[0] = view.axis_W.dot(relative);
-      const Vec3 from = parent.X_WB.R * g.mark_P;
-      const Vec3 to = child.X_WB.R * g.mark_C;
-      const double angle = std::atan2(view.axis_W.dot(from.cross(to)), from.dot(to));
-      p[0] = angle + kTwoPi * std::round((p[0] - angle) / kTwoPi);
     } else {
-      const Vec3 offset = child.X_WB * g.center_C - view.center_W;
-      p[0] = view.axis_W.dot(offset);
       s[0] =
           view.axis_W.dot(child.v_W - parent.v_W - parent.w_W.cross(child.X_WB.p - parent.X_WB.p));
     }
   }
+}
+
+double KinematicTree::position(int i, const std::vector<BodyState>& bodies, double last) const {
+  const JointModel& joint = model_.joints[i];
+  const JointGeometry& g = geometry_[i];
+  const Pose& X_WP = bodies[joint.parent].X_WB;
+  const Pose& X_WC = bodies[joint.child].X_WB;
+  const Vec3 axis_W = X_WP.R * g.axis_P;
+  if (joint.type == JointType::kPrismatic) {
+    return axis_W.dot(X_WC * g.center_C - X_WP * g.center_P);
+  }
+  const Vec3 from = X_WP.R * g.mark_P;
+  const Vec3 to = X_WC.R * g.mark_C;
+  const double angle = std::atan2(axis_W.dot(from.cross(to)), from.dot(to));
+  return angle + kTwoPi * std::round((last - angle) / kTwoPi);
 }
 
 void KinematicTree::update_dynamics(const std::vector<BodyState>& bodies, const Vec3& gravity) {

@@ -29,6 +29,11 @@ double reachable_tension(const MuscleModel& muscle, double length, double wanted
   return low;
 }
 
+/// Torque that a drive can hold without its gear's losses [Nm, N].
+double stall_torque(const MuscleModel& drive) {
+  return drive.actuator->input_high() / drive.actuator->holding_input(0.0, 1.0);
+}
+
 }  // namespace
 
 double position_reference(const MuscleModel& muscle, double length, double tension) {
@@ -81,6 +86,11 @@ Equilibrium find_equilibrium(Simulation& sim, const std::vector<double>& q,
   Eigen::VectorXd highest = Eigen::VectorXd::Constant(count, options.highest_tension);
   for (Eigen::Index m = 0; m < count; ++m) {
     const Muscle& muscle = sim.muscle(static_cast<int>(m));
+    if (muscle.model().is_drive()) {
+      highest[m] = stall_torque(muscle.model());
+      lowest[m] = -highest[m];
+      continue;
+    }
     if (muscle.model().actuator->takes_input()) {
       highest[m] = reachable_tension(muscle.model(), muscle.length(), options.highest_tension);
       lowest[m] = std::min(lowest[m], highest[m]);

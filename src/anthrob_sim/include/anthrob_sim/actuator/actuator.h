@@ -79,6 +79,11 @@ class GearedMotor : public Actuator {
 std::shared_ptr<const Actuator> make_actuator(const ConfigNode& kind, const ConfigNode& muscle,
                                               double step);
 
+/// Builds the motor of a drive, which turns a joint instead of winding a tendon.
+/// @param ratio turns of the gear's output per turn of the joint [1], or radians per metre [1/m]
+/// @throws BadInput if the kind is no motor
+std::shared_ptr<const Actuator> make_drive_motor(const ConfigNode& kind, double ratio, double step);
+
 /// `rest_tendon_length` of a muscle [m]. Throws BadInput above 10 m, as a number meant in
 /// millimetres is.
 double read_rest_tendon_length(const ConfigNode& muscle);

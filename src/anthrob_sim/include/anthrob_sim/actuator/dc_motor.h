@@ -112,6 +112,8 @@ class DcMotor final : public GearedMotor {
 
   static std::shared_ptr<const Actuator> load(const ConfigNode& kind, const ConfigNode& muscle,
                                               double step);
+  static std::shared_ptr<const Actuator> build(const ConfigNode& kind, double spindle_radius,
+                                               double rest_tendon_length, double step);
 
  private:
   struct State {

@@ -10,6 +10,9 @@ namespace anthrob {
 /// act, and finds the place again when the effect is built in. The place `all` means all muscles,
 /// which share the parameters.
 
+/// Whether a muscle has what an effect changes: drives have no spindle, tendon, spring and path.
+bool acts_on(const EffectInfo& effect, const MuscleModel& muscle);
+
 /// MUSCLE | all
 class MuscleEffect : public Effect {
  public:

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,21 +35,35 @@ struct CommandLimits {
   double force = 500.0;    ///< [N]; 0: no FORCE mode
 };
 
-/// One muscle: actuator, spring and path, and the ECU channel that drives it.
+/// What joins the motor of a drive to its joint.
+struct Transmission {
+  double stiffness = std::numeric_limits<double>::infinity();  ///< [Nm/rad, N/m]; infinite: rigid
+  double damping = 0.0;                                        ///< [Nms/rad, Ns/m]
+  double backlash = 0.0;                                       ///< play at the joint [rad, m]
+};
+
+/// One muscle: actuator, spring and path, and the ECU channel that drives it. A drive is a muscle
+/// on the axis of a joint, whose tension is the torque on the joint, of either sign: metres become
+/// radians, and newtons Nm, where the joint is a hinge.
 struct MuscleModel {
   std::string name;
+  std::string key;  ///< path in the model file: "muscles.brachialis", "joints.elbow.drive"
   std::string ecu;  ///< empty for a muscle without ECU
   std::shared_ptr<const Actuator> actuator;
   std::shared_ptr<const SeriesElasticElement> spring;
   std::shared_ptr<const PathModel> path;
-  int spring_segment = 0;  ///< k of Algorithm 4.1
-  int sensor_segment = 0;  ///< j of Algorithm 4.1
+  int spring_segment = 0;                    ///< k of Algorithm 4.1
+  int sensor_segment = 0;                    ///< j of Algorithm 4.1
+  std::optional<Transmission> transmission;  ///< of a drive; none: a tendon
   bool has_controller = false;
   CommandLimits limits;
   ecu::ControllerSettings controller;
   int steps_per_tick = 1;      ///< simulation steps between two ticks of the controller
   double command_delay = 0.0;  ///< until the controller gets a command [s]
 
+  bool is_drive() const { return transmission.has_value(); }
+  /// Sets the transmission of a drive, and the spring that goes with it.
+  void transmit(const Transmission& by);
   /// Null: a ligament or a Hill muscle.
   const GearedMotor* motor() const;
   /// As on the robot: a unit whose force limit is 0 measures no force and has no mode FORCE.

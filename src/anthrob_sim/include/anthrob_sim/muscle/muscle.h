@@ -13,6 +13,8 @@
 namespace anthrob {
 
 class DelayLine;
+class DriveShaft;
+class MotorShaft;
 struct SlidingTendon;
 
 /// How a muscle is driven for the next steps.
@@ -66,6 +68,11 @@ class Muscle {
   /// Adds the known forces of the muscle to `tau`, and prepares the part of the tendon beyond the
   /// spring, whose tension depends on how the joints will move.
   void prepare_sliding(const KinematicTree& tree, Eigen::VectorXd& tau);
+  /// Of a drive: prepares its torque, which depends on how the joint will move.
+  /// @param input as in advance_actuator()
+  void prepare_drive(const KinematicTree& tree, double input);
+  /// Null: a tendon.
+  DriveShaft* shaft();
   SlidingTendon& sliding() { return *sliding_; }
   const SlidingTendon& sliding() const { return *sliding_; }
   /// Takes over the solved tensions.
@@ -129,6 +136,8 @@ class Muscle {
   void update_tensions_before_spring(const KinematicTree& tree);
   /// Rate at which the path from the origin to an obstacle gets longer [m/s].
   double path_rate(std::size_t obstacle, const KinematicTree& tree) const;
+  /// Puts the motor of a drive with a rigid shaft where its joint is.
+  void turn_along();
   void relax();
   /// Clears what a stop discards: the controller's memory and delayed commands.
   void forget();
@@ -142,6 +151,7 @@ class Muscle {
   double step_;
   MusclePath path_;
   std::unique_ptr<SlidingTendon> sliding_;          ///< never null
+  std::unique_ptr<MotorShaft> shaft_;               ///< of a drive; null: a tendon
   std::vector<Sensor> sensors_;                     ///< position, velocity, current, force
   std::unique_ptr<const DelayLine> command_delay_;  ///< null: none
   std::size_t command_delay_offset_ = 0;

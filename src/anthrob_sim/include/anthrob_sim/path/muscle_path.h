@@ -44,6 +44,10 @@ class PathModel {
  public:
   /// @param skeleton must outlive the path
   PathModel(const SkeletonModel& skeleton, std::vector<PathObstacle> obstacles);
+  /// Of a drive: from one link of a hinge or prismatic joint to the other, at the joint. Its length
+  /// is minus the joint's position [rad, m], so that its moment arm is 1 and its tension the torque
+  /// on the joint [Nm, N].
+  PathModel(const SkeletonModel& skeleton, int joint);
 
   const std::vector<PathObstacle>& obstacles() const { return obstacles_; }
   std::size_t segment_count() const { return obstacles_.size() - 1; }
@@ -54,6 +58,10 @@ class PathModel {
   const std::vector<JointOnPath>& joints_of_segment(std::size_t i) const { return joints_[i]; }
   /// Both ends are points of the world: nothing about the segment ever changes.
   bool is_static(std::size_t i) const { return static_[i]; }
+  /// The joint of a drive; -1: a tendon.
+  int joint() const { return joint_; }
+  /// The joints that a drive sees; null: a tendon.
+  const KinematicTree* tree() const { return tree_.get(); }
 
  private:
   void prepare_surface(std::size_t i);
@@ -63,6 +71,8 @@ class PathModel {
   std::size_t state_size_ = 0;
   std::vector<std::vector<JointOnPath>> joints_;
   std::vector<char> static_;
+  int joint_ = -1;
+  std::shared_ptr<const KinematicTree> tree_;
 };
 
 /// A point of a path that moves with a body.
@@ -98,6 +108,7 @@ class MusclePath {
 
  private:
   void update_point_segment(const std::vector<BodyState>& bodies, std::size_t i);
+  void update_drive(const std::vector<BodyState>& bodies, StateView state);
   void update_surface(const std::vector<BodyState>& bodies, StateView state, std::size_t i);
   bool has_no_length(std::size_t segment) const;
   void direct_short_segments();

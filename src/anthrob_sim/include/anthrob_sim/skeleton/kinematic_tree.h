@@ -38,6 +38,10 @@ class KinematicTree {
   /// the last ones on entry.
   void update(const std::vector<BodyState>& bodies, std::vector<double>& q);
 
+  /// Position of a hinge or prismatic joint, read off the bodies [rad, m].
+  /// @param last position, for whole turns of a hinge
+  double position(int joint, const std::vector<BodyState>& bodies, double last) const;
+
   /// Mass matrix and bias of the posture of the last update. M du/dt + bias = generalised forces.
   void update_dynamics(const std::vector<BodyState>& bodies, const Vec3& gravity);
 

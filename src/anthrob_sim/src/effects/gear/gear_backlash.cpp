@@ -17,7 +17,9 @@ EffectInfo describe() {
       "Between the flanks the motor carries no load. At both flanks everything is as in the plain "
       "model, whose friction of motor and gear is assumed to include the drag. If that friction is "
       "less than the drag, a motor at the other flank unwinds under the tendon as in the plain "
-      "model. Under pretension the play has no effect.";
+      "model. Under pretension the play has no effect. Of a drive, whose motor also pushes, the "
+      "play "
+      "lies between gear and joint, and neither turns the other between its flanks.";
   i.equation =
       "position <= spindle <= position + width; free: d spindle/dt = -max(0, f r_S - drag) / "
       "(drag 0.1 s)";
@@ -93,6 +95,13 @@ class GearBacklash final : public MotorWrappingEffect {
   GearBacklash() : MotorWrappingEffect(describe()) {}
 
  protected:
+  void change(const EffectSetting& setting, ModelDraft& draft, std::size_t index) const override {
+    MuscleModel& muscle = draft.robot.muscles[index];
+    if (!muscle.is_drive()) return MotorWrappingEffect::change(setting, draft, index);
+    Transmission loose = *muscle.transmission;
+    loose.backlash += setting["width"] * muscle.motor()->spindle_radius();
+    muscle.transmit(loose);
+  }
   std::shared_ptr<const Actuator> wrap(const EffectSetting& setting,
                                        std::shared_ptr<const GearedMotor> motor,
                                        double step) const override {

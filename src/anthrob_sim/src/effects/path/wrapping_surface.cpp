@@ -59,6 +59,7 @@ class WrappingSurfaceEffect final : public Effect {
   std::vector<std::string> places(const RobotModel& robot) const override {
     std::vector<std::string> list;
     for (const MuscleModel& muscle : robot.muscles) {
+      if (muscle.is_drive()) continue;
       bool any = false;
       for (std::size_t i = 1; i < muscle.path->obstacles().size(); ++i) {
         if (!joint_of(*robot.skeleton, *muscle.path, i)) continue;
