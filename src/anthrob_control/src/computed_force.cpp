@@ -18,12 +18,16 @@ constexpr double kForgotten = 0.5;  ///< without an update [s]; begins anew afte
 constexpr double kLongestPause =
     0.1;  ///< of motion and integrals [s]; a measurement that old is stale
 
-/// Muscles without a controller are left alone: their bounds are zero.
-Eigen::VectorXd bounds(const RobotModel& model, double tension) {
+/// Muscles without a controller are left alone: their bounds are zero. A drive turns its joint
+/// either way.
+/// @param side of a drive's torque: -1 for the lower bound, 1 for the upper
+Eigen::VectorXd bounds(const RobotModel& model, double tension, double side) {
   Eigen::VectorXd bound = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.muscles.size()));
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
     if (!model.muscles[m].has_controller) continue;
-    bound[static_cast<Eigen::Index>(m)] = std::min(tension, model.muscles[m].limits.force);
+    const double limit = model.muscles[m].limits.force;
+    bound[static_cast<Eigen::Index>(m)] =
+        model.muscles[m].is_drive() ? side * limit : std::min(tension, limit);
   }
   return bound;
 }
@@ -52,8 +56,8 @@ ComputedForce::ComputedForce(std::shared_ptr<const RobotModel> model,
       filter_(*model->skeleton, settings.position_cutoff, settings.velocity_cutoff),
       servo_(*model->skeleton, settings.joints),
       motion_(*model->skeleton),
-      split_(model->skeleton->velocity_count, bounds(*model, settings.lowest_tension),
-             bounds(*model, settings.highest_tension)),
+      split_(model->skeleton->velocity_count, bounds(*model, settings.lowest_tension, -1.0),
+             bounds(*model, settings.highest_tension, 1.0)),
       ligaments_(ligaments_of(*model)),
       voltage_memory_(model->muscles.size()),
       held_(model->skeleton->rest_configuration()) {

@@ -42,6 +42,7 @@ class Loader {
 
   Hardware load() {
     load_ecus();
+    refuse_drives();
     for (const auto& [name, node] : model_.at("muscles").entries()) {
       ecu::check_muscle(node);
       if (!node.has("controller") || !node.has("ecu")) {
@@ -93,6 +94,15 @@ class Loader {
         node.at("node").fail(std::to_string(ecu.node) + ": another ECU has this node");
       }
       hardware_.ecus.push_back(ecu);
+    }
+  }
+
+  void refuse_drives() const {
+    if (!model_.has("joints")) return;
+    for (const auto& [name, node] : model_.at("joints").entries()) {
+      if (!node.has("drive")) continue;
+      node.at("drive").fail(
+          "expected a model without drives: no motor unit moves a joint by itself");
     }
   }
 

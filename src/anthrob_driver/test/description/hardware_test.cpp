@@ -252,6 +252,8 @@ TEST(Hardware, BadFilesAreRefusedWithFileLineKey) {
        "controllers.type_1.period: 0.01: expected 0.001 s"},
       {"model_II.yaml", "  brachialis:", "  brachialis:\n    gians: {}",
        "muscles.brachialis.gians: unknown key"},
+      {"model_II.yaml", "extends:", "joints: {elbow: {drive: {actuator: type_1}}}\nextends:",
+       "joints.elbow.drive: expected a model without drives"},
       {"hardware.yaml", "positions: {}", "positions: {brachialis: 31.0}",
        "home.positions.brachialis"},
       {"sensors.yaml", "gain: 0.01", "gain: 0.005", "units.type_1.current_limit: 16"},

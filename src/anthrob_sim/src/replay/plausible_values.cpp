@@ -44,7 +44,8 @@ void refuse_far_positions(const RobotModel& robot, const Dataset& recording, con
 /// Where a tendon pushes most of the time. Noise and an offset may reach below zero.
 void refuse_pushing_tendons(const RobotModel& robot, const Dataset& recording, const Table& table,
                             const Column& column) {
-  if (column.quantity() != "force" || robot.find_muscle(column.owner()) < 0) return;
+  const int muscle = column.quantity() == "force" ? robot.find_muscle(column.owner()) : -1;
+  if (muscle < 0 || robot.muscles[muscle].is_drive()) return;
   std::size_t pushes = 0, count = 0, first = 0;
   for (std::size_t i = 0; i < column.values.size(); ++i) {
     if (!column.present[i]) continue;
