@@ -10,7 +10,7 @@ import unittest
 import rostest
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
-KINDS = {'hinge': ['hinge'], 'slide': ['slide'], 'tendon': ['hinge'], 'arm': ['shoulder', 'elbow']}
+KINDS = {'hinge': ['hinge'], 'servo': ['hinge'], 'slide': ['slide'], 'tendon': ['hinge'], 'arm': ['shoulder', 'elbow']}
 
 
 def program(package, name):
@@ -71,6 +71,19 @@ class NewRobot(unittest.TestCase):
         self.assertAlmostEqual(max(position), rest, delta=1e-3)
         self.assertAlmostEqual(min(position), rest, delta=1e-3)
 
+    def test_a_servo_stops_where_its_gain_carries_the_arm(self):
+        self.make('servo')
+        self.record('servo', {'t [s]': [0.01 * i for i in range(401)], 'angle [deg]': [''] * 401,
+                              'goal [deg]': [0.0] * 20 + [60.0] * 381, 'motor [deg]': [''] * 401,
+                              'voltage [V]': [''] * 401, 'current [A]': [''] * 401})
+        position = self.replay('servo', '--mode', 'reference')['hinge/position']
+        # Of the files: gain 40 V/rad, 6 ohm, 0.01 Nm/A, ratio 225, efficiency 0.8 against gravity.
+        goal, end = math.radians(60.0), position[-1]
+        torque = 0.5 * 9.81 * 0.15 * math.sin(end)
+        self.assertAlmostEqual(position[0], 0.0, delta=1e-6)
+        self.assertGreater(end, goal - torque / 0.8 / (0.01 * 225.0) * 6.0 / 40.0 - 1e-3)  # rising
+        self.assertLess(end, goal - torque * 0.8 / (0.01 * 225.0) * 6.0 / 40.0 + 1e-3)  # held by the gear after overshoot
+
     def test_muscles_pull(self):
         for kind, muscles, moved in (('tendon', ['flexor', 'extensor'], 'hinge'),
                                      ('arm', ['shoulder_flexor', 'shoulder_extensor', 'elbow_flexor', 'elbow_extensor'], 'elbow')):
@@ -99,7 +112,7 @@ class NewRobot(unittest.TestCase):
                 self.assertIn(made.read(), text, file)
 
     def test_launch_files_take_it(self):
-        for kind in ('slide', 'arm'):  # without and with muscles
+        for kind in ('slide', 'servo', 'arm'):  # without muscles, with a drive, with muscles
             self.make(kind)
             done = subprocess.run(['roslaunch', 'anthrob_bringup', 'sim.launch', 'robot:=my_' + kind, 'model:=I',
                                    'robot_folder:=' + self.path('my_' + kind), '--nodes'], text=True, timeout=60,

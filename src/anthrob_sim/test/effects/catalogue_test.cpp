@@ -58,11 +58,19 @@ const std::set<std::string> kIds = {"eyelet_friction",
                                     "joint_load_friction",
                                     "joint_effort_friction",
                                     "joint_ripple",
-                                    "effort_gain"};
+                                    "effort_gain",
+                                    "torque_constant",
+                                    "transmission_elasticity",
+                                    "transmission_ratio"};
 
-const char* const kRobots[] = {"two_muscle_rig/model_I.yaml",    "two_muscle_rig/model_II.yaml",
-                               "two_muscle_rig/model_hill.yaml", "anthrob/model_I.yaml",
-                               "anthrob/model_II.yaml",          "driven_axis/model_I.yaml"};
+const char* const kServo = "../src/anthrob_sim/templates/robot/servo/model_I.yaml";
+const char* const kRobots[] = {"two_muscle_rig/model_I.yaml",
+                               "two_muscle_rig/model_II.yaml",
+                               "two_muscle_rig/model_hill.yaml",
+                               "anthrob/model_I.yaml",
+                               "anthrob/model_II.yaml",
+                               "driven_axis/model_I.yaml",
+                               kServo};
 
 std::vector<double> outcome(const std::shared_ptr<const RobotModel>& robot, int steps) {
   Simulation sim(robot);
@@ -167,8 +175,8 @@ TEST(Catalogue, EveryListedPlaceIsAccepted) {
 template <class Body>
 void for_every_effect(const Body& body) {
   std::set<std::string> done;
-  for (const char* file :
-       {"anthrob/model_II.yaml", "two_muscle_rig/model_I.yaml", "driven_axis/model_I.yaml"}) {
+  for (const char* file : {"anthrob/model_II.yaml", "two_muscle_rig/model_I.yaml",
+                           "driven_axis/model_I.yaml", kServo}) {
     const ConfigNode node = ConfigNode::load(config(file));
     const auto plain = build_robot_model(node);
     for (const Effect* effect : all_effects()) {
