@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "anthrob_core/text.h"
 #include "measurement/stamp_report.h"
@@ -158,9 +159,19 @@ std::string go_on_behind_controllers(const RobotModel& robot, Description& descr
                       : "The search goes on from voltages, so nothing is said about controllers";
 }
 
+/// The entry of the model file at a key path: "joints.elbow.drive".
+ConfigNode entry_at(const ConfigNode& config, const std::string& path) {
+  ConfigNode node = config;
+  std::istringstream keys(path);
+  std::string key;
+  while (std::getline(keys, key, '.')) node = node.at(key);
+  return node;
+}
+
 /// Gains of the model file that are others, by key path; nothing if the law is not of the model's
 /// form, or a gain is not the same for all muscles, which share controllers.
-std::optional<std::map<std::string, double>> gains_of(const ConfigNode& config,
+std::optional<std::map<std::string, double>> gains_of(const RobotModel& robot,
+                                                      const ConfigNode& config,
                                                       const ControlLaw& law,
                                                       const ControllerAlgebraOptions& options) {
   constexpr const char* kKeys[] = {"proportional", "derivative", "force_feedforward", ""};
@@ -178,7 +189,7 @@ std::optional<std::map<std::string, double>> gains_of(const ConfigNode& config,
     if (!common->differs) continue;
     if (*kKeys[k] == '\0') return {};
     for (const MuscleLaw& muscle : law.muscles) {
-      const ConfigNode node = config.at("muscles").at(muscle.name);
+      const ConfigNode node = entry_at(config, robot.muscles[robot.muscle_index(muscle.name)].key);
       if (node.has("gains")) return {};  // its own come before its controller's
       const std::string controller = node.text("controller");
       gains["controllers." + controller + ".position." + kKeys[k]] =
@@ -227,7 +238,7 @@ void go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const
       move_earlier(robot, {"voltage"}, -law.tick, *recording);
     }
   }
-  const auto gains = gains_of(config, law, options);
+  const auto gains = gains_of(robot, config, law, options);
   const std::string goes_on =
       gains ? go_on_with_gains(*gains, description) : go_on_behind_controllers(robot, description);
   description.remarks.push_back("controller: the voltages follow another law than the model's: " +
