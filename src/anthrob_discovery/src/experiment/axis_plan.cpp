@@ -62,11 +62,25 @@ BinnedAxis binned(const std::string& joint, const std::vector<Dataset>& recordin
   return axis;
 }
 
+/// Rms of the inertial effort over that of the effort, while it moves.
+double inertial_share(const BinnedAxis& axis, double inertia) {
+  double inertial = 0.0, all = 0.0;
+  for (std::size_t r = 0; r < axis.effort.size(); ++r) {
+    for (std::size_t b = 0; b < axis.effort[r].size(); ++b) {
+      if (!axis.moves[r][b]) continue;
+      inertial += std::pow(inertia * axis.acceleration[r][b], 2);
+      all += axis.effort[r][b] * axis.effort[r][b];
+    }
+  }
+  return all > 0.0 ? std::sqrt(inertial / all) : 0.0;
+}
+
 /// What a plain axis explains of its effort while it moves: inertia, dry and viscous friction, an
 /// offset and, of a hinge, weight.
 struct Inertia {
   double value = 0.0;  ///< [kg m^2, kg]
-  double share = 0.0;  ///< rms of the inertial effort over that of the effort, less its mean
+  double error = 0.0;  ///< its standard error
+  double share = 0.0;  ///< rms of the inertial effort over that of the effort, while it moves
 };
 
 Inertia estimated(const BinnedAxis& axis, bool hinge, const AxisOptions& options) {
@@ -93,12 +107,14 @@ Inertia estimated(const BinnedAxis& axis, bool hinge, const AxisOptions& options
   // In units of their own size, so that none is lost beside another.
   Eigen::VectorXd size = basis.colwise().norm().transpose();
   for (double& s : size) s = s > 0.0 ? s : 1.0;
-  const Eigen::VectorXd fit =
-      (basis * size.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(effort);
+  const Eigen::MatrixXd scaled = basis * size.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd fit = scaled.colPivHouseholderQr().solve(effort);
   found.value = std::max(0.0, fit[0] / size[0]);
-  const Eigen::VectorXd inertial = found.value * basis.col(0);
-  const double all = effort.norm();
-  found.share = all > 0.0 ? inertial.norm() / all : 0.0;
+  const double scatter = (scaled * fit - effort).squaredNorm() / static_cast<double>(count);
+  // Motion in one direction does not tell dry friction from an offset: no inverse, but this.
+  found.error = std::sqrt(scatter) / size[0] *
+                scaled.completeOrthogonalDecomposition().pseudoInverse().row(0).norm();
+  found.share = inertial_share(axis, found.value);
   return found;
 }
 
@@ -174,6 +190,23 @@ PlannedBins planned(const RobotModel& model, const std::vector<Dataset>& recordi
   return plan;
 }
 
+/// Where long bins tell an inertia, it is that of the shorter ones, too: there, noise of the
+/// acceleration hides it, and would not count against them.
+void share_inertias(std::vector<PlannedBins>& plans, const AxisOptions& options) {
+  for (std::size_t a = 0; !plans.empty() && a < plans.front().axes.size(); ++a) {
+    const Inertia* told = nullptr;
+    for (PlannedBins& plan : plans) {
+      Inertia& own = plan.inertias[a];
+      if (told) {
+        own.value = told->value;
+        own.share = inertial_share(plan.axes[a], own.value);
+      } else if (own.value > options.inertia_told * own.error) {
+        told = &own;
+      }
+    }
+  }
+}
+
 /// What scatters in each second, of all axes.
 struct PlanScore {
   double value = 0.0;  ///< logarithm
@@ -227,6 +260,7 @@ AxisPlan plan_axes(const RobotModel& model, const std::vector<Dataset>& recordin
   const std::vector<double> lengths = lengths_of_bins(model, recordings, options);
   std::vector<PlannedBins> plans;
   for (const double length : lengths) plans.push_back(planned(model, recordings, length, options));
+  share_inertias(plans, options);
   // Longest first: a shorter one must be better, not only as good.
   std::size_t chosen = 0;
   for (std::size_t i = 1; i < plans.size(); ++i) {

@@ -29,6 +29,9 @@ struct AxisOptions {
   /// of the effort, rms: with a smaller inertial effort, the axis shows no inertia. That of the
   /// lead screw is below 0.1, that of the EMPS drive above 0.5
   Share inertia_shows = 0.25;
+  /// [standard errors] of an inertia that bins tell: then it is that of all shorter ones. That of
+  /// a cogging motor at constant speeds is below 4, those of benches are above 100
+  double inertia_told = 10.0;
   double most_inertia = 1e12;      ///< times the model's that is looked for
   int inertia_steps = 100;         ///< of that search: halving alone reaches the last bit
   double inertia_settled = 1e-12;  ///< of the factor
@@ -47,6 +50,7 @@ struct AxisOptions {
     visit("clearly_better", options.clearly_better);
     visit("most_mixed", options.most_mixed);
     visit("inertia_shows", options.inertia_shows);
+    visit("inertia_told", options.inertia_told);
     visit("most_inertia", options.most_inertia);
     visit("inertia_steps", options.inertia_steps);
     visit("inertia_settled", options.inertia_settled);

@@ -38,6 +38,18 @@ TEST(AxisPlan, BinsAreLongerForCoarseEncodersAndNoShorterThanARow) {
   EXPECT_GE(plan(bench).bin, 0.04 - 1e-9);
 }
 
+TEST(AxisPlan, BinsAreLongWhereOnlyTheyShowTheInertia) {
+  // In short ones, the noise of the acceleration is larger than the acceleration.
+  DrivenBench bench;
+  bench.inertia = 1e-4;
+  bench.viscous = 4e-4;
+  bench.noise = 7e-6;
+  bench.rate = 600.0;
+  bench.bits = 12;
+  EXPECT_GT(plan(bench).bin, 0.05);
+  EXPECT_TRUE(plan(bench).hidden_inertia.empty());
+}
+
 TEST(AxisPlan, BinsAreShortWhereTheEffortAloneScatters) {
   // White noise of the effort tells as much in bins of any length; rest and motion mix in long
   // ones.
