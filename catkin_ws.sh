@@ -67,7 +67,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
                     model:=
   test [PACKAGE...] run all tests, or those of the named packages; the last line counts them
   bench             run the benchmarks, also of MuJoCo and OpenCV for comparison; writes build/bench.json
-  study NAME        axes: discovery on made-up benches of one driven joint
+  study NAME        axes: discovery on made-up benches of one driven joint; --drives: with a servo drive
                     calibration: repeat chapter 8 of the thesis with virtual robots
                     discovery: the blind test; with --slice K/N a part of it; also --list, --summary, --help
                     fuzz: give damaged files to every reader of files, with sanitizers

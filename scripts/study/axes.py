@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Study of driven axes. Benches that share nothing with the simulator (scripts/study/_bench.py), over eight decades of
 inertia, ruled by friction or by inertia, with encoders of 12 to 20 bits and rows of 25 to 1000 Hz. Each hides one law of
-nine, nothing among them; discovery gets CSV files and a model.
+nine, nothing among them; discovery gets CSV files and a model. With --drives, the benches have a servo drive
+(scripts/study/_servo.py), and the results go to build/study/drives.json and studies/drives.md.
 
 The same command continues an interrupted study; what another version of the program has answered is asked again. Writes
 build/study/axes.json and studies/axes.md.
@@ -12,15 +13,20 @@ import os
 import shutil
 import statistics
 
-from _bench import LAWS, Bench
+import _bench
+import _servo
 from _study import (OUT, OneLineParser, commit, machine, markdown_page, of_the_study, say, several, start, whole,
                     write)
 from real import Case, gap_text, is_answer, is_rival
 
-DOCUMENT = "studies/axes.md"
 HEAD = ["law", "cases", "named", "in a class", "median error of its size", "interval holds it", "more than it", "payload"]
 SIZES = {"joint_coulomb": "torque", "joint_coulomb_asymmetric": "forward", "joint_presliding": "torque",
-         "joint_quadratic_drag": "drag", "joint_effort_friction": "share", "effort_gain": "gain", "payload": "mass"}
+         "joint_quadratic_drag": "drag", "joint_effort_friction": "share", "effort_gain": "gain", "payload": "mass",
+         **_servo.SIZES}
+
+
+def kind(options):
+    return "drives" if options.drives else "axes"
 
 
 class Axis(Case):
@@ -28,7 +34,7 @@ class Axis(Case):
 
     def __init__(self, bench, options):
         self.bench = bench
-        folder = os.path.join(options.out, "axes", f"seed_{options.seed}")
+        folder = os.path.join(options.out, kind(options), f"seed_{options.seed}")
         self.made = os.path.join(folder, "made", bench.name)
         self.options, self.name = options, bench.name
         self.out = os.path.join(folder, bench.name)
@@ -87,7 +93,7 @@ def median(rows):
 
 
 def table(rows):
-    kinds = [(law, [row for row in rows if row["law"] == law]) for law in LAWS]
+    kinds = [(law, [row for row in rows if row["law"] == law]) for law in dict.fromkeys(row["law"] for row in rows)]
     kinds.append(("all but none", [row for row in rows if row["law"] != "none"]))
     return HEAD, [[name, str(len(those)), share(those, "named"), share(those, "in_class"), median(those),
                    share(those, "holds"), str(sum(row["more"] > 0 for row in those)),
@@ -96,7 +102,12 @@ def table(rows):
 
 def page(rows, options, programs):
     wrong = [[row["case"], row["answer"], row.get("gap", "")] for row in rows if not (row["named"] or row["in_class"])]
-    parts = ["`./catkin_ws.sh study axes` makes benches of one driven hinge by their closed equation: inertia of 1e-6 to 100 "
+    drives = ("`./catkin_ws.sh study axes --drives` makes benches of one hinge with a servo drive by their closed equation: "
+              "motor, gear with losses, rotor of 0.1 to 3 times the arm's inertia, a P controller, encoders of 12 to 16 bits at "
+              "motor and joint, rows of 100 to 500 Hz. Three recordings of 20 s: to fit, to judge, a repetition. For `none`, "
+              "*named* means that nothing was.")
+    parts = [drives if options.drives else
+             "`./catkin_ws.sh study axes` makes benches of one driven hinge by their closed equation: inertia of 1e-6 to 100 "
              "kg m^2, ruled by friction or by inertia, encoders of 12 to 20 bits, rows of 25 to 1000 Hz, noise of the effort "
              "of 0.5 to 5 %. What is hidden takes 0.15 to 1 times the effort of all that is known. Three recordings of 30 s: "
              "to fit, to judge, a repetition. For `none`, *named* means that nothing was.",
@@ -104,13 +115,15 @@ def page(rows, options, programs):
                            "median time [s]": f"{statistics.median(row['time_s'] for row in rows):.0f}"}]
     if wrong:
         parts += ["## Neither named nor in a class", (["case", "answer", "gap"], wrong)]
-    return markdown_page("Driven axes", parts)
+    return markdown_page("Servo drives" if options.drives else "Driven axes", parts)
 
 
 def arguments():
     parser = OneLineParser("study axes", description=__doc__)
     parser.add_argument("--cases", type=whole(1), default=40, help="benches of each law (default: 40)")
-    parser.add_argument("--law", action="append", choices=LAWS, default=[], help="only this one; may be given several times")
+    parser.add_argument("--drives", action="store_true", help="benches with a servo drive")
+    parser.add_argument("--law", action="append", choices=sorted({*_bench.LAWS, *_servo.LAWS}), default=[],
+                        help="only this one; may be given several times")
     parser.add_argument("--effects", nargs="+", default=[], help="only these of the catalogue")
     parser.add_argument("--seed", type=whole(0), default=1, help="of the benches (default: 1)")
     parser.add_argument("--jobs", type=whole(1), default=os.cpu_count(), help="threads (default: all cores)")
@@ -120,8 +133,9 @@ def arguments():
 
 def main():
     options = arguments()
-    laws = options.law or LAWS
-    axes = [Axis(Bench(options.seed, number, law), options) for number in range(options.cases) for law in laws]
+    bench, known = (_servo.Servo, _servo.LAWS) if options.drives else (_bench.Bench, _bench.LAWS)
+    laws = [law for law in known if law in (options.law or known)]
+    axes = [Axis(bench(options.seed, number, law), options) for number in range(options.cases) for law in laws]
     rows, programs = [], set()
     for axis in axes:
         os.makedirs(axis.out, exist_ok=True)
@@ -129,12 +143,12 @@ def main():
         programs.add(result["commit"])
         rows.append(judged(axis.bench, result))
         say(f"{len(rows)} of {len(axes)}: {axis.name}: {rows[-1]['answer']} ({result['time_s']:.0f} s)")
-        write(f"{options.out}/axes.json", json.dumps(rows, indent=1))
+        write(f"{options.out}/{kind(options)}.json", json.dumps(rows, indent=1))
         text = page(rows, options, programs)
-        write(f"{options.out}/axes.md", text)
+        write(f"{options.out}/{kind(options)}.md", text)
     if of_the_study(options) and not (options.law or options.effects):
-        os.makedirs(os.path.dirname(DOCUMENT), exist_ok=True)
-        write(DOCUMENT, text)
+        os.makedirs("studies", exist_ok=True)
+        write(f"studies/{kind(options)}.md", text)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ import rostest
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 sys.path.insert(0, os.path.join(TOP, 'scripts', 'study'))
 import _bench  # noqa: E402
+import _servo  # noqa: E402
 import _study  # noqa: E402
 import axes  # noqa: E402
 import calibration  # noqa: E402
@@ -298,6 +299,24 @@ class AxesStudy(Study):
         self.study('--cases', '1', *words)
         with open('calls') as calls:
             self.assertEqual(calls.read().count('examined'), 5)
+
+    def test_drives(self):
+        self.study('--cases', '1', '--drives', '--law', 'joint_coulomb', '--law', 'gear_efficiency')
+        rows = {row['law']: row for row in _study.load('out/drives.json')}
+        self.assertEqual([rows[law]['named'] for law in ('joint_coulomb', 'gear_efficiency')], [True, False])
+        self.assertIn('servo drive', open('out/drives.md').read())
+
+    def test_a_servo_is_held_by_its_gain_and_its_gear(self):
+        servo = _servo.Servo(1, 0, 'none')
+        servo.goals = lambda _: [0.8] * int(_servo.SECONDS * servo.rate)
+        t, joint, goal, motor, volts, current = numpy.array(servo.record('run_1')[-100:]).T
+        torque = servo.weight * numpy.sin(joint)
+        held = servo.constant * servo.ratio * volts / servo.ohm  # of the motor at rest; losses hold a part of the weight
+        self.assertTrue((held <= torque / servo.efficiency + 0.02 * servo.weight).all())
+        self.assertTrue((held >= torque * servo.efficiency - 0.02 * servo.weight).all())
+        self.assertAlmostEqual(float(abs(volts - servo.gain * (goal - motor)).max()), 0.0,
+                               delta=servo.gain * 2 * numpy.pi / 2**servo.bits + servo.volts / 500)
+        self.assertAlmostEqual(float(abs(motor - joint).max()), 0.0, delta=4 * numpy.pi / 2**servo.bits)
 
     def test_a_bench_takes_what_its_parts_take(self):
         for law, more in (('none', lambda v, q: 0.0 * v), ('joint_coulomb', lambda v, q: numpy.sign(v)),
