@@ -21,9 +21,8 @@ TensionSplit::TensionSplit(int torques, const Eigen::VectorXd& lowest,
   if (torques < 0 || lowest.size() != highest.size()) {
     throw std::invalid_argument("TensionSplit: lowest and highest differ in size");
   }
-  if (!lowest.allFinite() || !highest.allFinite() || (lowest.array() < 0.0).any() ||
-      (lowest.array() > highest.array()).any()) {
-    throw std::invalid_argument("TensionSplit: expected 0 <= lowest <= highest, finite");
+  if (!lowest.allFinite() || !highest.allFinite() || (lowest.array() > highest.array()).any()) {
+    throw std::invalid_argument("TensionSplit: expected lowest <= highest, finite");
   }
   lambda_ = trial_ = direction_ = gradient_ = Eigen::VectorXd::Zero(torques);
   pull_ = result_.tension = lowest;

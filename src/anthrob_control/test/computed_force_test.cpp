@@ -305,6 +305,20 @@ TEST(ComputedForce, RefusesPositionsThatNoGainHolds) {
   EXPECT_THROW(ComputedForce(model, settings), BadInput);
 }
 
+TEST(ComputedForce, DrivesTurnEitherWay) {
+  const auto plant = load_robot_model(std::string(ANTHROB_CONFIG_DIR) +
+                                      "/../src/anthrob_sim/templates/robot/servo/model_I.yaml");
+  ControlSettings settings;
+  settings.joints.resize(1);
+  for (const double angle : {0.7, -0.7}) {
+    ClosedLoop loop(plant, plant, settings);
+    loop.place({angle});
+    loop.run(3.0);
+    EXPECT_LT(loop.distance({angle}, 0), 0.05) << angle;
+    EXPECT_GT(loop.sim.muscle(0).force() * std::sin(angle), 0.05) << "against gravity";
+  }
+}
+
 TEST(ComputedForce, RefusesRobotsThatCannotTakeItsCommands) {
   const std::string rig = std::string(ANTHROB_CONFIG_DIR) + "/two_muscle_rig/";
   const auto hill = load_robot_model(rig + "model_hill.yaml");

@@ -5,7 +5,7 @@
 
 namespace anthrob {
 
-/// Splits joint torques tau over muscles, which can only pull, in real time:
+/// Splits joint torques tau over muscles, of which those with tendons can only pull, in real time:
 ///   minimise the sum of squares of f, subject to A f = tau and lowest <= f <= highest.
 ///
 /// Solves the dual problem: f = clip(A^T lambda), where lambda (one number per torque) is the root
@@ -27,7 +27,7 @@ class TensionSplit {
     bool converged = false;  ///< if not, tensions keep the bounds but may not be of least effort
   };
 
-  /// @throws std::invalid_argument unless sizes agree and 0 <= lowest <= highest, all finite
+  /// @throws std::invalid_argument unless sizes agree and lowest <= highest, all finite
   TensionSplit(int torques, const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest);
 
   /// @param moment_arms A: one row per torque, one column per muscle [m]

@@ -55,7 +55,7 @@ struct LeastEffort {
 /// are none, finds the tensions whose torque is nearest to tau.
 /// @param moment_arms A, one row per generalised velocity, one column per muscle [m]
 /// @param torque tau, which the muscles have to deliver [Nm]
-/// @param lowest,highest by muscle [N]; 0 <= lowest <= highest
+/// @param lowest,highest by muscle [N]; lowest <= highest; a drive also pushes
 /// @throws std::invalid_argument if sizes or bounds do not fit
 LeastEffort least_effort(const Eigen::MatrixXd& moment_arms, const Eigen::VectorXd& torque,
                          const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest);
