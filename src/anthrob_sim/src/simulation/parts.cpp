@@ -40,7 +40,13 @@ Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
     if (muscle.shaft()) shafts_.push_back(muscle.shaft());
   }
   lines_.resize(muscles_.size());
-  if (!shafts_.empty()) driving_.resize(skeleton.joints.size(), 0.0);
+  if (!shafts_.empty()) {
+    driving_.resize(skeleton.joints.size(), 0.0);
+    has_drive_.resize(skeleton.joints.size(), false);
+  }
+  for (const MuscleModel& muscle : model_->muscles) {
+    if (muscle.is_drive()) has_drive_[static_cast<std::size_t>(muscle.path->joint())] = true;
+  }
   dissipation_offset_ = store_.reserve(1);
   measured_offset_ = store_.reserve(skeleton.joints.size());
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
@@ -309,11 +315,7 @@ void Simulation::Parts::sense() {
 }
 
 double Simulation::Parts::lead(std::size_t joint) const {
-  if (driving_.empty() || posture_.active()) return 0.0;
-  const auto turns = [joint](const Muscle& muscle) {
-    return muscle.model().path->joint() == static_cast<int>(joint);
-  };
-  if (std::none_of(muscles_.begin(), muscles_.end(), turns)) return 0.0;
+  if (has_drive_.empty() || !has_drive_[joint] || posture_.active()) return 0.0;
   const int dof = model_->skeleton->joints[joint].velocity_offset;
   return 0.5 * model_->step * tree_.velocities()[dof];
 }

@@ -70,6 +70,7 @@ class Simulation::Parts {
   std::vector<SlidingTendon*> sliding_;
   std::vector<DriveShaft*> shafts_;
   std::vector<double> driving_;  ///< scratch: torques of drives, by joint; empty without drives
+  std::vector<bool> has_drive_;  ///< by joint; empty without drives
   std::vector<Sensor> joint_sensors_;
   std::vector<double> q_, effort_, load_;
   std::vector<double> acting_;       ///< scratch: efforts that act
