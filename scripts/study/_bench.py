@@ -13,6 +13,19 @@ FINE = 5e-4     # step of the closed equation, at most [s]
 SECONDS = 30.0  # of a recording
 LAWS = ["none", "joint_coulomb", "joint_coulomb_asymmetric", "joint_presliding", "joint_quadratic_drag",
         "joint_effort_friction", "joint_ripple", "effort_gain", "payload"]
+RUNS = ["run_1", "run_2", "run_1_again"]  # to fit, to judge, the repetition
+CASE = "model: model.yaml\ncalibration: calibration.yaml\nconvert:\n" + "".join(
+    f"  - {{from: {name}.csv, columns: columns.yaml, to: {name}}}\n" for name in RUNS) + """train: [run_1]
+test: [run_2]
+repeat: [run_1_again]
+"""
+
+
+def write_texts(folder, texts):
+    """Files by name."""
+    for name, text in texts.items():
+        with open(os.path.join(folder, name), "w") as out:
+            out.write(text)
 
 
 def log_uniform(draw, low, high):
@@ -150,19 +163,15 @@ class Bench:
 
     def write(self, folder):
         os.makedirs(folder, exist_ok=True)
-        for name in "run_1", "run_2", "run_1_again":
+        for name in RUNS:
             numpy.savetxt(os.path.join(folder, f"{name}.csv"), self.record(name), "%.9g", ",", header="t,angle,torque",
                           comments="")
-        for name, text in self.texts().items():
-            with open(os.path.join(folder, name), "w") as out:
-                out.write(text)
+        write_texts(folder, self.texts())
 
     def texts(self):
         arm = self.arm if self.hangs else 0.0
         mass = self.weight / GRAVITY / self.arm if self.hangs else 1.0
         own = self.inertia - mass * arm**2
-        convert = "".join(f"  - {{from: {name}.csv, columns: columns.yaml, to: {name}}}\n"
-                          for name in ("run_1", "run_2", "run_1_again"))
         return {
             "robot.urdf": f"""<robot name="bench"><link name="base"/>
 <joint name="axis" type="continuous"><parent link="base"/><child link="rotor"/><axis xyz="0 1 0"/></joint>
@@ -184,13 +193,7 @@ columns:
   - {from: angle, to: axis/position}
   - {from: torque, to: axis/effort}
 """,
-            "case.yaml": f"""model: model.yaml
-calibration: calibration.yaml
-convert:
-{convert}train: [run_1]
-test: [run_2]
-repeat: [run_1_again]
-""",
+            "case.yaml": CASE,
         }
 
 

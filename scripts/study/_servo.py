@@ -6,7 +6,7 @@ import math
 import os
 import random
 
-from _bench import GRAVITY, hash_of, log_uniform
+from _bench import CASE, GRAVITY, RUNS, hash_of, log_uniform, write_texts
 
 FINE = 5e-5     # step of the closed equation [s]
 TICK = 1e-3     # of the controller [s]
@@ -107,17 +107,13 @@ class Servo:
 
     def write(self, folder):
         os.makedirs(folder, exist_ok=True)
-        for name in "run_1", "run_2", "run_1_again":
+        for name in RUNS:
             with open(os.path.join(folder, f"{name}.csv"), "w") as out:
                 out.write("t,joint,goal,motor,voltage,current\n")
                 out.writelines(",".join(f"{value:.9g}" for value in row) + "\n" for row in self.record(name))
-        for name, text in self.texts().items():
-            with open(os.path.join(folder, name), "w") as out:
-                out.write(text)
+        write_texts(folder, self.texts())
 
     def texts(self):
-        convert = "".join(f"  - {{from: {name}.csv, columns: columns.yaml, to: {name}}}\n"
-                          for name in ("run_1", "run_2", "run_1_again"))
         return {
             "robot.urdf": f"""<robot name="bench"><link name="base"/>
 <joint name="hinge" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 1 0"/></joint>
@@ -161,13 +157,7 @@ columns:
   - {from: voltage, to: hinge_drive/voltage}
   - {from: current, to: hinge_drive/current}
 """,
-            "case.yaml": f"""model: model.yaml
-calibration: calibration.yaml
-convert:
-{convert}train: [run_1]
-test: [run_2]
-repeat: [run_1_again]
-""",
+            "case.yaml": CASE,
         }
 
 
