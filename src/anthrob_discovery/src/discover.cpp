@@ -36,8 +36,9 @@ void say_remarks(const Admission& admission, const Observer& observer) {
 /// @return and how they were taken
 std::pair<Admission, Measurement> admit_as_taken(const Evaluator& evaluator,
                                                  const Question& question) {
-  Admission admission = admit(evaluator, question);
-  Description description = describe(evaluator, question);
+  Description stated = as_stated(*evaluator.model(), question);
+  Admission admission = admit(evaluator, stated.question);
+  Description description = describe(evaluator, std::move(stated));
   if (description.corrected) admission = admit(evaluator, description.question);
   append(description.remarks, admission.remarks);
   return {std::move(admission), std::move(description.measurement)};

@@ -8,7 +8,6 @@
 #include "admission/repeats.h"
 #include "admission/shared_channels.h"
 #include "admission/sound_recordings.h"
-#include "admission/synchronisation.h"
 #include "anthrob_core/errors.h"
 #include "anthrob_core/text.h"
 #include "anthrob_recording/table.h"
@@ -191,7 +190,6 @@ Admission admit(const Evaluator& evaluator, const Question& given) {
       append(remarks_on_known_numbers(recording), admitted.remarks);
       append(remarks_on_directions(robot, recording), admitted.remarks);
       append(remarks_on_stamps(recording, options.admission.soundness), admitted.remarks);
-      append(remarks_on_clocks(robot, recording, options.admission), admitted.remarks);
     }
   }
 

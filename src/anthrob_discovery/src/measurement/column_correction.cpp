@@ -6,16 +6,17 @@
 #include <utility>
 
 #include "anthrob_core/text.h"
-#include "anthrob_sim/actuator/dc_motor.h"
 #include "anthrob_sim/replay/replay.h"
+#include "measurement/column_edits.h"
 #include "measurement/column_factor.h"
+#include "measurement/expected_current.h"
 
 namespace anthrob {
 namespace discovery {
 
 namespace {
 
-const double kDegrees = 180.0 / M_PI, kRpm = 60.0 / (2.0 * M_PI);
+const double kDegrees = 180.0 / M_PI, kRpm = 60.0 / (2.0 * M_PI), kKilogram = 1.0 / 9.80665;
 
 /// Two columns at the same moments.
 struct Compared {
@@ -63,58 +64,54 @@ Compared velocity_and_position(const Dataset& recording, const std::string& name
 
 Compared current_and_voltage(const MuscleModel& muscle, const Dataset& recording, double beside) {
   Compared compared;
-  const auto* motor = dynamic_cast<const DcMotor*>(muscle.actuator.get());
-  if (motor == nullptr) return compared;
-  const auto& p = motor->parameters();
   const Series current = recording.series(muscle.name + "/current"),
-               voltage = recording.series(muscle.name + "/voltage"),
-               position = recording.series(muscle.name + "/position");
-  if (voltage.empty() || position.empty()) return compared;
+               expected = expected_current(muscle, recording, beside);
+  if (expected.empty()) return compared;
   for (std::size_t i = 0; i < current.t.size(); ++i) {
-    const double t = current.t[i];
-    if (t - beside < position.t.front() || t + beside > position.t.back()) continue;
-    const double velocity = (position.at(t + beside) - position.at(t - beside)) / (2.0 * beside);
-    compared.expected.push_back((voltage.at(t) - p.back_emf_constant * p.ratio * velocity) /
-                                p.resistance);
+    if (current.t[i] < expected.t.front() || current.t[i] > expected.t.back()) continue;
+    compared.expected.push_back(expected.at(current.t[i]));
     compared.recorded.push_back(current.values[i]);
   }
   return compared;
 }
 
-void divide(Dataset& recording, const std::string& name, double factor) {
-  for (Table& table : recording.tables) {
-    if (table.name == "commands") continue;
-    for (Column& column : table.columns) {
-      if (column.name != name) continue;
-      for (double& value : column.values) value /= factor;
-    }
+/// A column as it was measured and as the model has it.
+Compared measured_and_simulated(const Dataset& recording, const std::optional<Dataset>& simulated,
+                                const std::string& column) {
+  Compared compared;
+  if (!simulated) return compared;
+  const Series measured = recording.series(column), other = simulated->series(column);
+  if (other.empty()) return compared;
+  for (std::size_t i = 0; i < measured.t.size(); ++i) {
+    compared.expected.push_back(other.at(measured.t[i]));
+    compared.recorded.push_back(measured.values[i]);
   }
+  return compared;
 }
 
 /// Finds, corrects and reports factors of columns.
 class ColumnCorrection {
  public:
   explicit ColumnCorrection(Description& description)
-      : description_(description), options_(description.question.options.measurement.column) {
-    for (auto* group :
-         {&description.question.train, &description.question.test, &description.question.repeats}) {
-      for (Dataset& recording : *group) recordings_.push_back(&recording);
-    }
-  }
+      : description_(description),
+        options_(description.question.options.measurement.column),
+        recordings_(recordings_of(description.question)) {}
 
   template <typename Comparison>
-  void correct(const std::string& place, const std::string& kind, const std::string& against,
+  void correct(const std::string& column, const std::string& kind, const std::string& against,
                const std::vector<double>& factors, double near, const Comparison& comparison) {
     bool is_told = false;
-    for (Dataset* recording : recordings_) {
-      if (recording->series(place + "/" + kind).empty()) continue;
-      const Compared compared = comparison(*recording);
+    for (std::size_t r = 0; r < recordings_.size(); ++r) {
+      Dataset* recording = recordings_[r];
+      if (recording->series(column).empty()) continue;
+      const Compared compared = comparison(*recording, r);
       const auto found =
           column_factor(compared.expected, compared.recorded, factors, near, options_);
       if (!found || found->factor == 1.0) continue;
-      divide(*recording, place + "/" + kind, found->factor);
+      divide_columns(
+          *recording, [&](const Column& own) { return own.name == column; }, found->factor);
       description_.corrected = true;
-      if (!is_told) tell(place, kind, against, *found, "divided by it");
+      if (!is_told) tell(column, kind, against, *found);
       is_told = true;
     }
   }
@@ -133,19 +130,18 @@ class ColumnCorrection {
   }
 
  private:
-  void tell(const std::string& place, const std::string& kind, const std::string& against,
-            const ColumnFactor& found, const std::string& done) {
+  void tell(const std::string& column, const std::string& kind, const std::string& against,
+            const ColumnFactor& found) {
     const double half = 1.96 * found.sigma;
-    const char* what = found.factor == -1.0 ? "sign" : "unit";
     description_.measurement.push_back({kind,
-                                        place,
-                                        what,
+                                        column.substr(0, column.rfind('/')),
+                                        found.factor == -1.0 ? "sign" : "unit",
                                         found.factor,
                                         {found.measured - half, found.measured + half},
                                         "1",
                                         "found"});
-    description_.remarks.push_back(place + "/" + kind + ": " + short_number(found.factor) +
-                                   " times " + against + ", by another sign or unit: " + done);
+    description_.remarks.push_back(column + ": " + short_number(found.factor) + " times " +
+                                   against + ", by another sign or unit: divided by it");
   }
 
   Description& description_;
@@ -161,23 +157,46 @@ void correct_columns(const RobotModel& robot, Description& description) {
   for (const MuscleModel& muscle : robot.muscles) {
     const std::string& name = muscle.name;
     if (muscle.has_controller) {
-      correction.correct(name, "position", "the reference that it follows", {kDegrees, 1e3, 1e-3},
-                         options.near.value, [&](const Dataset& recording) {
+      correction.correct(name + "/position", "position", "the reference that it follows",
+                         {kDegrees, 1e3, 1e-3}, options.near.value,
+                         [&](const Dataset& recording, std::size_t) {
                            return position_and_reference(recording, name);
                          });
     }
-    correction.correct(name, "velocity", "the rate of its position",
+    correction.correct(name + "/velocity", "velocity", "the rate of its position",
                        {kDegrees, kRpm, 10.0, 100.0, 1e3, 0.1, 0.01, 1e-3}, options.exactly.value,
-                       [&](const Dataset& recording) {
+                       [&](const Dataset& recording, std::size_t) {
                          return velocity_and_position(recording, name, options.rows);
                        });
-    correction.correct(name, "current", "what voltage and velocity give by the motor's resistance",
-                       {1e3, 1e-3}, options.near.value, [&](const Dataset& recording) {
+    correction.correct(name + "/current", "current",
+                       "what voltage and velocity give by the motor's resistance", {1e3, 1e-3},
+                       options.near.value, [&](const Dataset& recording, std::size_t) {
                          return current_and_voltage(muscle, recording, options.beside);
                        });
   }
   for (const JointModel& joint : robot.skeleton->joints) {
     if (joint.type != JointType::kBall) correction.remark_on_rate(joint.name);
+  }
+}
+
+void correct_columns_by_model(const RobotModel& robot,
+                              const std::vector<std::optional<Dataset>>& simulated,
+                              Description& description) {
+  const double near = description.question.options.measurement.column.near.value;
+  ColumnCorrection correction(description);
+  const auto correct = [&](const std::string& column, const std::string& kind,
+                           const std::vector<double>& factors) {
+    correction.correct(column, kind, "what the model gives", factors, near,
+                       [&](const Dataset& recording, std::size_t r) {
+                         return measured_and_simulated(recording, simulated[r], column);
+                       });
+  };
+  for (const MuscleModel& muscle : robot.muscles) {
+    correct(muscle.name + "/force", "force", {1e3, 1e-3, kKilogram, 1e3 * kKilogram});
+  }
+  for (const JointModel& joint : robot.skeleton->joints) {
+    if (joint.type == JointType::kBall) continue;
+    correct(joint.name + "/position", "joint position", {kDegrees, 1e3, 1e-3});
   }
 }
 

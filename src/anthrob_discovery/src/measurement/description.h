@@ -32,5 +32,14 @@ struct Description {
   bool corrected = false;            ///< whether any recording differs from what was given
 };
 
+/// All that discovery looks at: train, test, repeats.
+inline std::vector<Dataset*> recordings_of(Question& question) {
+  std::vector<Dataset*> recordings;
+  for (auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (Dataset& recording : *group) recordings.push_back(&recording);
+  }
+  return recordings;
+}
+
 }  // namespace discovery
 }  // namespace anthrob

@@ -1,18 +1,33 @@
 #include "measurement/measurement.h"
 
+#include "measurement/clock_correction.h"
 #include "measurement/column_correction.h"
 #include "measurement/hold_correction.h"
+#include "measurement/replays.h"
 #include "measurement/stamp_correction.h"
+#include "measurement/statements.h"
 
 namespace anthrob {
 namespace discovery {
 
-Description describe(const Evaluator& evaluator, const Question& question) {
+Description as_stated(const RobotModel& robot, const Question& question) {
   Description description;
   description.question = question;
-  correct_columns(*evaluator.model(), description);
-  correct_holds(*evaluator.model(), description);
-  correct_controller_stamps(*evaluator.model(), evaluator.description().config(), description);
+  correct_as_stated(robot, description);
+  return description;
+}
+
+Description describe(const Evaluator& evaluator, Description description) {
+  const RobotModel& robot = *evaluator.model();
+  correct_columns(robot, description);
+  correct_holds(robot, description);
+  const std::vector<MovedTable> moved = correct_clock_offsets(robot, description);
+  const auto simulated =
+      replays(evaluator, recordings_of(description.question), description.question.feed);
+  correct_columns_by_model(robot, simulated, description);
+  correct_clocks(robot, simulated, moved, description);
+  correct_controller_stamps(robot, evaluator.description().config(), description);
+  tell_contradictions(description);
   return description;
 }
 

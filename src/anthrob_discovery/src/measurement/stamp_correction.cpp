@@ -58,10 +58,7 @@ void correct_controller_stamps(const RobotModel& robot, const ConfigNode& config
                                Description& description) {
   Question& question = description.question;
   const ControllerAlgebraOptions& options = question.options.measurement.controller;
-  std::vector<Dataset*> recordings;
-  for (auto* group : {&question.train, &question.test, &question.repeats}) {
-    for (Dataset& recording : *group) recordings.push_back(&recording);
-  }
+  const std::vector<Dataset*> recordings = recordings_of(question);
   const ControllerAlgebra algebra(robot, {recordings.begin(), recordings.end()}, options);
   if (!algebra.is_known()) return;
   const auto shift = algebra.stamp_shift();

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "anthrob_core/text.h"
-#include "measurement/retimed.h"
+#include "measurement/column_edits.h"
 
 namespace anthrob {
 namespace discovery {
@@ -35,23 +35,14 @@ std::string kind_word(LateStamp what) {
 
 void move_earlier(const RobotModel& robot, const std::vector<std::string>& quantities, double late,
                   Dataset& recording) {
-  const auto shift = static_cast<Nanoseconds>(std::llround(1e9 * late));
-  for (std::size_t k = 0, count = recording.tables.size(); k < count; ++k) {
-    const Table& table = recording.tables[k];
-    if (table.name == "commands") continue;
-    std::vector<std::string> columns;
-    for (const Column& column : table.columns) {
-      if (robot.find_muscle(column.owner()) >= 0 &&
-          std::find(quantities.begin(), quantities.end(), column.quantity()) != quantities.end()) {
-        columns.push_back(column.name);
-      }
-    }
-    if (columns.empty()) continue;
-    TimesTaken times;
-    for (const Nanoseconds t : table.t) times.emplace_back(t - shift);
-    retime(recording, std::string(table.name), columns,
-           table.name + " of " + quantities.front() + "s", times);
-  }
+  move_columns(
+      recording,
+      [&](const Column& column) {
+        return robot.find_muscle(column.owner()) >= 0 &&
+               std::find(quantities.begin(), quantities.end(), column.quantity()) !=
+                   quantities.end();
+      },
+      late);
 }
 
 void report_tick_phase(double tick, double sigma, Description& description) {

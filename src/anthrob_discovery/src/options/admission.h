@@ -109,9 +109,8 @@ struct ClockOptions {
   double least_force = 0.5;   ///< [N] of a tendon whose force changes
   /// [s] lag of real sensors, and a little more: `mocap_delay` may be 0.2 s
   double plausible = 0.25;
-  double late = 0.5;               ///< [s] beyond doubt
   Share explains = 0.6;            ///< least share of the squares at the other lag
-  Share clearly = 0.3;             ///< of the squares, more than at a plausible lag
+  Share clearly = 0.5;             ///< of what a plausible lag leaves unexplained, at most
   double few_movements = 2.5;      ///< fewer are not examined
   double several_movements = 4.0;  ///< fewer get a remark only
 
@@ -127,7 +126,6 @@ struct ClockOptions {
     visit("least_turn", options.least_turn);
     visit("least_force", options.least_force);
     visit("plausible", options.plausible);
-    visit("late", options.late);
     visit("explains", options.explains);
     visit("clearly", options.clearly);
     visit("few_movements", options.few_movements);

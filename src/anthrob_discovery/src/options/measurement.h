@@ -96,17 +96,41 @@ struct ColumnOptions {
   }
 };
 
+/// Lags and clocks by least squares.
+struct ClockFitOptions {
+  double block = 2.0;             ///< [s] taken as independent of the others
+  std::size_t fewest_blocks = 4;  ///< for a standard error
+  double sure = 4.0;              ///< standard errors of a lag or a drift
+  double most_drift = 1e-3;       ///< [1] of a quartz that is broken; beyond, it is something else
+  double interval = 1.96;         ///< standard errors to either side, for 95 %
+  double beside = 0.005;          ///< [s] to either side, for a rate; grid of lags
+  int steps = 6;                  ///< of Gauss and Newton from the best of the grid
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& options, Visitor&& visit) {
+    visit("block", options.block);
+    visit("fewest_blocks", options.fewest_blocks);
+    visit("sure", options.sure);
+    visit("most_drift", options.most_drift);
+    visit("interval", options.interval);
+    visit("beside", options.beside);
+    visit("steps", options.steps);
+  }
+};
+
 /// How recordings were taken.
 struct MeasurementOptions {
   HeldSampleOptions hold;
   ControllerAlgebraOptions controller;
   ColumnOptions column;
+  ClockFitOptions clock;
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
     visit("hold", options.hold);
     visit("controller", options.controller);
     visit("column", options.column);
+    visit("clock", options.clock);
   }
 };
 

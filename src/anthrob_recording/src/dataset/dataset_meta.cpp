@@ -13,12 +13,12 @@ namespace anthrob {
 
 namespace {
 
-/// Keys of meta.yaml that are meant for people or for identification: `sensors` and `notes`, and
-/// those of the recorder, of rigs, of anthrob_replay and of bags.
+/// Keys of meta.yaml that are meant for people or for identification: `sensors` and `notes`,
+/// `measurement` of discovery, and those of the recorder, of rigs, of anthrob_replay and of bags.
 bool is_known_key(const std::string& key) {
   static const std::set<std::string> kKnown = {
-      "sensors", "notes",      "cut_short", "from", "hold",   "largest_gap",  "posture", "protocol",
-      "rest",    "rest_drift", "rig",       "run",  "sample", "simulated_by", "specimen"};
+      "sensors",  "notes", "cut_short",  "from", "hold", "largest_gap", "measurement",  "posture",
+      "protocol", "rest",  "rest_drift", "rig",  "run",  "sample",      "simulated_by", "specimen"};
   return kKnown.count(key) > 0 || key.rfind("frame_id_", 0) == 0;
 }
 

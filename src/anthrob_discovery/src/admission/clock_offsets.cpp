@@ -1,14 +1,12 @@
-#include "admission/synchronisation.h"
+#include "admission/clock_offsets.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 
 #include "admission/movement.h"
-#include "anthrob_core/errors.h"
 #include "anthrob_recording/orientation_series.h"
 
 namespace anthrob {
@@ -168,13 +166,8 @@ std::vector<Series> moving_muscles(const RobotModel& robot, const Dataset& recor
   return moving;
 }
 
-struct Suspicion {
-  std::string text;  ///< empty: none
-  bool certain = false;
-};
-
-Suspicion suspicion_of(const Rates& muscles, const Rates& joints, double length,
-                       const ClockOptions& options) {
+std::optional<ClockOffset> offset_of(const Rates& muscles, const Rates& joints, double length,
+                                     const ClockOptions& options) {
   const double spread = movements(joints);
   if (spread < options.few_movements) return {};
   const auto reach = static_cast<Eigen::Index>(
@@ -184,26 +177,16 @@ Suspicion suspicion_of(const Rates& muscles, const Rates& joints, double length,
     const auto share = explained(muscles, joints, lag, options);
     if (share) fits.push_back({static_cast<double>(lag) * options.bin, *share});
   }
-  const auto clearly_better = [&](double bound) {
-    const double near = best_of(fits, -1.0, bound).share;
-    const double far = best_of(fits, bound, options.longest_lag).share;
-    return near > -1e300 && far >= options.explains && far - std::max(0.0, near) >= options.clearly;
-  };
-  if (!clearly_better(options.plausible)) return {};
   const Fit best = best_of(fits, options.plausible, options.longest_lag);
-  char text[250];
-  std::snprintf(text, sizeof(text),
-                "joints seem to be stamped %.1f s too %s: with that shift, motor positions and "
-                "forces explain %.0f %% of their motion, without it only %.0f %%",
-                std::abs(best.lag), best.lag > 0.0 ? "late" : "early", 100.0 * best.share,
-                100.0 * std::max(0.0, best_of(fits, -1.0, options.plausible).share));
-  return {text, spread >= options.several_movements && clearly_better(options.late)};
+  const double near = std::max(0.0, best_of(fits, -1.0, options.plausible).share);
+  if (best.share < options.explains || 1.0 - best.share > options.clearly * (1.0 - near)) return {};
+  return ClockOffset{{}, best.lag, best.share, near, spread >= options.several_movements};
 }
 
 }  // namespace
 
-std::vector<std::string> remarks_on_clocks(const RobotModel& robot, const Dataset& recording,
-                                           const AdmissionOptions& options) {
+std::vector<ClockOffset> clock_offsets(const RobotModel& robot, const Dataset& recording,
+                                       const AdmissionOptions& options) {
   const std::vector<Series> acting = moving_muscles(robot, recording, options);
   if (acting.empty()) return {};
   const auto moving = moving_joints(robot, recording, options);
@@ -215,20 +198,17 @@ std::vector<std::string> remarks_on_clocks(const RobotModel& robot, const Datase
   if (bins < 3) return {};
   Rates muscles(bins, options.clocks.bin);
   for (const Series& series : acting) muscles.add(series);
-  std::vector<std::string> remarks;
+  std::vector<ClockOffset> offsets;
   for (const auto& [table, series] : moving) {
     Rates joints(bins, options.clocks.bin);
     for (const Series& own : series) joints.add(own);
-    const Suspicion suspicion = suspicion_of(
-        muscles, joints, static_cast<double>(bins) * options.clocks.bin, options.clocks);
-    if (suspicion.text.empty()) continue;
-    const std::string line = recording.folder + "/" + table +
-                             ".csv: not synchronised with the other files: " + suspicion.text +
-                             "; expected all files to use one clock";
-    if (suspicion.certain) throw BadInput(line);
-    remarks.push_back(line);
+    auto offset =
+        offset_of(muscles, joints, static_cast<double>(bins) * options.clocks.bin, options.clocks);
+    if (!offset) continue;
+    offset->table = table;
+    offsets.push_back(*offset);
   }
-  return remarks;
+  return offsets;
 }
 
 }  // namespace discovery
