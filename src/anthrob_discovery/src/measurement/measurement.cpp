@@ -2,6 +2,7 @@
 
 #include "measurement/clock_correction.h"
 #include "measurement/column_correction.h"
+#include "measurement/current_correction.h"
 #include "measurement/hold_correction.h"
 #include "measurement/replays.h"
 #include "measurement/stamp_correction.h"
@@ -27,6 +28,7 @@ Description describe(const Evaluator& evaluator, Description description) {
   correct_columns_by_model(robot, simulated, description);
   correct_clocks(robot, simulated, moved, description);
   correct_controller_stamps(robot, evaluator.description().config(), description);
+  correct_currents(robot, description);
   tell_contradictions(description);
   return description;
 }
