@@ -18,10 +18,12 @@ import rostest
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 sys.path.insert(0, os.path.join(TOP, 'scripts', 'study'))
 import _bench  # noqa: E402
+import _recorder  # noqa: E402
 import _servo  # noqa: E402
 import _study  # noqa: E402
 import axes  # noqa: E402
 import calibration  # noqa: E402
+import conventions  # noqa: E402
 import discovery  # noqa: E402
 import fuzz  # noqa: E402
 import real  # noqa: E402
@@ -339,6 +341,84 @@ echo "[  PASSED  ] 3 tests."
 for i in 1 2; do echo "WARNING: ThreadSanitizer: data race (pid=$i)"; done
 exit 66
 '''
+
+
+# A hinge and two muscles that do what sines do, at every tick.
+REPLAYER = '''#!/usr/bin/python3
+import math, os, sys
+out = sys.argv[sys.argv.index("--out") + 1]
+os.makedirs(out)
+own = ["position", "velocity", "current", "voltage", "force"]
+names = {"muscles": [f"{m}/{o}" for m in ("flexor", "extensor") for o in own], "joints": ["hinge/position"]}
+for table, columns in names.items():
+    with open(f"{out}/{table}.csv", "w") as file:
+        file.write("t," + ",".join(columns) + "\\n")
+        for i in range(20100):
+            file.write(",".join([f"{i / 1000:.3f}"] + [f"{math.sin(i / 300):.6f}"] * len(columns)) + "\\n")
+'''
+# Names friction where something is hidden, and mocap_delay of joints by foreign conventions.
+ANSWERER = '''#!/usr/bin/python3
+import json, os, sys
+out = sys.argv[sys.argv.index("--out") + 1]
+os.makedirs(out)
+hidden = "effects" in open(os.path.join(os.path.dirname(out), "hidden.yaml")).read()
+effects = [{"id": "joint_coulomb", "place": "hinge", "parameters": {}}] if hidden else []
+late = "foreign" in out and os.path.exists("late")
+effects += [{"id": "mocap_delay", "place": "global", "parameters": {}}] if late else []
+held = [{"channel_kind": "joint position", "what": "hold", "source": "found"}]
+json.dump({"verdict": "effects_found" if effects else "no_missing_effect", "gap": {}, "effects": effects,
+           "measurement": held if "foreign" in out else [], "remarks": []}, open(out + "/report.json", "w"))
+open("calls", "a").write("examined\\n")
+'''
+
+
+class ConventionsStudy(Study):
+    study_of = conventions
+
+    def programs(self):
+        return {'REPLAY': self.program('replayer', REPLAYER), 'DISCOVER': self.program('answerer', ANSWERER)}
+
+    def test_answers_are_compared_with_those_by_our_own_conventions(self):
+        self.study('--cases', '4')
+        rows = _study.load('out/conventions.json')
+        self.assertEqual([row['right'] for row in rows], [True] * 4)
+        self.assertEqual([row['ours'] for row in rows], ['', 'joint_coulomb@hinge'] * 2)
+        self.assertEqual(self.calls(), 6)  # of nothing hidden, what is right is known
+        self.study('--cases', '4')
+        self.assertEqual(self.calls(), 6)
+        self.assertRegex(self.told(), r'cases.*4')
+
+    def test_a_delay_of_a_camera_is_right_only_where_there_is_one(self):
+        open('late', 'w').close()
+        self.study('--cases', '3')
+        rows = _study.load('out/conventions.json')
+        for row, asked in zip(rows, (_recorder.Case(1, i, True, i % 2 == 1) for i in range(3))):
+            is_late = any(c.kind == 'joint' and c.what in ('delay', 'average', 'filter') for c in asked.conventions)
+            self.assertEqual(row['right'], is_late, row)
+
+    def test_what_is_told(self):
+        found = {'measurement': [{'channel_kind': 'position and force', 'what': 'delay', 'source': 'found'},
+                                 {'channel_kind': 'current', 'what': 'unit', 'source': 'meta'}], 'effects': []}
+        for what, kind, told in [('delay', 'force', True), ('average', 'force', True), ('delay', 'current', False),
+                                 ('hold', 'force', False), ('unit', 'current', False)]:
+            self.assertEqual(conventions.is_reported(_recorder.Convention(what, kind, 1.0), found), told, (what, kind))
+
+    def test_a_recorder_does_what_it_is_asked_for(self):
+        t = numpy.arange(20100) * _recorder.TICK
+        ramp, times = 3.0 * t, numpy.arange(0.0, 19.9, 0.005)
+        with mock.patch.object(_recorder, 'NOISE', dict.fromkeys(_recorder.NOISE, 0.0)):
+            def column(*conventions):
+                recorder = _recorder.Recorder([_recorder.Convention(*c) for c in conventions], 'x')
+                return recorder.column('flexor/force', ramp, times, numpy.random.default_rng(1))[100:]
+            after = times[100:]
+            numpy.testing.assert_allclose(column(), 3.0 * after, atol=1e-9)
+            numpy.testing.assert_allclose(column(('delay', 'force', 0.012)), 3.0 * (after - 0.012), atol=1e-9)
+            numpy.testing.assert_allclose(column(('filter', 'force', 0.01)), 3.0 * (after - 0.01), atol=2e-3)
+            numpy.testing.assert_allclose(column(('average', 'force', 0.01)), 3.0 * (after - 0.0045), atol=2e-3)
+            numpy.testing.assert_allclose(column(('unit', 'force', 1e3, 'flexor/force')), 3000.0 * after, atol=1e-6)
+            numpy.testing.assert_allclose(column(('unit', 'force', 1e3, 'extensor/force')), 3.0 * after, atol=1e-9)
+            held = column(('hold', 'force', 40.0))
+            self.assertEqual(len(numpy.unique(held)), len(numpy.unique(numpy.floor(after * 40.0 + 1e-9))))
 
 
 class ThreadsStudy(Study):
