@@ -1,0 +1,51 @@
+// The calibration node: copies of the model beside a robot. It only listens.
+#include <ros/ros.h>
+
+#include "anthrob_core/errors.h"
+#include "anthrob_ros/parameters.h"
+#include "anthrob_ros/run_node.h"
+#include "twin_node.h"
+
+namespace {
+
+anthrob::twin::Feed feed_of(const std::string& key, const XmlRpc::XmlRpcValue& value) {
+  using namespace anthrob::twin;
+  const std::string word = anthrob::text_of(key, value);
+  for (const Feed feed : kFeeds) {
+    if (word == kFeedNames[static_cast<std::size_t>(feed)]) return feed;
+  }
+  throw anthrob::BadInput("parameter ~" + key + ": '" + word +
+                          "': expected commands, voltages, positions or postures");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  anthrob::NodeInfo info;
+  info.name = "calibrator";
+  info.purpose = "Copies of the model beside a robot: what they say now, and where both part.";
+  info.parameters = {
+      {"model", "model file, or a name such as anthrob/II (required)"},
+      {"feed",
+       "what drives the copy that is shown as twin/...: commands, voltages, positions or postures "
+       "(default: commands)"},
+      {"rate", "of twin/... [Hz of measured time], at most that of the measurement (default: 100)"},
+      {"warn", "gap [floors] over 10 s from which on it is warned of (default: 3)"},
+      {"largest_gap", "in the measurement [s] beyond which the robot was lost (default: 0.25)"},
+      {"settle", "[s] after a start that do not count (default: 2)"},
+      {"floors", "path of a file with floors that are not to be learned (default: none)"},
+  };
+  return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
+    const auto model = anthrob::load_robot_model(anthrob::required_model(settings));
+    anthrob::TwinNode::Options options;
+    anthrob::take(settings, "feed", feed_of, options.feed);
+    anthrob::take(settings, "rate", anthrob::positive_number_of, options.rate);
+    anthrob::take(settings, "warn", anthrob::positive_number_of, options.twins.warn);
+    anthrob::take(settings, "largest_gap", anthrob::positive_number_of, options.twins.largest_gap);
+    anthrob::take(settings, "settle", anthrob::nonnegative_number_of, options.twins.settle);
+    anthrob::take(settings, "floors", anthrob::text_of, options.floors);
+    anthrob::TwinNode twins(model, options, nh);
+    twins.run();
+    return 0;
+  });
+}
