@@ -16,6 +16,7 @@ import rostest
 BRINGUP = rospkg.RosPack().get_path('anthrob_bringup')
 CONFIG = os.path.join(BRINGUP, 'config', 'anthrob')
 NODES = {
+    'anthrob_calib': ['anthrob_calibrator'],
     'anthrob_sim': ['anthrob_simulator', 'anthrob_tendons'],
     'anthrob_driver': ['anthrob_driver'],
     'anthrob_control': ['anthrob_computed_force', 'anthrob_hold_posture', 'anthrob_posture_player'],
@@ -113,6 +114,11 @@ class Parameters(unittest.TestCase):
                 done = run(package, program, *good, (name, value))
                 self.assertEqual(done.returncode, 2, done.stdout)
                 self.assertRegex(done.stdout, 'parameter ~%s: .*expected' % name)
+
+    def test_calibrator(self):
+        self.check('anthrob_calib', 'anthrob_calibrator', [('model', os.path.join(CONFIG, 'model_I.yaml'))],
+                   [('feed', 'torques'), ('feed', '1'), ('rate', '0'), ('warn', 'much'), ('settle', '-1'),
+                    ('largest_gap', '.nan'), ('floors', '3'), ('model', '7')])
 
     def test_simulator(self):
         self.check('anthrob_sim', 'anthrob_simulator', [('model', os.path.join(CONFIG, 'model_I.yaml'))],

@@ -38,17 +38,9 @@ std::vector<OwnerGaps> by_owner(const std::vector<Channel>& channels,
 }  // namespace
 
 const char* words(Part part) {
-  switch (part) {
-    case Part::kController:
-      return "controller";
-    case Part::kMotor:
-      return "motor or gear";
-    case Part::kJoint:
-      return "joint or load";
-    case Part::kSpring:
-      return "spring or tendon";
-  }
-  return "";
+  constexpr const char* kWords[] = {"controller", "motor or gear", "joint or load",
+                                    "spring or tendon"};  // in the order of the parts
+  return kWords[static_cast<int>(part)];
 }
 
 std::vector<Finding> judge(const std::vector<Channel>& channels, const std::vector<double>& gap,

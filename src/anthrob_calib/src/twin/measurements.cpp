@@ -216,8 +216,8 @@ std::optional<Nanoseconds> Measurements::start() const {
     if (alive(topic) ? *newest(topic) < latest : awaited) return std::nullopt;
   }
   // Steps are counted from a measurement, so that they meet those that follow.
-  if (leading != Topic::kMuscles) return latest;
-  return muscles_[muscles_.after(latest)].stamp;
+  if (leading == Topic::kMuscles) latest = muscles_[muscles_.after(latest)].stamp;
+  return latest <= horizon() ? std::make_optional(latest) : std::nullopt;
 }
 
 Nanoseconds Measurements::horizon() const {

@@ -24,9 +24,9 @@ struct TwinOptions {
   double stand = 5.0;   ///< [s] simulated at the measured posture first; O-rings relax in 1.5 s
   double settle = 2.0;  ///< [s] measured time that does not count then: motions that were under way
   double retry = 1.0;   ///< [s] after a numerical failure
-  double pull = 0.5;    ///< [s] in which the motors fed with voltages come back to where they were
-                        ///< measured; without it they integrate noise
-
+  double pull = 0.2;    ///< [s] in which the motors fed with voltages come back to where they were
+                        ///< measured. Without it they integrate noise, and what voltages do between
+                        ///< two messages: 15 mV of a 200 Hz bus that jump with each reference
   double average = 0.01;  ///< [s] on both sides, of measured speeds of motors, for the same reason
   double smooth = 0.1;    ///< [s] in which imposed positions follow the measured ones; within, they
                           ///< follow measured speeds: counts would turn the tendons' friction about
