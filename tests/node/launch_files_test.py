@@ -229,6 +229,15 @@ print('status', node.returncode)
                 seen = any(node.package == 'anthrob_mocap' for node in config.nodes)
                 self.assertEqual(seen, backend != 'emulated')
 
+    def test_a_twin_stands_beside_every_back_end(self):
+        for backend in 'hardware', 'emulated', 'sim':
+            with self.subTest(backend):
+                for asked, count in ([], 0), (['twin:=true'], 1):
+                    config = load('robot.launch', 'backend:=' + backend, 'model:=III', *asked)
+                    twins = [node for node in config.nodes if node.type == 'anthrob_calibrator']
+                    self.assertEqual([(node.namespace, node.name) for node in twins], [('/anthrob/', 'calibrator')] * count)
+                self.assertTrue(config.params['/anthrob/calibrator/model'].value.endswith('/anthrob/model_III.yaml'))
+
     def test_emulated_units_know_a_zero_only_if_asked(self):
         for asked, homed in ([], 'false'), (['homed:=true'], 'true'):
             emulator, = [node for node in load('robot.launch', 'backend:=emulated', *asked).nodes

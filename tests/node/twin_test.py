@@ -17,7 +17,7 @@ from waiting import wait_for
 
 STEPS = 5         # of 1 ms from one state to the next, 200 Hz as of a robot
 LONG_ENOUGH = 13  # [s] two for settling, ten for the window
-FLOORS = 3.0      # from which on the node warns
+FLOORS = 3.0      # less than what the node warns of
 
 
 class Twin(unittest.TestCase):

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
        "what drives the copy that is shown as twin/...: commands, voltages, positions or postures "
        "(default: commands)"},
       {"rate", "of twin/... [Hz of measured time], at most that of the measurement (default: 100)"},
-      {"warn", "gap [floors] over 10 s from which on it is warned of (default: 3)"},
+      {"warn", "gap [floors] over 10 s from which on it is warned of (default: 4)"},
       {"largest_gap", "in the measurement [s] beyond which the robot was lost (default: 0.25)"},
       {"settle", "[s] after a start that do not count (default: 2)"},
       {"floors", "path of a file with floors that are not to be learned (default: none)"},

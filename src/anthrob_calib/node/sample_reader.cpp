@@ -10,6 +10,11 @@ Nanoseconds stamp_of(const std_msgs::Header& header) {
   return static_cast<Nanoseconds>(header.stamp.toNSec());
 }
 
+template <class Vector>
+Vec3 vector_of(const Vector& message) {
+  return {message.x, message.y, message.z};
+}
+
 }  // namespace
 
 SampleReader::SampleReader(const RobotModel& model)
@@ -117,6 +122,29 @@ const twin::JointSample* SampleReader::read(const anthrob_msgs::SphericalJointSt
     }
   }
   return &balls_;
+}
+
+std::optional<twin::PushSample> SampleReader::read(
+    const anthrob_msgs::ExternalWrenches& message) const {
+  const std::size_t size = message.link.size();
+  if (message.point.size() != size || message.wrench.size() != size ||
+      message.left.size() != size) {
+    return std::nullopt;
+  }
+  twin::PushSample sample;
+  sample.stamp = stamp_of(message.header);
+  for (std::size_t i = 0; i < size; ++i) {
+    const int frame = model_.skeleton->find_frame(message.link[i]);
+    if (frame < 0) continue;
+    twin::PushSample::Push push;
+    push.wrench.frame = frame;
+    push.wrench.point = vector_of(message.point[i]);
+    push.wrench.force = vector_of(message.wrench[i].force);
+    push.wrench.torque = vector_of(message.wrench[i].torque);
+    push.end = sample.stamp + message.left[i].toNSec();
+    sample.pushes.push_back(push);
+  }
+  return sample;
 }
 
 }  // namespace anthrob

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <anthrob_msgs/ExternalWrenches.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SphericalJointStates.h>
 #include <sensor_msgs/JointState.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ class SampleReader {
   const twin::MuscleSample* read(const anthrob_msgs::MuscleStates& message);
   const twin::JointSample* read(const sensor_msgs::JointState& message);
   const twin::JointSample* read(const anthrob_msgs::SphericalJointStates& message);
+  std::optional<twin::PushSample> read(const anthrob_msgs::ExternalWrenches& message) const;
 
  private:
   /// Places of names in the model, found anew only if they change.

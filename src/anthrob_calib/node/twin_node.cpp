@@ -76,6 +76,9 @@ TwinNode::TwinNode(std::shared_ptr<const RobotModel> model, const Options& optio
       nh_.subscribe<SphericalJointStates>(
           "spherical_joint_states", kQueue,
           [this](const SphericalJointStates::ConstPtr& m) { hear(*m, Topic::kBallJoints); }),
+      nh_.subscribe<anthrob_msgs::ExternalWrenches>(
+          "external_wrenches", kQueue,
+          [this](const anthrob_msgs::ExternalWrenches::ConstPtr& m) { hear_pushes(*m); }),
   };
   timer_ = nh_.createWallTimer(ros::WallDuration(kDiagnosticsPeriod),
                                [this](const ros::WallTimerEvent&) { publish_diagnostics(); });
@@ -97,9 +100,17 @@ void TwinNode::hear(const Message& message, twin::Topic topic) {
     return;
   }
   heard_ = ros::WallTime::now();
-  newest_ = sample->stamp;
   take(*sample, topic);
   advance();
+}
+
+void TwinNode::hear_pushes(const anthrob_msgs::ExternalWrenches& message) {
+  const auto pushes = reader_.read(message);
+  if (pushes) {
+    twins_.hear(*pushes);
+  } else {
+    ++malformed_;
+  }
 }
 
 void TwinNode::advance() {
@@ -218,7 +229,8 @@ diagnostic_msgs::DiagnosticStatus TwinNode::own_status() const {
   }
   status.level =
       heard_.isZero() || (now && lost.empty()) ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
-  status.values.push_back(key_value("behind", text(now ? seconds(newest_ - *now) : 0.0)));
+  const double behind = now ? ros::Time::now().toSec() - seconds(*now) : 0.0;
+  status.values.push_back(key_value("behind", text(behind)));
   for (int t = 0; t < twin::kTopicCount; ++t) {
     const auto topic = static_cast<twin::Topic>(t);
     if (!twins_.measurements().needed(topic)) continue;

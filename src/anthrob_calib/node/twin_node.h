@@ -1,5 +1,6 @@
 #pragma once
 
+#include <anthrob_msgs/ExternalWrenches.h>
 #include <anthrob_msgs/Gap.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SphericalJointStates.h>
@@ -39,6 +40,7 @@ class TwinNode {
   void hear(const Message& message, twin::Topic topic);
   void take(const twin::MuscleSample& sample, twin::Topic) { twins_.hear(sample); }
   void take(const twin::JointSample& sample, twin::Topic topic) { twins_.hear(sample, topic); }
+  void hear_pushes(const anthrob_msgs::ExternalWrenches& message);
   void advance();
   void publish_states();
   anthrob_msgs::MuscleStates muscle_states(const ros::Time& stamp) const;
@@ -59,7 +61,6 @@ class TwinNode {
   ros::WallTimer timer_;
   Nanoseconds next_states_ = 0, next_ghost_ = 0;  ///< when they are due
   ros::WallTime heard_;                           ///< zero: nothing was
-  Nanoseconds newest_ = 0;                        ///< stamp of the last message
   long malformed_ = 0;
 };
 

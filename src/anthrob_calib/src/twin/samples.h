@@ -6,6 +6,7 @@
 
 #include "anthrob_ecu/control_law.h"
 #include "anthrob_recording/table.h"
+#include "anthrob_sim/inputs.h"
 #include "anthrob_sim/model/robot_model.h"
 
 namespace anthrob {
@@ -42,6 +43,16 @@ struct JointSample {
   std::vector<double> q;         ///< as a configuration; NaN: not measured, or of another topic
   std::vector<double> velocity;  ///< generalised; of ball joints in the child's axes [rad/s, m/s]
   std::vector<double> effort;    ///< by joint, of driven ones [Nm, N]
+};
+
+/// What pushes links from an instant on, until the next sample; in any order.
+struct PushSample {
+  struct Push {
+    Wrench wrench;
+    Nanoseconds end = 0;
+  };
+  Nanoseconds stamp = 0;
+  std::vector<Push> pushes;
 };
 
 inline MuscleSample blank_muscles(const RobotModel& model) {

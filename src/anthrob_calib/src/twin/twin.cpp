@@ -55,6 +55,7 @@ void Twin::step(const StepInputs& inputs) {
     if (!joints[j].driven || !std::isfinite(inputs.effort[j])) continue;
     sim_.apply_effort(static_cast<int>(j), inputs.effort[j]);
   }
+  for (const Wrench& push : inputs.pushes) sim_.external_wrenches().push(push);
   sim_.step();
 }
 

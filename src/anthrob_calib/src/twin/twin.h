@@ -21,6 +21,7 @@ struct StepInputs {
     double from = kNotMeasured, to = kNotMeasured;  ///< what a late sensor reads later on
   };
   std::vector<OfMuscle> muscles;
+  std::vector<Wrench> pushes;  ///< of links, from outside
   std::vector<double> q;       ///< at the end, as sensors read it
   std::vector<double> effort;  ///< of driven joints; NaN: not measured
 };

@@ -13,6 +13,7 @@ namespace twin {
 namespace {
 
 constexpr int kBlocksBetweenCounts = 10;
+constexpr std::size_t kPushSamples = 1000;  // as many as come in a second, and more than wait
 constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::min();
 
 std::shared_ptr<const RobotModel> without_chance(const RobotModel& model) {
@@ -32,6 +33,7 @@ Twins::Twins(const RobotModel& model, const TwinOptions& options, const Floors& 
       options_(options),
       channels_(model, options),
       measurements_(*model_, options),
+      pushes_({}, kPushSamples),
       step_(nanoseconds(model.step)),
       bin_(nanoseconds(options.bin)),
       not_before_(kNever),
@@ -75,10 +77,15 @@ void Twins::hear(const JointSample& sample, Topic topic) {
   take(measurements_.hear(sample, topic));
 }
 
+void Twins::hear(const PushSample& sample) {
+  if (!pushes_.holds(sample.stamp)) pushes_.insert(sample);
+}
+
 void Twins::take(const std::optional<Break>& broken) {
   if (!broken) return;
   if (broken->of_all) {
     not_before_ = kNever;  // of a time that may have gone back
+    pushes_.clear();
     lose_all(broken->why);
   } else {
     lose(Feed::kPostures, broken->why);
@@ -228,6 +235,13 @@ void Twins::find_inputs() {
     if (!measurements_.measured_joint(joint)) continue;
     smooth_joint(measurements_.joints(topic_of(joint)), joint, now_ + joint_delay_, step_,
                  options_.smooth, inputs_.q);
+  }
+  inputs_.pushes.clear();
+  pushes_.forget_before(now_);
+  if (!pushes_.empty() && pushes_[0].stamp <= now_) {
+    for (const PushSample::Push& push : pushes_[0].pushes) {
+      if (push.end > now_) inputs_.pushes.push_back(push.wrench);
+    }
   }
   const auto& joints = measurements_.joints(Topic::kJoints);
   if (!joints.empty()) inputs_.effort = joints[joints.after(next)].effort;

@@ -45,6 +45,8 @@ class Twins {
 
   void hear(const MuscleSample& sample);
   void hear(const JointSample& sample, Topic topic);
+  /// Nobody waits for these: a robot that is not pushed has none.
+  void hear(const PushSample& sample);
   /// Steps as far as all was measured, but not beyond the end of a block.
   /// @return whether a block ended: report() is new, and there may be more to step
   bool advance();
@@ -105,6 +107,7 @@ class Twins {
   TwinOptions options_;
   Channels channels_;
   Measurements measurements_;
+  Timeline<PushSample> pushes_;
   std::deque<Twin> twins_;  ///< by feed; they cannot be moved
   std::array<Status, kFeedCount> statuses_;
   std::array<Nanoseconds, kFeedCount> counts_from_ = {}, retry_ = {};

@@ -277,6 +277,37 @@ TEST(Twins, StoppedMotorsAreUnpowered) {
   for (const Feed feed : kFeeds) EXPECT_LT(robot.largest_gap(feed), 3.0) << index_of(feed);
 }
 
+/// Something that hangs on the arm from the fourth second on.
+std::unique_ptr<MovingRobot> pushed_robot(bool known) {
+  auto moving = std::make_unique<MovingRobot>(noisy_robot(rig_file()), *noisy_robot(rig_file()));
+  MovingRobot& robot = *moving;
+  robot.run(4.0);
+  PushSample sample;
+  sample.stamp = robot.stamp();
+  sample.pushes.resize(1);
+  sample.pushes[0].wrench.frame = robot.sim.model().skeleton->find_frame("arm");
+  sample.pushes[0].wrench.force = Vec3(5.0, 0.0, 0.0);
+  sample.pushes[0].wrench.point = Vec3(0.0, 0.0, -0.1);
+  sample.pushes[0].wrench.steps_left = 12000;
+  sample.pushes[0].end = sample.stamp + nanoseconds(12.0);
+  robot.sim.external_wrenches().push(sample.pushes[0].wrench);
+  if (known) robot.twins.hear(sample);
+  robot.run(12.0);
+  return moving;
+}
+
+TEST(Twins, PushesAreKnown) {
+  const auto robot = pushed_robot(true);
+  for (const Feed feed : kFeeds) EXPECT_LT(robot->largest_gap(feed), 2.0) << index_of(feed);
+}
+
+TEST(Twins, UnknownPushIsALoad) {
+  const auto warnings = warnings_of(*pushed_robot(false));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].finding.owner, "hinge");
+  EXPECT_EQ(warnings[0].finding.part, Part::kJoint);
+}
+
 TEST(Twins, GivenFloors) {
   const auto model = noisy_robot(rig_file());
   Twins twins(*model, TwinOptions{}, {{"flexor/force", 50.0}});
