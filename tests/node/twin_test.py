@@ -16,6 +16,7 @@ from tf2_msgs.msg import TFMessage
 from waiting import wait_for
 
 STEPS = 5         # of 1 ms from one state to the next, 200 Hz as of a robot
+CATCH_UP = 100000000  # [ns] by which the twin may be behind
 LONG_ENOUGH = 13  # [s] two for settling, ten for the window
 FLOORS = 3.0      # less than what the node warns of
 
@@ -48,6 +49,9 @@ class Twin(unittest.TestCase):
             done = type(self).step(steps=STEPS, command_stamp=self.now)
             self.assertTrue(done.success, done.message)
             type(self).now = done.stamp
+            if done.stamp.to_nsec() % CATCH_UP == 0:  # the simulator does not wait for those who listen
+                wait_for(lambda: self.joints and self.joints[-1].header.stamp.to_nsec() > done.stamp.to_nsec() - CATCH_UP,
+                         60, 'the twin')
 
     def value(self, key):
         values = {v.key: v.value for v in self.statuses['/two_muscle_rig: twin'].values}
@@ -115,7 +119,7 @@ class Twin(unittest.TestCase):
         self.drive(0.5)
         wait_for(lambda: self.value('commands_starts') == '2', 20, 'a new start')
         self.assertEqual(self.value('postures_starts'), '2')
-        self.assertEqual(self.value('commands'), 'settling')
+        self.assertIn(self.value('last_loss'), ['flexor jumped', 'extensor jumped', 'hinge jumped'])
         self.drive(LONG_ENOUGH)
         self.expect_one_floor()
         self.assertEqual(self.value('commands_starts'), '2')

@@ -118,7 +118,16 @@ void TwinNode::advance() {
     watch_.see(twins_.channels(), twins_.report());
     publish_gap();
   }
+  tell_starts();
   publish_states();
+}
+
+void TwinNode::tell_starts() {
+  const twin::Twins::Status& shown = twins_.status(options_.feed);
+  if (shown.starts > starts_ && starts_ > 0) {
+    ROS_WARN_STREAM("the twin lost the robot, and has started anew: " << shown.why);
+  }
+  starts_ = shown.starts;
 }
 
 void TwinNode::publish_states() {
@@ -231,6 +240,8 @@ diagnostic_msgs::DiagnosticStatus TwinNode::own_status() const {
       heard_.isZero() || (now && lost.empty()) ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
   const double behind = now ? ros::Time::now().toSec() - seconds(*now) : 0.0;
   status.values.push_back(key_value("behind", text(behind)));
+  const bool was_lost = starts_ > 1;
+  status.values.push_back(key_value("last_loss", was_lost ? twins_.status(options_.feed).why : ""));
   for (int t = 0; t < twin::kTopicCount; ++t) {
     const auto topic = static_cast<twin::Topic>(t);
     if (!twins_.measurements().needed(topic)) continue;

@@ -42,6 +42,7 @@ class TwinNode {
   void take(const twin::JointSample& sample, twin::Topic topic) { twins_.hear(sample, topic); }
   void hear_pushes(const anthrob_msgs::ExternalWrenches& message);
   void advance();
+  void tell_starts();
   void publish_states();
   anthrob_msgs::MuscleStates muscle_states(const ros::Time& stamp) const;
   void publish_ghost(const ros::Time& stamp);
@@ -62,6 +63,7 @@ class TwinNode {
   Nanoseconds next_states_ = 0, next_ghost_ = 0;  ///< when they are due
   ros::WallTime heard_;                           ///< zero: nothing was
   long malformed_ = 0;
+  long starts_ = 0;  ///< of the twin that is shown
 };
 
 }  // namespace anthrob

@@ -73,15 +73,19 @@ std::optional<Break> Measurements::hear(const Sample& sample, Topic topic,
       return std::nullopt;
     }
     const bool late = simulated_ && sample.stamp <= *simulated_;
-    late_in_row_[t] = late ? late_in_row_[t] + 1 : 0;
+    // A whole topic may lag behind another: only what comes after a newer one of its own has gone
+    // back.
+    const bool back = sample.stamp < newest.stamp;
+    late_in_row_[t] = late && back ? late_in_row_[t] + 1 : 0;
     if (sample.stamp < newest.stamp - nanoseconds(options_.backwards) ||
         late_in_row_[t] > options_.late_in_row) {
       forget_all();
       broken = Break{"time went back", true};
-    } else if (late) {
+    } else if (late && back) {
       ++arrivals.late;
       return std::nullopt;
-    } else if (sample.stamp > newest.stamp) {
+    } else if (!back) {
+      arrivals.late += late ? 1 : 0;
       const double gap = seconds(sample.stamp - newest.stamp);
       const std::string absent = missing(newest, sample), jump = jumped(newest, sample);
       if (gap > options_.largest_gap) {

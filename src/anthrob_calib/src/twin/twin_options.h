@@ -11,8 +11,8 @@ struct TwinOptions {
   // --- what is measured
   double largest_gap = 0.25;  ///< [s] between two measurements beyond which the robot was lost; the
                               ///< robot's own watch gives up commands after 0.5 s
-  double patience = 0.25;     ///< [s] for a topic that is behind the others, or has not come yet;
-                              ///< cameras answer within 0.1 s
+  double patience = 1.0;   ///< [s] for a topic that is behind the others, or has not come yet; of a
+                           ///< simulator that runs ten times as fast it is 0.1 s of ours
   double backwards = 0.5;  ///< [s] by which a stamp lies behind if time was set back; less is late
   int late_in_row = 20;    ///< late ones one after the other: time was set back by less than that
   double jump_factor = 2.0;  ///< a motion is a jump if it is so often faster than measured speeds

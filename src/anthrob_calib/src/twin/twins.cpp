@@ -161,7 +161,7 @@ void Twins::start() {
   measurements_.forget_before(now_, now_ - nanoseconds(options_.average));
   for (const Feed feed : kFeeds) {
     const auto f = static_cast<std::size_t>(feed);
-    statuses_[f] = {true, false, {}, statuses_[f].starts + 1};
+    statuses_[f] = {true, false, statuses_[f].why, statuses_[f].starts + 1};
     counts_from_[f] = now_ + nanoseconds(options_.settle);
     retry_[f] = now_;
     twins_[f].read(channels_, after_[f]);
@@ -179,7 +179,7 @@ void Twins::start(Feed feed) {
     retry_[f] = now_ + nanoseconds(options_.retry);
     return lose(feed, failure.what());
   }
-  statuses_[f] = {true, false, {}, statuses_[f].starts + 1};
+  statuses_[f] = {true, false, statuses_[f].why, statuses_[f].starts + 1};
   counts_from_[f] = now_ + nanoseconds(options_.settle);
   twins_[f].read(channels_, after_[f]);
 }

@@ -60,7 +60,7 @@ class Twins {
   struct Status {
     bool in_step = false;
     bool counts = false;  ///< has settled
-    std::string why;      ///< if it is not in step
+    std::string why;      ///< it is not in step, or was not before its last start
     long starts = 0;
   };
   const Status& status(Feed feed) const { return statuses_[static_cast<std::size_t>(feed)]; }

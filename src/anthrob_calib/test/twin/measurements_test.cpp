@@ -48,11 +48,11 @@ TEST_F(OfRig, AllTopicsAreAwaited) {
 }
 
 TEST_F(OfRig, ButNotForEver) {
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i <= 100; ++i) {
     measured_.hear(muscles(0.01 * i));
     EXPECT_FALSE(measured_.start()) << i;
   }
-  measured_.hear(muscles(0.26));
+  measured_.hear(muscles(1.01));
   EXPECT_EQ(measured_.start(), 0);
   EXPECT_FALSE(measured_.alive(Topic::kJoints));
 }
@@ -88,6 +88,18 @@ TEST_F(OfRig, TimeThatGoesBackALittle) {
     EXPECT_EQ(broken(measured_.hear(muscles(4.7 + 0.001 * i))), "none");
   }
   EXPECT_EQ(broken(measured_.hear(muscles(4.8))), "time went back");
+}
+
+TEST_F(OfRig, ATopicThatLagsHasNotGoneBack) {
+  measured_.hear(muscles(0.0));
+  measured_.hear(joints(0.0), Topic::kJoints);
+  for (int i = 1; i <= 200; ++i) measured_.hear(muscles(0.01 * i));
+  EXPECT_FALSE(measured_.alive(Topic::kJoints));
+  measured_.forget_before(nanoseconds(2.0), nanoseconds(2.0));
+  for (int i = 1; i <= 200; ++i)
+    EXPECT_EQ(broken(measured_.hear(joints(0.01 * i), Topic::kJoints)), "none");
+  EXPECT_EQ(measured_.arrivals(Topic::kJoints).late, 200);
+  EXPECT_TRUE(measured_.alive(Topic::kJoints));
 }
 
 TEST_F(OfRig, Gaps) {
