@@ -18,6 +18,7 @@ namespace {
 constexpr std::uint32_t kQueue = 5000;      // messages; a start may take a second on a large robot
 constexpr double kListening = 0.01;         // [s] of wall time between two looks at the queue
 constexpr double kGhostRate = 25.0;         // [Hz of measured time] what eyes see
+constexpr double kTooLate = 1.0;            // [s] behind the present
 constexpr double kSilence = 2.0;            // [s] of wall time after which the robot is silent
 constexpr double kDiagnosticsPeriod = 1.0;  // [s] of wall time
 const std::string kPrefix = "twin/";
@@ -224,6 +225,7 @@ diagnostic_msgs::DiagnosticStatus TwinNode::own_status() const {
                                                           : "settling"));
     status.values.push_back(key_value(name + "_starts", std::to_string(twin.starts)));
   }
+  const double behind = now ? ros::Time::now().toSec() - seconds(*now) : 0.0;
   const double silent = heard_.isZero() ? 0.0 : (ros::WallTime::now() - heard_).toSec();
   if (heard_.isZero()) {
     status.message = "waiting for a robot";
@@ -232,13 +234,16 @@ diagnostic_msgs::DiagnosticStatus TwinNode::own_status() const {
   } else if (!lost.empty()) {
     status.message = "lost: " + joined(lost);
   } else if (silent > kSilence) {
-    status.message = "stands still: nothing was measured for " + duration_text(silent);
+    // Of a robot that has ended, time goes on.
+    status.message = std::string(behind > kTooLate ? "lost" : "stands still") +
+                     ": nothing was measured for " + duration_text(silent);
+  } else if (behind > kTooLate) {
+    status.message = duration_text(behind) + " behind: this computer is too slow for the model";
   } else {
     status.message = twins_.status(options_.feed).counts ? "in step" : "settling";
   }
-  status.level =
-      heard_.isZero() || (now && lost.empty()) ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
-  const double behind = now ? ros::Time::now().toSec() - seconds(*now) : 0.0;
+  const bool well = heard_.isZero() || (now && lost.empty() && behind <= kTooLate);
+  status.level = well ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
   status.values.push_back(key_value("behind", text(behind)));
   const bool was_lost = starts_ > 1;
   status.values.push_back(key_value("last_loss", was_lost ? twins_.status(options_.feed).why : ""));
