@@ -1,6 +1,6 @@
 #include "sample_reader.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace anthrob {
 
@@ -114,12 +114,8 @@ const twin::JointSample* SampleReader::read(const anthrob_msgs::SphericalJointSt
     const Eigen::Vector4d turn = Eigen::Vector4d(o.w, o.x, o.y, o.z).normalized();
     const auto& w = message.angular_velocity[i];
     const double velocity[] = {w.x, w.y, w.z};
-    for (int k = 0; k < 4; ++k) {
-      balls_.q[static_cast<std::size_t>(joint.position_offset + k)] = turn[k];
-    }
-    for (int k = 0; k < 3; ++k) {
-      balls_.velocity[static_cast<std::size_t>(joint.velocity_offset + k)] = velocity[k];
-    }
+    std::copy_n(turn.data(), 4, &balls_.q[static_cast<std::size_t>(joint.position_offset)]);
+    std::copy_n(velocity, 3, &balls_.velocity[static_cast<std::size_t>(joint.velocity_offset)]);
   }
   return &balls_;
 }

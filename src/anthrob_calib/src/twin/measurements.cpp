@@ -25,17 +25,16 @@ Quat turn_of(const std::vector<double>& q, const JointModel& joint) {
 
 double speed_of(const std::vector<double>& velocity, const JointModel& joint) {
   double square = 0.0;
-  for (int k = 0; k < joint.dof(); ++k) {
-    const double v = velocity[static_cast<std::size_t>(joint.velocity_offset + k)];
-    square += v * v;
-  }
+  const double* v = &velocity[static_cast<std::size_t>(joint.velocity_offset)];
+  for (int k = 0; k < joint.dof(); ++k) square += v[k] * v[k];
   return std::sqrt(square);
 }
 
 bool is_measured(const std::vector<double>& q, const JointModel& joint) {
   bool all = true;
+  const double* p = &q[static_cast<std::size_t>(joint.position_offset)];
   for (int k = 0; k < joint.position_size(); ++k) {
-    all = all && std::isfinite(q[static_cast<std::size_t>(joint.position_offset + k)]);
+    all = all && std::isfinite(p[k]);
   }
   return all;
 }

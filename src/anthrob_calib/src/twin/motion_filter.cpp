@@ -56,10 +56,11 @@ double smooth_position(const Timeline<MuscleSample>& timeline, std::size_t muscl
 void smooth_joint(const Timeline<JointSample>& timeline, const JointModel& joint, Nanoseconds time,
                   Nanoseconds step, double smooth, std::vector<double>& q) {
   const auto midway = timeline.between(time + step / 2);
+  const auto first = static_cast<std::size_t>(joint.velocity_offset);
+  const double *from = &midway.from.velocity[first], *to = &midway.to.velocity[first];
   Vec3 speed = Vec3::Zero();
   for (int k = 0; k < joint.dof(); ++k) {
-    const auto v = static_cast<std::size_t>(joint.velocity_offset + k);
-    speed[k] = blend(midway.from.velocity[v], midway.to.velocity[v], midway.share);
+    speed[k] = blend(from[k], to[k], midway.share);
   }
   if (!speed.allFinite()) return joint_at(timeline, joint, time + step, q);
   const auto measured = timeline.between(time);
