@@ -10,12 +10,14 @@
 #include <cstdio>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "anthrob_core/errors.h"
 #include "anthrob_core/monotonic_clock.h"
+#include "anthrob_core/progress_lines.h"
 #include "anthrob_core/robots.h"
 #include "anthrob_core/signals.h"
 #include "anthrob_core/version.h"
@@ -32,6 +34,8 @@ volatile std::sig_atomic_t listening = 0, interrupt_seen = 0;
 constexpr double kSaidTwice = 0.5;  // [s]
 std::atomic<double> first_heard{0.0};
 static_assert(std::atomic<double>::is_always_lock_free, "used by a signal handler");
+
+constexpr double kRefreshed = 0.2;  // [s] between two lines of progress: as fast as one reads
 
 /// Ends a program that does not come to look.
 void on_repeated_interrupt(int) {
@@ -52,9 +56,23 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// @return status
+int failed(const CLI::App& app, const std::string& why, Exit status) {
+  const std::string line = app.get_name() + ": " + why;
+  std::cerr << line << "\n";
+  progress_lines::error(line);
+  return status;
+}
+
 /// What roslaunch adds to a command line: "__name:=discover", "__log:=..."
 bool is_remapping(const std::string& argument) {
   return argument.rfind("__", 0) == 0 && argument.find(":=") != std::string::npos;
+}
+
+/// [s] None: it has just begun, or takes longer than was reckoned.
+std::optional<double> seconds_left(double share, double elapsed) {
+  if (share > 0.0 && share < 1.0) return elapsed * (1.0 - share) / share;
+  return std::nullopt;
 }
 
 /// Whether all of a text is one finite number.
@@ -82,22 +100,18 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body, 
     if (status != kDone) return status;
     // What a full disk has cut off is no answer.
     if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      std::cerr << app.get_name() << ": standard output: cannot be written\n";
-      return kFailed;
+      return failed(app, "standard output: cannot be written", kFailed);
     }
     return status;
   } catch (const CLI::Success& e) {
     app.exit(e);
     return kDone;
   } catch (const CLI::ParseError& e) {
-    std::cerr << app.get_name() << ": " << one_line(e.what()) << " (see --help)\n";
-    return kBadInput;
+    return failed(app, one_line(e.what()) + " (see --help)", kBadInput);
   } catch (const BadInput& e) {
-    std::cerr << app.get_name() << ": " << e.what() << "\n";
-    return kBadInput;
+    return failed(app, e.what(), kBadInput);
   } catch (const std::exception& e) {
-    std::cerr << app.get_name() << ": " << one_line(e.what()) << "\n";
-    return kFailed;
+    return failed(app, one_line(e.what()), kFailed);
   }
 }
 
@@ -181,12 +195,17 @@ Progress::~Progress() {
 }
 
 void Progress::update(double share) {
-  show(progress_text(share, elapsed()));
+  const double t = monotonic_now();
+  if (t - last_ < kRefreshed) return;
+  const double past = elapsed();
+  progress_lines::share(share, seconds_left(share, past));
+  show(progress_text(share, past));
+  last_ = t;
 }
 
 void Progress::show(const std::string& state) {
   const double t = monotonic_now();
-  if (!visible_ || t - last_ < 0.2) return;
+  if (!visible_ || t - last_ < kRefreshed) return;
   last_ = t;
   std::fprintf(stderr, "\r\033[K%s: %s", what_.c_str(), state.c_str());
 }
@@ -197,11 +216,9 @@ double Progress::elapsed() const {
 
 std::string progress_text(double share, double elapsed) {
   char text[80];
-  if (share > 0.0 && share < 1.0) {
-    std::snprintf(text, sizeof(text), "%3.0f %%, %.0f s left", 100.0 * share,
-                  elapsed * (1.0 - share) / share);
+  if (const auto left = seconds_left(share, elapsed)) {
+    std::snprintf(text, sizeof(text), "%3.0f %%, %.0f s left", 100.0 * share, *left);
   } else {
-    // Nothing is known of what is left: it has just begun, or takes longer than was reckoned.
     std::snprintf(text, sizeof(text), "%3.0f %%, %.0f s so far", 100.0 * share, elapsed);
   }
   return text;

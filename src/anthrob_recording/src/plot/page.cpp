@@ -15,29 +15,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "anthrob_core/programs.h"
+
 namespace anthrob {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The program, beside those of other packages where this one lies, or in a space that was sourced.
-fs::path page_program() {
-  const fs::path beside = fs::path("anthrob_recording") / "anthrob_page";
-  std::error_code error;
-  const fs::path own = fs::read_symlink("/proc/self/exe", error);
-  std::vector<fs::path> places = {own.parent_path().parent_path() / beside};
-  const char* const spaces = std::getenv("CMAKE_PREFIX_PATH");
-  std::istringstream list(spaces ? spaces : "");
-  for (std::string space; std::getline(list, space, ':');) {
-    places.push_back(fs::path(space) / "lib" / beside);
-  }
-  for (const fs::path& place : places) {
-    if (fs::exists(place, error)) return place;
-  }
-  throw std::runtime_error("anthrob_page: not found; expected " + places.front().string() +
-                           ", or a workspace whose setup.bash was sourced");
-}
 
 /// All that is written into a pipe, until its other end is closed.
 std::string read_all(int pipe) {
@@ -82,7 +66,8 @@ std::optional<std::string> complaint_of(std::vector<std::string> command) {
 void write_page(const std::string& name, const std::string& data, const std::string& page) {
   std::optional<std::string> complaint;
   try {
-    complaint = complaint_of({page_program().string(), name, data, "--out", page});
+    complaint = complaint_of(
+        {program_of_package("anthrob_recording", "anthrob_page"), name, data, "--out", page});
   } catch (const std::runtime_error& error) {
     complaint = error.what();
   }
