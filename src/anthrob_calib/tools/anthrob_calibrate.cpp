@@ -13,6 +13,8 @@
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/files.h"
+#include "anthrob_core/progress_lines.h"
+#include "anthrob_core/text.h"
 #include "anthrob_recording/bag.h"
 #include "anthrob_recording/page.h"
 #include "anthrob_sim/effects/catalogue.h"
@@ -216,6 +218,11 @@ int say_how_it_ended(const Arguments& arguments, const CalibrationInput& input,
   return tool::kInterrupted;
 }
 
+/// Of all that is computed: what comes after the search takes as long again, unless it is brief.
+double share_of_search(const Arguments& arguments) {
+  return arguments.brief ? 0.9 : 0.5;
+}
+
 int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession& session) {
   const CalibrationInput input = read_together(arguments, session);
   say_remarks(app, input);
@@ -229,11 +236,20 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   const OptimiserSettings& settings = input.config.optimiser;
   tool::Progress progress("calibrating");
   const double expected = settings.evaluations(problem.space().size());
+  const Journal* known = nullptr;
+  double best = HUGE_VAL;
 
   Journal::Options options = journal_options(arguments, input);
-  options.progress = [&](int done) { progress.update(std::min(1.0, done / expected)); };
+  options.progress = [&](int done) {
+    progress.update(share_of_search(arguments) * std::min(1.0, done / expected));
+    if (known->best_fitness() < best) {
+      best = known->best_fitness();
+      tool::progress_lines::best("fitness " + short_number(best));
+    }
+  };
   fs::create_directories(arguments.out);
   Journal journal(everywhere, options);
+  known = &journal;
   if (journal.outdated()) {
     std::cerr << "anthrob_calibrate: " << options.file
               << ": written by another build of the program; its evaluations are repeated\n";
@@ -246,6 +262,7 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   bool complete = false;
   try {
     if (!arguments.evaluate) {
+      tool::progress_lines::stage("searching");
       found = make_optimiser(settings)->minimise(search_variables(problem.space()), journal);
       reason = found.reason;
     }
@@ -260,10 +277,13 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   }
   const bool thorough = complete && !arguments.evaluate && !arguments.brief;
   // The errors of what an interrupted search has found are computed all the same.
+  tool::progress_lines::stage("computing the errors");
+  tool::progress_lines::share(share_of_search(arguments), std::nullopt);
   const Stop stop = complete ? Stop(tool::interrupted) : Stop([] { return false; });
   CalibrationOutcome outcome = conclude(input, problem, journal, reason, thorough, stop);
   outcome.sensitivity = found.sensitivity;
   write(arguments, input, outcome);
+  tool::progress_lines::headline(headline(outcome, complete && !arguments.evaluate));
   std::cout << summary(outcome);
   say_doubts(outcome, complete && !arguments.evaluate);
   const int status = say_how_it_ended(arguments, input, outcome, complete);

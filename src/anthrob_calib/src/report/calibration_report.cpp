@@ -1,8 +1,10 @@
 #include "report/calibration_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "anthrob_core/text.h"
 #include "report/calibration_figures.h"
 #include "report/joint_unit.h"
 
@@ -28,7 +30,40 @@ MeanErrors errors_of(const std::vector<RunDifferences>& runs, const RobotModel& 
                       : mean_errors(runs, model);
 }
 
+/// "muscles.flexor.spindle_radius (at the end of its range)", of every parameter with which
+/// something is wrong.
+std::vector<std::string> doubtful_parameters(const CalibrationOutcome& o) {
+  const std::vector<std::string> nothing = insensitive_parameters(o);
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < o.parameters.size(); ++i) {
+    const std::string name = o.parameters[i].name();
+    const bool insensitive = std::count(nothing.begin(), nothing.end(), name) > 0;
+    const bool examined = !o.identifiability.parameters.empty();
+    if (is_at_bound(o, i)) {
+      list.push_back(name + " (at the end of its range)");
+    } else if (insensitive || (examined && !o.identifiability.parameters[i].identifiable)) {
+      list.push_back(name + " (not identifiable)");
+    }
+  }
+  return list;
+}
+
+/// So many are named in one line.
+constexpr std::size_t kNamed = 5;
+
 }  // namespace
+
+std::string headline(const CalibrationOutcome& o, bool searched) {
+  const std::string errors = "fitness " + text(o.fitness_before) + " -> " + text(o.fitness);
+  if (!searched) return "not searched to the end: " + errors;
+  if (o.fitness >= o.fitness_before) return "no better than the start: " + errors;
+  std::vector<std::string> doubtful = doubtful_parameters(o);
+  if (doubtful.empty()) return "usable: " + errors;
+  const std::size_t count = doubtful.size();
+  doubtful.resize(std::min(count, kNamed));
+  const std::string more = count > kNamed ? " and " + std::to_string(count - kNamed) + " more" : "";
+  return "look at these parameters: " + joined(doubtful) + more + "; " + errors;
+}
 
 OutputFiles report_files(const CalibrationOutcome& o) {
   OutputFiles files = calibration_figures(o);

@@ -8,10 +8,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "anthrob_core/testing/content.h"
 #include "anthrob_core/testing/interrupt.h"
+#include "anthrob_core/text.h"
 #include "anthrob_recording/bag.h"
 #include "integration/tool_outcome.h"
 #include "simulated_recordings.h"
@@ -128,6 +130,55 @@ TEST_F(CalibrateTool, BitsAreEqualHoweverItIsRun) {
   EXPECT_NE(unwritable.status, 0);
   EXPECT_NE(unwritable.status, 124) << "hangs";
   EXPECT_NE(unwritable.errors.find("c.yaml/below"), std::string::npos) << unwritable.errors;
+}
+
+/// The lines of progress that a command writes to descriptor 3, by key.
+std::map<std::string, std::vector<std::string>> progress_in(const std::string& file) {
+  std::map<std::string, std::vector<std::string>> told;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const auto json = nlohmann::json::parse(line);
+    for (const auto& [key, value] : json.items()) {
+      told[key].push_back(value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
+  return told;
+}
+
+TEST_F(CalibrateTool, TellsItsProgressToAProgram) {
+  const std::string lines = path("progress.jsonl");
+  const std::string listening = "exec 3>" + lines + "; ANTHROB_PROGRESS_FD=3 ";
+  ASSERT_EQ(calibrate("told", "--brief", listening).status, 0);
+  auto told = progress_in(lines);
+  EXPECT_EQ(told["stage"], (std::vector<std::string>{"searching", "computing the errors"}));
+  EXPECT_EQ(told["headline"].size(), 1u);
+  EXPECT_TRUE(told["error"].empty());
+  ASSERT_FALSE(told["best"].empty());
+  const auto result = nlohmann::json::parse(content(path("told/result.json")));
+  EXPECT_EQ(told["best"].back(),
+            "fitness " + short_number(result["fitness"]["after"].get<double>()));
+  ASSERT_GE(told["share"].size(), 2u);
+  double before = 0.0;
+  for (const std::string& share : told["share"]) {
+    EXPECT_GE(std::stod(share), before);
+    before = std::stod(share);
+  }
+  EXPECT_EQ(before, 0.9);  // what comes then has no share of its own
+
+  const Outcome wrong = run("--config " + path("none.yaml") + " --data x --out y", listening);
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(progress_in(lines)["error"].at(0) + "\n", wrong.errors);
+
+  // Who listens may end; a number that is no open file is nobody.
+  EXPECT_EQ(
+      calibrate("gone", "--brief",
+                "rm -f " + path("pipe") + "; mkfifo " + path("pipe") + "; true <" + path("pipe") +
+                    " & exec 3>" + path("pipe") + "; wait; ANTHROB_PROGRESS_FD=3 ")
+          .status,
+      0);
+  EXPECT_EQ(calibrate("nobody", "--brief", "ANTHROB_PROGRESS_FD=3 ").status, 0);
+  expect_same("told", "gone");
+  expect_same("told", "nobody");
 }
 
 TEST_F(CalibrateTool, LeastSquaresBeginsAnewOnResumeAndNothingIsOverwrittenWithoutIt) {

@@ -64,6 +64,31 @@ TEST(CalibrationReport, HasWhatOneOfTheModelsDoes) {
   }
 }
 
+TEST(CalibrationReport, HeadlineIsTheVerdict) {
+  CalibrationOutcome outcome;
+  outcome.parameters.resize(7);
+  for (std::size_t i = 0; i < outcome.parameters.size(); ++i) {
+    outcome.parameters[i].path = "p" + std::to_string(i);
+    outcome.parameters[i].upper = 1.0;
+  }
+  outcome.best.assign(7, 0.5);
+  outcome.fitness_before = 2.0;
+  outcome.fitness = 0.5;
+  EXPECT_EQ(headline(outcome, true), "usable: fitness 2 -> 0.5");
+  EXPECT_EQ(headline(outcome, false), "not searched to the end: fitness 2 -> 0.5");
+  outcome.best[1] = 1.0;
+  outcome.sensitivity = {1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0};
+  EXPECT_EQ(
+      headline(outcome, true),
+      "look at these parameters: p1 (at the end of its range), p2 (not identifiable); fitness "
+      "2 -> 0.5");
+  outcome.identifiability.parameters.assign(7, {0.01, 0.3, 10.0, 0.0, 1.0, 0.5, false});
+  EXPECT_NE(headline(outcome, true).find("p4 (not identifiable) and 2 more; fitness"),
+            std::string::npos);
+  outcome.fitness = 2.0;
+  EXPECT_EQ(headline(outcome, true), "no better than the start: fitness 2 -> 2");
+}
+
 TEST(CalibrationReport, NamesWhatChangesNothingAlsoInBrief) {
   CalibrationOutcome outcome;
   outcome.parameters.resize(2);
