@@ -7,6 +7,7 @@
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/files.h"
+#include "anthrob_core/progress_lines.h"
 #include "anthrob_recording/bag.h"
 #include "anthrob_recording/page.h"
 #include "anthrob_recording/unanswered.h"
@@ -19,6 +20,7 @@
 #include "report/model_text.h"
 #include "report/progress.h"
 #include "report/separating_files.h"
+#include "stage_share.h"
 
 namespace {
 
@@ -176,13 +178,18 @@ int run(const CLI::App& app, Arguments& a) {
     return !tool::interrupted();
   });
   discovery::Observer observer;
+  std::size_t stages = 0;  // that have begun
   observer.progress = [&](const std::string& what) {
     bar.reset();
     std::cerr << what << "\n";
+    tool::progress_lines::stage(what);
+    tool::progress_lines::share(discovery::share_of_stages(stages++, question.max_effects),
+                                std::nullopt);
     simulated = evaluator.simulated();
     bar = std::make_unique<tool::Progress>("  running");
     return !tool::interrupted();
   };
+  observer.candidate = tool::progress_lines::best;
   observer.comment = [](const std::string& line) { std::cerr << line << "\n"; };
   try {
     const discovery::Answer answer =
@@ -193,6 +200,7 @@ int run(const CLI::App& app, Arguments& a) {
     const std::chrono::duration<double> runtime = std::chrono::steady_clock::now() - start;
     write_answer(answer, evaluator, a, runtime.count());
     journal.remove();
+    tool::progress_lines::headline(headline(answer));
     std::cout << summary(answer);
     write_page("discovery", a.out + "/report.json", a.out + "/report.html");
     return tool::kDone;

@@ -13,5 +13,9 @@ void Observer::say(const std::string& line) const {
   if (comment) comment(line);
 }
 
+void Observer::favour(const std::string& names) const {
+  if (candidate) candidate(names);
+}
+
 }  // namespace discovery
 }  // namespace anthrob

@@ -1,5 +1,6 @@
 #include "report/discovery_summary.h"
 
+#include "anthrob_core/text.h"
 #include "report/number_text.h"
 
 namespace anthrob {
@@ -25,6 +26,14 @@ std::string alternative_text(const Alternative& alternative, const Answer& answe
   return alternative.id + " @ " + alternative.place + " instead of both " +
          name(alternative.instead_of[0]) + " and " + name(alternative.instead_of[1]) + ", " +
          probability_text(alternative.probability) + " against those two";
+}
+
+std::string headline(const Answer& answer) {
+  std::vector<std::string> found;
+  for (const FoundEffect& effect : answer.effects)
+    found.push_back(effect.id + " @ " + effect.place);
+  const std::string verdict = verdict_name(answer.verdict);
+  return found.empty() ? verdict : verdict + ": " + joined(found);
 }
 
 std::string summary(const Answer& answer) {

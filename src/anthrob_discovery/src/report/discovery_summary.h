@@ -8,6 +8,9 @@
 namespace anthrob {
 namespace discovery {
 
+/// The verdict in one line, with the effects that were found and where.
+std::string headline(const Answer& answer);
+
 /// A few lines for the terminal.
 std::string summary(const Answer& answer);
 

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "anthrob_core/text.h"
 #include "fit/reduction.h"
 #include "judgement/merit.h"
 #include "search/alternatives.h"
@@ -69,6 +71,7 @@ void Search::add_effects(std::vector<Score> scores) {
     accept(list);
     unite();
     pruning_.drop_superfluous(model_.named.size() - 1);
+    favour_what_is_named();
   }
 }
 
@@ -85,6 +88,16 @@ void Search::comment_on(const ShortList& list) const {
                   entry.evidence, entry.significance);
     observer_.say(line);
   }
+  if (list.entries.empty() || !model_.named.empty()) return;
+  observer_.favour(hypotheses_.candidates[list.entries.front().candidate].name());
+}
+
+void Search::favour_what_is_named() const {
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : model_.named) {
+    names.push_back(hypotheses_.candidates[effect.candidate].name());
+  }
+  observer_.favour(joined(names));
 }
 
 /// What looks like an effect may be ordinary parameters that found a better valley on the way: the

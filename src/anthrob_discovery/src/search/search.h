@@ -48,6 +48,7 @@ class Search {
   bool fill_out();
   std::vector<Score> new_scores();
   void comment_on(const ShortList& list) const;
+  void favour_what_is_named() const;
   bool base_moves_on(const ShortList& list);
   bool earns_its_place(const ShortList& list);
   /// The first of a list did not earn its place. @return whether another list is worthwhile
