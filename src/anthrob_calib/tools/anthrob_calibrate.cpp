@@ -278,7 +278,7 @@ int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession&
   const bool thorough = complete && !arguments.evaluate && !arguments.brief;
   // The errors of what an interrupted search has found are computed all the same.
   tool::progress_lines::stage("computing the errors");
-  tool::progress_lines::share(share_of_search(arguments), std::nullopt);
+  if (complete) tool::progress_lines::share(share_of_search(arguments), std::nullopt);
   const Stop stop = complete ? Stop(tool::interrupted) : Stop([] { return false; });
   CalibrationOutcome outcome = conclude(input, problem, journal, reason, thorough, stop);
   outcome.sensitivity = found.sensitivity;
