@@ -1,9 +1,11 @@
-// The calibration node: copies of the model beside a robot. It only listens.
+// The calibration node: copies of the model beside a robot, calibration and discovery on request. It
+// moves nothing.
 #include <ros/ros.h>
 
 #include "anthrob_core/errors.h"
 #include "anthrob_ros/parameters.h"
 #include "anthrob_ros/run_node.h"
+#include "job_servers.h"
 #include "twin_node.h"
 
 namespace {
@@ -23,9 +25,11 @@ anthrob::twin::Feed feed_of(const std::string& key, const XmlRpc::XmlRpcValue& v
 int main(int argc, char** argv) {
   anthrob::NodeInfo info;
   info.name = "calibrator";
-  info.purpose = "Copies of the model beside a robot: what they say now, and where both part.";
+  info.purpose =
+      "Copies of the model beside a robot: what they say now, and where both part. Calibrates and "
+      "discovers on request (actions calibrate, discover).";
   info.parameters = {
-      {"model", "model file, or a name such as anthrob/II (required)"},
+      {"model", "model file, or a name such as anthrob/II (default: none, and no copies)"},
       {"feed",
        "what drives the copy that is shown as twin/...: commands, voltages, positions or postures "
        "(default: commands)"},
@@ -36,7 +40,7 @@ int main(int argc, char** argv) {
       {"floors", "path of a file with floors that are not to be learned (default: none)"},
   };
   return anthrob::run_node(argc, argv, info, [](ros::NodeHandle& nh, ros::NodeHandle& settings) {
-    const auto model = anthrob::load_robot_model(anthrob::required_model(settings));
+    const anthrob::JobServers servers(nh);
     anthrob::TwinNode::Options options;
     anthrob::take(settings, "feed", feed_of, options.feed);
     anthrob::take(settings, "rate", anthrob::positive_number_of, options.rate);
@@ -44,6 +48,11 @@ int main(int argc, char** argv) {
     anthrob::take(settings, "largest_gap", anthrob::positive_number_of, options.twins.largest_gap);
     anthrob::take(settings, "settle", anthrob::nonnegative_number_of, options.twins.settle);
     anthrob::take(settings, "floors", anthrob::text_of, options.floors);
+    if (!settings.hasParam("model")) {
+      ros::spin();
+      return 0;
+    }
+    const auto model = anthrob::load_robot_model(anthrob::required_model(settings));
     anthrob::TwinNode twins(model, options, nh);
     twins.run();
     return 0;
