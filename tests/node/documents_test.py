@@ -230,8 +230,10 @@ class Command:
         for word in words:
             if word.startswith('/') and word not in ('/diagnostics', '/tf') and not word.startswith('/cam/'):
                 yield from self.named(word)
-            kind = re.fullmatch(r'(anthrob_msgs)/(\w+)', word)
-            if kind and not os.path.isfile(os.path.join(TOP, 'src', 'anthrob_msgs', 'msg', kind.group(2) + '.msg')):
+            kind = re.fullmatch(r'anthrob_msgs/(\w+)', word)
+            action = re.fullmatch(r'anthrob_msgs/(\w+)Action(Goal|Result|Feedback)?', word)
+            source = 'action/%s.action' % action.group(1) if action else kind and 'msg/%s.msg' % kind.group(1)
+            if source and not os.path.isfile(os.path.join(TOP, 'src', 'anthrob_msgs', source)):
                 yield 'no message %s' % word
 
     def named(self, name):
@@ -273,7 +275,7 @@ class Documents(unittest.TestCase):
                         'roslaunch anthrob_bringup sim.launch modle:=II', 'rosservice call /anthrob/enabled',
                         'rostopic echo /anthrob/muscle_state', 'rostopic pub /anthrob/muscle_command anthrob_msgs/MuscleCommands',
                         'scripts/save_pair.py boards', 'scripts/save_pairs.py boards --bags run.bag', 'devel/lib/anthrob_sim/no_test',
-                        'rosbag record -O "run.bag'):
+                        'rostopic pub /anthrob/calibrate/goal anthrob_msgs/CalibratedActionGoal', 'rosbag record -O "run.bag'):
             with self.subTest(command):
                 try:
                     self.assertNotEqual(Command(command).wrong(), [])

@@ -16,7 +16,7 @@ import roslib.packages
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from anthrob_msgs.msg import CalibrateAction, CalibrateGoal, DiscoverAction, DiscoverGoal
+from anthrob_msgs.msg import CalibrateAction, CalibrateActionResult, CalibrateGoal, DiscoverAction, DiscoverGoal
 
 from discover_test import record
 from waiting import wait_for
@@ -260,6 +260,18 @@ class Jobs(unittest.TestCase):
         state, result = self.finish()
         self.assertEqual(state, GoalStatus.SUCCEEDED, result)
         self.expect_as_uninterrupted('first')
+
+    def test_from_a_terminal(self):
+        """As docs/calibration.md has it."""
+        results = []
+        rospy.Subscriber(ROBOT + '/calibrate/result', CalibrateActionResult, results.append)
+        goal = '{goal: {data: "%s", \\\n config: "%s", out: "%s", options: [--evaluate, --brief]}}' % (
+            self.path('runs'), self.path('calibrate.yaml'), self.path('typed'))
+        subprocess.run(['bash', '-c', "rostopic pub -1 %s/calibrate/goal anthrob_msgs/CalibrateActionGoal \"%s\"" % (
+            ROBOT, goal.replace('"', '\\"'))], check=True, stdout=subprocess.DEVNULL)
+        wait_for(lambda: results, PATIENCE, 'a result')
+        self.assertEqual(results[0].status.status, GoalStatus.SUCCEEDED, results[0])
+        self.assertRegex(results[0].result.headline, '^not searched to the end: fitness ')
 
     def discovery(self):
         return DiscoverGoal(model='driven_axis/I', train=[self.path('one')], test=[self.path('two')], out=self.path('found'),
