@@ -215,6 +215,30 @@ class Jobs(unittest.TestCase):
         self.run_to_the_end(self.calibration('orphan'))
         self.expect_as_uninterrupted('orphan')
 
+    def test_stages(self):
+        with open(self.path('stages.yaml'), 'w') as file:
+            file.write('stages:\n' + ''.join(
+                '  - {name: %s, config: calibrate.yaml, data: runs, options: [--brief, --generations, 8]}\n' % name
+                for name in ('first', 'second')))
+        goal = CalibrateGoal(pipeline=self.path('stages.yaml'), out=self.path('staged'))
+        self.send(goal)
+        wait_for(lambda: any(f.share > 0.3 for f in self.feedback), PATIENCE, 'the second run')
+        program = self.child()
+        self.node.kill()
+        self.node.wait()
+        wait_for(lambda: not lives(program), PATIENCE, 'the end of a program without a node')
+        self.assertFalse(os.path.exists(self.path('staged', 'model.yaml')))
+        self.start_node()
+        result = self.run_to_the_end(goal)
+        self.assertEqual(result.files, [self.path('staged', name) for name in ('model.yaml', 'pipeline.json')])
+        self.assertRegex(result.headline, 'fitness .* -> ')
+        self.assertTrue(any(f.stage.startswith('second, seed ') for f in self.feedback), self.feedback)
+        shares = [f.share for f in self.feedback]
+        self.assertEqual((shares, shares[-1]), (sorted(shares), 1.0))
+        wrong = CalibrateGoal(pipeline=self.path('stages.yaml'), data=self.path('runs'), out=self.path('staged'))
+        self.send(wrong)
+        self.assertEqual(self.finish()[0], GoalStatus.REJECTED)
+
     def test_a_full_disk(self):
         small = self.path('small')
         os.makedirs(small)

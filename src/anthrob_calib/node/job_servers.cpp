@@ -6,6 +6,7 @@ namespace {
 
 jobs::CalibrateOrder order_of(const anthrob_msgs::CalibrateGoal& goal) {
   jobs::CalibrateOrder order;
+  order.pipeline = goal.pipeline;
   order.config = goal.config;
   order.data = goal.data;
   order.validation = goal.validation;

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What people look at, of whichever program.
-constexpr const char* kFiles[] = {"report.html", "model.yaml", "result.json", "report.json"};
+constexpr const char* kFiles[] = {"report.html", "model.yaml", "result.json", "report.json",
+                                  "pipeline.json"};
 
 /// As one types it into a shell.
 std::string typed(const std::vector<std::string>& words) {

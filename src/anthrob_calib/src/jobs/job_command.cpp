@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "anthrob_core/errors.h"
 
@@ -66,9 +67,34 @@ void require_recordings(const std::string& field, const std::vector<std::string>
   }
 }
 
+/// Stages have configurations, recordings and options of their own.
+JobCommand pipeline_command(const CalibrateOrder& order) {
+  for (const auto& [field, value] :
+       {std::pair{"config", order.config}, std::pair{"data", order.data},
+        std::pair{"validation", order.validation}, std::pair{"model", order.model}}) {
+    if (value.empty()) continue;
+    throw BadInput(std::string(field) + ": " + value + ": expected in the file of the pipeline");
+  }
+  if (!order.options.empty()) {
+    throw BadInput("options: " + order.options.front() + ": expected in the file of the pipeline");
+  }
+  require_given("out", !order.out.empty(), "a folder for the result");
+  require_whole("pipeline", order.pipeline);
+  require_whole("out", order.out);
+  require_not_negative("jobs", order.jobs);
+  require_not_negative("seed", order.seed);
+  JobCommand command{"anthrob_calib", "anthrob_calibrate_pipeline", {}, order.out};
+  add("--pipeline", order.pipeline, command.arguments);
+  add("--out", order.out, command.arguments);
+  add("--jobs", order.jobs, command.arguments);
+  add("--seed", order.seed, command.arguments);
+  return command;
+}
+
 }  // namespace
 
 JobCommand command_of(const CalibrateOrder& order) {
+  if (!order.pipeline.empty()) return pipeline_command(order);
   require_given("config", !order.config.empty(), "a configuration of the calibration");
   require_given("data", !order.data.empty(), "a folder of recordings to fit");
   require_given("out", !order.out.empty(), "a folder for the result");

@@ -9,6 +9,7 @@ namespace jobs {
 
 /// What a calibration is asked for: the options of anthrob_calibrate. Empty or 0: not given.
 struct CalibrateOrder {
+  std::string pipeline;  ///< file of stages, instead of one configuration, its data and options
   std::string config, data, validation, model, out;
   std::int64_t jobs = 0, seed = 0;
   std::vector<std::string> options;  ///< the other ones, word by word

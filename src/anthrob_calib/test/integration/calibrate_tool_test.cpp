@@ -181,6 +181,55 @@ TEST_F(CalibrateTool, TellsItsProgressToAProgram) {
   expect_same("told", "nobody");
 }
 
+TEST_F(CalibrateTool, StagesGoOnToTheSameBits) {
+  write(path("p.yaml"),
+        "stages:\n  - {name: statics, config: c.yaml, data: eq, options: &o [--brief, "
+        "--generations, 2]}\n"
+        "  - {name: dynamics, config: t.yaml, data: tr, options: *o}\n");
+  const auto pipeline = [&](const std::string& out, const std::string& before = "") {
+    const std::string errors = path("errors.txt");
+    const int status =
+        std::system((before + ANTHROB_CALIBRATE_PIPELINE + " --pipeline " + path("p.yaml") +
+                     " --out " + path(out) + " >/dev/null 2>" + errors)
+                        .c_str());
+    return Outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(errors)};
+  };
+  const Outcome whole = pipeline("stages");
+  ASSERT_EQ(whole.status, 0) << whole.errors;
+  const auto json = nlohmann::json::parse(content(path("stages/pipeline.json")));
+  const auto& runs = json["stages"][0]["runs"];
+  EXPECT_NE(runs[0]["fitness"]["after"], runs[1]["fitness"]["after"]);
+  const bool second = runs[1]["fitness"]["after"] < runs[0]["fitness"]["after"];
+  EXPECT_EQ(json["stages"][0]["kept"], second ? 2 : 1);
+  // The second stage starts where the first one ended.
+  const std::string kept =
+      "stages/statics/seed_" + std::string(second ? "2" : "1") + "/result.json";
+  const auto first = nlohmann::json::parse(content(path(kept)));
+  const auto next = nlohmann::json::parse(content(path("stages/dynamics/seed_1/result.json")));
+  EXPECT_EQ(next["parameters"][0]["initial"], first["parameters"][0]["value"]);
+  EXPECT_NO_THROW(load_robot_model(path("stages/model.yaml")));
+
+  const Outcome interrupted = pipeline(
+      "parts", interrupted_when(path("parts/dynamics/seed_1/journal.txt"), path("when.sh")));
+  ASSERT_TRUE(interrupt_was_sent(path("when.sh")));
+  EXPECT_EQ(interrupted.status, 130) << interrupted.errors;
+  EXPECT_NE(interrupted.errors.find("interrupted in dynamics, seed 1; run the same command again"),
+            std::string::npos)
+      << interrupted.errors;
+  EXPECT_FALSE(fs::exists(path("parts/model.yaml")));
+  EXPECT_EQ(pipeline("parts").status, 0);
+  for (const char* file : {"/model.yaml", "/dynamics/seed_2/result.json"}) {
+    EXPECT_EQ(content(path(std::string("parts") + file)),
+              content(path(std::string("stages") + file)));
+  }
+
+  write(path("p.yaml"), "stages:\n  - {name: statics, config: none.yaml, data: eq}\n");
+  const Outcome wrong = pipeline("wrong");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.errors.find("none.yaml"), std::string::npos) << wrong.errors;
+  EXPECT_EQ(wrong.lines(), 1);
+}
+
 TEST_F(CalibrateTool, LeastSquaresBeginsAnewOnResumeAndNothingIsOverwrittenWithoutIt) {
   ASSERT_EQ(calibrate("squares", "--optimiser least_squares").status, 0);
   const std::string result = content(path("squares/result.json"));

@@ -69,6 +69,26 @@ TEST(JobCommand, IsWhatOneWouldType) {
             "--test /runs/3 --repeat /runs/4 --out /nowhere/found --effects joint_coulomb");
 }
 
+TEST(JobCommand, OfAPipelineHasNothingBesideIt) {
+  CalibrateOrder order;
+  order.pipeline = "/robot/pipeline.yaml";
+  order.out = "/nowhere/fit";
+  order.seed = 3;
+  EXPECT_EQ(command_of(order).program, "anthrob_calibrate_pipeline");
+  EXPECT_EQ(line_of(order), "--pipeline /robot/pipeline.yaml --out /nowhere/fit --seed 3");
+  const auto refused = [&](const std::function<void(CalibrateOrder&)>& spoil) {
+    return complaint<CalibrateOrder>(order, spoil);
+  };
+  EXPECT_EQ(refused([](auto& o) { o.data = "/runs"; }),
+            "data: /runs: expected in the file of the pipeline");
+  EXPECT_EQ(refused([](auto& o) { o.options = {"--brief"}; }),
+            "options: --brief: expected in the file of the pipeline");
+  EXPECT_EQ(refused([](auto& o) { o.out.clear(); }),
+            "out: missing; expected a folder for the result");
+  EXPECT_EQ(refused([](auto& o) { o.pipeline = "p.yaml"; }),
+            "pipeline: p.yaml: expected a whole path, such as /home/me/p.yaml");
+}
+
 TEST(JobCommand, ContinuesWhatWasInterrupted) {
   namespace fs = std::filesystem;
   const fs::path out = fs::temp_directory_path() / ("anthrob_goal_" + std::to_string(getpid()));
