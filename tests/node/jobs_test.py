@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The actions `calibrate` and `discover`: what they tell on the way and in the end, and that nothing is lost whatever is
 interrupted, killed or full: the same goal goes on, and comes to the same bits."""
+import json
 import math
 import os
 import shutil
@@ -155,7 +156,7 @@ class Jobs(unittest.TestCase):
 
     def test_calibrate(self):
         self.send(self.calibration('done', jobs=2))
-        wait_for(lambda: children_of(self.node.pid), PATIENCE, 'the program')
+        wait_for(lambda: self.feedback, PATIENCE, 'feedback')
         self.assertEqual(os.getpriority(os.PRIO_PROCESS, self.child()),
                          min(19, os.getpriority(os.PRIO_PROCESS, self.node.pid) + 10))
         state, result = self.finish()
@@ -297,12 +298,31 @@ class Jobs(unittest.TestCase):
         self.assertEqual(results[0].status.status, GoalStatus.SUCCEEDED, results[0])
         self.assertRegex(results[0].result.headline, '^not searched to the end: fitness ')
 
-    def discovery(self):
-        return DiscoverGoal(model='driven_axis/I', train=[self.path('one')], test=[self.path('two')], out=self.path('found'),
+    def discovery(self, out):
+        return DiscoverGoal(model='driven_axis/I', train=[self.path('one')], test=[self.path('two')], out=self.path(out),
                             options=['--effects', 'joint_coulomb,joint_offset_torque'])
 
+    def test_killed_discovery(self):
+        subprocess.run([program('anthrob_discovery', 'anthrob_discover'), '--model', 'driven_axis/I', '--train', self.path('one'),
+                        '--test', self.path('two'), '--out', self.path('whole'), '--effects', 'joint_coulomb,joint_offset_torque'],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.send(self.discovery('halves'), self.discoverer)
+        journal = self.path('halves', 'journal.bin')
+        wait_for(lambda: os.path.exists(journal) and os.path.getsize(journal) > 100000, PATIENCE, 'simulations')
+        os.kill(self.child(), signal.SIGKILL)
+        state, result = self.finish(self.discoverer)
+        self.assertEqual((state, result.error), (GoalStatus.ABORTED, 'killed by signal 9 (Killed)'))
+        self.send(self.discovery('halves'), self.discoverer)
+        state, result = self.finish(self.discoverer)
+        self.assertEqual(state, GoalStatus.SUCCEEDED, result)
+        self.assertRegex(content(result.log), b'continuing with [1-9][0-9]* simulations of an interrupted run')
+        answers = [json.loads(content(self.path(out, 'report.json'))) for out in ('halves', 'whole')]
+        for answer in answers:
+            del answer['runtime_s']
+        self.assertEqual(*answers)
+
     def test_discover(self):
-        self.send(self.discovery(), self.discoverer)
+        self.send(self.discovery('found'), self.discoverer)
         state, result = self.finish(self.discoverer)
         self.assertEqual(state, GoalStatus.SUCCEEDED, result)
         self.assertEqual(result.headline, 'effects_found: joint_coulomb @ axis')
