@@ -12,6 +12,7 @@ import time
 import unittest
 
 import actionlib
+import rosgraph
 import rospkg
 import roslib.packages
 import rospy
@@ -239,6 +240,12 @@ class Jobs(unittest.TestCase):
         wrong = CalibrateGoal(pipeline=self.path('stages.yaml'), data=self.path('runs'), out=self.path('staged'))
         self.send(wrong)
         self.assertEqual(self.finish()[0], GoalStatus.REJECTED)
+
+    def test_commands_no_robot(self):
+        topics = [topic for topic, nodes in rosgraph.Master('jobs_test').getSystemState()[0] if ROBOT + '/calibrator' in nodes]
+        self.assertIn(ROBOT + '/calibrate/feedback', topics)
+        commands = {ROBOT + '/' + name for name in ('muscle_command', 'joint_effort_command', 'emergency_stop')}
+        self.assertEqual(commands.intersection(topics), set())
 
     def test_a_full_disk(self):
         small = self.path('small')
