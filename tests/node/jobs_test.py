@@ -88,7 +88,7 @@ class Jobs(unittest.TestCase):
         for index, flexor in enumerate((0.4, 1.6, 2.0)):
             record_rig(os.path.join(cls.folder, 'runs', 'E%d' % index), flexor)
         with open(os.path.join(cls.folder, 'calibrate.yaml'), 'w') as file:
-            file.write(CALIBRATION % (os.path.join(CONFIG, 'two_muscle_rig', 'model_II.yaml'), 80))
+            file.write(CALIBRATION % (os.path.join(CONFIG, 'two_muscle_rig', 'model_II.yaml'), 25))
         for name, second in (('one', 2.9), ('two', 4.3)):
             record(os.path.join(cls.folder, name), second)
         # What nobody has interrupted.
@@ -123,9 +123,10 @@ class Jobs(unittest.TestCase):
         node.wait()
         wait_for(lambda: not any(lives(child) for child in children), PATIENCE, 'children that end with the node')
 
-    def calibration(self, out, **fields):
-        return CalibrateGoal(config=self.path('calibrate.yaml'), data=self.path('runs'), out=self.path(out), options=['--brief'],
-                             **fields)
+    def calibration(self, out, jobs=1):
+        """One thread, so that it can be interrupted on a machine of any number of cores."""
+        return CalibrateGoal(config=self.path('calibrate.yaml'), data=self.path('runs'), out=self.path(out), jobs=jobs,
+                             options=['--brief'])
 
     def send(self, goal, client=None):
         self.feedback = []
@@ -289,9 +290,8 @@ class Jobs(unittest.TestCase):
         state, result = self.finish(second)
         self.assertEqual(state, GoalStatus.REJECTED, result)
         self.assertRegex(result.headline, 'busy with goal /.*-.*, which writes into %s: cancel it' % self.path('first'))
-        state, result = self.finish()
-        self.assertEqual(state, GoalStatus.SUCCEEDED, result)
-        self.expect_as_uninterrupted('first')
+        self.assertEqual(self.calibrator.get_state(), GoalStatus.ACTIVE)
+        self.assertEqual(len(children_of(self.node.pid)), 1)
 
     def test_from_a_terminal(self):
         """As docs/calibration.md has it."""
