@@ -106,19 +106,17 @@ void correct_holds(const RobotModel& robot, Description& description) {
   std::map<std::string, std::map<std::string, FreshRates>> found;  // by kind and place
   std::map<std::string, std::size_t> places;
   for (const SensorColumns& sensor : sensors) ++places[sensor.kind];
-  for (auto* group : {&question.train, &question.test, &question.repeats}) {
-    for (Dataset& recording : *group) {
-      if (holds_poses(robot, recording)) continue;  // its times mean nothing
-      for (const SensorColumns& sensor : sensors) {
-        const Table* table = table_of(recording, sensor.columns);
-        if (!table) continue;
-        const auto held = find_held(*table, sensor.columns, question.options.measurement.hold);
-        if (!held) continue;
-        found[sensor.kind][sensor.place].add(*held);
-        retime(recording, std::string(table->name), sensor.columns,
-               table->name + " of " + sensor.place + "/" + sensor.kind, held->taken);
-        description.corrected = true;
-      }
+  for (Dataset* recording : recordings_of(question)) {
+    if (holds_poses(robot, *recording)) continue;  // its times mean nothing
+    for (const SensorColumns& sensor : sensors) {
+      const Table* table = table_of(*recording, sensor.columns);
+      if (!table) continue;
+      const auto held = find_held(*table, sensor.columns, question.options.measurement.hold);
+      if (!held) continue;
+      found[sensor.kind][sensor.place].add(*held);
+      retime(*recording, std::string(table->name), sensor.columns,
+             table->name + " of " + sensor.place + "/" + sensor.kind, held->taken);
+      description.corrected = true;
     }
   }
   for (const auto& [kind, by_place] : found) {

@@ -120,14 +120,6 @@ class LawReport {
   std::vector<std::string> words_;
 };
 
-std::vector<Dataset*> all_of(Question& question) {
-  std::vector<Dataset*> recordings;
-  for (auto* group : {&question.train, &question.test, &question.repeats}) {
-    for (Dataset& recording : *group) recordings.push_back(&recording);
-  }
-  return recordings;
-}
-
 /// Whether a replay of positions is complete, and leaves anything to be compared.
 bool can_feed_positions(const RobotModel& robot, const Dataset& recording) {
   bool is_compared = false;
@@ -148,7 +140,7 @@ bool can_feed_positions(const RobotModel& robot, const Dataset& recording) {
 /// From positions, if possible: voltages drive motors away, because their noise adds up.
 /// @return what a remark says of it
 std::string go_on_behind_controllers(const RobotModel& robot, Description& description) {
-  const std::vector<Dataset*> recordings = all_of(description.question);
+  const std::vector<Dataset*> recordings = recordings_of(description.question);
   const bool by_positions =
       std::all_of(recordings.begin(), recordings.end(),
                   [&](const Dataset* recording) { return can_feed_positions(robot, *recording); });
@@ -200,7 +192,7 @@ std::optional<std::map<std::string, double>> gains_of(const RobotModel& robot,
 }
 
 std::string go_on_with_gains(const std::map<std::string, double>& gains, Description& description) {
-  for (Dataset* recording : all_of(description.question)) {
+  for (Dataset* recording : recordings_of(description.question)) {
     recording->meta.model.insert(gains.begin(), gains.end());
   }
   description.corrected = true;
@@ -234,7 +226,7 @@ void go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const
   report.add_numbers(law);
   if (law.after_tick) {
     report_tick_phase(law.tick, law.tick / std::sqrt(12.0), description);
-    for (Dataset* recording : all_of(description.question)) {
+    for (Dataset* recording : recordings_of(description.question)) {
       move_earlier(robot, {"voltage"}, -law.tick, *recording);
     }
   }
