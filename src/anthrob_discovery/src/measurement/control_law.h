@@ -35,6 +35,10 @@ struct MuscleLaw {
 
   /// Whether a number is certainly another, and the voltages show it.
   bool differs(std::size_t number, const ControllerAlgebraOptions& options) const;
+  /// What was found where that is certainly another number, else the model's.
+  double used(std::size_t number, const ControllerAlgebraOptions& options) const {
+    return differs(number, options) ? found[number].value : model[number];
+  }
 };
 
 /// A law that gives recorded voltages from recorded references and measurements:

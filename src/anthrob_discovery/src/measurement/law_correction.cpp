@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "anthrob_core/text.h"
+#include "measurement/leading_reference.h"
 #include "measurement/stamp_report.h"
 
 namespace anthrob {
@@ -160,15 +161,19 @@ ConfigNode entry_at(const ConfigNode& config, const std::string& path) {
   return node;
 }
 
-/// Gains of the model file that are others, by key path; nothing if the law is not of the model's
-/// form, or a gain is not the same for all muscles, which share controllers.
+/// Gains of the model file that are others, by key path; nothing if the model has no such law, or a
+/// gain is not the same for all muscles, which share controllers.
 std::optional<std::map<std::string, double>> gains_of(const RobotModel& robot,
                                                       const ConfigNode& config,
                                                       const ControlLaw& law,
                                                       const ControllerAlgebraOptions& options) {
   constexpr const char* kKeys[] = {"proportional", "derivative", "force_feedforward", ""};
-  if (law.form != LawForm::kModel) return {};
+  const bool leads = law.form == LawForm::kDerivativeOnError;
+  if (law.form != LawForm::kModel && !leads) return {};
   std::map<std::string, double> gains;
+  for (const MuscleLaw& muscle : law.muscles) {
+    if (leads && !(muscle.used(MuscleLaw::kProportional, options) > 0.0)) return {};
+  }
   for (std::size_t k = 0; k < 4; ++k) {
     const auto common = common_number(law, k, options);
     if (!common) {
@@ -191,12 +196,20 @@ std::optional<std::map<std::string, double>> gains_of(const RobotModel& robot,
   return gains;
 }
 
-std::string go_on_with_gains(const std::map<std::string, double>& gains, Description& description) {
+std::string go_on_with(const ControlLaw& law, const std::map<std::string, double>& gains,
+                       const ControllerAlgebraOptions& options, Description& description) {
   for (Dataset* recording : recordings_of(description.question)) {
     recording->meta.model.insert(gains.begin(), gains.end());
+    if (law.form != LawForm::kDerivativeOnError) continue;
+    for (const MuscleLaw& muscle : law.muscles) {
+      lead_reference(muscle.name,
+                     muscle.used(MuscleLaw::kDerivative, options) /
+                         muscle.used(MuscleLaw::kProportional, options),
+                     law.tick, *recording);
+    }
   }
   description.corrected = true;
-  return "The search goes on with these gains";
+  return "The search goes on with this law";
 }
 
 }  // namespace
@@ -231,8 +244,8 @@ void go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const
     }
   }
   const auto gains = gains_of(robot, config, law, options);
-  const std::string goes_on =
-      gains ? go_on_with_gains(*gains, description) : go_on_behind_controllers(robot, description);
+  const std::string goes_on = gains ? go_on_with(law, *gains, options, description)
+                                    : go_on_behind_controllers(robot, description);
   description.remarks.push_back("controller: the voltages follow another law than the model's: " +
                                 joined(report.words(), "; ") + ". " + goes_on);
 }
