@@ -40,7 +40,8 @@ std::optional<ColumnFactor> column_factor(const std::vector<double>& expected,
   }
   if (!(all.own() > 0.0) || !(all.other() > 0.0)) return {};
   const double correlated = all.both() * all.both() / (all.own() * all.other());
-  if (!(correlated > options.correlated.value)) return {};
+  const bool is_correlated = correlated > options.correlated.value;
+  if (!is_correlated && !(correlated > options.hardly_correlated.value)) return {};
   ColumnFactor found;
   found.measured = all.slope();
   double square = 0.0;
@@ -54,9 +55,16 @@ std::optional<ColumnFactor> column_factor(const std::vector<double>& expected,
   for (const double factor : factors) {
     if (away(factor) < away(nearest)) nearest = factor;
   }
+  // A narrower range says that there is nothing between the two columns that physics could change.
+  const bool is_large =
+      near >= options.near.value && std::abs(std::log(nearest)) > std::log(options.large);
+  if (!is_correlated && !is_large) return {};
   // Physics makes no other sign, whatever the size.
   const bool is_sign = nearest == 1.0 && found.measured < 0.0;
-  if (away(nearest) > std::log(1.0 + (is_sign ? options.near.value : near))) return {};
+  const double most = is_large  ? std::log(options.beside_large)
+                      : is_sign ? std::log(1.0 + options.near.value)
+                                : std::log(1.0 + near);
+  if (away(nearest) > most) return {};
   found.factor = std::copysign(nearest, found.measured);
   return found;
 }

@@ -79,16 +79,24 @@ struct ColumnOptions {
   /// by which the multiple may differ from a factor between units: more than errors of a motor's
   /// resistance or a reference that is hardly followed
   Share near = 0.4;
-  std::size_t rows = 10;   ///< over which a velocity is integrated
-  double beside = 0.01;    ///< [s] to either side, for the velocity of a current's expectation
-  std::size_t blocks = 8;  ///< for a standard error
-  Share exactly = 0.02;    ///< of a velocity against its own position: 9.55 and 10 are units
+  /// the same for factors that are `large`: what a model lacks spoils the correlation, and a joint
+  /// at rest has none
+  Share hardly_correlated = 0.25;
+  double large = 30.0;        ///< a factor that no physics makes, or one over it
+  double beside_large = 5.0;  ///< factor by which the multiple may be off a large one
+  std::size_t rows = 10;      ///< over which a velocity is integrated
+  double beside = 0.01;       ///< [s] to either side, for the velocity of a current's expectation
+  std::size_t blocks = 8;     ///< for a standard error
+  Share exactly = 0.02;       ///< of a velocity against its own position: 9.55 and 10 are units
 
   template <typename Self, typename Visitor>
   static void visit(Self& options, Visitor&& visit) {
     visit("fewest_rows", options.fewest_rows);
     visit("correlated", options.correlated);
     visit("near", options.near);
+    visit("hardly_correlated", options.hardly_correlated);
+    visit("large", options.large);
+    visit("beside_large", options.beside_large);
     visit("rows", options.rows);
     visit("beside", options.beside);
     visit("blocks", options.blocks);
