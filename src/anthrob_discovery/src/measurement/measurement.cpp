@@ -2,6 +2,7 @@
 
 #include "measurement/clock_correction.h"
 #include "measurement/column_correction.h"
+#include "measurement/counts.h"
 #include "measurement/current_correction.h"
 #include "measurement/hold_correction.h"
 #include "measurement/replays.h"
@@ -29,6 +30,7 @@ Description describe(const Evaluator& evaluator, Description description) {
   correct_clocks(robot, simulated, moved, description);
   correct_controller_stamps(robot, evaluator.description().config(), description);
   correct_currents(robot, description);
+  report_counts(robot, description);
   tell_contradictions(description);
   return description;
 }
