@@ -123,6 +123,12 @@ std::set<std::string> frozen_columns(const RobotModel& robot, const Dataset& rec
     if (!moves(recording.series(joint.name + "/position"), options.frozen.least_joint,
                options.movement))
       continue;
+    if (effort.values.front() == 0.0) {
+      remarks.push_back(recording.folder + ": " + column +
+                        " is always 0: taken as a joint that was let go; if it was driven, the "
+                        "sensor is dead");
+      continue;
+    }
     frozen.insert(column);
     remarks.push_back(recording.folder + ": " + column +
                       " never changes, though the joint was moved: left out");

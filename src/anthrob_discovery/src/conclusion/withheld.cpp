@@ -50,13 +50,15 @@ std::string name_of(const NamedEffect& named) {
   return named.found.id + " @ " + named.found.place;
 }
 
-/// The channel in which everything that was named leaves least, if that is too little.
+/// The channel in which everything that was named, or nothing, leaves least, if that is too little.
 std::string fits_too_well(const Hypotheses& hypotheses, const Scales& scales,
                           const SearchResult& found) {
   const auto residual = in_floors(hypotheses.train_judge, scales, found.extended.fit.residual);
   for (const auto& [name, left] : rms_in_motion(hypotheses.train.experiments(), residual)) {
     if (left >= hypotheses.options.conclusion.least_left) continue;
-    return name + ": with " + name_of(found.named.front()) + ", only " + short_number(left) +
+    const std::string with =
+        found.named.empty() ? "" : "with " + name_of(found.named.front()) + ", ";
+    return name + ": " + with + "only " + short_number(left) +
            " floors are left, less than noise leaves: these recordings cannot tell what is missing";
   }
   return {};
@@ -101,7 +103,7 @@ std::optional<SearchResult> without(const Hypotheses& hypotheses, std::size_t ef
 }  // namespace
 
 SearchResult withhold(const Hypotheses& hypotheses, const Scales& scales, SearchResult found) {
-  if (found.named.empty() || !hypotheses.evaluator.model()->muscles.empty()) return found;
+  if (!hypotheses.evaluator.model()->muscles.empty()) return found;
   const double least = hypotheses.options.conclusion.least_effort;
   for (std::size_t e = found.named.size(); e-- > 0;) {
     const double effort = effort_of(hypotheses, scales, found, e);
@@ -113,7 +115,6 @@ SearchResult withhold(const Hypotheses& hypotheses, const Scales& scales, Search
       found.record.withheld.push_back(reason);
     }
   }
-  if (found.named.empty()) return found;
   const std::string too_well = fits_too_well(hypotheses, scales, found);
   if (too_well.empty()) return found;
   found = without_any(std::move(found));

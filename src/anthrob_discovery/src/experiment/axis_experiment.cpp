@@ -54,7 +54,8 @@ void AxisExperiment::add_axis(int index, const JointModel& joint, const Dataset&
             recording.series(joint.name + "/effort"), recording.series(joint.name + "/load")};
   if (axis.effort.empty()) {
     throw BadInput(recording.folder + ": column '" + joint.name +
-                   "/effort' is missing: expected the measured effort of a driven joint");
+                   "/effort' is missing: expected the measured effort of a driven joint, or zeros "
+                   "if it was let go");
   }
   const bool hinge = joint.type == JointType::kHinge;
   channels_.push_back({joint.name, "effort", hinge ? "Nm" : "N", 0, present_.size(), bins_});
