@@ -56,6 +56,9 @@ const std::vector<Separation>& separations() {
        "stretch and release the spring at three rates, 1 : 10 : 100"},
       {{"see_mullins", "second_maxwell_arm", "see_hysteresis"},
        "stretch and release the spring, then repeat this after ten minutes of rest"},
+      {{"see_stiffening", "see_toe", "force_sensor_gain"},
+       "stretch the spring slowly from rest as far as it may go: a toe ends, a modulus that "
+       "depends on strain goes on to change, a gain is the same at all forces"},
       {{"see_toe", "force_sensor_offset", "force_sensor_gain"},
        "read the force sensor with the tendon unloaded"},
       {{"series_resistance", "supply_sag", "winding_heating"},

@@ -169,6 +169,42 @@ TEST(SeeToe, IsSoftAtLowStrainOnlyAndReversible) {
   EXPECT_NEAR(stretched.go(0.008, 0.004), expected(0.004) - damping, 1e-9);
 }
 
+TEST(SeeStiffening, TangentModulusGrowsWithTheStressEitherWay) {
+  const double length = 0.015;
+  for (const double rate : {1.5, -1.0}) {
+    Stretched stretched({"see_stiffening", "extensor", {{"stiffening", rate}}}, "extensor");
+    const SeriesElasticElement& spring = stretched.spring();
+    for (const double x : {1e-4, 0.002, 0.006, 0.012, 0.03}) {
+      const double force = spring.relaxed_tension(x);
+      EXPECT_NEAR(force, kSteel * length * (std::exp(rate * x / length) - 1.0) / rate,
+                  1e-9 * force);
+      EXPECT_NEAR(spring.relaxed_expansion(force), x, 1e-9);
+      const double tangent =
+          (spring.relaxed_tension(x + 1e-7) - spring.relaxed_tension(x - 1e-7)) / 2e-7;
+      EXPECT_NEAR(tangent, kSteel + rate * force / length, 1e-5 * kSteel);
+    }
+    // The same there and back, but for the spring's own damping.
+    const double damping = 5.0 * 0.004, force = spring.relaxed_tension(0.004);
+    EXPECT_NEAR(stretched.go(0.0, 0.004), force + damping, 1e-9);
+    EXPECT_NEAR(stretched.spring().stored_energy(stretched.state()),
+                kSteel * std::pow(length / rate, 2) *
+                    (std::exp(rate * 0.004 / length) - 1.0 - rate * 0.004 / length),
+                1e-9);
+    stretched.go(0.004, 0.008);
+    EXPECT_NEAR(stretched.go(0.008, 0.004), force - damping, 1e-9);
+  }
+}
+
+TEST(SeeStiffening, OfAHundredthIsTheQuadraticLaw) {
+  const double rate = 0.01, length = 0.015;
+  const auto spring =
+      muscle_with(kRig, {"see_stiffening", "extensor", {{"stiffening", rate}}}, "extensor").spring;
+  for (const double x : {0.003, 0.009}) {
+    const double more = spring->relaxed_tension(x) - kSteel * x;
+    EXPECT_NEAR(more, 0.5 * kSteel * rate * x * x / length, 4e-3 * more);
+  }
+}
+
 /// Work done on a spring over a ragged path, less what it stores and turns into heat, as share.
 double unexplained_work(const EffectInstance& effect, const std::string& muscle, double step) {
   Stretched stretched(effect, muscle, step);
@@ -195,6 +231,8 @@ TEST(SpringEffects, EnergyIsAccountedFor) {
       {"see_mullins", "all", {{"softening", 0.4}}},
       {"see_hysteresis", "all", {{"share", 0.3}}},
       {"see_toe", "all", {{"softness", 0.6}}},
+      {"see_stiffening", "all", {{"stiffening", 2.0}}},
+      {"see_stiffening", "all", {{"stiffening", -1.0}}},
       {"tendon_elasticity", "all", {{"compliance", 1e-3}}},
       {"tendon_creep", "all", {{"rate", 1e-4}}},
   };

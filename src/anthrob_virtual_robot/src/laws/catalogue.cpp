@@ -19,7 +19,8 @@ const std::vector<HiddenLaw>& catalogue_laws() {
                                            mocap_delay(),         force_crosstalk(),
                                            joint_offset_torque(), joint_coulomb_asymmetric(),
                                            eyelet_presliding(),   ball_joint_load_friction(),
-                                           see_mullins(),         cogging()};
+                                           see_mullins(),         cogging(),
+                                           see_stiffening()};
   return laws;
 }
 

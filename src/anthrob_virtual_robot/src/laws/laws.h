@@ -36,6 +36,7 @@ ANTHROB_LAW(pwm_dead_zone);
 ANTHROB_LAW(second_maxwell_arm);
 ANTHROB_LAW(see_hysteresis);
 ANTHROB_LAW(see_mullins);
+ANTHROB_LAW(see_stiffening);
 ANTHROB_LAW(see_toe);
 ANTHROB_LAW(sensing_latency);
 ANTHROB_LAW(series_resistance);

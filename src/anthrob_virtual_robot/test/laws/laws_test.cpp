@@ -120,6 +120,19 @@ TEST(SeeMullins, FollowsTheParabolaBelowTheLargestStretch) {
   EXPECT_NEAR(amount_in(force, parabola, {}) / 0.25, 1.0, 0.05);
 }
 
+TEST(SeeStiffening, FollowsTheExponentialWhereRingsWork) {
+  for (const double rate : {0.4, 1.0, -0.4, -1.0}) {
+    const auto law = muscle_law({"see_stiffening", kMuscle, {{"stiffening", rate}}});
+    std::vector<double> force, exponential, linear;
+    for (double strain = 0.1; strain < 0.8; strain += 0.01) {
+      force.push_back(law->spring_force(strain * ring().rest_length));
+      exponential.push_back(ring_stiffness() * ring().rest_length *
+                            (std::expm1(rate * strain) / rate - strain));
+    }
+    EXPECT_NEAR(amount_in(force, exponential, {}), 1.0, 0.12) << rate;
+  }
+}
+
 TEST(SpindleGrowth, FollowsTheSteadyGrowthAlsoOverAPartOfATurn) {
   const auto law = muscle_law({"spindle_growth", kMuscle, {{"growth", 3e-4}}});
   for (const auto& [from, to] :
