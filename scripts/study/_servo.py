@@ -12,9 +12,10 @@ FINE = 5e-5     # step of the closed equation [s]
 TICK = 1e-3     # of the controller [s]
 SECONDS = 20.0  # of a recording
 LAWS = ["none", "joint_coulomb", "torque_constant", "transmission_elasticity", "transmission_ratio", "gear_efficiency",
-        "payload"]
+        "motor_friction", "payload"]
 SIZES = {"joint_coulomb": "torque", "torque_constant": "error", "transmission_elasticity": "compliance",
-         "transmission_ratio": "error", "gear_efficiency": "loss", "payload": "mass"}
+         "transmission_ratio": "error", "gear_efficiency": "loss", "motor_friction": "torque",
+         "payload": "mass"}
 
 
 class Servo:
@@ -50,6 +51,7 @@ class Servo:
             "transmission_elasticity": {"compliance": 0.15 * dose / self.weight},
             "transmission_ratio": {"error": 0.1 * dose * sign},
             "gear_efficiency": {"loss": 0.4 * dose},
+            "motor_friction": {"torque": 0.1 * dose * self.stall / self.ratio},
             "payload": {"mass": 0.5 * dose * self.mass},
         }[law]
 
@@ -77,6 +79,7 @@ class Servo:
         efficiency = self.efficiency * (1.0 - self.hidden("gear_efficiency"))
         mass = self.mass + self.hidden("payload")           # at the centre of mass
         inertia, weight = self.own + mass * self.arm**2, mass * GRAVITY * self.arm
+        rubbing = self.hidden("motor_friction") * self.ratio  # at the joint
         dry, compliance = self.hidden("joint_coulomb"), self.hidden("transmission_elasticity")
         count, pulse = 2.0 * math.pi / 2**self.bits, self.volts / 1000.0
         offsets = noise.random(), noise.random()
@@ -96,7 +99,7 @@ class Servo:
             current = (volts - constant * w) / self.ohm     # inductance is over within 0.2 ms
             drive, load = constant * current, weight * math.sin(q) + self.viscous * u
             if compliance == 0.0:
-                u = moved(u, drive, load, rotor, inertia, efficiency, dry)
+                u = moved(u, drive, load, rotor, inertia, efficiency, dry, rubbing)
                 w = u
             else:
                 twist = (motor - q) / compliance
@@ -161,13 +164,13 @@ columns:
         }
 
 
-def moved(speed, drive, load, rotor, inertia, efficiency, dry):
-    """Speed after a step: a drive with `rotor` turns, through a gear with losses, what has `inertia` and takes `load` and dry
-    friction. All at the joint."""
+def moved(speed, drive, load, rotor, inertia, efficiency, dry, rubbing=0.0):
+    """Speed after a step: a drive with `rotor` and dry friction turns, through a gear with losses, what has `inertia` and
+    takes `load` and dry friction. All at the joint."""
     for side in ([1.0, -1.0] if speed == 0.0 else [math.copysign(1.0, speed)]):
         against = load + side * dry
         for lost in 1.0 / efficiency, efficiency:           # what the gear makes of the load at the motor
-            rate = (drive - lost * against) / (rotor + lost * inertia)
+            rate = (drive - side * rubbing - lost * against) / (rotor + lost * inertia)
             if ((inertia * rate + against) * side > 0.0) == (lost >= 1.0):
                 break
         after = speed + FINE * rate

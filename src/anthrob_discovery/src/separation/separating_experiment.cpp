@@ -44,6 +44,13 @@ const std::vector<Separation>& separations() {
       {{"eyelet_presliding", "joint_coulomb", "pwm_dead_zone", "eyelet_friction"},
        "stop after motion from either side and wait, then make tiny reversals of less than a "
        "millimetre of tendon"},
+      {{"motor_friction", "pwm_dead_zone", "series_resistance", "gear_efficiency"},
+       "run the motor at five constant voltages with no load, then with a known one: friction "
+       "takes the same current at all, a dead zone the same voltage, a resistance a voltage in "
+       "proportion to the current, a gear a share of the load"},
+      {{"motor_friction", "joint_coulomb", "eyelet_friction"},
+       "uncouple the motor and compare the current that it takes at constant speed with the one "
+       "that it takes with joint or tendon"},
       {{"gear_efficiency", "eyelet_friction", "series_resistance"},
        "lock the spindle and compare motor current with tendon force"},
       {{"gear_backlash", "eyelet_presliding", "tendon_elasticity"},

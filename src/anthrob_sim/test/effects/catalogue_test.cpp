@@ -61,6 +61,7 @@ const std::set<std::string> kIds = {"eyelet_friction",
                                     "joint_ripple",
                                     "effort_gain",
                                     "torque_constant",
+                                    "motor_friction",
                                     "transmission_elasticity",
                                     "transmission_ratio"};
 

@@ -228,6 +228,42 @@ TEST(Cogging, IsRefusedBeyondTheLimitAloneOrTogether) {
       << together;
 }
 
+TEST(MotorFriction, TakesItsCurrentAtAnySpeed) {
+  const double torque = 8e-4, constant = 0.00973, ratio = 128.0, resistance = 4.81;
+  for (const double volts : {3.0, 8.0, -8.0}) {
+    Bench bench({"motor_friction", "flexor", {{"torque", torque}}});
+    const double current = std::copysign(torque / constant, volts);
+    EXPECT_NEAR(bench.run(volts, 0.0, 3000).read().current, current, 1e-6);
+    EXPECT_NEAR(bench.read().velocity, (volts - resistance * current) / (constant * ratio), 1e-6);
+  }
+}
+
+TEST(MotorFriction, HoldsWhatPullsLess) {
+  const double torque = 8e-4, ratio = 128.0, efficiency = 0.59;
+  const EffectInstance effect = {"motor_friction", "flexor", {{"torque", torque}}};
+  // Driven by the tendon, the gear passes on its efficiency.
+  const double limit = ratio * torque / (efficiency * kSpindleRadius);
+  Bench held(effect), moved(effect), coasting(effect);
+  EXPECT_EQ(held.run(0.0, 0.99 * limit, 1000).read().position, 0.0);
+  EXPECT_LT(moved.run(0.0, 1.01 * limit, 1000).read().velocity, 0.0);
+  EXPECT_GT(coasting.run(8.0, 0.0, 500).read().velocity, 1.0);
+  EXPECT_EQ(coasting.run(0.0, 0.0, 1000).read().velocity, 0.0);
+}
+
+TEST(MotorFriction, AddsToThatOfTheModel) {
+  const std::string rig = "rig_oring_stretcher/model_I.yaml";
+  const std::string muscle = load_robot_model(config(rig))->muscles[0].name;
+  const auto friction = [&](const std::vector<EffectInstance>& effects) {
+    const auto robot = robot_with(rig, effects);
+    return static_cast<const DcMotor&>(*robot->muscles[0].actuator).parameters().friction_torque;
+  };
+  const double model = friction({});
+  ASSERT_GT(model, 0.0);
+  EXPECT_NEAR(friction({{"motor_friction", muscle, {{"torque", 1e-3}}},
+                        {"motor_friction", "all", {{"torque", 2e-3}}}}),
+              model + 3e-3, 1e-15);
+}
+
 TEST(GearEfficiency, ChangesTheLoadByDirection) {
   const MuscleModel muscle =
       muscle_with(kRig, {"gear_efficiency", "flexor", {{"loss", 0.2}}}, "flexor");

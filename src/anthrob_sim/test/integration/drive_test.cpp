@@ -201,6 +201,24 @@ TEST(Drive, GearFrictionHoldsThePendulum) {
   }
 }
 
+TEST(Drive, FrictionOfItsMotorTakesItsCurrent) {
+  const double friction = 2e-3, volts = 6.0;
+  for (const char* transmission : {"{ratio: 2.0}", "{ratio: 2.0, stiffness: 200.0}"}) {
+    Bench bench;
+    bench.transmission = transmission;
+    const auto robot = robot_of(bench);
+    LoadOptions options;
+    options.effects = {{"motor_friction", "axis_drive", {{"torque", friction}}}};
+    Simulation sim(load_robot_model(robot.file(), options));
+    sim.command(0, ecu::Mode::kVoltage, volts);
+    sim.step(6000);
+    const double current = friction / kConstant;
+    EXPECT_NEAR(sim.muscle(0).actuator().current, current, 2e-3 * current) << transmission;
+    const double speed = (volts - kOhm * current) / (kConstant * kTotalRatio);
+    EXPECT_NEAR(sim.read_velocity(0), speed, 2e-3 * speed) << transmission;
+  }
+}
+
 TEST(Drive, ControllersFollowReferencesOfEitherSign) {
   Bench bench;
   bench.gravity = 9.81;

@@ -20,7 +20,7 @@ const std::vector<HiddenLaw>& catalogue_laws() {
                                            joint_offset_torque(), joint_coulomb_asymmetric(),
                                            eyelet_presliding(),   ball_joint_load_friction(),
                                            see_mullins(),         cogging(),
-                                           see_stiffening()};
+                                           see_stiffening(),      motor_friction()};
   return laws;
 }
 

@@ -31,6 +31,7 @@ ANTHROB_LAW(joint_offset_torque);
 ANTHROB_LAW(joint_viscous);
 ANTHROB_LAW(mocap_delay);
 ANTHROB_LAW(mocap_misalignment);
+ANTHROB_LAW(motor_friction);
 ANTHROB_LAW(payload);
 ANTHROB_LAW(pwm_dead_zone);
 ANTHROB_LAW(second_maxwell_arm);

@@ -133,6 +133,26 @@ TEST(SeeStiffening, FollowsTheExponentialWhereRingsWork) {
   }
 }
 
+TEST(MotorFriction, IsThereAfterATurnOfTheRotorAndHoldsItsSignAtRest) {
+  const double torque = 4e-4;
+  Draft draft;
+  draft.arm = model_I();
+  const double ratio = draft.arm.muscles[draft.muscle(kMuscle)].motor.gear_ratio;
+  const auto law = muscle_law({"motor_friction", kMuscle, {{"torque", torque}}});
+  const auto turn = [&](double speed, double rotor_angle) {
+    reference::MuscleState state;
+    state.speed = speed;
+    const auto steps = static_cast<int>(rotor_angle / ratio / std::abs(speed) / 1e-4);
+    for (int i = 0; i < steps; ++i) law->settle(1e-4, state, {});
+    return law->output_torque(0.0, speed) / (torque * ratio);
+  };
+  EXPECT_NEAR(turn(0.7, 2.0 * M_PI), -1.0, 1e-3);
+  EXPECT_NEAR(turn(-0.7, 0.3), 1.0 - 2.0 * std::exp(-1.0), 0.02);
+  law->settle(1e-4, {}, {});
+  EXPECT_NEAR(law->output_torque(0.0, 0.0) / (torque * ratio), 1.0 - 2.0 * std::exp(-1.0), 0.02);
+  EXPECT_NEAR(turn(-3.0, 2.0 * M_PI), 1.0, 1e-3);
+}
+
 TEST(SpindleGrowth, FollowsTheSteadyGrowthAlsoOverAPartOfATurn) {
   const auto law = muscle_law({"spindle_growth", kMuscle, {{"growth", 3e-4}}});
   for (const auto& [from, to] :
